@@ -1,0 +1,1 @@
+"""Cutter compensation: the centre path under the control's look-ahead rule."""

@@ -1,0 +1,66 @@
+"""What compensation yields: the centre path and everything that became of the contour on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.finding import Finding
+from core.geometry.path import Floats, Path, joined
+from core.geometry.side import Side
+
+
+@dataclass(frozen=True, slots=True)
+class Deleted:
+    """Segment `segment` was deleted because pieces `by` met at `at` (millimetres)."""
+
+    segment: float
+    by: tuple[float, float]
+    at: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Deletions:
+    """All deletions in order of segment: `segments` (m,), `by` (m, 2) piece numbers, `at` (m, 2)."""
+
+    segments: Floats
+    by: Floats
+    at: Floats
+
+    def __len__(self) -> int:
+        return len(self.segments)
+
+    def __iter__(self) -> Iterator[Deleted]:
+        rows = zip(self.segments.tolist(), self.by.tolist(), self.at.tolist(), strict=True)
+        return (Deleted(segment, (a, b), (x, y)) for segment, (a, b), (x, y) in rows)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Compensated:
+    """A contour's centre path at one look-ahead, with its stages.
+
+    `raw` is the chain of all offset pieces, corner arcs and provisional bridges before any test; `path` what is
+    left of it.  `bridged` (len(path),) marks pieces of `path` that are provisional bridges still standing.
+    `lead_in` and `lead_out` are the blend moves.  Millimetres.
+    """
+
+    contour: Path
+    side: Side
+    radius: float
+    lookahead: int
+    closed: bool
+    raw: Path
+    path: Path
+    bridged: NDArray[np.bool_]
+    deleted: Deletions
+    lead_in: Path
+    lead_out: Path
+    findings: tuple[Finding, ...]
+
+    @property
+    def whole(self) -> Path:
+        """Blend-in, path and blend-out as one path."""
+        return joined((self.lead_in, self.path, self.lead_out))

@@ -1,0 +1,1 @@
+"""NC programs as each control reads and compensates them."""

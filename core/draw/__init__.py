@@ -1,0 +1,1 @@
+"""Paths as rows of character cells."""

@@ -1,0 +1,40 @@
+"""Findings: how every stage reports trouble, as values and never as exceptions.
+
+A finding's text is a sentence for the operator.  Lengths in it stand as `{value}`, `{x}`, `{y}` or
+`{0}`, `{1}` ... (the rest of `lengths`), filled in program units by `core.units.sentence`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Severity(StrEnum):
+    """How much a finding weighs: an error blocks posting, a warning is shown, info explains."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    INFO = "info"
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One piece of trouble and the place it belongs to.
+
+    `code` is a stable word such as GOUGE, or a control's rule id.  `segment` is a programmed number k
+    or k + 1/2 for the corner arc behind it; `field` a field's name in `core.program.fields`.
+    `at` (x, y) and `value` are millimetres, `lengths` further millimetres named in the text.
+    `line` and `column` count from 1 in a program somebody else wrote.
+    """
+
+    code: str
+    severity: Severity
+    text: str
+    segment: float | None = None
+    field: str | None = None
+    at: tuple[float, float] | None = None
+    value: float | None = None
+    lengths: tuple[float, ...] = ()
+    line: int | None = None
+    column: int | None = None

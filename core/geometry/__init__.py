@@ -1,0 +1,1 @@
+"""Exact lines and arcs: paths, intersections, distances, constructions."""

@@ -1,0 +1,166 @@
+"""Path: a chain of exact lines and arcs, joined end to start, as immutable numpy arrays.
+
+The one representation of geometry for ten pieces and for a hundred thousand.  A path of n pieces has
+n + 1 points, so that it is joined by construction.  Millimetres and radians, right-handed XY.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import tau
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.geometry.piece import SLIVER, Arc, Line, Piece, Turn
+
+Floats = NDArray[np.float64]
+Turns = NDArray[np.int8]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Path:
+    """n joined pieces.
+
+    `points` (n + 1, 2): piece i runs from row i to row i + 1.  `centres` (n, 2): of arcs; a line has its own
+    start there.  `turns` (n,): 0 line, +1 counter-clockwise, -1 clockwise.  `numbers` (n,): the programmed
+    segment k each piece belongs to, k + 1/2 for the corner arc between k and k + 1.  An arc whose two points
+    are the same row of numbers is a full circle.  The empty path has one point or none.
+    """
+
+    points: Floats
+    centres: Floats
+    turns: Turns
+    numbers: Floats
+
+    def __post_init__(self) -> None:
+        for array in (self.points, self.centres, self.turns, self.numbers):
+            array.flags.writeable = False
+
+    @staticmethod
+    def of(points: Floats, centres: Floats, turns: Turns, numbers: Floats | None = None) -> Path:
+        """A path of these arrays, made contiguous; numbers are 1 ... n unless given."""
+        count = len(turns)
+        return Path(
+            np.ascontiguousarray(points, np.float64).reshape(-1, 2),
+            np.ascontiguousarray(centres, np.float64).reshape(-1, 2),
+            np.ascontiguousarray(turns, np.int8),
+            np.arange(1.0, count + 1.0) if numbers is None else np.ascontiguousarray(numbers, np.float64),
+        )
+
+    @staticmethod
+    def from_pieces(pieces: Sequence[Piece], numbers: Sequence[float] | None = None) -> Path:
+        """The path of pieces that join end to start; each start is taken from the end before it."""
+        if not pieces:
+            return EMPTY
+        points = [pieces[0].start, *(piece.end for piece in pieces)]
+        centres = [piece.centre if isinstance(piece, Arc) else piece.start for piece in pieces]
+        turns = [int(piece.turn) if isinstance(piece, Arc) else 0 for piece in pieces]
+        given = None if numbers is None else np.array(numbers, np.float64)
+        return Path.of(np.array(points), np.array(centres), np.array(turns, np.int8), given)
+
+    def __len__(self) -> int:
+        return len(self.turns)
+
+    def __getitem__(self, index: int) -> Piece:
+        """Piece `index` as a Line or an Arc of plain numbers."""
+        index = range(len(self))[index]
+        start, end = self.points[index].tolist(), self.points[index + 1].tolist()
+        if not self.turns[index]:
+            return Line(tuple(start), tuple(end))
+        return Arc(tuple(start), tuple(end), tuple(self.centres[index].tolist()), Turn(int(self.turns[index])))
+
+    def __iter__(self) -> Iterator[Piece]:
+        return (self[index] for index in range(len(self)))
+
+    @property
+    def starts(self) -> Floats:
+        """(n, 2) first point of each piece."""
+        return self.points[:-1]
+
+    @property
+    def ends(self) -> Floats:
+        """(n, 2) last point of each piece."""
+        return self.points[1:]
+
+    @property
+    def radii(self) -> Floats:
+        """(n,) radius of each arc, 0 for a line."""
+        return np.hypot(*(self.starts - self.centres).T)
+
+    @property
+    def sweeps(self) -> Floats:
+        """(n,) angle travelled by each arc, positive counter-clockwise, 0 for a line, a full turn for a circle."""
+        first, last = self.starts - self.centres, self.ends - self.centres
+        angle = np.arctan2(last[:, 1], last[:, 0]) - np.arctan2(first[:, 1], first[:, 0])
+        swept = np.mod(angle * self.turns, tau)
+        swept[swept > tau - SLIVER] = 0.0
+        swept[np.all(self.starts == self.ends, axis=1)] = tau
+        return swept * self.turns
+
+    @property
+    def lengths(self) -> Floats:
+        """(n,) length of each piece."""
+        return np.where(self.turns == 0, np.hypot(*(self.ends - self.starts).T), self.radii * np.abs(self.sweeps))
+
+    @property
+    def start_directions(self) -> Floats:
+        """(n, 2) unit tangent at the start of each piece; (0, 0) for a line without length."""
+        return self._directions(self.starts)
+
+    @property
+    def end_directions(self) -> Floats:
+        """(n, 2) unit tangent at the end of each piece; (0, 0) for a line without length."""
+        return self._directions(self.ends)
+
+    def _directions(self, at: Floats) -> Floats:
+        radial = at - self.centres
+        along = np.stack((-radial[:, 1], radial[:, 0]), axis=1) * self.turns[:, None]
+        along = np.where(self.turns[:, None] == 0, self.ends - self.starts, along)
+        size = np.hypot(along[:, 0], along[:, 1])
+        unit: Floats = along / np.where(size == 0.0, 1.0, size)[:, None]
+        return unit
+
+    @property
+    def boxes(self) -> Floats:
+        """(n, 4) exact bounding boxes: least x, least y, largest x, largest y."""
+        low, high = np.minimum(self.starts, self.ends), np.maximum(self.starts, self.ends)
+        first, radii, sweeps = self.starts - self.centres, self.radii[:, None], self.sweeps
+        begin = np.arctan2(first[:, 1], first[:, 0])
+        for quarter, (dx, dy) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
+            ahead = np.mod((quarter * tau / 4 - begin) * self.turns, tau)
+            extreme = self.centres + radii * (dx, dy)
+            passed = ((ahead < np.abs(sweeps)) & (self.turns != 0))[:, None]
+            low = np.where(passed, np.minimum(low, extreme), low)
+            high = np.where(passed, np.maximum(high, extreme), high)
+        return np.hstack((low, high))
+
+    def reversed(self) -> Path:
+        """The same pieces travelled the other way; numbers stay with their pieces."""
+        order = slice(None, None, -1)
+        centres = np.where(self.turns[:, None] == 0, self.ends, self.centres)
+        return Path.of(self.points[order], centres[order], -self.turns[order], self.numbers[order])
+
+    def part(self, first: int, last: int) -> Path:
+        """Pieces first ... last - 1."""
+        keep = slice(first, last)
+        return Path.of(self.points[first : last + 1], self.centres[keep], self.turns[keep], self.numbers[keep])
+
+
+def joined(parts: Sequence[Path]) -> Path:
+    """One path of paths that join end to start; empty ones are passed over."""
+    parts = [part for part in parts if len(part)]
+    if not parts:
+        return EMPTY
+    points = [parts[0].points, *(part.points[1:] for part in parts[1:])]
+    return Path.of(
+        np.concatenate(points),
+        np.concatenate([part.centres for part in parts]),
+        np.concatenate([part.turns for part in parts]),
+        np.concatenate([part.numbers for part in parts]),
+    )
+
+
+EMPTY = Path(np.empty((0, 2)), np.empty((0, 2)), np.empty(0, np.int8), np.empty(0))
+"""The path without pieces."""

@@ -1,0 +1,71 @@
+"""Single lines and arcs as plain numbers: what a person types and what a drawing gives.
+
+A point is a pair (x, y) in millimetres.  This module and `construct` need no numpy, so that a form can
+be solved and painted before it is loaded; whole paths are `core.geometry.path.Path`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from math import atan2, hypot, tau
+from typing import Final
+
+Point = tuple[float, float]
+
+SLIVER: Final = 1e-9
+"""Radians by which rounding may carry an arc's end past its start: such an arc is empty, not a full circle."""
+
+
+class Turn(IntEnum):
+    """The direction in which an arc is travelled; NONE is a line."""
+
+    CW = -1
+    NONE = 0
+    CCW = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A straight piece from `start` to `end`."""
+
+    start: Point
+    end: Point
+
+    @property
+    def length(self) -> float:
+        """Length in millimetres."""
+        return hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """A circular piece from `start` to `end` about `centre`; equal ends mean the full circle."""
+
+    start: Point
+    end: Point
+    centre: Point
+    turn: Turn
+
+    @property
+    def radius(self) -> float:
+        """Distance of the start from the centre in millimetres."""
+        return hypot(self.start[0] - self.centre[0], self.start[1] - self.centre[1])
+
+    @property
+    def sweep(self) -> float:
+        """Angle travelled in radians, positive counter-clockwise, at most a full turn."""
+        if self.start == self.end:
+            return int(self.turn) * tau
+        (x0, y0), (x1, y1), (cx, cy) = self.start, self.end, self.centre
+        first, last = atan2(y0 - cy, x0 - cx), atan2(y1 - cy, x1 - cx)
+        swept = (int(self.turn) * (last - first)) % tau
+        return int(self.turn) * (0.0 if swept > tau - SLIVER else swept)
+
+    @property
+    def length(self) -> float:
+        """Length in millimetres."""
+        return self.radius * abs(self.sweep)
+
+
+Piece = Line | Arc

@@ -1,0 +1,155 @@
+"""The program as the operator typed it: frozen, blanks included, nothing calculated.
+
+Numbers are in program units, as typed; `core.program.assist` turns them into millimetres and calculates
+the blanks.  A blank is None, text that could not be read stays as `Unread`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from core.units import Unit
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A number that was typed, in program units (degrees for an angle)."""
+
+    value: float
+
+
+@dataclass(frozen=True, slots=True)
+class Unread:
+    """Text that was typed and cannot be read; it never becomes a number, and blocks posting."""
+
+    text: str
+    reason: str
+
+
+Typed = Entry | Unread | None
+
+
+class CutterComp(StrEnum):
+    """CUTTER COMP. of a MILL CONTOUR block."""
+
+    ON = "ON"
+    LEFT = "LEFT"
+    RIGHT = "RIGHT"
+    PROFILE_LEFT = "PROFILE LEFT"
+    PROFILE_RIGHT = "PROFILE RIGHT"
+
+
+class Direction(StrEnum):
+    """DIRECTION of an ARC segment."""
+
+    CW = "CW"
+    CCW = "CCW"
+
+
+class PathChoice(StrEnum):
+    """Which centre path is posted: the control's, or the true offset."""
+
+    CONTROL = "CONTROL"
+    BEST = "BEST"
+
+
+@dataclass(frozen=True, slots=True)
+class LineSegment:
+    """A LINE as typed."""
+
+    x_end: Typed = None
+    y_end: Typed = None
+    z_end: Typed = None
+    length: Typed = None
+    angle: Typed = None
+    feed: Typed = None
+
+
+@dataclass(frozen=True, slots=True)
+class ArcSegment:
+    """An ARC as typed; `choice` is the index of the picked solution in `assist`'s documented order."""
+
+    direction: Direction = Direction.CW
+    x_end: Typed = None
+    y_end: Typed = None
+    z_end: Typed = None
+    x_center: Typed = None
+    y_center: Typed = None
+    radius: Typed = None
+    sweep: Typed = None
+    feed: Typed = None
+    choice: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class BlendSegment:
+    """A BLEND ARC as typed: tangent to both neighbours."""
+
+    radius: Typed = None
+    feed: Typed = None
+
+
+Segment = LineSegment | ArcSegment | BlendSegment
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A MILL CONTOUR block: segment 0 START and the segments 1 ... n.  `lookahead` None is CAL, a value is USR."""
+
+    tool: Typed = None
+    cutter_comp: CutterComp = CutterComp.ON
+    finish_tool: Typed = None
+    x_start: Typed = None
+    y_start: Typed = None
+    z_start: Typed = None
+    z_bottom: Typed = None
+    plunge_feed: Typed = None
+    speed: Typed = None
+    peck_depth: Typed = None
+    lookahead: Typed = None
+    segments: tuple[Segment, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Tool:
+    """A line of the tool table."""
+
+    number: int
+    type: str = "END MILL"
+    diameter: Typed = None
+
+
+@dataclass(frozen=True, slots=True)
+class Parameters:
+    """PROGRAM PARAMETERS; a blank stands for the unit's default in `core.program.fields`."""
+
+    blend_offset: Typed = None
+    blend_overlap: Typed = None
+    finish_xy: Typed = None
+    finish_z: Typed = None
+    pocket_overlap: Typed = None
+    max_offset: Typed = None
+    retract_clearance: Typed = None
+    peck_clearance: Typed = None
+    path: PathChoice = PathChoice.CONTROL
+
+
+@dataclass(frozen=True, slots=True)
+class PartSetup:
+    """PART SETUP: what stands in the posted file's header and at its end. `work_offset` is 54 ... 59."""
+
+    name: str = ""
+    work_offset: Typed = None
+    safe_z: Typed = None
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """A whole program."""
+
+    unit: Unit = Unit.IN
+    parameters: Parameters = field(default_factory=Parameters)
+    setup: PartSetup = field(default_factory=PartSetup)
+    tools: tuple[Tool, ...] = ()
+    blocks: tuple[Block, ...] = ()

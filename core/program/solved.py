@@ -1,0 +1,87 @@
+"""A block with its blanks calculated: what `core.program.assist` yields.
+
+`Solved` is a calculated number and never an `Entry`: the form shows it with the tag CAL and no edit turns
+it into something typed.  Needs no numpy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from core.finding import Finding, Severity
+from core.geometry.piece import Piece, Point
+from core.program.model import Entry, Unread
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """A calculated number, in program units (degrees for an angle)."""
+
+    value: float
+
+
+Value = Entry | Solved | Unread | None
+
+
+@dataclass(frozen=True, slots=True)
+class SolvedSegment:
+    """Segment `number` with every field's value by name.
+
+    `piece` is its part of the surface in millimetres, None while it is not determined or has no length;
+    neighbours of a BLEND ARC are already shortened.  `missing` names the fields of which one more is needed.
+    `choices` are the pieces between which the operator picks, in assist's order.  `z_start`, `z_end` millimetres, `feed` millimetres a minute.
+    """
+
+    number: int
+    values: Mapping[str, Value]
+    piece: Piece | None
+    missing: tuple[str, ...] = ()
+    choices: tuple[Piece, ...] = ()
+    start: Point | None = None
+    """Where it begins, as far as known, before any blending."""
+    sketch: Piece | None = None
+    """What to draw dashed while it is not determined."""
+    z_start: float = 0.0
+    z_end: float = 0.0
+    feed: float | None = None
+    findings: tuple[Finding, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class SolvedBlock:
+    """A whole block: START's values and its segments.  Lengths in millimetres, feeds in millimetres a minute.
+
+    `determined` is how many segments from the first on are determined; the surface known so far is theirs.
+    """
+
+    values: Mapping[str, Value]
+    segments: tuple[SolvedSegment, ...]
+    closed: bool
+    determined: int
+    tool_diameter: float | None
+    tool_type: str
+    finish_diameter: float | None
+    z_start: float | None
+    z_bottom: float | None
+    plunge_feed: float | None
+    speed: float | None
+    peck_depth: float
+    findings: tuple[Finding, ...]
+
+    @property
+    def pieces(self) -> tuple[tuple[int, Piece], ...]:
+        """(segment number, piece) of the determined surface from START on; segments without length are passed over."""
+        known = self.segments[: self.determined]
+        return tuple((segment.number, segment.piece) for segment in known if segment.piece is not None)
+
+    @property
+    def every_finding(self) -> tuple[Finding, ...]:
+        """Findings of START and of all segments."""
+        return self.findings + tuple(finding for segment in self.segments for finding in segment.findings)
+
+    @property
+    def postable(self) -> bool:
+        """Everything is read and determined."""
+        whole = self.determined == len(self.segments) and bool(self.pieces)
+        return whole and all(finding.severity is not Severity.ERROR for finding in self.every_finding)

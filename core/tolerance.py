@@ -1,0 +1,26 @@
+"""The only tolerances of the core, each named by the question it answers, in millimetres."""
+
+from __future__ import annotations
+
+from typing import Final
+
+JOINED: Final = 1e-7
+"""Are two points one point?  Offset ends this near are tangent: nothing is put between them."""
+
+CLOSED: Final = 0.00254
+"""Is a programmed contour closed?  Its last end is this near to START (0.0001 in)."""
+
+ARC_RADII: Final = 0.00254
+"""May an arc's radii at its start and its end differ so much?  Beyond it the arc is refused."""
+
+ON_PATH: Final = 1e-9
+"""Does a computed point lie on a piece?  Slack at a piece's two ends, and for a touch between pieces."""
+
+GOUGE: Final = 1e-6
+"""Does the cutter enter the surface?  A path nearer than the radius by more than this gouges."""
+
+UNCUT: Final = 1e-9
+"""Does the cutter reach a point of the surface?  It does when the path is within the radius and this."""
+
+LARGEST: Final = 1e7
+"""Is a coordinate one a machine could have?  Ten kilometres; beyond it doubles lose the last digit."""
