@@ -30,7 +30,8 @@ class SolvedSegment:
 
     `piece` is its part of the surface in millimetres, None while it is not determined or has no length;
     neighbours of a BLEND ARC are already shortened.  `missing` names the fields of which one more is needed.
-    `choices` are the pieces between which the operator picks, in assist's order.  `z_start`, `z_end` millimetres, `feed` millimetres a minute.
+    `choices` are the pieces between which the operator picks, in assist's order.  `z_start`, `z_end` are
+    millimetres, `feed` millimetres a minute.
     """
 
     number: int
