@@ -87,7 +87,9 @@ class Path:
     @property
     def radii(self) -> Floats:
         """(n,) radius of each arc, 0 for a line."""
-        return np.hypot(*(self.starts - self.centres).T)
+        radial = self.starts - self.centres
+        radii: Floats = np.hypot(radial[:, 0], radial[:, 1])
+        return radii
 
     @property
     def sweeps(self) -> Floats:
