@@ -1,0 +1,101 @@
+"""The command line: the screens, and the same program without a screen.
+
+Exit status: 0 clean, 1 findings of severity error, 2 unusable input or arguments.  Results go to standard output,
+messages to standard error.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from importlib.resources import files
+from pathlib import Path
+
+from app.commands import COMMANDS, UNUSABLE, say
+
+DESCRIPTION = """\
+Type a MILL CONTOUR from the drawing, see what the cutter will do, write the NC file.
+
+  cutcomp [FILE]             the screens, on FILE if it is given
+  cutcomp --example [NAME]   the screens, on an example part
+"""
+
+COMMAND_HELP = {
+    "path": "the centre path of every block",
+    "lookahead": "what becomes of the path at every look-ahead value",
+    "post": "write the NC file",
+    "plot": "draw the program as SVG",
+}
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the program with these arguments, or with the command line's; returns the exit status."""
+    given = sys.argv[1:] if arguments is None else arguments
+    if given and given[0] == "check":
+        from app.check import check
+
+        return check(given[1:])
+    if given and given[0] in COMMANDS:
+        options = _command_parser(given[0]).parse_args(given[1:])
+        return COMMANDS[given[0]](options)
+    return _screens(_screen_parser().parse_args(given))
+
+
+def _screen_parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        "cutcomp",
+        description=DESCRIPTION,
+        epilog="commands without a screen:\n"
+        + "".join(f"  cutcomp {name:<10} {text}\n" for name, text in COMMAND_HELP.items())
+        + "  cutcomp check      what controls do with an NC program\n\n`cutcomp COMMAND --help` tells more.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("file", nargs="?", type=Path, metavar="FILE", help="a program file (TOML)")
+    parser.add_argument("--example", nargs="?", const="pocket", choices=example_names(), help="open an example part")
+    return parser
+
+
+def _command_parser(name: str) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(f"cutcomp {name}", description=COMMAND_HELP[name])
+    parser.add_argument("file", type=Path, metavar="FILE", help="a program file (TOML)")
+    if name in ("path", "lookahead"):
+        parser.add_argument("--block", type=int, metavar="N", help="this block only")
+        parser.add_argument("--json", action="store_true", help="machine-readable")
+    if name == "path":
+        parser.add_argument("--lookahead", metavar="N|cal", help="use this look-ahead instead of the program's")
+    if name in ("post", "plot"):
+        parser.add_argument("-o", "--output", type=Path, metavar="OUT", help="write here instead of standard output")
+    if name == "post":
+        parser.add_argument("--override", metavar="SENTENCE", help="post in spite of a gouge; refusals name the words")
+    return parser
+
+
+def _screens(options: argparse.Namespace) -> int:
+    from app.main import run
+
+    return run(options.file, example=options.example)
+
+
+def example_names() -> tuple[str, ...]:
+    """Names of the example parts that ship with the program."""
+    found = (entry.name for entry in files("app").joinpath("examples").iterdir())
+    return tuple(sorted(name.removesuffix(".toml") for name in found if name.endswith(".toml")))
+
+
+def guarded() -> None:
+    """The console command: a closed pipe and Ctrl+C end it quietly."""
+    try:
+        status = main()
+    except KeyboardInterrupt:
+        status = 130
+    except BrokenPipeError:
+        sys.stderr.close()
+        status = UNUSABLE
+    except OSError as error:
+        say(str(error))
+        status = UNUSABLE
+    sys.exit(status)
+
+
+if __name__ == "__main__":
+    guarded()

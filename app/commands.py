@@ -1,0 +1,156 @@
+"""The commands that need no screen; each takes parsed arguments and returns the exit status."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from core.comp.lookahead import HIGHEST, LOWEST
+from core.program.model import Entry, Program
+from core.program.store import StoreError, load
+from core.units import sentence
+
+if TYPE_CHECKING:
+    from core.pipeline.derived import Derived, DerivedBlock
+
+CLEAN: Final = 0
+FINDINGS: Final = 1
+UNUSABLE: Final = 2
+
+
+def say(text: str) -> None:
+    """A message for the person at the keyboard."""
+    print(f"cutcomp: {text}", file=sys.stderr)
+
+
+class Unusable(Exception):
+    """The arguments or the file cannot be used; the text says why and what to do."""
+
+
+def _derived(path: Path, block: int | None = None, lookahead: str | None = None) -> Derived:
+    from core.pipeline.derive import derive
+
+    try:
+        program = load(path)
+    except StoreError as error:
+        raise Unusable(str(error)) from error
+    if block is not None and not 1 <= block <= len(program.blocks):
+        raise Unusable(f"--block {block}: {path} has blocks 1 to {len(program.blocks)}.")
+    return derive(program if lookahead is None else _with_lookahead(program, lookahead))
+
+
+def _with_lookahead(program: Program, text: str) -> Program:
+    if text.lower() == "cal":
+        value = None
+    elif text.isdecimal() and LOWEST <= int(text) <= HIGHEST:
+        value = Entry(float(text))
+    else:
+        raise Unusable(f"--lookahead {text}: type {LOWEST} to {HIGHEST}, or cal.")
+    return replace(program, blocks=tuple(replace(block, lookahead=value) for block in program.blocks))
+
+
+def _command(action: Callable[[argparse.Namespace], int]) -> Callable[[argparse.Namespace], int]:
+    def run(options: argparse.Namespace) -> int:
+        try:
+            return action(options)
+        except Unusable as error:
+            say(str(error))
+            return UNUSABLE
+
+    return run
+
+
+def _chosen(derived: Derived, number: int | None) -> tuple[DerivedBlock, ...]:
+    return derived.blocks if number is None else (derived.block(number),)
+
+
+def _status(derived: Derived, number: int | None) -> int:
+    return FINDINGS if any(found.errors for found in _chosen(derived, number)) else CLEAN
+
+
+def _report(derived: Derived, number: int | None) -> None:
+    for found in _chosen(derived, number):
+        for finding in found.findings:
+            say(f"block {found.number}: {finding.severity}: {sentence(finding, derived.program.unit)}")
+
+
+def path(options: argparse.Namespace) -> int:
+    """`cutcomp path`: the centre path of every block."""
+    from core.pipeline.document import path_document
+    from core.pipeline.listing import path_listing
+
+    derived = _derived(options.file, options.block, options.lookahead)
+    if options.json:
+        print(json.dumps(path_document(derived, options.block), allow_nan=False))
+    else:
+        print("\n".join(path_listing(derived, options.block)))
+        _report(derived, options.block)
+    return _status(derived, options.block)
+
+
+def lookahead(options: argparse.Namespace) -> int:
+    """`cutcomp lookahead`: what becomes of the path at every value."""
+    from core.pipeline.document import table_document
+    from core.pipeline.listing import table_listing
+    from core.pipeline.table import look_ahead_table
+
+    derived = _derived(options.file, options.block)
+    unit = derived.program.unit
+    tables = [(found, look_ahead_table(found, derived.program)) for found in _chosen(derived, options.block)]
+    if options.json:
+        blocks = [table_document(found, table, unit) for found, table in tables]
+        print(json.dumps({"units": str(unit), "blocks": blocks}, allow_nan=False))
+    else:
+        print("\n\n".join("\n".join(table_listing(found, table, unit)) for found, table in tables))
+    return _status(derived, options.block)
+
+
+def post(options: argparse.Namespace) -> int:
+    """`cutcomp post`: NC text, or the reasons why there is none."""
+    from core.output.post import Posted
+    from core.output.post import post as nc_text
+    from core.pipeline.jobs import jobs
+
+    derived = _derived(options.file)
+    result = nc_text(jobs(derived), derived.program.unit, name=options.file.stem, override=options.override)
+    _report(derived, None)
+    if not isinstance(result, Posted):
+        say(f"nothing was posted. {result.text}")
+        return FINDINGS
+    _deliver(result.text, options.output)
+    return _status(derived, None)
+
+
+def plot(options: argparse.Namespace) -> int:
+    """`cutcomp plot`: the program as an SVG drawing."""
+    from core.pipeline.plot import svg_of
+
+    derived = _derived(options.file)
+    _deliver(svg_of(derived, title=options.file.stem), options.output)
+    _report(derived, None)
+    return _status(derived, None)
+
+
+def _deliver(text: str, output: Path | None) -> None:
+    from core.program.store import write_text
+
+    if output is None:
+        sys.stdout.write(text)
+        return
+    try:
+        write_text(output, text)
+    except StoreError as error:
+        raise Unusable(str(error)) from error
+
+
+COMMANDS: Final = {
+    "path": _command(path),
+    "lookahead": _command(lookahead),
+    "post": _command(post),
+    "plot": _command(plot),
+}

@@ -1,0 +1,102 @@
+"""What is known of a program, block by block.  Needs no numpy, so that a first screen can be painted without."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+from core.finding import Finding, Severity
+from core.geometry.side import Side
+from core.program.model import Block, Program
+from core.program.solved import SolvedBlock
+
+if TYPE_CHECKING:
+    from core.comp.result import Compensated
+    from core.geometry.path import Path
+    from core.verify.verdict import Verdict
+
+
+class Tag(StrEnum):
+    """Whether a look-ahead was calculated or typed."""
+
+    CAL = "CAL"
+    USR = "USR"
+
+
+@dataclass(frozen=True, slots=True)
+class LookAhead:
+    """CUTCOMP LOOKAHEAD: the value in force, its tag, and what CAL would be."""
+
+    value: int
+    tag: Tag
+    calculated: int
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RoughPass:
+    """One pass before the finish path: its centre path leaves `stock` millimetres on the surface."""
+
+    stock: float
+    cutter_radius: float
+    centre: Path
+    compensated: Compensated
+    verdict: Verdict
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Work:
+    """What the cutter does in one block, in millimetres.
+
+    `surface` is the determined part of the contour; `centre` the finish path with its blends; `compensated` and
+    `verdict` are None for CUTTER COMP. ON, where the centre runs on the contour itself; `rough` comes before,
+    outermost first.
+    """
+
+    surface: Path
+    centre: Path
+    compensated: Compensated | None
+    verdict: Verdict | None
+    rough: tuple[RoughPass, ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class DerivedBlock:
+    """One block with everything that follows from it.
+
+    `radius` is the finish path's cutter radius in millimetres, None without a usable tool; `side` is None for ON.
+    `work` is None in an outline, and when there is no surface or no radius to work with; `known` tells the two apart.
+    """
+
+    number: int
+    block: Block
+    solved: SolvedBlock
+    lookahead: LookAhead
+    side: Side | None
+    profile: bool
+    radius: float | None
+    work: Work | None
+    known: bool
+    findings: tuple[Finding, ...]
+
+    @property
+    def postable(self) -> bool:
+        """Nothing is unread, undetermined or gouged."""
+        return self.known and self.work is not None and not self.errors
+
+    @property
+    def errors(self) -> tuple[Finding, ...]:
+        """The findings that forbid posting."""
+        return tuple(finding for finding in self.findings if finding.severity is Severity.ERROR)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Derived:
+    """A program and all its blocks derived; `program` tells whether a late result is still the right one."""
+
+    program: Program
+    blocks: tuple[DerivedBlock, ...]
+
+    def block(self, number: int) -> DerivedBlock:
+        """Block `number`, counted from 1."""
+        return self.blocks[number - 1]

@@ -1,0 +1,83 @@
+"""What is posted: each derived block as the job that passes and NC text are made of."""
+
+from __future__ import annotations
+
+from core.comp.result import Compensated
+from core.geometry.path import EMPTY
+from core.output.job import Cutter, Floor, Job, Run
+from core.pipeline.derive import parameter
+from core.pipeline.derived import Derived, DerivedBlock
+from core.program.fields import default
+from core.program.model import Entry, Program, Typed
+from core.program.solved import SolvedBlock
+from core.units import to_mm
+
+
+def jobs(derived: Derived) -> tuple[Job, ...]:
+    """One job a block, in the program's order."""
+    return tuple(job(found, derived.program) for found in derived.blocks)
+
+
+def job(found: DerivedBlock, program: Program) -> Job:
+    """One block's job; what is not known yet is zero there and stands among the findings."""
+    solved, tag = found.solved, f"{found.lookahead.tag} {found.lookahead.value}"
+    finish_tool = _whole(found.block.finish_tool)
+    return Job(
+        block=found.number,
+        comp=str(found.block.cutter_comp),
+        cutter=_cutter(found.block.tool, solved.tool_diameter, solved.tool_type),
+        finisher=_cutter(found.block.finish_tool, solved.finish_diameter, "") if finish_tool else None,
+        surface=found.work.surface if found.work else EMPTY,
+        floors=_floors(solved),
+        finish=_finish(found),
+        rough=_rough(found),
+        z_start=solved.z_start or 0.0,
+        z_bottom=solved.z_bottom or 0.0,
+        peck_depth=solved.peck_depth,
+        finish_z=parameter(program, "finish_z") if finish_tool else 0.0,
+        retract_clearance=parameter(program, "retract_clearance"),
+        peck_clearance=parameter(program, "peck_clearance"),
+        plunge_feed=solved.plunge_feed or 0.0,
+        speed=solved.speed or 0.0,
+        safe_z=to_mm(_setup(program, "safe_z"), program.unit),
+        finish_tool=finish_tool,
+        work_offset=int(_setup(program, "work_offset")),
+        lookahead="" if found.side is None else tag,
+        findings=found.findings,
+    )
+
+
+def _whole(typed: Typed) -> int:
+    return int(typed.value) if isinstance(typed, Entry) else 0
+
+
+def _cutter(number: Typed, diameter: float | None, kind: str) -> Cutter | None:
+    return None if diameter is None or not isinstance(number, Entry) else Cutter(int(number.value), diameter, kind)
+
+
+def _setup(program: Program, name: str) -> float:
+    typed = getattr(program.setup, name)
+    value = typed.value if isinstance(typed, Entry) else default(name, program.unit)
+    assert value is not None
+    return value
+
+
+def _floors(solved: SolvedBlock) -> tuple[Floor, ...]:
+    known = solved.segments[: solved.determined]
+    return tuple(Floor(one.number, one.z_start, one.z_end, one.feed) for one in known)
+
+
+def _run(one: Compensated, offset: float) -> Run:
+    return Run(one.path, one.lead_in, one.lead_out, offset)
+
+
+def _finish(found: DerivedBlock) -> tuple[Run, ...]:
+    if found.work is None:
+        return ()
+    if found.work.compensated is None:
+        return (Run(found.work.centre),)
+    return (_run(found.work.compensated, 0.0),)
+
+
+def _rough(found: DerivedBlock) -> tuple[Run, ...]:
+    return tuple(_run(one.compensated, one.stock) for one in found.work.rough) if found.work else ()

@@ -1,0 +1,63 @@
+"""The first stage: fields calculated, look-ahead known, nothing cut yet.  Needs no numpy."""
+
+from __future__ import annotations
+
+from core.comp.lookahead import HIGHEST, LOWEST, calculated
+from core.finding import Finding, Severity
+from core.geometry.side import Side
+from core.pipeline.derived import Derived, DerivedBlock, LookAhead, Tag
+from core.program.assist import solve_block
+from core.program.model import Block, CutterComp, Entry, Program
+from core.program.solved import SolvedBlock
+
+_SIDES = {
+    CutterComp.ON: None,
+    CutterComp.LEFT: Side.LEFT,
+    CutterComp.RIGHT: Side.RIGHT,
+    CutterComp.PROFILE_LEFT: Side.LEFT,
+    CutterComp.PROFILE_RIGHT: Side.RIGHT,
+}
+
+
+def outline(program: Program) -> Derived:
+    """Every block with its blanks calculated and its look-ahead, without geometry."""
+    blocks = (outline_block(number, block, program) for number, block in enumerate(program.blocks, 1))
+    return Derived(program, tuple(blocks))
+
+
+def outline_block(number: int, block: Block, program: Program) -> DerivedBlock:
+    """One block's outline."""
+    solved = solve_block(block, program)
+    lookahead = look_ahead(block, solved)
+    diameter = solved.finish_diameter if solved.finish_diameter is not None else solved.tool_diameter
+    return DerivedBlock(
+        number=number,
+        block=block,
+        solved=solved,
+        lookahead=lookahead,
+        side=_SIDES[block.cutter_comp],
+        profile=block.cutter_comp in (CutterComp.PROFILE_LEFT, CutterComp.PROFILE_RIGHT),
+        radius=None if diameter is None else diameter / 2,
+        work=None,
+        known=False,
+        findings=(*solved.every_finding, *_usr_warning(lookahead, _SIDES[block.cutter_comp])),
+    )
+
+
+def look_ahead(block: Block, solved: SolvedBlock) -> LookAhead:
+    """The look-ahead in force: the operator's value, or the calculated one."""
+    empty = sum(1 for segment in solved.segments[: solved.determined] if segment.piece is None)
+    value = calculated(len(solved.segments) - empty, closed=solved.closed)
+    match block.lookahead:
+        case Entry(typed) if LOWEST <= typed <= HIGHEST:
+            return LookAhead(int(typed), Tag.USR, value)
+        case _:
+            return LookAhead(value, Tag.CAL, value)
+
+
+def _usr_warning(lookahead: LookAhead, side: Side | None) -> tuple[Finding, ...]:
+    if side is None or lookahead.tag is Tag.CAL:
+        return ()
+    text = f"CUTCOMP LOOKAHEAD {lookahead.value} was typed; the calculated value is {lookahead.calculated}."
+    text += " F3 goes back to it."
+    return (Finding("USR_LOOKAHEAD", Severity.WARNING, text, field="lookahead"),)

@@ -1,0 +1,79 @@
+"""The look-ahead table: what becomes of a block's path at every value from 1 to 20."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from core.comp.advise import recommended
+from core.comp.compensate import compensate_all
+from core.comp.lookahead import HIGHEST, LOWEST
+from core.comp.result import Compensated
+from core.pipeline.derive import parameter
+from core.pipeline.derived import DerivedBlock
+from core.program.model import Program
+from core.verify.judge import judge
+from core.verify.verdict import Verdict
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Row:
+    """One look-ahead value: the path it makes and what that path does; lengths in millimetres."""
+
+    value: int
+    compensated: Compensated
+    verdict: Verdict
+
+    @property
+    def clean(self) -> bool:
+        """The path gouges nothing."""
+        return self.verdict.clean
+
+    @property
+    def gouge(self) -> float:
+        """Depth of its deepest gouge, 0 for none."""
+        return self.verdict.depth
+
+    @property
+    def uncut(self) -> float:
+        """Length of surface it leaves."""
+        return self.verdict.uncut_length
+
+    @property
+    def deleted(self) -> tuple[float, ...]:
+        """Numbers of the segments it deletes, each once."""
+        return tuple(dict.fromkeys(self.compensated.deleted.segments.tolist()))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Table:
+    """All rows, and the value the operator is advised to use, if any is clean."""
+
+    rows: tuple[Row, ...]
+    recommended: int | None
+
+    def row(self, value: int) -> Row:
+        """The row of a look-ahead value."""
+        return self.rows[value - LOWEST]
+
+
+def look_ahead_table(found: DerivedBlock, program: Program) -> Table | None:
+    """The table of a derived block; None for ON and while there is nothing to compensate."""
+    if found.work is None or found.side is None or found.radius is None:
+        return None
+    every = compensate_all(
+        found.work.surface,
+        found.side,
+        found.radius,
+        range(LOWEST, HIGHEST + 1),
+        closed=found.solved.closed,
+        blend=parameter(program, "blend_offset"),
+        overlap=parameter(program, "blend_overlap"),
+    )
+    judged: dict[int, Verdict] = {}
+    rows = []
+    for value, one in zip(range(LOWEST, HIGHEST + 1), every, strict=True):
+        # values that make the same path share it, and so its verdict
+        if id(one.path) not in judged:
+            judged[id(one.path)] = judge(found.work.surface, found.side, found.radius, one.whole)
+        rows.append(Row(value, one, judged[id(one.path)]))
+    return Table(tuple(rows), recommended(rows))

@@ -1,0 +1,113 @@
+"""A program in a real pseudo-terminal, its screen read through a terminal emulator."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+import pty
+import select
+import signal
+import struct
+import termios
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import pyte
+
+PASSED_ON = ("PATH", "HOME", "LD_LIBRARY_PATH", "PYTHONPATH", "VIRTUAL_ENV")
+
+
+@dataclass
+class Answer:
+    """What came back after a key: how many bytes, and how long the first and the last of them took (seconds)."""
+
+    count: int
+    first: float
+    last: float
+
+
+@dataclass
+class Terminal:
+    """One running program: `pid`, its pseudo-terminal `fd`, and the screen as the emulator sees it."""
+
+    pid: int
+    fd: int
+    screen: pyte.Screen
+    stream: pyte.ByteStream = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.stream = pyte.ByteStream(self.screen)
+
+    def read(self, *, quiet: float, longest: float = 10.0) -> Answer:
+        """Feed the emulator until nothing has come for `quiet` seconds."""
+        begun = time.perf_counter()
+        count, first, last = 0, 0.0, 0.0
+        while time.perf_counter() - begun < longest:
+            ready, _, _ = select.select([self.fd], [], [], quiet)
+            if not ready:
+                break
+            try:
+                data = os.read(self.fd, 65536)
+            except OSError:
+                break
+            if not data:
+                break
+            last = time.perf_counter() - begun
+            first = first or last
+            count += len(data)
+            self.stream.feed(data)
+        return Answer(count, first, last)
+
+    def until(self, text: str, *, longest: float = 10.0) -> float:
+        """Seconds until `text` stands on the screen; AssertionError with the screen if it never does."""
+        begun = time.perf_counter()
+        while text not in self.text:
+            if time.perf_counter() - begun > longest:
+                raise AssertionError(f"{text!r} did not appear:\n{self.text}")
+            self.read(quiet=0.02, longest=0.02)
+        return time.perf_counter() - begun
+
+    def send(self, keys: bytes) -> None:
+        """Type these bytes."""
+        os.write(self.fd, keys)
+
+    @property
+    def text(self) -> str:
+        """The screen as lines of text."""
+        return "\n".join(line.rstrip() for line in self.screen.display)
+
+    def ended(self) -> int | None:
+        """The exit status once the program has ended."""
+        pid, status = os.waitpid(self.pid, os.WNOHANG)
+        return None if pid == 0 else os.waitstatus_to_exitcode(status)
+
+
+@contextlib.contextmanager
+def running(
+    arguments: Sequence[str],
+    *,
+    columns: int = 80,
+    rows: int = 24,
+    environment: Mapping[str, str] | None = None,
+    cwd: str | None = None,
+) -> Iterator[Terminal]:
+    """Run `arguments` in a pseudo-terminal of this size; it is killed at the end if it has not left by itself."""
+    kept = {name: os.environ[name] for name in PASSED_ON if name in os.environ}
+    values = {**kept, "TERM": "xterm-256color", "LANG": "C.UTF-8", **(environment or {})}
+    pid, fd = pty.fork()
+    if pid == 0:
+        if cwd is not None:
+            os.chdir(cwd)
+        os.execvpe(arguments[0], list(arguments), values)
+    fcntl.ioctl(fd, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
+    terminal = Terminal(pid, fd, pyte.Screen(columns, rows))
+    try:
+        yield terminal
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
+        with contextlib.suppress(ChildProcessError):
+            os.waitpid(pid, 0)
+        os.close(fd)
