@@ -1,8 +1,25 @@
-"""Between the operator's text and millimetres and radians: the only place that knows inches and degrees."""
+"""Between the operator's text and millimetres and radians: the only place that knows inches and degrees.
+
+A field takes the sums of `core.arithmetic`; a suffix (`12.7mm`, `.5in`, `.5"`, `22.5deg`) converts into program units.
+"""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
 from enum import Enum, StrEnum, auto
+from fractions import Fraction
+from math import degrees, isfinite, radians
+from types import MappingProxyType
+from typing import Final, assert_never
+
+from core.arithmetic import NotASumError, total
+from core.finding import Finding
+from core.tolerance import LARGEST
+
+WIDEST: Final = 10
+"""Characters `show` takes at most: larger numbers lose decimals."""
 
 
 class Unit(StrEnum):
@@ -22,3 +39,128 @@ class Kind(Enum):
     PERCENT = auto()
     CHOICE = auto()
     TEXT = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class Unreadable:
+    """Text that is no value; `reason` is a sentence for the operator."""
+
+    reason: str
+
+
+MM_PER: Final[Mapping[Unit, Fraction]] = MappingProxyType({Unit.IN: Fraction(127, 5), Unit.MM: Fraction(1)})
+"""Millimetres in one unit, exactly."""
+
+
+def to_mm(value: float, unit: Unit) -> float:
+    """Millimetres (a minute) of a length (a feed) in program units."""
+    return value * 25.4 if unit is Unit.IN else value
+
+
+def from_mm(value: float, unit: Unit) -> float:
+    """Program units (a minute) of a length (a feed) in millimetres."""
+    return value / 25.4 if unit is Unit.IN else value
+
+
+def to_radians(value: float) -> float:
+    """Radians of an angle as the form shows it, in degrees."""
+    return radians(value)
+
+
+def from_radians(value: float) -> float:
+    """Degrees, as the form shows them, of an angle in radians."""
+    return degrees(value)
+
+
+def convert(value: float, old: Unit, new: Unit) -> float:
+    """A typed length or feed in another unit, rounded so that going there and back gives the same number.
+
+    Inches keep 12 significant digits and millimetres 10: 3 mm is 0.11811023622 in and that is 3 mm again.
+    """
+    if old is new:
+        return value
+    exact = Fraction(value) * MM_PER[old] / MM_PER[new]
+    return float(f"{float(exact):.{12 if new is Unit.IN else 10}g}")
+
+
+def show(value: float, kind: Kind, unit: Unit) -> str:
+    """A value in program units as the screens print it, at most `WIDEST` characters, never a negative zero."""
+    if not isfinite(value):
+        return str(value)
+    texts = (f"{value:.{places}f}" for places in range(_decimals(kind, unit), -1, -1))
+    text = next((text for text in texts if len(text) <= WIDEST), f"{value:.3g}")
+    return text.removeprefix("-") if not text.strip("-0.") else text
+
+
+def _decimals(kind: Kind, unit: Unit) -> int:
+    match kind:
+        case Kind.LENGTH:
+            return 4 if unit is Unit.IN else 3
+        case Kind.FEED | Kind.PERCENT:
+            return 1
+        case Kind.ANGLE:
+            return 3
+        case Kind.COUNT | Kind.CHOICE | Kind.TEXT:
+            return 0
+        case _:
+            assert_never(kind)
+
+
+def sentence(finding: Finding, unit: Unit) -> str:
+    """A finding's text with its lengths filled in, in program units."""
+    known: dict[str, float] = {str(index): length for index, length in enumerate(finding.lengths)}
+    if finding.value is not None:
+        known["value"] = finding.value
+    if finding.at is not None:
+        known["x"], known["y"] = finding.at
+
+    def fill(place: re.Match[str]) -> str:
+        length = known.get(place[1])
+        return place[0] if length is None else show(from_mm(length, unit), Kind.LENGTH, unit)
+
+    return re.sub(r"\{(\w+)\}", fill, finding.text)
+
+
+def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:
+    """The value of an operator's text in program units (degrees for an angle), or why there is none."""
+    try:
+        exact = total(text, _scales(kind, unit), _EXPECTED.get(kind, ""))
+    except NotASumError as fault:
+        return Unreadable(str(fault))
+    if kind is Kind.COUNT and exact.denominator != 1:
+        return Unreadable("A whole number is needed here, such as 2.")
+    if abs(exact) * (MM_PER[unit] if kind in _MEASURES else 1) > Fraction(LARGEST):
+        return Unreadable("That number is too large for any machine.")
+    return float(exact)
+
+
+_MEASURES: Final = (Kind.LENGTH, Kind.FEED)
+
+
+def _scales(kind: Kind, unit: Unit) -> Mapping[str, Fraction]:
+    """What each suffix that a kind takes multiplies by to give program units."""
+    match kind:
+        case Kind.LENGTH | Kind.FEED:
+            inch, mm = (MM_PER[one] / MM_PER[unit] for one in (Unit.IN, Unit.MM))
+            return {"in": inch, "inch": inch, '"': inch, "mm": mm}
+        case Kind.ANGLE:
+            return {"\N{DEGREE SIGN}": Fraction(1), "deg": Fraction(1)}
+        case Kind.PERCENT:
+            return {"%": Fraction(1)}
+        case Kind.COUNT:
+            return {}
+        case Kind.CHOICE | Kind.TEXT:
+            raise NotASumError("This field takes no number.")
+        case _:
+            assert_never(kind)
+
+
+_EXPECTED: Final[Mapping[Kind, str]] = MappingProxyType(
+    {
+        Kind.LENGTH: "type a number such as 2.5, 1 1/2, 2.5-.125 or 12.7mm",
+        Kind.FEED: "type a number such as 20 or 500mm",
+        Kind.ANGLE: "type degrees such as 22.5",
+        Kind.COUNT: "type a whole number",
+        Kind.PERCENT: "type a percentage such as 50",
+    }
+)

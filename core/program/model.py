@@ -6,8 +6,10 @@ the blanks.  A blank is None, text that could not be read stays as `Unread`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from typing import Any, TypeVar
 
 from core.units import Unit
 
@@ -56,7 +58,7 @@ class PathChoice(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class LineSegment:
-    """A LINE as typed."""
+    """A LINE as typed; `choice` is the index of the picked solution in `assist`'s documented order."""
 
     x_end: Typed = None
     y_end: Typed = None
@@ -64,6 +66,7 @@ class LineSegment:
     length: Typed = None
     angle: Typed = None
     feed: Typed = None
+    choice: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,3 +156,11 @@ class Program:
     setup: PartSetup = field(default_factory=PartSetup)
     tools: tuple[Tool, ...] = ()
     blocks: tuple[Block, ...] = ()
+
+
+Part = TypeVar("Part", bound=Block | LineSegment | ArcSegment | BlendSegment | Tool | Parameters | PartSetup)
+
+
+def changed(part: Part, values: Mapping[str, Any]) -> Part:
+    """A copy of a part of a program with these attributes changed; the caller vouches for names and types."""
+    return replace(part, **values)

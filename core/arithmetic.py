@@ -1,0 +1,170 @@
+"""Sums an operator types into a field, read exactly as fractions: `1 1/2`, `2.5-.125`, `25.4/2`, `3mm+1in`.
+
+A suffix belongs to the product it stands in; in a sum either every term has one or none has.  A comma, and a
+dash that shop people read as "and" (`1-1/2`), may mean two things and are refused with the reason.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Final
+
+LONGEST: Final = 60
+"""Characters a field reads; more is a slip of the hand."""
+
+
+class NotASumError(Exception):
+    """Why a text cannot be read: a sentence for the operator."""
+
+
+_TOKEN: Final = re.compile(r"\s*(?:(?P<number>[0-9]+\.?[0-9]*|\.[0-9]+)|(?P<sign>[-+*/()])|(?P<word>[^\W\d_]+|\S))")
+
+_ALIKE: Final = str.maketrans({"\N{MINUS SIGN}": "-", "\N{EN DASH}": "-", "\N{MULTIPLICATION SIGN}": "*"})
+
+_DASHED: Final = re.compile(r"\s*([-+]?[0-9]+)-([0-9]+)/(2|4|8|16|32|64)\s*[^-+*/()0-9]*")
+
+
+def total(text: str, scales: Mapping[str, Fraction], expected: str) -> Fraction:
+    """The value of a sum; raises NotASumError.
+
+    `scales` holds what each suffix multiplies by, `expected` what the field takes, as "type a whole number".
+    """
+    text = text.translate(_ALIKE)
+    if not text.strip():
+        raise NotASumError("Nothing is typed: a number is needed.")
+    if len(text) > LONGEST:
+        raise NotASumError(f"That is too long: type at most {LONGEST} characters.")
+    if "," in text:
+        raise NotASumError("A comma may mean two things: type a point, as in 1.5, and thousands without a mark.")
+    _refuse_dashed(text)
+    tokens = [(found.lastgroup or "", found[found.lastgroup or 0]) for found in _TOKEN.finditer(text.rstrip())]
+    return _Reader(tokens, scales, expected).whole()
+
+
+def _refuse_dashed(text: str) -> None:
+    dashed = _DASHED.fullmatch(text)
+    if dashed and int(dashed[2]) < int(dashed[3]):
+        whole, above, below = dashed.groups()
+        either = f"{whole} {above}/{below} with a blank, or {whole} - {above}/{below} to subtract"
+        raise NotASumError(f"{text.strip()} may mean two things: type {either}.")
+
+
+@dataclass(frozen=True, slots=True)
+class _Amount:
+    """A number with the scale of its unit, None while it has none; `bracket` marks a finished sum."""
+
+    value: Fraction
+    scale: Fraction | None = None
+    bracket: bool = False
+
+    def scaled(self) -> Fraction:
+        return self.value * (1 if self.scale is None else self.scale)
+
+
+@dataclass(slots=True)
+class _Reader:
+    """Reads sums of products of signed numbers, fractions and brackets, each by the rule of its name."""
+
+    tokens: list[tuple[str, str]]
+    scales: Mapping[str, Fraction]
+    expected: str
+    at: int = 0
+
+    def peek(self, ahead: int = 0) -> tuple[str, str]:
+        index = self.at + ahead
+        return self.tokens[index] if index < len(self.tokens) else ("end", "")
+
+    def take(self, signs: str) -> str:
+        """The next token if it is one of these signs, taken; otherwise nothing."""
+        sort, text = self.peek()
+        if sort != "sign" or text not in signs:
+            return ""
+        self.at += 1
+        return text
+
+    def whole(self) -> Fraction:
+        total = self.sum()
+        sort, text = self.peek()
+        if sort == "number":
+            raise NotASumError(f"Before {text} a sign is missing; a fraction is typed as 1 1/2.")
+        if text == ")":
+            raise NotASumError("There is a bracket too many.")
+        if sort != "end":
+            raise NotASumError(f"{text} cannot stand there.")
+        return total.scaled()
+
+    def sum(self) -> _Amount:
+        total = self.product()
+        while sign := self.take("+-"):
+            term = self.product()
+            if (term.scale is None) is not (total.scale is None):
+                raise NotASumError("Give each number of a sum its unit, or put brackets: (2.5-.125)mm.")
+            scaled = total.scaled() + (term.scaled() if sign == "+" else -term.scaled())
+            total = _Amount(scaled, None if total.scale is None else Fraction(1))
+        return total
+
+    def product(self) -> _Amount:
+        total = self.signed()
+        while sign := self.take("*/"):
+            factor = self.signed()
+            total = _times(total, factor) if sign == "*" else _over(total, factor)
+        return total
+
+    def signed(self) -> _Amount:
+        sign = self.take("+-")
+        amount = self.single()
+        return replace(amount, value=-amount.value) if sign == "-" else amount
+
+    def single(self) -> _Amount:
+        amount = self.bracket() if self.take("(") else _Amount(self.number())
+        sort, text = self.peek()
+        if sort != "word":
+            return amount
+        if text.lower() not in self.scales:
+            raise NotASumError(f"{text} is not understood here: {self.expected}.")
+        if amount.scale is not None:
+            raise NotASumError("One unit is enough for a number.")
+        self.at += 1
+        return replace(amount, scale=self.scales[text.lower()])
+
+    def bracket(self) -> _Amount:
+        inside = self.sum()
+        if not self.take(")"):
+            raise NotASumError("A closing bracket is missing.")
+        return replace(inside, bracket=True)
+
+    def number(self) -> Fraction:
+        sort, text = self.peek()
+        if sort == "word":
+            raise NotASumError(f"{text} is not a number: {self.expected}.")
+        if sort != "number":
+            raise NotASumError(f"A number is missing {f'before {text}' if text else 'at the end'}.")
+        self.at += 1
+        return Fraction(text) + self.fraction(text)
+
+    def fraction(self, whole: str) -> Fraction:
+        """The 1/2 behind the whole number of 1 1/2, or 0."""
+        (first, above), (_, slash), (last, below) = (self.peek(ahead) for ahead in range(3))
+        if (first, slash, last) != ("number", "/", "number") or "." in whole + above + below:
+            return Fraction(0)
+        if int(above) >= int(below):
+            raise NotASumError(f"In {whole} {above}/{below} the fraction is not less than 1.")
+        self.at += 3
+        return Fraction(int(above), int(below))
+
+
+def _times(left: _Amount, right: _Amount) -> _Amount:
+    if left.scale is not None and right.scale is not None:
+        raise NotASumError("A length times a length is no length: leave one unit out.")
+    return _Amount(left.value * right.value, right.scale if left.scale is None else left.scale)
+
+
+def _over(left: _Amount, right: _Amount) -> _Amount:
+    if right.value == 0:
+        raise NotASumError("Nothing can be divided by zero.")
+    if right.scale is not None and (left.scale is not None or right.bracket):
+        raise NotASumError("A number cannot be divided by a length: leave the unit out.")
+    return _Amount(left.value / right.value, right.scale if left.scale is None else left.scale)

@@ -1,0 +1,284 @@
+"""Edits of a program, each a pure function that yields the new program or refuses with a sentence.
+
+A refused edit changes nothing.  Numbers a field does not take are refused, text that cannot be read is kept as
+`Unread` (but for the look-ahead, whose old value stays).  Blocks and segments count from 1, segment 0 is START.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Any, Final
+
+from core.program.convert import converted
+from core.program.fields import Field, Form, check, field, form_of
+from core.program.model import (
+    ArcSegment,
+    BlendSegment,
+    Block,
+    CutterComp,
+    Direction,
+    Entry,
+    LineSegment,
+    PathChoice,
+    Program,
+    Segment,
+    Tool,
+    Typed,
+    Unread,
+    changed,
+)
+from core.units import Unit, Unreadable, parse
+
+
+@dataclass(frozen=True, slots=True)
+class Where:
+    """A place on the form: block from 1, segment from 1, 0 for START."""
+
+    block: int
+    segment: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """An edit that is not made, with the sentence that says why."""
+
+    text: str
+
+
+Edited = Program | Refused
+
+
+def read(text: str, one: Field, unit: Unit) -> Typed:
+    """What an operator's text is in a field of numbers: a blank, an entry, or unreadable text that is kept."""
+    if not text.strip():
+        return None
+    value = parse(text, one.kind, unit)
+    return Unread(text, value.reason) if isinstance(value, Unreadable) else Entry(value)
+
+
+def type_field(program: Program, where: Where, name: str, typed: Typed) -> Edited:
+    """Put what was typed, or a blank, into a field of START or of a segment."""
+    if refusal := _absent(program, where):
+        return refusal
+    block = program.blocks[where.block - 1]
+    if where.segment == 0:
+        if refusal := _misfit(field(Form.START, name), typed) or _lookahead_misfit(block, name, typed):
+            return refusal
+        return _with_block(program, where, changed(block, {name: typed}))
+    segment = block.segments[where.segment - 1]
+    if refusal := _misfit(field(form_of(segment), name), typed):
+        return refusal
+    return _with_segment(program, where, _typed_into(segment, name, typed))
+
+
+def choose(program: Program, where: Where, name: str, value: str | int | None) -> Edited:
+    """Pick CUTTER COMP. of START, DIRECTION of an ARC, or the solution of a LINE or an ARC (None for none yet)."""
+    if refusal := _absent(program, where):
+        return refusal
+    block = program.blocks[where.block - 1]
+    form = Form.START if where.segment == 0 else form_of(block.segments[where.segment - 1])
+    one = field(form, name)
+    if str(value) not in one.choices and not (value is None and name == "choice"):
+        return Refused(f"{one.label} takes {', '.join(one.choices)}.")
+    picked = _PICKED[name](value)
+    if where.segment == 0:
+        return _with_block(program, where, changed(block, {name: picked}))
+    return _with_segment(program, where, changed(block.segments[where.segment - 1], {name: picked}))
+
+
+_PICKED: Final[Mapping[str, Any]] = MappingProxyType(
+    {
+        "cutter_comp": CutterComp,
+        "direction": Direction,
+        "choice": lambda value: None if value is None else int(value),
+    }
+)
+
+
+def insert_segment(program: Program, where: Where, segment: Segment) -> Edited:
+    """Put a segment before `where.segment`; one more than the last appends."""
+    if where.segment == 0:
+        return Refused("START comes first: nothing goes before it.")
+    if refusal := _absent(program, replace(where, segment=0)):
+        return refusal
+    block = program.blocks[where.block - 1]
+    before, behind = block.segments[: where.segment - 1], block.segments[where.segment - 1 :]
+    if not 0 < where.segment <= len(block.segments) + 1:
+        return _no_segment(block, where.segment)
+    if isinstance(segment, BlendSegment) and (refusal := _blend_misfit(before, behind)):
+        return refusal
+    return _with_block(program, where, replace(block, segments=(*before, segment, *behind)))
+
+
+def _blend_misfit(before: tuple[Segment, ...], behind: tuple[Segment, ...]) -> Refused | None:
+    if not before:
+        return Refused("A BLEND ARC cannot be the first segment: it blends two others.")
+    if isinstance(before[-1], BlendSegment) or (behind and isinstance(behind[0], BlendSegment)):
+        return Refused("A BLEND ARC cannot stand beside another BLEND ARC.")
+    return None
+
+
+def delete_segment(program: Program, where: Where) -> Edited:
+    """Take a segment out; the next one then starts where the one before it ends."""
+    if where.segment == 0:
+        return Refused("START cannot be deleted.")
+    if refusal := _absent(program, where):
+        return refusal
+    block = program.blocks[where.block - 1]
+    left = block.segments[: where.segment - 1] + block.segments[where.segment :]
+    return _with_block(program, where, replace(block, segments=left))
+
+
+def recalculate_lookahead(program: Program, block: int) -> Edited:
+    """Bring the calculated look-ahead back: USR becomes CAL."""
+    where = Where(block)
+    if refusal := _absent(program, where):
+        return refusal
+    return _with_block(program, where, replace(program.blocks[block - 1], lookahead=None))
+
+
+def new_block(program: Program) -> Block:
+    """A block as the form offers it: the last block's tool (or 1), usual feeds, its place still blank."""
+    zero = Entry(0.0)
+    feed = 20.0 if program.unit is Unit.IN else 500.0
+    return Block(
+        tool=program.blocks[-1].tool if program.blocks else Entry(1.0),
+        finish_tool=zero,
+        z_start=zero,
+        plunge_feed=Entry(feed),
+        speed=Entry(300.0),
+        peck_depth=zero,
+    )
+
+
+def insert_block(program: Program, at: int) -> Edited:
+    """Put a new block at number `at`, with the tool of the block before it; one more than the last appends."""
+    if not 1 <= at <= len(program.blocks) + 1:
+        return _no_block(program, at)
+    before, behind = program.blocks[: at - 1], program.blocks[at - 1 :]
+    return replace(program, blocks=(*before, new_block(replace(program, blocks=before)), *behind))
+
+
+def copy_block(program: Program, at: int) -> Edited:
+    """Put a copy of a block behind it."""
+    if refusal := _absent(program, Where(at)):
+        return refusal
+    return replace(program, blocks=(*program.blocks[:at], *program.blocks[at - 1 :]))
+
+
+def move_block(program: Program, at: int, to: int) -> Edited:
+    """Take block `at` out and put it back so that its number is `to`."""
+    if refusal := _absent(program, Where(at)) or _absent(program, Where(to)):
+        return refusal
+    rest = program.blocks[: at - 1] + program.blocks[at:]
+    return replace(program, blocks=(*rest[: to - 1], program.blocks[at - 1], *rest[to - 1 :]))
+
+
+def delete_block(program: Program, at: int) -> Edited:
+    """Take a block out; the last one left stays."""
+    if refusal := _absent(program, Where(at)):
+        return refusal
+    if len(program.blocks) == 1:
+        return Refused("The only block cannot be deleted: a program has at least one.")
+    return replace(program, blocks=program.blocks[: at - 1] + program.blocks[at:])
+
+
+def set_tool(program: Program, tool: Tool) -> Edited:
+    """Put a line into the tool table, in place of the one of that number; the table stays in order of numbers."""
+    fits = _misfit(field(Form.TOOL, "number"), Entry(tool.number))
+    if refusal := fits or _misfit(field(Form.TOOL, "diameter"), tool.diameter):
+        return refusal
+    others = (other for other in program.tools if other.number != tool.number)
+    return replace(program, tools=tuple(sorted((*others, tool), key=lambda one: one.number)))
+
+
+def delete_tool(program: Program, number: int) -> Edited:
+    """Take a tool out of the table; blocks that call it then say that it is missing."""
+    left = tuple(tool for tool in program.tools if tool.number != number)
+    if len(left) == len(program.tools):
+        return Refused(f"There is no tool {number} in the tool table.")
+    return replace(program, tools=left)
+
+
+def set_parameter(program: Program, name: str, typed: Typed) -> Edited:
+    """Put what was typed, or a blank for the default, into a field of PROGRAM PARAMETERS."""
+    if refusal := _misfit(field(Form.PARAMETERS, name), typed):
+        return refusal
+    return replace(program, parameters=changed(program.parameters, {name: typed}))
+
+
+def set_path_choice(program: Program, choice: PathChoice) -> Program:
+    """Choose which centre path is posted."""
+    return replace(program, parameters=replace(program.parameters, path=choice))
+
+
+def set_setup(program: Program, name: str, value: str | Typed) -> Edited:
+    """Put what was typed into a field of PART SETUP: text for the name, a number or a blank for the others."""
+    one = field(Form.SETUP, name)
+    if isinstance(value, str):
+        if not value.isprintable():
+            return Refused(f"{one.label} takes letters and signs on one line.")
+    elif refusal := _misfit(one, value):
+        return refusal
+    return replace(program, setup=changed(program.setup, {name: value}))
+
+
+def set_unit(program: Program, unit: Unit) -> Program:
+    """The same part in another unit: every typed length and feed is converted, blanks stay blank."""
+    return converted(program, unit)
+
+
+def _absent(program: Program, where: Where) -> Refused | None:
+    if not 1 <= where.block <= len(program.blocks):
+        return _no_block(program, where.block)
+    block = program.blocks[where.block - 1]
+    return None if 0 <= where.segment <= len(block.segments) else _no_segment(block, where.segment)
+
+
+def _no_block(program: Program, number: int) -> Refused:
+    """There is no block of that number."""
+    return Refused(f"There is no block {number}: {_last('block', len(program.blocks))}")
+
+
+def _no_segment(block: Block, number: int) -> Refused:
+    return Refused(f"There is no segment {number}: {_last('segment', len(block.segments))}")
+
+
+def _last(thing: str, count: int) -> str:
+    return f"the last {thing} is {count}." if count else f"no {thing} is typed yet."
+
+
+def _misfit(one: Field, typed: Typed) -> Refused | None:
+    """Why a field does not take what was typed."""
+    text = check(one, typed.value) if isinstance(typed, Entry) else None
+    return None if text is None else Refused(text)
+
+
+def _lookahead_misfit(block: Block, name: str, typed: Typed) -> Refused | None:
+    if name != "lookahead" or isinstance(typed, Entry) or typed == block.lookahead:
+        return None
+    one = field(Form.START, "lookahead")
+    again = "" if typed is None else f" {typed.text.strip()} cannot be read."
+    return Refused(f"{check(one, 0)}{again} Press F3 to go back to CAL.")
+
+
+def _typed_into(segment: Segment, name: str, typed: Typed) -> Segment:
+    """The segment with the field typed; a solution picked among others than now is dropped."""
+    edited = changed(segment, {name: typed})
+    solutions_differ = name not in ("z_end", "feed") and (typed is None) is not (getattr(segment, name) is None)
+    if solutions_differ and isinstance(edited, LineSegment | ArcSegment):
+        return replace(edited, choice=None)
+    return edited
+
+
+def _with_block(program: Program, where: Where, block: Block) -> Program:
+    blocks = (*program.blocks[: where.block - 1], block, *program.blocks[where.block :])
+    return replace(program, blocks=blocks)
+
+
+def _with_segment(program: Program, where: Where, segment: Segment) -> Program:
+    block = program.blocks[where.block - 1]
+    segments = (*block.segments[: where.segment - 1], segment, *block.segments[where.segment :])
+    return _with_block(program, where, replace(block, segments=segments))
