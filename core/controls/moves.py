@@ -1,0 +1,178 @@
+"""Moves: what a control's axes do, in one neutral form for every control, as immutable numpy arrays.
+
+Millimetres and millimetres a minute.  A move goes from the end of the row before it to its own point; row 0 is
+the start point, told as a rapid of line 0.  An arc's direction is seen from the positive side of the axis that
+stands on its plane; an arc that ends where it starts is a full circle; an arc that also moves along that axis is
+a helix.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.geometry.path import EMPTY, Path
+
+Floats = NDArray[np.float64]
+Point3 = tuple[float, float, float]
+
+
+class Plane(IntEnum):
+    """The plane of an arc and of compensation, named by its first and second axis."""
+
+    XY = 0
+    ZX = 1
+    YZ = 2
+
+    @property
+    def axes(self) -> tuple[int, int, int]:
+        """Which of x, y, z (0, 1, 2) are the first, the second and the standing axis."""
+        return _AXES[self]
+
+
+_AXES: Final = ((0, 1, 2), (2, 0, 1), (1, 2, 0))
+
+
+def flat(point: Point3, plane: Plane) -> Point3:
+    """A point's first, second and standing coordinate in a plane."""
+    first, second, third = _AXES[plane]
+    return point[first], point[second], point[third]
+
+
+def solid(first: float, second: float, third: float, plane: int) -> Point3:
+    """The point (x, y, z) whose coordinates in a plane are these: the inverse of `flat`."""
+    if plane == Plane.XY:
+        return first, second, third
+    return (second, third, first) if plane == Plane.ZX else (third, first, second)
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """One move: `turn` 0 is a line, +1 counter-clockwise, -1 clockwise; `feed` is 0 where none was given."""
+
+    point: Point3
+    centre: Point3
+    turn: int
+    plane: Plane
+    rapid: bool
+    feed: float
+    line: int
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Moves:
+    """n moves, the start point first.
+
+    `points`, `centres` (n, 3) of x, y, z; a line has its own end as centre.  `turns` (n,) 0 line, +1 counter-clockwise,
+    -1 clockwise.  `planes` (n,) values of `Plane`.  `rapid` (n,) bool.  `feeds` (n,).  `lines` (n,) of the program,
+    from 1; 0 for the start point.
+    """
+
+    points: Floats
+    centres: Floats
+    turns: NDArray[np.int8]
+    planes: NDArray[np.int8]
+    rapid: NDArray[np.bool_]
+    feeds: Floats
+    lines: NDArray[np.int32]
+
+    def __post_init__(self) -> None:
+        for array in (self.points, self.centres, self.turns, self.planes, self.rapid, self.feeds, self.lines):
+            array.flags.writeable = False
+
+    @staticmethod
+    def of(rows: Sequence[Row]) -> Moves:
+        """The moves of a tape's rows."""
+        table = np.array(rows, np.float64).reshape(-1, 11)
+        return Moves(
+            np.ascontiguousarray(table[:, 0:3]),
+            np.ascontiguousarray(table[:, 3:6]),
+            table[:, 6].astype(np.int8),
+            table[:, 7].astype(np.int8),
+            table[:, 8].astype(np.bool_),
+            np.ascontiguousarray(table[:, 9]),
+            table[:, 10].astype(np.int32),
+        )
+
+    def __len__(self) -> int:
+        return len(self.turns)
+
+    def __getitem__(self, index: int) -> Move:
+        """Move `index` as plain numbers."""
+        x, y, z = self.points[index].tolist()
+        cx, cy, cz = self.centres[index].tolist()
+        plane = Plane(int(self.planes[index]))
+        turn, rapid = int(self.turns[index]), bool(self.rapid[index])
+        return Move((x, y, z), (cx, cy, cz), turn, plane, rapid, float(self.feeds[index]), int(self.lines[index]))
+
+    def __iter__(self) -> Iterator[Move]:
+        return (self[index] for index in range(len(self)))
+
+    def part(self, first: int, last: int) -> Moves:
+        """Rows first ... last - 1; row `first` becomes the start point."""
+        rows = slice(first, last)
+        return Moves(
+            self.points[rows],
+            self.centres[rows],
+            self.turns[rows],
+            self.planes[rows],
+            self.rapid[rows],
+            self.feeds[rows],
+            self.lines[rows],
+        )
+
+    def path(self, plane: Plane = Plane.XY) -> Path:
+        """The moves as seen on a plane, numbered by their lines; arcs of other planes are straight there."""
+        first, second, _ = plane.axes
+        ends = self.points[:, [first, second]]
+        if len(ends) < 2:
+            return EMPTY
+        turns = np.where(self.planes[1:] == plane, self.turns[1:], 0).astype(np.int8)
+        moving = np.any(ends[1:] != ends[:-1], axis=1) | (turns != 0)
+        points = np.vstack((ends[:1], ends[1:][moving]))
+        turns = turns[moving]
+        centres = self.centres[1:][moving][:, [first, second]]
+        centres = np.where(turns[:, None] == 0, points[:-1], centres)
+        return Path.of(points, centres, turns, self.lines[1:][moving].astype(np.float64))
+
+
+Row = tuple[float, float, float, float, float, float, int, int, bool, float, int]
+"""x, y, z, centre x, y, z, turn, plane, rapid, feed, line."""
+
+
+@dataclass(slots=True)
+class Tape:
+    """Moves being recorded, one row each; `moves` closes it."""
+
+    start: Point3 = (0.0, 0.0, 0.0)
+    rows: list[Row] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        x, y, z = self.start
+        self.rows.append((x, y, z, x, y, z, 0, 0, True, 0.0, 0))
+
+    @property
+    def last(self) -> Point3:
+        """Where the axes stand."""
+        return self.rows[-1][:3]
+
+    def rapid(self, x: float, y: float, z: float, line: int) -> None:
+        """A straight move at rapid."""
+        self.rows.append((x, y, z, x, y, z, 0, 0, True, 0.0, line))
+
+    def straight(self, x: float, y: float, z: float, feed: float, line: int) -> None:
+        """A straight move at feed."""
+        self.rows.append((x, y, z, x, y, z, 0, 0, False, feed, line))
+
+    def arc(self, end: Point3, centre: Point3, turn: int, plane: int, feed: float, line: int) -> None:
+        """An arc or a helix at feed."""
+        self.rows.append((*end, *centre, turn, plane, False, feed, line))
+
+    def moves(self) -> Moves:
+        """Everything recorded."""
+        return Moves.of(self.rows)

@@ -1,0 +1,71 @@
+"""The controls by name, and the one way to run a program on any of them.
+
+A control's variant follows a colon: `rosettacnc:easy`.  `nine-series:b-g39.1` is type B that starts with G39.1
+corners in force; a G39 or G39.1 in the program changes them from there on, as on the control.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.report import Run
+from core.controls.tools import ToolTable
+
+Control = Callable[[bytes, str, ToolTable], Run]
+"""Runs a program's text on a variant of a control with these tools; never raises for any text."""
+
+NO_TOOLS: Final = ToolTable()
+
+
+@dataclass(frozen=True, slots=True)
+class UnknownControl:
+    """A name that belongs to no control; `text` says which there are."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One control: what runs it, its variants (the first is the default) and those a comparison shows."""
+
+    control: Control
+    variants: tuple[str, ...] = ("",)
+    compared: tuple[str, ...] = ("",)
+
+
+CONTROLS: Final[Mapping[str, Entry]] = MappingProxyType({})
+
+
+def names() -> tuple[str, ...]:
+    """Every control with every variant, as it can be asked for."""
+    return tuple(_joined(name, variant) for name, entry in CONTROLS.items() for variant in entry.variants)
+
+
+def compared() -> tuple[str, ...]:
+    """The controls a comparison shows side by side."""
+    return tuple(_joined(name, variant) for name, entry in CONTROLS.items() for variant in entry.compared)
+
+
+def _joined(name: str, variant: str) -> str:
+    return f"{name}:{variant}" if variant else name
+
+
+def resolve(control: str) -> str | UnknownControl:
+    """The full name of a control, the default variant added; or the sentence that says which there are."""
+    name, _, variant = control.strip().lower().partition(":")
+    entry = CONTROLS.get(name)
+    if entry is None or (variant and variant not in entry.variants):
+        return UnknownControl(f"There is no such control; there are {', '.join(names())}.")
+    return _joined(name, variant or entry.variants[0])
+
+
+def run(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -> Run | UnknownControl:
+    """A program's text on a control, by the control's full or short name."""
+    full = resolve(control)
+    if isinstance(full, UnknownControl):
+        return full
+    name, _, variant = full.partition(":")
+    return CONTROLS[name].control(text, variant, tools)

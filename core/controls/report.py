@@ -1,0 +1,110 @@
+"""What running a program on a control gives: the moves up to its end or its alarm, and what is to be said."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Final, NoReturn
+
+from core.controls.moves import Moves, Plane
+from core.finding import Finding, Severity
+from core.geometry.side import Side
+from core.units import Unit
+
+MOST: Final = 100
+"""Findings of one rule that are told one by one; of the rest only the number is."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Stretch:
+    """One run of compensated moves: from the move that turns compensation on to the one that leaves it.
+
+    `programmed` are the moves as written, without compensation, its row 0 the point they start from: the part's
+    surface.  `entry` and `exit` count the moves at its beginning and end that lead in and out and are no surface.
+    `first` ... `last` - 1 are the rows of the run's moves that belong to it.  `radius` is in millimetres and
+    positive: the side a negative one flips to is already in `side`.
+    """
+
+    side: Side
+    radius: float
+    plane: Plane
+    programmed: Moves
+    entry: int
+    exit: int
+    first: int
+    last: int
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Run:
+    """A program on a control.
+
+    `unit` is the program's; everything else is millimetres.  `stopped_at` is the line at which the control would
+    stop with an alarm, None when it runs to the end; `moves` are those made up to there.
+    """
+
+    control: str
+    unit: Unit
+    moves: Moves
+    findings: tuple[Finding, ...]
+    stopped_at: int | None = None
+    stretches: tuple[Stretch, ...] = ()
+
+
+class AlarmError(Exception):
+    """The control stops here; caught by whoever runs the program, never seen outside."""
+
+    def __init__(self, finding: Finding) -> None:
+        super().__init__(finding.text)
+        self.finding = finding
+
+
+@dataclass(slots=True)
+class Log:
+    """Findings being gathered, at most `MOST` of one rule and one of a rule on a line."""
+
+    findings: list[Finding] = field(default_factory=list)
+    counts: dict[str, int] = field(default_factory=dict)
+    seen: set[tuple[str, int | None]] = field(default_factory=set)
+
+    def add(self, finding: Finding) -> None:
+        """Keep a finding, unless its rule was told of that line before."""
+        key = (finding.code, finding.line)
+        if key in self.seen:
+            return
+        self.seen.add(key)
+        count = self.counts[finding.code] = self.counts.get(finding.code, 0) + 1
+        if count <= MOST:
+            self.findings.append(finding)
+
+    def tell(
+        self,
+        severity: Severity,
+        code: str,
+        text: str,
+        line: int | None = None,
+        column: int | None = None,
+        *,
+        lengths: tuple[float, ...] = (),
+        at: tuple[float, float] | None = None,
+    ) -> None:
+        """Keep a finding of these values; the control goes on."""
+        self.add(Finding(code, severity, text, at=at, lengths=lengths, line=line, column=column))
+
+    def stop(
+        self,
+        code: str,
+        text: str,
+        line: int | None = None,
+        column: int | None = None,
+        *,
+        lengths: tuple[float, ...] = (),
+        at: tuple[float, float] | None = None,
+    ) -> NoReturn:
+        """The control stops with an alarm."""
+        raise AlarmError(Finding(code, Severity.ERROR, text, at=at, lengths=lengths, line=line, column=column))
+
+    def closed(self) -> tuple[Finding, ...]:
+        """All findings by line, with one more for each rule that was told too often."""
+        rest = [(code, count - MOST) for code, count in self.counts.items() if count > MOST]
+        more = [Finding(code, Severity.INFO, f"{code}: {count} more lines like these.") for code, count in rest]
+        return (*sorted(self.findings, key=lambda finding: (finding.line or 0, finding.column or 0)), *more)

@@ -1,0 +1,37 @@
+"""Program text: bytes of any encoding into lines, and pieces of it made fit to be shown."""
+
+from __future__ import annotations
+
+import re
+from typing import Final
+
+SHOWN: Final = 24
+"""Characters of a program that a message quotes at most."""
+
+_BREAK: Final = re.compile(r"\r\n|\n|\r")
+
+
+def lines_of(text: bytes) -> list[str]:
+    """The lines of a program, without their ends: CR, LF or both, last one with or without.
+
+    UTF-8 and UTF-16 (by its mark) are known; anything else is taken byte for byte.  Never raises.
+    """
+    lines = _BREAK.split(_decoded(text))
+    if lines and not lines[-1]:
+        lines.pop()
+    return lines
+
+
+def _decoded(text: bytes) -> str:
+    if text.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return text.decode("utf-16", errors="replace")
+    try:
+        return text.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return text.decode("latin-1")
+
+
+def shown(text: str) -> str:
+    """A piece of a program as a message may quote it: short, and with nothing a terminal would obey."""
+    safe = "".join(one if one.isprintable() and one not in "{}" else "?" for one in text[: SHOWN + 1].strip())
+    return f"{safe[:SHOWN]}..." if len(text.strip()) > SHOWN else safe
