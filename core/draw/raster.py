@@ -1,0 +1,158 @@
+"""A scene as rows of characters with a role for every cell.
+
+One vectorised chain for all layers: pieces -> chords in the window -> dots -> bits of a cell -> a character from
+the mode's table.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.draw.chords import Chords, Rows, chords
+from core.draw.mode import Cells, Mode, cells
+from core.draw.scene import Circle, Layer, Scene, Style
+from core.draw.signs import Styles, write_signs
+from core.draw.view import TALL, View
+from core.geometry.path import EMPTY, Floats, Path
+
+DASH: Final = (3.0, 1.8)
+"""A dash's period and the lit part of it, in cells' widths."""
+AXIS_DASH: Final = (4.0, 1.0)
+AXES: Final = 2
+"""The first layers drawn are the two axes."""
+PHASE: Final = 0.25
+"""Where in its period an axis begins at the window's edge: away from where rounding could decide."""
+
+Bits = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Picture:
+    """`rows` of equally many characters, and the Style of each cell: `styles` (rows, columns)."""
+
+    rows: tuple[str, ...]
+    styles: NDArray[np.uint8]
+
+
+def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Picture:
+    """The part of the scene that `view` shows, in columns x rows cells; either may be 0.
+
+    Dots of all layers stay lit.  A cell takes the style of the last layer in it, then of the last circle, of the last
+    mark.  What is not finite, or beyond every machine, is left out.
+    """
+    if columns < 1 or rows < 1:
+        return Picture(("",) * max(rows, 0), np.zeros((max(rows, 0), max(columns, 0)), np.uint8))
+    look = cells(mode)
+    layers = (*_axes(scene, view, columns, rows), *scene.layers, *map(_outline, scene.circles))
+    found = _clipped(chords(layers, view, columns, rows), columns / 2, rows * TALL / 2)
+    lit, styles = _light(found, layers, look, columns, rows)
+    characters = look.table[np.packbits(lit, axis=1, bitorder="little")[:, 0]].reshape(rows, columns)
+    styles = styles.reshape(rows, columns)
+    write_signs(characters, styles, scene, view, mode)
+    return Picture(tuple("".join(row) for row in characters.tolist()), styles)
+
+
+def _outline(circle: Circle) -> Layer:
+    """The whole circle as a layer."""
+    (x, y), radius = circle.centre, circle.radius
+    rim = np.array([[x + radius, y], [x + radius, y]])
+    return Layer(Path.of(rim, np.array([[x, y]]), np.array([1], np.int8)), circle.style)
+
+
+def _axes(scene: Scene, view: View, columns: int, rows: int) -> tuple[Layer, Layer]:
+    """The parts of the X and Y axis inside the window; an axis outside is an empty layer."""
+    (left, top), (right, bottom) = view.at(0, 0, columns, rows), view.at(columns, rows, columns, rows)
+    level = bottom <= 0.0 <= top and scene.axes
+    upright = left <= 0.0 <= right and scene.axes
+    return (
+        Layer(_straight(left, 0.0, right, 0.0) if level else EMPTY, Style.AXIS, dashed=True),
+        Layer(_straight(0.0, top, 0.0, bottom) if upright else EMPTY, Style.AXIS, dashed=True),
+    )
+
+
+def _straight(x0: float, y0: float, x1: float, y1: float) -> Path:
+    return Path.of(np.array([[x0, y0], [x1, y1]]), np.array([[x0, y0]]), np.array([0], np.int8))
+
+
+def _clipped(found: Chords, half_width: float, half_height: float) -> Chords:
+    """What of the chords lies inside the window (Liang and Barsky's parameters)."""
+    run = found.ends - found.starts
+    enter, leave = np.zeros(len(run)), np.ones(len(run))
+    for start, step, limit in (
+        (found.starts.real, run.real, half_width),
+        (found.starts.imag, run.imag, half_height),
+    ):
+        low, high = _between(start, step, limit)
+        np.maximum(enter, low, out=enter)
+        np.minimum(leave, high, out=leave)
+    keep = np.flatnonzero(enter <= leave)
+    starts, run, enter, leave = found.starts[keep], run[keep], enter[keep], leave[keep]
+    along = found.along[keep] + enter * np.abs(run)
+    return Chords(starts + enter * run, starts + leave * run, found.layers[keep], along)
+
+
+def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]:
+    """The parameters between which start + t * step lies in -limit ... limit; from infinity on where it never does."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        one, other = (-limit - start) / step, (limit - start) / step
+    low, high = np.minimum(one, other), np.maximum(one, other)
+    still = step == 0.0
+    if still.any():
+        inside = np.abs(start) <= limit
+        low = np.where(still, np.where(inside, -np.inf, np.inf), low)
+        high = np.where(still, np.inf, high)
+    return low, high
+
+
+def _light(found: Chords, layers: tuple[Layer, ...], look: Cells, columns: int, rows: int) -> tuple[Bits, Styles]:
+    """Bits lit (rows x columns, 8) and styles (rows x columns,)."""
+    chord, across, down, along = _dots(found, look, columns, rows)
+    layer = found.layers[chord]
+    shown = _dashes(layers, layer, along)
+    cell = (down // look.down) * columns + across // look.across
+    bit = look.bit[down % look.down, across % look.across] if look.by_dot else _slants(found)[chord]
+    lit = np.zeros((rows * columns, 8), np.bool_)
+    lit.reshape(-1)[(cell * 8 + bit)[shown]] = True
+    styles = np.zeros(rows * columns, np.uint8)
+    styles[cell[shown]] = np.array([each.style for each in layers], np.uint8)[layer[shown]]
+    return lit, styles
+
+
+def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Rows, Rows, Floats]:
+    """Chord, dot across, dot down and length along (m,) of every dot on every chord, in order of chords."""
+    run = found.ends - found.starts
+    wide, high = look.dot
+    steps = np.ceil(np.maximum(np.abs(run.real) / wide, np.abs(run.imag) / high)).astype(np.intp)
+    counts = steps + 1
+    chord = np.repeat(np.arange(len(counts)), counts)
+    nth = np.arange(len(chord)) - np.repeat(np.cumsum(counts) - counts, counts)
+    part = nth * (1.0 / np.maximum(steps, 1))[chord]
+    places = found.starts[chord] + part * run[chord]
+    across = ((places.real + columns / 2) / wide).astype(np.intp)
+    down = ((rows * TALL / 2 - places.imag) / high).astype(np.intp)
+    np.clip(across, 0, columns * look.across - 1, out=across)
+    np.clip(down, 0, rows * look.down - 1, out=down)
+    return chord, across, down, found.along[chord] + part * np.abs(run)[chord]
+
+
+def _dashes(layers: tuple[Layer, ...], layer: Rows, along: Floats) -> NDArray[np.bool_]:
+    """Which dots are lit: all of a whole line, part of each period of a dashed one."""
+    period = np.array([AXIS_DASH[0]] * AXES + [DASH[0]] * (len(layers) - AXES))
+    lit = np.array([AXIS_DASH[1]] * AXES + [DASH[1] if each.dashed else np.inf for each in layers[AXES:]])
+    shown: NDArray[np.bool_] = np.mod(along + PHASE * (layer < AXES), period[layer]) < lit[layer]
+    return shown
+
+
+def _slants(found: Chords) -> Rows:
+    """The line character's bit of each chord: 0 level, 1 rising, 2 upright, 3 falling, as it looks in tall cells."""
+    run = found.ends - found.starts
+    across, up = run.real, run.imag
+    steep = np.abs(up) / TALL
+    slants = np.where(across * up > 0.0, 1, 3)
+    slants[steep > np.abs(across) * np.tan(3 * np.pi / 8)] = 2
+    slants[steep <= np.abs(across) * np.tan(np.pi / 8)] = 0
+    return slants

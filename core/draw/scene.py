@@ -1,0 +1,104 @@
+"""What is to be drawn: paths, circles and marks with the role each plays, in millimetres, before any screen.
+
+Later layers win a cell's style, circles win over layers, marks over circles; dots once lit stay lit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum, IntEnum, auto
+
+import numpy as np
+
+from core.geometry.path import Floats, Path
+from core.geometry.piece import Point
+from core.units import Unit
+
+Box = tuple[float, float, float, float]
+
+
+class Style(IntEnum):
+    """The role of what is drawn; a screen gives each role its looks."""
+
+    BACKGROUND = 0
+    AXIS = 1
+    SURFACE = 2
+    PATH = 3
+    LEAD = 4
+    RAPID = 5
+    DELETED = 6
+    GOUGE = 7
+    UNCUT = 8
+    CUTTER = 9
+    START = 10
+    CURRENT = 11
+    SCALE = 12
+    MESSAGE = 13
+
+
+class Symbol(Enum):
+    """What a mark says; the raster picks a character for it that the mode's terminals have."""
+
+    START = auto()
+    ARROW = auto()
+    PLUNGE = auto()
+    GOUGE = auto()
+    DELETED = auto()
+    CENTRE = auto()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Layer:
+    """One path and its role."""
+
+    path: Path
+    style: Style
+    dashed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """The outline of a disc, such as the cutter: `centre` and `radius` in millimetres."""
+
+    centre: Point
+    radius: float
+    style: Style = Style.CUTTER
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """One character at a point; an ARROW points along `direction`."""
+
+    at: Point
+    style: Style
+    symbol: Symbol
+    direction: Point = (1.0, 0.0)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Scene:
+    """Everything to draw.  `unit` is that of the scale bar, None for none; `axes` shows the program's X and Y axis."""
+
+    layers: tuple[Layer, ...] = ()
+    circles: tuple[Circle, ...] = ()
+    marks: tuple[Mark, ...] = ()
+    unit: Unit | None = None
+    axes: bool = True
+
+    @property
+    def bounds(self) -> Box | None:
+        """Least x, least y, largest x, largest y of all that is finite; None for an empty scene."""
+        boxes = [layer.path.boxes for layer in self.layers if len(layer.path)]
+        boxes += [_box_of(circle.centre, circle.radius) for circle in self.circles]
+        boxes += [_box_of(mark.at, 0.0) for mark in self.marks]
+        rows = np.concatenate(boxes) if boxes else np.empty((0, 4))
+        rows = rows[np.all(np.isfinite(rows), axis=1)]
+        if not len(rows):
+            return None
+        (x0, y0), (x1, y1) = rows[:, :2].min(axis=0).tolist(), rows[:, 2:].max(axis=0).tolist()
+        return (x0, y0, x1, y1)
+
+
+def _box_of(centre: Point, radius: float) -> Floats:
+    (x, y) = centre
+    return np.array([[x - radius, y - radius, x + radius, y + radius]])

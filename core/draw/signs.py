@@ -1,0 +1,79 @@
+"""What a drawing says in characters: marks, the axes' names, the scale bar."""
+
+from __future__ import annotations
+
+from math import atan2, floor, isfinite, log10, tau
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.draw.mode import Cells, Characters, Mode, cells
+from core.draw.scene import Mark, Scene, Style, Symbol
+from core.draw.view import View
+from core.geometry.piece import Point
+from core.units import Unit, from_mm
+
+BAR: Final = 0.3
+"""The scale bar's largest part of the window's width."""
+LEAST_COLUMNS: Final = 16
+LEAST_ROWS: Final = 3
+"""Smaller windows have no scale bar and no names of axes."""
+
+Styles = NDArray[np.uint8]
+
+
+def write_signs(characters: Characters, styles: Styles, scene: Scene, view: View, mode: Mode) -> None:
+    """Write the signs of a scene over a picture's cells, `characters` and `styles` (rows, columns)."""
+    rows, columns = characters.shape
+    look = cells(mode)
+    if columns >= LEAST_COLUMNS and rows >= LEAST_ROWS:
+        if scene.axes:
+            _name_axes(characters, styles, view)
+        if scene.unit is not None:
+            _write(characters, styles, rows - 1, scale_bar(view.scale, columns, scene.unit, look.bar), Style.SCALE)
+    for mark in scene.marks:
+        _put(characters, styles, mark, view, look)
+
+
+def scale_bar(scale: float, columns: int, unit: Unit, ends: str) -> str:
+    """A bar of a round length (1, 2 or 5 times a power of ten, in program units) and its name.
+
+    `scale` is millimetres to a cell's width; the bar runs from the middle of its first to that of its last cell.
+    """
+    most = from_mm(scale * max(columns * BAR, 1.0), unit)
+    power = floor(log10(most))
+    length = next(step * 10.0**power for step in (5, 2, 1) if step * 10.0**power <= most * (1 + 1e-9))
+    width = max(round(length / from_mm(scale, unit)), 1)
+    decimals = max(-power, 0)
+    return f"{ends[0]}{ends[1] * (width - 1)}{ends[2]} {length:.{decimals}f} {unit}"
+
+
+def arrow(direction: Point, heads: str) -> str:
+    """The head among eight, for 0, 45, 90 ... degrees, that points most nearly along `direction`."""
+    return heads[round(atan2(direction[1], direction[0]) / (tau / 8)) % 8]
+
+
+def _put(characters: Characters, styles: Styles, mark: Mark, view: View, look: Cells) -> None:
+    rows, columns = characters.shape
+    column, row = view.cell(mark.at, columns, rows)
+    if not (isfinite(column) and isfinite(row) and 0 <= column < columns and 0 <= row < rows):
+        return
+    arrowed = mark.symbol is Symbol.ARROW
+    characters[int(row), int(column)] = arrow(mark.direction, look.arrows) if arrowed else look.symbols[mark.symbol]
+    styles[int(row), int(column)] = mark.style
+
+
+def _name_axes(characters: Characters, styles: Styles, view: View) -> None:
+    rows, columns = characters.shape
+    column, row = view.cell((0.0, 0.0), columns, rows)
+    for name, across, down in (("X", columns - 1.0, row), ("Y", column, 0.0)):
+        inside = 0 <= across < columns and 0 <= down < rows
+        if inside and styles[int(down), int(across)] in (Style.BACKGROUND, Style.AXIS):
+            _write(characters, styles, int(down), name, Style.AXIS, int(across))
+
+
+def _write(characters: Characters, styles: Styles, row: int, text: str, style: Style, column: int = 0) -> None:
+    room = min(len(text), characters.shape[1] - column)
+    characters[row, column : column + room] = list(text[:room])
+    styles[row, column : column + room] = style

@@ -1,0 +1,59 @@
+"""View: which part of the plane a window of character cells shows.
+
+A terminal's cell is taken as twice as high as it is wide.  The scale is millimetres to a cell's width, so that a
+view stays the same when the mode of drawing changes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+from core.draw.scene import Box
+from core.geometry.piece import Point
+
+TALL: Final = 2.0
+"""A cell's height over its width."""
+FINEST: Final = 1e-7
+COARSEST: Final = 1e8
+MARGIN: Final = 0.04
+"""Part of the window left free on each side by `fit`."""
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """`centre` (x, y) in millimetres stands in the middle of the window; `scale` is millimetres to a cell's width."""
+
+    centre: Point = (0.0, 0.0)
+    scale: float = 1.0
+
+    @staticmethod
+    def fit(bounds: Box | None, columns: int, rows: int) -> View:
+        """The largest view of `bounds` in columns x rows cells, with a margin; None gives one around zero."""
+        x0, y0, x1, y1 = bounds or (-1.0, -1.0, 1.0, 1.0)
+        wide, high = max(columns, 1) * (1 - 2 * MARGIN), max(rows, 1) * TALL * (1 - 2 * MARGIN)
+        scale = max((x1 - x0) / wide, (y1 - y0) / high)
+        return View(((x0 + x1) / 2, (y0 + y1) / 2), _held(scale) if scale > 0.0 else 2.0 / wide)
+
+    def zoom(self, factor: float) -> View:
+        """Enlarged by `factor` about the window's centre, between limits a drawing still makes sense in."""
+        return replace(self, scale=_held(self.scale / factor))
+
+    def pan(self, dx: float, dy: float, columns: int, rows: int) -> View:
+        """Moved over the part by fractions of the window: dx to the right, dy up."""
+        x, y = self.centre
+        return replace(self, centre=(x + dx * columns * self.scale, y + dy * rows * TALL * self.scale))
+
+    def at(self, column: float, row: float, columns: int, rows: int) -> Point:
+        """The point (mm) at a place in the window: (0, 0) is its top left, (0.5, 0.5) the first cell's middle."""
+        x, y = self.centre
+        return x + (column - columns / 2) * self.scale, y - (row - rows / 2) * TALL * self.scale
+
+    def cell(self, point: Point, columns: int, rows: int) -> tuple[float, float]:
+        """(column, row) of a point (mm), fractions included: the inverse of `at`."""
+        x, y = self.centre
+        return (point[0] - x) / self.scale + columns / 2, (y - point[1]) / (TALL * self.scale) + rows / 2
+
+
+def _held(scale: float) -> float:
+    return min(max(scale, FINEST), COARSEST)
