@@ -105,11 +105,12 @@ def main() -> None:
         program = Path(folder) / "gear.toml"
         save(gear(options.segments), program)
         empty, ours = side_by_side(program, options.rounds)
-        print(f"first paint   empty app {1000 * empty:.0f} ms   cutcomp {1000 * ours:.0f} ms   ratio {ours / empty:.2f}")
+        print(f"first paint   empty app {1000 * empty:.0f} ms   cutcomp {1000 * ours:.0f} ms   {ours / empty:.2f}:1")
         digits = [str(digit % 10).encode() for digit in range(options.rounds * 4)]
         print(report("a digit in a field", key_answers(program, [b"\t", *digits])[1:]))
         print(report("Tab to the next field", key_answers(program, [b"\t"] * options.rounds * 4)))
-        accepted = [key for value in range(options.rounds * 4) for key in (f"-.{value + 20}".encode(), b"\r", b"\x1b[A")]
+        depths = [f"-.{value + 20}".encode() for value in range(options.rounds * 4)]
+        accepted = [key for depth in depths for key in (depth, b"\r", b"\x1b[A")]
         answers = key_answers(program, [b"\t"] * 6 + accepted)[6:]
         print(report("Enter: everything derived again", answers[1::3]))
 
