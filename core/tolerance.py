@@ -22,5 +22,14 @@ GOUGE: Final = 1e-6
 UNCUT: Final = 1e-9
 """Does the cutter reach a point of the surface?  It does when the path is within the radius and this."""
 
+AGREES: Final = 2e-5
+"""Do two angles agree?  Radians, a little over the 0.001 degree to which the form shows them."""
+
+STOCK: Final = 1e-6
+"""Is what the cutter leaves on the surface worth a word?  A stretch left thinner than this everywhere is rounding."""
+
 LARGEST: Final = 1e7
 """Is a coordinate one a machine could have?  Ten kilometres; beyond it doubles lose the last digit."""
+
+LAST_PASS: Final = 1e-3
+"""Is the rest of a depth a pass of its own?  A thinner one is cut together with the pass before it."""

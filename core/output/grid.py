@@ -1,0 +1,131 @@
+"""Rounding for NC text: coordinates as whole numbers of the last posted digit, and arcs that survive it.
+
+A machine travels what is written, not what was meant.  Rounding may turn a short arc's ends round its centre the
+other way, which a control reads as a full circle; or it may make them one point, which it reads as a full circle too.
+Every arc is therefore measured again as written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import atan2, cos, hypot, pi, sin, tau
+from typing import Final
+
+from core.geometry.piece import Arc, Point, Turn
+from core.units import Unit, from_mm
+
+DECIMALS: Final = {Unit.IN: 5, Unit.MM: 4}
+FINER: Final = 1
+"""Further decimals of I and J, which keep the two radii of an arc equal."""
+ASTRAY: Final = 4.0
+"""How far, in last digits, an arc as written may end from where it should, measured along it."""
+SMALLEST: Final = 16.0
+"""An arc of a smaller radius, in last digits, is written as chords: its radii could not agree."""
+FLAT: Final = 0.5
+"""A chord that strays from its arc by no more than this, in last digits, is the arc as well as can be written."""
+
+Steps = tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """The last digit of a unit's coordinates."""
+
+    unit: Unit
+
+    @property
+    def decimals(self) -> int:
+        """Decimals of X, Y and Z; I and J have `FINER` more."""
+        return DECIMALS[self.unit]
+
+    def fine(self, value: float) -> float:
+        """Millimetres in last digits, not rounded."""
+        return from_mm(value, self.unit) * 10.0**self.decimals
+
+    def steps(self, value: float) -> int:
+        """Millimetres in whole last digits."""
+        return round(self.fine(value))
+
+    def point(self, point: Point) -> Steps:
+        """A point in whole last digits."""
+        return self.steps(point[0]), self.steps(point[1])
+
+    def text(self, steps: int, further: int = 0) -> str:
+        """A whole number of last digits as a decimal number: at least one decimal, no more than needed, no -0."""
+        decimals = self.decimals + further
+        digits = f"{abs(steps):0{decimals + 1}d}"
+        decimal = digits[-decimals:].rstrip("0") or "0"
+        return f"{'-' if steps < 0 else ''}{digits[:-decimals]}.{decimal}"
+
+
+@dataclass(frozen=True, slots=True)
+class Chord:
+    """A straight part of a move: it ends at `end` after `part` of the move, 0 to 1."""
+
+    end: Point
+    part: float
+
+
+@dataclass(frozen=True, slots=True)
+class Bow:
+    """A circular part of a move, with its centre from the start as written, in last digits of I and J."""
+
+    end: Point
+    part: float
+    centre: Steps
+
+
+def written(arc: Arc, grid: Grid) -> Iterator[Chord | Bow]:
+    """The arc in parts that mean the same after rounding, in order: mostly one bow."""
+    yield from _parts(arc, grid, 0.0, 1.0)
+
+
+def _parts(arc: Arc, grid: Grid, first: float, last: float) -> Iterator[Chord | Bow]:
+    start, end = _at(arc, first), _at(arc, last)
+    sweep, radius = arc.sweep * (last - first), grid.fine(arc.radius)
+    centre = _centre(start, arc.centre, grid)
+    if radius >= SMALLEST and _means(start, end, centre, sweep, radius, grid):
+        yield Bow(end, last, centre)
+    elif _rise(radius, sweep) <= FLAT:
+        yield Chord(end, last)
+    else:
+        middle = (first + last) / 2
+        yield from _parts(arc, grid, first, middle)
+        yield from _parts(arc, grid, middle, last)
+
+
+def _at(arc: Arc, part: float) -> Point:
+    if part in (0.0, 1.0):
+        return arc.start if part == 0.0 else arc.end
+    (x, y), (cx, cy) = arc.start, arc.centre
+    angle = atan2(y - cy, x - cx) + part * arc.sweep
+    return cx + arc.radius * cos(angle), cy + arc.radius * sin(angle)
+
+
+def _centre(start: Point, centre: Point, grid: Grid) -> Steps:
+    """I and J: from the start as written to the true centre."""
+    x, y = grid.point(start)
+    return round((grid.fine(centre[0]) - x) * 10**FINER), round((grid.fine(centre[1]) - y) * 10**FINER)
+
+
+def _means(start: Point, end: Point, centre: Steps, sweep: float, radius: float, grid: Grid) -> bool:
+    """The bow as written turns as far as meant."""
+    first, last = grid.point(start), grid.point(end)
+    if first == last:
+        return start == end and abs(sweep) == tau
+    i, j = centre[0] / 10**FINER, centre[1] / 10**FINER
+    away = (last[0] - first[0] - i, last[1] - first[1] - j)
+    turn = 1 if sweep > 0.0 else -1
+    turned = turn * (atan2(away[1], away[0]) - atan2(-j, -i)) % tau
+    return abs(turned - abs(sweep)) * radius <= ASTRAY and abs(hypot(*away) - hypot(i, j)) <= ASTRAY
+
+
+def _rise(radius: float, sweep: float) -> float:
+    """How far an arc strays from its chord."""
+    return radius * (1.0 - cos(min(abs(sweep), pi * 2) / 2)) if abs(sweep) <= pi else 2.0 * radius
+
+
+def turn_word(turn: Turn) -> str:
+    """G2 for clockwise, G3 for counter-clockwise."""
+    return "G3" if turn is Turn.CCW else "G2"

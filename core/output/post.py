@@ -1,0 +1,154 @@
+"""The program as ISO G-code that LinuxCNC runs: the tool centre's path, no G41 or G42.
+
+What every file states before anything moves: G17 XY plane, G20 or G21, G40 no cutter compensation, G49 no tool length,
+the work offset, G80 no canned cycle, G90 absolute, G91.1 I and J from the arc's start, G94 feed a minute, and
+G64 P: the machine may round a corner by no more than P.  Only inside corners of the path are corners, and rounding
+those keeps the cutter off the part.  G43 H names the tool's own length offset, so that no other is in force.
+The first move after a tool change is straight up.  G53 is not used: where its zero lies is the machine's affair.
+There is no % line: LinuxCNC needs none, and a lone one would end the file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+from core.finding import Finding, Severity
+from core.output.comment import comments
+from core.output.grid import Grid
+from core.output.job import Cutter, Job
+from core.output.motion import Pass
+from core.output.nc import Place, nc_lines
+from core.output.passes import clear_height, passes
+from core.output.ready import OVERRIDE, forbidding, overridden
+from core.units import Kind, Unit, from_mm, sentence, show
+
+ROUNDING: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
+"""How far the machine may leave the path at a corner, in program units."""
+
+
+@dataclass(frozen=True, slots=True)
+class Posted:
+    """NC text, and the errors that were overridden to have it."""
+
+    text: str
+    overridden: tuple[Finding, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why nothing was posted."""
+
+    findings: tuple[Finding, ...]
+
+
+def post(jobs: Sequence[Job], unit: Unit, *, name: str, override: str | None = None) -> Posted | Refusal:
+    """The NC text of all jobs, or the findings that forbid it.
+
+    `override` counts only if it is the sentence `core.output.ready.OVERRIDE`, and only against findings on a path that
+    is known; the header then says what was overridden.
+    """
+    grid = Grid(unit)
+    if not jobs:
+        return Refusal((Finding("NO_BLOCK", Severity.ERROR, "There is no block to post."),))
+    against = forbidding(jobs, grid, override=override)
+    if against:
+        return Refusal(against)
+    raised = max(job.safe_z for job in jobs), max(clear_height(job) for job in jobs)
+    level = [replace(job, safe_z=max(raised)) for job in jobs]
+    waived = overridden(jobs)
+    lines = (*_header(jobs, unit, name, waived), *_raised(raised, unit), *_body(level, grid))
+    return Posted("\n".join(lines) + "\n", waived)
+
+
+def _header(jobs: Sequence[Job], unit: Unit, name: str, waived: tuple[Finding, ...]) -> Iterator[str]:
+    yield from comments(f"PROGRAM {name}")
+    yield from comments("WRITTEN BY CUTCOMP.  THE PATH IS THAT OF THE TOOL CENTRE: NO G41 OR G42")
+    yield from comments(f"UNITS {'INCH' if unit is Unit.IN else 'MM'}")
+    for cutter, role in _cutters(jobs).items():
+        yield from comments(_told(cutter, role, unit))
+    for job in jobs:
+        yield from _about(job, unit)
+    if waived:
+        yield from comments(f"OVERRIDDEN BY THE OPERATOR: {OVERRIDE}")
+    for finding in waived:
+        segment = "" if finding.segment is None else f"SEGMENT {finding.segment:g}: "
+        yield from comments(f"OVERRIDDEN {finding.code}: {segment}{sentence(finding, unit)}")
+    yield from comments(f"G64 P{ROUNDING[unit]}: THE MACHINE MAY ROUND INSIDE CORNERS BY SO MUCH")
+
+
+def _cutters(jobs: Sequence[Job]) -> dict[Cutter, str]:
+    """Every tool once, in order of use, with what it does."""
+    found: dict[Cutter, str] = {}
+    for job in jobs:
+        for cutter, role in ((job.cutter, "" if job.finisher is None else "ROUGH"), (job.finisher, "FINISH")):
+            if cutter is not None:
+                found.setdefault(cutter, role)
+    return found
+
+
+def _told(cutter: Cutter, role: str, unit: Unit) -> str:
+    return f"TOOL {cutter.number} {cutter.type} DIAMETER {_length(cutter.diameter, unit)} {role}".rstrip()
+
+
+def _about(job: Job, unit: Unit) -> Iterator[str]:
+    comp = f"CUTTER COMP. {job.comp}" + (f" LOOKAHEAD {job.lookahead}" if job.lookahead else "")
+    depth = f"Z {_length(job.z_start, unit)} TO {_length(job.z_bottom, unit)}"
+    peck = f" PECK {_length(job.peck_depth, unit)}" if job.peck_depth > 0.0 else ""
+    yield from comments(f"BLOCK {job.block} MILL CONTOUR {comp} {depth}{peck}")
+    for note in job.notes:
+        yield from comments(note)
+
+
+def _raised(heights: tuple[float, float], unit: Unit) -> Iterator[str]:
+    """Say so where SAFE Z alone would not clear every block."""
+    safe, clear = heights
+    if clear > safe:
+        yield from comments(f"SAFE Z {_length(safe, unit)} RAISED TO {_length(clear, unit)}: Z START IS THAT HIGH")
+
+
+def _length(value: float, unit: Unit) -> str:
+    return show(from_mm(value, unit), Kind.LENGTH, unit)
+
+
+def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
+    inch = grid.unit is Unit.IN
+    yield f"G17 {'G20' if inch else 'G21'} G40 G49 G{jobs[0].work_offset} G80 G90 G91.1 G94"
+    yield f"G64 P{ROUNDING[grid.unit]}"
+    place, tool, speed, offset = Place(), None, 0.0, jobs[0].work_offset
+    for job in jobs:
+        if job.work_offset != offset:
+            offset, place = job.work_offset, Place(feed=place.feed)
+            yield f"G{offset}"
+        for one in passes(job):
+            if one.cutter.number != tool:
+                yield from _change(one, first=tool is None)
+                tool, speed, place = one.cutter.number, one.speed, Place()
+            elif one.speed != speed:
+                yield f"S{_speed(one.speed)}"
+                speed = one.speed
+            yield from comments(_title(one, grid.unit))
+            found = nc_lines(one.motions, place, grid)
+            yield from found.lines
+            place = found.place
+    yield "M5"
+    yield "M30"
+
+
+def _change(one: Pass, *, first: bool) -> Iterator[str]:
+    if not first:
+        yield "M5"
+    yield f"T{one.cutter.number} M6"
+    yield f"G43 H{one.cutter.number}"
+    yield f"S{_speed(one.speed)} M3"
+
+
+def _speed(speed: float) -> str:
+    return f"{speed:.1f}".removesuffix(".0")
+
+
+def _title(one: Pass, unit: Unit) -> str:
+    stock = f" LEAVES {_length(one.stock, unit)} ON THE SIDE" if one.stock > 0.0 else ""
+    kind = "FINISH" if one.finishing else "PASS"
+    return f"BLOCK {one.block} {kind} {one.number} OF {one.count} Z {_length(one.level, unit)}{stock}"

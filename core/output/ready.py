@@ -1,0 +1,128 @@
+"""May a job be posted?  The findings that forbid it, and which of them an operator may override in so many words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from math import isfinite
+from typing import Final
+
+import numpy as np
+
+from core.finding import Finding, Severity
+from core.output.grid import Grid
+from core.output.job import Job, Run
+from core.output.nc import feed_text
+from core.output.passes import rough_runs
+from core.tolerance import LARGEST
+
+OVERRIDE: Final = "POST WITH GOUGE"
+"""What an operator must say, word for word, to have a path posted that the verdict is against."""
+
+OVERRIDABLE: Final = frozenset(
+    {"GOUGE", "BLEND_GOUGES", "ROUGH_GOUGES", "WRONG_SIDE", "START_INSIDE_CORNER", "BRIDGED"}
+)
+"""Findings on a path that is whole and known; whatever is unread, missing or undetermined can never be overridden."""
+
+MOST_PASSES: Final = 2000
+"""More depths than this are a slip of the finger in PECK DEPTH."""
+
+
+def forbidding(jobs: Iterable[Job], grid: Grid, *, override: str | None) -> tuple[Finding, ...]:
+    """The errors that stand against posting, each named once; those the operator overrode are left out."""
+    found = [finding for job in jobs for finding in (*job.errors, *_objections(job, grid))]
+    if override == OVERRIDE:
+        found = [finding for finding in found if finding.code not in OVERRIDABLE]
+    return tuple(dict.fromkeys(found))
+
+
+def overridden(jobs: Iterable[Job]) -> tuple[Finding, ...]:
+    """The errors that stand and may be overridden."""
+    return tuple(finding for job in jobs for finding in job.errors if finding.code in OVERRIDABLE)
+
+
+def _objections(job: Job, grid: Grid) -> Iterator[Finding]:
+    """What is wrong with the job itself, whoever made it."""
+    for wrong, code, text, name in (*_tools(job), *_depths(job), *_numbers(job), *_paths(job, grid)):
+        if wrong:
+            yield Finding(code, Severity.ERROR, f"Block {job.block}: {text}", field=name)
+
+
+_Check = tuple[bool, str, str, str | None]
+
+
+def _tools(job: Job) -> Iterator[_Check]:
+    missing = "is not in the tool table.  Enter it in TOOL SETUP."
+    yield job.cutter is None, "TOOL_MISSING", f"TOOL {missing}", "tool"
+    yield bool(job.finish_tool) and job.finisher is None, "TOOL_MISSING", f"FINISH TOOL {missing}", "finish_tool"
+    for cutter in (job.cutter, job.finisher):
+        if cutter is not None:
+            bad = not (isfinite(cutter.diameter) and cutter.diameter > 0.0)
+            yield bad, "TOOL_DIAMETER", f"The diameter of tool {cutter.number} must be above 0.", "tool"
+            yield not 1 <= cutter.number <= 99999, "TOOL_NUMBER", "Tool numbers go from 1 to 99999.", "tool"
+
+
+def _depths(job: Job) -> Iterator[_Check]:
+    stock = job.finish_z if job.finish_tool else 0.0
+    deep = job.z_start - job.z_bottom
+    low = min((min(floor.z_start, floor.z_end) for floor in job.floors), default=job.z_bottom)
+    yield deep < 0.0, "DEPTH", "Z BOTTOM lies above Z START.", "z_bottom"
+    yield low < job.z_bottom, "Z_END", "A Z END lies below Z BOTTOM.  No pass goes so deep.", "z_end"
+    yield stock >= deep > 0.0, "FINISH_Z", "FINISH Z leaves nothing for the roughing tool to cut.", "finish_z"
+    yield job.retract_clearance <= 0.0, "CLEARANCE", "RETRACT CLEARANCE must be above 0.", "retract_clearance"
+    yield job.peck_clearance < 0.0, "CLEARANCE", "PECK CLEARANCE must not be below 0.", "peck_clearance"
+    yield job.peck_depth < 0.0, "PECK_DEPTH", "PECK DEPTH must not be below 0.", "peck_depth"
+    many = job.peck_depth > 0.0 and deep > MOST_PASSES * job.peck_depth
+    yield many, "PECK_DEPTH", f"PECK DEPTH makes more than {MOST_PASSES} passes.", "peck_depth"
+
+
+def _numbers(job: Job) -> Iterator[_Check]:
+    given = (
+        job.z_start,
+        job.z_bottom,
+        job.peck_depth,
+        job.finish_z,
+        job.retract_clearance,
+        job.peck_clearance,
+        job.plunge_feed,
+        job.speed,
+        job.safe_z,
+        *(value for floor in job.floors for value in (floor.z_start, floor.z_end, floor.feed or 0.0)),
+    )
+    sane = all(isfinite(value) and abs(value) <= LARGEST for value in given)
+    yield not sane, "NUMBER", "A depth, feed or speed is no number a machine could have.", None
+    yield not 54 <= job.work_offset <= 59, "WORK_OFFSET", "WORK OFFSET goes from 54 to 59.", "work_offset"
+    yield job.speed <= 0.0, "SPEED", "SPEED must be above 0.", "speed"
+
+
+def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
+    nothing = not any(len(run.path) for run in job.finish)
+    yield nothing, "NO_PATH", "There is no path to post: the cutter fits nowhere, or the contour is not known.", None
+    unroughed = job.finisher is not None and not any(len(run.path) for run in rough_runs(job))
+    yield (
+        unroughed,
+        "NO_ROUGH_PATH",
+        "The roughing tool has no path, so the finish tool would cut solid.",
+        "finish_tool",
+    )
+    wild = not all(_sane(run) for run in (*job.finish, *job.rough))
+    yield wild, "COORDINATE", "A point of the path is none a machine could reach.", None
+    yield _still(job.plunge_feed, grid), "PLUNGE_FEED", "PLUNGE FEED must be above 0.", "plunge_feed"
+    for number in sorted(_unfed(job, grid)):
+        yield True, "FEED", f"Segment {number} has no FEED above 0.", "feed"
+
+
+def _sane(run: Run) -> bool:
+    values = np.concatenate((run.whole.points, run.whole.centres))
+    return bool(np.all(np.abs(values) <= LARGEST))
+
+
+def _still(feed: float, grid: Grid) -> bool:
+    return not isfinite(feed) or feed <= 0.0 or float(feed_text(feed, grid)) == 0.0
+
+
+def _unfed(job: Job, grid: Grid) -> set[int]:
+    """Segments that some run cuts without a feed."""
+    fed = {floor.number for floor in job.floors if floor.feed is not None and not _still(floor.feed, grid)}
+    numbers = [run.path.numbers for run in (*job.finish, *job.rough)]
+    used = set(np.floor(np.concatenate(numbers)).astype(int).tolist()) if numbers else set()
+    return used - fed
