@@ -41,6 +41,8 @@ class SolvedSegment:
     choices: tuple[Piece, ...] = ()
     start: Point | None = None
     """Where it begins, as far as known, before any blending."""
+    end: Point | None = None
+    """Where it ends before any blending, None while it is not determined."""
     sketch: Piece | None = None
     """What to draw dashed while it is not determined."""
     z_start: float = 0.0

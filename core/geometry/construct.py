@@ -1,0 +1,165 @@
+"""Points and centres from what a drawing gives, as plain numbers: every solution, in a documented order.
+
+Millimetres and radians, angles counter-clockwise from +X.  `axis` 0 is X and 1 is Y.  The answers are tagged:
+`One`, `Two`, `Apart` (nothing reaches so far), `Beside` (the givens say nothing about it) and `Behind`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import atan2, cos, hypot, sin, sqrt, tau
+
+from core.geometry.piece import SLIVER, Arc, Point, Turn
+from core.tolerance import ARC_RADII, ON_PATH
+
+
+@dataclass(frozen=True, slots=True)
+class One:
+    """The only solution."""
+
+    point: Point
+
+
+@dataclass(frozen=True, slots=True)
+class Two:
+    """Two solutions, in the order the construction documents."""
+
+    first: Point
+    second: Point
+
+
+@dataclass(frozen=True, slots=True)
+class Apart:
+    """No solution: the length or radius would have to be at least `least`."""
+
+    least: float
+
+
+@dataclass(frozen=True, slots=True)
+class Beside:
+    """No one solution: what is given runs beside what is asked and says nothing about it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Behind:
+    """No solution: it would lie behind the start."""
+
+
+def polar(start: Point, angle: float, length: float) -> Point:
+    """The point at `length` from `start` in direction `angle`."""
+    return start[0] + length * cos(angle), start[1] + length * sin(angle)
+
+
+def reach(start: Point, angle: float, axis: int, value: float) -> One | Beside | Behind:
+    """Where a ray reaches the coordinate `value`; `Beside` if it runs along that coordinate."""
+    along = (cos(angle), sin(angle))
+    if abs(along[axis]) < SLIVER:
+        return Beside()
+    travel = (value - start[axis]) / along[axis]
+    if travel < 0.0:
+        return Behind()
+    return One(_placed(axis, value, start[1 - axis] + travel * along[1 - axis]))
+
+
+def on_circle(centre: Point, radius: float, axis: int, value: float) -> One | Two | Apart:
+    """The points of a circle whose coordinate `axis` is `value`: the one with the greater other coordinate first.
+
+    A coordinate outside the circle by no more than `ARC_RADII` gives the one point beside it.
+    """
+    beside = abs(value - centre[axis])
+    if beside > radius + ARC_RADII:
+        return Apart(beside)
+    middle = centre[1 - axis]
+    half = sqrt(max(0.0, (radius - beside) * (radius + beside)))
+    if half <= ON_PATH:
+        return One(_placed(axis, value, middle))
+    return Two(_placed(axis, value, middle + half), _placed(axis, value, middle - half))
+
+
+def _placed(axis: int, value: float, other: float) -> Point:
+    return (value, other) if axis == 0 else (other, value)
+
+
+def centres(start: Point, end: Point, radius: float, turn: Turn) -> One | Two | Apart | Beside:
+    """The centres of arcs from `start` to `end`: that of the arc under half a turn first, then of the longer one.
+
+    A radius too small by no more than `ARC_RADII` gives the half circle; equal ends give `Beside`.
+    """
+    chord = hypot(end[0] - start[0], end[1] - start[1])
+    if chord <= ON_PATH:
+        return Beside()
+    if chord / 2 > radius + ARC_RADII:
+        return Apart(chord / 2)
+    height = sqrt(max(0.0, (radius - chord / 2) * (radius + chord / 2)))
+    if height <= ON_PATH:
+        return One(_above(start, end, 0.0))
+    return Two(_above(start, end, turn * height), _above(start, end, -turn * height))
+
+
+def _above(start: Point, end: Point, height: float) -> Point:
+    """The point on the bisector of start and end, `height` to the left of the way from start to end."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    chord = hypot(dx, dy)
+    return (start[0] + end[0]) / 2 - dy / chord * height, (start[1] + end[1]) / 2 + dx / chord * height
+
+
+def centre_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> One | Beside:
+    """The centre about which `turn` by `sweep` (0 < sweep < a full turn) takes `start` to `end`.
+
+    Height of the centre over the chord c: c / 2 / tan(sweep / 2).
+    """
+    chord = hypot(end[0] - start[0], end[1] - start[1])
+    half = sin(sweep / 2)
+    if chord <= ON_PATH or abs(half) < SLIVER:
+        return Beside()
+    return One(_above(start, end, turn * chord / 2 * cos(sweep / 2) / half))
+
+
+def centre_by_coordinate(start: Point, end: Point, axis: int, value: float) -> One | Beside:
+    """The point as far from `start` as from `end` whose coordinate `axis` is `value`."""
+    across, along = end[1 - axis] - start[1 - axis], end[axis] - start[axis]
+    if abs(across) <= SLIVER * abs(along) or across == 0.0:
+        return Beside()
+    middle = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
+    return One(_placed(axis, value, middle[1 - axis] - (value - middle[axis]) * along / across))
+
+
+def rotated(point: Point, centre: Point, angle: float) -> Point:
+    """A point turned about `centre` by `angle`, positive counter-clockwise."""
+    dx, dy = point[0] - centre[0], point[1] - centre[1]
+    return centre[0] + dx * cos(angle) - dy * sin(angle), centre[1] + dx * sin(angle) + dy * cos(angle)
+
+
+def swept(start: Point, end: Point, centre: Point, turn: Turn) -> float:
+    """The angle travelled from `start` to `end`, more than 0 and at most a full turn: equal ends are a full turn."""
+    first = atan2(start[1] - centre[1], start[0] - centre[0])
+    last = atan2(end[1] - centre[1], end[0] - centre[0])
+    angle = (turn * (last - first)) % tau
+    return tau if angle < SLIVER else angle
+
+
+def settled(start: Point, end: Point, centre: Point, turn: Turn) -> Arc:
+    """The exact arc nearest to ends and a centre that agree within `ARC_RADII`.
+
+    Ends that near are one point: a full circle.  Otherwise the centre moves onto the bisector of the ends; where
+    that would take it farther than `ARC_RADII`, on a chord short against the radius, the end moves onto the circle.
+    """
+    radius = hypot(start[0] - centre[0], start[1] - centre[1])
+    out = hypot(end[0] - centre[0], end[1] - centre[1])
+    chord = hypot(end[0] - start[0], end[1] - start[1])
+    if chord <= ARC_RADII:
+        return Arc(start, start, centre, turn)
+    if abs(out - radius) <= ON_PATH:
+        return Arc(start, end, centre, turn)
+    height = ((end[0] - start[0]) * (centre[1] - start[1]) - (end[1] - start[1]) * (centre[0] - start[0])) / chord
+    moved = _above(start, end, height)
+    if hypot(moved[0] - centre[0], moved[1] - centre[1]) <= ARC_RADII:
+        return Arc(start, end, moved, turn)
+    scale = radius / out if out else 0.0
+    onto = (centre[0] + (end[0] - centre[0]) * scale, centre[1] + (end[1] - centre[1]) * scale)
+    return Arc(start, onto, centre, turn)
+
+
+def chord_factor(sweep: float) -> float:
+    """The chord of an arc of radius 1 that turns by `sweep`: 2 sin(sweep / 2)."""
+    return 2.0 * sin(sweep / 2)

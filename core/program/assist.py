@@ -1,0 +1,189 @@
+"""The calculated fields: a block with every blank that the typed fields determine.
+
+A segment starts where the one before it ends.  Of its own fields those that are blank are calculated as
+`Solved`; Z END and FEED carry over from the segment before, on the first from Z BOTTOM and PLUNGE FEED.  A blank
+X END or Y END does not carry over: the line or arc then is not determined, and says what is missing.  Where two
+solutions fit, the order is documented in `solve_line` and `solve_arc`, and the segment's `choice` picks.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import hypot
+from typing import assert_never
+
+from core.finding import Finding, Severity
+from core.geometry.piece import Arc, Line, Piece, Point
+from core.program import solve_arc, solve_line
+from core.program.fields import Form
+from core.program.model import ArcSegment, BlendSegment, Block, LineSegment, Program, Segment
+from core.program.reading import Reading, fill, fill_angle, read
+from core.program.solution import Known, Outcome, Task, solve
+from core.program.solve_blend import blended
+from core.program.solve_start import Start, solve_start
+from core.program.solved import SolvedBlock, SolvedSegment
+from core.tolerance import CLOSED, JOINED
+from core.units import Unit
+
+
+def solve_block(block: Block, program: Program) -> SolvedBlock:
+    """The block with its blanks calculated; trouble is in its findings, never raised."""
+    start = solve_start(block, program)
+    segments = _segments(block, start, program.unit)
+    determined = next(
+        (index for index, one in enumerate(segments) if one.start is None or one.end is None), len(segments)
+    )
+    known = start.known
+    return SolvedBlock(
+        values=start.values,
+        segments=tuple(segments),
+        closed=determined == len(segments) and _closed(segments),
+        determined=determined,
+        tool_diameter=start.tool.diameter,
+        tool_type=start.tool.type,
+        finish_diameter=start.finish.diameter,
+        z_start=known.get("z_start"),
+        z_bottom=known.get("z_bottom"),
+        plunge_feed=known.get("plunge_feed"),
+        speed=known.get("speed"),
+        peck_depth=known.get("peck_depth", 0.0),
+        findings=start.findings,
+    )
+
+
+def _closed(segments: list[SolvedSegment]) -> bool:
+    """Whether the last programmed end is START again; a contour without any length is not closed."""
+    if not any(segment.piece for segment in segments):
+        return False
+    first, last = segments[0].start, segments[-1].end
+    if first is None or last is None:
+        return False
+    return hypot(last[0] - first[0], last[1] - first[1]) <= CLOSED
+
+
+@dataclass(frozen=True, slots=True)
+class _Here:
+    """What a segment takes over from the one before it: its end, Z and feed, None while not known."""
+
+    point: Point | None
+    z: float | None
+    feed: float | None
+
+
+def _segments(block: Block, start: Start, unit: Unit) -> list[SolvedSegment]:
+    here = _Here(start.point, start.known.get("z_bottom"), start.known.get("plunge_feed"))
+    solved: list[SolvedSegment] = []
+    radii: dict[int, float] = {}
+    for index, segment in enumerate(block.segments):
+        reading = read(_FORMS[type(segment)], segment, unit, index + 1)
+        one, here = _segment(segment, reading, here, unit, index + 1)
+        solved.append(one)
+        if isinstance(segment, BlendSegment) and "radius" in reading.known:
+            radii[index] = reading.known["radius"]
+    return blended(block.segments, solved, radii)
+
+
+_FORMS = {LineSegment: Form.LINE, ArcSegment: Form.ARC, BlendSegment: Form.BLEND}
+
+
+def _segment(segment: Segment, reading: Reading, here: _Here, unit: Unit, number: int) -> tuple[SolvedSegment, _Here]:
+    known, values = reading.known, reading.values
+    feed, z_end = known.pop("feed", here.feed), known.pop("z_end", here.z)
+    carried = {"feed": feed} if isinstance(segment, BlendSegment) else {"feed": feed, "z_end": z_end}
+    fill(values, {name: value for name, value in carried.items() if value is not None}, unit)
+    shape = _shape(segment, reading, here.point, unit)
+    findings = tuple(replace(finding, segment=number) for finding in shape.findings)
+    one = SolvedSegment(
+        number,
+        values,
+        shape.piece,
+        shape.missing,
+        shape.choices,
+        here.point,
+        shape.end,
+        shape.sketch,
+        here.z or 0.0,
+        z_end or 0.0,
+        feed,
+        reading.findings + findings,
+    )
+    return one, _Here(shape.end or _typed_end(known), z_end, feed)
+
+
+@dataclass(frozen=True, slots=True)
+class _Shape:
+    """A segment's part of the surface, or what is to be told of it instead."""
+
+    piece: Piece | None = None
+    end: Point | None = None
+    missing: tuple[str, ...] = ()
+    choices: tuple[Piece, ...] = ()
+    sketch: Piece | None = None
+    findings: tuple[Finding, ...] = ()
+
+
+def _shape(segment: Segment, reading: Reading, start: Point | None, unit: Unit) -> _Shape:
+    match segment:
+        case LineSegment():
+            return _solved(solve_line.TASK, reading, start, segment.choice, unit)
+        case ArcSegment():
+            task = solve_arc.task(solve_arc.turn_of(segment.direction))
+            return _solved(task, reading, start, segment.choice, unit)
+        case BlendSegment():
+            return _blend(reading, start)
+        case _:
+            assert_never(segment)
+
+
+def _blend(reading: Reading, corner: Point | None) -> _Shape:
+    if reading.values["radius"] is not None:
+        return _Shape(end=corner)
+    text = "Not determined yet: enter RADIUS."
+    return _Shape(end=corner, missing=("radius",), findings=(Finding("MISSING", Severity.ERROR, text, field="radius"),))
+
+
+def _solved(task: Task, reading: Reading, start: Point | None, choice: int | None, unit: Unit) -> _Shape:
+    """A line or an arc: one solution, the picked one, or none with the reason."""
+    if start is None:
+        return _Shape()
+    outcome = solve(task, start, reading.known)
+    pieces = outcome.pieces
+    if len(pieces) > 1 and (choice is None or choice >= len(pieces)):
+        pick = Finding("PICK_SOLUTION", Severity.ERROR, "Two solutions fit: pick one of them.", field="choice")
+        return _Shape(choices=pieces, sketch=pieces[0], findings=(pick,))
+    if not pieces:
+        return _unsolved(task, outcome, reading, start)
+    piece = pieces[choice or 0] if len(pieces) > 1 else pieces[0]
+    _calculate(reading, piece, unit)
+    if piece.length > JOINED:
+        return _Shape(piece, piece.end, choices=pieces if len(pieces) > 1 else ())
+    text = "This segment has no length: it is passed over."
+    return _Shape(end=start, findings=(Finding("ZERO_LENGTH", Severity.WARNING, text),))
+
+
+def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> _Shape:
+    """Nothing fits yet; what is missing is not told while a typed field of the shape is itself at fault."""
+    faulty = any(finding.field in task.shape for finding in reading.findings)
+    told = () if outcome.finding is None or (faulty and outcome.missing) else (outcome.finding,)
+    sketch = solve_line.sketch if task is solve_line.TASK else solve_arc.sketch
+    drawn = sketch(start, reading.known)
+    return _Shape(missing=outcome.missing, sketch=drawn, findings=told)
+
+
+def _typed_end(known: Known) -> Point | None:
+    """The end where both its coordinates are typed, so that later segments start there all the same."""
+    return (known["x_end"], known["y_end"]) if "x_end" in known and "y_end" in known else None
+
+
+def _calculate(reading: Reading, piece: Piece, unit: Unit) -> None:
+    """Fill the blanks of a determined line or arc."""
+    values = reading.values
+    if isinstance(piece, Line):
+        fill(values, {"x_end": piece.end[0], "y_end": piece.end[1], "length": piece.length}, unit)
+        fill_angle(values, "angle", solve_line.heading(piece))
+        return
+    assert isinstance(piece, Arc)
+    (x_end, y_end), (x_center, y_center) = piece.end, piece.centre
+    places = {"x_end": x_end, "y_end": y_end, "x_center": x_center, "y_center": y_center, "radius": piece.radius}
+    fill(values, places, unit)
+    fill_angle(values, "sweep", abs(piece.sweep))

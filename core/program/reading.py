@@ -1,0 +1,76 @@
+"""What is typed in a form's fields as millimetres and radians, with a finding for each field that cannot be used."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Final
+
+from core.finding import Finding, Severity
+from core.program.fields import TABLES, Field, Form, check
+from core.program.model import Block, Entry, Segment, Unread
+from core.program.solved import Solved, Value
+from core.units import Kind, Unit, from_mm, from_radians, to_mm, to_radians
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A form's typed fields: `values` by name with blanks as None, `known` in millimetres and radians."""
+
+    values: dict[str, Value]
+    known: dict[str, float]
+    findings: tuple[Finding, ...]
+
+
+def read(form: Form, part: Block | Segment, unit: Unit, number: int) -> Reading:
+    """Read all numbers of START or of a segment; what cannot be used is not known and has a finding."""
+    values: dict[str, Value] = {}
+    known: dict[str, float] = {}
+    findings: list[Finding] = []
+    for name, one, factor in _NUMBERS[form, unit]:
+        typed = values[name] = getattr(part, name)
+        if typed is None:
+            continue
+        fault = _fault(one, typed, number)
+        if fault is None:
+            known[name] = typed.value * factor
+        else:
+            findings.append(fault)
+    return Reading(values, known, tuple(findings))
+
+
+def _fault(one: Field, typed: Entry | Unread, number: int) -> Finding | None:
+    if isinstance(typed, Unread):
+        text = f"{one.label}: {typed.text.strip()} cannot be read. {typed.reason}"
+        return Finding("UNREADABLE", Severity.ERROR, text, number, one.name)
+    text = check(one, typed.value) or ""
+    return Finding("OUT_OF_RANGE", Severity.ERROR, text, number, one.name) if text else None
+
+
+def _factor(kind: Kind, unit: Unit) -> float:
+    if kind in (Kind.LENGTH, Kind.FEED):
+        return to_mm(1.0, unit)
+    return to_radians(1.0) if kind is Kind.ANGLE else 1.0
+
+
+def _numbers(form: Form, unit: Unit) -> tuple[tuple[str, Field, float], ...]:
+    numbers = (one for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT))
+    return tuple((one.name, one, _factor(one.kind, unit)) for one in numbers)
+
+
+_NUMBERS: Final = MappingProxyType({(form, unit): _numbers(form, unit) for form in Form for unit in Unit})
+"""The fields of a form that take a number, each with its factor into millimetres or radians."""
+
+
+def fill(values: dict[str, Value], calculated: Mapping[str, float], unit: Unit) -> None:
+    """Put calculated lengths and feeds, in millimetres, into the fields of `values` that are blank."""
+    for name, value in calculated.items():
+        if values[name] is None:
+            values[name] = Solved(from_mm(value, unit))
+
+
+def fill_angle(values: dict[str, Value], name: str, angle: float) -> None:
+    """Put a calculated angle, in radians, into its field if that is blank."""
+    if values[name] is None:
+        values[name] = Solved(from_radians(angle))
