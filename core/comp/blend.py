@@ -1,0 +1,94 @@
+"""Blend moves: the quarter circles on which the cutter comes to the path and leaves it.
+
+With E the path's end point, t its direction there and n the normal away from the material, a blend arc of radius B has
+its centre at E + B n; it comes from E + B n - B t (the plunge point), or leaves to E + B n + B t.
+"""
+
+from __future__ import annotations
+
+from cmath import rect
+
+from core.geometry.path import EMPTY, Path, joined
+from core.geometry.piece import Arc, Line, Piece, Point, Turn
+from core.geometry.side import Side
+from core.tolerance import JOINED
+
+
+def blend_in(path: Path, side: Side, blend: float) -> Path:
+    """The arc of radius `blend` millimetres (0 = none) tangent to the path at its start, with its first number."""
+    if not len(path) or blend <= 0.0:
+        return EMPTY
+    first = path[0]
+    along = _direction(first, first.start)
+    start, centre = _quarter(first.start, -along, along, side, blend)
+    return Path.from_pieces([Arc(start, first.start, centre, Turn(side.sign))], [float(path.numbers[0])])
+
+
+def blend_out(path: Path, side: Side, blend: float, overlap: float, *, closed: bool) -> Path:
+    """What follows the path: the overlap, then the arc of radius `blend` millimetres, with its last number.
+
+    A closed contour whose path ends where it starts runs `overlap` millimetres past the start before it leaves:
+    its own first pieces once more, under their own numbers.
+    """
+    again = past_start(path, overlap) if closed else EMPTY
+    whole = again if len(again) else path
+    if not len(whole) or blend <= 0.0:
+        return again
+    last = whole[-1]
+    along = _direction(last, last.end)
+    end, centre = _quarter(last.end, along, along, side, blend)
+    return joined((again, Path.from_pieces([Arc(last.end, end, centre, Turn(side.sign))], [float(whole.numbers[-1])])))
+
+
+def past_start(path: Path, overlap: float) -> Path:
+    """The path's first `overlap` millimetres, at most one lap, if it ends where it starts; else nothing."""
+    if not len(path) or overlap <= JOINED or abs(_gap(path)) > JOINED:
+        return EMPTY
+    pieces, left = [], overlap
+    for piece in path:
+        if left <= JOINED:
+            break
+        pieces.append(piece if piece.length <= left + JOINED else _beginning(piece, left))
+        left -= piece.length
+    return Path.from_pieces([_from(path[-1].end, pieces[0]), *pieces[1:]], path.numbers[: len(pieces)].tolist())
+
+
+def _gap(path: Path) -> complex:
+    return complex(*path.points[-1]) - complex(*path.points[0])
+
+
+def _from(start: Point, piece: Piece) -> Piece:
+    """The same piece from a start that is the same point."""
+    end = start if piece.end == piece.start else piece.end
+    if isinstance(piece, Line):
+        return Line(start, end)
+    return Arc(start, end, piece.centre, piece.turn)
+
+
+def _beginning(piece: Piece, length: float) -> Piece:
+    """The first `length` millimetres of a piece that is longer."""
+    start, end = complex(*piece.start), complex(*piece.end)
+    part = length / piece.length
+    if isinstance(piece, Line):
+        return Line(piece.start, _point(start + part * (end - start)))
+    centre, turned = complex(*piece.centre), part * piece.sweep
+    return Arc(piece.start, _point(centre + (start - centre) * rect(1.0, turned)), piece.centre, piece.turn)
+
+
+def _direction(piece: Piece, at: Point) -> complex:
+    """The unit tangent of a piece at one of its ends."""
+    if isinstance(piece, Line):
+        along = complex(*piece.end) - complex(*piece.start)
+    else:
+        along = 1j * int(piece.turn) * (complex(*at) - complex(*piece.centre))
+    return along / abs(along)
+
+
+def _quarter(at: Point, outer: complex, along: complex, side: Side, blend: float) -> tuple[Point, Point]:
+    """The far end and the centre of the quarter circle at a path's end that reaches `outer` along it."""
+    centre = complex(*at) + blend * side.sign * 1j * along
+    return _point(centre + blend * outer), _point(centre)
+
+
+def _point(place: complex) -> Point:
+    return place.real, place.imag

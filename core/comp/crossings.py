@@ -1,0 +1,166 @@
+"""Crossings: where pieces of the raw chain meet, for every pair a look-ahead allows.
+
+All of it is found before the walk, on whole pieces: trimming a piece never moves where it meets another, it only
+decides which of those points are left.  The walk itself then needs no geometry.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.comp.offset import Chain, Part
+from core.geometry.intersect import Indices, Masks, Meeting, Planes, meet, planes
+from core.geometry.path import Floats
+from core.tolerance import ON_PATH
+
+_STRETCH: Final = 8192
+"""Pieces tested at a time against those before them."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Crossings:
+    """p points where an earlier piece `a` and a later piece `b` of the chain meet, in order of b, then a, then along a.
+
+    `along_a`, `along_b` are distances from the pieces' raw starts in millimetres, `a_ends` marks points at
+    a's raw end, `b_ends` at b's.  `points` are complex numbers.
+    """
+
+    a: NDArray[np.int32]
+    b: NDArray[np.int32]
+    along_a: Floats
+    along_b: Floats
+    a_ends: Masks
+    b_ends: Masks
+    points: Planes
+
+    def __len__(self) -> int:
+        return len(self.a)
+
+    def chosen(self, rows: Masks) -> Crossings:
+        """Those crossings only."""
+        return Crossings(*(getattr(self, name)[rows] for name in self.__slots__))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Candidates:
+    """All crossings of a chain: `joints` of path neighbours at inside corners, `others` with their reach in places."""
+
+    joints: Crossings
+    others: Crossings
+    reach: NDArray[np.int32]
+
+    def within(self, lookahead: int) -> Crossings:
+        """The crossings of pieces that are not neighbours and that this look-ahead tests."""
+        rows = self.reach <= 2 * lookahead
+        return self.others if rows.all() else self.others.chosen(rows)
+
+
+def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
+    """Every crossing that a look-ahead up to `lookahead` may have to know of.
+
+    Tangent touches of pieces that are not neighbours are left out: a cutter that just fits passes.  The first and
+    the last segment of a closed contour are never tested against each other, unless they are neighbours.
+    """
+    bounds = [*range(0, len(chain), _STRETCH), len(chain)]
+    joints, others = [], []
+    for first, last in pairwise(bounds):
+        a, b = _pairs(chain, first, last, 2 * lookahead)
+        joint = (b - a == 2) & (chain.parts[b - 1] == Part.BRIDGE.value)
+        if closed:
+            tested = joint | (a > 0) | (b < len(chain) - 1)
+            a, b, joint = a[tested], b[tested], joint[tested]
+        found, is_joint = _meet(chain, a, b, joint)
+        joints.append(found.chosen(is_joint))
+        others.append(found.chosen(~is_joint))
+    far = _all(others)
+    return Candidates(_all(joints), far, chain.places[far.b] - chain.places[far.a])
+
+
+def _all(parts: list[Crossings]) -> Crossings:
+    if len(parts) == 1:
+        return parts[0]
+    return Crossings(*(np.concatenate([getattr(part, name) for part in parts]) for name in Crossings.__slots__))
+
+
+def _meet(chain: Chain, a: Indices, b: Indices, joint: Masks) -> tuple[Crossings, Masks]:
+    """The crossings of candidate pairs, and which of them are joints."""
+    met = meet(chain.raw, a, chain.raw, b)
+    counts = (met.kinds == Meeting.CROSS.value) | joint
+    kept = counts[met.pair]
+    pair = met.pair[kept]
+    found = Crossings(
+        a[pair].astype(np.int32),
+        b[pair].astype(np.int32),
+        met.along_a[kept],
+        met.along_b[kept],
+        met.rest_a[kept] <= ON_PATH,
+        met.rest_b[kept] <= ON_PATH,
+        planes(met.points)[kept],
+    )
+    return found, joint[pair]
+
+
+def _pairs(chain: Chain, first: int, last: int, reach: int) -> tuple[Indices, Indices]:
+    """Pairs a < b, b in first ... last - 1, not next to each other, within reach and with boxes that meet.
+
+    Each row of the comparison is one distance b - a in the chain, most distant first.
+    """
+    places = chain.places
+    farthest = np.searchsorted(places, places[first:last] - reach)
+    window = int((np.arange(first, last) - farthest).max())
+    if window < 2:
+        return np.empty(0, np.intp), np.empty(0, np.intp)
+    boxes = _boxes(chain, first - window, last)
+    meeting = _shifted(boxes[0], window) <= boxes[2, window:]
+    meeting &= _shifted(boxes[2], window) >= boxes[0, window:]
+    meeting &= _shifted(boxes[1], window) <= boxes[3, window:]
+    meeting &= _shifted(boxes[3], window) >= boxes[1, window:]
+    distance, b = np.divmod(np.flatnonzero(meeting), last - first)
+    order = np.argsort(b * window + distance)
+    b = b[order] + first
+    a = b - window + distance[order]
+    near = places[b] - places[a] <= reach
+    return a[near], b[near]
+
+
+def _shifted(values: Floats, window: int) -> Floats:
+    """(window - 1, k) view of (window + k,) values: row i is shifted by i."""
+    count = len(values) - window
+    return np.ndarray((window - 1, count), np.float64, values, 0, (values.itemsize, values.itemsize))
+
+
+def _boxes(chain: Chain, first: int, last: int) -> Floats:
+    """(4, last - first) boxes that hold the pieces: least x, least y, largest x, largest y.
+
+    An arc's box is that of its ends, grown by its height over the chord, or the circle's beyond a half turn.
+    Pieces that are no partners, and rows before the chain's first, get the empty box.
+    """
+    begin, pad = max(first, 0), max(-first, 0)
+    points, turns = planes(chain.raw.points)[begin : last + 1], chain.raw.turns[begin:last]
+    start, end = points[:-1], points[1:]
+    boxes = np.empty((4, last - first))
+    boxes[:2], boxes[2:] = np.inf, -np.inf
+    low, high = boxes[:2, pad:], boxes[2:, pad:]
+    grow = np.full(len(turns), ON_PATH)
+    arcs = np.flatnonzero(turns)
+    grow[arcs] += _bulge(start[arcs], end[arcs], planes(chain.raw.centres)[begin:last][arcs], turns[arcs])
+    partner = chain.parts[begin:last] <= Part.CORNER.value
+    grow = np.where(partner, grow, -np.inf)
+    for axis, (one, two) in enumerate(((start.real, end.real), (start.imag, end.imag))):
+        np.subtract(np.minimum(one, two), grow, out=low[axis])
+        np.add(np.maximum(one, two), grow, out=high[axis])
+    return boxes
+
+
+def _bulge(start: Planes, end: Planes, centre: Planes, turns: NDArray[np.int8]) -> Floats:
+    """How far arcs reach beyond the box of their ends, at most: their height, or the diameter beyond a half turn."""
+    first, last = start - centre, end - centre
+    radius, half = np.abs(first), np.abs(end - start) / 2.0
+    minor = ((first.conj() * last).imag * turns >= 0.0) & (half > 0.0)
+    height = radius - np.sqrt(np.maximum((radius - half) * (radius + half), 0.0))
+    return np.where(minor, height, 2.0 * radius)

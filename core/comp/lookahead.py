@@ -1,0 +1,31 @@
+"""The control's look-ahead: whether a contour is closed, the calculated value (CAL), the range of a typed one (USR)."""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import Final
+
+from core.geometry.piece import Point
+from core.tolerance import CLOSED
+
+LOWEST: Final = 1
+"""The smallest look-ahead an operator may type."""
+
+HIGHEST: Final = 20
+"""The largest look-ahead an operator may type."""
+
+_LARGEST_CALCULATED: Final = 8
+
+
+def is_closed(start: Point, end: Point) -> bool:
+    """Is the programmed contour closed: does its last end lie on START, within 0.0001 in?  Points in millimetres."""
+    return hypot(end[0] - start[0], end[1] - start[1]) <= CLOSED
+
+
+def calculated(count: int, *, closed: bool) -> int:
+    """The CAL value for `count` segments, START not counted (the control's look-ahead note).
+
+    Closed: count - 1, at least 3.  Open: count - 3, at least 2.  Never more than 8.
+    """
+    wanted, least = (count - 1, 3) if closed else (count - 3, 2)
+    return min(max(wanted, least), _LARGEST_CALCULATED)

@@ -1,0 +1,104 @@
+"""Prune: the control's walk along the raw chain, which trims, bridges and deletes under the look-ahead.
+
+The pieces b come one after the other.  Each is first joined to its predecessor; then it is tested against what is
+left of earlier pieces a within the look-ahead, and the earliest that crosses it wins: a ends there, b starts there,
+everything between is deleted (the control's look-ahead note).  What is left of a piece is a range of distances
+along it, so that the walk compares numbers and visits only pieces at which something is not settled by themselves.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.comp.crossings import Crossings
+from core.comp.offset import Chain, Part
+from core.comp.result import Deletions
+from core.comp.walk import Left, Walk
+from core.geometry.intersect import Indices, Masks, coordinates, planes
+from core.geometry.path import EMPTY, Path
+from core.tolerance import JOINED, ON_PATH
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Pruned:
+    """What the walk leaves: the path, its `bridged` pieces (len(path),), and the deleted segments.
+
+    `bridges` are the rows of bridges of the chain that still stand.
+    """
+
+    path: Path
+    bridged: Masks
+    bridges: Indices
+    deleted: Deletions
+
+
+def prune(chain: Chain, joints: Crossings, others: Crossings, *, last_wins: bool = False) -> Pruned:
+    """Walk the chain with the crossings of its joints and those of other pieces that the look-ahead tests.
+
+    `last_wins`: a joint takes the latest point on the earlier piece (closed contours of two segments).
+    """
+    left, unsettled = _joined(chain, joints, last_wins=last_wins)
+    events: list[int] = []
+    if len(others) or len(unsettled):
+        events = Walk(chain, left, joints, others, last_wins=last_wins).visit(unsettled)
+    return _what_is_left(chain, left, others.chosen(np.array(events, np.intp)))
+
+
+def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, Indices]:
+    """Trim every inside corner at its first crossing; also the pieces whose start is trimmed beyond their end."""
+    count = len(chain)
+    starts = planes(chain.raw.points)[:-1].copy()
+    left = Left(np.zeros(count), np.full(count, np.inf), starts, np.ones(count, np.uint8), bytearray(count))
+    first = np.ones(len(joints), np.bool_)
+    first[1:] = joints.b[1:] != joints.b[:-1]
+    if last_wins:
+        first = np.append(first[1:], True)[: len(joints)]
+    trims = joints if first.all() else joints.chosen(first)
+    left.high[trims.a], left.low[trims.b], left.starts[trims.b] = trims.along_a, trims.along_b, trims.points
+    left.standing[trims.b - 1] = 0
+    return left, np.flatnonzero(left.low > left.high + ON_PATH) + 2
+
+
+def _what_is_left(chain: Chain, left: Left, events: Crossings) -> Pruned:
+    """The path of the pieces that still stand, and who deleted the others; `events` in the order they happened."""
+    alive = np.flatnonzero((np.frombuffer(left.gone, np.uint8) == 0) & (left.standing != 0))
+    starts = np.append(left.starts[alive], complex(*chain.raw.points[-1]))
+    real = _not_slivers(chain, left, alive, starts)
+    if not real.all():
+        alive, starts = alive[real], starts[np.append(real, True)]
+    if not len(alive):
+        return Pruned(EMPTY, np.empty(0, np.bool_), alive, _deletions(chain, events))
+    parts, turns = chain.parts[alive], chain.raw.turns[alive]
+    centres = np.where(turns == 0, starts[:-1], planes(chain.raw.centres)[alive])
+    path = Path(coordinates(starts), coordinates(centres), turns, chain.raw.numbers[alive])
+    bridged = parts >= Part.BRIDGE.value
+    return Pruned(path, bridged, alive[bridged], _deletions(chain, events))
+
+
+def _not_slivers(chain: Chain, left: Left, alive: Indices, starts: NDArray[np.complex128]) -> Masks:
+    """Which pieces still have a length: an arc trimmed to a point must not be taken for a full circle."""
+    real = np.ones(len(alive), np.bool_)
+    for row in np.flatnonzero(np.abs(starts[1:] - starts[:-1]) <= JOINED).tolist():
+        piece = int(alive[row])
+        rest = min(float(left.high[piece]), chain.raw[piece].length) - float(left.low[piece])
+        real[row] = rest > JOINED
+    return real
+
+
+def _deletions(chain: Chain, events: Crossings) -> Deletions:
+    """The segments between the two pieces of each event, by the first event that spans them."""
+    if not len(events):
+        return Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))
+    between = events.b - events.a - 1
+    ends = np.cumsum(between)
+    event = np.repeat(np.arange(len(events)), between)
+    piece = np.arange(len(event)) - np.repeat(ends - between, between) + events.a[event] + 1
+    piece, first = np.unique(piece, return_index=True)
+    segment = (chain.places[piece] & 1) == 0
+    piece, event = piece[segment], event[first[segment]]
+    numbers = chain.raw.numbers
+    by = np.stack((numbers[events.a[event]], numbers[events.b[event]]), axis=1)
+    return Deletions(numbers[piece], by, coordinates(events.points[event]))

@@ -1,0 +1,152 @@
+"""What compensation has to say: contours it refuses, and what became of a contour that the operator must know."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.comp.offset import Chain, Part
+from core.comp.prune import Pruned
+from core.finding import Finding, Severity
+from core.geometry.intersect import Indices, Masks, planes
+from core.geometry.path import Floats, Path
+from core.geometry.side import Side
+from core.tolerance import ARC_RADII, GOUGE, JOINED, LARGEST
+
+NAMED_AT_MOST: Final = 100
+"""So many places of one kind of trouble are named; a last finding then tells how many there are."""
+
+
+def refusal(contour: Path, radius: float, lookaheads: tuple[int, ...]) -> tuple[Finding, ...]:
+    """Why a contour cannot be compensated at all; nothing if it can."""
+    if not isfinite(radius) or not 0.0 < radius <= LARGEST:
+        return (_error("RADIUS", "The cutter's radius must be a number larger than 0."),)
+    if min(lookaheads, default=1) < 1:
+        return (_error("LOOKAHEAD", "The look-ahead must be 1 or more."),)
+    if not len(contour):
+        return (_error("EMPTY_CONTOUR", "The contour has no segment with a length."),)
+    if not _usable(contour.points) or not _usable(contour.centres):
+        return (_not_finite(contour),)
+    return _not_arcs(contour)
+
+
+def _error(code: str, text: str, segment: float | None = None) -> Finding:
+    return Finding(code, Severity.ERROR, text, segment)
+
+
+def _usable(values: Floats) -> bool:
+    """Are all values numbers a machine could have?  Comparisons with NaN are false."""
+    return bool(values.min() >= -LARGEST and values.max() <= LARGEST)
+
+
+def _not_finite(contour: Path) -> Finding:
+    points: Masks = (np.abs(contour.points) <= LARGEST).all(axis=1)
+    bad = ~(points[:-1] & points[1:] & (np.abs(contour.centres) <= LARGEST).all(axis=1))
+    text = "A coordinate of this segment is not a number a machine can have; type it again."
+    return _error("NOT_FINITE", text, float(contour.numbers[np.argmax(bad)]))
+
+
+def _not_arcs(contour: Path) -> tuple[Finding, ...]:
+    """Arcs whose radii at start and end differ by more than a blunder of rounding, or are nothing."""
+    rows = np.flatnonzero(contour.turns)
+    if not len(rows):
+        return ()
+    points, centres = planes(contour.points), planes(contour.centres)[rows]
+    first, last = np.abs(points[rows] - centres), np.abs(points[rows + 1] - centres)
+    pointed = (np.minimum(first, last) <= JOINED) & (np.abs(points[rows + 1] - points[rows]) > JOINED)
+    bad = np.flatnonzero((np.abs(first - last) > ARC_RADII) | pointed)
+    text = "The arc's radius is {0} at its start and {1} at its end: check its centre."
+    return tuple(
+        Finding(
+            "ARC_RADII",
+            Severity.ERROR,
+            text,
+            float(contour.numbers[rows[row]]),
+            lengths=(float(first[row]), float(last[row])),
+        )
+        for row in bad[:NAMED_AT_MOST].tolist()
+    )
+
+
+def zero_length(contour: Path, rows: Indices) -> list[Finding]:
+    """Segments dropped because they have no length."""
+    text = "This segment has no length and is passed over."
+    return _named("ZERO_LENGTH", text, contour.numbers[rows], contour.points[rows])
+
+
+def inside_start(contour: Path, side: Side, radius: float) -> list[Finding]:
+    """A closed contour that starts at an inside corner: the cutter comes down in the other wall."""
+    corner = contour.part(0, 1).start_directions[0], contour.part(len(contour) - 1, len(contour)).end_directions[0]
+    (dx, dy), (ex, ey) = (direction.tolist() for direction in corner)
+    if side.sign * (ex * dy - ey * dx) <= 0.0 or radius * (1.0 - (ex * dx + ey * dy)) <= GOUGE:
+        return []
+    text = "The contour starts at an inside corner, where the cutter cuts into the last segment: start mid-side."
+    at = (float(contour.points[0, 0]), float(contour.points[0, 1]))
+    return [Finding("START_INSIDE_CORNER", Severity.WARNING, text, float(contour.numbers[0]), at=at)]
+
+
+def standing(contour: Path, chain: Chain, pruned: Pruned, radius: float) -> list[Finding]:
+    """Bridges that still stand in the path: inside arcs and corners the tool cannot enter."""
+    rows = pruned.bridges
+    if not len(rows):
+        return []
+    vanished = chain.parts[rows] == Part.VANISHED.value
+    return [*_vanished(contour, chain, rows[vanished], radius), *_missed(contour, chain, rows[~vanished], radius)]
+
+
+def _vanished(contour: Path, chain: Chain, rows: Indices, radius: float) -> list[Finding]:
+    segments = chain.places[rows] // 2
+    radii = np.abs(planes(contour.points)[segments] - planes(contour.centres)[segments])
+    small = radii < radius - JOINED
+    text = "The inside radius {value} is smaller than the tool's, and nothing prunes it: the cutter cannot follow it."
+    numbers, at = contour.numbers[segments[small]], contour.points[segments[small]]
+    return _named("VANISHED", text, numbers, at, radii[small])
+
+
+def _missed(contour: Path, chain: Chain, rows: Indices, radius: float) -> list[Finding]:
+    """Inside corners bridged where the bridge enters a wall: by the square of its length over the tool's diameter."""
+    points = planes(chain.raw.points)
+    rows = rows[np.abs(points[rows + 1] - points[rows]) ** 2 > 2.0 * radius * GOUGE]
+    text = "At this inside corner the offsets do not meet within the look-ahead: the cutter cuts into a wall."
+    at = contour.points[chain.places[rows] // 2 + 1]
+    return _named("CORNER_MISSED", text, chain.raw.numbers[rows], at)
+
+
+def long_way(contour: Path, pruned: Pruned) -> list[Finding]:
+    """A closed contour of which the look-ahead deleted more than half the length."""
+    deleted = pruned.deleted.segments
+    if not len(deleted):
+        return []
+    lengths = contour.lengths
+    erased = float(lengths[np.isin(contour.numbers, deleted)].sum())
+    if erased <= lengths.sum() / 2.0:
+        return []
+    text = f"The look-ahead deletes the longer way round: {spoken(deleted)}, {{value}} of surface."
+    return [Finding("LONG_WAY", Severity.WARNING, text, float(deleted[0]), value=erased)]
+
+
+def nothing_left() -> Finding:
+    """The path that has no length at all."""
+    return _error("NO_PATH", "Nothing is left of the path: the tool does not fit.")
+
+
+def spoken(numbers: NDArray[np.float64]) -> str:
+    """Segment numbers as said on the shop floor: `segment 4`, `segments 2-3, 7`."""
+    whole = numbers.astype(int)
+    runs = np.split(whole, np.flatnonzero(np.diff(whole) != 1) + 1)
+    words = [f"{run[0]}-{run[-1]}" if len(run) > 1 else f"{run[0]}" for run in runs[:NAMED_AT_MOST]]
+    return ("segments " if len(whole) > 1 else "segment ") + ", ".join(words)
+
+
+def _named(code: str, text: str, numbers: Floats, at: Floats, values: Floats | None = None) -> list[Finding]:
+    """One warning for each place, and one more for those beyond the number that is named."""
+    some = slice(NAMED_AT_MOST)
+    told = [None] * len(numbers[some]) if values is None else values[some].tolist()
+    rows = zip(numbers[some].tolist(), at[some].tolist(), told, strict=True)
+    found = [Finding(code, Severity.WARNING, text, number, at=(x, y), value=value) for number, (x, y), value in rows]
+    if len(numbers) > NAMED_AT_MOST:
+        found.append(Finding(code, Severity.WARNING, f"There are {len(numbers)} such places; the first are named."))
+    return found
