@@ -22,6 +22,8 @@ ASTRAY: Final = 4.0
 """How far, in last digits, an arc as written may end from where it should, measured along it."""
 SMALLEST: Final = 16.0
 """An arc of a smaller radius, in last digits, is written as chords: its radii could not agree."""
+SHALLOW: Final = 1e-5
+"""Radians.  Controls take an angle much smaller than this for none at all, and so the arc for a full circle."""
 FLAT: Final = 0.5
 """A chord that strays from its arc by no more than this, in last digits, is the arc as well as can be written."""
 
@@ -118,6 +120,8 @@ def _means(start: Point, end: Point, centre: Steps, sweep: float, radius: float,
     away = (last[0] - first[0] - i, last[1] - first[1] - j)
     turn = 1 if sweep > 0.0 else -1
     turned = turn * (atan2(away[1], away[0]) - atan2(-j, -i)) % tau
+    if not SHALLOW <= turned <= tau - SHALLOW:
+        return False
     return abs(turned - abs(sweep)) * radius <= ASTRAY and abs(hypot(*away) - hypot(i, j)) <= ASTRAY
 
 

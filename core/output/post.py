@@ -116,11 +116,8 @@ def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
     inch = grid.unit is Unit.IN
     yield f"G17 {'G20' if inch else 'G21'} G40 G49 G{jobs[0].work_offset} G80 G90 G91.1 G94"
     yield f"G64 P{ROUNDING[grid.unit]}"
-    place, tool, speed, offset = Place(), None, 0.0, jobs[0].work_offset
+    place, tool, speed = Place(), None, 0.0
     for job in jobs:
-        if job.work_offset != offset:
-            offset, place = job.work_offset, Place(feed=place.feed)
-            yield f"G{offset}"
         for one in passes(job):
             if one.cutter.number != tool:
                 yield from _change(one, first=tool is None)

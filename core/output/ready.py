@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from math import isfinite
 from typing import Final
 
@@ -27,9 +27,11 @@ MOST_PASSES: Final = 2000
 """More depths than this are a slip of the finger in PECK DEPTH."""
 
 
-def forbidding(jobs: Iterable[Job], grid: Grid, *, override: str | None) -> tuple[Finding, ...]:
+def forbidding(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> tuple[Finding, ...]:
     """The errors that stand against posting, each named once; those the operator overrode are left out."""
     found = [finding for job in jobs for finding in (*job.errors, *_objections(job, grid))]
+    if len({job.work_offset for job in jobs}) > 1:
+        found.append(Finding("WORK_OFFSET", Severity.ERROR, "The blocks name different work offsets."))
     if override == OVERRIDE:
         found = [finding for finding in found if finding.code not in OVERRIDABLE]
     return tuple(dict.fromkeys(found))

@@ -1,0 +1,47 @@
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.output.comment import comments
+
+
+def test_plain_text_stays():
+    assert list(comments("TOOL 1 END MILL")) == ["(TOOL 1 END MILL)"]
+
+
+def test_blank_text_says_nothing():
+    assert list(comments("  \n ")) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("a) G0 Z-1 (b", "(a] G0 Z-1 [b)"),
+        ("one\nG0 Z-9", "(one G0 Z-9)"),
+        ("50%", "(50 PERCENT)"),
+        ("Ø 12 mm", "(? 12 mm)"),
+        ("MSG, stop", "(* MSG, stop)"),
+        ("logopen,/tmp/x", "(* logopen,/tmp/x)"),
+    ],
+)
+def test_nothing_in_a_comment_ends_it_or_is_an_order(text, expected):
+    assert list(comments(text)) == [expected]
+
+
+def test_long_text_goes_on_in_further_comments():
+    found = list(comments("word " * 100))
+    assert len(found) > 1
+    assert max(map(len, found)) <= 76
+    assert sum(line.count("word") for line in found) == 100
+
+
+@given(st.text(max_size=600))
+@settings(derandomize=True, max_examples=200)
+def test_every_line_is_one_closed_ascii_comment(text):
+    for line in comments(text):
+        assert line.isascii()
+        assert line.isprintable()
+        assert len(line) < 256
+        assert line.count("(") == line.count(")") == 1
+        assert line.startswith("(")
+        assert line.endswith(")")
