@@ -1,0 +1,146 @@
+"""Program files: read whole and strictly, written so that there is always one whole file.
+
+A file is written beside its place, forced to the disk and renamed over the old one: whatever happens, the old
+file or the new one is there, and nothing else is left behind.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import secrets
+import stat
+from contextlib import suppress
+from pathlib import Path
+from typing import Final
+
+from core.program.file_read import StoreError, read_program
+from core.program.file_write import written
+from core.program.model import Program
+
+__all__ = ["LARGEST_FILE", "StoreError", "dumps", "load", "loads", "save"]
+
+LARGEST_FILE: Final = 4_000_000
+"""Bytes of the largest program file: about twenty thousand segments."""
+
+
+def loads(text: str, name: str) -> Program:
+    """The program of a file's text; StoreError names `name`, line and key."""
+    return read_program(text, name)
+
+
+def dumps(program: Program) -> str:
+    """A program as the text of its file."""
+    return written(program)
+
+
+def load(path: str | Path) -> Program:
+    """The program of a file; StoreError says what is wrong with it and what to do."""
+    path = Path(path)
+    try:
+        data = _content(path)
+    except (OSError, ValueError) as error:
+        raise StoreError(f"{path} cannot be read: {_why(error)}") from error
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise StoreError(f"{path}, line {line}: this is not UTF-8 text. Save it as UTF-8, or open a copy.") from error
+    return read_program(text, str(path))
+
+
+def _content(path: Path) -> bytes:
+    if not stat.S_ISREG(path.stat().st_mode):
+        raise IsADirectoryError(errno.EISDIR, "no file")
+    with path.open("rb") as file:
+        data = file.read(LARGEST_FILE + 1)
+    if len(data) > LARGEST_FILE:
+        raise OSError(errno.EFBIG, "too large")
+    return data
+
+
+def save(program: Program, path: str | Path) -> None:
+    """Write a program's file in one step, through a symbolic link if there is one; its permissions stay.
+
+    StoreError leaves the old file as it was and nothing beside it.
+    """
+    data = written(program).encode()
+    try:
+        target = Path(os.path.realpath(path))
+        _replace(target, data)
+    except (OSError, ValueError) as error:
+        raise StoreError(f"{path} is not saved: {_why(error)}") from error
+
+
+def _replace(target: Path, data: bytes) -> None:
+    old = _status(target)
+    beside = target.with_name(f".{target.name[:200]}.{secrets.token_hex(6)}.tmp")
+    handle = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
+    try:
+        try:
+            if old is not None:
+                os.fchmod(handle, stat.S_IMODE(old.st_mode))
+            _write_all(handle, data)
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+        beside.replace(target)
+    except BaseException:
+        with suppress(OSError):
+            beside.unlink()
+        raise
+    _sync_folder(target.parent)
+
+
+def _status(target: Path) -> os.stat_result | None:
+    """The old file's status, None if there is none; an error for what cannot be replaced."""
+    try:
+        old = target.stat()
+    except FileNotFoundError:
+        return None
+    if not stat.S_ISREG(old.st_mode):
+        raise IsADirectoryError(errno.EISDIR, "no file")
+    if not os.access(target, os.W_OK):
+        raise PermissionError(errno.EACCES, "write protected")
+    return old
+
+
+def _write_all(handle: int, data: bytes) -> None:
+    rest = memoryview(data)
+    while rest:
+        rest = rest[os.write(handle, rest) :]
+
+
+def _sync_folder(folder: Path) -> None:
+    """Force the rename to the disk; some file systems cannot, and then the file is whole all the same."""
+    with suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+
+
+def _why(error: OSError | ValueError) -> str:
+    """The reason and the remedy."""
+    match error.errno if isinstance(error, OSError) else None:
+        case errno.ENOSPC | errno.EDQUOT:
+            return "the disk is full. Make room or save elsewhere; nothing is lost."
+        case errno.EISDIR | errno.ENOTDIR:
+            return "this is not a file. Choose the name of a file."
+        case errno.ENOENT:
+            return "there is no such file or folder. Check the name."
+        case errno.EACCES | errno.EPERM:
+            return "it is protected. Ask for permission, or choose another place."
+        case errno.EROFS:
+            return "the disk is write protected. Choose another place."
+        case errno.EFBIG:
+            return "it is too large for a program file. Choose another file."
+        case errno.ENAMETOOLONG:
+            return "the name is too long. Choose a shorter one."
+        case None:
+            return "this is no file name. Choose another."
+        case _:
+            return (
+                f"{error.strerror or error}. Try again or choose another place." if isinstance(error, OSError) else ""
+            )
