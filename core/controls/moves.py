@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
+from itertools import chain
 from typing import Final
 
 import numpy as np
@@ -88,7 +89,7 @@ class Moves:
     @staticmethod
     def of(rows: Sequence[Row]) -> Moves:
         """The moves of a tape's rows."""
-        table = np.array(rows, np.float64).reshape(-1, 11)
+        table = np.fromiter(chain.from_iterable(rows), np.float64, len(rows) * 11).reshape(-1, 11)
         return Moves(
             np.ascontiguousarray(table[:, 0:3]),
             np.ascontiguousarray(table[:, 3:6]),
@@ -155,6 +156,9 @@ class Tape:
     def __post_init__(self) -> None:
         x, y, z = self.start
         self.rows.append((x, y, z, x, y, z, 0, 0, True, 0.0, 0))
+
+    def __len__(self) -> int:
+        return len(self.rows)
 
     @property
     def last(self) -> Point3:

@@ -1,0 +1,52 @@
+"""Arc centres out of I, J, K or R words, and what makes an arc impossible."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import hypot, sqrt
+from typing import Final
+
+from core.controls.dialect import Arcs
+from core.geometry.piece import Point
+from core.units import Unit
+
+_THOUSANDTH: Final = 0.001
+
+SHORTEST: Final = 0.00127
+"""Millimetres (0.00005 in): an arc's radius under it is none, and so far a radius R may fall short of its chord."""
+
+
+@dataclass(frozen=True, slots=True)
+class NoArc:
+    """Why there is no such arc; `{0}` and `{1}` in the text are `lengths` in millimetres."""
+
+    text: str
+    lengths: tuple[float, ...] = ()
+
+
+def about(start: Point, end: Point, centre: Point, arcs: Arcs, unit: Unit) -> NoArc | None:
+    """What forbids an arc about a centre, if anything: no radius, or two that differ."""
+    first = hypot(start[0] - centre[0], start[1] - centre[1])
+    last = hypot(end[0] - centre[0], end[1] - centre[1])
+    if min(first, last) < SHORTEST:
+        return NoArc("The arc has no radius: its centre is its start or its end; correct the centre.")
+    apart = abs(first - last)
+    allowed = arcs.inch * 25.4 if unit is Unit.IN else arcs.mm
+    if apart > allowed * arcs.worst or (apart > allowed and apart > _THOUSANDTH * max(first, last)):
+        text = "The arc's radius is {0} at its start and {1} at its end; correct the centre or the end point."
+        return NoArc(text, (first, last))
+    return None
+
+
+def through(start: Point, end: Point, radius: float, turn: int) -> Point | NoArc:
+    """The centre of an arc of a radius, up to half a turn; beyond it where the radius is negative."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    chord, size = hypot(dx, dy), abs(radius)
+    if chord == 0.0:
+        return NoArc("An arc with R cannot end where it starts; write the full circle with its centre.")
+    if chord / 2 - size > SHORTEST or size == 0.0:
+        return NoArc("The radius {0} does not reach the end point {1} away; correct R.", (size, chord))
+    away = sqrt(max(size * size - chord * chord / 4, 0.0)) * turn * (1 if radius > 0 else -1)
+    if chord / 2 / size > 1 - 1e-12:
+        away = 0.0
+    return (start[0] + end[0]) / 2 - away * dy / chord, (start[1] + end[1]) / 2 + away * dx / chord

@@ -1,0 +1,123 @@
+"""Dialects: what the G and M codes of a word-address control are, as frozen data.
+
+Codes are in tenths (G41.1 is 411).  A group holds the codes of which a block takes one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum, auto
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.words import Semicolon, Slash
+from core.units import Unit
+
+
+class Do(Enum):
+    """What a G code makes the machine do."""
+
+    MOTION = auto()
+    CYCLE = auto()
+    PLANE = auto()
+    UNITS = auto()
+    SIDE = auto()
+    DISTANCE = auto()
+    CENTRES = auto()
+    SYSTEM = auto()
+    SHIFT = auto()
+    PRESET = auto()
+    UNSHIFT = auto()
+    HOME = auto()
+    MACHINE = auto()
+    DWELL = auto()
+    RATE = auto()
+    MODE = auto()
+    DATA = auto()
+    OWN = auto()
+    """Something of this control alone; its follower looks at the block."""
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """A G code: its modal group, what it does, and its value for that."""
+
+    group: str
+    do: Do
+    value: int = 0
+
+
+def _group(group: str, do: Do, *codes: int) -> dict[int, Code]:
+    return {code: Code(group, do, code) for code in codes}
+
+
+COMMON: Final[Mapping[int, Code]] = MappingProxyType(
+    {
+        **_group("motion", Do.MOTION, 0, 10, 20, 30, 800),
+        **_group("motion", Do.CYCLE, *range(810, 900, 10)),
+        **_group("plane", Do.PLANE, 170, 180, 190),
+        **_group("units", Do.UNITS, 200, 210),
+        **_group("compensation", Do.SIDE, 400, 410, 420),
+        **_group("length", Do.MODE, 430, 490),
+        **_group("system", Do.SYSTEM, 540, 550, 560, 570, 580, 590),
+        **_group("distance", Do.DISTANCE, 900, 910),
+        **_group("feed", Do.RATE, 930, 940, 950),
+        **_group("once", Do.DWELL, 40),
+        **_group("once", Do.HOME, 280, 300),
+        **_group("once", Do.PRESET, 920),
+    }
+)
+"""What G codes are on every control here."""
+
+POINT_ONE: Final[Mapping[int, Code]] = MappingProxyType(_group("compensation", Do.SIDE, 411, 421))
+
+
+def codes(*groups: tuple[str, Do, tuple[int, ...]]) -> Mapping[int, Code]:
+    """The common codes with a control's own over them."""
+    own = {code: entry for group, do, numbers in groups for code, entry in _group(group, do, *numbers).items()}
+    return MappingProxyType({**COMMON, **own})
+
+
+@dataclass(frozen=True, slots=True)
+class Arcs:
+    """How a control takes I, J, K of an arc, and how far its radii at start and end may differ.
+
+    `absolute`: from the origin while positions are (G90), otherwise always from the arc's start.  The difference is
+    refused beyond `inch` or `mm` when it is also more than a thousandth, and always beyond `worst` times that.
+    """
+
+    absolute: bool = False
+    inch: float = 0.0005
+    mm: float = 0.0127
+    worst: float = 1e9
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """A control's way of reading: everything that is data rather than a rule of compensation.
+
+    `mode` is the motion in force at the start, None where the control refuses axis words without one.
+    `moves_alone`: G0 or G1 without any axis is a move of no length.  `feed_needed`: an error without a feed.
+    `loads_at_t`: the T word itself puts the tool in force; otherwise M6 does.  `table_needed`: a tool that is not in
+    the table cannot be selected.  `unit_first`: the F of a block counts in the unit the block sets.
+    `percent_ends`: a second line of % ends the program.  `end_needed`: M2, M30 or that line must stand at the end.
+    `group_rule`: the rule's id for two G codes of one group.
+    """
+
+    name: str
+    codes: Mapping[int, Code]
+    unit: Unit
+    mode: int | None = 0
+    arcs: Arcs = Arcs()
+    semicolon: Semicolon = Semicolon.COMMENT
+    slash: Slash = Slash.SKIP
+    moves_alone: bool = False
+    feed_needed: bool = False
+    loads_at_t: bool = False
+    subprograms: bool = True
+    table_needed: bool = False
+    unit_first: bool = True
+    percent_ends: bool = False
+    end_needed: bool = False
+    group_rule: str = "GROUP"

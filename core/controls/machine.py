@@ -1,0 +1,291 @@
+"""The modal machine of the word-address controls: blocks in, programmed elements out to a control's follower.
+
+All positions are millimetres from the machine's zero as the program shifts it; work offsets nobody gave are zero.
+"""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import Final
+
+from core.controls import origin
+from core.controls.arcs import NoArc, about, through
+from core.controls.corners import arc_element, line_element
+from core.controls.dialect import Code, Dialect, Do
+from core.controls.follower import Follower
+from core.controls.moves import Plane, Point3, flat
+from core.controls.report import Log
+from core.controls.tools import CutterTool, ToolTable
+from core.controls.words import Block, whole
+from core.finding import Severity
+from core.geometry.piece import Point
+from core.geometry.side import Side
+from core.tolerance import ON_PATH
+from core.units import Unit
+
+_QUICK: Final = frozenset("NXYZIJKRF")
+_UNUSED: Final = "ABCUVW"
+_PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
+_METRIC: Final = (210, 710)
+_TURNS: Final = {20: -1, 30: 1}
+_ORDER: Final = {Do.PLANE: 1, Do.UNITS: 2, Do.DISTANCE: 3, Do.OWN: 4, Do.SIDE: 5}
+_LATEST: Final = 9
+
+
+class Machine:
+    """What is in force, block by block.
+
+    `position` is the programmed point and `shift` the origin the program works from, x, y, z in millimetres; `tool`
+    the number in force for compensation, 0 for none; `unit` that of the words; `feed` in millimetres a minute.
+    """
+
+    def __init__(self, dialect: Dialect, follower: Follower, tools: ToolTable, log: Log) -> None:
+        self.dialect = dialect
+        self.follower = follower
+        follower.machine = self
+        self.tools = tools
+        self.log = log
+        self.unit = dialect.unit
+        self.scale = 25.4 if dialect.unit is Unit.IN else 1.0
+        self.moved_in: Unit | None = None
+        self.mode = dialect.mode
+        self.plane = Plane.XY
+        self.position: Point3 = (0.0, 0.0, 0.0)
+        self.shift: Point3 = (0.0, 0.0, 0.0)
+        self.origin = origin.Origin()
+        self.incremental = False
+        self.absolute_centres = dialect.arcs.absolute
+        self.feed = 0.0
+        self.tool = 0
+        self.next_tool = 0
+        self.ended = False
+
+    def step(self, block: Block) -> None:
+        """Runs one block: its codes in the order the controls take them, then its motion."""
+        if self.follower.active:
+            self.follower.watch(block)
+        once = None
+        if block.g or block.m or block.data or not _QUICK.issuperset(block.words):
+            once = self._codes(block)
+        elif "F" in block.words:
+            self.feed = block.words["F"] * self.scale
+        if once is None:
+            self._motion(block)
+        else:
+            origin.run_once(self, once, block)
+        if block.m and not _ENDS.isdisjoint(block.m):
+            self.ended = True
+
+    def _codes(self, block: Block) -> Code | None:
+        """Everything of a block but its motion; the code that takes the block's axis words for itself, if any."""
+        codes = self._grouped(block)
+        if not self.dialect.unit_first and "F" in block.words:
+            self.feed = block.words["F"] * self.scale
+        self._take_tool(block)
+        self._warn_unused(block)
+        once = None
+        for code in codes:
+            if code.do in origin.ONCE:
+                once = code
+            else:
+                self._set(code, block)
+        if self.dialect.unit_first and "F" in block.words:
+            self.feed = block.words["F"] * self.scale
+        return once
+
+    def _grouped(self, block: Block) -> list[Code]:
+        """A block's G codes in the order of execution; one that is unknown, or two of a group, stop the run."""
+        known, groups = [], set()
+        for number in block.g:
+            code = self.dialect.codes.get(number)
+            if code is None:
+                text = f"G{number / 10:g} is not known here; leave it out or write what this control has for it."
+                self.log.stop("CODE", text, block.line, block.column("G", number))
+            if code.group in groups:
+                text = f"G{number / 10:g} is the second G code of its group in this block; keep one."
+                self.log.stop(self.dialect.group_rule, text, block.line, block.column("G", number))
+            groups.add(code.group)
+            known.append(code)
+        known.sort(key=lambda code: _ORDER.get(code.do, 0 if code.do is Do.MOTION else _LATEST))
+        return known
+
+    def _set(self, code: Code, block: Block) -> None:
+        match code.do:
+            case Do.MOTION | Do.CYCLE:
+                self.mode = code.value
+            case Do.PLANE:
+                self.plane = self.follower.plane = _PLANES[code.value]
+            case Do.UNITS:
+                self.unit = Unit.MM if code.value in _METRIC else Unit.IN
+                self.scale = 1.0 if self.unit is Unit.MM else 25.4
+            case Do.DISTANCE:
+                self.incremental = code.value == 910
+            case Do.CENTRES:
+                self.absolute_centres = code.value == 901
+            case Do.SIDE:
+                self._set_side(code.value, block)
+            case Do.SYSTEM:
+                self.origin = origin.selected(self, code.value, block)
+                self.shift = self.origin.shift
+            case Do.OWN:
+                self.follower.own(code.value, block)
+            case Do.RATE:
+                self._set_rate(code.value, block)
+            case _:
+                pass
+
+    def _set_side(self, code: int, block: Block) -> None:
+        if code == 400:
+            self.follower.finish(block)
+        else:
+            self.follower.begin(Side.LEFT if code // 10 == 41 else Side.RIGHT, block)
+
+    def _set_rate(self, code: int, block: Block) -> None:
+        if code != 940:
+            text = "This feed is not in length a minute; the feeds of the moves are the words as written."
+            self.log.tell(Severity.WARNING, "FEED", text, block.line, block.column("G", code))
+
+    def _take_tool(self, block: Block) -> None:
+        data = block.data
+        if data is not None:
+            old = self.tools.get(data.number) or CutterTool(data.number, 0.0)
+            diameter = old.diameter if data.diameter is None else data.diameter
+            unit = old.unit if data.diameter is None else self.unit
+            tool = CutterTool(data.number, diameter, old.length if data.length is None else data.length, 0, unit)
+            self.tools = self.tools.with_tools(ToolTable.of(tool))
+        if data is not None or "T" in block.words:
+            self._select(data.number if data else self.whole_word(block, "T"), block)
+        if 60 in block.m:
+            self.tool = self.next_tool
+
+    def _select(self, number: int, block: Block) -> None:
+        if number and self.dialect.table_needed and self.tools.get(number) is None:
+            text = f"The tool table has no tool {number}; enter it, or write the number of one that is there."
+            self.log.stop("TOOL", text, block.line, block.column("T"))
+        self.next_tool = number
+        if self.dialect.loads_at_t:
+            self.tool = number
+
+    def _warn_unused(self, block: Block) -> None:
+        for letter in _UNUSED:
+            if letter in block.words:
+                text = f"{letter} is an axis that is not followed here; only X, Y and Z are."
+                self.log.tell(Severity.WARNING, "AXIS", text, block.line, block.column(letter))
+
+    def whole_word(self, block: Block, letter: str) -> int:
+        """A word's value as a whole number, which it has to be."""
+        number = whole(block.words[letter])
+        if number is None or number < 0:
+            self.log.stop("NUMBER", f"{letter} takes a whole number, not below 0.", block.line, block.column(letter))
+        return number
+
+    def target(self, words: dict[str, float]) -> Point3:
+        """Where a block's axis words lead, in millimetres."""
+        (x, y, z), scale = self.position, self.scale
+        base = self.position if self.incremental else self.shift
+        if "X" in words:
+            x = base[0] + words["X"] * scale
+        if "Y" in words:
+            y = base[1] + words["Y"] * scale
+        if "Z" in words:
+            z = base[2] + words["Z"] * scale
+        return x, y, z
+
+    def _motion(self, block: Block) -> None:
+        words, mode = block.words, self.mode
+        if "X" in words or "Y" in words or "Z" in words or (mode in _TURNS and not _CENTRES.isdisjoint(words)):
+            self._travel(block, mode)
+        elif self.dialect.moves_alone and (0 in block.g or 10 in block.g):
+            self.straight(block, self.position)
+        elif self.follower.active:
+            self.follower.idle(block)
+
+    def _travel(self, block: Block, mode: int | None) -> None:
+        if mode in _TURNS:
+            self._arc(block, _TURNS[mode])
+        elif mode == 0 or mode == 10:
+            self.straight(block, self.target(block.words))
+        elif mode is None or mode == 800:
+            text = "Axis words without a motion in force; write G0, G1, G2 or G3."
+            self.log.stop("MOTION", text, block.line, block.column("XYZ"))
+        else:
+            self._cycle(block)
+
+    def straight(self, block: Block, end: Point3) -> None:
+        """A straight move of a block."""
+        rapid = self.mode == 0
+        if not rapid and not self.feed:
+            self._no_feed(block)
+        self.moved_in = self.moved_in or self.unit
+        if self.plane is Plane.XY:
+            start, low, high = self.position[:2], self.position[2], end[2]
+            stop: Point = end[:2]
+        else:
+            first, second, low = flat(self.position, self.plane)
+            third, fourth, high = flat(end, self.plane)
+            start, stop = (first, second), (third, fourth)
+        self.position = end
+        self.follower.travel(line_element(start, stop, low, high, rapid, self.feed, block.line))
+
+    def _arc(self, block: Block, turn: int) -> None:
+        if not self.feed:
+            self._no_feed(block)
+        self.moved_in = self.moved_in or self.unit
+        end = self.target(block.words)
+        ax, ay, low = flat(self.position, self.plane)
+        bx, by, high = flat(end, self.plane)
+        start, stop = (ax, ay), (bx, by)
+        if hypot(ax - bx, ay - by) < ON_PATH and "R" not in block.words:
+            stop = start
+        centre = self._centre(block, start, stop, turn)
+        if isinstance(centre, NoArc):
+            column = block.column("R" if "R" in block.words else "IJK")
+            self.log.stop("ARC", centre.text, block.line, column, lengths=centre.lengths)
+        self.position = end
+        self.follower.travel(arc_element(start, stop, centre, turn, low, high, self.feed, block.line))
+
+    def _centre(self, block: Block, start: Point, end: Point, turn: int) -> Point | NoArc:
+        words = block.words
+        first, second, standing = _IN_PLANE[self.plane]
+        if "R" in words:
+            if not _CENTRES_IJK.isdisjoint(words):
+                return NoArc("The arc has R beside its centre; keep one of them.")
+            return through(start, end, words["R"] * self.scale, turn)
+        if standing in words:
+            return NoArc(f"{standing} does not lie in the arc's plane; write {first} and {second}.")
+        if first not in words and second not in words:
+            return NoArc(f"The arc has neither centre nor radius; write {first} and {second}, or R.")
+        centre = self._given_centre(words, start, first, second)
+        return (
+            centre if isinstance(centre, NoArc) else about(start, end, centre, self.dialect.arcs, self.unit) or centre
+        )
+
+    def _given_centre(self, words: dict[str, float], start: Point, first: str, second: str) -> Point | NoArc:
+        scale = self.scale
+        if not self.absolute_centres or (self.incremental and self.dialect.arcs.absolute):
+            return start[0] + words.get(first, 0.0) * scale, start[1] + words.get(second, 0.0) * scale
+        for letter in (first, second):
+            if letter not in words:
+                return NoArc(f"{letter} is missing; an absolute centre needs {first} and {second}.")
+        base = flat(self.shift, self.plane)
+        return base[0] + words[first] * scale, base[1] + words[second] * scale
+
+    def _no_feed(self, block: Block) -> None:
+        text = "There is no feed; write F before the first move at feed."
+        if self.dialect.feed_needed:
+            self.log.stop("FEED", text, block.line, block.column("XYZIJ"))
+        self.log.tell(Severity.WARNING, "FEED", text, block.line, block.column("XYZIJ"))
+
+    def _cycle(self, block: Block) -> None:
+        text = "Only the positions of a drilling cycle are followed, its depth is not."
+        self.log.tell(Severity.WARNING, "CYCLE", text, block.line, 1)
+        x, y, _ = self.target(block.words)
+        mode, self.mode = self.mode, 0
+        self.straight(block, (x, y, self.position[2]))
+        self.mode = mode
+
+
+_ENDS: Final = frozenset((20, 300))
+_CENTRES: Final = frozenset("IJKR")
+_CENTRES_IJK: Final = frozenset("IJK")
+_IN_PLANE: Final = {Plane.XY: ("I", "J", "K"), Plane.ZX: ("K", "I", "J"), Plane.YZ: ("J", "K", "I")}

@@ -1,0 +1,206 @@
+"""Words: one line of a word-address program into letters and numbers, each with its column.
+
+G and M codes are counted in tenths, so that G41.1 is 411 and M6 is 60.  A line that holds nothing but words is read
+by two expressions; only a line with comments or with something wrong in it is looked at closer.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum, auto
+from typing import Final
+
+from core.controls.report import Log
+from core.controls.source import shown
+from core.finding import Severity
+from core.tolerance import LARGEST
+
+_NUMBER: Final = r"[-+]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)"
+_CLEAN: Final = re.compile(rf"(?:[ \t]*+[A-Z][ \t]*+{_NUMBER})*+[ \t]*+")
+_PAIR: Final = re.compile(rf"([A-Z])[ \t]*+({_NUMBER})")
+_DATA: Final = re.compile(rf"T[ \t]*+([0-9]++)[ \t]*+/[ \t]*+({_NUMBER})?+[ \t]*+/[ \t]*+({_NUMBER})?+")
+
+WHOLE: Final = 1e-4
+"""How far a code or a tool number may be from a whole number (a code: of tenths) and still be one."""
+
+
+class Semicolon(Enum):
+    """What a semicolon is to a control: the beginning of a comment, or the end of a block."""
+
+    COMMENT = auto()
+    END = auto()
+
+
+class Slash(Enum):
+    """What a slash is to a control: a block that a switch can skip, or tool data as in T4/.75/.2."""
+
+    SKIP = auto()
+    DATA = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class ToolData:
+    """Tool data in the text: T number / length / diameter; what is left out stays as it is."""
+
+    number: int
+    length: float | None
+    diameter: float | None
+
+
+class Block:
+    """One block: the values of its words by letter, its G and M codes in tenths, as written.
+
+    `start` is the column, less one, at which the block begins on its line.
+    """
+
+    __slots__ = ("data", "g", "line", "m", "start", "text", "words")
+
+    def __init__(self, line: int, text: str, start: int = 0) -> None:
+        self.line = line
+        self.text = text
+        self.start = start
+        self.words: dict[str, float] = {}
+        self.g: list[int] = []
+        self.m: list[int] = []
+        self.data: ToolData | None = None
+
+    def column(self, letters: str, code: int | None = None) -> int:
+        """Where the first word of one of these letters stands, from 1; of codes the one of `code` tenths."""
+        for letter, number, at in self._placed():
+            if letter in letters and (code is None or tenths(float(number)) == code):
+                return at
+        return self.start + 1
+
+    def second(self, letter: str) -> int:
+        """Where the second word of a letter stands."""
+        places = [at for one, _, at in self._placed() if one == letter]
+        return places[1] if len(places) > 1 else self.start + 1
+
+    def written(self, letter: str) -> str:
+        """The number of a letter as it is written, empty without one."""
+        return next((number for one, number, _ in self._placed() if one == letter), "")
+
+    def _placed(self) -> Iterator[tuple[str, str, int]]:
+        for found in _PAIR.finditer(_bare(_capitals(self.text))):
+            yield found[1], found[2], self.start + found.start() + 1
+
+
+def _capitals(text: str) -> str:
+    """A line in capitals, sign for sign: only the plain letters, lest another sign turns into one of them."""
+    if text.isascii():
+        return text.upper()
+    return "".join(one.upper() if one.isascii() else one for one in text)
+
+
+def tenths(value: float) -> int | None:
+    """A code in tenths, None for a number that is no code."""
+    if not 0.0 <= value < 1e5:
+        return None
+    code = round(value * 10)
+    return code if abs(code - value * 10) < WHOLE else None
+
+
+def whole(value: float) -> int | None:
+    """A whole number, None for one that is not."""
+    number = round(value)
+    return number if abs(number - value) < WHOLE else None
+
+
+def read_line(
+    text: str, line: int, log: Log, semicolon: Semicolon = Semicolon.COMMENT, slash: Slash = Slash.SKIP
+) -> list[Block]:  # fmt: skip
+    """The blocks of one line, none of an empty one; what cannot be read stops the run with its column."""
+    upper = _capitals(text)
+    if _CLEAN.fullmatch(upper):
+        return [_filled(Block(line, text), upper, log)] if _PAIR.search(upper) else []
+    if semicolon is Semicolon.END and ";" in upper:
+        return list(_pieces(text, line, log, slash))
+    return _closer(Block(line, text), _bare(upper), log, slash)
+
+
+def _pieces(text: str, line: int, log: Log, slash: Slash) -> Iterator[Block]:
+    """The blocks between semicolons; behind the last, what is no block is told and left out."""
+    start, parts = 0, text.split(";")
+    for index, part in enumerate(parts):
+        bare = _bare(_capitals(part))
+        plain = _CLEAN.fullmatch(bare) is not None
+        if plain or index < len(parts) - 1:
+            yield from _closer(Block(line, part, start), bare, log, slash)
+        else:
+            column = start + 1 + len(part) - len(part.lstrip())
+            words = f"Behind the end of the block {shown(part)} is not read."
+            log.tell(Severity.INFO, "TEXT", words, line, column)
+        start += len(part) + 1
+
+
+def _closer(block: Block, bare: str, log: Log, slash: Slash) -> list[Block]:
+    """The block of a line that has signs besides words: tool data, block skip, the percent sign."""
+    if slash is Slash.DATA and (data := _DATA.search(bare)):
+        block.data = _tool_data(data)
+        bare = bare[: data.start()] + " " * len(data[0]) + bare[data.end() :]
+    elif bare.lstrip().startswith("/"):
+        log.tell(Severity.INFO, "SKIP", "The block is run: block skip is taken as switched off.", block.line, 1)
+        bare = bare.replace("/", " ", 1)
+    if not bare.strip() or bare.strip() == "%":
+        return [block] if block.data else []
+    if _CLEAN.fullmatch(bare) is None:
+        _fault(block, bare, log)
+    return [_filled(block, bare, log)]
+
+
+def _tool_data(found: re.Match[str]) -> ToolData:
+    length, diameter = (None if part is None else float(part) for part in (found[2], found[3]))
+    return ToolData(int(found[1][:9]), length, diameter)
+
+
+def _filled(block: Block, upper: str, log: Log) -> Block:
+    words = block.words
+    for letter, number in _PAIR.findall(upper):
+        if letter == "G" or letter == "M":
+            code = tenths(float(number))
+            if code is None:
+                column = block.column(letter)
+                log.stop("CODE", f"{letter}{shown(number)} is no code of any control.", block.line, column)
+            (block.g if letter == "G" else block.m).append(code)
+            continue
+        if letter in words:
+            log.stop("TWICE", f"{letter} is written twice in this block; keep one.", block.line, block.second(letter))
+        words[letter] = value = float(number)
+        if not -LARGEST < value < LARGEST:
+            words_too = f"The number of {letter} is too large for any machine."
+            log.stop("NUMBER", words_too, block.line, block.column(letter))
+    return block
+
+
+def _fault(block: Block, bare: str, log: Log) -> None:
+    """Stops the run at the first sign that belongs to no word."""
+    found = _CLEAN.match(bare)
+    at = found.end() if found else 0
+    at += len(bare[at:]) - len(bare[at:].lstrip())
+    rest, column = block.text[at:], block.start + at + 1
+    if rest.startswith("("):
+        log.stop("COMMENT", "The comment is not closed; write the closing bracket.", block.line, column)
+    if any(sign in rest[:80] for sign in "#[<="):
+        text = f"{shown(rest)} is an expression, which is not worked out here; write the number itself."
+        log.stop("MACRO", text, block.line, column)
+    log.stop("WORD", f"{shown(rest)} is not understood; a word is a letter and a number.", block.line, column)
+
+
+def _bare(upper: str) -> str:
+    """A line with its comments blanked out and every other sign where it was."""
+    if "(" not in upper and ";" not in upper:
+        return upper
+    out, at = [], 0
+    while at < len(upper):
+        opened, ended = upper.find("(", at), upper.find(";", at)
+        if ended >= 0 and (opened < 0 or ended < opened):
+            out.append(upper[at:ended].ljust(len(upper) - at))
+            return "".join(out)
+        closed = upper.find(")", opened) if opened >= 0 else -1
+        if closed < 0:
+            break
+        out.append(upper[at:opened].ljust(closed + 1 - at))
+        at = closed + 1
+    return "".join((*out, upper[at:]))
