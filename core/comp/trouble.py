@@ -43,7 +43,7 @@ def _usable(values: Floats) -> bool:
 
 
 def _not_finite(contour: Path) -> Finding:
-    points: Masks = (np.abs(contour.points) <= LARGEST).all(axis=1)
+    points: Masks = np.logical_and.reduce(np.abs(contour.points) <= LARGEST, axis=1)
     bad = ~(points[:-1] & points[1:] & (np.abs(contour.centres) <= LARGEST).all(axis=1))
     text = "A coordinate of this segment is not a number a machine can have; type it again."
     return _error("NOT_FINITE", text, float(contour.numbers[np.argmax(bad)]))

@@ -146,11 +146,11 @@ def _lines(a: _Pieces, b: _Pieces) -> _Found:
     length_a, length_b = np.abs(span_a), np.abs(span_b)
     cross = (span_a.conj() * span_b).imag
     parallel = np.abs(cross) <= ON_PATH * np.minimum(length_a, length_b)
-    divisor = np.where(parallel, np.nan, cross)
+    divisor = np.where(parallel, 1.0, cross)
     part_a = (between.conj() * span_b).imag / divisor
     along_a = part_a * length_a
     along_b = (between.conj() * span_a).imag / divisor * length_b
-    on = _within(along_a, length_a) & _within(along_b, length_b)
+    on = _within(along_a, length_a) & _within(along_b, length_b) & ~parallel
     along_a = np.where(on, along_a, np.nan)
     found = _Found(
         np.where(on, Meeting.CROSS.value, Meeting.APART.value).astype(np.int8),
@@ -189,7 +189,7 @@ def _line_arc(line: _Pieces, arc: _Pieces) -> _Found:
     """Line with arc: half the chord on either side of the foot of the arc's centre."""
     span, radius = line.end - line.start, np.abs(arc.start - arc.centre)
     length = np.abs(span)
-    unit = span / np.where(length == 0.0, np.nan, length)
+    unit = span / np.where(length == 0.0, 1.0, length)
     foot = unit.conj() * (arc.centre - line.start)
     height = np.abs(foot.imag)
     inside = radius - height
@@ -214,14 +214,14 @@ def _arcs(a: _Pieces, b: _Pieces) -> _Found:
     between, big, small = b.centre - a.centre, np.abs(a.start - a.centre), np.abs(b.start - b.centre)
     apart, total, differ = np.abs(between), big + small, big - small
     concentric = apart <= ON_PATH
-    divisor = np.where(concentric, np.nan, apart)
+    divisor = np.where(concentric, 1.0, apart)
     area = (total + apart) * (total - apart) * (apart + differ) * (apart - differ)
     half = np.sqrt(np.maximum(area, 0.0)) / (2.0 * divisor)
     foot = (apart + differ * total / divisor) / 2.0
     points = a.centre[:, None] + (between / divisor)[:, None] * (foot[:, None] + 1j * half[:, None] * _SIDES)
     run_a, swept_a = _along_arc(points, a, big)
     run_b, swept_b = _along_arc(points, b, small)
-    reach = np.minimum(total - apart, apart - np.abs(differ))
+    reach = np.where(concentric, -np.inf, np.minimum(total - apart, apart - np.abs(differ)))
     on = _within(run_a, swept_a) & _within(run_b, swept_b) & (reach >= -ON_PATH)[:, None]
     on[:, 1] &= half > 0.0
     kinds = _kinds(on, np.abs(reach) <= ON_PATH)
