@@ -81,7 +81,7 @@ def test_a_short_arc_that_rounding_turns_back_is_written_as_a_chord():
 
 
 def test_an_arc_of_hardly_any_angle_is_a_chord():
-    """Ten last digits long on a radius of 10 m: some controls take so small an angle for none, and none for a circle."""
+    """Ten last digits on a radius of 10 m: some controls take so small an angle for none, and none for a circle."""
     assert [type(part) for part in written(arc(10_000.0, 0.3, 1e-7), MM)] == [Chord]
 
 

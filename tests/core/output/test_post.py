@@ -1,0 +1,230 @@
+import re
+from itertools import pairwise
+
+import pytest
+
+from core.finding import Finding, Severity
+from core.geometry.piece import Turn
+from core.output.job import Cutter, Job, Run
+from core.output.passes import passes
+from core.output.post import Posted, Refusal, post
+from core.output.ready import OVERRIDE
+from core.units import Unit
+from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
+
+SLOT = path_of(polyline((0, 0), (1, 0))[0], arc((1, 0), (1.5, 0.5), (1, 0.5), Turn.CCW))
+GOUGE = Finding("GOUGE", Severity.ERROR, "Gouges by {value} at X {x} Y {y}.", 2, at=(25.4, 0.0), value=2.54)
+
+
+def text(one: Job, unit: Unit = Unit.IN, override: str | None = None, name: str = "SLOT") -> str:
+    found = post([one], unit, name=name, override=override)
+    assert isinstance(found, Posted), found
+    return found.text
+
+
+def refused(one: Job, override: str | None = None) -> list[str]:
+    found = post([one], Unit.IN, name="SLOT", override=override)
+    assert isinstance(found, Refusal)
+    return [finding.code for finding in found.findings]
+
+
+def test_a_whole_program_in_inches():
+    one = job(SLOT, peck_depth=0.0, comp="LEFT", lookahead="USR 4", notes=("A NOTE",))
+    assert text(one).splitlines() == [
+        "(PROGRAM SLOT)",
+        "(WRITTEN BY CUTCOMP.  THE PATH IS THAT OF THE TOOL CENTRE: NO G41 OR G42)",
+        "(UNITS INCH)",
+        "(TOOL 1 END MILL DIAMETER 0.5000)",
+        "(BLOCK 1 MILL CONTOUR CUTTER COMP. LEFT LOOKAHEAD USR 4 Z 0.0000 TO)",
+        "(-0.2500)",
+        "(A NOTE)",
+        "(G64 P0.0002: THE MACHINE MAY ROUND INSIDE CORNERS BY SO MUCH)",
+        "G17 G20 G40 G49 G54 G80 G90 G91.1 G94",
+        "G64 P0.0002",
+        "T1 M6",
+        "G43 H1",
+        "S300 M3",
+        "(BLOCK 1 PASS 1 OF 1 Z -0.2500)",
+        "G0 Z1.0",
+        "G0 X0.0 Y0.0",
+        "G0 Z0.1",
+        "G1 Z-0.25 F20.0",
+        "G1 X1.0 F10.0",
+        "G3 X1.5 Y0.5 I0.0 J0.5",
+        "G0 Z1.0",
+        "M5",
+        "M30",
+    ]
+
+
+def test_the_same_in_millimetres():
+    found = text(job(SLOT, peck_depth=0.0, work_offset=56), Unit.MM).splitlines()
+    assert "G17 G21 G40 G49 G56 G80 G90 G91.1 G94" in found
+    assert "G3 X38.1 Y12.7 I0.0 J12.7" in found
+    assert "G1 Z-6.35 F508.0" in found
+
+
+def test_the_finish_tool_is_called_after_the_spindle_stops():
+    one = job(SLOT, rough=(Run(SLOT, offset=0.0),), finisher=Cutter(7, 12.7, "BALL"), finish_tool=7)
+    found = [line for line in text(one).splitlines() if re.match(r"[TMS]|G43|G0 Z1\.0", line)]
+    assert found == [
+        "T1 M6",
+        "G43 H1",
+        "S300 M3",
+        "G0 Z1.0",
+        "G0 Z1.0",
+        "M5",
+        "T7 M6",
+        "G43 H7",
+        "S300 M3",
+        "G0 Z1.0",
+        "G0 Z1.0",
+        "M5",
+        "M30",
+    ]
+
+
+def test_a_second_block_with_the_same_tool_keeps_it_and_clears_both():
+    """The second block's Z START is higher than SAFE Z, so every traverse is as high as it needs."""
+    high = job(SLOT, block=2, speed=500.0, z_start=2 * INCH, peck_depth=0.0)
+    found = post([job(SLOT, peck_depth=0.0), high], Unit.IN, name="TWO")
+    assert isinstance(found, Posted)
+    lines = found.text.splitlines()
+    assert lines.count("T1 M6") == 1
+    assert "S500" in lines
+    assert "(SAFE Z 1.0000 RAISED TO 2.1000: Z START IS THAT HIGH)" in lines
+    assert "G0 Z1.0" not in lines
+    assert lines.count("G0 Z2.1") == 3
+
+
+def test_rapids_move_z_alone():
+    for line in text(job(SLOT)).splitlines():
+        assert not (line.startswith("G0") and "Z" in line and ("X" in line or "Y" in line))
+
+
+def test_posted_coordinates_are_right_to_half_the_last_digit():
+    third = polyline((1 / 3, 1 / 7), (2 / 3, 10 / 7), (-1 / 9, 1e-6))
+    for unit, digit in ((Unit.IN, 25.4e-5), (Unit.MM, 1e-4)):
+        one = job(third, peck_depth=0.0)
+        (meant,) = passes(one)
+        found = positions(text(one, unit), INCH if unit is Unit.IN else 1.0)
+        wanted = [(motion.x, motion.y, motion.z) for motion in meant.motions]
+        assert len(found) == len(wanted)
+        for place, want in zip(found, wanted, strict=True):
+            assert max(abs(a - b) for a, b in zip(place, want, strict=True)) <= digit / 2 + 1e-12
+
+
+def positions(nc: str, scale: float) -> list[tuple[float, float, float]]:
+    """Places after each line that moves, once X, Y and Z are known, in millimetres."""
+    place: dict[str, float] = {}
+    found = []
+    for line in nc.splitlines():
+        words = dict(re.findall(r"([XYZ])(-?[\d.]+)", line)) if re.match(r"G[0-3] ", line) else {}
+        place |= {axis: float(value) * scale for axis, value in words.items()}
+        if words and len(place) == 3:
+            found.append((place["X"], place["Y"], place["Z"]))
+    return found
+
+
+def test_moves_that_vanish_in_rounding_are_left_out_and_do_not_add_up():
+    """A thousand steps of a twentieth of the last digit end where they should."""
+    steps = polyline(*((number * 5e-7, 0.0) for number in range(1001)))
+    lines = [line for line in text(job(steps, peck_depth=0.0)).splitlines() if line.startswith("G1 X")]
+    assert lines[-1] == "G1 X0.0005"
+    assert len(lines) == 50
+
+
+def test_a_full_circle_is_one_line():
+    ring = path_of(arc((1, 0), (1, 0), (0, 0), Turn.CW))
+    assert "G2 X1.0 Y0.0 I-1.0 J0.0 F10.0" in text(job(ring)).splitlines()
+
+
+def test_a_feed_that_vanished_moves_does_not_take_effect():
+    """The second segment is too short to write; its feed must not stay for the third."""
+    path = polyline((0, 0), (1, 0), (1.000001, 0), (2, 0))
+    given = tuple(floor for floor in floors(3))
+    slow = given[1].__class__(2, given[1].z_start, given[1].z_end, 1.0)
+    found = text(job(path, floors=(given[0], slow, given[2]), peck_depth=0.0))
+    assert [line for line in found.splitlines() if line.startswith("G1 X")] == ["G1 X1.0 F10.0", "G1 X2.0"]
+
+
+@pytest.mark.parametrize("override", [None, "", "post with gouge", "YES", OVERRIDE + " "])
+def test_a_gouge_is_refused_unless_said_in_so_many_words(override):
+    assert refused(job(SLOT, findings=(GOUGE,)), override) == ["GOUGE"]
+
+
+def test_an_overridden_gouge_stands_in_the_header():
+    found = post([job(SLOT, findings=(GOUGE,))], Unit.IN, name="SLOT", override=OVERRIDE)
+    assert isinstance(found, Posted)
+    assert found.overridden == (GOUGE,)
+    assert "(OVERRIDDEN GOUGE: SEGMENT 2: Gouges by 0.1000 at X 1.0000 Y 0.0000.)" in found.text
+    assert "(OVERRIDDEN BY THE OPERATOR: POST WITH GOUGE)" in found.text
+
+
+def test_the_sentence_says_nothing_where_there_is_nothing_to_override():
+    assert "OVERRIDDEN" not in text(job(SLOT), override=OVERRIDE)
+
+
+@pytest.mark.parametrize("code", ["UNREAD", "MISSING", "TOOL_MISSING", "ARC_RADII", "ANYTHING_NEW"])
+def test_what_is_not_known_cannot_be_overridden(code):
+    finding = Finding(code, Severity.ERROR, "Not known.")
+    assert refused(job(SLOT, findings=(finding, GOUGE)), OVERRIDE) == [code]
+
+
+def test_warnings_do_not_forbid():
+    assert "M30" in text(job(SLOT, findings=(Finding("GOUGE", Severity.WARNING, "Near."),)))
+
+
+NAN, INFINITE = float("nan"), float("inf")
+
+
+@pytest.mark.parametrize(
+    ("changes", "code"),
+    [
+        ({"cutter": None}, "TOOL_MISSING"),
+        ({"finish_tool": 3}, "TOOL_MISSING"),
+        ({"cutter": Cutter(1, 0.0)}, "TOOL_DIAMETER"),
+        ({"cutter": Cutter(1, NAN)}, "TOOL_DIAMETER"),
+        ({"cutter": Cutter(0, 1.0)}, "TOOL_NUMBER"),
+        ({"z_bottom": 1.0, "floors": floors(2, z=1.0)}, "DEPTH"),
+        ({"floors": floors(2, z=-0.5)}, "Z_END"),
+        ({"finisher": Cutter(2, 1.0), "finish_tool": 2, "finish_z": 0.25 * INCH}, "FINISH_Z"),
+        ({"finisher": Cutter(2, 1.0), "finish_tool": 2, "comp": "LEFT"}, "NO_ROUGH_PATH"),
+        ({"retract_clearance": 0.0}, "CLEARANCE"),
+        ({"peck_clearance": -1.0}, "CLEARANCE"),
+        ({"peck_depth": -0.1}, "PECK_DEPTH"),
+        ({"peck_depth": 1e-4}, "PECK_DEPTH"),
+        ({"z_start": NAN}, "NUMBER"),
+        ({"safe_z": INFINITE}, "NUMBER"),
+        ({"speed": 1e300}, "NUMBER"),
+        ({"speed": 0.0}, "SPEED"),
+        ({"work_offset": 53}, "WORK_OFFSET"),
+        ({"finish": ()}, "NO_PATH"),
+        ({"finish": (Run(polyline((0, 0), (NAN, 0))),)}, "COORDINATE"),
+        ({"finish": (Run(polyline((0, 0), (1e9, 0))),)}, "COORDINATE"),
+        ({"plunge_feed": 0.0}, "PLUNGE_FEED"),
+        ({"plunge_feed": 1e-9}, "PLUNGE_FEED"),
+        ({"floors": floors(1)}, "FEED"),
+        ({"floors": floors(2, feed=0.0)}, "FEED"),
+    ],
+)
+def test_a_job_that_cannot_be_cut_is_refused_and_cannot_be_overridden(changes, code):
+    assert code in refused(job(SLOT, **changes))
+    assert code in refused(job(SLOT, **changes), OVERRIDE)
+
+
+def test_no_block_is_refused():
+    assert isinstance(post([], Unit.IN, name=""), Refusal)
+
+
+def test_blocks_with_different_work_offsets_are_refused():
+    found = post([job(SLOT), job(SLOT, work_offset=55)], Unit.IN, name="")
+    assert isinstance(found, Refusal)
+    assert [finding.code for finding in found.findings] == ["WORK_OFFSET"]
+
+
+def test_every_line_is_short_plain_text():
+    found = text(job(SLOT, findings=()), name="Kontur (Ø 12) \n" * 40)
+    assert found.isascii()
+    assert all(0 < len(line) < 256 for line in found.splitlines())
+    assert all(one != two for one, two in pairwise(found.splitlines()) if one.startswith("G"))
