@@ -65,7 +65,8 @@ def fillet(before: Piece, behind: Piece, radius: float) -> Fillet | NoFillet:
     lines = isinstance(before, Line) and isinstance(behind, Line)
     if lines and abs(turned) > tau / 2 - SLIVER:
         return NoFillet(Reason.REVERSAL)
-    fits = [found for turn in (Turn.CCW, Turn.CW) for found in _touching(before, behind, radius, turn)]
+    ways = (Turn.CCW if turned > 0 else Turn.CW,) if lines else (Turn.CCW, Turn.CW)
+    fits = [found for turn in ways for found in _touching(before, behind, radius, turn)]
     if fits:
         return _cut(before, behind, min(fits, key=lambda fit: fit.taken))
     largest = min(before.length, behind.length) / tan(abs(turned) / 2) if lines else None

@@ -17,9 +17,9 @@ from core.geometry.piece import Arc, Line, Piece, Point
 from core.program import solve_arc, solve_line
 from core.program.fields import Form
 from core.program.model import ArcSegment, BlendSegment, Block, LineSegment, Program, Segment
-from core.program.reading import Reading, fill, fill_angle, read
+from core.program.reading import Reading, carry, fill, fill_angle, read
 from core.program.solution import Known, Outcome, Task, solve
-from core.program.solve_blend import blended
+from core.program.solve_blend import Blends, blended
 from core.program.solve_start import Start, solve_start
 from core.program.solved import SolvedBlock, SolvedSegment
 from core.tolerance import CLOSED, JOINED
@@ -70,44 +70,68 @@ class _Here:
     feed: float | None
 
 
+@dataclass(frozen=True, slots=True)
+class _Draft:
+    """A segment solved by itself, before blending: `here` is what it takes over, `ahead` what it hands on."""
+
+    reading: Reading
+    shape: _Shape
+    here: _Here
+    ahead: _Here
+
+
 def _segments(block: Block, start: Start, unit: Unit) -> list[SolvedSegment]:
+    drafts = _drafts(block, start, unit)
+    shapes = [draft.shape for draft in drafts]
+    blend = {index for index, segment in enumerate(block.segments) if isinstance(segment, BlendSegment)}
+    radii = {index: drafts[index].reading.known["radius"] for index in blend if "radius" in drafts[index].reading.known}
+    lengthless = (index for index, shape in enumerate(shapes) if shape.piece is None and shape.end is not None)
+    empty = frozenset(lengthless) - blend
+    blends = blended(block.segments, [shape.piece for shape in shapes], radii, empty)
+    return [_finished(draft, index, blends) for index, draft in enumerate(drafts)]
+
+
+def _drafts(block: Block, start: Start, unit: Unit) -> list[_Draft]:
     here = _Here(start.point, start.known.get("z_bottom"), start.known.get("plunge_feed"))
-    solved: list[SolvedSegment] = []
-    radii: dict[int, float] = {}
-    for index, segment in enumerate(block.segments):
-        reading = read(_FORMS[type(segment)], segment, unit, index + 1)
-        one, here = _segment(segment, reading, here, unit, index + 1)
-        solved.append(one)
-        if isinstance(segment, BlendSegment) and "radius" in reading.known:
-            radii[index] = reading.known["radius"]
-    return blended(block.segments, solved, radii)
+    drafts: list[_Draft] = []
+    for number, segment in enumerate(block.segments, 1):
+        drafts.append(_draft(segment, number, here, unit))
+        here = drafts[-1].ahead
+    return drafts
 
 
-_FORMS = {LineSegment: Form.LINE, ArcSegment: Form.ARC, BlendSegment: Form.BLEND}
-
-
-def _segment(segment: Segment, reading: Reading, here: _Here, unit: Unit, number: int) -> tuple[SolvedSegment, _Here]:
+def _draft(segment: Segment, number: int, here: _Here, unit: Unit) -> _Draft:
+    reading = read(_FORMS[type(segment)], segment, unit, number)
     known, values = reading.known, reading.values
     feed, z_end = known.pop("feed", here.feed), known.pop("z_end", here.z)
-    carried = {"feed": feed} if isinstance(segment, BlendSegment) else {"feed": feed, "z_end": z_end}
-    fill(values, {name: value for name, value in carried.items() if value is not None}, unit)
+    carry(values, "feed", feed, unit)
+    if not isinstance(segment, BlendSegment):
+        carry(values, "z_end", z_end, unit)
     shape = _shape(segment, reading, here.point, unit)
-    findings = tuple(replace(finding, segment=number) for finding in shape.findings)
-    one = SolvedSegment(
-        number,
-        values,
-        shape.piece,
+    return _Draft(reading, shape, here, _Here(shape.end or _typed_end(known), z_end, feed))
+
+
+def _finished(draft: _Draft, index: int, blends: Blends) -> SolvedSegment:
+    shape, here, ahead = draft.shape, draft.here, draft.ahead
+    fault = blends.faults.get(index)
+    told = shape.findings if fault is None else (*shape.findings, fault)
+    return SolvedSegment(
+        index + 1,
+        draft.reading.values,
+        blends.pieces[index],
         shape.missing,
         shape.choices,
         here.point,
-        shape.end,
+        None if index in blends.waiting else shape.end,
         shape.sketch,
         here.z or 0.0,
-        z_end or 0.0,
-        feed,
-        reading.findings + findings,
+        ahead.z or 0.0,
+        ahead.feed,
+        draft.reading.findings + tuple(replace(finding, segment=index + 1) for finding in told),
     )
-    return one, _Here(shape.end or _typed_end(known), z_end, feed)
+
+
+_FORMS = {LineSegment: Form.LINE, ArcSegment: Form.ARC, BlendSegment: Form.BLEND}
 
 
 @dataclass(frozen=True, slots=True)

@@ -70,6 +70,12 @@ def fill(values: dict[str, Value], calculated: Mapping[str, float], unit: Unit) 
             values[name] = Solved(from_mm(value, unit))
 
 
+def carry(values: dict[str, Value], name: str, value: float | None, unit: Unit) -> None:
+    """Put a length or feed, in millimetres, that is taken over into its field if that is blank."""
+    if value is not None and values[name] is None:
+        values[name] = Solved(from_mm(value, unit))
+
+
 def fill_angle(values: dict[str, Value], name: str, angle: float) -> None:
     """Put a calculated angle, in radians, into its field if that is blank."""
     if values[name] is None:

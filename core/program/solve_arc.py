@@ -84,9 +84,14 @@ def _center_and_sweep(turn: Turn, start: Point, known: Known) -> Answer:
     radius = _radius(start, center)
     if isinstance(radius, Finding):
         return radius
+    return (_turned(turn, start, center, sweep),)
+
+
+def _turned(turn: Turn, start: Point, center: Point, sweep: float) -> Arc:
+    """The arc that turns by `sweep` about `center`; a full turn ends on the very start."""
     if sweep > tau - AGREES:
-        return (Arc(start, start, center, turn),)
-    return (Arc(start, construct.rotated(start, center, turn * sweep), center, turn),)
+        return Arc(start, start, center, turn)
+    return Arc(start, construct.rotated(start, center, turn * sweep), center, turn)
 
 
 def _end_and_radius(turn: Turn, start: Point, known: Known) -> Answer:
@@ -127,7 +132,7 @@ def _radius_sweep_center(axis: int, turn: Turn, start: Point, known: Known) -> A
         text = f"RADIUS {{0}} does not reach {'XY'[axis]} CENTER {{1}}: it takes at least {{2}}."
         return wrong("CONTRADICTION", text, "radius", radius, value, centers.least)
     points = (centers.point,) if isinstance(centers, One) else (centers.first, centers.second)
-    return tuple(Arc(start, construct.rotated(start, point, turn * known["sweep"]), point, turn) for point in points)
+    return tuple(_turned(turn, start, point, known["sweep"]) for point in points)
 
 
 def _radius_sweep_end(axis: int, turn: Turn, start: Point, known: Known) -> Answer:

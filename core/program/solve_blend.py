@@ -6,73 +6,84 @@ In order of the segments; a neighbour that one blend has shortened is blended fu
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field
 from typing import assert_never
 
 from core.finding import Finding, Severity
 from core.geometry.fillet import Fillet, NoFillet, Reason, fillet
+from core.geometry.piece import Piece
 from core.program.model import BlendSegment, Segment
-from core.program.solved import SolvedSegment
 
 
-def blended(typed: Sequence[Segment], solved: list[SolvedSegment], radii: dict[int, float]) -> list[SolvedSegment]:
-    """The segments with every BLEND ARC in place; `radii` holds their typed radii (mm) by index."""
-    done = list(solved)
+@dataclass(slots=True)
+class Blends:
+    """The surface with its blends, by index of segment: pieces as they are left, and what is wrong with a blend.
+
+    `waiting` are blends that are not in place: faulty, without radius, or beside a segment not determined yet.
+    """
+
+    pieces: list[Piece | None]
+    faults: dict[int, Finding] = field(default_factory=dict)
+    waiting: set[int] = field(default_factory=set)
+
+
+def blended(
+    typed: Sequence[Segment], pieces: list[Piece | None], radii: dict[int, float], empty: frozenset[int]
+) -> Blends:
+    """Every BLEND ARC put in; `radii` holds their typed radii (mm), `empty` the segments without length."""
+    made = Blends(list(pieces))
     for index, segment in enumerate(typed):
-        if isinstance(segment, BlendSegment):
-            place = _misplaced(typed, index)
-            if place is not None:
-                done[index] = _failed(done[index], Finding("BLEND_PLACE", Severity.ERROR, place))
-            elif index in radii:
-                _blend(done, index, radii[index])
-            else:
-                done[index] = replace(done[index], end=None)
-    return done
+        if not isinstance(segment, BlendSegment):
+            continue
+        fault = _misplaced(typed, index)
+        if fault is None and index in radii:
+            fault = _blend(made, index, radii[index], empty)
+        if fault is not None:
+            made.faults[index] = fault
+        if made.pieces[index] is None:
+            made.waiting.add(index)
+    return made
 
 
-def _misplaced(typed: Sequence[Segment], index: int) -> str | None:
+def _wrong(code: str, text: str, value: float | None = None, *lengths: float) -> Finding:
+    return Finding(code, Severity.ERROR, text, field="radius", value=value, lengths=lengths)
+
+
+def _misplaced(typed: Sequence[Segment], index: int) -> Finding | None:
     if index == 0:
-        return "A BLEND ARC cannot be the first segment: put a LINE or an ARC before it."
+        return _wrong("BLEND_PLACE", "A BLEND ARC cannot be the first segment: put a LINE or an ARC before it.")
     if isinstance(typed[index - 1], BlendSegment):
-        return "A BLEND ARC cannot stand beside another BLEND ARC: delete one or put a segment between."
+        return _wrong(
+            "BLEND_PLACE", "A BLEND ARC cannot stand beside another BLEND ARC: delete one or put a segment between."
+        )
     if index + 1 == len(typed):
-        return "A BLEND ARC cannot be the last segment: add the LINE or ARC behind it."
+        return _wrong("BLEND_PLACE", "A BLEND ARC cannot be the last segment: add the LINE or ARC behind it.")
     return None
 
 
-def _failed(blend: SolvedSegment, finding: Finding) -> SolvedSegment:
-    found = replace(finding, segment=blend.number, field="radius")
-    return replace(blend, end=None, findings=(*blend.findings, found))
-
-
-def _blend(done: list[SolvedSegment], index: int, radius: float) -> None:
-    """Put the blend `index` in and shorten its neighbours, or mark it with the reason why not."""
-    before, blend, behind = done[index - 1 : index + 2]
-    if before.piece is None or behind.piece is None:
-        done[index] = _between_unknown(before, blend, behind)
-        return
-    made = fillet(before.piece, behind.piece, radius)
-    match made:
+def _blend(made: Blends, index: int, radius: float, empty: frozenset[int]) -> Finding | None:
+    """Put the blend in and shorten its neighbours, or tell why not; nothing while a neighbour is not determined."""
+    before, behind = made.pieces[index - 1], made.pieces[index + 1]
+    if before is None or behind is None:
+        return _beside_nothing(made, index, empty)
+    found = fillet(before, behind, radius)
+    match found:
         case Fillet(first, arc, last):
-            done[index - 1 : index + 2] = (
-                replace(before, piece=first),
-                replace(blend, piece=arc),
-                replace(behind, piece=last),
-            )
+            made.pieces[index - 1 : index + 2] = first, arc, last
+            return None
         case NoFillet():
-            done[index] = _failed(blend, _refusal(made, blend.number, radius))
+            return _refusal(found, index + 1, radius)
         case _:
-            assert_never(made)
+            assert_never(found)
 
 
-def _between_unknown(before: SolvedSegment, blend: SolvedSegment, behind: SolvedSegment) -> SolvedSegment:
-    """A blend beside a segment that is not determined waits for it; beside one without length it is wrong."""
-    for one in (before, behind):
-        if one.start is not None and one.end is not None:
-            text = f"Segment {one.number} has no length left to blend: correct it or delete this BLEND ARC."
-            if one.piece is None:
-                return _failed(blend, Finding("BLEND_RADIUS", Severity.ERROR, text))
-    return replace(blend, end=None)
+def _beside_nothing(made: Blends, index: int, empty: frozenset[int]) -> Finding | None:
+    for beside in (index - 1, index + 1):
+        used_up = beside == index - 1 and index >= 2 and made.pieces[index - 2] is not None
+        if made.pieces[beside] is None and (beside in empty or used_up):
+            text = f"Segment {beside + 1} has no length left to blend: correct it or delete this BLEND ARC."
+            return _wrong("BLEND_RADIUS", text)
+    return None
 
 
 def _refusal(made: NoFillet, number: int, radius: float) -> Finding:
@@ -80,15 +91,15 @@ def _refusal(made: NoFillet, number: int, radius: float) -> Finding:
     match made.reason:
         case Reason.TANGENT:
             text = f"There is no corner to blend: {pair} already run smoothly into each other."
-            return Finding("BLEND_TANGENT", Severity.ERROR, text)
+            return _wrong("BLEND_TANGENT", text)
         case Reason.REVERSAL:
             text = f"No arc fits: segment {number + 1} goes straight back along segment {number - 1}."
-            return Finding("BLEND_RADIUS", Severity.ERROR, text)
+            return _wrong("BLEND_RADIUS", text)
         case Reason.TOO_LARGE if made.largest is not None:
             text = f"RADIUS {{value}} does not fit between {pair}: the largest that fits is {{0}}."
-            return Finding("BLEND_RADIUS", Severity.ERROR, text, value=radius, lengths=(made.largest,))
+            return _wrong("BLEND_RADIUS", text, radius, made.largest)
         case Reason.TOO_LARGE:
             text = f"RADIUS {{value}} does not fit between {pair}: enter a smaller one."
-            return Finding("BLEND_RADIUS", Severity.ERROR, text, value=radius)
+            return _wrong("BLEND_RADIUS", text, radius)
         case _:
             assert_never(made.reason)
