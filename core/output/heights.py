@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from core.geometry.path import Floats, Path
 from core.output.job import Floor, Job, Run
+from core.tolerance import JOINED
 
 WRAPPED = 1e-6
 """Radians by which rounding may put an arc's first point before its segment's first point."""
@@ -22,7 +23,7 @@ WRAPPED = 1e-6
 
 def level_floor(job: Job) -> bool:
     """No segment rises above Z BOTTOM."""
-    return all(max(floor.z_start, floor.z_end) <= job.z_bottom for floor in job.floors)
+    return all(max(floor.z_start, floor.z_end) <= job.z_bottom + JOINED for floor in job.floors)
 
 
 def heights(job: Job, run: Run) -> Floats:

@@ -38,9 +38,15 @@ class Posted:
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Why nothing was posted."""
+    """Why nothing was posted; lengths in `text` are in `unit`."""
 
     findings: tuple[Finding, ...]
+    unit: Unit
+
+    @property
+    def text(self) -> str:
+        """Every reason as a sentence, with its segment."""
+        return " ".join(_sentence(finding, self.unit) for finding in self.findings)
 
 
 def post(jobs: Sequence[Job], unit: Unit, *, name: str, override: str | None = None) -> Posted | Refusal:
@@ -51,10 +57,10 @@ def post(jobs: Sequence[Job], unit: Unit, *, name: str, override: str | None = N
     """
     grid = Grid(unit)
     if not jobs:
-        return Refusal((Finding("NO_BLOCK", Severity.ERROR, "There is no block to post."),))
+        return Refusal((Finding("NO_BLOCK", Severity.ERROR, "There is no block to post."),), unit)
     against = forbidding(jobs, grid, override=override)
     if against:
-        return Refusal(against)
+        return Refusal(against, unit)
     raised = max(job.safe_z for job in jobs), max(clear_height(job) for job in jobs)
     level = [replace(job, safe_z=max(raised)) for job in jobs]
     waived = overridden(jobs)
@@ -73,9 +79,13 @@ def _header(jobs: Sequence[Job], unit: Unit, name: str, waived: tuple[Finding, .
     if waived:
         yield from comments(f"OVERRIDDEN BY THE OPERATOR: {OVERRIDE}")
     for finding in waived:
-        segment = "" if finding.segment is None else f"SEGMENT {finding.segment:g}: "
-        yield from comments(f"OVERRIDDEN {finding.code}: {segment}{sentence(finding, unit)}")
+        yield from comments(f"OVERRIDDEN {finding.code}: {_sentence(finding, unit)}")
     yield from comments(f"G64 P{ROUNDING[unit]}: THE MACHINE MAY ROUND INSIDE CORNERS BY SO MUCH")
+
+
+def _sentence(finding: Finding, unit: Unit) -> str:
+    segment = "" if finding.segment is None else f"Segment {finding.segment:g}: "
+    return f"{segment}{sentence(finding, unit)}"
 
 
 def _cutters(jobs: Sequence[Job]) -> dict[Cutter, str]:

@@ -13,7 +13,7 @@ from core.output.grid import Grid
 from core.output.job import Job, Run
 from core.output.nc import feed_text
 from core.output.passes import rough_runs
-from core.tolerance import LARGEST
+from core.tolerance import JOINED, LARGEST
 
 OVERRIDE: Final = "POST WITH GOUGE"
 """What an operator must say, word for word, to have a path posted that the verdict is against."""
@@ -68,7 +68,7 @@ def _depths(job: Job) -> Iterator[_Check]:
     deep = job.z_start - job.z_bottom
     low = min((min(floor.z_start, floor.z_end) for floor in job.floors), default=job.z_bottom)
     yield deep < 0.0, "DEPTH", "Z BOTTOM lies above Z START.", "z_bottom"
-    yield low < job.z_bottom, "Z_END", "A Z END lies below Z BOTTOM.  No pass goes so deep.", "z_end"
+    yield low < job.z_bottom - JOINED, "Z_END", "A Z END lies below Z BOTTOM.  No pass goes so deep.", "z_end"
     yield stock >= deep > 0.0, "FINISH_Z", "FINISH Z leaves nothing for the roughing tool to cut.", "finish_z"
     yield job.retract_clearance <= 0.0, "CLEARANCE", "RETRACT CLEARANCE must be above 0.", "retract_clearance"
     yield job.peck_clearance < 0.0, "CLEARANCE", "PECK CLEARANCE must not be below 0.", "peck_clearance"

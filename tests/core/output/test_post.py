@@ -157,7 +157,7 @@ def test_an_overridden_gouge_stands_in_the_header():
     found = post([job(SLOT, findings=(GOUGE,))], Unit.IN, name="SLOT", override=OVERRIDE)
     assert isinstance(found, Posted)
     assert found.overridden == (GOUGE,)
-    assert "(OVERRIDDEN GOUGE: SEGMENT 2: Gouges by 0.1000 at X 1.0000 Y 0.0000.)" in found.text
+    assert "(OVERRIDDEN GOUGE: Segment 2: Gouges by 0.1000 at X 1.0000 Y 0.0000.)" in found.text
     assert "(OVERRIDDEN BY THE OPERATOR: POST WITH GOUGE)" in found.text
 
 
@@ -215,6 +215,12 @@ def test_a_job_that_cannot_be_cut_is_refused_and_cannot_be_overridden(changes, c
 
 def test_no_block_is_refused():
     assert isinstance(post([], Unit.IN, name=""), Refusal)
+
+
+def test_a_refusal_says_why_in_program_units():
+    found = post([job(SLOT, findings=(GOUGE,), speed=0.0)], Unit.IN, name="")
+    assert isinstance(found, Refusal)
+    assert found.text == "Segment 2: Gouges by 0.1000 at X 1.0000 Y 0.0000. Block 1: SPEED must be above 0."
 
 
 def test_blocks_with_different_work_offsets_are_refused():
