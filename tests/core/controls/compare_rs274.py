@@ -1,0 +1,57 @@
+"""Runs random programs on LinuxCNC's own interpreter and here, and prints what agrees: `python -m` this module."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from collections import Counter
+from collections.abc import Iterable
+from pathlib import Path
+
+from core.controls.registry import UnknownControl, run
+from core.controls.tools import ToolTable
+from core.units import Unit
+from tests.core.controls.programs import RADIUS, program, turned_to_zx
+from tests.core.controls.rs274 import difference, printed, witness
+
+DIAMETERS = {1: 2 * RADIUS}
+
+
+def outcome(text: str, folder: Path) -> tuple[str, str]:
+    """How a program fares on both: a word for the table, and what differs."""
+    theirs = witness(text, folder, DIAMETERS, Unit.MM)
+    ours = run(text.encode(), "linuxcnc", ToolTable.diameters(DIAMETERS, Unit.MM))
+    assert not isinstance(ours, UnknownControl)
+    if ours.stopped_at and theirs.refusal:
+        apart = difference(printed(ours), theirs.moves)
+        return ("moves before the refusal differ", apart) if apart else (f"both refuse: {theirs.refusal}", "")
+    if ours.stopped_at or theirs.refusal:
+        said = ours.findings[-1].text if ours.stopped_at else theirs.refusal
+        return ("only we refuse" if ours.stopped_at else "only rs274 refuses"), said
+    apart = difference(printed(ours), theirs.moves)
+    return ("moves differ", apart) if apart else ("same moves", "")
+
+
+def programs(count: int) -> Iterable[tuple[str, str]]:
+    """Named programs: every tenth in the plane G18."""
+    for seed in range(count):
+        text = program(seed)
+        yield f"seed {seed}", turned_to_zx(text) if seed % 10 == 9 else text
+
+
+def main(arguments: list[str]) -> int:
+    """Prints the table, and each program that fares differently."""
+    counts: Counter[str] = Counter()
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in programs(int(arguments[0]) if arguments else 400):
+            fared, apart = outcome(text, Path(folder))
+            counts[fared] += 1
+            if apart:
+                print(f"{name}: {fared}: {apart}")
+    for fared, count in counts.most_common():
+        print(f"{count:6d}  {fared}")
+    return 0 if all(fared.startswith(("same moves", "both refuse")) for fared in counts) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,119 @@
+"""LinuxCNC's own interpreter as a witness: runs a program and reads the moves it prints."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+from core.controls.moves import Moves, Plane
+from core.controls.report import Run
+from core.units import Unit, from_mm
+
+WITNESS = shutil.which("rs274")
+
+_CALL = re.compile(r"^\s*\d+\s+\S+\s+(\w+)\(([^)]*)\)")
+
+
+@dataclass(frozen=True)
+class Printed:
+    """One move as printed: line or arc, its end (x, y, z) and of an arc the centre in its plane and the turn."""
+
+    end: tuple[float, float, float]
+    rapid: bool
+    centre: tuple[float, float] | None = None
+    turn: int = 0
+
+
+@dataclass(frozen=True)
+class Witnessed:
+    """The moves of a program and the sentence with which it was refused, empty if it ran."""
+
+    moves: tuple[Printed, ...]
+    refusal: str
+
+
+def table_text(diameters: dict[int, float], unit: Unit) -> str:
+    """A tool table as the interpreter reads it when it runs alone: in inches, whatever the program is in."""
+    scale = 1.0 if unit is Unit.IN else 25.4
+    return "".join(f"T{number} P{number} D{value / scale:.12f} Z0\n" for number, value in diameters.items())
+
+
+def witness(program: str, folder: Path, diameters: dict[int, float], unit: Unit) -> Witnessed:
+    """What the interpreter makes of a program, in program units."""
+    assert WITNESS is not None
+    text, table = folder / "program.ngc", folder / "tools.tbl"
+    text.write_text(program)
+    table.write_text(table_text(diameters, unit))
+    done = subprocess.run(
+        [WITNESS, "-g", "-t", str(table), str(text)],
+        capture_output=True,
+        text=True,
+        timeout=30,
+        env={**os.environ, "HOME": str(folder)},
+        cwd=folder,
+        check=False,
+    )
+    printed = done.stdout.splitlines()
+    said = [line for line in done.stderr.splitlines() if line.strip() and line.strip() != "executing"]
+    return Witnessed(tuple(_moves(printed)), said[0] if said else "")
+
+
+def _moves(lines: list[str]):
+    plane, origin = Plane.XY, (0.0, 0.0, 0.0)
+    for line in lines:
+        found = _CALL.match(line)
+        if found is None:
+            continue
+        name, numbers = found[1], found[2]
+        if name == "SELECT_PLANE":
+            plane = {"CANON_PLANE_XY": Plane.XY, "CANON_PLANE_XZ": Plane.ZX, "CANON_PLANE_YZ": Plane.YZ}[numbers]
+        elif name == "SET_G92_OFFSET":
+            x, y, z = (float(number) for number in numbers.split(",")[:3])
+            origin = (x, y, z)
+        elif name in ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED"):
+            x, y, z = (float(number) for number in numbers.split(",")[:3])
+            yield Printed((x + origin[0], y + origin[1], z + origin[2]), name == "STRAIGHT_TRAVERSE")
+        elif name == "ARC_FEED":
+            yield _arc([float(number) for number in numbers.split(",")], plane, origin)
+
+
+def _arc(numbers: list[float], plane: Plane, origin: tuple[float, float, float]) -> Printed:
+    first, second, cx, cy, turn, height = numbers[:6]
+    axes = plane.axes
+    end = [0.0, 0.0, 0.0]
+    for axis, value in zip(axes, (first, second, height), strict=True):
+        end[axis] = value + origin[axis]
+    return Printed((end[0], end[1], end[2]), False, (cx + origin[axes[0]], cy + origin[axes[1]]), int(turn))
+
+
+def printed(run: Run) -> tuple[Printed, ...]:
+    """A run's moves in the same form."""
+    return tuple(_printed(run.moves, run.unit))
+
+
+def _printed(moves: Moves, unit: Unit):
+    for move in moves.part(1, len(moves)) if len(moves) > 1 else ():
+        x, y, z = (from_mm(value, unit) for value in move.point)
+        if not move.turn:
+            yield Printed((x, y, z), move.rapid)
+            continue
+        first, second, _ = move.plane.axes
+        centre = (from_mm(move.centre[first], unit), from_mm(move.centre[second], unit))
+        yield Printed((x, y, z), False, centre, move.turn)
+
+
+def difference(ours: tuple[Printed, ...], theirs: tuple[Printed, ...]) -> str:
+    """The first difference between two lists of moves, empty if they are the same to the printed decimals."""
+    for index, (one, other) in enumerate(zip(ours, theirs, strict=False)):
+        pairs = [*zip(one.end, other.end, strict=True), *zip(one.centre or (), other.centre or (), strict=False)]
+        apart = max(abs(first - second) for first, second in pairs)
+        same_kind = one.turn == other.turn and one.rapid == other.rapid
+        if not same_kind or apart > 1.2e-4:
+            return f"move {index}: {one} against {other}"
+    if len(ours) != len(theirs):
+        return f"{len(ours)} moves against {len(theirs)}"
+    return ""
