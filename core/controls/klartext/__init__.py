@@ -1,0 +1,1 @@
+"""HEIDENHAIN conversational programs: read, rounded and chamfered, compensated with RL and RR."""

@@ -1,0 +1,102 @@
+"""The Klartext control: runs a program's text block by block and gives its moves and findings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.klartext import circles, flow, functions, leading, motion, setup
+from core.controls.klartext.blocks import Block, blocks
+from core.controls.klartext.centre import Centre
+from core.controls.klartext.state import State
+from core.controls.report import AlarmError, Log, Run
+from core.controls.source import lines_of
+from core.controls.tools import ToolTable
+from core.finding import Severity
+
+JUMPED: Final = 50_000
+"""Blocks that jumps and repeats may run again before the run is given up."""
+
+HEADS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
+    {
+        "L": motion.straight,
+        "LP": motion.polar_straight,
+        "CC": motion.centre,
+        "RND": motion.corner,
+        "CHF": motion.corner,
+        "C": circles.circle,
+        "CR": circles.radius_arc,
+        "CT": circles.tangent_arc,
+        "CP": circles.polar_circle,
+        "CTP": circles.polar_tangent,
+        "APPR": leading.approach,
+        "DEP": leading.leave,
+        "BEGIN": setup.begin,
+        "END": setup.end,
+        "BLK": setup.ignored,
+        "TOOL": setup.tool,
+        "CYCL": setup.cycle,
+        "TRANS": setup.transformation,
+        "*": setup.structure,
+        "STOP": functions.only_functions,
+        "M": functions.only_functions,
+        "LBL": flow.label,
+        "CALL": flow.call,
+        "FN": flow.function,
+        "IF": flow.condition,
+        "Q": flow.parameter,
+        "QL": flow.parameter,
+        "QR": flow.parameter,
+    }
+)
+
+
+def run(text: bytes, variant: str, tools: ToolTable) -> Run:  # noqa: ARG001  (the one variant is the empty one)
+    """A program in Klartext with these tools; never raises for any text.
+
+    Tools of the table count before TOOL DEF of the same number.
+    """
+    log = Log()
+    centre = Centre(log)
+    read = tuple(blocks(lines_of(text)))
+    state = State(log, centre, tools, read, flow.labels_of(read))
+    stopped = None
+    try:
+        _run(state)
+        state.flush()
+        centre.finish()
+    except AlarmError as alarm:
+        log.add(alarm.finding)
+        stopped = alarm.finding.line
+        centre.give_up()
+    record = centre.record
+    return Run("klartext", state.unit, record.tape.moves(), log.closed(), stopped, tuple(record.stretches))
+
+
+def _run(state: State) -> None:
+    program = state.blocks
+    limit = len(program) + JUMPED
+    while state.next < len(program) and not state.ended:
+        block = program[state.next]
+        state.next += 1
+        limit -= 1
+        if limit < 0:
+            state.stop("LIMIT", f"More than {JUMPED} blocks are repeated; this run is given up here.", block)
+        if block.skip:
+            state.tell(Severity.INFO, "SKIP", "The block is run: block skip is taken as switched off.", block)
+        HEADS.get(block.head, setup.unknown)(state, block)
+    _close(state)
+
+
+def _close(state: State) -> None:
+    """Say what is missing at the end of the program."""
+    last = state.blocks[-1] if state.blocks else Block(1, "", "", 1, skip=False)
+    if not state.begun:
+        text = "The program has no BEGIN PGM; millimetres are assumed. Write BEGIN PGM PART MM as its first block."
+        state.log.tell(Severity.WARNING, "PROGRAM", text, 1, 1)
+    elif not any(block.head == "END" for block in reversed(state.blocks)):
+        state.tell(Severity.WARNING, "PROGRAM", "END PGM is missing; the file may be cut off.", last)
+    if state.applied:
+        text = "The program ends under compensation; cancel it with an L block with R0, or with DEP."
+        state.tell(Severity.WARNING, "PROGRAM", text, last)

@@ -1,0 +1,143 @@
+"""Formulas of Q parameters: `Q1 = +Q2 * SIN 30`, `FN 4: Q1 = +Q2 DIV +3` and the conditions of FN 9 to FN 12.
+
+Angles are degrees.  A formula either has a value or a sentence that says why not.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.source import shown
+
+DEEPEST: Final = 50
+"""Brackets and functions within one another that a formula may have."""
+
+_TOKEN: Final = re.compile(r"\s*(?:(\d+[.,]?\d*|[.,]\d+)|(Q[LR]?\d+)|([A-Z]+|[-+*/^()])|(\S))")
+
+_FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = MappingProxyType(
+    {
+        "SIN": lambda x: math.sin(math.radians(x)),
+        "COS": lambda x: math.cos(math.radians(x)),
+        "TAN": lambda x: math.tan(math.radians(x)),
+        "ASIN": lambda x: math.degrees(math.asin(x)),
+        "ACOS": lambda x: math.degrees(math.acos(x)),
+        "ATAN": lambda x: math.degrees(math.atan(x)),
+        "SQRT": math.sqrt,
+        "SQ": lambda x: x * x,
+        "ABS": abs,
+        "INT": math.trunc,
+        "FRAC": lambda x: math.modf(x)[0],
+        "NEG": lambda x: -x,
+        "SGN": lambda x: float((x > 0.0) - (x < 0.0)),
+        "LN": math.log,
+        "LOG": math.log10,
+        "EXP": math.exp,
+    }
+)
+_PRODUCTS: Final[Mapping[str, Callable[[float, float], float]]] = MappingProxyType(
+    {
+        "*": lambda a, b: a * b,
+        "/": lambda a, b: a / b,
+        "DIV": lambda a, b: a / b,
+        "LEN": math.hypot,
+        "ANG": lambda a, b: math.degrees(math.atan2(a, b)) % 360.0,
+    }
+)
+
+
+@dataclass(frozen=True, slots=True)
+class NoValue:
+    """A formula without a value, and the sentence that says why."""
+
+    text: str
+
+
+class _FaultError(Exception):
+    """A private way out of the recursion, never seen outside."""
+
+
+def evaluate(text: str, parameters: Mapping[str, float]) -> float | NoValue:
+    """The value of a formula in upper case, its Q parameters taken from `parameters`; never raises."""
+    tokens = [found.group(found.lastindex or 0).strip() for found in _TOKEN.finditer(text)]
+    reader = _Reader(tokens, parameters)
+    try:
+        value = reader.sum()
+        if reader.at < len(tokens):
+            return NoValue(f"{shown(tokens[reader.at])} is not understood in a formula.")
+    except _FaultError as fault:
+        return NoValue(str(fault))
+    except (ArithmeticError, ValueError):
+        return NoValue("This formula has no value: a division by zero, or a function outside its range.")
+    if isinstance(value, complex) or not math.isfinite(value):
+        return NoValue("This formula's value is no number.")
+    return float(value)
+
+
+@dataclass(slots=True)
+class _Reader:
+    tokens: list[str]
+    parameters: Mapping[str, float]
+    at: int = field(default=0)
+    depth: int = field(default=0)
+
+    def take(self) -> str:
+        self.at += 1
+        return self.tokens[self.at - 1] if self.at <= len(self.tokens) else ""
+
+    def next(self) -> str:
+        return self.tokens[self.at] if self.at < len(self.tokens) else ""
+
+    def sum(self) -> float:
+        value = self.product()
+        while self.next() in ("+", "-"):
+            value = value + self.product() if self.take() == "+" else value - self.product()
+        return value
+
+    def product(self) -> float:
+        value = self.power()
+        while self.next() in _PRODUCTS:
+            value = _PRODUCTS[self.take()](value, self.power())
+        return value
+
+    def power(self) -> float:
+        value = self.operand()
+        while self.next() == "^":
+            self.take()
+            value = math.pow(value, self.operand())
+        return value
+
+    def operand(self) -> float:
+        self.depth += 1
+        if self.depth > DEEPEST:
+            raise _FaultError("This formula is too deep.")
+        value = self._operand(self.take())
+        self.depth -= 1
+        return value
+
+    def _operand(self, token: str) -> float:
+        if token in ("+", "-"):
+            return self.operand() if token == "+" else -self.operand()
+        if token == "(":
+            value = self.sum()
+            if self.take() != ")":
+                raise _FaultError("A bracket of this formula is not closed.")
+            return value
+        if token == "PI":
+            return math.pi
+        if token in _FUNCTIONS:
+            return _FUNCTIONS[token](self.operand())
+        return self.number(token)
+
+    def number(self, token: str) -> float:
+        if token.startswith("Q"):
+            if token not in self.parameters:
+                raise _FaultError(f"{token} has no value yet; set it before it is used.")
+            return self.parameters[token]
+        if not token or not (token[0].isdigit() or token[0] in ".,"):
+            raise _FaultError(f"{shown(token) or 'The end'} stands where a formula needs a number.")
+        return float(token.replace(",", "."))

@@ -1,0 +1,65 @@
+"""M functions: which end the program, which change the path, which are only told."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.klartext.blocks import Block
+from core.controls.klartext.state import State, Words
+from core.controls.klartext.steps import Corner, Speed
+from core.controls.source import shown
+from core.finding import Severity
+
+_SPEEDS: Final[Mapping[int, Speed]] = MappingProxyType({109: Speed.EDGE, 110: Speed.INSIDE, 111: Speed.CENTRE})
+_CORNERS: Final[Mapping[int, Corner]] = MappingProxyType({97: Corner.M97, 98: Corner.M98})
+_SILENT: Final = frozenset((0, 1, 3, 4, 5, 6, 7, 8, 9, 13, 14))
+_MOVING: Final = frozenset((89, 91, 92, 99, 114, 128, 130, 140, 144))
+_DIFFERENT: Final[Mapping[int, str]] = MappingProxyType(
+    {
+        90: "the control rounds corners that run without compensation",
+        103: "the control lowers the feed of plunging moves",
+        112: "the control rounds corners within a tolerance",
+        120: "the control computes the path ahead and leaves out what the tool cannot reach, where this run stops",
+        124: "the control leaves out points of short lines",
+        136: "the control takes F in millimetres a revolution",
+    }
+)
+
+
+def functions(state: State, block: Block, words: Words) -> Corner:
+    """Take up the block's M words; how the corner at its end is made."""
+    corner = Corner.PLAIN
+    for name in words:
+        if name[0] == "M":
+            corner = _function(state, block, name, corner)
+    if "LA" in words and "M120" not in words:
+        state.stop("WORD", "LA belongs to M120; write M120 LA with a number, or leave it out.", block, "LA")
+    return corner
+
+
+def _function(state: State, block: Block, name: str, corner: Corner) -> Corner:
+    if not name[1:].isdecimal():
+        state.stop("NUMBER", "M needs a whole number behind it.", block, name)
+    code = int(name[1:5])
+    if code in (2, 30):
+        state.ended = True
+    elif code in _SPEEDS:
+        state.speed = _SPEEDS[code]
+    elif code in _CORNERS:
+        return _CORNERS[code]
+    elif code in _MOVING:
+        text = f"{shown(name)} moves the axes in a way that is not worked out here."
+        state.stop("WORD", text, block, name)
+    elif code in _DIFFERENT:
+        state.tell(Severity.WARNING, "M", f"{name} is not worked out here: {_DIFFERENT[code]}.", block, name)
+    elif code not in _SILENT:
+        state.tell(Severity.INFO, "M", f"{shown(name)} is taken to move nothing.", block, name)
+    return corner
+
+
+def only_functions(state: State, block: Block) -> None:
+    """STOP, or a block of M words alone."""
+    body = block.body if block.head == "STOP" else block.head + block.body
+    functions(state, block, state.words(block._replace(body=body), frozenset(("M", "LA"))))

@@ -1,0 +1,122 @@
+"""APPR and DEP blocks: compensation applied and cancelled along a lead."""
+
+from __future__ import annotations
+
+import re
+from math import radians
+from typing import Final
+
+from core.controls.corners import Element, line_element, square
+from core.controls.klartext.blocks import Block
+from core.controls.klartext.functions import functions
+from core.controls.klartext.leads import Form, Lead, departure
+from core.controls.klartext.polar import POLAR, polar_target
+from core.controls.klartext.state import AXES, COMMON, State, Words
+from core.controls.klartext.steps import Role, Step
+from core.controls.moves import solid
+
+_FORM: Final = re.compile(r"[ \t]*(P?)(LT|LN|CT|LCT)(?![A-Z])")
+_SIZES: Final = frozenset(("LEN", "CCA", "R"))
+_NEEDED: Final = {Form.LT: ("LEN",), Form.LN: ("LEN",), Form.CT: ("CCA", "R"), Form.LCT: ("R",)}
+
+
+def approach(state: State, block: Block) -> None:
+    """APPR LT, LN, CT, LCT and their polar forms: the lead to the contour's first point."""
+    form, polar, words = _read(state, block, "APPR")
+    end = polar_target(state, block, words)[0] if polar else state.target(block, words)
+    state.chosen_side(block, words)
+    _sided(state, block, form, "HE4")
+    lead = _lead(state, block, form, words)
+    before = state.before
+    rapid, feed = state.chosen_feed(block, words)
+    functions(state, block, words)
+    state.moving(block, rapid=rapid, feed=feed)
+    state.apply(block)
+    element = _straight(state, block, end, rapid=rapid, feed=feed)
+    state.position, state.last = end, None
+    plane, hand = state.plane, _hand(state.offset, state.side)
+    state.push(Step(Role.APPROACH, element, state.offset, plane, lead=lead, hand=hand, before=before))
+
+
+def leave(state: State, block: Block) -> None:
+    """DEP LT, LN, CT, LCT and PLCT: the lead away from the contour's last point; it cancels compensation."""
+    form, polar, words = _read(state, block, "DEP")
+    _sided(state, block, form, "HE4")
+    last = state.last
+    if last is None:
+        state.stop("HE7", "DEP needs a contour element directly before it; write an L or C block first.", block)
+    lead = _lead(state, block, form, words)
+    goal = _goal(state, block, words, form, last, lead, polar=polar)
+    rapid, feed = state.chosen_feed(block, words)
+    functions(state, block, words)
+    state.moving(block, rapid=rapid, feed=feed)
+    element = _straight(state, block, goal, rapid=rapid, feed=feed)._replace(leaving=last.arriving)
+    state.push(
+        Step(Role.DEPARTURE, element, state.offset, state.plane, lead=lead, hand=_hand(state.offset, state.applied))
+    )
+    state.position, state.last, state.side = goal, None, 0
+    state.release()
+
+
+def _read(state: State, block: Block, name: str) -> tuple[Form, bool, Words]:
+    found = _FORM.match(block.body)
+    if found is None or (name == "DEP" and found[1] and found[2] != "LCT"):
+        text = f"{name} needs its form: LT, LN, CT or LCT{', or with polar coordinates PLT ...' * (name == 'APPR')}."
+        state.stop("WORD", text, block)
+    rest = block._replace(body=" " * found.end() + block.body[found.end() :])
+    form, polar = Form(found[2]), bool(found[1])
+    coordinates = POLAR if polar else frozenset(AXES)
+    words = state.words(rest, COMMON | coordinates | set(_NEEDED[form]))
+    return form, polar, words
+
+
+def _sided(state: State, block: Block, form: Form, code: str) -> None:
+    if form in (Form.LN, Form.CT) and not (state.side or state.applied):
+        text = f"{block.head} {form} has no side without compensation; write RL or RR with it."
+        state.stop(code, text, block, "R0")
+
+
+def _lead(state: State, block: Block, form: Form, words: Words) -> Lead:
+    for name in _NEEDED[form]:
+        if name not in words:
+            state.stop("LEAD", f"{block.head} {form} needs {name}; write it with a number.", block)
+    length = state.length(block, words, "LEN") if "LEN" in words else 0.0
+    radius = state.length(block, words, "R") if "R" in words else 0.0
+    angle = state.number(block, words, "CCA") if "CCA" in words else 0.0
+    if length < 0.0 or ("LEN" in words and not length):
+        state.stop("LEAD", "LEN must be above 0.", block, "LEN")
+    if "R" in words and (not radius or (radius < 0.0 and form is Form.LCT)):
+        least = "must be above 0" if form is Form.LCT else "cannot be 0"
+        state.stop("LEAD", f"The radius of {block.head} {form} {least}.", block, "R")
+    if "CCA" in words and not 0.0 < angle <= 360.0:
+        state.stop("LEAD", "CCA lies above 0 and up to 360 degrees; the sign of R turns the arc over.", block, "CCA")
+    return Lead(form, length, radius, radians(angle))
+
+
+def _goal(
+    state: State, block: Block, words: Words, form: Form, last: Element, lead: Lead, *, polar: bool
+) -> list[float]:  # fmt: skip
+    """Where a departure ends: as programmed for LCT, else where the lead itself does."""
+    end = polar_target(state, block, words)[0] if polar else state.target(block, words)
+    point, height = state.flat(end)
+    if form is Form.LCT:
+        return end
+    here = state.flat(state.position)[0]
+    if point != here:
+        text = f"DEP {form} ends where its lead ends; only DEP LCT takes an end point."
+        state.stop("WORD", text, block)
+    start = square(here, last.arriving, state.offset)
+    curve = departure(lead, start, here, last.arriving, _hand(state.offset, state.applied))
+    return list(solid(*(curve.point if curve else here), height, state.plane))
+
+
+def _straight(state: State, block: Block, end: list[float], *, rapid: bool, feed: float) -> Element:
+    (start, low), (goal, high) = state.flat(state.position), state.flat(end)
+    return line_element(start, goal, low, high, rapid, feed, block.line, block.column - len(block.head))
+
+
+def _hand(offset: float, side: int) -> int:
+    """The side of the tool, which a negative radius turns over."""
+    if offset:
+        return 1 if offset > 0.0 else -1
+    return side

@@ -1,0 +1,269 @@
+"""The state of a Klartext program while it is read: what holds on from block to block, and how words are valued.
+
+Everything is millimetres and millimetres a minute whatever the program's unit; positions are programmed ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from re import Pattern
+from types import MappingProxyType
+from typing import Final, NoReturn
+
+from core.controls.corners import Element
+from core.controls.klartext.blocks import WORD, Block, head_place, place
+from core.controls.klartext.centre import Centre
+from core.controls.klartext.formula import NoValue, evaluate
+from core.controls.klartext.rounding import NoRoom, chamfer, rounding
+from core.controls.klartext.steps import Corner, Role, Speed, Step
+from core.controls.moves import Plane
+from core.controls.report import Log
+from core.controls.source import shown
+from core.controls.tools import ToolTable
+from core.finding import Severity
+from core.geometry.piece import Point
+from core.tolerance import LARGEST
+from core.units import Unit, to_mm
+
+AXES: Final[Mapping[str, tuple[int, bool]]] = MappingProxyType(
+    {name: (index, False) for index, name in enumerate("XYZ")}
+    | {f"I{name}": (index, True) for index, name in enumerate("XYZ")}
+)
+"""Axis words: which axis, and whether the value counts from the last programmed position."""
+
+SIDES: Final[Mapping[str, int]] = MappingProxyType({"R0": 0, "RL": 1, "RR": -1})
+COMMON: Final = frozenset(("R0", "RL", "RR", "F", "FMAX", "FAUTO", "M", "LA"))
+OTHER_AXES: Final = frozenset(f"{step}{name}" for step in ("", "I") for name in "ABCUVW")
+
+NOT_BESIDE: Final = "RND and CHF stand between two contour elements of one side, with nothing else between; move it."
+
+Words = dict[str, str]
+"""The words of a block by name, each with its number as written; R0, RL, RR, M3 ... are names without a number."""
+
+
+@dataclass(slots=True)
+class Blend:
+    """A rounding (radius) or chamfer (leg) that waits for the element behind it."""
+
+    block: Block
+    size: float
+    round: bool
+    feed: float
+    column: int
+
+
+@dataclass(slots=True)
+class State:
+    """What a program has set so far.
+
+    `side` is what the last RL (+1), RR (-1) or R0 (0) said, `applied` what the tool's path has taken up since, and
+    `offset` the signed radius it runs at.  `last` is the contour element just programmed, None where there is none
+    to be tangent to.  `waiting` is that element as a step, until it is known whether RND or CHF follows it.
+    """
+
+    log: Log
+    centre: Centre
+    tools: ToolTable
+    blocks: Sequence[Block] = ()
+    labels: Mapping[str, int] = field(default_factory=dict)
+    unit: Unit = Unit.MM
+    begun: bool = False
+    ended: bool = False
+    next: int = 0
+    calls: list[tuple[str, int]] = field(default_factory=list)
+    repeats: dict[int, int] = field(default_factory=dict)
+    parameters: dict[str, float] = field(default_factory=dict)
+    position: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
+    known: set[int] = field(default_factory=set)
+    shift: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
+    pole: Point | None = None
+    feed: float = 0.0
+    tool_feed: float = 0.0
+    before: tuple[bool, float] = (False, 0.0)
+    plane: Plane = Plane.XY
+    defined: dict[str, float] = field(default_factory=dict)
+    tool: str = ""
+    radius: float | None = None
+    speed: Speed = Speed.CENTRE
+    side: int = 0
+    applied: int = 0
+    offset: float = 0.0
+    last: Element | None = None
+    waiting: Step | None = None
+    blend: Blend | None = None
+
+    def stop(self, code: str, text: str, block: Block, name: str = "", *lengths: float) -> NoReturn:
+        """The control stops at a word of the block, or at its head."""
+        at = place(block, name) if name else head_place(block)
+        self.log.stop(code, text, at.line, at.column, lengths=lengths)
+
+    def tell(self, severity: Severity, code: str, text: str, block: Block, name: str = "", *lengths: float) -> None:
+        """Say something about a word of the block, or about the block."""
+        at = place(block, name) if name else head_place(block)
+        self.log.tell(severity, code, text, at.line, at.column, lengths=lengths)
+
+    def words(self, block: Block, allowed: frozenset[str], pattern: Pattern[str] = WORD) -> Words:
+        """The block's words, all of them allowed and none twice; M words are told apart by their numbers."""
+        found: Words = {}
+        for name, number, junk in pattern.findall(block.body):
+            if name == "R" and number == "0":
+                name, number = "R0", ""
+            if name not in allowed:
+                self._unknown(block, name or junk, number)
+            if name == "M":
+                name, number = f"M{number}", ""
+            if name in found:
+                self.stop("TWICE", f"{name} is written twice in this block; keep one.", block, name)
+            found[name] = number
+        return found
+
+    def _unknown(self, block: Block, name: str, number: str) -> NoReturn:
+        if name in OTHER_AXES and number:
+            text = f"{name} is a rotary or parallel axis; its moves are not worked out here."
+        elif name == "R" and number in ("+", "-"):
+            text = "R+ and R- are for single-axis blocks, which are not worked out here; write L with R0, RL or RR."
+        else:
+            text = f"{shown(name)} is not understood in a block {shown(block.head)}."
+        self.stop("WORD", text, block, name)
+
+    def number(self, block: Block, words: Words, name: str) -> float:
+        """The number of a word, as written."""
+        raw = words[name]
+        try:
+            value = float(raw)
+        except ValueError:
+            value = self._other_number(block, name, raw)
+        if not -LARGEST < value < LARGEST:
+            self.stop("NUMBER", f"The number of {name} is too large for any machine.", block, name)
+        return value
+
+    def _other_number(self, block: Block, name: str, raw: str) -> float:
+        if not raw or raw in "+-":
+            self.stop("NUMBER", f"{name} needs a number behind it.", block, name)
+        value = evaluate(raw, self.parameters)
+        if isinstance(value, NoValue):
+            self.stop("Q", value.text, block, name)
+        return value
+
+    def length(self, block: Block, words: Words, name: str) -> float:
+        """The number of a word that is a length or a feed, in millimetres."""
+        return to_mm(self.number(block, words, name), self.unit)
+
+    def flat(self, position: Sequence[float]) -> tuple[Point, float]:
+        """A position as a point of the plane and the tool axis's coordinate."""
+        if self.plane is Plane.XY:
+            return (position[0], position[1]), position[2]
+        first, second, third = self.plane.axes
+        return (position[first], position[second]), position[third]
+
+    def target(self, block: Block, words: Words) -> list[float]:
+        """The position the block's axis words lead to."""
+        position = self.position.copy()
+        for name in words:
+            if name in AXES:
+                axis, relative = AXES[name]
+                if not relative:
+                    self.known.add(axis)
+                elif AXES[name[1:]][0] == axis and name[1:] in words:
+                    self.stop("TWICE", f"{name} and {name[1:]} stand in one block; keep one.", block, name)
+                base = self.position[axis] if relative else self.shift[axis]
+                position[axis] = base + self.length(block, words, name)
+        return position
+
+    def chosen_side(self, block: Block, words: Words) -> None:
+        """Take up the block's R0, RL or RR."""
+        names = [name for name in SIDES if name in words]
+        if not names:
+            return
+        if len(names) > 1:
+            self.stop("TWICE", f"{names[0]} and {names[1]} stand in one block; keep one.", block, names[1])
+        side = SIDES[names[0]]
+        if side and side == -(self.applied or self.side):
+            text = "The side changes without R0 between; cancel in an L block with R0 first, then apply it anew."
+            self.stop("HE1", text, block, names[0])
+        self.side = side
+
+    def chosen_feed(self, block: Block, words: Words) -> tuple[bool, float]:
+        """Rapid and feed of the block: FMAX for this block alone, F from here on."""
+        names = [name for name in ("F", "FMAX", "FAUTO") if name in words]
+        if not names:
+            return False, self.feed
+        if len(names) > 1:
+            self.stop("TWICE", f"{names[0]} and {names[1]} stand in one block; keep one.", block, names[1])
+        if "F" in words:
+            self.feed = self.length(block, words, "F")
+        elif "FAUTO" in words:
+            self.feed = self.tool_feed
+        if self.feed < 0.0:
+            self.stop("NUMBER", "A feed cannot be negative.", block, "F")
+        return "FMAX" in words, self.feed
+
+    def push(self, step: Step) -> None:
+        """Hand a step on; a contour element waits for a rounding or chamfer behind it."""
+        if step.role is not Role.CONTOUR and step.role is not Role.FREE:
+            self.flush()
+            self.centre.push(step)
+            return
+        if self.blend:
+            step = self._blended(self.blend, step)
+        elif self.waiting:
+            self.centre.push(self.waiting)
+        self.waiting = step
+
+    def _blended(self, blend: Blend, second: Step) -> Step:
+        """Hand on the waiting element and what joins it to the next, and give back the next cut short."""
+        first, self.waiting, self.blend = self.waiting, None, None
+        if first is None or first.role is not second.role:
+            self._no_blend(blend, NOT_BESIDE)
+        join = rounding if blend.round else chamfer
+        parts = join(first.element, second.element, blend.size)
+        if isinstance(parts, NoRoom):
+            self._no_blend(blend, parts.text)
+        line, column = blend.block.line, blend.column
+        between = parts[1]._replace(line=line, column=column, rapid=False, feed=blend.feed)
+        self.centre.push(first._replace(element=parts[0], corner=Corner.PLAIN))
+        self.centre.push(first._replace(element=between, corner=Corner.PLAIN))
+        return second._replace(element=parts[2])
+
+    def flush(self) -> None:
+        """Hand on the element that waits: what follows is no rounding of it."""
+        if self.blend:
+            self._no_blend(self.blend, NOT_BESIDE)
+        if self.waiting:
+            waiting, self.waiting = self.waiting, None
+            self.centre.push(waiting)
+
+    def _no_blend(self, blend: Blend, text: str) -> NoReturn:
+        self.log.stop("CORNER", text, blend.block.line, blend.column)
+
+    def moving(self, block: Block, *, rapid: bool, feed: float) -> None:
+        """Take note of a block that moves, and say what it lacks."""
+        self.before = (rapid, feed)
+        if rapid:
+            return
+        if not feed:
+            text = "No feed is programmed for this move, and the control stops for it; write F or FMAX."
+            self.tell(Severity.WARNING, "FEED", text, block)
+        if len(self.known) < 3 and not self.known.issuperset(self.plane.axes[:2]):
+            self.known.update(self.plane.axes[:2])
+            text = "Where the tool stands is not programmed yet and taken as 0; write an L block with both axes before."
+            self.tell(Severity.WARNING, "POSITION", text, block)
+
+    def apply(self, block: Block) -> None:
+        """RL or RR takes effect from here on, at the radius of the tool in the spindle."""
+        if self.applied == self.side:
+            return
+        if self.radius is None:
+            text = "The tool's radius is not known; write TOOL DEF and TOOL CALL, or give the tool's diameter."
+            self.stop("TOOL", text, block, "RL" if self.side > 0 else "RR")
+        if self.radius < 0.0:
+            text = "The tool radius {0} with its deltas is negative: the tool runs on the other side of the contour."
+            self.tell(Severity.WARNING, "TOOL", text, block, "", self.radius)
+        elif not self.radius:
+            self.tell(Severity.WARNING, "TOOL", "The tool radius is 0: the centre runs on the contour.", block)
+        self.applied, self.offset = self.side, self.side * self.radius
+
+    def release(self) -> None:
+        """Compensation is off."""
+        self.applied, self.offset = 0, 0.0
