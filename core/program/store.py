@@ -18,7 +18,7 @@ from core.program.file_read import StoreError, read_program
 from core.program.file_write import written
 from core.program.model import Program
 
-__all__ = ["LARGEST_FILE", "StoreError", "dumps", "load", "loads", "save"]
+__all__ = ["LARGEST_FILE", "StoreError", "dumps", "load", "loads", "save", "write_text"]
 
 LARGEST_FILE: Final = 4_000_000
 """Bytes of the largest program file: about twenty thousand segments."""
@@ -60,14 +60,18 @@ def _content(path: Path) -> bytes:
 
 
 def save(program: Program, path: str | Path) -> None:
-    """Write a program's file in one step, through a symbolic link if there is one; its permissions stay.
+    """Write a program's file in one step; see `write_text`."""
+    write_text(path, written(program))
+
+
+def write_text(path: str | Path, text: str) -> None:
+    """Write a file in one step, through a symbolic link if there is one; its permissions stay.
 
     StoreError leaves the old file as it was and nothing beside it.
     """
-    data = written(program).encode()
     try:
         target = Path(os.path.realpath(path))
-        _replace(target, data)
+        _replace(target, text.encode())
     except (OSError, ValueError) as error:
         raise StoreError(f"{path} is not saved: {_why(error)}") from error
 
