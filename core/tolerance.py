@@ -33,3 +33,6 @@ LARGEST: Final = 1e7
 
 LAST_PASS: Final = 1e-3
 """Is the rest of a depth a pass of its own?  A thinner one is cut together with the pass before it."""
+
+CLEAR: Final = 1e-8
+"""May the cutter stand at a place of the best path?  It is no nearer to the surface than the radius less this."""

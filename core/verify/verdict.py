@@ -46,6 +46,8 @@ class Verdict:
 
     `clearance` is the least distance from path to surface (infinite for an empty path); gouges are deepest first,
     uncut stretches in the contour's order.  `wrong_side` lists rows of the path that run on the part's side.
+    `crossing_at` is the first place where the surface crosses or touches itself.  `judged` is False, and
+    `clearance` not a number, where coordinates or radius are no lengths a machine could have: nothing is known then.
     """
 
     radius: float
@@ -55,11 +57,13 @@ class Verdict:
     surface_length: float
     crosses_itself: bool
     wrong_side: tuple[int, ...] = ()
+    crossing_at: Point | None = None
+    judged: bool = True
 
     @property
     def clean(self) -> bool:
-        """Nothing is gouged and nothing runs on the wrong side."""
-        return not self.gouges and not self.wrong_side
+        """All is judged, nothing is gouged and nothing runs on the wrong side."""
+        return self.judged and not self.gouges and not self.wrong_side
 
     @property
     def depth(self) -> float:

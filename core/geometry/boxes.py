@@ -1,0 +1,123 @@
+"""Which bounding boxes are near each other: a tree over boxes in their order along a path.
+
+Pieces that follow each other lie beside each other, so groups of consecutive boxes make a good tree without any
+sorting.  Boxes are (4, n) arrays: least x, least y, largest x, largest y.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from core.geometry.measured import Flags, Floats, Points, Rows
+
+FAN: Final = 4
+"""Boxes in a group."""
+
+AT_ONCE: Final = 65_536
+"""Pairs that are compared at once, without a tree."""
+
+
+def near_pairs(first: Floats, second: Floats, reach: float) -> tuple[Rows, Rows]:
+    """Indices (i, j), in rising order of i, of all boxes no farther apart than `reach` in x and in y."""
+    one, two = _level_trees(first, second)
+    i, j = np.nonzero(_near(one[0][:, :, None], two[0][:, None, :], reach))
+    for low, high in zip(one[1:], two[1:], strict=True):
+        i, j = _children(i, j, low.shape[1], high.shape[1])
+        keep = _near(low[:, i], high[:, j], reach)
+        i, j = i[keep], j[keep]
+    if len(one) == 1:
+        return i, j
+    order = np.argsort(i, kind="stable")
+    return i[order], j[order]
+
+
+def closest_pairs(first: Floats, second: Floats) -> tuple[Rows, Rows]:
+    """Indices (i, j) of the boxes that may hold the two points, one of each side, that are nearest to each other."""
+    one, two = _level_trees(first, second)
+    i, j = np.nonzero(np.ones((one[0].shape[1], two[0].shape[1]), np.bool_))
+    i, j = _contenders(i, j, one[0], two[0])
+    for low, high in zip(one[1:], two[1:], strict=True):
+        i, j = _contenders(*_children(i, j, low.shape[1], high.shape[1]), low, high)
+    return i, j
+
+
+def nearest_boxes(points: Points, boxes: Floats, tie: float) -> tuple[Rows, Rows]:
+    """Indices (k, j) in rising order of k: for each point the boxes that may hold what is nearest, or `tie` farther."""
+    spots = np.array((points.real, points.imag, points.real, points.imag))
+    tree = _tree(boxes, max(1, AT_ONCE // (4 * max(1, len(points)))))
+    k, j = np.nonzero(np.ones((len(points), tree[0].shape[1]), np.bool_))
+    for depth, level in enumerate(tree):
+        if depth:
+            k, j = _brood(k, j, level.shape[1])
+        near, far = _apart(spots[:, k], level[:, j]), _span(spots[:, k], level[:, j])
+        limit = np.minimum.reduceat(far, np.searchsorted(k, np.arange(len(points))))
+        keep = near <= limit[k] + tie
+        k, j = k[keep], j[keep]
+    return k, j
+
+
+def _contenders(i: Rows, j: Rows, low: Floats, high: Floats) -> tuple[Rows, Rows]:
+    a, b = low[:, i], high[:, j]
+    keep = _apart(a, b) <= np.min(_span(a, b))
+    return i[keep], j[keep]
+
+
+def _level_trees(first: Floats, second: Floats) -> tuple[list[Floats], list[Floats]]:
+    """Both trees from the coarsest groups down, equally deep; few boxes are not grouped at all."""
+    if first.shape[1] * second.shape[1] <= AT_ONCE:
+        return [first], [second]
+    one, two = _tree(first, 1), _tree(second, 1)
+    deep = max(len(one), len(two))
+    one, two = one[:1] * (deep - len(one)) + one, two[:1] * (deep - len(two)) + two
+    several = next((k for k in range(deep) if one[k].shape[1] * two[k].shape[1] > AT_ONCE // 16), deep) - 1
+    return one[several:], two[several:]
+
+
+def _tree(boxes: Floats, most: int) -> list[Floats]:
+    """Boxes, groups of boxes, groups of groups ... down to `most` of them, the coarsest first."""
+    levels = [boxes]
+    while levels[-1].shape[1] > most:
+        levels.append(_grouped(levels[-1]))
+    return levels[::-1]
+
+
+def _grouped(boxes: Floats) -> Floats:
+    starts = np.arange(0, boxes.shape[1], FAN)
+    return np.vstack((np.minimum.reduceat(boxes[:2], starts, axis=1), np.maximum.reduceat(boxes[2:], starts, axis=1)))
+
+
+def _children(i: Rows, j: Rows, first: int, second: int) -> tuple[Rows, Rows]:
+    """All pairs of members of paired groups; a level that only repeats its single group keeps it."""
+    i, j = _brood(i, j, second)
+    j, i = _brood(j, i, first)
+    return i, j
+
+
+def _brood(keep: Rows, grow: Rows, count: int) -> tuple[Rows, Rows]:
+    """Each group in `grow` replaced by its members below `count`, its partner in `keep` repeated."""
+    members = (grow[:, None] * FAN + np.arange(FAN)).ravel()
+    partners = np.repeat(keep, FAN)
+    real = members < count
+    return partners[real], members[real]
+
+
+def _near(a: Floats, b: Floats, reach: float) -> Flags:
+    beside = (a[0] - reach <= b[2]) & (b[0] - reach <= a[2])
+    near: Flags = beside & (a[1] - reach <= b[3]) & (b[1] - reach <= a[3])
+    return near
+
+
+def _apart(a: Floats, b: Floats) -> Floats:
+    """Distance between boxes, 0 where they meet."""
+    x, y = np.maximum(a[0] - b[2], b[0] - a[2]), np.maximum(a[1] - b[3], b[1] - a[3])
+    gap: Floats = np.hypot(np.maximum(x, 0.0), np.maximum(y, 0.0))
+    return gap
+
+
+def _span(a: Floats, b: Floats) -> Floats:
+    """Greatest distance between a point of one box and a point of the other."""
+    x, y = np.maximum(a[2] - b[0], b[2] - a[0]), np.maximum(a[3] - b[1], b[3] - a[1])
+    span: Floats = np.hypot(x, y)
+    return span

@@ -1,0 +1,192 @@
+"""Exact distances between lines and arcs, for arrays of points and arrays of pairs of pieces.
+
+Piece k of one `Measured` is held against piece k of another.  Every extreme of the distance along a piece lies at
+one of a few places that have a formula: its ends, the feet of the other's ends and centre, the crossings.  Where a
+formula has no answer the place is replaced by the piece's start, which harms nobody: a place is only a proposal,
+its distance is always measured.
+"""
+
+from __future__ import annotations
+
+from math import tau
+
+import numpy as np
+
+from core.geometry.measured import Floats, Measured, Points, at, by_kind, travelled
+
+
+def foot(pieces: Measured, points: Points) -> Floats:
+    """(..., n) fraction at which each piece is nearest to its point of `points` (..., n)."""
+    t: Floats = by_kind(pieces.arcs, _line_foot, _arc_foot, pieces, points)
+    return t
+
+
+def distance(pieces: Measured, points: Points) -> Floats:
+    """(..., n) least distance of each piece from its point of `points` (..., n), in millimetres."""
+    apart: Floats = by_kind(pieces.arcs, _line_distance, _arc_distance, pieces, points)
+    return apart
+
+
+def _line_foot(line: Measured, points: Points) -> Floats:
+    size = np.where(line.length == 0.0, 1.0, line.length)
+    t: Floats = np.clip(((points - line.start) * np.conj(line.vector)).real / (size * size), 0.0, 1.0)
+    return t
+
+
+def _line_distance(line: Measured, points: Points) -> Floats:
+    gap: Floats = np.abs(points - line.start - _line_foot(line, points) * line.vector)
+    return gap
+
+
+def _arc_foot(arc: Measured, points: Points) -> Floats:
+    towards = travelled(arc, points - arc.centre)
+    beyond = np.where(tau - towards < towards - arc.angle, 0.0, 1.0)
+    t: Floats = np.where(towards <= arc.angle, towards / np.where(arc.angle == 0.0, 1.0, arc.angle), beyond)
+    return t
+
+
+def _arc_distance(arc: Measured, points: Points) -> Floats:
+    radial = points - arc.centre
+    to_ends = np.minimum(np.abs(points - arc.start), np.abs(points - arc.end))
+    apart: Floats = np.where(travelled(arc, radial) <= arc.angle, np.abs(np.abs(radial) - arc.radius), to_ends)
+    return apart
+
+
+def on_line(pieces: Measured, through: Points, unit: Points) -> Floats:
+    """(2, ..., n) fractions at which the pieces meet endless lines through points along unit vectors; nan for none."""
+    met: Floats = by_kind(pieces.arcs, _line_on_line, _arc_on_line, pieces, through, unit)
+    return met
+
+
+def on_circle(pieces: Measured, centre: Points, radius: Floats) -> Floats:
+    """(2, ..., n) fractions at which the pieces, lines prolonged, meet whole circles; nan for none."""
+    met: Floats = by_kind(pieces.arcs, _line_on_circle, _arc_on_circle, pieces, centre, radius)
+    return met
+
+
+def _line_on_line(line: Measured, through: Points, unit: Points) -> Floats:
+    met = ((through - line.start) * np.conj(unit)).imag / (line.vector * np.conj(unit)).imag
+    return np.stack((met, met))
+
+
+def _arc_on_line(arc: Measured, through: Points, unit: Points) -> Floats:
+    normal = 1j * unit
+    return _fan(arc, normal, ((through - arc.centre) * np.conj(normal)).real / arc.radius)
+
+
+def _line_on_circle(line: Measured, centre: Points, radius: Floats) -> Floats:
+    unit = line.unit
+    seen = (centre - line.start) * np.conj(unit)
+    half = np.sqrt(radius * radius - seen.imag * seen.imag)
+    return np.stack((seen.real - half, seen.real + half)) / line.length
+
+
+def _arc_on_circle(arc: Measured, centre: Points, radius: Floats) -> Floats:
+    between = centre - arc.centre
+    size = np.abs(between)
+    cosine = (arc.radius * arc.radius + size * size - radius * radius) / (2.0 * arc.radius * size)
+    return _fan(arc, between, cosine)
+
+
+def _fan(arc: Measured, axis: Points, cosine: Floats) -> Floats:
+    """Fractions at the two directions from the arc's centre that make an angle of this cosine with `axis`."""
+    half = np.arccos(cosine)
+    towards = np.angle(axis * np.conj(arc.arm)) * arc.turn
+    return np.mod(np.stack((towards - half, towards + half)), tau) / arc.angle
+
+
+def _beside(pieces: Measured, other: Measured, offset: Floats) -> Floats:
+    """Fractions at which pieces meet the carrier (endless line, whole circle) of `other` moved sideways by `offset`."""
+    met: Floats = by_kind(other.arcs, _beside_line, _beside_arc, pieces, other, offset)
+    return met
+
+
+def _beside_line(pieces: Measured, line: Measured, offset: Floats) -> Floats:
+    unit = line.unit
+    return on_line(pieces, line.start + 1j * offset * unit, unit)
+
+
+def _beside_arc(pieces: Measured, arc: Measured, offset: Floats) -> Floats:
+    return on_circle(pieces, arc.centre, np.abs(arc.radius + offset))
+
+
+def nearest_places(pieces: Measured, other: Measured) -> Floats:
+    """(8, n) fractions of each piece among which every local least distance from its partner in `other` is found."""
+    places = np.concatenate((_ends(pieces), _crossings(pieces, other), _feet(pieces, other)))
+    return _inside(places)
+
+
+def farthest_places(pieces: Measured, other: Measured) -> Floats:
+    """(10, n) fractions among which every local greatest distance from the partner in `other` is found, ends left out.
+
+    Besides the antipodes of the feet these are the places equally far from an arc's two ends.
+    """
+    even = by_kind(other.arcs, _no_places, _even_places, pieces, other)
+    opposite = by_kind(pieces.arcs, _no_antipodes, _antipodes, pieces, other)
+    return _inside(np.concatenate((_feet(pieces, other), opposite, even)))
+
+
+def band_places(pieces: Measured, other: Measured, reach: Floats) -> Floats:
+    """(10, n) fractions in rising order that part each piece where its distance from its partner may pass `reach`.
+
+    These are its meetings with the outline of all points within `reach` (n,) of the partner: the partner moved
+    sideways both ways, and the circles about its ends; and its own ends.
+    """
+    caps = on_circle(pieces, np.stack((other.start, other.end)), np.stack((reach, reach))).reshape(4, -1)
+    places = (_ends(pieces), _beside(pieces, other, reach), _beside(pieces, other, -reach), caps)
+    return np.sort(_inside(np.concatenate(places)), axis=0)
+
+
+def _ends(pieces: Measured) -> Floats:
+    ends = np.zeros((2, len(pieces)))
+    ends[1] = 1.0
+    return ends
+
+
+def _inside(places: Floats) -> Floats:
+    return np.clip(np.where(np.isnan(places), 0.0, places), 0.0, 1.0)
+
+
+def _crossings(pieces: Measured, other: Measured) -> Floats:
+    return _beside(pieces, other, np.zeros(len(pieces)))
+
+
+def _feet(pieces: Measured, other: Measured) -> Floats:
+    """(4, n) feet of the other's two ends and, both ways, of its centre or along its normal."""
+    feet: Floats = by_kind(pieces.arcs, _line_feet, _arc_feet, pieces, other)
+    return feet
+
+
+def _line_feet(line: Measured, other: Measured) -> Floats:
+    centre = other.centre
+    return _line_foot(line, np.stack((other.start, other.end, centre, centre)))
+
+
+def _arc_feet(arc: Measured, other: Measured) -> Floats:
+    normal = np.where(other.arcs, other.centre - arc.centre, 1j * other.vector)
+    towards = np.stack((other.start - arc.centre, other.end - arc.centre, normal, -normal))
+    return travelled(arc, towards) / arc.angle
+
+
+def _antipodes(arc: Measured, other: Measured) -> Floats:
+    towards = np.stack((arc.centre - other.start, arc.centre - other.end))
+    return travelled(arc, towards) / arc.angle
+
+
+def _no_antipodes(line: Measured, _other: Measured) -> Floats:
+    return np.zeros((2, len(line)))
+
+
+def _even_places(pieces: Measured, arc: Measured) -> Floats:
+    middle = arc.arm / arc.radius * np.exp(0.5j * arc.turn * arc.angle)
+    places = on_line(pieces, arc.centre, middle)
+    return np.concatenate((places, places))
+
+
+def _no_places(pieces: Measured, _other: Measured) -> Floats:
+    return np.zeros((4, len(pieces)))
+
+
+def between(pieces: Measured, other: Measured, places: Floats) -> Floats:
+    """(k, n) distances of the points at `places` (k, n) of each piece from its partner in `other`."""
+    return distance(other, at(pieces, places))

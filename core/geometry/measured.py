@@ -1,0 +1,224 @@
+"""Measured: the pieces of a path with what exact distances need, worked out once, for whole arrays of pieces.
+
+Points are complex numbers x + iy.  A place on a piece is the fraction t of it that has been travelled, 0 to 1;
+a place on a whole path is the length s travelled since its first point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import tau
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.geometry.path import Path
+from core.geometry.piece import SLIVER
+from core.tolerance import ON_PATH
+
+Floats = NDArray[np.float64]
+Points = NDArray[np.complex128]
+Rows = NDArray[np.intp]
+Flags = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Measured:
+    """n pieces, (n,) arrays each, millimetres and radians.
+
+    `rows` are the pieces' rows in the path they come from.  `vector` is end - start.  `arm` is start - centre of an
+    arc and 1 of a line, `turn` 0 for a line, `angle` the unsigned angle travelled by an arc and 0 for a line.
+    `slack` is how far an arc of two different radii may be from the circle taken for it.
+    """
+
+    rows: Rows
+    start: Points
+    vector: Points
+    arm: Points
+    turn: Floats
+    angle: Floats
+    radius: Floats
+    length: Floats
+    slack: Floats
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def take(self, rows: Rows | Flags) -> Measured:
+        """The pieces of these indices, repeated and ordered as they come."""
+        return Measured(
+            self.rows[rows],
+            self.start[rows],
+            self.vector[rows],
+            self.arm[rows],
+            self.turn[rows],
+            self.angle[rows],
+            self.radius[rows],
+            self.length[rows],
+            self.slack[rows],
+        )
+
+    @property
+    def arcs(self) -> Flags:
+        """(n,) which pieces are arcs."""
+        arcs: Flags = self.turn != 0.0
+        return arcs
+
+    @property
+    def end(self) -> Points:
+        """(n,) last points."""
+        return self.start + self.vector
+
+    @property
+    def centre(self) -> Points:
+        """(n,) centres of arcs; of a line a point without meaning."""
+        return self.start - self.arm
+
+    @property
+    def unit(self) -> Points:
+        """(n,) direction of each chord; 0 for one without length."""
+        size = np.abs(self.vector)
+        unit: Points = self.vector / np.where(size == 0.0, 1.0, size)
+        return unit
+
+    @property
+    def stations(self) -> Floats:
+        """(n + 1,) length travelled at the start of each piece, and at the end of all."""
+        return np.concatenate(([0.0], np.cumsum(self.length)))
+
+
+Given = Measured | Floats | Points
+Formula = Callable[..., NDArray[Any]]
+
+
+def measured(path: Path) -> Measured:
+    """The pieces of `path` that have a length; the first alone if none has."""
+    corners = path.points[:, 0] + 1j * path.points[:, 1]
+    start, end = corners[:-1], corners[1:]
+    centre, turn = path.centres[:, 0] + 1j * path.centres[:, 1], path.turns.astype(np.float64)
+    arc = turn != 0.0
+    arm, angle, radius = np.ones_like(start), np.zeros(len(turn)), np.zeros(len(turn))
+    slack, vector = np.zeros(len(turn)), end - start
+    length = np.abs(vector)
+    if arc.any():
+        middle, off = _one_radius(start[arc], end[arc], centre[arc])
+        arm[arc], slack[arc] = start[arc] - middle, off
+        radius[arc] = np.abs(arm[arc])
+        angle[arc] = _angles(arm[arc], end[arc] - middle, turn[arc], start[arc] == end[arc])
+        length[arc] = radius[arc] * angle[arc]
+    whole = Measured(np.arange(len(turn)), start, vector, arm, turn, angle, radius, length, slack)
+    keep = length > ON_PATH
+    if keep.all():
+        return whole
+    return whole.take(np.flatnonzero(keep) if keep.any() else np.arange(min(1, len(turn))))
+
+
+def _one_radius(start: Points, end: Points, centre: Points) -> tuple[Points, Floats]:
+    """Centres equally far from both ends, and by how much an arc's two radii left open where it runs."""
+    off = np.abs(np.abs(start - centre) - np.abs(end - centre))
+    uneven = off > ON_PATH
+    if not uneven.any():
+        return centre, np.zeros(len(off))
+    chord = end - start
+    size = np.abs(chord)
+    steady = uneven & (size > 1e-3 * np.abs(start - centre))
+    unit = chord / np.where(size == 0.0, 1.0, size)
+    shift = (np.conj(unit) * (centre - (start + end) / 2)).real
+    moved = np.where(steady, centre - unit * shift, centre)
+    return moved, np.where(uneven, np.maximum(off, np.where(steady, np.abs(shift), 0.0)), 0.0)
+
+
+def _angles(arm: Points, last: Points, turn: Floats, whole: Flags) -> Floats:
+    """Angles travelled from `arm` to `last`, in [0, tau]; a hair less than a full turn is an empty arc."""
+    arm = np.where(arm == 0.0, 1.0, arm)
+    angle = np.mod(np.angle(last / arm) * turn, tau)
+    angle[angle > tau - SLIVER] = 0.0
+    angle[whole] = tau
+    return angle
+
+
+def by_kind(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArray[Any]:
+    """What `line` yields where `chosen` is False and `arc` where it is True; the last axis counts the pieces."""
+    if not chosen.any():
+        return line(*given)
+    if chosen.all():
+        return arc(*given)
+    rows_line, rows_arc = np.flatnonzero(~chosen), np.flatnonzero(chosen)
+    lines, arcs = line(*_pick(given, rows_line)), arc(*_pick(given, rows_arc))
+    both = np.empty((*lines.shape[:-1], len(chosen)), lines.dtype)
+    both[..., rows_line], both[..., rows_arc] = lines, arcs
+    return both
+
+
+def _pick(given: tuple[Given, ...], rows: Rows) -> list[Given]:
+    return [item.take(rows) if isinstance(item, Measured) else item[..., rows] for item in given]
+
+
+def at(pieces: Measured, t: Floats) -> Points:
+    """(..., n) points at the fractions `t` (..., n) of each piece."""
+    points: Points = by_kind(pieces.arcs, _line_at, _arc_at, pieces, t)
+    return points
+
+
+def _line_at(line: Measured, t: Floats) -> Points:
+    return line.start + t * line.vector
+
+
+def _arc_at(arc: Measured, t: Floats) -> Points:
+    points: Points = arc.centre + arc.arm * np.exp(1j * (arc.turn * arc.angle) * t)
+    return points
+
+
+def direction(pieces: Measured, t: Floats) -> Points:
+    """(n,) unit tangents at the fractions `t` (n,)."""
+    units: Points = by_kind(pieces.arcs, _line_direction, _arc_direction, pieces, t)
+    return units
+
+
+def _line_direction(line: Measured, t: Floats) -> Points:
+    return line.unit + 0.0 * t
+
+
+def _arc_direction(arc: Measured, t: Floats) -> Points:
+    size = np.where(arc.radius == 0.0, 1.0, arc.radius)
+    units: Points = 1j * arc.turn * (arc.arm / size) * np.exp(1j * (arc.turn * arc.angle) * t)
+    return units
+
+
+def travelled(arc: Measured, towards: Points) -> Floats:
+    """Angles in [0, tau) from each arc's start to the directions `towards` (..., n), seen from its centre."""
+    angle: Floats = np.mod(np.angle(towards * np.conj(arc.arm)) * arc.turn, tau)
+    return angle
+
+
+def boxes(pieces: Measured) -> Floats:
+    """(4, n) exact bounding boxes: least x, least y, largest x, largest y."""
+    start, end = pieces.start, pieces.end
+    box = np.array(
+        (
+            np.minimum(start.real, end.real),
+            np.minimum(start.imag, end.imag),
+            np.maximum(start.real, end.real),
+            np.maximum(start.imag, end.imag),
+        )
+    )
+    rows = np.flatnonzero(pieces.turn)
+    if not len(rows):
+        return box
+    arc = pieces.take(rows)
+    quarters = np.array((-1.0, -1.0j, 1.0, 1.0j))[:, None]
+    passed = travelled(arc, quarters) < arc.angle
+    centre = arc.centre
+    limits = np.array((centre.real, centre.imag, centre.real, centre.imag)) + np.outer((-1, -1, 1, 1), arc.radius)
+    box[:, rows] = np.where(passed, limits, box[:, rows])
+    return box
+
+
+def place(pieces: Measured, stations: Floats, s: Floats) -> tuple[Rows, Floats]:
+    """Piece index and fraction of the places `s` along the whole path; at a joint the piece that begins there."""
+    index = np.clip(np.searchsorted(stations, s, side="right") - 1, 0, len(pieces) - 1)
+    length = pieces.length[index]
+    t = (s - stations[index]) / np.where(length == 0.0, 1.0, length)
+    return index, np.clip(t, 0.0, 1.0)

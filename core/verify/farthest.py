@@ -1,0 +1,141 @@
+"""Farthest: where along stretches of one path the distance to another path is largest.
+
+The distance to a path is the least of the distances to its pieces, so along a span it is bounded from above by
+the largest distance to any one of them, which has a formula, and from below by its value anywhere.  A span
+whose bound exceeds the best value found on its stretch is divided where its two ends' nearest pieces are
+equally far, until both agree within `FINE`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from core.geometry.distance import between, distance, farthest_places
+from core.geometry.measured import Flags, Floats, Measured, Rows, at, boxes, place
+from core.verify.reach import Stretches, nearest
+
+FINE: Final = 1e-8
+"""Millimetres between the bounds of a largest distance at which it counts as known."""
+
+ROUNDS: Final = 100
+"""Divisions after which doubles cannot part a span of any size further."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Farthest:
+    """(k,) for each stretch the place, in length travelled, that is farthest from the other path, and how far it is."""
+
+    place: Floats
+    apart: Floats
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Spans:
+    """m parts of single pieces, each of stretch `owner`: places, distances and nearest pieces at both ends (2, m)."""
+
+    owner: Rows
+    s: Floats
+    apart: Floats
+    near: Rows
+
+    def take(self, keep: Flags) -> _Spans:
+        return _Spans(self.owner[keep], self.s[:, keep], self.apart[:, keep], self.near[:, keep])
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Search:
+    """The path that is walked, its stations, the other path and its boxes."""
+
+    walked: Measured
+    stations: Floats
+    other: Measured
+    bounds: Floats
+
+    def look(self, s: Floats) -> tuple[Floats, Rows]:
+        """Distance of each place from the other path and the piece it is nearest to."""
+        index, t = place(self.walked, self.stations, s)
+        found = nearest(at(self.walked.take(index), t), self.other, self.bounds)
+        first = np.searchsorted(found.k, np.arange(len(s)))
+        return found.apart[first], found.j[first]
+
+
+def farthest(walked: Measured, stretches: Stretches, other: Measured) -> Farthest:
+    """The largest distance from `other`, within FINE, on each stretch of `walked`; `other` has at least one piece."""
+    search = _Search(walked, walked.stations, other, boxes(other))
+    spans, best = _begin(search, stretches)
+    for turn in range(ROUNDS):
+        bound, crossing = _bounds(search, spans)
+        open_still = bound > best.apart[spans.owner] + FINE
+        if not open_still.any():
+            break
+        share = np.clip(crossing[open_still], 0.01, 0.99) if turn % 3 < 2 else np.full(int(open_still.sum()), 0.5)
+        spans, best = _divide(search, spans.take(open_still), share, best)
+    return best
+
+
+def _begin(search: _Search, stretches: Stretches) -> tuple[_Spans, Farthest]:
+    """Stretches parted at the joints within them, and the best of all their ends and joints."""
+    joints = search.stations[1:-1]
+    owner = stretches.index(joints)
+    inside = (owner >= 0) & (joints < stretches.last[owner])
+    each = np.arange(len(stretches))
+    owners = np.concatenate((each, each, owner[inside]))
+    s = np.concatenate((stretches.first, stretches.last, joints[inside]))
+    order = np.lexsort((s, owners))
+    owners, s = owners[order], s[order]
+    apart, near = search.look(s)
+    pairs = np.flatnonzero((owners[1:] == owners[:-1]) & (s[1:] > s[:-1]))
+    both = np.stack((pairs, pairs + 1))
+    none = Farthest(np.zeros(len(each)), np.full(len(each), -np.inf))
+    return _Spans(owners[pairs], s[both], apart[both], near[both]), _better(none, owners, s, apart)
+
+
+def _better(best: Farthest, owner: Rows, s: Floats, apart: Floats) -> Farthest:
+    """`best` with the places `s` of stretches `owner` where these are farther."""
+    where, size = best.place.copy(), best.apart.copy()
+    order = np.lexsort((apart, owner))
+    last = order[np.flatnonzero(np.append(owner[order][1:] != owner[order][:-1], True))]
+    last = last[apart[last] > size[owner[last]]]
+    where[owner[last]], size[owner[last]] = s[last], apart[last]
+    return Farthest(where, size)
+
+
+def _bounds(search: _Search, spans: _Spans) -> tuple[Floats, Floats]:
+    """What the distance cannot exceed on each span, and at what share of it both nearest pieces may be equally far."""
+    index, _ = place(search.walked, search.stations, spans.s.mean(axis=0))
+    piece = search.walked.take(index)
+    t = (spans.s - search.stations[index]) / np.where(piece.length == 0.0, 1.0, piece.length)
+    bounds, across = [], []
+    for end in (0, 1):
+        near = search.other.take(spans.near[end])
+        there = distance(near, at(piece, t[1 - end]))
+        bounds.append(np.maximum(_within_span(piece, near, t), np.maximum(spans.apart[end], there)))
+        across.append(there)
+    behind, ahead = across[1] - spans.apart[0], across[0] - spans.apart[1]
+    total = behind + ahead
+    return np.minimum(*bounds), np.where(total > 0.0, behind / np.where(total > 0.0, total, 1.0), 0.5)
+
+
+def _within_span(piece: Measured, near: Measured, t: Floats) -> Floats:
+    """Largest distance to one nearest piece at the places inside the span where it can be largest."""
+    places = farthest_places(piece, near)
+    inside = (places > t[0]) & (places < t[1])
+    if not inside.any():
+        return np.zeros(len(piece))
+    bound: Floats = np.max(np.where(inside, between(piece, near, places), 0.0), axis=0)
+    return bound
+
+
+def _divide(search: _Search, spans: _Spans, share: Floats, best: Farthest) -> tuple[_Spans, Farthest]:
+    """Every span in two at `share` of its length, and the best of the places between."""
+    s = spans.s[0] + share * (spans.s[1] - spans.s[0])
+    apart, near = search.look(s)
+    halves = [
+        np.hstack((np.stack((kept[0], new)), np.stack((new, kept[1]))))
+        for kept, new in ((spans.s, s), (spans.apart, apart), (spans.near, near))
+    ]
+    best = _better(best, spans.owner, s, apart)
+    return _Spans(np.tile(spans.owner, 2), halves[0], halves[1], halves[2]), best

@@ -1,0 +1,94 @@
+"""Gouge: the stretches of a centre path nearer to the surface than the radius, each with its deepest point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.geometry.distance import foot
+from core.geometry.measured import Floats, Rows, at
+from core.geometry.path import Path
+from core.tolerance import GOUGE, JOINED
+from core.verify.pairs import Approaches, Pairs
+from core.verify.reach import Parts, Stretches, union, within
+from core.verify.verdict import Gouge
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Gouging:
+    """k stretches of the centre path that gouge, and of each the deepest place, its distance and its pair (i, j)."""
+
+    stretches: Stretches
+    place: Floats
+    apart: Floats
+    i: Rows
+    j: Rows
+
+
+def gouging(pairs: Pairs, near: Approaches, radius: float) -> Gouging:
+    """Where the centre path is nearer to the surface than the radius.
+
+    Nearer by no more than GOUGE, or than the slack of uneven arcs, is rounding.
+    """
+    limit = radius - GOUGE - pairs.centre.slack[near.i] - pairs.surface.slack[near.j]
+    deep = np.flatnonzero((near.apart < limit).any(axis=0))
+    i, j, apart = near.i[deep], near.j[deep], near.apart[:, deep]
+    piece, starts = pairs.centre.take(i), pairs.centre_stations[i]
+    parts = within(piece, pairs.surface.take(j), starts, limit[deep])
+    k, pair = np.nonzero(apart < limit[deep])
+    spots = starts[pair] + near.places[:, deep][k, pair] * piece.length[pair]
+    every = Parts(
+        np.concatenate((parts.first, spots)),
+        np.concatenate((parts.last, spots)),
+        np.concatenate((parts.middle, spots)),
+        np.concatenate((parts.apart, apart[k, pair])),
+        np.concatenate((parts.pair, pair)),
+    )
+    return _deepest(every, i, j)
+
+
+def _deepest(parts: Parts, i: Rows, j: Rows) -> Gouging:
+    """Parts as stretches, each with the least distance measured in it."""
+    stretches = union(parts.first, parts.last)
+    owner = stretches.index(parts.middle)
+    order = np.lexsort((parts.apart, owner))
+    best = order[np.flatnonzero(np.diff(owner[order], prepend=-1))]
+    pair = parts.pair[best]
+    return Gouging(stretches, parts.middle[best], parts.apart[best], i[pair], j[pair])
+
+
+def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, centre: Path) -> tuple[Gouge, ...]:
+    """The stretches as `Gouge`s, deepest first."""
+    if not len(found.i):
+        return ()
+    piece, other = pairs.centre.take(found.i), pairs.surface.take(found.j)
+    length = np.where(piece.length == 0.0, 1.0, piece.length)
+    points = at(piece, np.clip((found.place - pairs.centre_stations[found.i]) / length, 0.0, 1.0))
+    touched = at(other, foot(other, points))
+    told = [
+        Gouge(
+            depth, (p.real, p.imag), (q.real, q.imag), row, centre.numbers.item(row), surface.numbers.item(wall), extent
+        )
+        for depth, p, q, row, wall, extent in zip(
+            (radius - found.apart).tolist(),
+            points.tolist(),
+            touched.tolist(),
+            piece.rows.tolist(),
+            other.rows.tolist(),
+            (found.stretches.last - found.stretches.first).tolist(),
+            strict=True,
+        )
+    ]
+    if len(told) > 1 and _over_seam(found.stretches, pairs):
+        deeper, less = sorted((told[0], told[-1]), key=lambda gouge: -gouge.depth)
+        told = [*told[1:-1], replace(deeper, extent=deeper.extent + less.extent)]
+    return tuple(sorted(told, key=lambda gouge: -gouge.depth))
+
+
+def _over_seam(stretches: Stretches, pairs: Pairs) -> bool:
+    """The first and the last stretch are one: the path ends where it begins, and gouges there."""
+    joined = bool(abs(pairs.centre.end[-1] - pairs.centre.start[0]) <= JOINED)
+    return (
+        joined and bool(stretches.first[0] <= JOINED) and bool(stretches.last[-1] >= pairs.centre_stations[-1] - JOINED)
+    )

@@ -1,0 +1,100 @@
+"""Reach: which places of one path lie within a radius of another, as exact stretches of length travelled.
+
+The one question behind gouges (the centre path within the radius of the surface), uncut stretches (the surface not
+within the radius of the centre path) and moves away from the part.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.geometry.boxes import nearest_boxes
+from core.geometry.distance import band_places, between, distance
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows
+from core.tolerance import ON_PATH
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Stretches:
+    """k stretches of a path, apart from each other and in order: lengths travelled (k,) at `first` and `last`."""
+
+    first: Floats
+    last: Floats
+
+    def __len__(self) -> int:
+        return len(self.first)
+
+    def index(self, s: Floats) -> Rows:
+        """The stretch each place `s` is in or follows; -1 before the first."""
+        return np.searchsorted(self.first, s, side="right") - 1
+
+    def gaps(self, total: float) -> Stretches:
+        """What is left of 0 ... total between the stretches."""
+        gaps = Stretches(np.concatenate(([0.0], self.last)), np.concatenate((self.first, [total])))
+        return gaps.keep(gaps.last > gaps.first)
+
+    def keep(self, chosen: Flags) -> Stretches:
+        """The stretches for which `chosen` (k,) is True."""
+        return Stretches(self.first[chosen], self.last[chosen])
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Parts:
+    """m parts of pieces: lengths travelled at both ends and in the middle, the distance there, and whose pair it is."""
+
+    first: Floats
+    last: Floats
+    middle: Floats
+    apart: Floats
+    pair: Rows
+
+
+def within(pieces: Measured, other: Measured, starts: Floats, reach: Floats) -> Parts:
+    """All parts of the pieces that are nearer to their partners than `reach` (n,).
+
+    `starts` (n,) are the lengths travelled at the pieces' starts.  The pieces are parted wherever the distance can
+    pass `reach`, and the middle of each part decides.
+    """
+    places = band_places(pieces, other, reach)
+    middles = (places[1:] + places[:-1]) / 2.0
+    apart = between(pieces, other, middles)
+    part, pair = np.nonzero((apart < reach) & (places[1:] > places[:-1]))
+    start, length = starts[pair], pieces.length[pair]
+    first, last, middle = places[part, pair], places[part + 1, pair], middles[part, pair]
+    return Parts(start + first * length, start + last * length, start + middle * length, apart[part, pair], pair)
+
+
+def union(first: Floats, last: Floats) -> Stretches:
+    """Overlapping and touching parts as stretches."""
+    order = np.argsort(first, kind="stable")
+    first, furthest = first[order], np.maximum.accumulate(last[order])
+    begins = np.ones(len(first), np.bool_)
+    begins[1:] = first[1:] > furthest[:-1] + ON_PATH
+    starts = np.flatnonzero(begins)
+    ends = np.append(starts[1:], len(first)) - 1
+    return Stretches(first[starts], furthest[ends[: len(starts)]])
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Nearest:
+    """All pieces nearest to points: pairs of point `k` and piece `j` in rising order of k, ties included."""
+
+    k: Rows
+    j: Rows
+    apart: Floats
+
+
+def nearest(points: Points, pieces: Measured, bounds: Floats, tie: float = 0.0) -> Nearest:
+    """For each point the pieces no farther than the nearest one and `tie`; `bounds` are the pieces' boxes."""
+    k, j = nearest_boxes(points, bounds, tie)
+    apart = distance(pieces.take(j), points[k])
+    return least_of(k, j, apart, len(points), tie)
+
+
+def least_of(k: Rows, j: Rows, apart: Floats, count: int, tie: float) -> Nearest:
+    """The pairs of each k (rising, each of 0 ... count - 1 present) with the least distance, and ties."""
+    least = np.minimum.reduceat(apart, np.searchsorted(k, np.arange(count)))
+    keep = apart <= least[k] + tie
+    return Nearest(k[keep], j[keep], apart[keep])

@@ -1,0 +1,97 @@
+"""Report: a verdict as findings, in a machinist's words."""
+
+from __future__ import annotations
+
+from math import isinf
+
+from core.finding import Finding, Severity
+from core.geometry.path import Path
+from core.verify.verdict import Gouge, Uncut, Verdict
+
+
+def findings(verdict: Verdict, surface: Path) -> tuple[Finding, ...]:
+    """What the operator must know: errors first, then warnings, then what stays uncut in the contour's order."""
+    if not verdict.judged:
+        return (_unjudged(),)
+    return (
+        *(_gouge(gouge) for gouge in verdict.gouges),
+        *_wrong_side(verdict),
+        *_crosses_itself(verdict),
+        *(_uncut(stretch, surface) for stretch in verdict.uncut),
+    )
+
+
+def _unjudged() -> Finding:
+    text = "The path cannot be judged: a coordinate or the tool radius is not a number a machine can have."
+    return Finding("UNJUDGED", Severity.ERROR, text)
+
+
+def _gouge(gouge: Gouge) -> Finding:
+    """The segment is the surface's; `lengths` holds the length of path that gouges."""
+    text = (
+        f"{_move(gouge.path_number)} gouges segment {_number(gouge.surface_number)} by {{value}} at X {{x}} Y {{y}}, "
+        "over {0} of path."
+    )
+    return Finding(
+        "GOUGE",
+        Severity.ERROR,
+        text,
+        segment=gouge.surface_number,
+        at=gouge.surface_at,
+        value=gouge.depth,
+        lengths=(gouge.extent,),
+    )
+
+
+def _move(number: float) -> str:
+    """A piece of the centre path: the path of a segment, or of the corner behind segment k by k + 1/2."""
+    if number == int(number):
+        return f"The path of segment {int(number)}"
+    return f"The corner arc after segment {int(number)}"
+
+
+def _number(number: float) -> str:
+    return f"{number:g}"
+
+
+def _wrong_side(verdict: Verdict) -> tuple[Finding, ...]:
+    if not verdict.wrong_side:
+        return ()
+    moves = len(verdict.wrong_side)
+    text = f"The cutter runs on the part's side of the contour, on {moves} {'move' if moves == 1 else 'moves'}."
+    return (Finding("WRONG_SIDE", Severity.ERROR, text),)
+
+
+def _crosses_itself(verdict: Verdict) -> tuple[Finding, ...]:
+    if not verdict.crosses_itself:
+        return ()
+    text = "The contour crosses or touches itself at X {x} Y {y}: its over-run counts as surface too."
+    return (Finding("CROSSES_ITSELF", Severity.WARNING, text, at=verdict.crossing_at),)
+
+
+def _uncut(stretch: Uncut, surface: Path) -> Finding:
+    """The segment is the one the stretch begins on; `lengths` holds the largest thickness, unless there is no path."""
+    where = _segments(stretch, surface)
+    lengths: tuple[float, ...] = (stretch.thickness,)
+    text = f"{{value}} of {where} stays uncut, {{0}} at the thickest, at X {{x}} Y {{y}}."
+    if isinf(stretch.thickness):
+        text, lengths = f"Nothing of {where} is cut: there is no path.", ()
+    return Finding(
+        "UNCUT",
+        Severity.INFO,
+        text,
+        segment=stretch.first_number,
+        at=stretch.thickest,
+        value=stretch.length,
+        lengths=lengths,
+    )
+
+
+def _segments(stretch: Uncut, surface: Path) -> str:
+    """The segments a stretch lies on, from the one it begins on to the one it ends on."""
+    first, last = _number(stretch.first_number), _number(stretch.last_number)
+    if first == last:
+        return f"segment {first}"
+    if stretch.first_number < stretch.last_number:
+        return f"segments {first} to {last}"
+    return f"segments {first} to {_number(float(surface.numbers[-1]))} and on over START to {last}"

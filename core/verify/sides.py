@@ -1,0 +1,135 @@
+"""Sides: which pieces of a centre path run on the part's side of the surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from core.geometry.distance import foot
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction, place
+from core.geometry.side import Side
+from core.tolerance import JOINED, ON_PATH
+from core.verify.crossing import Crossings
+from core.verify.gouge import Gouging
+from core.verify.pairs import Pairs
+from core.verify.reach import Nearest, least_of, nearest
+
+CLEARLY: Final = 1e-6
+"""Sine of an angle to the surface's tangent below which a point is on neither side."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Sided:
+    """A surface that has a side: `side` is the cutter's.
+
+    `first` and `last` are lengths travelled; before and behind them, and at them, the surface has no side unless it
+    is `endless`.  Where it is `crossed` the sides of two of its walls may contradict each other near both.
+    """
+
+    side: Side
+    first: float
+    last: float
+    endless: bool
+    crossed: bool
+
+
+def sided(side: Side, crossings: Crossings, total: float, *, closed: bool) -> Sided:
+    """An over-run bounds no material and has no side.
+
+    It is the run from an open contour's end to the outermost crossing with itself, when it is shorter than what lies
+    between the outermost crossings.
+    """
+    first, last = 0.0, total
+    if len(crossings) and not closed:
+        low, high = float(crossings.places.min()), float(crossings.places.max())
+        first = low if low < high - low else first
+        last = high if total - high < high - low else last
+    return Sided(side, first, last, closed, len(crossings) > 0)
+
+
+def wrong_side(pairs: Pairs, middle: Floats, found: Gouging, surface: Sided, reach: float) -> tuple[int, ...]:
+    """Rows of the centre path of which some point is clearly on the part's side, in rising order.
+
+    A piece whose middle is within `reach` of the surface is judged there, by the distances `middle` of its pairs; any
+    other piece in its middle and at its ends; a gouge at its ends, in its middle and where it is deepest.
+    """
+    if not len(pairs.surface) or not len(pairs.centre):
+        return ()
+    tie = _tie(pairs.surface, surface)
+    contact = _contact(pairs, middle, reach, tie)
+    rows = np.unique(contact.k)
+    s = _middle_places(pairs)
+    spots = at(pairs.centre, np.full(len(pairs.centre), 0.5))
+    wrong = [rows[_wrong(pairs, s[rows], spots[rows], _counted(contact), surface, found)]]
+    more = _samples(pairs, np.setdiff1d(np.arange(len(pairs.centre)), rows), found)
+    if len(more):
+        index, t = place(pairs.centre, pairs.centre_stations, more)
+        points = at(pairs.centre.take(index), t)
+        near = nearest(points, pairs.surface, pairs.surface_boxes, tie)
+        wrong.append(index[_wrong(pairs, more, points, near, surface, found)])
+    return tuple(pairs.centre.rows[np.unique(np.concatenate(wrong))].tolist())
+
+
+def _tie(surface: Measured, sides: Sided) -> float:
+    """How much farther than the nearest a wall may be and count as nearest too: over a closed contour's seam."""
+    return ON_PATH + (float(np.abs(surface.end[-1] - surface.start[0])) if sides.endless else 0.0)
+
+
+def _contact(pairs: Pairs, middle: Floats, reach: float, tie: float) -> Nearest:
+    """For each piece whose middle is within reach the surface pieces nearest to it there."""
+    close = np.flatnonzero(middle <= reach)
+    if not len(close):
+        return Nearest(close, close, np.zeros(0))
+    rows, k = np.unique(pairs.i[close], return_inverse=True)
+    near = least_of(k, pairs.j[close], middle[close], len(rows), tie)
+    return Nearest(rows[near.k], near.j, near.apart)
+
+
+def _counted(near: Nearest) -> Nearest:
+    """The same with k renumbered 0, 1, 2 ..."""
+    return Nearest(np.unique(near.k, return_inverse=True)[1], near.j, near.apart)
+
+
+def _middle_places(pairs: Pairs) -> Floats:
+    middle: Floats = (pairs.centre_stations[:-1] + pairs.centre_stations[1:]) / 2.0
+    return middle
+
+
+def _samples(pairs: Pairs, rows: Rows, found: Gouging) -> Floats:
+    """Places along the centre path that stand for these pieces and for the gouges."""
+    first, last = pairs.centre_stations[rows], pairs.centre_stations[rows + 1]
+    gouge = found.stretches
+    return np.concatenate(
+        (first, (first + last) / 2.0, last, gouge.first, gouge.last, (gouge.first + gouge.last) / 2.0, found.place)
+    )
+
+
+def _wrong(pairs: Pairs, s: Floats, points: Points, near: Nearest, surface: Sided, found: Gouging) -> Flags:
+    """Which of the points, at places `s` of the centre path, are clearly on the part's side of all that is nearest."""
+    if not len(points):
+        return np.zeros(0, np.bool_)
+    piece = pairs.surface.take(near.j)
+    t = foot(piece, points[near.k])
+    off = points[near.k] - at(piece, t)
+    sine = (np.conj(direction(piece, t)) * off).imag / np.where(near.apart < ON_PATH, np.inf, near.apart)
+    touched = pairs.surface_stations[near.j] + t * piece.length
+    outside = (touched <= surface.first + JOINED) | (touched >= surface.last - JOINED)
+    starts = np.searchsorted(near.k, np.arange(len(points)))
+    wrong = np.add.reduceat(sine, starts) * surface.side.sign < -CLEARLY
+    if not surface.endless:
+        wrong &= ~np.logical_or.reduceat(outside, starts)
+    if surface.crossed:
+        wrong &= ~_inside(found, s)
+    return wrong
+
+
+def _inside(found: Gouging, s: Floats) -> Flags:
+    """Places strictly inside a gouge."""
+    stretches = found.stretches
+    if not len(stretches):
+        return np.zeros(len(s), np.bool_)
+    owner = stretches.index(s)
+    inside: Flags = (owner >= 0) & (s > stretches.first[owner]) & (s < stretches.last[owner])
+    return inside

@@ -1,0 +1,160 @@
+"""Uncut: the stretches of surface that no point of the centre path reaches, and how thick they stay."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from core.geometry.distance import band_places, distance, nearest_places
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place
+from core.geometry.path import Path
+from core.tolerance import ON_PATH, STOCK, UNCUT
+from core.verify.farthest import Farthest, farthest
+from core.verify.pairs import Pairs
+from core.verify.reach import Parts, Stretches, union, within
+from core.verify.verdict import Uncut
+
+
+def reached(pairs: Pairs, radius: float) -> Stretches:
+    """The stretches of surface within the radius of the centre path.
+
+    UNCUT, rounding of the coordinates themselves and the slack of uneven arcs decide whether a place is reached;
+    where a stretch ends is then settled with the radius alone.  The centre path's piece nearest to the middle of a
+    surface piece is tried first; where it reaches all, no other is.
+    """
+    grant = UNCUT + _rounding(pairs.surface) + pairs.slack
+    own = _nearest_to_middle(pairs)
+    parts = _within(pairs, own, radius + grant)
+    stretches = union(parts.first, parts.last)
+    rest = np.flatnonzero(~_whole(pairs, stretches)[pairs.j])
+    if not len(rest):
+        return stretches
+    more = _within(pairs, rest, radius + grant)
+    parts = Parts(*(np.concatenate(both) for both in zip(_columns(parts), _columns(more), strict=True)))
+    return _settled(pairs, parts, union(parts.first, parts.last), radius, grant)
+
+
+def _columns(parts: Parts) -> tuple[Floats, Floats, Floats, Floats, Rows]:
+    return parts.first, parts.last, parts.middle, parts.apart, parts.pair
+
+
+def _settled(pairs: Pairs, parts: Parts, stretches: Stretches, radius: float, grant: Floats) -> Stretches:
+    """Both ends of each stretch drawn in to where the piece that reaches them does so with the radius alone."""
+    owner = stretches.index(parts.first)
+    change = np.flatnonzero(np.diff(np.sort(owner), append=-1))
+    begin = np.lexsort((-parts.first, owner))[change]
+    end = np.lexsort((parts.last, owner))[change]
+    first = _draw_in(pairs, parts.pair[begin], stretches.first, 1.0, radius, grant)
+    last = _draw_in(pairs, parts.pair[end], stretches.last, -1.0, radius, grant)
+    return Stretches(first, np.maximum(first, last))
+
+
+def _draw_in(pairs: Pairs, pair: Rows, ends: Floats, inward: float, radius: float, grant: Floats) -> Floats:
+    """Ends moved `inward` (+1 or -1 along the surface) to where the distance is the radius, or least.
+
+    What is granted moves an end by as much as sqrt(2 r grant) where the reach ends in a circle about the end of a
+    move beside the wall; the foot of that end is where it stops when the wall is exactly a radius away.
+    """
+    i, j = pairs.i[pair], pairs.j[pair]
+    piece, other = pairs.surface.take(j), pairs.centre.take(i)
+    places = np.concatenate((band_places(piece, other, np.full(len(pair), radius)), nearest_places(piece, other)))
+    moved = (pairs.surface_stations[j] + places * piece.length - ends) * inward
+    widest = 2.0 * np.sqrt(2.0 * (radius + grant[pair]) * grant[pair])
+    moved = np.where((moved > 0.0) & (moved < widest), moved, np.inf)
+    least = moved.min(axis=0)
+    return ends + inward * np.where(np.isinf(least), 0.0, least)
+
+
+def _rounding(surface: Measured) -> float:
+    """Four units in the last place of the largest coordinate."""
+    largest = max(np.abs(surface.start.real).max(), np.abs(surface.start.imag).max())
+    return 4.0 * float(np.spacing(largest))
+
+
+def _nearest_to_middle(pairs: Pairs) -> Rows:
+    """Of each surface piece that has pairs the one whose centre piece is nearest to its middle."""
+    half = np.full(len(pairs.j), 0.5)
+    apart = distance(pairs.centre.take(pairs.i), at(pairs.surface.take(pairs.j), half))
+    order = np.lexsort((apart, pairs.j))
+    nearest: Rows = order[np.flatnonzero(np.diff(pairs.j[order], prepend=-1))]
+    return nearest
+
+
+def _within(pairs: Pairs, chosen: Rows, reach: Floats) -> Parts:
+    i, j = pairs.i[chosen], pairs.j[chosen]
+    parts = within(pairs.surface.take(j), pairs.centre.take(i), pairs.surface_stations[j], reach[chosen])
+    return replace(parts, pair=chosen[parts.pair])
+
+
+def _whole(pairs: Pairs, stretches: Stretches) -> Flags:
+    """(n,) surface pieces that lie on one stretch from end to end."""
+    first, last = pairs.surface_stations[:-1], pairs.surface_stations[1:]
+    if not len(stretches):
+        return np.zeros(len(first), np.bool_)
+    owner = stretches.index(first + ON_PATH)
+    return (owner >= 0) & (stretches.last[owner] >= last - ON_PATH)
+
+
+def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool) -> tuple[Uncut, ...]:
+    """Stretches farther than the radius from the path, in the contour's order, each over its joints in one.
+
+    In a closed contour a stretch that runs over START stands last.  What is nowhere thicker than STOCK is left out.
+    """
+    total = float(pairs.surface_stations[-1])
+    gaps = reached(pairs, radius).gaps(total)
+    gaps = gaps.keep(gaps.last - gaps.first > STOCK)
+    if not len(gaps):
+        return ()
+    far = _farthest(pairs, gaps)
+    told = _stretches(pairs, gaps, far, radius, surface)
+    if closed and len(told) > 1 and gaps.first[0] == 0.0 and gaps.last[-1] == total:
+        told = [*told[1:-1], _over_start(told[-1], told[0])]
+    return tuple(stretch for stretch in told if stretch.thickness > STOCK)
+
+
+def _farthest(pairs: Pairs, gaps: Stretches) -> Farthest:
+    if not len(pairs.centre):
+        return Farthest(gaps.first, np.full(len(gaps), np.inf))
+    return farthest(pairs.surface, gaps, pairs.centre)
+
+
+def _stretches(pairs: Pairs, gaps: Stretches, far: Farthest, radius: float, surface: Path) -> list[Uncut]:
+    begin, first = _points(pairs, gaps.first, ON_PATH)
+    end, last = _points(pairs, gaps.last, -ON_PATH)
+    thickest, _ = _points(pairs, far.place, 0.0)
+    columns = (
+        surface.numbers[first].tolist(),
+        surface.numbers[last].tolist(),
+        begin.tolist(),
+        end.tolist(),
+        (gaps.last - gaps.first).tolist(),
+        (far.apart - radius).tolist(),
+        thickest.tolist(),
+    )
+    return [
+        Uncut(one, other, (p.real, p.imag), (q.real, q.imag), length, thickness, (t.real, t.imag))
+        for one, other, p, q, length, thickness, t in zip(*columns, strict=True)
+    ]
+
+
+def _points(pairs: Pairs, s: Floats, inward: float) -> tuple[Points, Rows]:
+    """Points of the surface at places along it, and the contour's rows they are on, at a joint the one `inward`."""
+    index, _ = place(pairs.surface, pairs.surface_stations, s + inward)
+    piece = pairs.surface.take(index)
+    t = (s - pairs.surface_stations[index]) / np.where(piece.length == 0.0, 1.0, piece.length)
+    return at(piece, np.clip(t, 0.0, 1.0)), piece.rows
+
+
+def _over_start(last: Uncut, first: Uncut) -> Uncut:
+    """The closed contour's last and first stretch as the one they are."""
+    thicker = max(last, first, key=lambda stretch: stretch.thickness)
+    return Uncut(
+        last.first_number,
+        first.last_number,
+        last.start,
+        first.end,
+        last.length + first.length,
+        thicker.thickness,
+        thicker.thickest,
+    )

@@ -1,0 +1,89 @@
+"""A second opinion: dense points and plain loops, sharing nothing with the code under test."""
+
+from __future__ import annotations
+
+from math import atan2, cos, hypot, sin, tau
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Piece
+
+Points = NDArray[np.float64]
+
+
+def swept(arc: Arc) -> float:
+    """Unsigned angle travelled."""
+    if arc.start == arc.end:
+        return tau
+    first = atan2(arc.start[1] - arc.centre[1], arc.start[0] - arc.centre[0])
+    last = atan2(arc.end[1] - arc.centre[1], arc.end[0] - arc.centre[0])
+    angle = ((last - first) * int(arc.turn)) % tau
+    return 0.0 if angle > tau - 1e-9 else angle
+
+
+def length(piece: Piece) -> float:
+    if isinstance(piece, Line):
+        return hypot(piece.end[0] - piece.start[0], piece.end[1] - piece.start[1])
+    return hypot(piece.start[0] - piece.centre[0], piece.start[1] - piece.centre[1]) * swept(piece)
+
+
+def along(piece: Piece, shares: Points) -> Points:
+    """(k, 2) points at shares of the piece's length."""
+    if isinstance(piece, Line):
+        start, end = np.array(piece.start), np.array(piece.end)
+        return np.asarray(start + shares[:, None] * (end - start))
+    first = atan2(piece.start[1] - piece.centre[1], piece.start[0] - piece.centre[0])
+    angle = first + int(piece.turn) * swept(piece) * shares
+    radius = hypot(piece.start[0] - piece.centre[0], piece.start[1] - piece.centre[1])
+    return np.asarray(np.array(piece.centre) + radius * np.stack((np.cos(angle), np.sin(angle)), axis=1))
+
+
+def apart(points: Points, path: Path) -> Points:
+    """(k,) distance of each point from the nearest piece."""
+    return np.asarray(np.min([_apart(points, piece) for piece in path], axis=0))
+
+
+def _apart(points: Points, piece: Piece) -> Points:
+    to_ends = np.minimum(*(np.hypot(*(points - np.array(end)).T) for end in (piece.start, piece.end)))
+    if isinstance(piece, Line):
+        way = np.array(piece.end) - np.array(piece.start)
+        size = hypot(*way)
+        if size == 0.0:
+            return np.asarray(to_ends)
+        off = points - np.array(piece.start)
+        share = off @ way / size**2
+        foot = np.abs(off[:, 0] * way[1] - off[:, 1] * way[0]) / size
+        return np.asarray(np.where((share > 0) & (share < 1), foot, to_ends))
+    radius = hypot(piece.start[0] - piece.centre[0], piece.start[1] - piece.centre[1])
+    half = swept(piece) / 2
+    first = atan2(piece.start[1] - piece.centre[1], piece.start[0] - piece.centre[0]) + int(piece.turn) * half
+    middle = np.array((cos(first), sin(first)))
+    radial = points - np.array(piece.centre)
+    opposite = np.arctan2(np.abs(radial[:, 0] * middle[1] - radial[:, 1] * middle[0]), radial @ middle)
+    return np.asarray(np.where(opposite <= half, np.abs(np.hypot(*radial.T) - radius), to_ends))
+
+
+def samples(path: Path, step: float) -> tuple[Points, Points]:
+    """Points along the whole path no farther apart than `step`, and the length of path each stands for."""
+    points, weights = [], []
+    for piece in path:
+        size = length(piece)
+        count = max(2, int(np.ceil(size / step)))
+        points.append(along(piece, (np.arange(count) + 0.5) / count))
+        weights.append(np.full(count, size / count))
+    return np.concatenate(points), np.concatenate(weights)
+
+
+def least(path: Path, other: Path, step: float) -> float:
+    """Least distance of two paths, too large by less than half a step."""
+    points, _ = samples(path, step)
+    ends = np.concatenate([along(piece, np.array((0.0, 1.0))) for piece in path])
+    return float(apart(np.concatenate((points, ends)), other).min())
+
+
+def length_near(path: Path, other: Path, radius: float, step: float) -> float:
+    """Length of path nearer to the other than the radius, in steps."""
+    points, weights = samples(path, step)
+    return float(weights[apart(points, other) < radius].sum())

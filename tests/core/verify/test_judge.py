@@ -1,0 +1,269 @@
+"""The judge against numbers worked out by hand, against dense points, and under motions of the whole drawing."""
+
+from __future__ import annotations
+
+from math import inf, isnan, nan, pi, sqrt
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.geometry.path import EMPTY, Path
+from core.geometry.piece import Arc, Line, Piece, Turn
+from core.geometry.side import Side
+from core.tolerance import GOUGE
+from core.verify.judge import judge
+from tests.core.verify import oracle
+from tests.core.verify.shapes import around, circle, lines, mirrored, moved, paths, square
+
+R = 0.25
+OVER_RUN = lines((-1, 0), (2, 0), (2, 2), (0, 2), (0, -1))
+OVER_RUN_PATH = lines((-1, -R), (-R, -R), (-R, -1))
+MID_SIDE = lines((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0))
+MID_SIDE_PATH = lines((1, R), (1.75, R), (1.75, 1.75), (R, 1.75), (R, R), (1, R))
+CORNERS = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)]
+
+
+def test_over_run_square_cut_at_its_outer_corner_alone() -> None:
+    verdict = judge(OVER_RUN, Side.RIGHT, R, OVER_RUN_PATH)
+    assert verdict.clean
+    assert verdict.clearance == pytest.approx(R, abs=1e-12)
+    assert verdict.surface_length == pytest.approx(10.0)
+    assert verdict.uncut_length == pytest.approx(8.5, abs=1e-9)
+    (stretch,) = verdict.uncut
+    assert (stretch.first_number, stretch.last_number) == (1.0, 4.0)
+    assert stretch.start == pytest.approx((-0.25, 0.0))
+    assert stretch.end == pytest.approx((0.0, -0.25))
+    assert stretch.thickest == pytest.approx((2.0, 2.0))
+    assert stretch.thickness == pytest.approx(2.25 * sqrt(2) - R)
+    assert verdict.crosses_itself
+    assert verdict.crossing_at == pytest.approx((0.0, 0.0))
+
+
+def test_over_run_square_with_every_segment_kept_gouges_the_over_run() -> None:
+    pieces: list[Piece] = [
+        Line((-1, -R), (2, -R)),
+        Arc((2, -R), (2 + R, 0), (2, 0), Turn.CCW),
+        Line((2 + R, 0), (2 + R, 2)),
+        Arc((2 + R, 2), (2, 2 + R), (2, 2), Turn.CCW),
+        Line((2, 2 + R), (0, 2 + R)),
+        Arc((0, 2 + R), (-R, 2), (0, 2), Turn.CCW),
+        Line((-R, 2), (-R, -1)),
+    ]
+    verdict = judge(OVER_RUN, Side.RIGHT, R, Path.from_pieces(pieces, [1, 1.5, 2, 2.5, 3, 3.5, 4]))
+    assert verdict.depth == pytest.approx(R)
+    assert {gouge.path_number for gouge in verdict.gouges} == {1.0, 4.0}
+    for gouge in verdict.gouges:
+        assert gouge.surface_number == 5.0 - gouge.path_number
+        assert gouge.extent == pytest.approx(2 * R, abs=1e-3)
+    assert verdict.uncut == ()
+
+
+def test_inside_square_leaves_a_corner_of_both_walls() -> None:
+    verdict = judge(MID_SIDE, Side.LEFT, R, MID_SIDE_PATH)
+    assert verdict.clean
+    assert not verdict.crosses_itself
+    assert [(stretch.first_number, stretch.last_number) for stretch in verdict.uncut] == [
+        (1, 2),
+        (2, 3),
+        (3, 4),
+        (4, 5),
+    ]
+    for stretch in verdict.uncut:
+        assert stretch.length == pytest.approx(2 * R, abs=1e-9)
+        assert stretch.thickness == pytest.approx((sqrt(2) - 1) * R, abs=1e-9)
+
+
+def test_an_inside_corner_over_start_is_one_stretch() -> None:
+    verdict = judge(square(), Side.LEFT, R, lines((R, R), (1.75, R), (1.75, 1.75), (R, 1.75), (R, R)))
+    assert [(stretch.first_number, stretch.last_number) for stretch in verdict.uncut] == [
+        (1, 2),
+        (2, 3),
+        (3, 4),
+        (4, 1),
+    ]
+    assert verdict.uncut[-1].thickest == pytest.approx((0.0, 0.0), abs=1e-12)
+
+
+def test_outside_square_is_clean_and_wholly_cut() -> None:
+    verdict = judge(square(), Side.RIGHT, R, around(CORNERS, R))
+    assert verdict.clean
+    assert verdict.uncut == ()
+    assert verdict.clearance == pytest.approx(R, abs=1e-12)
+
+
+def test_the_plunge_beside_an_inside_corner_gouges_the_other_wall() -> None:
+    verdict = judge(square(), Side.LEFT, R, lines((0, R), (1.75, R), (1.75, 1.75), (R, 1.75), (R, 0)))
+    assert [gouge.depth for gouge in verdict.gouges] == pytest.approx([R, R])
+    assert sorted(gouge.surface_number for gouge in verdict.gouges) == [1, 4]
+    assert verdict.wrong_side == ()
+
+
+def test_a_gouge_of_an_arc_is_told_to_the_last_digit() -> None:
+    verdict = judge(circle((0.0, 0.0), 2.0), Side.LEFT, 0.5, circle((0.1, 0.0), 1.5))
+    (gouge,) = verdict.gouges
+    assert gouge.depth == pytest.approx(0.1, abs=1e-12)
+    assert gouge.at == pytest.approx((1.6, 0.0))
+    assert gouge.surface_at == pytest.approx((2.0, 0.0))
+    assert verdict.clearance == pytest.approx(0.4)
+    assert gouge.extent == pytest.approx(1.5 * pi, abs=0.11)
+    (stretch,) = verdict.uncut
+    assert stretch.thickness == pytest.approx(0.1, abs=1e-9)
+    assert stretch.thickest == pytest.approx((-2.0, 0.0), abs=1e-3)
+
+
+def test_rounding_is_no_gouge_and_a_thousandth_of_a_micron_more_is_none_either() -> None:
+    wall = lines((0, 0), (10, 0))
+    assert judge(wall, Side.LEFT, 1.0, lines((0, 1 - GOUGE * 0.9), (10, 1 - GOUGE * 0.9))).clean
+    assert not judge(wall, Side.LEFT, 1.0, lines((0, 1 - GOUGE * 1.1), (10, 1 - GOUGE * 1.1))).clean
+
+
+def test_one_long_gouge_over_several_moves_is_one() -> None:
+    verdict = judge(lines((0, 0), (10, 0)), Side.LEFT, 1.0, lines((0, 2), (2, 0.5), (4, 0.25), (6, 0.5), (8, 2)))
+    (gouge,) = verdict.gouges
+    assert gouge.depth == pytest.approx(0.75)
+    assert gouge.at == pytest.approx((4.0, 0.25))
+
+
+def test_a_wall_between_two_moves_is_thickest_in_the_middle() -> None:
+    verdict = judge(lines((0, 0), (10, 0)), Side.LEFT, 1.0, Path.from_pieces([Arc((0, 1), (10, 1), (5, 1), Turn.CW)]))
+    (stretch,) = verdict.uncut
+    assert stretch.thickest == pytest.approx((5.0, 0.0), abs=1e-6)
+    assert stretch.thickness == pytest.approx(sqrt(26) - 1, abs=1e-7)
+
+
+def test_a_path_on_the_part_is_told_however_far_it_is() -> None:
+    inside = lines((0.5, 0.5), (1.5, 0.5), (1.5, 1.5), (0.5, 1.5), (0.5, 0.5))
+    verdict = judge(square(), Side.RIGHT, 0.5, inside)
+    assert verdict.gouges == ()
+    assert verdict.wrong_side == (0, 1, 2, 3)
+    assert not verdict.clean
+    assert judge(square(), Side.RIGHT, 0.125, lines((1, 1), (1.25, 1.25))).wrong_side == (0,)
+    assert judge(square(), Side.LEFT, 0.125, lines((1, 1), (1.25, 1.25))).clean
+    assert judge(square(), Side.LEFT, 0.125, lines((4, 4), (5, 4))).wrong_side == (0,)
+
+
+def test_outside_a_sharp_point_every_direction_is_outside() -> None:
+    needle = lines((0, 0), (10, -0.1), (0, -0.2), (0, 0))
+    for y in (-3.0, -0.1, 3.0):
+        assert judge(needle, Side.LEFT, 1.0, lines((11.5, y), (13, y))).clean
+        assert judge(needle, Side.RIGHT, 1.0, lines((11.5, y), (13, y))).wrong_side == (0,)
+
+
+def test_beyond_the_ends_of_an_open_contour_there_is_no_side() -> None:
+    wall = lines((0, 0), (10, 0))
+    assert judge(wall, Side.LEFT, 1.0, lines((-3, -3), (-3, 3))).clean
+    assert judge(wall, Side.LEFT, 1.0, lines((0, 1), (10, 1), (14, 1))).clean
+    assert judge(wall, Side.LEFT, 1.0, lines((5, -3), (6, -3))).wrong_side == (0,)
+
+
+def test_an_over_run_has_no_side_but_its_walls_have() -> None:
+    beside = lines((-0.5, 0.5), (-0.5, 1.5))
+    assert judge(OVER_RUN, Side.RIGHT, R, beside).clean
+    assert judge(OVER_RUN, Side.RIGHT, R, lines((1.0, 0.5), (1.0, 1.5))).wrong_side == (0,)
+
+
+def test_without_a_path_everything_is_uncut() -> None:
+    verdict = judge(square(), Side.LEFT, R, EMPTY)
+    assert verdict.clearance == inf
+    assert verdict.uncut_length == pytest.approx(8.0)
+    assert verdict.uncut[0].thickness == inf
+    assert verdict.clean
+
+
+def test_without_a_surface_there_is_nothing_to_judge() -> None:
+    verdict = judge(EMPTY, Side.LEFT, R, MID_SIDE_PATH)
+    assert verdict.clearance == inf
+    assert (verdict.uncut, verdict.gouges) == ((), ())
+
+
+@pytest.mark.parametrize("bad", [nan, inf, -inf, 1e300, 1e8])
+def test_what_is_no_length_is_never_clean(bad: float) -> None:
+    for surface, radius, centre in (
+        (lines((0, 0), (bad, 0)), R, MID_SIDE_PATH),
+        (square(), R, lines((1, 1), (1, bad))),
+        (square(), bad, MID_SIDE_PATH),
+    ):
+        verdict = judge(surface, Side.LEFT, radius, centre)
+        assert not verdict.judged
+        assert not verdict.clean
+        assert isnan(verdict.clearance)
+    assert not judge(square(), Side.LEFT, -1.0, MID_SIDE_PATH).clean
+
+
+def test_pieces_without_length_do_no_harm() -> None:
+    surface = lines((0, 0), (2, 0), (2, 0), (2, 2), (0, 2), (0, 0), (0, 0))
+    path = lines((1, R), (1, R), (1.75, R), (1.75, 1.75), (R, 1.75), (R, 1.75), (R, R), (1, R))
+    verdict = judge(surface, Side.LEFT, R, path)
+    assert verdict.clean
+    assert not verdict.crosses_itself
+    assert verdict.uncut_length == pytest.approx(8 * R)
+    point = judge(square(), Side.LEFT, R, lines((1, 0.1), (1, 0.1)))
+    assert point.depth == pytest.approx(0.15)
+
+
+def test_an_arc_with_two_radii_is_granted_the_difference() -> None:
+    surface = Path.from_pieces([Arc((10.0, 0.0), (0.0, 10.002), (0.0, 0.0), Turn.CCW)])
+    path = Path.from_pieces([Arc((9.0, 0.0), (0.0, 9.002), (0.0, 0.0), Turn.CCW)])
+    assert judge(surface, Side.LEFT, 1.0, path).clean
+
+
+def test_far_from_the_origin_rounding_is_still_rounding() -> None:
+    shift = (6.0e6, -3.0e6)
+    verdict = judge(moved(MID_SIDE, 0.0, shift), Side.LEFT, R, moved(MID_SIDE_PATH, 0.0, shift))
+    assert verdict.clean
+    assert verdict.uncut_length == pytest.approx(8 * R, abs=1e-3)
+
+
+STEP = 4e-3
+
+
+@settings(deadline=None, max_examples=60, derandomize=True)
+@given(paths(), paths(), st.sampled_from((0.1, 0.5, 1.0, 2.5)))
+def test_dense_points_say_the_same(surface: Path, centre: Path, radius: float) -> None:
+    verdict = judge(surface, Side.LEFT, radius, centre)
+    least = oracle.least(centre, surface, STEP)
+    assert least - STEP / 2 < verdict.clearance < least + 1e-9
+    steps = 4.0 * STEP * len(centre) * len(surface)
+    near = oracle.length_near(centre, surface, radius - GOUGE, STEP)
+    assert sum(gouge.extent for gouge in verdict.gouges) == pytest.approx(near, abs=steps)
+    cut = oracle.length_near(surface, centre, radius, STEP)
+    assert verdict.surface_length - verdict.uncut_length == pytest.approx(cut, abs=steps)
+    points, _ = oracle.samples(surface, STEP)
+    thickest = max(0.0, float(oracle.apart(points, centre).max()) - radius)
+    told = max((stretch.thickness for stretch in verdict.uncut), default=0.0)
+    assert thickest - 1e-6 < told < thickest + STEP
+
+
+@settings(deadline=None, max_examples=60, derandomize=True)
+@given(paths(), paths(), st.sampled_from((0.1, 0.5, 1.0, 2.5)))
+def test_every_place_told_is_as_far_as_told(surface: Path, centre: Path, radius: float) -> None:
+    verdict = judge(surface, Side.LEFT, radius, centre)
+    for gouge in verdict.gouges:
+        (apart,) = oracle.apart(np.array([gouge.at]), surface)
+        assert radius - gouge.depth == pytest.approx(apart, abs=1e-9)
+        assert np.hypot(*np.subtract(gouge.at, gouge.surface_at)) == pytest.approx(apart, abs=1e-9)
+        (on_piece,) = oracle.apart(np.array([gouge.at]), centre.part(gouge.path_piece, gouge.path_piece + 1))
+        assert on_piece < 1e-9
+    for stretch in verdict.uncut:
+        (apart,) = oracle.apart(np.array([stretch.thickest]), centre)
+        assert radius + stretch.thickness == pytest.approx(apart, abs=1e-7)
+
+
+@settings(deadline=None, max_examples=60, derandomize=True)
+@given(paths(), paths(), st.sampled_from((0.1, 1.0)), st.floats(-3.0, 3.0), st.sampled_from((0.5, 25.4)))
+def test_motion_changes_nothing(surface: Path, centre: Path, radius: float, angle: float, scale: float) -> None:
+    verdict = judge(surface, Side.LEFT, radius, centre)
+    there = [moved(path, angle, (30.0, -7.0), scale) for path in (surface, centre)]
+    other = judge(there[0], Side.LEFT, radius * scale, there[1])
+    assert other.clearance == pytest.approx(verdict.clearance * scale, abs=1e-6)
+    assert other.depth == pytest.approx(verdict.depth * scale, abs=1e-5)
+    assert other.uncut_length == pytest.approx(verdict.uncut_length * scale, abs=1e-2)
+    flipped = judge(mirrored(surface), Side.RIGHT, radius, mirrored(centre))
+    assert flipped.clean == verdict.clean
+    assert flipped.wrong_side == verdict.wrong_side
+    back = judge(surface.reversed(), Side.RIGHT, radius, centre)
+    assert back.depth == pytest.approx(verdict.depth, abs=1e-7)
+    assert back.uncut_length == pytest.approx(verdict.uncut_length, abs=1e-4)
+    assert back.wrong_side == verdict.wrong_side
