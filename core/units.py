@@ -75,12 +75,12 @@ def from_radians(value: float) -> float:
 def convert(value: float, old: Unit, new: Unit) -> float:
     """A typed length or feed in another unit, rounded so that going there and back gives the same number.
 
-    Inches keep 12 significant digits and millimetres 10: 3 mm is 0.11811023622 in and that is 3 mm again.
+    Inches keep ten decimals and millimetres eight: 3 mm is 0.1181102362 in, and that is 3 mm again.
     """
     if old is new:
         return value
     exact = Fraction(value) * MM_PER[old] / MM_PER[new]
-    return float(f"{float(exact):.{12 if new is Unit.IN else 10}g}")
+    return float(round(exact, 10 if new is Unit.IN else 8))
 
 
 def show(value: float, kind: Kind, unit: Unit) -> str:

@@ -1,0 +1,140 @@
+"""Small programs for tests: segments from plain numbers, a block around them, random programs."""
+
+from __future__ import annotations
+
+from hypothesis import strategies as st
+
+from core.program.fields import TABLES, Field, Form
+from core.program.model import (
+    ArcSegment,
+    BlendSegment,
+    Block,
+    CutterComp,
+    Direction,
+    Entry,
+    LineSegment,
+    Parameters,
+    PartSetup,
+    PathChoice,
+    Program,
+    Segment,
+    Tool,
+    Typed,
+    Unread,
+    changed,
+)
+from core.program.solved import Solved, SolvedBlock, SolvedSegment
+from core.units import Kind, Unit, Unreadable, parse
+
+BLOCK = Block(
+    tool=Entry(1.0),
+    cutter_comp=CutterComp.LEFT,
+    finish_tool=Entry(0.0),
+    x_start=Entry(0.0),
+    y_start=Entry(0.0),
+    z_start=Entry(0.0),
+    z_bottom=Entry(-0.25),
+    plunge_feed=Entry(20.0),
+    speed=Entry(300.0),
+    peck_depth=Entry(0.0),
+)
+"""START at X 0 Y 0 with everything typed."""
+
+
+def line(*, choice: int | None = None, **typed: float) -> LineSegment:
+    """A LINE with these fields typed."""
+    return changed(LineSegment(choice=choice), {name: Entry(value) for name, value in typed.items()})
+
+
+def arc(direction: str, *, choice: int | None = None, **typed: float) -> ArcSegment:
+    """An ARC with these fields typed."""
+    entries = {name: Entry(value) for name, value in typed.items()}
+    return changed(ArcSegment(Direction(direction), choice=choice), entries)
+
+
+def blend(radius: float) -> BlendSegment:
+    """A BLEND ARC of this radius."""
+    return BlendSegment(Entry(radius))
+
+
+def program(*segments: Segment, unit: Unit = Unit.MM, x: float = 0.0, y: float = 0.0, **start: object) -> Program:
+    """A program of one block that starts at x, y, with tool 1 of diameter 0.5."""
+    block = changed(BLOCK, {"segments": segments, "x_start": Entry(x), "y_start": Entry(y), **start})
+    return Program(unit=unit, tools=(Tool(1, "END MILL", Entry(0.5)),), blocks=(block,))
+
+
+def tags(segment: SolvedSegment | SolvedBlock) -> dict[str, str]:
+    """Which fields were typed, which calculated, which are neither."""
+    names = {Entry: "typed", Solved: "CAL", Unread: "unread", type(None): "blank"}
+    return {name: names[type(value)] for name, value in segment.values.items()}
+
+
+def number(segment: SolvedSegment, name: str) -> float:
+    """A typed or calculated field's number."""
+    value = segment.values[name]
+    assert isinstance(value, Entry | Solved)
+    return value.value
+
+
+def _numbers(one: Field) -> st.SearchStrategy[float]:
+    if one.kind is Kind.COUNT:
+        return st.integers(int(one.low or 0), int(one.high or 0)).map(float)
+    low = one.low if one.above is None else one.above
+    return st.floats(low, one.high, allow_subnormal=False, exclude_min=one.above is not None)
+
+
+def _unread(one: Field, unit: Unit) -> st.SearchStrategy[Unread]:
+    def kept(text: str) -> Unread | None:
+        reason = parse(text, one.kind, unit)
+        return Unread(text, reason.reason) if isinstance(reason, Unreadable) else None
+
+    texts = st.text(st.characters(codec="utf-8"), min_size=1, max_size=12).filter(lambda text: text.strip())
+    return texts.map(kept).filter(lambda unread: unread is not None).map(lambda unread: unread or Unread("", ""))
+
+
+def typed(one: Field, unit: Unit) -> st.SearchStrategy[Typed]:
+    """A blank, a number the field takes, or text that cannot be read."""
+    return st.one_of(st.none(), _numbers(one).map(Entry), _unread(one, unit))
+
+
+def _entries(form: Form, unit: Unit, *but: str) -> dict[str, st.SearchStrategy[Typed]]:
+    fields = (one for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT) and one.name not in but)
+    return {one.name: typed(one, unit) for one in fields}
+
+
+def segments(unit: Unit) -> st.SearchStrategy[Segment]:
+    """A random segment."""
+    choice = st.sampled_from((None, 0, 1))
+    lines = st.builds(LineSegment, **_entries(Form.LINE, unit), choice=choice)
+    arcs = st.builds(ArcSegment, st.sampled_from(Direction), **_entries(Form.ARC, unit), choice=choice)
+    return st.one_of(lines, arcs, st.builds(BlendSegment, **_entries(Form.BLEND, unit)))
+
+
+def blocks(unit: Unit) -> st.SearchStrategy[Block]:
+    """A random block."""
+    return st.builds(
+        Block,
+        **_entries(Form.START, unit),
+        cutter_comp=st.sampled_from(CutterComp),
+        segments=st.lists(segments(unit), max_size=4).map(tuple),
+    )
+
+
+def _programs(unit: Unit) -> st.SearchStrategy[Program]:
+    names = st.text(st.characters(codec="utf-8"), max_size=8).filter(str.isprintable)
+    diameter = typed(TABLES[Form.TOOL][-1], unit)
+    tools = st.lists(
+        st.builds(Tool, st.integers(1, 9999), names, diameter), max_size=3, unique_by=lambda one: one.number
+    )
+    return st.builds(
+        Program,
+        st.just(unit),
+        st.builds(Parameters, **_entries(Form.PARAMETERS, unit), path=st.sampled_from(PathChoice)),
+        st.builds(PartSetup, names, **_entries(Form.SETUP, unit)),
+        tools.map(lambda some: tuple(sorted(some, key=lambda one: one.number))),
+        st.lists(blocks(unit), max_size=3).map(tuple),
+    )
+
+
+programs: st.SearchStrategy[Program] = st.sampled_from(Unit).flatmap(_programs)
+"""A random program such as the edits can make."""

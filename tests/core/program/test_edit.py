@@ -1,0 +1,275 @@
+"""Every edit: what it makes, what it refuses, and that it leaves the program it was given alone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+
+from core.program import edit
+from core.program.edit import Refused, Where
+from core.program.fields import Form, field
+from core.program.model import (
+    ArcSegment,
+    BlendSegment,
+    CutterComp,
+    Direction,
+    Entry,
+    LineSegment,
+    PathChoice,
+    Program,
+    Tool,
+    Unread,
+)
+from core.units import Unit
+from tests.core.program.parts import BLOCK, arc, blend, line, program, programs
+
+SQUARE = program(line(x_end=2.0, y_end=0.0), line(x_end=2.0, y_end=2.0), line(x_end=0.0, y_end=0.0))
+
+
+def made(edited: edit.Edited) -> Program:
+    """The program of an edit that is not refused."""
+    assert isinstance(edited, Program)
+    return edited
+
+
+def test_read_keeps_what_it_cannot_read():
+    one = field(Form.LINE, "x_end")
+    assert edit.read("  ", one, Unit.IN) is None
+    assert edit.read("1 1/2", one, Unit.IN) == Entry(1.5)
+    unread = edit.read("1,5", one, Unit.IN)
+    assert isinstance(unread, Unread)
+    assert unread.text == "1,5"
+
+
+def test_typing_into_start_and_into_a_segment():
+    typed = made(edit.type_field(SQUARE, Where(1), "x_start", Entry(-1.0)))
+    assert typed.blocks[0] == replace(SQUARE.blocks[0], x_start=Entry(-1.0))
+    typed = made(edit.type_field(SQUARE, Where(1, 2), "feed", Entry(10.0)))
+    assert typed.blocks[0].segments[1] == line(x_end=2.0, y_end=2.0, feed=10.0)
+    assert typed.blocks[0].segments[::2] == SQUARE.blocks[0].segments[::2]
+
+
+def test_a_blank_and_unreadable_text_are_kept():
+    assert made(edit.type_field(SQUARE, Where(1), "x_start", None)).blocks[0].x_start is None
+    unread = Unread("x", "why")
+    first = made(edit.type_field(SQUARE, Where(1, 1), "x_end", unread)).blocks[0].segments[0]
+    assert first == LineSegment(x_end=unread, y_end=Entry(0.0))
+
+
+@pytest.mark.parametrize(
+    ("where", "name", "value", "text"),
+    [
+        (Where(1), "speed", 2.5, "SPEED (RPM) must be a whole number from 0 to 100000."),
+        (Where(1), "peck_depth", -1.0, "PECK DEPTH must be from 0 to 100000."),
+        (Where(1, 1), "feed", 0.0, "FEED must be above 0, at most 100000."),
+        (Where(1, 4), "feed", 1.0, "There is no segment 4: the last segment is 3."),
+        (Where(1, -1), "feed", 1.0, "There is no segment -1: the last segment is 3."),
+        (Where(2), "speed", 1.0, "There is no block 2: the last block is 1."),
+        (Where(0), "speed", 1.0, "There is no block 0: the last block is 1."),
+    ],
+)
+def test_typing_is_refused(where, name, value, text):
+    assert edit.type_field(SQUARE, where, name, Entry(value)) == Refused(text)
+
+
+def test_there_is_no_block_in_an_empty_program():
+    assert edit.type_field(Program(), Where(1), "speed", None) == Refused("There is no block 1: no block is typed yet.")
+
+
+def test_lookahead_is_typed_and_calculated_again():
+    user = made(edit.type_field(SQUARE, Where(1), "lookahead", Entry(4.0)))
+    assert user.blocks[0].lookahead == Entry(4.0)
+    moved = made(edit.type_field(user, Where(1, 1), "x_end", Entry(3.0)))
+    assert moved.blocks[0].lookahead == Entry(4.0)
+    hidden = made(edit.choose(user, Where(1), "cutter_comp", "ON"))
+    assert hidden.blocks[0].lookahead == Entry(4.0)
+    assert made(edit.recalculate_lookahead(user, 1)) == SQUARE
+    assert edit.recalculate_lookahead(user, 2) == Refused("There is no block 2: the last block is 1.")
+
+
+@pytest.mark.parametrize("typed", [Entry(0.0), Entry(21.0), Entry(2.5), Unread("x", "why"), None])
+def test_another_lookahead_is_refused_with_the_range(typed):
+    user = made(edit.type_field(SQUARE, Where(1), "lookahead", Entry(4.0)))
+    refused = edit.type_field(user, Where(1), "lookahead", typed)
+    assert isinstance(refused, Refused)
+    assert refused.text.startswith("CUTCOMP LOOKAHEAD must be a whole number from 1 to 20.")
+
+
+def test_leaving_a_calculated_lookahead_blank_changes_nothing():
+    assert edit.type_field(SQUARE, Where(1), "lookahead", None) == SQUARE
+
+
+def test_choose():
+    right = made(edit.choose(SQUARE, Where(1), "cutter_comp", "PROFILE RIGHT"))
+    assert right.blocks[0].cutter_comp is CutterComp.PROFILE_RIGHT
+    curved = program(arc("CW", x_end=1.0, y_end=1.0, radius=3.0))
+    turned = made(edit.choose(curved, Where(1, 1), "direction", "CCW")).blocks[0].segments[0]
+    assert isinstance(turned, ArcSegment)
+    assert turned.direction is Direction.CCW
+    picked = made(edit.choose(curved, Where(1, 1), "choice", 1)).blocks[0].segments[0]
+    assert picked == arc("CW", x_end=1.0, y_end=1.0, radius=3.0, choice=1)
+    assert made(edit.choose(made(edit.choose(curved, Where(1, 1), "choice", 1)), Where(1, 1), "choice", None)) == curved
+
+
+@pytest.mark.parametrize(
+    ("where", "name", "value", "text"),
+    [
+        (Where(1), "cutter_comp", "UP", "CUTTER COMP. takes ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT."),
+        (Where(1), "cutter_comp", None, "CUTTER COMP. takes ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT."),
+        (Where(1, 1), "choice", 2, "SOLUTION takes 0, 1."),
+        (Where(1, 9), "choice", 0, "There is no segment 9: the last segment is 3."),
+    ],
+)
+def test_choosing_is_refused(where, name, value, text):
+    assert edit.choose(SQUARE, where, name, value) == Refused(text)
+
+
+def test_a_picked_solution_is_dropped_when_other_fields_decide():
+    picked = program(arc("CW", x_end=1.0, y_end=1.0, radius=3.0, choice=1))
+    kept = made(edit.type_field(picked, Where(1, 1), "radius", Entry(4.0))).blocks[0].segments[0]
+    assert kept == arc("CW", x_end=1.0, y_end=1.0, radius=4.0, choice=1)
+    kept = made(edit.type_field(picked, Where(1, 1), "feed", Entry(4.0))).blocks[0].segments[0]
+    assert kept == arc("CW", x_end=1.0, y_end=1.0, radius=3.0, feed=4.0, choice=1)
+    dropped = made(edit.type_field(picked, Where(1, 1), "x_end", None)).blocks[0].segments[0]
+    assert dropped == arc("CW", y_end=1.0, radius=3.0)
+
+
+def test_insert_segment():
+    new = line(x_end=9.0, y_end=9.0)
+    first, second, third = SQUARE.blocks[0].segments
+    assert made(edit.insert_segment(SQUARE, Where(1, 1), new)).blocks[0].segments == (new, first, second, third)
+    assert made(edit.insert_segment(SQUARE, Where(1, 3), new)).blocks[0].segments == (first, second, new, third)
+    assert made(edit.insert_segment(SQUARE, Where(1, 4), new)).blocks[0].segments == (first, second, third, new)
+    assert made(edit.insert_segment(SQUARE, Where(1, 4), blend(0.1))).blocks[0].segments[3] == blend(0.1)
+
+
+@pytest.mark.parametrize(
+    ("where", "segment", "text"),
+    [
+        (Where(1, 0), LineSegment(), "START comes first: nothing goes before it."),
+        (Where(1, 5), LineSegment(), "There is no segment 5: the last segment is 3."),
+        (Where(1, -1), LineSegment(), "There is no segment -1: the last segment is 3."),
+        (Where(3, 1), LineSegment(), "There is no block 3: the last block is 1."),
+        (Where(1, 1), BlendSegment(), "A BLEND ARC cannot be the first segment: it blends two others."),
+    ],
+)
+def test_inserting_is_refused(where, segment, text):
+    assert edit.insert_segment(SQUARE, where, segment) == Refused(text)
+
+
+@pytest.mark.parametrize("at", [2, 3])
+def test_two_blends_never_meet(at):
+    blended = program(line(x_end=1.0, y_end=0.0), blend(0.1), line(x_end=1.0, y_end=1.0))
+    refused = Refused("A BLEND ARC cannot stand beside another BLEND ARC.")
+    assert edit.insert_segment(blended, Where(1, at), BlendSegment()) == refused
+
+
+def test_delete_segment():
+    first, _, third = SQUARE.blocks[0].segments
+    assert made(edit.delete_segment(SQUARE, Where(1, 2))).blocks[0].segments == (first, third)
+    assert edit.delete_segment(SQUARE, Where(1, 0)) == Refused("START cannot be deleted.")
+    assert edit.delete_segment(SQUARE, Where(1, 4)) == Refused("There is no segment 4: the last segment is 3.")
+    alone = program(line(x_end=1.0, y_end=0.0))
+    assert made(edit.delete_segment(alone, Where(1, 1))).blocks[0].segments == ()
+    assert edit.delete_segment(program(), Where(1, 1)) == Refused("There is no segment 1: no segment is typed yet.")
+
+
+def test_new_block():
+    block = edit.new_block(Program())
+    assert block.tool == Entry(1.0)
+    assert block.cutter_comp is CutterComp.ON
+    assert (block.finish_tool, block.z_start, block.peck_depth) == (Entry(0.0),) * 3
+    assert (block.plunge_feed, block.speed) == (Entry(20.0), Entry(300.0))
+    assert (block.x_start, block.y_start, block.z_bottom, block.lookahead) == (None,) * 4
+    assert edit.new_block(Program(unit=Unit.MM)).plunge_feed == Entry(500.0)
+
+
+def test_insert_block_takes_the_tool_of_the_block_before():
+    two = Program(blocks=(replace(BLOCK, tool=Entry(7.0)), replace(BLOCK, tool=Entry(8.0))))
+    assert [block.tool for block in made(edit.insert_block(two, 2)).blocks] == [Entry(7.0), Entry(7.0), Entry(8.0)]
+    assert [block.tool for block in made(edit.insert_block(two, 1)).blocks] == [Entry(1.0), Entry(7.0), Entry(8.0)]
+    assert [block.tool for block in made(edit.insert_block(two, 3)).blocks] == [Entry(7.0), Entry(8.0), Entry(8.0)]
+    assert edit.insert_block(two, 4) == Refused("There is no block 4: the last block is 2.")
+    assert edit.insert_block(two, 0) == Refused("There is no block 0: the last block is 2.")
+
+
+def test_copy_move_and_delete_blocks():
+    one, two, three = (replace(BLOCK, tool=Entry(tool)) for tool in (1.0, 2.0, 3.0))
+    given = Program(blocks=(one, two, three))
+    assert made(edit.copy_block(given, 1)).blocks == (one, one, two, three)
+    assert made(edit.copy_block(given, 3)).blocks == (one, two, three, three)
+    assert made(edit.move_block(given, 1, 3)).blocks == (two, three, one)
+    assert made(edit.move_block(given, 3, 1)).blocks == (three, one, two)
+    assert made(edit.move_block(given, 2, 2)) == given
+    assert made(edit.delete_block(given, 2)).blocks == (one, three)
+    absent = Refused("There is no block 4: the last block is 3.")
+    assert edit.copy_block(given, 4) == edit.move_block(given, 4, 1) == edit.move_block(given, 1, 4) == absent
+    assert edit.delete_block(given, 4) == absent
+    last = Refused("The only block cannot be deleted: a program has at least one.")
+    assert edit.delete_block(Program(blocks=(one,)), 1) == last
+
+
+def test_the_tool_table():
+    three, two = Tool(3, "BALL MILL", Entry(0.25)), Tool(2, diameter=Entry(1.0))
+    both = made(edit.set_tool(made(edit.set_tool(Program(), three)), two))
+    assert both.tools == (two, three)
+    larger = Tool(2, diameter=Entry(2.0))
+    assert made(edit.set_tool(both, larger)).tools == (larger, three)
+    assert made(edit.delete_tool(both, 2)).tools == (three,)
+    assert edit.delete_tool(both, 9) == Refused("There is no tool 9 in the tool table.")
+    wrong = Refused("TOOL DIAMETER must be above 0, at most 100000.")
+    assert edit.set_tool(both, Tool(1, diameter=Entry(0.0))) == wrong
+    assert edit.set_tool(both, Tool(1, diameter=Entry(-0.5))) == wrong
+    assert edit.set_tool(both, Tool(0)) == Refused("TOOL must be a whole number from 1 to 9999.")
+
+
+def test_parameters_and_setup():
+    assert made(edit.set_parameter(SQUARE, "max_offset", Entry(0.5))).parameters.max_offset == Entry(0.5)
+    refused = Refused("POCKET OVERLAP must be from 0 to 99.")
+    assert edit.set_parameter(SQUARE, "pocket_overlap", Entry(100.0)) == refused
+    assert edit.set_path_choice(SQUARE, PathChoice.BEST).parameters.path is PathChoice.BEST
+    assert made(edit.set_setup(SQUARE, "name", "COVER 7")).setup.name == "COVER 7"
+    assert made(edit.set_setup(SQUARE, "safe_z", None)).setup.safe_z is None
+    refused = Refused("WORK OFFSET must be a whole number from 54 to 59.")
+    assert edit.set_setup(SQUARE, "work_offset", Entry(60.0)) == refused
+    assert isinstance(edit.set_setup(SQUARE, "name", "two\nlines"), Refused)
+
+
+def test_set_unit_converts_lengths_and_feeds_and_nothing_else():
+    given = program(
+        line(length=1.0, angle=30.0, feed=10.0), arc("CW", radius=0.5, sweep=90.0), blend(0.125), unit=Unit.IN, x=-1.0
+    )
+    given = replace(given, parameters=replace(given.parameters, pocket_overlap=Entry(40.0), max_offset=Entry(1.0)))
+    metric = edit.set_unit(given, Unit.MM)
+    block = metric.blocks[0]
+    assert metric.unit is Unit.MM
+    assert (block.x_start, block.z_bottom) == (Entry(-25.4), Entry(-6.35))
+    assert (block.plunge_feed, block.speed, block.tool) == (Entry(508.0), Entry(300.0), Entry(1.0))
+    assert block.segments == (
+        line(length=25.4, angle=30.0, feed=254.0),
+        arc("CW", radius=12.7, sweep=90.0),
+        blend(3.175),
+    )
+    assert metric.parameters == replace(given.parameters, max_offset=Entry(25.4))
+    assert metric.tools == (Tool(1, "END MILL", Entry(12.7)),)
+    assert edit.set_unit(metric, Unit.IN) == given
+
+
+def test_set_unit_keeps_what_could_not_be_read():
+    unread = Unread("1,5", "why")
+    given = made(edit.type_field(SQUARE, Where(1, 1), "x_end", unread))
+    assert edit.set_unit(given, Unit.IN).blocks[0].segments[0] == LineSegment(x_end=unread, y_end=Entry(0.0))
+
+
+@settings(derandomize=True, max_examples=60)
+@given(programs)
+def test_set_unit_loses_no_field(given_program):
+    other = Unit.IN if given_program.unit is Unit.MM else Unit.MM
+    converted = edit.set_unit(given_program, other)
+    assert edit.set_unit(given_program, given_program.unit) is given_program
+    for before, after in zip(given_program.blocks, converted.blocks, strict=True):
+        for one, other_one in zip(before.segments, after.segments, strict=True):
+            assert type(one.feed) is type(other_one.feed)
+        assert (before.speed, before.lookahead, before.tool) == (after.speed, after.lookahead, after.tool)

@@ -1,0 +1,143 @@
+"""The table of fields against the model and against the screens' words."""
+
+from __future__ import annotations
+
+from dataclasses import fields as attributes
+
+import pytest
+
+from core.program import fields
+from core.program.fields import TABLES, Form, check, default, field, form_of
+from core.program.model import ArcSegment, BlendSegment, Block, LineSegment, Parameters, PartSetup, Tool
+from core.units import Kind, Unit
+
+PARTS = {
+    Form.START: (Block, {"segments"}),
+    Form.LINE: (LineSegment, {"choice"}),
+    Form.ARC: (ArcSegment, {"choice"}),
+    Form.BLEND: (BlendSegment, set()),
+    Form.TOOL: (Tool, set()),
+    Form.PARAMETERS: (Parameters, set()),
+    Form.SETUP: (PartSetup, set()),
+}
+
+
+@pytest.mark.parametrize("form", Form)
+def test_every_attribute_has_its_field(form):
+    part, others = PARTS[form]
+    assert {one.name for one in TABLES[form]} | others == {one.name for one in attributes(part)}
+    assert all(field(form, one.name) is one for one in TABLES[form])
+
+
+@pytest.mark.parametrize("form", Form)
+def test_every_field_has_a_label_a_prompt_and_the_choices_of_its_kind(form):
+    for one in TABLES[form]:
+        assert one.label == one.label.upper()
+        assert one.prompt.endswith(".")
+        assert bool(one.choices) == (one.kind is Kind.CHOICE)
+
+
+def test_start_reads_as_on_the_control():
+    assert [one.label for one in fields.START] == [
+        "TOOL",
+        "CUTTER COMP.",
+        "FINISH TOOL",
+        "X START",
+        "Y START",
+        "Z START",
+        "Z BOTTOM",
+        "PLUNGE FEED",
+        "SPEED (RPM)",
+        "PECK DEPTH",
+        "CUTCOMP LOOKAHEAD",
+    ]
+    assert field(Form.START, "cutter_comp").choices == ("ON", "LEFT", "RIGHT", "PROFILE LEFT", "PROFILE RIGHT")
+
+
+def test_segments_read_as_on_the_control():
+    assert [one.label for one in fields.LINE] == ["X END", "Y END", "Z END", "XY LENGTH", "XY ANGLE", "FEED"]
+    assert [one.label for one in fields.ARC] == [
+        "DIRECTION",
+        "X END",
+        "Y END",
+        "Z END",
+        "X CENTER",
+        "Y CENTER",
+        "RADIUS",
+        "SWEEP ANGLE",
+        "FEED",
+    ]
+    assert [one.label for one in fields.BLEND] == ["RADIUS", "FEED"]
+
+
+def test_the_lookahead_prompt_says_what_the_control_says():
+    words = "Enter a cutter comp lookahead value to override the calculated value. Not recommended unless necessary."
+    assert field(Form.START, "lookahead").prompt.startswith(words)
+    assert "1 to 20" in fields.LOOKAHEAD_PROMPT
+
+
+def test_the_field_of_a_solution_is_known_where_there_may_be_two():
+    assert field(Form.ARC, "choice") is field(Form.LINE, "choice") is fields.SOLUTION
+    with pytest.raises(KeyError):
+        field(Form.BLEND, "choice")
+
+
+def test_form_of():
+    assert [form_of(one) for one in (LineSegment(), ArcSegment(), BlendSegment())] == [Form.LINE, Form.ARC, Form.BLEND]
+
+
+@pytest.mark.parametrize(
+    ("form", "name", "value", "text"),
+    [
+        (Form.START, "lookahead", 0.0, "CUTCOMP LOOKAHEAD must be a whole number from 1 to 20."),
+        (Form.START, "lookahead", 21.0, "CUTCOMP LOOKAHEAD must be a whole number from 1 to 20."),
+        (Form.START, "lookahead", 2.5, "CUTCOMP LOOKAHEAD must be a whole number from 1 to 20."),
+        (Form.START, "tool", 0.0, "TOOL must be a whole number from 1 to 9999."),
+        (Form.START, "peck_depth", -0.1, "PECK DEPTH must be from 0 to 100000."),
+        (Form.START, "plunge_feed", 0.0, "PLUNGE FEED must be above 0, at most 100000."),
+        (Form.START, "x_start", float("nan"), "X START must be from -100000 to 100000."),
+        (Form.START, "x_start", float("inf"), "X START must be from -100000 to 100000."),
+        (Form.TOOL, "diameter", -0.5, "TOOL DIAMETER must be above 0, at most 100000."),
+        (Form.ARC, "sweep", 360.001, "SWEEP ANGLE must be above 0, at most 360."),
+        (Form.LINE, "angle", 361.0, "XY ANGLE must be from -360 to 360."),
+        (Form.SETUP, "work_offset", 60.0, "WORK OFFSET must be a whole number from 54 to 59."),
+        (Form.PARAMETERS, "pocket_overlap", 100.0, "POCKET OVERLAP must be from 0 to 99."),
+    ],
+)
+def test_check_refuses(form, name, value, text):
+    assert check(field(form, name), value) == text
+
+
+@pytest.mark.parametrize(
+    ("form", "name", "value"),
+    [
+        (Form.START, "lookahead", 1.0),
+        (Form.START, "lookahead", 20.0),
+        (Form.START, "finish_tool", 0.0),
+        (Form.START, "peck_depth", 0.0),
+        (Form.START, "x_start", -1e5),
+        (Form.ARC, "sweep", 360.0),
+        (Form.ARC, "radius", 1e-9),
+    ],
+)
+def test_check_takes(form, name, value):
+    assert check(field(form, name), value) is None
+
+
+def test_defaults():
+    assert default("blend_offset", Unit.IN) == 0.125
+    assert default("blend_offset", Unit.MM) == 3.0
+    assert default("pocket_overlap", Unit.MM) == 50.0
+    assert default("retract_clearance", Unit.MM) == 2.5
+    assert default("peck_clearance", Unit.IN) == 0.05
+    assert default("safe_z", Unit.IN) == 1.0
+    assert default("x_start", Unit.IN) is None
+
+
+@pytest.mark.parametrize("unit", Unit)
+def test_every_number_on_the_parameter_screens_has_a_default_it_would_take(unit):
+    for one in (*fields.PARAMETERS, *fields.SETUP):
+        if one.kind not in (Kind.CHOICE, Kind.TEXT):
+            value = default(one.name, unit)
+            assert value is not None
+            assert check(one, value) is None

@@ -1,0 +1,164 @@
+"""Numbers in and out: program units, suffixes, the screens' decimals, sentences."""
+
+from __future__ import annotations
+
+from math import inf, nan, pi
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.finding import Finding, Severity
+from core.units import (
+    WIDEST,
+    Kind,
+    Unit,
+    Unreadable,
+    convert,
+    from_mm,
+    from_radians,
+    parse,
+    sentence,
+    show,
+    to_mm,
+    to_radians,
+)
+
+IN, MM = Unit.IN, Unit.MM
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "unit", "value"),
+    [
+        ("1 1/2", Kind.LENGTH, IN, 1.5),
+        ("25.4/2", Kind.LENGTH, IN, 12.7),
+        ("12.7mm", Kind.LENGTH, IN, 0.5),
+        (".5in", Kind.LENGTH, MM, 12.7),
+        ('.5"', Kind.LENGTH, MM, 12.7),
+        (".5", Kind.LENGTH, MM, 0.5),
+        ("1in+3mm", Kind.LENGTH, MM, 28.4),
+        ("0.1", Kind.LENGTH, IN, 0.1),
+        ("-0", Kind.LENGTH, IN, 0.0),
+        ("508mm", Kind.FEED, IN, 20.0),
+        ("22.5", Kind.ANGLE, IN, 22.5),
+        ("22.5\N{DEGREE SIGN}", Kind.ANGLE, MM, 22.5),
+        ("180/7deg", Kind.ANGLE, MM, 180 / 7),
+        ("300", Kind.COUNT, IN, 300.0),
+        ("2*150", Kind.COUNT, IN, 300.0),
+        ("50%", Kind.PERCENT, IN, 50.0),
+    ],
+)
+def test_parse(text, kind, unit, value):
+    assert parse(text, kind, unit) == value
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "reason"),
+    [
+        ("x", Kind.COUNT, "x is not a number: type a whole number."),
+        ("2.5", Kind.COUNT, "A whole number is needed here, such as 2."),
+        ("10mm", Kind.COUNT, "mm is not understood here: type a whole number."),
+        ("45mm", Kind.ANGLE, "mm is not understood here: type degrees such as 22.5."),
+        ("45deg", Kind.LENGTH, "deg is not understood here: type a number such as 2.5, 1 1/2, 2.5-.125 or 12.7mm."),
+        ("99999999", Kind.LENGTH, "That number is too large for any machine."),
+        ("9" * 60, Kind.COUNT, "That number is too large for any machine."),
+        ("RIGHT", Kind.CHOICE, "This field takes no number."),
+    ],
+)
+def test_unreadable(text, kind, reason):
+    assert parse(text, kind, IN) == Unreadable(reason)
+
+
+def test_the_largest_number_is_the_same_length_in_both_units():
+    assert parse("300000", Kind.LENGTH, IN) == 300000.0
+    assert isinstance(parse("400000", Kind.LENGTH, IN), Unreadable)
+    assert parse("400000", Kind.LENGTH, MM) == 400000.0
+
+
+@settings(derandomize=True, max_examples=300)
+@given(st.text(max_size=30), st.sampled_from(Kind), st.sampled_from(Unit))
+def test_parse_never_raises(text, kind, unit):
+    assert isinstance(parse(text, kind, unit), float | Unreadable)
+
+
+@pytest.mark.parametrize(
+    ("value", "kind", "unit", "text"),
+    [
+        (-1.0, Kind.LENGTH, IN, "-1.0000"),
+        (-0.25, Kind.LENGTH, MM, "-0.250"),
+        (20.0, Kind.FEED, IN, "20.0"),
+        (300.0, Kind.COUNT, IN, "300"),
+        (45.0, Kind.ANGLE, MM, "45.000"),
+        (50.0, Kind.PERCENT, IN, "50.0"),
+        (-0.0, Kind.LENGTH, IN, "0.0000"),
+        (-0.00001, Kind.LENGTH, IN, "0.0000"),
+        (-0.4, Kind.COUNT, IN, "0"),
+        (-0.00005001, Kind.LENGTH, IN, "-0.0001"),
+        (99999.9999, Kind.LENGTH, IN, "99999.9999"),
+        (-100000.0, Kind.LENGTH, IN, "-100000.00"),
+        (-1e300, Kind.LENGTH, IN, "-1e+300"),
+        (inf, Kind.LENGTH, IN, "inf"),
+        (nan, Kind.LENGTH, IN, "nan"),
+    ],
+)
+def test_show(value, kind, unit, text):
+    assert show(value, kind, unit) == text
+
+
+@settings(derandomize=True, max_examples=300)
+@given(st.floats(allow_nan=False), st.sampled_from(Kind), st.sampled_from(Unit))
+def test_show_fits_and_has_no_negative_zero(value, kind, unit):
+    text = show(value, kind, unit)
+    assert len(text) <= WIDEST
+    assert text.strip("-0.") or not text.startswith("-")
+
+
+@settings(derandomize=True, max_examples=200)
+@given(st.integers(-(10**9), 10**9), st.sampled_from(Unit))
+def test_what_is_shown_reads_back(ten_thousandths, unit):
+    value = ten_thousandths / (10_000 if unit is IN else 1_000)
+    if abs(value) < 10_000:
+        assert parse(show(value, Kind.LENGTH, unit), Kind.LENGTH, unit) == value
+
+
+def test_millimetres():
+    assert to_mm(2.0, IN) == 50.8
+    assert to_mm(2.0, MM) == 2.0
+    assert from_mm(50.8, IN) == 2.0
+    assert from_mm(2.0, MM) == 2.0
+
+
+def test_radians():
+    assert to_radians(180.0) == pi
+    assert from_radians(pi) == 180.0
+
+
+def test_convert_is_clean():
+    assert convert(0.5, IN, MM) == 12.7
+    assert convert(12.7, MM, IN) == 0.5
+    assert convert(0.1, IN, MM) == 2.54
+    assert convert(20.0, IN, MM) == 508.0
+    assert convert(3.0, MM, IN) == 0.1181102362
+    assert convert(3.0, MM, MM) == 3.0
+    assert convert(0.0, IN, MM) == 0.0
+
+
+@settings(derandomize=True, max_examples=300)
+@given(st.integers(-(10**8), 10**8), st.sampled_from(Unit))
+def test_convert_there_and_back(digits, unit):
+    value, other = digits / 10_000, MM if unit is IN else IN
+    assert convert(convert(value, unit, other), other, unit) == value
+
+
+def finding(text: str, **places: object) -> Finding:
+    return Finding("X", Severity.ERROR, text, **places)  # type: ignore[arg-type]  # places are the test's own
+
+
+def test_sentence_fills_lengths_in_program_units():
+    one = finding("Deep {value} at X {x} Y {y}, {0} of {1}.", at=(25.4, -0.00001), value=6.35, lengths=(2.54, 50.8))
+    assert sentence(one, IN) == "Deep 0.2500 at X 1.0000 Y 0.0000, 0.1000 of 2.0000."
+    assert sentence(one, MM) == "Deep 6.350 at X 25.400 Y 0.000, 2.540 of 50.800."
+
+
+def test_sentence_leaves_braces_it_does_not_know():
+    assert sentence(finding("{odd} {0} {x} {} {value!r}"), IN) == "{odd} {0} {x} {} {value!r}"
