@@ -5,6 +5,7 @@ Later layers win a cell's style, circles win over layers, marks over circles; do
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum, IntEnum, auto
 
@@ -102,3 +103,14 @@ class Scene:
 def _box_of(centre: Point, radius: float) -> Floats:
     (x, y) = centre
     return np.array([[x - radius, y - radius, x + radius, y + radius]])
+
+
+def joined_scenes(scenes: Sequence[Scene]) -> Scene:
+    """Several blocks in one drawing; unit and axes are the first one's."""
+    return Scene(
+        tuple(layer for scene in scenes for layer in scene.layers),
+        tuple(circle for scene in scenes for circle in scene.circles),
+        tuple(mark for scene in scenes for mark in scene.marks),
+        scenes[0].unit if scenes else None,
+        scenes[0].axes if scenes else True,
+    )

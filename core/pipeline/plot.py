@@ -1,0 +1,88 @@
+"""What is drawn of a block: surface, centre path, blends, what was deleted, gouged and left, and the cutter."""
+
+from __future__ import annotations
+
+from core.comp.result import Compensated
+from core.draw.build import contour_scene, stretch
+from core.draw.scene import Scene, joined_scenes
+from core.geometry.path import EMPTY, Path
+from core.geometry.piece import Piece, Point
+from core.output.svg import svg
+from core.pipeline.derived import Derived, DerivedBlock
+from core.pipeline.table import Row
+from core.units import Unit
+from core.verify.verdict import Verdict
+
+
+def svg_of(derived: Derived, *, title: str) -> str:
+    """The whole program as one SVG drawing."""
+    scenes = [block_scene(found, None, derived.program.unit) for found in derived.blocks]
+    return svg(joined_scenes(scenes), title=title)
+
+
+def block_scene(found: DerivedBlock, segment: int | None, unit: Unit, row: Row | None = None) -> Scene:
+    """The block with the cursor on `segment` (0 is START, None nowhere), or with the path of a row of the table."""
+    work, solved = found.work, found.solved
+    one, verdict, centre = (None, None, EMPTY) if work is None else (work.compensated, work.verdict, work.centre)
+    if row is not None:
+        one, verdict, centre = row.compensated, row.verdict, row.compensated.path
+    surface = _surface(found)
+    return contour_scene(
+        surface,
+        unit=unit,
+        sketches=_sketches(found),
+        path=centre if one is None else one.path,
+        leads=() if one is None else (one.lead_in, one.lead_out),
+        rough=() if work is None or row is not None else [rough.centre for rough in work.rough],
+        deleted=() if one is None else _deleted(one),
+        meetings=() if one is None else list(dict.fromkeys(deleted.at for deleted in one.deleted)),
+        gouges=() if verdict is None else [gouge.surface_at for gouge in verdict.gouges],
+        uncut=() if verdict is None else _uncut(surface, verdict),
+        cutter=_cutter(found, centre if one is None else one.whole, segment),
+        current=_current(found, segment),
+        start=solved.segments[0].start if solved.segments else None,
+    )
+
+
+def _surface(found: DerivedBlock) -> Path:
+    if found.work is not None:
+        return found.work.surface
+    pieces = found.solved.pieces
+    return Path.from_pieces([piece for _, piece in pieces], [float(number) for number, _ in pieces])
+
+
+def _sketches(found: DerivedBlock) -> list[Path]:
+    """Segments not determined yet: what is known of them, or the solutions the operator picks from."""
+    pieces: list[Piece] = []
+    for one in found.solved.segments[found.solved.determined :]:
+        if one.piece is not None:
+            pieces.append(one.piece)
+        else:
+            pieces += one.choices or ((one.sketch,) if one.sketch is not None else ())
+    return [Path.from_pieces([piece]) for piece in pieces]
+
+
+def _deleted(one: Compensated) -> list[Path]:
+    numbers = set(one.deleted.segments.tolist())
+    rows = [row for row, number in enumerate(one.contour.numbers.tolist()) if number in numbers]
+    return [one.contour.part(row, row + 1) for row in rows]
+
+
+def _uncut(surface: Path, verdict: Verdict) -> list[Path]:
+    return [stretch(surface, one.first_number, one.start, one.last_number, one.end) for one in verdict.uncut]
+
+
+def _current(found: DerivedBlock, segment: int | None) -> Path | None:
+    if not segment or segment > len(found.solved.segments):
+        return None
+    piece = found.solved.segments[segment - 1].piece
+    return None if piece is None else Path.from_pieces([piece])
+
+
+def _cutter(found: DerivedBlock, centre: Path, segment: int | None) -> tuple[Point, float] | None:
+    """The cutter where the path of the cursor's segment ends; at the path's start on START or where it was erased."""
+    if segment is None or found.radius is None or not len(centre):
+        return None
+    rows = [row for row, number in enumerate(centre.numbers.tolist()) if number == segment]
+    x, y = (centre.ends[rows[-1]] if segment and rows else centre.points[0]).tolist()
+    return (x, y), found.radius
