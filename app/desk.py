@@ -1,0 +1,184 @@
+"""The desk: the session with the screens that lie on it, and what a key makes of the two.
+
+Everything between a key and the next picture is here and pure, but for the messages that touch files, which
+`app.files` carries out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final, assert_never
+
+from app import files
+from app.messages import (
+    Browse,
+    Close,
+    Edit,
+    Leave,
+    Load,
+    Message,
+    Move,
+    NextMode,
+    Open,
+    Post,
+    Redo,
+    Save,
+    Say,
+    Swap,
+    Undo,
+)
+from app.screens.contour import Contour
+from app.screens.help import HelpPage
+from app.screens.page import Answer, Page
+from app.screens.program import ProgramPage
+from app.screens.save import SaveAsPage
+from app.session import Session
+from core.pipeline.derived import Derived
+from core.program.edit import Refused
+
+FUNCTION_KEYS: Final = {f"f{number}": number for number in range(1, 9)}
+EVERYWHERE: Final = frozenset({"ctrl+z", "ctrl+y", "ctrl+s", "ctrl+o", "ctrl+q", "ctrl+c"})
+MODES: Final = ("braille", "block", "ascii")
+"""The sets of characters of the drawing, as `core.draw.mode.Mode` names them."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Desk:
+    """`pages` lie on each other, the last one is seen.  `armed`: Esc was pressed, a digit is a softkey now.
+
+    `exit` is set when the program is to end.
+    """
+
+    session: Session
+    pages: tuple[Page, ...] = (ProgramPage(), Contour())
+    armed: bool = False
+    mode: str = MODES[0]
+    exit: bool = False
+
+    @property
+    def page(self) -> Page:
+        """The page that is seen."""
+        return self.pages[-1]
+
+    def press(self, key: str, character: str | None = None) -> Desk:
+        """What a key makes of everything."""
+        armed, desk = self.armed, replace(self, session=self.session.quiet(), armed=False)
+        if armed and key in "12345678":
+            return desk._softkey(int(key))
+        if key in FUNCTION_KEYS:
+            return desk._softkey(FUNCTION_KEYS[key])
+        if key == "escape":
+            return desk._escape(armed=armed)
+        if key in EVERYWHERE:
+            return desk._everywhere(key)
+        answer = desk.page.press(key, character, desk.session)
+        if answer is None and character == "?":
+            return desk.take(Open(HelpPage(about=desk.page.help(desk.session))))
+        return desk if answer is None else desk._answered(answer)
+
+    def knowing(self, derived: Derived) -> Desk:
+        """The desk with what follows from its program."""
+        return replace(self, session=self.session.knowing(derived))
+
+    def paste(self, text: str) -> Desk:
+        """Text pasted into the terminal: its first line as if typed, so that no line ending accepts anything."""
+        desk = self
+        for character in (text.splitlines() or [""])[0][:200]:
+            desk = desk.press("space" if character == " " else character, character)
+        return desk
+
+    def take(self, message: Message) -> Desk:
+        """One message carried out."""
+        match message:
+            case Edit(outcome, label):
+                return replace(self, session=self.session.apply(outcome, label))
+            case Move(where, field):
+                return replace(self, session=self.session.at(where, field))
+            case Say(text, tone):
+                return replace(self, session=self.session.saying(text, tone))
+            case Undo():
+                return replace(self, session=self.session.undo())
+            case Redo():
+                return replace(self, session=self.session.redo())
+            case Open() | Swap() | Close():
+                return replace(self, pages=self._stacked(message))
+            case NextMode():
+                return self._next_mode()
+            case Save() | Browse() | Load() | Post() | Leave():
+                return files.carry_out(self, message)
+            case _:
+                assert_never(message)
+
+    def _stacked(self, message: Open | Swap | Close) -> tuple[Page, ...]:
+        match message:
+            case Open(page):
+                return (*self.pages, page)
+            case Swap(page):
+                return (*self.pages[:-1], page)
+            case Close():
+                return self.pages[:-1] if len(self.pages) > 1 else self.pages
+            case _:
+                assert_never(message)
+
+    def _answered(self, answer: Answer) -> Desk:
+        """The page as the key left it, then its messages in order, up to an edit that is refused."""
+        desk = replace(self, pages=(*self.pages[:-1], answer.page))
+        for message in answer.messages:
+            desk = desk.take(message)
+            if isinstance(message, Edit) and isinstance(message.outcome, Refused):
+                break
+        return desk
+
+    def _softkey(self, number: int) -> Desk:
+        """A softkey: first the half-typed text is taken; where it is refused, the softkey waits."""
+        settled = self.page.settle(self.session)
+        desk = self._answered(settled)
+        if any(isinstance(message, Say) for message in settled.messages):
+            return desk
+        softkeys = desk.page.softkeys(desk.session)
+        if number not in softkeys:
+            return desk
+        return desk._answered(desk.page.softkeyed(desk.session, number, softkeys[number].messages))
+
+    def _escape(self, *, armed: bool) -> Desk:
+        answer = self.page.escape(self.session)
+        if answer is not None:
+            return self._answered(answer)
+        desk = replace(self, armed=not armed)
+        return desk.take(Say("Esc: now 1 to 8 is the softkey F1 to F8.")) if desk.armed else desk
+
+    def _next_mode(self) -> Desk:
+        mode = MODES[(MODES.index(self.mode) + 1) % len(MODES)]
+        return replace(self, mode=mode).take(Say(f"Drawn with {mode} characters."))
+
+    def _settled(self, message: Message) -> Desk:
+        """A half-typed text taken before something that concerns the whole program."""
+        settled = self.page.settle(self.session)
+        desk = self._answered(settled)
+        return desk if any(isinstance(one, Say) for one in settled.messages) else desk.take(message)
+
+    def _everywhere(self, key: str) -> Desk:
+        """The keys that mean the same on every page."""
+        match key:
+            case "ctrl+z":
+                return self._undo()
+            case "ctrl+y":
+                return self.take(Redo())
+            case "ctrl+s":
+                return self._save()
+            case "ctrl+o":
+                return self._settled(Browse())
+            case "ctrl+q":
+                return self._settled(Leave())
+            case _:
+                return self.take(Say("F8 goes back, Ctrl+Q leaves the program."))
+
+    def _undo(self) -> Desk:
+        """Undo; a half-typed text is what is taken back first."""
+        answer = self.page.escape(self.session)
+        return self.take(Undo()) if answer is None or answer.messages else self._answered(answer)
+
+    def _save(self) -> Desk:
+        if self.session.file is None:
+            return self._settled(Open(SaveAsPage.of(self.session)))
+        return self._settled(Save())

@@ -1,0 +1,138 @@
+"""What the program does with files: save, open, post, leave; trouble becomes one sentence on the prompt line."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from importlib.resources import files as packaged
+from pathlib import Path
+from typing import TYPE_CHECKING, assert_never
+
+from app.messages import Browse, Close, Leave, Load, Open, Post, Save, Say, Swap
+from app.screens.ask import Ask
+from app.screens.browse import BrowsePage, listed
+from app.screens.save import SaveAsPage
+from app.session import Session, Tone
+from core.program.edit import new_block
+from core.program.model import Entry, Program, Tool
+from core.program.store import StoreError, load, save, write_text
+from core.units import sentence
+
+if TYPE_CHECKING:
+    from app.desk import Desk
+
+
+def carry_out(desk: Desk, message: Save | Browse | Load | Post | Leave) -> Desk:
+    """One message that touches files."""
+    match message:
+        case Save():
+            return _save(desk, message)
+        case Browse(folder):
+            return _browse(desk, folder)
+        case Load():
+            return _load(desk, message)
+        case Post():
+            return _post(desk, message)
+        case Leave():
+            return _leave(desk, message)
+        case _:
+            assert_never(message)
+
+
+def example(name: str) -> Path:
+    """The file of an example part."""
+    return _examples() / f"{name}.toml"
+
+
+def _examples() -> Path:
+    return Path(str(packaged("app").joinpath("examples")))
+
+
+def empty_program() -> Program:
+    """What a new program begins with: one block and an end mill."""
+    program = Program(tools=(Tool(1, diameter=Entry(0.5)),))
+    return replace(program, blocks=(new_block(program),))
+
+
+def _save(desk: Desk, message: Save) -> Desk:
+    session = desk.session
+    path = message.path or session.file
+    if path is None:
+        return desk.take(Open(SaveAsPage.of(session, leave=message.leave)))
+    if path != session.file and path.exists() and not message.overwrite:
+        again = replace(message, overwrite=True)
+        return desk.take(Open(_overwrite(path, (Close(), again))))
+    try:
+        save(session.program, path)
+    except StoreError as error:
+        return _failed(desk, error)
+    desk = _without(replace(desk, session=session.named(path)), SaveAsPage)
+    return replace(desk, exit=True) if message.leave else desk.take(Say(f"Saved: {path}"))
+
+
+def _overwrite(path: Path, messages: tuple[Close, Save | Post]) -> Ask:
+    lines = (f"{path} exists already. Its content is replaced.",)
+    return Ask("REPLACE THE FILE?", lines, (("r", "REPLACE", messages),))
+
+
+def _browse(desk: Desk, folder: Path | None) -> Desk:
+    here = folder or (desk.session.file.parent if desk.session.file else Path())
+    try:
+        here = here.expanduser().resolve()
+        page = BrowsePage(folder=here, examples=_examples(), items=listed(here))
+    except OSError as error:
+        return _failed(desk, f"{here} cannot be shown: {error.strerror or error}.")
+    return desk.take(Swap(page) if isinstance(desk.page, BrowsePage) else Open(page))
+
+
+def _load(desk: Desk, message: Load) -> Desk:
+    session = desk.session
+    if session.unsaved and not message.unsaved:
+        open_it = replace(message, unsaved=True)
+        keep = (Close(), Save()) if session.file is not None else (Close(), Open(SaveAsPage.of(session)))
+        options = (("s", "SAVE FIRST", keep), ("d", "OPEN WITHOUT SAVING", (Close(), open_it)))
+        return desk.take(Open(Ask("NOT SAVED", ("The program has changes that are not saved.",), options)))
+    if message.path is None:
+        return _fresh(desk, Session.of(empty_program())).take(Say("A new program."))
+    try:
+        program = load(message.path)
+    except StoreError as error:
+        return _failed(desk, error)
+    return _fresh(desk, Session.of(program, message.path)).take(Say(f"Opened: {message.path}"))
+
+
+def _fresh(desk: Desk, session: Session) -> Desk:
+    """The desk with another program, its list of blocks below the form."""
+    return replace(desk, session=session, pages=type(desk)(session).pages)
+
+
+def _post(desk: Desk, message: Post) -> Desk:
+    if message.path.exists() and not message.overwrite:
+        again = replace(message, overwrite=True)
+        return desk.take(Open(_overwrite(message.path, (Close(), again))))
+    from app.posting import refusal_or_text
+
+    found, text = refusal_or_text(desk.session, message.path.stem, message.override)
+    if found is not None:
+        return _failed(desk, f"Nothing was written: {sentence(found, desk.session.program.unit)}")
+    try:
+        write_text(message.path, text)
+    except StoreError as error:
+        return _failed(desk, error)
+    lines = text.count("\n")
+    return desk.take(Close()).take(Say(f"Posted: {message.path}, {lines} lines."))
+
+
+def _leave(desk: Desk, message: Leave) -> Desk:
+    if message.unsaved or not desk.session.unsaved:
+        return replace(desk, exit=True)
+    options = (("s", "SAVE AND LEAVE", (Close(), Save(leave=True))), ("l", "LEAVE WITHOUT", (Leave(unsaved=True),)))
+    return desk.take(Open(Ask("LEAVE?", ("The program has changes that are not saved.",), options)))
+
+
+def _without(desk: Desk, kind: type[SaveAsPage]) -> Desk:
+    """The desk without the dialog that has done its work."""
+    return replace(desk, pages=desk.pages[:-1]) if isinstance(desk.page, kind) else desk
+
+
+def _failed(desk: Desk, error: StoreError | str) -> Desk:
+    return desk.take(Say(str(error), Tone.ERROR))

@@ -1,0 +1,24 @@
+"""Key sequences that Textual does not know: Esc and a digit for a softkey, and PuTTY's VT100+ function keys.
+
+Textual has no public way to add a sequence, so this one module writes into its table; a test types every sequence
+into a pseudo-terminal.
+"""
+
+from __future__ import annotations
+
+from typing import Final, cast
+
+from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
+from textual.keys import Keys
+
+SOFTKEYS: Final = (Keys.F1, Keys.F2, Keys.F3, Keys.F4, Keys.F5, Keys.F6, Keys.F7, Keys.F8)
+VT100_PLUS: Final = "PQRSTUVW"
+"""PuTTY in VT100+ mode sends ESC O and these letters for F1 to F8; Textual knows the first four."""
+
+
+def teach() -> None:
+    """Add the sequences."""
+    table = cast("dict[str, tuple[Keys, ...]]", ANSI_SEQUENCES_KEYS)
+    for number, (key, letter) in enumerate(zip(SOFTKEYS, VT100_PLUS, strict=True), 1):
+        table[f"\x1b{number}"] = (key,)
+        table[f"\x1bO{letter}"] = (key,)

@@ -1,0 +1,55 @@
+"""Ask: a question with a few answers, each a softkey and a letter; Esc answers nothing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from textwrap import wrap
+
+from app.messages import Close, Message
+from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, View
+from app.session import Said, Session
+from app.widgets.header import header
+from app.widgets.rows import Look, Row, Span, plain
+
+Option = tuple[str, str, tuple[Message, ...]]
+"""Letter, label, and what is asked of the App."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Ask(Page):
+    """A question; `options` stand on F1, F2 ... and F8 leaves everything as it is."""
+
+    title: str
+    lines: tuple[str, ...]
+    options: tuple[Option, ...]
+
+    def softkeys(self, session: Session) -> Softkeys:
+        """The answers."""
+        keys = {number: Softkey(label, messages) for number, (_, label, messages) in enumerate(self.options, 1)}
+        return {**keys, 8: Softkey("CANCEL", (Close(),))}
+
+    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """An answer's letter."""
+        for letter, _, messages in self.options:
+            if character is not None and character.lower() == letter:
+                return Answer(self, messages)
+        return None
+
+    def escape(self, session: Session) -> Answer | None:
+        """No answer."""
+        return Answer(self, (Close(),))
+
+    def view(self, session: Session, surface: Surface) -> View:
+        """The question and its answers."""
+        asked = tuple(plain(f" {part}") for line in self.lines for part in wrap(line, surface.width - 3))
+        answers = tuple(_answer(letter, label) for letter, label, _ in self.options)
+        return View(
+            header(self.title, plain(""), session, surface.width),
+            ((), *asked, (), *answers, _answer("Esc", "leave everything as it is")),
+            Said("Press the softkey or the letter of an answer."),
+            Layout.FORM,
+        )
+
+
+def _answer(letter: str, label: str) -> Row:
+    return (Span(f"  {letter.upper() if len(letter) == 1 else letter:<4}", Look.KEY), Span(label, Look.LABEL))

@@ -1,0 +1,159 @@
+"""The MILL CONTOUR screen: START and the segments of one block, keyed in field by field."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+from app.messages import Edit, Move, Say
+from app.screens import contour_keys
+from app.screens.contour_cells import cells_at, fields_at, form_at, value_at
+from app.screens.forms import FormPage
+from app.screens.page import Answer, Layout, Softkeys, Surface, View
+from app.session import SEGMENT, Said, Session, Tone
+from app.widgets.field import press
+from app.widgets.form import cursor_line, form_rows
+from app.widgets.header import block_line, header, segment_line
+from app.widgets.rows import Row
+from core.program.edit import Where, choose, read, type_field
+from core.program.fields import SEGMENT_PROMPT, Field
+from core.program.solved import Value
+from core.units import sentence
+
+WALK: Final = {"pageup": -1, "pagedown": 1, "left": -1, "right": 1}
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Contour(FormPage):
+    """A block's form; the cursor is the session's own."""
+
+    def fields(self, session: Session) -> tuple[Field, ...]:
+        """The fields of START or of the segment."""
+        return fields_at(session)
+
+    def cursor(self, session: Session) -> str:
+        """The session's field, or SEGMENT where that is not shown (as the look-ahead while comp is ON)."""
+        return session.field if any(one.name == session.field for one in fields_at(session)) else SEGMENT
+
+    def moved(self, session: Session, name: str) -> Answer:
+        """The session's cursor on another field."""
+        return Answer(self, (Move(session.where, name),))
+
+    def value(self, session: Session, name: str) -> Value | str:
+        """What the field holds."""
+        return value_at(session, name)
+
+    def edit(self, session: Session, one: Field, text: str) -> Edit:
+        """The text read and put into the field."""
+        typed = read(text, one, session.program.unit)
+        return Edit(type_field(session.program, session.where, one.name, typed), _label(one, session.where))
+
+    def pick(self, session: Session, one: Field, choice: str) -> Answer:
+        """CUTTER COMP., DIRECTION or a solution picked."""
+        outcome = choose(session.program, session.where, one.name, choice)
+        return Answer(self, (Edit(outcome, _label(one, session.where)),))
+
+    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """Walking from segment to segment, then what the field under the cursor does."""
+        if key in ("pageup", "pagedown"):
+            return self._walked(session, WALK[key])
+        if key in ("ctrl+home", "ctrl+end"):
+            there = 0 if key == "ctrl+home" else len(session.block.segments)
+            return self._gone(session, Where(session.where.block, there))
+        if self.cursor(session) == SEGMENT:
+            return self._segment_key(key, character, session)
+        if key == "enter" and self.cursor(session) == self.fields(session)[-1].name:
+            return self._finished(session)
+        return FormPage.press(self, key, character, session)
+
+    def _beyond(self, session: Session, key: str) -> Answer:
+        """The next field round; SEGMENT stands before the first."""
+        names = [SEGMENT, *(one.name for one in self.fields(session))]
+        step = -1 if key in ("up", "shift+tab") else 1
+        there = names[(names.index(self.cursor(session)) + step) % len(names)]
+        return replace(self, editing=None).moved(session, there)
+
+    def _finished(self, session: Session) -> Answer:
+        """Enter on the last field: on to the next segment."""
+        settled = self.settle(session)
+        if any(isinstance(message, Say) for message in settled.messages):
+            return settled
+        beyond = contour_keys.advance(session)
+        return Answer(settled.page, (*settled.messages, *beyond))
+
+    def _walked(self, session: Session, step: int) -> Answer:
+        settled = self.settle(session) if self.cursor(session) != SEGMENT else Answer(replace(self, editing=None))
+        if any(isinstance(message, Say) for message in settled.messages):
+            return settled
+        there = contour_keys.advance(session) if step > 0 else contour_keys.back(session)
+        return Answer(settled.page, (*settled.messages, *there))
+
+    def _gone(self, session: Session, where: Where) -> Answer:
+        settled = self.settle(session)
+        return Answer(settled.page, (*settled.messages, Move(where)))
+
+    def _segment_key(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """On SEGMENT: digits and Enter go to a segment, the arrows walk."""
+        bare = replace(self, editing=None)
+        if key in ("left", "right"):
+            return bare._walked(session, WALK[key])
+        if key == "enter" and self.editing is not None and self.editing.text:
+            return Answer(bare, contour_keys.jump(session, self.editing.text))
+        if key in ("enter", "tab", "down", "up", "shift+tab"):
+            return bare._beyond(session, key)
+        if key == "backspace" or (character is not None and character.isdigit()):
+            editing = press(self.editing, "", key, character)
+            return Answer(replace(self, editing=editing if editing and editing.text else None))
+        return None
+
+    def settle(self, session: Session) -> Answer:
+        """The half-typed text taken; a half-typed segment number is forgotten."""
+        if self.cursor(session) == SEGMENT:
+            return Answer(replace(self, editing=None))
+        return FormPage.settle(self, session)
+
+    def softkeys(self, session: Session) -> Softkeys:
+        """The softkeys of the field with the cursor."""
+        return contour_keys.softkeys(session, self.cursor(session))
+
+    def view(self, session: Session, surface: Surface) -> View:
+        """The form as it stands."""
+        cursor, cells = self.cursor(session), cells_at(session)
+        return View(
+            header(block_line(session), self._segment_line(session), session, surface.width),
+            ((), *form_rows(cells, cursor, self.editing, surface.width), ()),
+            self._prompt(session),
+            Layout.FORM,
+            1 + cursor_line(cells, cursor, surface.width),
+        )
+
+    def _segment_line(self, session: Session) -> Row:
+        on_it = self.cursor(session) == SEGMENT
+        typed = self.editing.text if on_it and self.editing is not None else None
+        number = str(session.where.segment) if typed is None else typed
+        return segment_line(number, form_at(session), cursor=on_it, typing=typed is not None)
+
+    def _prompt(self, session: Session) -> Said:
+        one = self.field(session)
+        if one is None:
+            return Said(SEGMENT_PROMPT)
+        return self.reason(session) or _trouble(session, one) or Said(one.prompt)
+
+    def help(self, session: Session) -> tuple[str, ...]:
+        """The field's help, or that of SEGMENT."""
+        return FormPage.help(self, session) or ("SEGMENT", SEGMENT_PROMPT)
+
+
+def _trouble(session: Session, one: Field) -> Said | None:
+    """A finding that names this field."""
+    for finding in session.found.findings:
+        here = int(finding.segment or 0) == session.where.segment
+        if finding.field == one.name and here:
+            tone = Tone.ERROR if finding.severity == "error" else Tone.WARNING
+            return Said(sentence(finding, session.program.unit), tone)
+    return None
+
+
+def _label(one: Field, where: Where) -> str:
+    place = "START" if where.segment == 0 else f"segment {where.segment}"
+    return f"{one.label} of {place}, block {where.block}"

@@ -1,0 +1,95 @@
+"""DRAW: the drawing on the whole terminal, with keys to enlarge, move and walk over the segments."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Final
+
+from app.messages import Close, Message, Move, NextMode, Open, Say, Swap
+from app.screens.findings import FindingsPage
+from app.screens.page import Answer, Layout, Page, Sketch, Softkey, Softkeys, Surface, View
+from app.session import Said, Session
+from app.widgets.header import block_line, header, segment_line
+from core.program.edit import Where
+
+STEP: Final = 1.25
+"""One key press enlarges or shrinks by this factor."""
+PAN: Final = 0.125
+"""One arrow moves the window by this part of it."""
+ARROWS: Final = {"left": (-PAN, 0.0), "right": (PAN, 0.0), "up": (0.0, PAN), "down": (0.0, -PAN)}
+SEGMENTS: Final = {"n": 1, "pagedown": 1, "p": -1, "pageup": -1}
+FARTHEST: Final = 2.0
+"""One may move so many times the whole drawing away from it."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class DrawPage(Page):
+    """The window is kept relative to the whole part, so that it survives edits and another terminal size."""
+
+    sketch: Sketch = field(default_factory=Sketch)
+
+    def softkeys(self, session: Session) -> Softkeys:
+        """Every key of the drawing as a softkey."""
+        return {
+            1: Softkey("SEGMENT BACK", _walk(session, -1)),
+            2: Softkey("SEGMENT ADVANCE", _walk(session, 1)),
+            3: Softkey("FINDINGS", (Open(FindingsPage()),)),
+            4: Softkey("ZOOM IN", (Swap(replace(self, sketch=_zoomed(self.sketch, STEP))),)),
+            5: Softkey("ZOOM OUT", (Swap(replace(self, sketch=_zoomed(self.sketch, 1 / STEP))),)),
+            6: Softkey("FIT", (Swap(replace(self, sketch=Sketch())),)),
+            7: Softkey("CHARACTERS", (NextMode(),)),
+            8: Softkey("EXIT", (Close(),)),
+        }
+
+    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """Enlarge, move, walk."""
+        if character in ("+", "=", "-"):
+            return self._with(_zoomed(self.sketch, 1 / STEP if character == "-" else STEP))
+        if key in ("0", "home"):
+            return self._with(Sketch())
+        if key in ARROWS:
+            return self._with(_panned(self.sketch, *ARROWS[key]))
+        if key in SEGMENTS:
+            return Answer(self, _walk(session, SEGMENTS[key]))
+        return Answer(self, (NextMode(),)) if key == "m" else None
+
+    def escape(self, session: Session) -> Answer | None:
+        """Back to the form."""
+        return Answer(self, (Close(),))
+
+    def _with(self, sketch: Sketch) -> Answer:
+        return Answer(replace(self, sketch=sketch))
+
+    def view(self, session: Session, surface: Surface) -> View:
+        """The drawing; the two prompt lines name its keys."""
+        title = "START" if session.segment is None else "SEGMENT"
+        title = f"{title}   zoom {self.sketch.zoom:.2g}" if self.sketch.zoom != 1.0 else title
+        number = segment_line(str(session.where.segment), title, cursor=False)
+        prompt = (
+            "+ - zoom, arrows move, 0 fits. n and p walk over the segments. m changes the characters. Esc goes back."
+        )
+        return View(
+            header(block_line(session), number, session, surface.width), (), Said(prompt), Layout.DRAW, 0, self.sketch
+        )
+
+
+def _zoomed(sketch: Sketch, factor: float) -> Sketch:
+    zoom = min(max(sketch.zoom * factor, 0.02), 1e4)
+    # what stands in the middle stays there: offsets are in parts of a window that shrinks
+    return _held(replace(sketch, zoom=zoom), sketch.dx * zoom / sketch.zoom, sketch.dy * zoom / sketch.zoom)
+
+
+def _panned(sketch: Sketch, dx: float, dy: float) -> Sketch:
+    return _held(sketch, sketch.dx + dx, sketch.dy + dy)
+
+
+def _held(sketch: Sketch, dx: float, dy: float) -> Sketch:
+    limit = FARTHEST * max(sketch.zoom, 1.0)
+    return replace(sketch, dx=min(max(dx, -limit), limit), dy=min(max(dy, -limit), limit))
+
+
+def _walk(session: Session, step: int) -> tuple[Message, ...]:
+    there = session.where.segment + step
+    if not 0 <= there <= len(session.block.segments):
+        return (Say("That is the last segment." if step > 0 else "START is the first."),)
+    return (Move(Where(session.where.block, there)),)

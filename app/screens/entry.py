@@ -1,0 +1,43 @@
+"""EntryPage: a page on which one line of text is typed, such as a file's name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from app.messages import Close
+from app.screens.page import Answer, Page
+from app.session import Session
+from app.widgets.field import Editing, press, window
+from app.widgets.rows import Look, Row, Span
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class EntryPage(Page):
+    """`entry` is the text as it stands; `fresh` while nothing was typed: the first character then replaces it."""
+
+    entry: Editing = field(default_factory=lambda: Editing("", 0))
+    fresh: bool = True
+
+    def typed(self, key: str, character: str | None) -> Answer | None:
+        """A key of editing."""
+        entry = press(None if self.fresh else self.entry, self.entry.text, key, character)
+        return None if entry is None else Answer(replace(self, entry=entry, fresh=False))
+
+    def escape(self, session: Session) -> Answer | None:
+        """Nothing is done."""
+        return Answer(self, (Close(),))
+
+
+def entry_row(label: str, entry: Editing, width: int, *, fresh: bool) -> Row:
+    """A label and the text with its caret."""
+    room = max(width - len(label) - 3, 8)
+    text, caret = window(entry, room)
+    text = f"{text:<{room}}"[:room]
+    if fresh:
+        return (Span(f" {label} ", Look.HEAD), Span(text, Look.CURSOR))
+    return (
+        Span(f" {label} ", Look.HEAD),
+        Span(text[:caret], Look.CURSOR),
+        Span(text[caret : caret + 1], Look.CARET),
+        Span(text[caret + 1 :], Look.CURSOR),
+    )

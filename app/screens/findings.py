@@ -1,0 +1,31 @@
+"""FINDINGS: everything the program has to say about the block, each finding in full."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from app.screens.page import Surface
+from app.screens.text import TextPage, paragraph
+from app.session import Session
+from app.widgets.rows import Row, plain, text_of
+from app.widgets.verdict import verdict_rows
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FindingsPage(TextPage):
+    """The verdict's lines, all of them, wrapped."""
+
+    def title(self, session: Session) -> str:
+        """Which block's."""
+        return f"BLOCK{session.where.block:>8}   FINDINGS"
+
+    def lines(self, session: Session, surface: Surface) -> tuple[Row, ...]:
+        """The strip, then every finding."""
+        rows = verdict_rows(session.found, surface.table, session.program.unit, surface.width, look=None)
+        told = [one for row in rows[1:] for one in _wrapped(row, surface.width)]
+        return (rows[0], (), *(told or [plain(" Nothing to report.")]))
+
+
+def _wrapped(row: Row, width: int) -> tuple[Row, ...]:
+    text = text_of(row)
+    return (row,) if len(text) < width else paragraph(text.strip(), width, row[-1].look, "   ")

@@ -1,0 +1,197 @@
+"""FormPage: what every screen with fields has in common, from the first character typed to the accepted value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+from app.messages import Edit, Say
+from app.screens.page import Answer, Page
+from app.session import Said, Session, Tone
+from app.widgets.field import Editing, press
+from app.widgets.form import Cell, State
+from core.pipeline.derived import Tag
+from core.program.edit import Refused, read
+from core.program.fields import Field
+from core.program.model import Entry, Unread
+from core.program.solved import Solved, Value
+from core.units import Kind, Unit, show
+
+FORWARD = ("enter", "tab", "down")
+BACK = ("shift+tab", "up")
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FormPage(Page):
+    """A page with fields; `editing` is the half-typed text of the field with the cursor."""
+
+    editing: Editing | None = None
+
+    def fields(self, session: Session) -> tuple[Field, ...]:
+        """The fields the cursor can go to, in order."""
+        raise NotImplementedError
+
+    def cursor(self, session: Session) -> str:
+        """The name of the field with the cursor."""
+        raise NotImplementedError
+
+    def moved(self, session: Session, name: str) -> Answer:
+        """The cursor on another field."""
+        raise NotImplementedError
+
+    def value(self, session: Session, name: str) -> Value | str:
+        """What a field holds: a number typed or calculated, or a choice's or a text's words."""
+        raise NotImplementedError
+
+    def edit(self, session: Session, one: Field, text: str) -> Edit:
+        """The edit that puts an accepted text into a field."""
+        raise NotImplementedError
+
+    def pick(self, session: Session, one: Field, choice: str) -> Answer:
+        """A choice taken."""
+        raise NotImplementedError
+
+    def field(self, session: Session) -> Field | None:
+        """The field with the cursor, None when the cursor is on none."""
+        name = self.cursor(session)
+        return next((one for one in self.fields(session) if one.name == name), None)
+
+    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """A key on a field: typing, picking, accepting, moving."""
+        one = self.field(session)
+        if one is None:
+            return None
+        if key in FORWARD or key in BACK:
+            return self.accepted(session, key)
+        if one.kind is Kind.CHOICE:
+            return self._choice_key(session, one, key, character)
+        editing = press(self.editing, self.text(session, one), key, character)
+        return None if editing is None else Answer(replace(self, editing=editing))
+
+    def accepted(self, session: Session, key: str) -> Answer:
+        """The half-typed text taken, and the cursor moved unless the text was refused or cannot be read."""
+        settled = self.settle(session)
+        if any(isinstance(message, Say) for message in settled.messages):
+            return settled
+        beyond = self._beyond(session, key)
+        return Answer(beyond.page, (*settled.messages, *beyond.messages))
+
+    def settle(self, session: Session) -> Answer:
+        """The half-typed text taken, the cursor where it is."""
+        one, editing = self.field(session), self.editing
+        done = replace(self, editing=None)
+        if one is None or editing is None or editing.text.strip() == self.text(session, one):
+            return Answer(done)
+        edit = self.edit(session, one, editing.text)
+        if isinstance(edit.outcome, Refused):
+            return Answer(done, (Say(edit.outcome.text, Tone.ERROR),))
+        unread = None if one.kind is Kind.TEXT else read(editing.text, one, session.program.unit)
+        if isinstance(unread, Unread):
+            return Answer(done, (edit, Say(_unread_sentence(unread), Tone.ERROR)))
+        return Answer(done, (edit,))
+
+    def escape(self, session: Session) -> Answer | None:
+        """The half-typed text forgotten: the field shows what it held."""
+        return None if self.editing is None else Answer(replace(self, editing=None))
+
+    def text(self, session: Session, one: Field) -> str:
+        """What a field shows, in full where the form's decimals would lose some of what was typed."""
+        held = self.value(session, one.name)
+        if isinstance(held, Entry):
+            shown = show(held.value, one.kind, session.program.unit)
+            return shown if float(shown) == held.value else f"{held.value:.12g}"
+        return shown_text(held, one, session.program.unit)
+
+    def _beyond(self, session: Session, key: str) -> Answer:
+        names = [one.name for one in self.fields(session)]
+        step = 1 if key in FORWARD else -1
+        there = names[(names.index(self.cursor(session)) + step) % len(names)]
+        return self._without_text().moved(session, there)
+
+    def _without_text(self) -> Self:
+        return replace(self, editing=None)
+
+    def _choice_key(self, session: Session, one: Field, key: str, character: str | None) -> Answer | None:
+        held = str(self.value(session, one.name) or "")
+        chosen = chosen_by(one, held, key, character)
+        return None if chosen is None else self.pick(session, one, chosen)
+
+    def reason(self, session: Session) -> Said | None:
+        """Why the field with the cursor cannot be used as it stands."""
+        one = self.field(session)
+        held = None if one is None else self.value(session, one.name)
+        return Said(_unread_sentence(held), Tone.ERROR) if isinstance(held, Unread) else None
+
+    def help(self, session: Session) -> tuple[str, ...]:
+        """The prompt of the field, its range, and the keys that change it."""
+        one = self.field(session)
+        return () if one is None else field_help(one)
+
+
+def _unread_sentence(unread: Unread) -> str:
+    return f"{unread.text.strip()} cannot be read: {unread.reason}"
+
+
+def chosen_by(one: Field, held: str, key: str, character: str | None) -> str | None:
+    """The choice a key makes: arrows and the space bar step, a letter goes to the next that begins with it."""
+    choices = one.choices
+    here = choices.index(held) if held in choices else -1
+    if key in ("right", "space"):
+        return choices[(here + 1) % len(choices)]
+    if key == "left":
+        return choices[(here - 1) % len(choices)] if here >= 0 else choices[-1]
+    if character is None or not character.isalnum():
+        return None
+    ahead = (*choices[here + 1 :], *choices[: here + 1])
+    return next((choice for choice in ahead if choice.startswith(character.upper())), None)
+
+
+def shown_text(held: Value | str, one: Field, unit: Unit) -> str:
+    """A value as a form prints it."""
+    match held:
+        case None:
+            return ""
+        case str(text):
+            return text
+        case Unread(text, _):
+            return text
+        case Entry(value) | Solved(value):
+            return show(value, one.kind, unit)
+
+
+def cell_of(one: Field, held: Value | str, unit: Unit, column: int, line: int, *, needed: bool = False) -> Cell:
+    """A field's cell with the tag and the state that its value gives it."""
+    text = shown_text(held, one, unit)
+    choice = one.kind is Kind.CHOICE
+    match held:
+        case Unread():
+            return Cell(one.name, one.label, text, column, line, State.UNREAD, "ERR", choice)
+        case Solved():
+            return Cell(one.name, one.label, text, column, line, State.CALCULATED, Tag.CAL, choice)
+        case None if needed:
+            return Cell(one.name, one.label, "?", column, line, State.NEEDED, "", choice)
+        case _:
+            return Cell(one.name, one.label, text, column, line, State.TYPED, "", choice)
+
+
+def field_help(one: Field) -> tuple[str, ...]:
+    """What may be typed into a field, in sentences."""
+    lines = [one.label, one.prompt]
+    if one.choices:
+        lines.append(f"Choices: {', '.join(one.choices)}. Space, left and right step; a first letter selects.")
+    elif one.kind is not Kind.TEXT:
+        lines.append(_HOW[one.kind])
+    if one.low is not None and one.high is not None:
+        lines.append(f"From {one.low:g} to {one.high:g}.")
+    elif one.above is not None:
+        lines.append(f"Above {one.above:g}.")
+    return tuple(lines)
+
+
+_HOW = {
+    Kind.LENGTH: "A number, a fraction (1 1/2), a sum (2.5-.125, 25.4/2), or another unit (12.7mm, .5in).",
+    Kind.FEED: "A number in program units a minute, or another unit (500mm, 20in).",
+    Kind.ANGLE: "Degrees, counter-clockwise from +X.",
+    Kind.COUNT: "A whole number.",
+    Kind.PERCENT: "A percentage.",
+}

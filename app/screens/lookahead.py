@@ -1,0 +1,99 @@
+"""LOOKAHEAD TABLE: what every value from 1 to 20 does to the path, one of them drawn, one of them taken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Final
+
+from app.messages import Close, Edit
+from app.screens.page import Answer, Layout, Page, Sketch, Softkey, Softkeys, Surface, View
+from app.session import Said, Session
+from app.widgets.header import header
+from app.widgets.rows import Look, Row, Span, padded, plain
+from app.widgets.verdict import mark_of
+from app.widgets.words import length, numbers
+from core.comp.lookahead import HIGHEST, LOWEST
+from core.program.edit import recalculate_lookahead, type_field
+from core.program.model import Entry
+from core.units import Unit
+
+if TYPE_CHECKING:
+    from core.pipeline.table import Row as Fate
+    from core.pipeline.table import Table
+
+HALF: Final = (HIGHEST - LOWEST + 1) // 2
+"""The table stands in two columns of ten values."""
+STEPS: Final = {"up": -1, "down": 1, "left": -HALF, "right": HALF, "pageup": -HALF, "pagedown": HALF}
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LookaheadTable(Page):
+    """The table with the cursor on `at`, whose path is drawn."""
+
+    at: int
+
+    def softkeys(self, session: Session) -> Softkeys:
+        """Taking the value, or going back to CAL."""
+        where = session.where
+        taken = Edit(
+            type_field(session.program, where, "lookahead", Entry(float(self.at))), f"CUTCOMP LOOKAHEAD {self.at}"
+        )
+        cal = Edit(recalculate_lookahead(session.program, where.block), "RECALCULATE LOOKAHEAD")
+        return {
+            1: Softkey(f"TAKE {self.at} AS USR", (taken, Close())),
+            3: Softkey("RECALCULATE LOOKAHEAD", (cal, Close())),
+            8: Softkey("EXIT", (Close(),)),
+        }
+
+    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """The arrows step over the values, Enter takes one."""
+        if key == "enter":
+            return Answer(self, self.softkeys(session)[1].messages)
+        if key in ("home", "end"):
+            return Answer(replace(self, at=LOWEST if key == "home" else HIGHEST))
+        if key in STEPS:
+            return Answer(replace(self, at=min(max(self.at + STEPS[key], LOWEST), HIGHEST)))
+        return None
+
+    def escape(self, session: Session) -> Answer | None:
+        """Back without taking a value."""
+        return Answer(self, (Close(),))
+
+    def view(self, session: Session, surface: Surface) -> View:
+        """The table, or why there is none yet."""
+        title = plain(f" LOOKAHEAD TABLE, {session.found.lookahead.tag} {session.found.lookahead.value}", Look.HEAD)
+        first = header(f"BLOCK{session.where.block:>8}   MILL CONTOUR", title, session, surface.width)
+        body = self._body(session, surface.table)
+        prompt = (
+            "Up and down show what a value does. Enter takes it as USR. ! gouges, * erases segments, < recommended."
+        )
+        return View(first, body, Said(prompt), Layout.TABLE, 1, Sketch(self.at))
+
+    def _body(self, session: Session, table: Table | None) -> tuple[Row, ...]:
+        if table is None:
+            return (
+                (),
+                plain(
+                    " There is nothing to compare yet: a tool, a side and a determined contour are needed.", Look.LABEL
+                ),
+            )
+        unit = session.program.unit
+        lines = []
+        for line in range(HALF):
+            pair = (_fate(table, LOWEST + line + half, self.at, unit) for half in (0, HALF))
+            lines.append(tuple(span for row in pair for span in padded(row, 29)))
+        heading = f"{'':4}{'':>3}{'gouge':>7}{'uncut':>9}{'':6}"
+        return (plain(heading * 2, Look.LABEL), *lines)
+
+
+def _fate(table: Table, value: int, at: int, unit: Unit) -> Row:
+    fate = table.row(value)
+    look = Look.CURSOR if value == at else Look.TYPED
+    mark = "<" if value == table.recommended else " "
+    return (Span(" "), Span(f"{value:>3}{mark_of(fate) or ' '}{mark}", look), *_numbers(fate, unit))
+
+
+def _numbers(fate: Fate, unit: Unit) -> Row:
+    gouge = Span(f"{'none':>8}", Look.GOOD) if fate.clean else Span(f"{length(fate.gouge, unit):>8}", Look.ERROR)
+    erased = f" {numbers(fate.deleted)}"
+    return (gouge, Span(f"{length(fate.uncut, unit):>9}", Look.TYPED), Span(erased, Look.WARNING))

@@ -1,0 +1,110 @@
+"""Page: what stands on the terminal as a pure function of the session, and what a key on it asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+from app.messages import Message
+from app.session import Said, Session
+from app.widgets.rows import Row
+
+if TYPE_CHECKING:
+    from core.pipeline.table import Table
+
+
+class Layout(StrEnum):
+    """How a page shares the terminal: fields over a drawing, a table over it, text alone, the drawing alone."""
+
+    FORM = "form"
+    TABLE = "table"
+    TEXT = "text"
+    DRAW = "draw"
+
+
+@dataclass(frozen=True, slots=True)
+class Surface:
+    """What a page may know of the terminal, in cells, and of what takes long to calculate."""
+
+    width: int = 59
+    body: int = 9
+    table: Table | None = None
+    """The look-ahead table of the block with the cursor, None while it is not known."""
+
+
+@dataclass(frozen=True, slots=True)
+class Softkey:
+    """One of F1 to F8: its label, and what it asks for."""
+
+    label: str
+    messages: tuple[Message, ...] = ()
+
+
+Softkeys = Mapping[int, Softkey]
+
+
+@dataclass(frozen=True, slots=True)
+class Sketch:
+    """What the drawing shows instead of the whole block: a look-ahead value's path, a window.
+
+    `zoom` enlarges what fits the room, `dx` and `dy` move the window by parts of its width and height.
+    """
+
+    lookahead: int | None = None
+    zoom: float = 1.0
+    dx: float = 0.0
+    dy: float = 0.0
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class View:
+    """A page as it stands: rows for each part of the terminal."""
+
+    header: tuple[Row, ...]
+    body: tuple[Row, ...]
+    prompt: Said
+    layout: Layout = Layout.FORM
+    focus: int = 0
+    sketch: Sketch = field(default_factory=Sketch)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Answer:
+    """What a key does: the page as it is then, and what it asks of the App."""
+
+    page: Page
+    messages: tuple[Message, ...] = ()
+
+
+class Page:
+    """A screen: frozen, its own state is no more than a half-typed text, a cursor, a window."""
+
+    def view(self, session: Session, surface: Surface) -> View:
+        """What stands on the terminal."""
+        raise NotImplementedError
+
+    def softkeys(self, session: Session) -> Softkeys:
+        """The softkeys as they are now."""
+        raise NotImplementedError
+
+    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """What a key does; None for a key that means nothing here."""
+        raise NotImplementedError
+
+    def settle(self, session: Session) -> Answer:
+        """What accepts a half-typed text before a softkey acts."""
+        return Answer(self)
+
+    def softkeyed(self, session: Session, number: int, messages: tuple[Message, ...]) -> Answer:
+        """What pressing a softkey with these messages does; most pages stay as they are."""
+        return Answer(self, messages)
+
+    def escape(self, session: Session) -> Answer | None:
+        """What Esc takes back; None when there is nothing to take back."""
+        return None
+
+    def help(self, session: Session) -> tuple[str, ...]:
+        """Sentences about what has the cursor."""
+        return ()

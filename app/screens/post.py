@@ -1,0 +1,93 @@
+"""POST NC: the name of the NC file, what stands against posting, and the sentence that posts in spite of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from textwrap import wrap
+from typing import Final, Self
+
+from app.messages import Close, Message, Post, Say
+from app.screens.entry import EntryPage, entry_row
+from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
+from app.screens.save import with_suffix
+from app.session import Said, Session, Tone
+from app.widgets.field import Editing
+from app.widgets.header import header
+from app.widgets.rows import Look, Row, plain
+from app.widgets.words import number
+from core.finding import Finding
+from core.units import Unit, sentence
+
+OVERRIDE: Final = "POST WITH GOUGE"
+"""What must be typed to post in spite of the verdict; `core.output.ready` demands the same, and a test compares."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PostPage(EntryPage):
+    """First the file's name in `entry`; then, with `path` known, the sentence that overrides."""
+
+    path: Path | None = None
+
+    @classmethod
+    def of(cls, session: Session) -> Self:
+        """The page with the program's name and the suffix .nc."""
+        name = Path("part.nc") if session.file is None else session.file.with_suffix(".nc")
+        return cls(Editing.of(str(name)))
+
+    def softkeys(self, session: Session) -> Softkeys:
+        """Post, or not."""
+        return {1: Softkey("POST", self._posted(session).messages), 8: Softkey("CANCEL", (Close(),))}
+
+    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """Enter takes the name, or the sentence."""
+        return self._posted(session) if key == "enter" else self.typed(key, character)
+
+    def _posted(self, session: Session) -> Answer:
+        text = self.entry.text.strip()
+        if self.path is not None:
+            return Answer(self, self._overridden(text))
+        if not text:
+            return Answer(self, (Say("Type a name for the NC file.", Tone.ERROR),))
+        path = with_suffix(Path(text), ".nc")
+        if any(errors(session)):
+            return Answer(replace(self, path=path, entry=Editing("", 0), fresh=False))
+        return Answer(self, (Post(path),))
+
+    def _overridden(self, text: str) -> tuple[Message, ...]:
+        assert self.path is not None
+        if text != OVERRIDE:
+            return (Say(f"Nothing was written. Type {OVERRIDE} to post in spite of the findings, or Esc.", Tone.ERROR),)
+        return (Post(self.path, override=text),)
+
+    def view(self, session: Session, surface: Surface) -> View:
+        """The name, the findings, and where they are errors the sentence."""
+        against = errors(session)
+        rows = [entry_row("FILE", self.entry, surface.width, fresh=self.fresh)]
+        said = Said("Type the name of the NC file, Enter posts.")
+        if self.path is not None:
+            rows = [plain(f" FILE {self.path}"), entry_row("SAY", self.entry, surface.width, fresh=False)]
+            said = Said(
+                f"Posting is refused. To post in spite of it, type {OVERRIDE} and Enter; the file will say so.",
+                Tone.ERROR,
+            )
+        elif against:
+            said = Said("Enter the name of the NC file. The findings stand against posting.", Tone.WARNING)
+        body = ((), *rows, (), *_against(against, session.program.unit, surface.width))
+        return View(header("POST NC", plain(""), session, surface.width), body, said, Layout.TEXT, 1)
+
+
+def errors(session: Session) -> tuple[tuple[int, Finding], ...]:
+    """Block and finding of everything that stands against posting."""
+    return tuple((found.number, finding) for found in session.derived.blocks for finding in found.errors)
+
+
+def _against(against: tuple[tuple[int, Finding], ...], unit: Unit, width: int) -> tuple[Row, ...]:
+    if not against:
+        return (plain(" Nothing stands against posting.", Look.GOOD),)
+    rows: list[Row] = []
+    for block, finding in against:
+        where = f"block {block}" + (f", segment {number(finding.segment)}" if finding.segment else "")
+        for line in wrap(f"!! {where}: {sentence(finding, unit)}", width - 2, subsequent_indent="   "):
+            rows.append(plain(f" {line}", Look.ERROR))
+    return tuple(rows)

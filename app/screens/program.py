@@ -1,0 +1,116 @@
+"""PROGRAM: the list of blocks, and everything that is done to a whole program."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+from app.messages import Browse, Edit, Leave, Message, Move, Open, Save, Swap
+from app.screens.contour import Contour
+from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, View
+from app.screens.parameters import ParametersPage
+from app.screens.post import PostPage
+from app.screens.save import SaveAsPage
+from app.screens.setup import SetupPage
+from app.screens.tools import ToolsPage
+from app.session import Said, Session
+from app.widgets.header import header
+from app.widgets.rows import Look, Row, Span, plain
+from core.pipeline.derived import DerivedBlock
+from core.program.edit import Where, copy_block, delete_block, insert_block, move_block
+from core.program.model import Entry
+
+PROMPT: Final = "Enter edits the block, up and down go from block to block. Insert, copy, move or delete by softkey."
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ProgramPage(Page):
+    """The blocks; `second` shows the second set of softkeys."""
+
+    second: bool = False
+
+    def softkeys(self, session: Session) -> Softkeys:
+        """Two sets; F7 changes between them."""
+        return _second(self, session) if self.second else _first(self, session)
+
+    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """Up and down over the blocks, Enter into one."""
+        at, last = session.where.block, len(session.program.blocks)
+        there = {"up": at - 1, "down": at + 1, "home": 1, "end": last, "pageup": 1, "pagedown": last}.get(key)
+        if there is not None:
+            return Answer(self, (Move(Where(min(max(there, 1), last))),))
+        return Answer(self, (Open(Contour()),)) if key in ("enter", "right") else None
+
+    def view(self, session: Session, surface: Surface) -> View:
+        """One line a block."""
+        at, blocks = session.where.block, session.derived.blocks
+        rows = [_block_row(found, on_it=found.number == at) for found in blocks]
+        room = max(surface.body - 2, 1)
+        top = max(0, min(at - 1 - room // 2, len(rows) - room))
+        title = plain(f" {len(rows)} block{'s' if len(rows) != 1 else ''}", Look.LABEL)
+        return View(
+            header("PROGRAM", title, session, surface.width),
+            ((), _headings(), *rows[top : top + room]),
+            Said(PROMPT),
+            Layout.FORM,
+            2 + at - 1 - top,
+        )
+
+
+def _headings() -> Row:
+    return plain(f"  {'BLOCK':<7}{'KIND':<14}{'CUTTER COMP.':<15}{'TOOL':>4}{'SEG':>5}  {'VERDICT'}", Look.LABEL)
+
+
+def _block_row(found: DerivedBlock, *, on_it: bool) -> Row:
+    tool = f"{found.block.tool.value:g}" if isinstance(found.block.tool, Entry) else "?"
+    text = f"{found.number:>5}  MILL CONTOUR  {found.block.cutter_comp:<15}{tool:>4}{len(found.block.segments):>5}"
+    word, look = verdict_word(found)
+    mark = "> " if on_it else "  "
+    return (Span(mark, Look.TAG), Span(f"{text}", Look.CURSOR if on_it else Look.TYPED), Span(f"  {word}", look))
+
+
+def verdict_word(found: DerivedBlock) -> tuple[str, Look]:
+    """The verdict on a block in one word."""
+    if not found.known:
+        return "...", Look.DIM
+    if found.errors:
+        gouges = any(finding.code.endswith(("GOUGE", "GOUGES")) for finding in found.errors)
+        return ("GOUGE" if gouges else "open"), Look.ERROR
+    return ("warning", Look.WARNING) if found.findings else ("clean", Look.GOOD)
+
+
+def _first(page: ProgramPage, session: Session) -> Softkeys:
+    at, program = session.where.block, session.program
+    behind = Edit(insert_block(program, at + 1), f"INSERT BLOCK {at + 1}")
+    return {
+        1: Softkey("DELETE BLOCK", (Edit(delete_block(program, at), f"DELETE BLOCK {at}"),)),
+        2: Softkey("INSERT BLOCK BEHIND", (behind, Move(Where(at + 1)), Open(Contour()))),
+        3: Softkey("COPY BLOCK", (Edit(copy_block(program, at), f"COPY BLOCK {at}"), Move(Where(at + 1)))),
+        4: Softkey("OPEN", (Browse(),)),
+        5: Softkey("SAVE", save_messages(session)),
+        6: Softkey("POST NC", (Open(PostPage.of(session)),)),
+        7: Softkey("MORE", (Swap(replace(page, second=True)),)),
+        8: Softkey("EXIT", (Leave(),)),
+    }
+
+
+def _second(page: ProgramPage, session: Session) -> Softkeys:
+    at, program, last = session.where.block, session.program, len(session.program.blocks)
+    up, down = max(at - 1, 1), min(at + 1, last)
+    return {
+        1: Softkey("MOVE BLOCK UP", (Edit(move_block(program, at, up), f"MOVE BLOCK {at} UP"), Move(Where(up)))),
+        2: Softkey(
+            "MOVE BLOCK DOWN", (Edit(move_block(program, at, down), f"MOVE BLOCK {at} DOWN"), Move(Where(down)))
+        ),
+        3: Softkey("SAVE AS", (Open(SaveAsPage.of(session)),)),
+        4: Softkey("PROGRAM PARAMETERS", (Open(ParametersPage()),)),
+        5: Softkey("PART SETUP", (Open(SetupPage()),)),
+        6: Softkey("TOOL SETUP", (Open(ToolsPage()),)),
+        7: Softkey("MORE", (Swap(replace(page, second=False)),)),
+        8: Softkey("EXIT", (Leave(),)),
+    }
+
+
+def save_messages(session: Session) -> tuple[Message, ...]:
+    """SAVE: under the program's name, or asking for one."""
+    return (Save(),) if session.file is not None else (Open(SaveAsPage.of(session)),)

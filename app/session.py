@@ -1,0 +1,148 @@
+"""The session: one frozen value with everything the screens are drawn from.
+
+`App` owns the only one; every key makes a new one by the pure methods here.  Nothing that has been accepted is kept
+anywhere else: a screen drawn afresh from the session equals the one that stands.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from pathlib import Path
+from typing import Final
+
+from core.pipeline.derived import Derived, DerivedBlock
+from core.pipeline.outline import outline
+from core.program.edit import Edited, Refused, Where
+from core.program.history import History
+from core.program.model import Block, Program, Segment
+
+SEGMENT: Final = "segment"
+"""The name of the SEGMENT line, where the cursor walks from segment to segment."""
+
+
+FIRST: Final = Where(1, 0)
+"""START of block 1."""
+
+
+class Tone(StrEnum):
+    """How a message on the prompt line is meant."""
+
+    PLAIN = "plain"
+    WARNING = "warning"
+    ERROR = "error"
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """A sentence on the prompt line; it stays until the next key."""
+
+    text: str
+    tone: Tone = Tone.PLAIN
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Session:
+    """What is being worked on.
+
+    `where` and `field` are the cursor on the MILL CONTOUR form.  `file` is None until the program has a name, `saved`
+    is the program as the file holds it.  `derived` belongs to `derived.program`, which lags behind only while a new
+    one is being derived.
+    """
+
+    history: History
+    saved: Program
+    derived: Derived
+    file: Path | None = None
+    where: Where = FIRST
+    field: str = SEGMENT
+    said: Said | None = None
+
+    @staticmethod
+    def of(program: Program, file: Path | None = None, *, saved: Program | None = None) -> Session:
+        """A session that begins with this program, the cursor on SEGMENT of START of block 1."""
+        return Session(History(program), program if saved is None else saved, outline(program), file)
+
+    @property
+    def program(self) -> Program:
+        """The program as it is now."""
+        return self.history.program
+
+    @property
+    def unsaved(self) -> bool:
+        """The file does not hold the program as it is now."""
+        return self.program is not self.saved and self.program != self.saved
+
+    @property
+    def stale(self) -> bool:
+        """`derived` is still that of an earlier program."""
+        return self.derived.program is not self.program
+
+    @property
+    def block(self) -> Block:
+        """The block with the cursor."""
+        return self.program.blocks[self.where.block - 1]
+
+    @property
+    def segment(self) -> Segment | None:
+        """The segment with the cursor, None on START."""
+        return self.block.segments[self.where.segment - 1] if self.where.segment else None
+
+    @property
+    def found(self) -> DerivedBlock:
+        """What is known of the block with the cursor."""
+        return self.derived.block(self.where.block)
+
+    def saying(self, text: str, tone: Tone = Tone.PLAIN) -> Session:
+        """The session with a sentence on the prompt line."""
+        return replace(self, said=Said(text, tone))
+
+    def quiet(self) -> Session:
+        """The session with nothing to say."""
+        return self if self.said is None else replace(self, said=None)
+
+    def apply(self, edited: Edited, label: str) -> Session:
+        """An edit taken, or the sentence why it is refused."""
+        if isinstance(edited, Refused):
+            return self.saying(edited.text, Tone.ERROR)
+        return self._with(self.history.do(edited, label))
+
+    def undo(self) -> Session:
+        """One edit taken back, saying which."""
+        label = self.history.undo_label
+        if label is None:
+            return self.saying("There is nothing to undo.")
+        return self._with(self.history.undo()).saying(f"Undone: {label}. Ctrl+Y brings it back.")
+
+    def redo(self) -> Session:
+        """One undone edit made again, saying which."""
+        label = self.history.redo_label
+        if label is None:
+            return self.saying("There is nothing to redo.")
+        return self._with(self.history.redo()).saying(f"Done again: {label}.")
+
+    def at(self, where: Where, field: str = SEGMENT) -> Session:
+        """The cursor moved; a place that does not exist becomes the nearest one that does."""
+        return replace(self, where=_nearest(self.program, where), field=field)
+
+    def named(self, file: Path) -> Session:
+        """The session after its program was saved under a name."""
+        return replace(self, file=file, saved=self.program)
+
+    def knowing(self, derived: Derived) -> Session:
+        """The session with what follows from its program; a result for another program is dropped."""
+        return replace(self, derived=derived) if derived.program is self.program else self
+
+    def _with(self, history: History) -> Session:
+        where = _nearest(history.program, self.where)
+        same = where == self.where and _kind(history.program, where) is _kind(self.program, where)
+        return replace(self, history=history, where=where, field=self.field if same else SEGMENT)
+
+
+def _nearest(program: Program, where: Where) -> Where:
+    block = min(max(where.block, 1), len(program.blocks))
+    return Where(block, min(max(where.segment, 0), len(program.blocks[block - 1].segments)))
+
+
+def _kind(program: Program, where: Where) -> type[Segment] | None:
+    return type(program.blocks[where.block - 1].segments[where.segment - 1]) if where.segment else None

@@ -1,0 +1,66 @@
+"""The drawing as rows: a block's scene rasterised for the room there is.
+
+Imported only when the numeric library is loaded, after the first screen stands.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from app.screens.page import Sketch
+from app.widgets.rows import Look, Row, Span
+from app.widgets.scene import block_scene, table_scene
+from core.draw.mode import Mode
+from core.draw.raster import Picture, draw
+from core.draw.scene import Scene, Style
+from core.draw.view import View
+from core.pipeline.derived import DerivedBlock
+from core.pipeline.table import Table
+from core.units import Unit
+
+LOOKS: Final = {
+    Style.BACKGROUND: Look.PLAIN,
+    Style.AXIS: Look.AXIS,
+    Style.SURFACE: Look.SURFACE,
+    Style.PATH: Look.PATH,
+    Style.LEAD: Look.LEAD,
+    Style.RAPID: Look.RAPID,
+    Style.DELETED: Look.DELETED,
+    Style.GOUGE: Look.GOUGE,
+    Style.UNCUT: Look.UNCUT,
+    Style.CUTTER: Look.CUTTER,
+    Style.START: Look.START,
+    Style.CURRENT: Look.CURRENT,
+    Style.SCALE: Look.SCALE,
+    Style.MESSAGE: Look.DIM,
+}
+"""The look of each role of the drawing."""
+
+
+def scene_of(found: DerivedBlock, table: Table | None, segment: int, unit: Unit, sketch: Sketch) -> Scene:
+    """The scene of a block, or that of one value of its look-ahead table."""
+    if sketch.lookahead is None or table is None:
+        return block_scene(found, segment, unit)
+    fate = table.row(sketch.lookahead)
+    return table_scene(found, fate.compensated, fate.verdict, unit)
+
+
+def picture_rows(scene: Scene, sketch: Sketch, columns: int, rows: int, mode: str) -> tuple[Row, ...]:
+    """The scene in columns x rows cells, in the window the sketch gives."""
+    view = View.fit(scene.bounds, columns, rows).zoom(sketch.zoom).pan(sketch.dx, sketch.dy, columns, rows)
+    return tuple(_rows(draw(scene, view, columns, rows, Mode(mode))))
+
+
+def _rows(picture: Picture) -> list[Row]:
+    return [_row(text, styles) for text, styles in zip(picture.rows, picture.styles.tolist(), strict=True)]
+
+
+def _row(text: str, styles: list[int]) -> Row:
+    """One row, its cells of one style in one span."""
+    spans: list[Span] = []
+    first = 0
+    for column in range(1, len(text) + 1):
+        if column == len(text) or styles[column] != styles[first]:
+            spans.append(Span(text[first:column], LOOKS[Style(styles[first])]))
+            first = column
+    return tuple(spans)

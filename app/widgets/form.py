@@ -1,0 +1,140 @@
+"""The two columns of fields as rows: labels, tags, values, and the cursor on one of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final
+
+from app.widgets.field import Editing, window
+from app.widgets.rows import Look, Row, Span, padded
+
+WIDTH: Final = 59
+"""Cells from the left edge to the softkeys' frame."""
+LINES: Final = 7
+"""Lines of fields a form has."""
+
+
+class State(StrEnum):
+    """What a value is; the tag and the look say it, each alone is enough."""
+
+    TYPED = "typed"
+    CALCULATED = "calculated"
+    UNREAD = "unread"
+    NEEDED = "needed"
+    READ_ONLY = "read-only"
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """One field of a form: where it stands (column 0 left, 1 right, 2 across; line from 0) and what it shows.
+
+    `text` is the value as shown; `tag` stands to the left of it.  A choice takes no text.
+    """
+
+    name: str
+    label: str
+    text: str
+    column: int
+    line: int
+    state: State = State.TYPED
+    tag: str = ""
+    choice: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A column of the form: first cell, width, and the narrowest room its values get."""
+
+    first: int
+    width: int
+    value: int
+
+
+PLACES: Final = (Place(1, 26, 10), Place(29, 28, 10), Place(1, 56, 40))
+"""The left and the right column at 80 cells, and a line across both."""
+NUMBER: Final = 10
+"""The longest number a form shows; it is never cut, a longer text is."""
+
+_LOOKS: Final = {
+    State.TYPED: Look.TYPED,
+    State.CALCULATED: Look.CALCULATED,
+    State.UNREAD: Look.ERROR,
+    State.NEEDED: Look.WARNING,
+    State.READ_ONLY: Look.READ_ONLY,
+}
+
+
+def form_rows(cells: Sequence[Cell], cursor: str, editing: Editing | None, width: int) -> tuple[Row, ...]:
+    """The form's lines, in two columns, or in one where the terminal is too narrow for two."""
+    if width < WIDTH:
+        narrow = Place(0, width, min(10, max(width - 6, 1)))
+        ordered = sorted(cells, key=lambda cell: (cell.column, cell.line))
+        return tuple(_cell(cell, narrow, cursor, editing) for cell in ordered)
+    by_place = {(cell.column, cell.line): cell for cell in cells}
+    lines = range(max([LINES, *(cell.line + 1 for cell in cells)]))
+    return tuple(_line(by_place, line, cursor, editing) for line in lines)
+
+
+def cursor_line(cells: Sequence[Cell], cursor: str, width: int) -> int:
+    """The row of `form_rows` in which the cursor stands; 0 when it is on none."""
+    if width < WIDTH:
+        cells = sorted(cells, key=lambda cell: (cell.column, cell.line))
+        return next((row for row, cell in enumerate(cells) if cell.name == cursor), 0)
+    return next((cell.line for cell in cells if cell.name == cursor), 0)
+
+
+def _line(cells: Mapping[tuple[int, int], Cell], line: int, cursor: str, editing: Editing | None) -> Row:
+    left, right, across = (cells.get((column, line)) for column in range(3))
+    first, second, whole = PLACES
+    if across is not None:
+        return (Span(" " * whole.first), *_cell(across, whole, cursor, editing))
+    row = (Span(" " * first.width),) if left is None else _cell(left, first, cursor, editing)
+    # the bracket that closes a read-only value stands one cell behind the column
+    tight = left is not None and left.state is State.READ_ONLY
+    gap = Span(" " * (second.first - first.first - first.width - tight))
+    behind = () if right is None else (gap, *_cell(right, second, cursor, editing))
+    return (Span(" " * first.first), *row, *behind)
+
+
+def _cell(cell: Cell, place: Place, cursor: str, editing: Editing | None) -> Row:
+    if cell.state is State.READ_ONLY:
+        return _read_only(cell, place)
+    on_it = cell.name == cursor
+    tag = Span(f"{cell.tag} " if cell.tag else "", Look.ERROR if cell.state is State.UNREAD else Look.TAG)
+    room = _room(cell, place, len(tag.text), editing if on_it else None)
+    value = _value(cell, room, editing if on_it else None, on_it=on_it)
+    label = padded((Span(cell.label, Look.HEAD if on_it else Look.LABEL),), place.width - room - len(tag.text))
+    return (*label, tag, *value)
+
+
+def _room(cell: Cell, place: Place, tag: int, editing: Editing | None) -> int:
+    """Cells for the value: the label gives way to a number and to a text being typed, never the other way round."""
+    beside = place.width - len(cell.label) - 1 - tag
+    wanted = place.value if editing is None else max(place.value, len(editing.text) + 1)
+    least = min(max(len(cell.text), 1), NUMBER, place.width - tag)
+    if editing is not None:
+        beside = max(beside, min(wanted, place.width - tag - 6))
+    return max(least, min(max(wanted, len(cell.text)), beside))
+
+
+def _value(cell: Cell, room: int, editing: Editing | None, *, on_it: bool) -> Row:
+    if editing is not None:
+        text, caret = window(editing, room)
+        text = f"{text:<{room}}"[:room]
+        return (
+            Span(text[:caret], Look.CURSOR),
+            Span(text[caret : caret + 1], Look.CARET),
+            Span(text[caret + 1 :], Look.CURSOR),
+        )
+    text = f"{cell.text:>{room}}" if len(cell.text) <= room else f"{cell.text[: room - 1]}…"
+    if on_it:
+        return (Span(text, Look.CURSOR),)
+    bare = text.lstrip()
+    return (Span(" " * (room - len(bare))), Span(bare, _LOOKS[cell.state]))
+
+
+def _read_only(cell: Cell, place: Place) -> Row:
+    room = place.width - len(cell.label) - 1
+    return (Span(f"({cell.label}{cell.text[:room]:>{room}})", Look.READ_ONLY),)

@@ -1,0 +1,45 @@
+"""The two lines at the top: which block, which segment, which file."""
+
+from __future__ import annotations
+
+from app.session import Session
+from app.widgets.rows import Look, Row, Span, padded
+
+
+def header(first: str, second: Row, session: Session, width: int) -> tuple[Row, Row]:
+    """Two header lines; the file's name stands at the right of the second, with * while it is not saved."""
+    name = file_name(session)
+    room = max(width - len(name) - 2, 1)
+    return (
+        (Span(f" {first}", Look.HEAD),),
+        (*padded(second, room), Span(f" {name}", Look.DIM)),
+    )
+
+
+def file_name(session: Session) -> str:
+    """The program's name as the screens print it, cut to a reasonable length."""
+    name = "new program" if session.file is None else printable(session.file.stem)
+    return f"{name[:24]}{'*' if session.unsaved else ''}"
+
+
+def printable(text: str) -> str:
+    """Text from outside with every control character made visible as a question mark."""
+    return "".join(character if character.isprintable() else "?" for character in text)
+
+
+def block_line(session: Session) -> str:
+    """`BLOCK n  MILL CONTOUR`."""
+    return f"BLOCK{session.where.block:>8}   MILL CONTOUR"
+
+
+def segment_line(number: str, title: str, *, cursor: bool, typing: bool = False) -> Row:
+    """`SEGMENT n  START`, with the mark > while the cursor is on it."""
+    look = Look.CURSOR if cursor else Look.HEAD
+    behind = Span(" ", Look.CARET) if typing else Span(" ")
+    return (
+        Span(" SEGMENT", Look.HEAD),
+        Span(" > " if cursor else "   ", Look.TAG),
+        Span(f"{number:>3}", look),
+        behind,
+        Span(f"  {title}", Look.HEAD),
+    )

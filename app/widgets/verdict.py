@@ -1,0 +1,163 @@
+"""The verdict: what the cutter does, in words and numbers, at the same place on every screen.
+
+The strip on its first line tells every look-ahead value's fate; below it stand the findings, the gravest first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from app.widgets.rows import Look, Row, Span, plain, text_of
+from app.widgets.words import length, number, numbers, place
+from core.finding import Finding, Severity
+from core.pipeline.derived import DerivedBlock
+from core.units import Unit, sentence
+
+if TYPE_CHECKING:
+    from core.comp.result import Compensated
+    from core.pipeline.table import Row as Fate
+    from core.pipeline.table import Table
+    from core.verify.verdict import Verdict
+
+TOLD: Final = frozenset({"GOUGE", "UNCUT", "DELETED"})
+"""Findings that the verdict's own lines tell already."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Case:
+    """The path the verdict is about: the block's own, or that of a look-ahead value of the table."""
+
+    compensated: Compensated
+    verdict: Verdict
+
+
+def verdict_rows(found: DerivedBlock, table: Table | None, unit: Unit, width: int, *, look: int | None) -> list[Row]:
+    """All lines of the verdict; `look` is a look-ahead value to judge instead of the one in force."""
+    case = _case(found, table, look)
+    first = _strip(found, table, width)
+    if look is not None and case is not None:
+        return [first, *_case_lines(case, unit)]
+    errors = [_sentence(one, unit) for one in found.findings if _shown(one, Severity.ERROR)]
+    rest = [_sentence(one, unit) for one in found.findings if _shown(one, Severity.WARNING, Severity.INFO)]
+    lines = [] if case is None else list(_case_lines(case, unit))
+    return [first, *errors, *lines, *rest]
+
+
+def fitted(rows: list[Row], height: int, width: int) -> tuple[Row, ...]:
+    """The first rows that fit, the last of them saying how many there are besides."""
+    if len(rows) <= height:
+        return tuple(rows)
+    kept = rows[: max(height, 0)]
+    more = f" +{len(rows) - height} more"
+    if kept:
+        cut = text_of(kept[-1])[: max(width - len(more) - 1, 0)]
+        kept[-1] = (Span(f"{cut:<{max(width - len(more) - 1, 0)}}", kept[-1][-1].look), Span(more, Look.LABEL))
+    return tuple(kept)
+
+
+def _case(found: DerivedBlock, table: Table | None, look: int | None) -> Case | None:
+    if look is not None:
+        return None if table is None else Case(table.row(look).compensated, table.row(look).verdict)
+    work = found.work
+    if work is None or work.compensated is None or work.verdict is None:
+        return None
+    return Case(work.compensated, work.verdict)
+
+
+def _shown(finding: Finding, *severities: Severity) -> bool:
+    return finding.severity in severities and finding.code not in TOLD
+
+
+def _sentence(finding: Finding, unit: Unit) -> Row:
+    look = Look.ERROR if finding.severity is Severity.ERROR else Look.WARNING
+    mark = "!!" if finding.severity is Severity.ERROR else "! "
+    where = "" if not finding.segment else f"segment {number(finding.segment)}: "
+    return plain(f" {mark} {where}{sentence(finding, unit)}", look)
+
+
+def _case_lines(case: Case, unit: Unit) -> Iterator[Row]:
+    verdict = case.verdict
+    if verdict.gouges:
+        yield _gouge(verdict, unit)
+    yield from _deleted(case.compensated, unit)
+    uncut = f"{length(verdict.uncut_length, unit)} of {length(verdict.surface_length, unit)}"
+    row: Row = (Span(" UNCUT   ", Look.LABEL), Span(uncut, Look.WARNING if verdict.uncut else Look.TYPED))
+    if not verdict.gouges:
+        clean = verdict.clean
+        word = Span("none" if clean else "wrong side", Look.GOOD if clean else Look.ERROR)
+        row = (*row, Span("   GOUGE ", Look.LABEL), word)
+    yield row
+
+
+def _gouge(verdict: Verdict, unit: Unit) -> Row:
+    deepest = verdict.gouges[0]
+    more = f", {len(verdict.gouges) - 1} more" if len(verdict.gouges) > 1 else ""
+    where = f"{place(deepest.surface_at, unit)} on segment {number(deepest.surface_number)}{more}"
+    return plain(f" GOUGE   {length(deepest.depth, unit)} at {where}", Look.ERROR)
+
+
+def _deleted(compensated: Compensated, unit: Unit) -> Iterator[Row]:
+    """One line for every pair of pieces that erased segments, corner arcs left out."""
+    groups: dict[tuple[float, float, float, float], list[float]] = {}
+    for one in compensated.deleted:
+        groups.setdefault((*one.by, *one.at), []).append(one.segment)
+    for (first, second, x, y), segments in groups.items():
+        if erased := numbers(segments):
+            by = f"by {number(first)} and {number(second)} at {place((x, y), unit)}"
+            yield (Span(" DELETED ", Look.LABEL), Span(f"{erased}  {by}", Look.WARNING))
+
+
+def _strip(found: DerivedBlock, table: Table | None, width: int) -> Row:
+    if found.side is None:
+        return plain(" CUTTER COMP. ON: the tool's centre runs on the contour.", Look.LABEL)
+    if table is None:
+        return plain(f" look-ahead [{found.lookahead.value}]", Look.LABEL)
+    here = found.lookahead.value
+    spans = [Span(" look-ahead", Look.LABEL)]
+    for first, last, mark in _runs(table, here):
+        spans.append(_run(first, last, mark, here=first == here == last))
+    advice = _advice(table, here)
+    left = width - sum(len(span.text) for span in spans)
+    if left < len(advice) + 2:
+        spans = _shortened(spans, width - len(advice) - 6)
+    return (*spans, Span(f"   {advice}", Look.LABEL))
+
+
+def _run(first: int, last: int, mark: str, *, here: bool) -> Span:
+    text = f"{first}{mark}" if first == last else f"{first}-{last}{mark}"
+    look = Look.ERROR if mark == "!" else Look.WARNING if mark == "*" else Look.GOOD
+    return Span(f" [{text}]" if here else f" {text}", look)
+
+
+def _runs(table: Table, here: int) -> list[tuple[int, int, str]]:
+    """Neighbouring values of one fate; the value in force stands alone."""
+    runs: list[tuple[int, int, str]] = []
+    for row in table.rows:
+        mark = mark_of(row)
+        joins = runs and runs[-1][2] == mark and here not in (row.value, runs[-1][1])
+        runs[-1:] = [(runs[-1][0], row.value, mark)] if joins else [*runs[-1:], (row.value, row.value, mark)]
+    return runs
+
+
+def mark_of(fate: Fate) -> str:
+    """! for a value that gouges, * for one that erases segments, nothing for a clean one."""
+    if not fate.clean:
+        return "!"
+    return "*" if numbers(fate.deleted) else ""
+
+
+def _advice(table: Table, here: int) -> str:
+    if table.recommended is None:
+        return "none is clean"
+    return "this is best" if table.recommended == here else f"best {table.recommended}"
+
+
+def _shortened(spans: list[Span], room: int) -> list[Span]:
+    kept: list[Span] = []
+    for span in spans:
+        if sum(len(one.text) for one in kept) + len(span.text) > room:
+            return [*kept, Span(" ...", Look.LABEL)]
+        kept.append(span)
+    return kept

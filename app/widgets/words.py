@@ -1,0 +1,34 @@
+"""Numbers in the words of the screens: lengths in program units, runs of segment numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from core.units import Kind, Unit, from_mm, show
+
+
+def length(millimetres: float, unit: Unit) -> str:
+    """A length in millimetres as the form prints it."""
+    return show(from_mm(millimetres, unit), Kind.LENGTH, unit)
+
+
+def place(point: tuple[float, float], unit: Unit) -> str:
+    """A point in millimetres as `X 1.0000 Y 2.0000`."""
+    return f"X {length(point[0], unit)} Y {length(point[1], unit)}"
+
+
+def number(segment: float) -> str:
+    """A segment's number; the corner arc behind segment 3 is 3.5."""
+    return f"{segment:g}"
+
+
+def numbers(segments: Iterable[float]) -> str:
+    """Programmed segment numbers with neighbours joined: 2-4 7.  Corner arcs are left out."""
+    whole = sorted({int(segment) for segment in segments if segment == int(segment)})
+    runs: list[list[int]] = []
+    for one in whole:
+        if runs and runs[-1][1] == one - 1:
+            runs[-1][1] = one
+        else:
+            runs.append([one, one])
+    return " ".join(str(first) if first == last else f"{first}-{last}" for first, last in runs)
