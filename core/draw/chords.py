@@ -26,6 +26,8 @@ STEP: Final = tau / 8
 """The most a chord turns, in radians."""
 SHORT: Final = 0.25
 """An arc shorter than this, in cells' widths, is its own chord: half a dot of the finest mode."""
+CONCENTRIC: Final = 1e-9
+"""An arc about the window's centre is all in sight or all out of it; this keeps the division finite."""
 BEYOND: Final = 10 * LARGEST
 """A coordinate larger than this, or not a number, is not drawn."""
 
@@ -156,7 +158,7 @@ def _visible(arcs: _Pieces, radii: Floats, begin: Floats, reach: float) -> tuple
     """
     distance = np.abs(arcs.centres)
     within = reach * reach - (distance - radii) ** 2
-    part = np.clip(within / np.maximum(4.0 * distance * radii, np.finfo(float).tiny), 0.0, 1.0)
+    part = np.clip(within / np.maximum(4.0 * distance * radii, CONCENTRIC), 0.0, 1.0)
     half = 2.0 * np.arcsin(np.sqrt(part))
     middle = np.mod((np.angle(-arcs.centres) - begin) * arcs.turns, tau)
     turned = np.array([[-tau], [0.0], [tau]])

@@ -86,7 +86,8 @@ def _block() -> Cells:
 
 
 def _ascii() -> Cells:
-    table = _table({0: " ", 1: "-", 2: "/", 4: "|", 8: "\\"}, "+")
+    bends = {1 | 2: "/", 4 | 2: "/", 1 | 8: "\\", 4 | 8: "\\"}
+    table = _table({0: " ", 1: "-", 2: "/", 4: "|", 8: "\\", **bends}, "+")
     return Cells(1, 1, np.array([[0]]), table, _SYMBOLS, ">>^<<<v>", "|-|")
 
 

@@ -22,6 +22,8 @@ from core.geometry.path import EMPTY, Floats, Path
 DASH: Final = (3.0, 1.8)
 """A dash's period and the lit part of it, in cells' widths."""
 AXIS_DASH: Final = (4.0, 1.0)
+NUDGE: Final = 1e-6
+"""Parts of a dot: a line exactly between two rows of dots must not change rows where rounding does."""
 AXES: Final = 2
 """The first layers drawn are the two axes."""
 PHASE: Final = 0.25
@@ -132,8 +134,8 @@ def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Ro
     nth = np.arange(len(chord)) - np.repeat(np.cumsum(counts) - counts, counts)
     part = nth * (1.0 / np.maximum(steps, 1))[chord]
     places = found.starts[chord] + part * run[chord]
-    across = ((places.real + columns / 2) / wide).astype(np.intp)
-    down = ((rows * TALL / 2 - places.imag) / high).astype(np.intp)
+    across = ((places.real + columns / 2) / wide + NUDGE).astype(np.intp)
+    down = ((rows * TALL / 2 - places.imag) / high + NUDGE).astype(np.intp)
     np.clip(across, 0, columns * look.across - 1, out=across)
     np.clip(down, 0, rows * look.down - 1, out=down)
     return chord, across, down, found.along[chord] + part * np.abs(run)[chord]

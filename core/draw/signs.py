@@ -41,12 +41,16 @@ def scale_bar(scale: float, columns: int, unit: Unit, ends: str) -> str:
 
     `scale` is millimetres to a cell's width; the bar runs from the middle of its first to that of its last cell.
     """
-    most = from_mm(scale * max(columns * BAR, 1.0), unit)
+    length, decimals = round_length(from_mm(scale * max(columns * BAR, 1.0), unit))
+    width = max(round(length / from_mm(scale, unit)), 1)
+    return f"{ends[0]}{ends[1] * (width - 1)}{ends[2]} {length:.{decimals}f} {unit}"
+
+
+def round_length(most: float) -> tuple[float, int]:
+    """The largest of 1, 2, 5 times a power of ten that is not above `most`, and the decimals it takes to write it."""
     power = floor(log10(most))
     length = next(step * 10.0**power for step in (5, 2, 1) if step * 10.0**power <= most * (1 + 1e-9))
-    width = max(round(length / from_mm(scale, unit)), 1)
-    decimals = max(-power, 0)
-    return f"{ends[0]}{ends[1] * (width - 1)}{ends[2]} {length:.{decimals}f} {unit}"
+    return length, max(-power, 0)
 
 
 def arrow(direction: Point, heads: str) -> str:

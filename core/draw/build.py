@@ -1,0 +1,119 @@
+"""The scene of one contour: what lies over what, and which marks it carries."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import cos, sin
+
+import numpy as np
+
+from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol
+from core.geometry.path import EMPTY, Floats, Path
+from core.geometry.piece import Arc, Line, Piece, Point
+from core.units import Unit
+
+
+def contour_scene(
+    surface: Path,
+    *,
+    unit: Unit | None = None,
+    sketches: Sequence[Path] = (),
+    path: Path = EMPTY,
+    leads: Sequence[Path] = (),
+    rough: Sequence[Path] = (),
+    deleted: Sequence[Path] = (),
+    meetings: Sequence[Point] = (),
+    gouges: Sequence[Point] = (),
+    uncut: Sequence[Path] = (),
+    cutter: tuple[Point, float] | None = None,
+    current: Path | None = None,
+    start: Point | None = None,
+) -> Scene:
+    """Everything one contour shows, lengths in millimetres.
+
+    `sketches` are segments not determined yet; `leads` the blend moves, the blend-in first; `rough` further centre
+    paths; `deleted` pieces of the contour that the look-ahead erased and `meetings` the points where the erasing
+    pieces meet; `gouges` the spots cut into; `uncut` stretches of the surface; `cutter` (centre, radius); `current`
+    the segment under the cursor; `start` the contour's START.
+    """
+    groups: tuple[tuple[Sequence[Path], Style, bool], ...] = (
+        ((surface,), Style.SURFACE, False),
+        (sketches, Style.SURFACE, True),
+        (rough, Style.RAPID, True),
+        (leads, Style.LEAD, False),
+        ((path,), Style.PATH, False),
+        (deleted, Style.DELETED, True),
+        (uncut, Style.UNCUT, False),
+        ((current or EMPTY,), Style.CURRENT, False),
+    )
+    return Scene(
+        tuple(Layer(one, style, dashed) for paths, style, dashed in groups for one in paths if len(one)),
+        () if cutter is None else (Circle(*cutter),),
+        (
+            *_travel(path if len(path) else surface),
+            *_plunge(leads, path),
+            *(() if start is None else (Mark(start, Style.START, Symbol.START),)),
+            *(Mark(at, Style.DELETED, Symbol.DELETED) for at in meetings),
+            *(Mark(at, Style.GOUGE, Symbol.GOUGE) for at in gouges),
+        ),
+        unit,
+    )
+
+
+def stretch(surface: Path, first: float, start: Point, last: float, end: Point) -> Path:
+    """The part of a surface from the point `start` on segment `first` to the point `end` on segment `last`.
+
+    Empty if there are no such segments; it runs past a closed contour's start if `last` lies before `first`.
+    """
+    begins, ends = np.flatnonzero(surface.numbers == first), np.flatnonzero(surface.numbers == last)
+    if not len(begins) or not len(ends):
+        return EMPTY
+    row, count = int(begins[0]), len(surface)
+    backwards = ends[-1] < row or (ends[-1] == row and _before(surface[row], end, start))
+    steps = (int(ends[-1]) - row) % count + (count if backwards and ends[-1] == row else 0)
+    pieces = [surface[(row + step) % count] for step in range(steps + 1)]
+    pieces[0] = _cut(pieces[0], start, pieces[0].end)
+    pieces[-1] = _cut(pieces[-1], pieces[-1].start, end)
+    return Path.from_pieces(pieces)
+
+
+def _cut(piece: Piece, start: Point, end: Point) -> Piece:
+    if isinstance(piece, Line):
+        return Line(start, end)
+    return Arc(start, end, piece.centre, piece.turn)
+
+
+def _before(piece: Piece, point: Point, other: Point) -> bool:
+    """Is `point` passed before `other` on this piece?"""
+    to_point, to_other = _cut(piece, piece.start, point), _cut(piece, piece.start, other)
+    return to_point.length < to_other.length
+
+
+def _travel(path: Path) -> Iterator[Mark]:
+    """An arrow in the middle of the path's first piece with a length."""
+    for row in np.flatnonzero(np.hypot(*(path.ends - path.starts).T) > 0.0)[:1].tolist():
+        at, along = _middle(path[row])
+        yield Mark(at, Style.START, Symbol.ARROW, along)
+
+
+def _middle(piece: Piece) -> tuple[Point, Point]:
+    """The middle of a piece and the direction of travel there."""
+    (x0, y0), (x1, y1) = piece.start, piece.end
+    if isinstance(piece, Line):
+        return ((x0 + x1) / 2, (y0 + y1) / 2), (x1 - x0, y1 - y0)
+    (cx, cy), half = piece.centre, piece.sweep / 2
+    dx, dy = x0 - cx, y0 - cy
+    dx, dy = dx * cos(half) - dy * sin(half), dx * sin(half) + dy * cos(half)
+    return (cx + dx, cy + dy), (-dy * int(piece.turn), dx * int(piece.turn))
+
+
+def _plunge(leads: Sequence[Path], path: Path) -> Iterator[Mark]:
+    """Where the cutter goes down: the first lead's beginning, or the path's."""
+    for one in [*(lead for lead in leads if len(lead)), path][:1]:
+        if len(one):
+            yield Mark(_point(one.points[0]), Style.LEAD, Symbol.PLUNGE)
+
+
+def _point(row: Floats) -> Point:
+    x, y = row.tolist()
+    return (x, y)

@@ -1,0 +1,87 @@
+import pytest
+
+from core.draw.build import contour_scene, stretch
+from core.draw.scene import Circle, Mark, Style, Symbol
+from core.geometry.path import EMPTY, Path
+from core.geometry.piece import Arc, Line, Turn
+from core.units import Unit
+
+SQUARE = Path.from_pieces([Line((0, 0), (4, 0)), Line((4, 0), (4, 4)), Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
+SHIFTED = Path.from_pieces([Line((0, -1), (4, -1))])
+LEAD = Path.from_pieces([Arc((-1, -2), (0, -1), (0, -2), Turn.CW)])
+
+
+def test_the_current_segment_lies_over_everything_and_the_surface_below():
+    scene = contour_scene(SQUARE, path=SHIFTED, leads=(LEAD,), deleted=(SHIFTED,), current=SHIFTED, sketches=(LEAD,))
+    assert [(layer.style, layer.dashed) for layer in scene.layers] == [
+        (Style.SURFACE, False),
+        (Style.SURFACE, True),
+        (Style.LEAD, False),
+        (Style.PATH, False),
+        (Style.DELETED, True),
+        (Style.CURRENT, False),
+    ]
+
+
+def test_marks_tell_travel_plunge_start_and_trouble():
+    scene = contour_scene(SQUARE, path=SHIFTED, leads=(LEAD,), start=(0, 0), gouges=[(1, 1)], meetings=[(2, 2)])
+    assert scene.marks == (
+        Mark((2, -1), Style.START, Symbol.ARROW, (4, 0)),
+        Mark((-1, -2), Style.LEAD, Symbol.PLUNGE),
+        Mark((0, 0), Style.START, Symbol.START),
+        Mark((2, 2), Style.DELETED, Symbol.DELETED),
+        Mark((1, 1), Style.GOUGE, Symbol.GOUGE),
+    )
+
+
+def test_without_a_path_the_arrow_stands_on_the_surface_and_nothing_plunges():
+    scene = contour_scene(SQUARE, unit=Unit.IN)
+    assert [mark.symbol for mark in scene.marks] == [Symbol.ARROW]
+    assert scene.unit is Unit.IN
+
+
+def test_the_arrow_on_an_arc_points_along_it_in_its_middle():
+    half = Path.from_pieces([Arc((1, 0), (-1, 0), (0, 0), Turn.CW)])
+    (mark,) = contour_scene(half).marks
+    assert mark.at == pytest.approx((0, -1))
+    assert mark.direction == pytest.approx((-1, 0))
+
+
+def test_the_cutter_is_a_circle():
+    assert contour_scene(SQUARE, cutter=((1, 2), 0.5)).circles == (Circle((1, 2), 0.5),)
+
+
+def test_an_empty_contour_has_an_empty_scene():
+    scene = contour_scene(EMPTY)
+    assert (scene.layers, scene.circles, scene.marks) == ((), (), ())
+
+
+def points(path: Path) -> list[list[float]]:
+    return [[x, y] for x, y in path.points.tolist()]
+
+
+def test_a_stretch_of_one_segment():
+    assert points(stretch(SQUARE, 1, (1, 0), 1, (3, 0))) == [[1, 0], [3, 0]]
+
+
+def test_a_stretch_round_a_corner():
+    assert points(stretch(SQUARE, 1, (1, 0), 3, (2, 4))) == [[1, 0], [4, 0], [4, 4], [2, 4]]
+
+
+def test_a_stretch_past_the_start():
+    assert points(stretch(SQUARE, 4, (0, 1), 1, (3, 0))) == [[0, 1], [0, 0], [3, 0]]
+
+
+def test_a_stretch_all_round_back_to_its_own_segment():
+    found = points(stretch(SQUARE, 1, (3, 0), 1, (1, 0)))
+    assert found == [[3, 0], [4, 0], [4, 4], [0, 4], [0, 0], [1, 0]]
+
+
+def test_a_stretch_of_an_arc_keeps_its_centre():
+    half = Path.from_pieces([Arc((2, 0), (-2, 0), (0, 0), Turn.CCW)])
+    found = stretch(half, 1, (0, 2), 1, (-2, 0))
+    assert found[0] == Arc((0, 2), (-2, 0), (0, 0), Turn.CCW)
+
+
+def test_a_stretch_of_unknown_segments_is_empty():
+    assert len(stretch(SQUARE, 7, (0, 0), 8, (1, 1))) == 0

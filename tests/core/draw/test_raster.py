@@ -1,0 +1,216 @@
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from math import cos, hypot, sin, tau
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.draw.mode import Mode
+from core.draw.raster import draw
+from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol
+from core.draw.view import View
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Point, Turn
+from core.units import Unit
+
+
+def lines(*points: Point) -> Path:
+    return Path.from_pieces([Line(a, b) for a, b in pairwise(points)])
+
+
+def only(path: Path, style: Style = Style.SURFACE, *, dashed: bool = False) -> Scene:
+    return Scene((Layer(path, style, dashed),), axes=False)
+
+
+def rows(scene: Scene, view: View, columns: int, height: int, mode: Mode) -> list[str]:
+    return list(draw(scene, view, columns, height, mode).rows)
+
+
+VIEW = View((0.0, 0.0), 1.0)
+SQUARE = only(lines((-2, -2), (2, -2), (2, 2), (-2, 2), (-2, -2)))
+DIAMOND = only(lines((0, -3), (3, 0), (0, 3), (-3, 0), (0, -3)))
+ROUND = Scene(circles=(Circle((0.0, 0.0), 3.2),), axes=False)
+SLOT = Scene(
+    (Layer(lines((1, 1), (8, 1)), Style.PATH), Layer(lines((3, -1), (3, 3)), Style.LEAD)),
+    (),
+    (
+        Mark((8, 1), Style.START, Symbol.ARROW, (1, 0)),
+        Mark((1, 1), Style.START, Symbol.START),
+        Mark((3, 3), Style.GOUGE, Symbol.GOUGE),
+        Mark((5, 3), Style.START, Symbol.ARROW, (1, 1)),
+    ),
+    Unit.MM,
+)
+SLOT_VIEW = View((4.0, 1.0), 0.5)
+
+
+@pytest.mark.parametrize(
+    ("scene", "mode", "expected"),
+    [
+        (SQUARE, Mode.BRAILLE, ["        ", "  ⡏⠉⠉⠉⡇ ", "  ⡇   ⡇ ", "  ⠉⠉⠉⠉⠁ "]),
+        (SQUARE, Mode.BLOCK, ["        ", "  █▀▀▀█ ", "  █   █ ", "  ▀▀▀▀▀ "]),
+        (SQUARE, Mode.ASCII, ["        ", "  +---+ ", "  |   | ", "  +---+ "]),
+        (DIAMOND, Mode.BRAILLE, ["   ⢀⢄   ", " ⢀⠔⠁ ⠑⢄ ", " ⠑⢄  ⢀⠔⠁", "   ⠑⠔⠁  "]),
+        (DIAMOND, Mode.BLOCK, ["    ▄   ", "  ▄▀ ▀▄ ", " ▀▄   ▄▀", "   ▀▄▀  "]),
+        (DIAMOND, Mode.ASCII, ["    +   ", "  // \\\\ ", " +\\   /+", "   \\+/  "]),
+        (ROUND, Mode.BRAILLE, [" ⢀⡤⠒⠢⠤⡀ ", "⢠⠃    ⠱⡀", "⠘⡄    ⡰⠁", " ⠈⠓⠤⠔⠒⠁ "]),
+        (ROUND, Mode.BLOCK, [" ▄▄▀▀▄▄ ", "▄▀    ▀▄", "▀▄    ▄▀", " ▀▀▄▄▀▀ "]),
+    ],
+)
+def test_small_pictures(scene, mode, expected):
+    assert rows(scene, VIEW, 8, 4, mode) == expected
+
+
+@pytest.mark.parametrize(
+    ("mode", "expected"),
+    [
+        (
+            Mode.BRAILLE,
+            [
+                "  Y     !   ↗       ",
+                "        ⡇           ",
+                "  ⠃ S⠤⠤⠤⡧⠤⠤⠤⠤⠤⠤⠤⠤⠤→ ",
+                "⠤   ⠤   ⡧   ⠤   ⠤  X",
+                "├───┤ 2 MM          ",
+            ],
+        ),
+        (
+            Mode.BLOCK,
+            [
+                "  Y     !   >       ",
+                "        █           ",
+                "  ▀ S▄▄▄█▄▄▄▄▄▄▄▄▄> ",
+                "▄   ▄   █   ▄   ▄  X",
+                "├───┤ 2 MM          ",
+            ],
+        ),
+        (
+            Mode.ASCII,
+            [
+                "  Y     !   >       ",
+                "        |           ",
+                "  | S---+---------> ",
+                "-   -   +   -   -  X",
+                "|---| 2 MM          ",
+            ],
+        ),
+    ],
+)
+def test_marks_axes_and_scale(mode, expected):
+    assert rows(SLOT, SLOT_VIEW, 20, 5, mode) == expected
+
+
+def test_every_cell_has_the_style_of_what_is_last_in_it():
+    styles = draw(SLOT, SLOT_VIEW, 20, 5, Mode.BRAILLE).styles
+    assert styles.dtype == np.uint8
+    assert styles.shape == (5, 20)
+    assert styles[2].tolist() == [0, 0, 1, 0, 10, 3, 3, 3, 4, 3, 3, 3, 3, 3, 3, 3, 3, 3, 10, 0]
+    assert styles[0, 8] == Style.GOUGE
+    assert set(styles[4, :10].tolist()) == {Style.SCALE}
+    assert styles[3, 19] == Style.AXIS
+
+
+def test_an_earlier_layers_dots_stay_lit_under_a_later_one():
+    lower, upper = Layer(lines((-4, 0.3), (4, 0.3)), Style.SURFACE), Layer(lines((-4, -0.8), (4, -0.8)), Style.PATH)
+    both = draw(Scene((lower, upper), axes=False), View((0.0, -1.0), 1.0), 8, 2, Mode.BRAILLE)
+    assert both.rows[0] == "⣒" * 8
+    assert set(both.styles[0].tolist()) == {Style.PATH}
+
+
+def test_a_dashed_line_has_gaps():
+    assert rows(only(lines((-8, 0.5), (8, 0.5)), dashed=True), VIEW, 16, 2, Mode.ASCII)[0] == "-- -- -- -- -- -"
+
+
+def test_dashes_go_on_over_the_pieces_of_a_path():
+    whole = rows(only(lines((-8, 0.5), (8, 0.5)), dashed=True), VIEW, 16, 2, Mode.BRAILLE)
+    steps = lines(*((number / 4, 0.5) for number in range(-32, 33)))
+    assert rows(only(steps, dashed=True), VIEW, 16, 2, Mode.BRAILLE) == whole
+
+
+@pytest.mark.parametrize("mode", list(Mode))
+@pytest.mark.parametrize("columns", range(4))
+@pytest.mark.parametrize("height", range(4))
+def test_tiny_windows(mode, columns, height):
+    for scene in (SLOT, Scene(), ROUND, Scene(unit=Unit.IN)):
+        picture = draw(scene, View.fit(scene.bounds, columns, height), columns, height, mode)
+        assert [len(row) for row in picture.rows] == [columns] * height
+        assert picture.styles.shape == (height, columns)
+
+
+def test_an_empty_scene_is_blank_but_for_its_axes():
+    assert rows(Scene(axes=False), VIEW, 3, 2, Mode.BRAILLE) == ["   ", "   "]
+    assert rows(Scene(), View((0.0, 0.5), 1.0), 9, 2, Mode.ASCII) == ["    |    ", "-   +   -"]
+
+
+@pytest.mark.parametrize("mode", list(Mode))
+@pytest.mark.parametrize("zoom", [1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e9, 1e300])
+def test_any_zoom_has_a_picture(mode, zoom):
+    view = SLOT_VIEW.zoom(zoom)
+    assert [len(row) for row in rows(SLOT, view, 20, 5, mode)] == [20] * 5
+
+
+def test_a_huge_arc_near_the_window_is_exact():
+    """Ten kilometres of radius: within the window it is the straight line that touches it."""
+    radius = 1e7
+    wide = only(Path.from_pieces([Arc((0.0, -0.25), (0.0, -0.25), (0.0, radius - 0.25), Turn.CCW)]))
+    straight = only(lines((-100, -0.25), (100, -0.25)))
+    assert rows(wide, VIEW, 30, 6, Mode.BRAILLE) == rows(straight, VIEW, 30, 6, Mode.BRAILLE)
+
+
+def test_what_is_not_finite_is_left_out():
+    nan = lines((-2, 0.5), (float("nan"), 0.5), (0, float("inf")), (1e300, 0.5), (2, 0.5))
+    assert rows(only(nan), VIEW, 8, 2, Mode.BRAILLE) == ["        ", "        "]
+    both = Scene((*only(nan).layers, *SQUARE.layers), marks=(Mark((float("nan"), 0.0), Style.START, Symbol.START),))
+    assert rows(replace(both, axes=False), VIEW, 8, 4, Mode.BLOCK) == rows(SQUARE, VIEW, 8, 4, Mode.BLOCK)
+
+
+@pytest.mark.parametrize("mode", list(Mode))
+def test_a_line_through_the_window_has_no_gaps(mode):
+    for angle in np.linspace(0.0, tau / 2, 97).tolist():
+        x, y = 1e6 * cos(angle), 1e6 * sin(angle)
+        found = np.array([list(row) for row in rows(only(lines((-x, -y), (x, y))), VIEW, 31, 15, mode)]) != " "
+        steep = abs(y) * 31 > abs(x) * 30
+        assert found.any(axis=1 if steep else 0).all()
+
+
+def dots(scene: Scene, view: View, columns: int, height: int) -> list[Point]:
+    """The middles of all lit braille dots, in millimetres."""
+    places = {0: (0, 0), 1: (0, 1), 2: (0, 2), 3: (1, 0), 4: (1, 1), 5: (1, 2), 6: (0, 3), 7: (1, 3)}
+    found = []
+    for row, text in enumerate(rows(scene, view, columns, height, Mode.BRAILLE)):
+        for column, character in enumerate(text):
+            code = 0 if character == " " else ord(character) - 0x2800
+            for bit, (across, down) in places.items():
+                if code >> bit & 1:
+                    found.append(view.at(column + across / 2 + 0.25, row + down / 4 + 0.125, columns, height))
+    return found
+
+
+@given(
+    radius=st.floats(0.1, 1e6),
+    begin=st.floats(0, tau),
+    sweep=st.floats(0.01, tau),
+    turn=st.sampled_from([Turn.CW, Turn.CCW]),
+    at=st.floats(0, 1),
+)
+@settings(derandomize=True, max_examples=150, deadline=None)
+def test_every_dot_of_an_arc_lies_on_it_and_none_is_missing(radius, begin, sweep, turn, at):
+    """Dots are half a millimetre wide here; the window looks at one place of the arc."""
+
+    def place(angle: float) -> Point:
+        return radius * cos(angle), radius * sin(angle)
+
+    end = begin + turn * sweep
+    path = Path.from_pieces([Arc(place(begin), place(end), (0.0, 0.0), turn)])
+    seen = place(begin + turn * at * sweep)
+    found = dots(only(path), View(seen, 1.0), 24, 12)
+    assert min(hypot(x - seen[0], y - seen[1]) for x, y in found) < 0.75
+    for x, y in found:
+        assert abs(hypot(x, y) - radius) < 0.75
+        turned = (turn * (np.arctan2(y, x) - begin)) % tau
+        beyond = min(max(turned - sweep, 0.0), tau - turned)
+        assert beyond * radius < 1.5

@@ -1,0 +1,61 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol
+from core.draw.view import View
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Turn
+
+
+def test_a_wide_part_is_fitted_by_its_width():
+    view = View.fit((0.0, 0.0, 92.0, 10.0), 100, 50)
+    assert view.centre == (46.0, 5.0)
+    assert view.scale == pytest.approx(1.0)
+
+
+def test_a_tall_part_is_fitted_by_its_height_in_cells_twice_as_high():
+    view = View.fit((0.0, 0.0, 1.0, 92.0), 100, 50)
+    assert view.scale == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("bounds", [None, (5.0, 5.0, 5.0, 5.0), (-1e7, -1e7, 1e7, 1e7), (0.0, 0.0, 1e-12, 0.0)])
+@pytest.mark.parametrize("size", [(0, 0), (1, 1), (80, 24)])
+def test_any_bounds_fit_any_window(bounds, size):
+    view = View.fit(bounds, *size)
+    assert view.scale > 0.0
+
+
+def test_pan_moves_by_parts_of_the_window():
+    view = View((0.0, 0.0), 2.0).pan(0.5, -0.25, 40, 10)
+    assert view.centre == (40.0, -10.0)
+
+
+def test_zoom_keeps_the_centre_and_stays_within_limits():
+    view = View((3.0, 4.0), 2.0)
+    assert view.zoom(4.0) == View((3.0, 4.0), 0.5)
+    assert view.zoom(1e300).scale > 0.0
+    assert view.zoom(1e-300).scale < 1e9
+
+
+def test_the_middle_of_the_window_is_the_centre():
+    assert View((3.0, 4.0), 2.0).at(20, 5, 40, 10) == (3.0, 4.0)
+    assert View((3.0, 4.0), 2.0).at(21, 4, 40, 10) == (5.0, 8.0)
+
+
+@given(st.floats(-1e4, 1e4), st.floats(-1e4, 1e4), st.floats(1e-3, 1e3))
+def test_cell_is_the_inverse_of_at(column, row, scale):
+    view = View((12.5, -7.0), scale)
+    assert view.cell(view.at(column, row, 80, 24), 80, 24) == pytest.approx((column, row), abs=1e-6)
+
+
+def test_bounds_take_in_arcs_circles_and_marks_and_pass_over_what_is_not_finite():
+    half = Path.from_pieces([Arc((1.0, 0.0), (-1.0, 0.0), (0.0, 0.0), Turn.CCW)])
+    broken = Path.from_pieces([Line((0.0, 0.0), (float("nan"), 0.0))])
+    scene = Scene(
+        (Layer(half, Style.SURFACE), Layer(broken, Style.PATH)),
+        (Circle((4.0, 0.0), 2.0),),
+        (Mark((0.0, 9.0), Style.START, Symbol.START),),
+    )
+    assert scene.bounds == pytest.approx((-1.0, -2.0, 6.0, 9.0))
+    assert Scene().bounds is None

@@ -1,0 +1,112 @@
+from __future__ import annotations
+
+import re
+from math import cos, hypot, pi, sin, tau
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.draw.build import contour_scene
+from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Turn
+from core.output.svg import outline, svg
+from core.units import Unit
+
+SPACE = "{http://www.w3.org/2000/svg}"
+CORNER = Path.from_pieces([Line((0, 0), (4, 0)), Arc((4, 0), (5, 1), (4, 1), Turn.CCW), Line((5, 1), (5, 3))])
+
+
+def drawing(scene: Scene, title: str = "PART") -> ElementTree.Element:
+    return ElementTree.fromstring(svg(scene, title=title))
+
+
+def paths(scene: Scene, style: str) -> list[str]:
+    return [element.attrib["d"] for element in drawing(scene).iter(f"{SPACE}path") if element.attrib["class"] == style]
+
+
+def test_y_is_up_and_arcs_are_arcs():
+    scene = Scene((Layer(CORNER, Style.SURFACE),), axes=False)
+    assert paths(scene, "surface")[0] == "M0 0 L4 0 A1 1 0 0 0 5 -1 L5 -3"
+
+
+@pytest.mark.parametrize(("turn", "flag"), [(Turn.CCW, 0), (Turn.CW, 1)])
+def test_the_sweep_flag_is_that_of_a_drawing_turned_over(turn, flag):
+    quarter = Arc((1, 0), (0, 1) if turn is Turn.CCW else (0, -1), (0, 0), turn)
+    assert outline(quarter).startswith(f"A1 1 0 0 {flag} 0 ")
+
+
+def test_a_full_circle_is_two_halves():
+    assert outline(Arc((1, 0), (1, 0), (0, 0), Turn.CCW)) == "A1 1 0 0 0 -1 0 A1 1 0 0 0 1 0"
+
+
+def test_dashed_layers_say_so():
+    scene = Scene((Layer(CORNER, Style.DELETED, dashed=True),))
+    assert len(paths(scene, "deleted dashed")) == 1
+
+
+def test_the_legend_names_what_is_drawn_and_nothing_else():
+    scene = contour_scene(CORNER, path=CORNER, cutter=((1, 1), 0.5), unit=Unit.MM)
+    words = [element.text for element in drawing(scene).iter(f"{SPACE}text")]
+    assert words == ["PART", "part surface", "centre path", "blend moves", "cutter", "start, direction", "1 MM"]
+
+
+def test_the_cutter_is_a_circle():
+    (circle,) = drawing(Scene(circles=(Circle((3, 4), 0.5),))).iter(f"{SPACE}circle")
+    assert [circle.attrib[name] for name in ("cx", "cy", "r", "class")] == ["3", "-4", "0.5", "cutter"]
+
+
+@pytest.mark.parametrize("title", ["<script>alert(1)</script>", 'a & b "c"', "]]>", "line\nbreak\x00\x1b", "Ø 12"])
+def test_no_text_becomes_markup(title):
+    found = drawing(Scene((Layer(CORNER, Style.SURFACE),)), title)
+    assert {element.tag for element in found.iter()} <= {
+        f"{SPACE}{name}" for name in ("svg", "title", "style", "rect", "path", "circle", "text")
+    }
+    shown = found.find(f"{SPACE}title")
+    assert shown is not None
+    assert shown.text == "".join(character if character.isprintable() else " " for character in title)
+
+
+def test_everything_lies_in_the_view_box():
+    scene = contour_scene(CORNER, cutter=((5, 3), 2.0), unit=Unit.IN)
+    x, y, wide, high = map(float, drawing(scene).attrib["viewBox"].split())
+    assert x < 0
+    assert x + wide > 7
+    assert y < -5
+    assert y + high > 0
+
+
+def test_an_empty_scene_and_one_that_is_not_finite_are_drawings_too():
+    nan = Path.from_pieces([Line((0, 0), (1, 0)), Line((1, 0), (float("nan"), 0)), Line((0, 0), (2, 2))])
+    broken = Scene(
+        (Layer(nan, Style.SURFACE),),
+        (Circle((0, 0), float("nan")),),
+        (Mark((float("inf"), 0), Style.START, Symbol.START), Mark((0, 0), Style.START, Symbol.ARROW, (0.0, 0.0))),
+    )
+    for scene in (Scene(), Scene(unit=Unit.IN), broken):
+        found = svg(scene, title="")
+        ElementTree.fromstring(found)
+        assert "nan" not in found
+        assert "inf" not in found
+    assert paths(broken, "surface")[0] == "M0 0 L1 0"
+
+
+@given(
+    radius=st.floats(0.01, 1e4),
+    begin=st.floats(0, tau),
+    sweep=st.floats(0.01, tau - 1e-6),
+    turn=st.sampled_from([Turn.CW, Turn.CCW]),
+)
+@settings(derandomize=True, max_examples=150)
+def test_halves_of_arcs_join_on_the_circle(radius, begin, sweep, turn):
+    """No arc is more than half a turn, so its radius, flags and end say all; each end lies on the circle."""
+    end = begin + turn * sweep
+    arc = Arc((radius * cos(begin), radius * sin(begin)), (radius * cos(end), radius * sin(end)), (0.0, 0.0), turn)
+    found = re.findall(r"A\S+ \S+ 0 0 (\d) (\S+) (\S+)", outline(arc))
+    assert len(found) == (2 if sweep > pi + 1e-9 else 1) or abs(sweep - pi) < 1e-6
+    for flag, x, y in found:
+        assert flag == ("0" if turn is Turn.CCW else "1")
+        assert abs(hypot(float(x), float(y)) - radius) < 2e-6
+    assert hypot(float(found[-1][1]) - arc.end[0], -float(found[-1][2]) - arc.end[1]) < 2e-6
