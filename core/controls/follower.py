@@ -36,8 +36,8 @@ class Span:
 class Follower:
     """Moves without compensation, and the bookkeeping every control's compensation needs.
 
-    `machine` is set by the machine that it follows.  `active`: compensation is in force, so that blocks without motion
-    and codes are shown to `watch`.
+    `machine` is set by the machine that it follows.  `active`: compensation is in force.  `watching`: every block is
+    shown to `watch`.
     """
 
     def __init__(self, log: Log) -> None:
@@ -46,6 +46,7 @@ class Follower:
         self.tape = Tape()
         self.plane = Plane.XY
         self.active = False
+        self.watching = False
         self.stretches: list[Stretch] = []
         self._span: Span | None = None
         self._leaving = False
@@ -57,7 +58,10 @@ class Follower:
         """G40; before the block's motion."""
 
     def watch(self, block: Block) -> None:
-        """Any block while active, before anything of it happens."""
+        """Any block while watching, before anything of it happens."""
+
+    def tool_called(self, number: int, block: Block) -> None:
+        """A T word or tool data, before it takes effect."""
 
     def idle(self, block: Block) -> None:
         """A block without motion while active, after its codes."""

@@ -115,7 +115,7 @@ class LookAhead(Follower):
             self.log.stop("N-ONWHENON", text, block.line, block.column("G"))
         radius = self.radius(block)
         self.offset = radius * side.sign
-        self.active = True
+        self.active = self.watching = True
         self.first = True
 
     def radius(self, block: Block) -> float:
@@ -157,12 +157,13 @@ class LookAhead(Follower):
             self._move_ends(square_end(self._front, self.offset), block.line)
             self.no_arc = True
             self.leave(entry=1, exits=0)
-        self.active = False
+        self.active = self.watching = False
         self.first = True
 
     def close(self) -> None:
-        """The end of the program: what is held runs as it stands."""
-        self._run_queue()
+        """The end of the program: what is held ends square."""
+        if self.queue:
+            self._move_ends(square_end(self._front, self.offset), self.queue[-1].element.line)
 
     def travel(self, element: Element) -> None:
         """One element: alone, as entry, or against what is held."""

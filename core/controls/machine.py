@@ -62,7 +62,7 @@ class Machine:
 
     def step(self, block: Block) -> None:
         """Runs one block: its codes in the order the controls take them, then its motion."""
-        if self.follower.active:
+        if self.follower.watching:
             self.follower.watch(block)
         once = None
         if block.g or block.m or block.data or not _QUICK.issuperset(block.words):
@@ -159,6 +159,7 @@ class Machine:
             self.tool = self.next_tool
 
     def _select(self, number: int, block: Block) -> None:
+        self.follower.tool_called(number, block)
         if number and self.dialect.table_needed and self.tools.get(number) is None:
             text = f"The tool table has no tool {number}; enter it, or write the number of one that is there."
             self.log.stop("TOOL", text, block.line, block.column("T"))

@@ -53,9 +53,10 @@ class Run:
 class AlarmError(Exception):
     """The control stops here; caught by whoever runs the program, never seen outside."""
 
-    def __init__(self, finding: Finding) -> None:
+    def __init__(self, finding: Finding, line: int | None) -> None:
         super().__init__(finding.text)
         self.finding = finding
+        self.line = line
 
 
 @dataclass(slots=True)
@@ -99,9 +100,11 @@ class Log:
         *,
         lengths: tuple[float, ...] = (),
         at: tuple[float, float] | None = None,
+        stops_at: int | None = None,
     ) -> NoReturn:
-        """The control stops with an alarm."""
-        raise AlarmError(Finding(code, Severity.ERROR, text, at=at, lengths=lengths, line=line, column=column))
+        """The control stops with an alarm, at the finding's line unless another is given."""
+        finding = Finding(code, Severity.ERROR, text, at=at, lengths=lengths, line=line, column=column)
+        raise AlarmError(finding, stops_at or line)
 
     def closed(self) -> tuple[Finding, ...]:
         """All findings by line, with one more for each rule that was told too often."""

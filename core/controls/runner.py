@@ -124,7 +124,7 @@ def execute(
         _run(_Flow(lines_of(text), dialect, log), machine)
     except AlarmError as alarm:
         log.add(alarm.finding)
-        stopped_at = alarm.finding.line
+        stopped_at = alarm.line
     follower.close_span()
     unit = machine.moved_in or machine.unit
     return Run(name, unit, follower.tape.moves(), log.closed(), stopped_at, tuple(follower.stretches))
