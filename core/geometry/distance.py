@@ -95,24 +95,9 @@ def _fan(arc: Measured, axis: Points, cosine: Floats) -> Floats:
     return np.mod(np.stack((towards - half, towards + half)), tau) / arc.angle
 
 
-def _beside(pieces: Measured, other: Measured, offset: Floats) -> Floats:
-    """Fractions at which pieces meet the carrier (endless line, whole circle) of `other` moved sideways by `offset`."""
-    met: Floats = by_kind(other.arcs, _beside_line, _beside_arc, pieces, other, offset)
-    return met
-
-
-def _beside_line(pieces: Measured, line: Measured, offset: Floats) -> Floats:
-    unit = line.unit
-    return on_line(pieces, line.start + 1j * offset * unit, unit)
-
-
-def _beside_arc(pieces: Measured, arc: Measured, offset: Floats) -> Floats:
-    return on_circle(pieces, arc.centre, np.abs(arc.radius + offset))
-
-
 def nearest_places(pieces: Measured, other: Measured) -> Floats:
     """(8, n) fractions of each piece among which every local least distance from its partner in `other` is found."""
-    places = np.concatenate((_ends(pieces), _crossings(pieces, other), _feet(pieces, other)))
+    places = np.concatenate((_ends(pieces), _crossings(pieces, other), feet(pieces, other)))
     return _inside(places)
 
 
@@ -123,7 +108,7 @@ def farthest_places(pieces: Measured, other: Measured) -> Floats:
     """
     even = by_kind(other.arcs, _no_places, _even_places, pieces, other)
     opposite = by_kind(pieces.arcs, _no_antipodes, _antipodes, pieces, other)
-    return _inside(np.concatenate((_feet(pieces, other), opposite, even)))
+    return _inside(np.concatenate((feet(pieces, other), opposite, even)))
 
 
 def band_places(pieces: Measured, other: Measured, reach: Floats) -> Floats:
@@ -132,9 +117,23 @@ def band_places(pieces: Measured, other: Measured, reach: Floats) -> Floats:
     These are its meetings with the outline of all points within `reach` (n,) of the partner: the partner moved
     sideways both ways, and the circles about its ends; and its own ends.
     """
-    caps = on_circle(pieces, np.stack((other.start, other.end)), np.stack((reach, reach))).reshape(4, -1)
-    places = (_ends(pieces), _beside(pieces, other, reach), _beside(pieces, other, -reach), caps)
-    return np.sort(_inside(np.concatenate(places)), axis=0)
+    outline = by_kind(other.arcs, _line_outline, _arc_outline, pieces, other, reach)
+    return np.sort(_inside(np.concatenate((_ends(pieces), outline))), axis=0)
+
+
+def _line_outline(pieces: Measured, line: Measured, reach: Floats) -> Floats:
+    unit = line.unit
+    off = 1j * reach * unit
+    sides = on_line(pieces, np.stack((line.start + off, line.start - off)), unit)
+    caps = on_circle(pieces, np.stack((line.start, line.end)), reach)
+    return np.concatenate((sides, caps)).reshape(8, -1)
+
+
+def _arc_outline(pieces: Measured, arc: Measured, reach: Floats) -> Floats:
+    centre = arc.centre
+    centres = np.stack((arc.start, arc.end, centre, centre))
+    radii = np.stack((reach, reach, arc.radius + reach, np.abs(arc.radius - reach)))
+    return on_circle(pieces, centres, radii).reshape(8, -1)
 
 
 def _ends(pieces: Measured) -> Floats:
@@ -148,13 +147,22 @@ def _inside(places: Floats) -> Floats:
 
 
 def _crossings(pieces: Measured, other: Measured) -> Floats:
-    return _beside(pieces, other, np.zeros(len(pieces)))
+    met: Floats = by_kind(other.arcs, _crossing_line, _crossing_arc, pieces, other)
+    return met
 
 
-def _feet(pieces: Measured, other: Measured) -> Floats:
-    """(4, n) feet of the other's two ends and, both ways, of its centre or along its normal."""
-    feet: Floats = by_kind(pieces.arcs, _line_feet, _arc_feet, pieces, other)
-    return feet
+def _crossing_line(pieces: Measured, line: Measured) -> Floats:
+    return on_line(pieces, line.start, line.unit)
+
+
+def _crossing_arc(pieces: Measured, arc: Measured) -> Floats:
+    return on_circle(pieces, arc.centre, arc.radius)
+
+
+def feet(pieces: Measured, other: Measured) -> Floats:
+    """(4, n) fractions at the feet of the other's two ends and, both ways, of its centre or along its normal."""
+    places: Floats = by_kind(pieces.arcs, _line_feet, _arc_feet, pieces, other)
+    return places
 
 
 def _line_feet(line: Measured, other: Measured) -> Floats:

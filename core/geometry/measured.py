@@ -9,14 +9,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import tau
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.path import Path
 from core.geometry.piece import SLIVER
-from core.tolerance import ON_PATH
+from core.tolerance import ARC_RADII, ON_PATH
+
+FEW: Final = 1000
+"""Pieces for which working out both formulas costs less than parting lines from arcs."""
 
 Floats = NDArray[np.float64]
 Points = NDArray[np.complex128]
@@ -30,7 +33,8 @@ class Measured:
 
     `rows` are the pieces' rows in the path they come from.  `vector` is end - start.  `arm` is start - centre of an
     arc and 1 of a line, `turn` 0 for a line, `angle` the unsigned angle travelled by an arc and 0 for a line.
-    `slack` is how far an arc of two different radii may be from the circle taken for it.
+    `slack` is how far an arc of two different radii may be from the circle taken for it, infinite if the radii
+    differ by more than ARC_RADII: nobody knows then where it runs.
     """
 
     rows: Rows
@@ -127,7 +131,8 @@ def _one_radius(start: Points, end: Points, centre: Points) -> tuple[Points, Flo
     unit = chord / np.where(size == 0.0, 1.0, size)
     shift = (np.conj(unit) * (centre - (start + end) / 2)).real
     moved = np.where(steady, centre - unit * shift, centre)
-    return moved, np.where(uneven, np.maximum(off, np.where(steady, np.abs(shift), 0.0)), 0.0)
+    slack = np.where(off > ARC_RADII, np.inf, np.maximum(off, np.where(steady, np.abs(shift), 0.0)))
+    return moved, np.where(uneven, slack, 0.0)
 
 
 def _angles(arm: Points, last: Points, turn: Floats, whole: Flags) -> Floats:
@@ -140,16 +145,29 @@ def _angles(arm: Points, last: Points, turn: Floats, whole: Flags) -> Floats:
 
 
 def by_kind(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArray[Any]:
-    """What `line` yields where `chosen` is False and `arc` where it is True; the last axis counts the pieces."""
-    if not chosen.any():
-        return line(*given)
-    if chosen.all():
-        return arc(*given)
+    """What `line` yields where `chosen` is False and `arc` where it is True; the last axis counts the pieces.
+
+    Few pieces get both formulas, which is quicker than parting them; either yields something for any piece.
+    """
+    if len(chosen) <= FEW:
+        return _both(chosen, line, arc, *given)
     rows_line, rows_arc = np.flatnonzero(~chosen), np.flatnonzero(chosen)
+    if not len(rows_arc):
+        return line(*given)
+    if not len(rows_line):
+        return arc(*given)
     lines, arcs = line(*_pick(given, rows_line)), arc(*_pick(given, rows_arc))
     both = np.empty((*lines.shape[:-1], len(chosen)), lines.dtype)
     both[..., rows_line], both[..., rows_arc] = lines, arcs
     return both
+
+
+def _both(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArray[Any]:
+    if not chosen.any():
+        return line(*given)
+    if chosen.all():
+        return arc(*given)
+    return np.where(chosen, arc(*given), line(*given))
 
 
 def _pick(given: tuple[Given, ...], rows: Rows) -> list[Given]:

@@ -106,21 +106,20 @@ def _better(best: Farthest, owner: Rows, s: Floats, apart: Floats) -> Farthest:
 def _bounds(search: _Search, spans: _Spans) -> tuple[Floats, Floats]:
     """What the distance cannot exceed on each span, and at what share of it both nearest pieces may be equally far."""
     index, _ = place(search.walked, search.stations, spans.s.mean(axis=0))
-    piece = search.walked.take(index)
-    t = (spans.s - search.stations[index]) / np.where(piece.length == 0.0, 1.0, piece.length)
-    bounds, across = [], []
-    for end in (0, 1):
-        near = search.other.take(spans.near[end])
-        there = distance(near, at(piece, t[1 - end]))
-        bounds.append(np.maximum(_within_span(piece, near, t), np.maximum(spans.apart[end], there)))
-        across.append(there)
-    behind, ahead = across[1] - spans.apart[0], across[0] - spans.apart[1]
+    length = search.walked.length[index]
+    t = (spans.s - search.stations[index]) / np.where(length == 0.0, 1.0, length)
+    count = len(index)
+    piece, near = search.walked.take(np.tile(index, 2)), search.other.take(spans.near.ravel())
+    across = distance(near, at(piece, t[::-1].ravel()))
+    highest = np.maximum(_within_span(piece, near, np.tile(t, 2)), np.maximum(spans.apart.ravel(), across))
+    behind, ahead = across[count:] - spans.apart[0], across[:count] - spans.apart[1]
     total = behind + ahead
-    return np.minimum(*bounds), np.where(total > 0.0, behind / np.where(total > 0.0, total, 1.0), 0.5)
+    share = np.where(total > 0.0, behind / np.where(total > 0.0, total, 1.0), 0.5)
+    return np.minimum(highest[:count], highest[count:]), share
 
 
 def _within_span(piece: Measured, near: Measured, t: Floats) -> Floats:
-    """Largest distance to one nearest piece at the places inside the span where it can be largest."""
+    """Largest distance to one nearest piece at the places inside the span `t` (2, m) where it can be largest."""
     places = farthest_places(piece, near)
     inside = (places > t[0]) & (places < t[1])
     if not inside.any():

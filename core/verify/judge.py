@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf, isfinite, nan
+from math import inf, isfinite, isinf, nan
 
 import numpy as np
 
@@ -22,14 +22,19 @@ def judge(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
     """What a cutter of this radius does whose centre runs along `centre`, lead moves included, beside `surface`.
 
     Every distance is exact, between lines and arcs.  Nothing is raised for any joined paths: coordinates or a radius
-    that are not finite, or larger than LARGEST, give a verdict that is not `judged` and so never clean.
+    that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than ARC_RADII give
+    a verdict that is not `judged` and so never clean.
     """
     if not (_sound(surface) and _sound(centre) and isfinite(radius) and 0.0 <= radius <= LARGEST):
-        return Verdict(radius, nan, (), (), nan, crosses_itself=False, judged=False)
+        return _unjudged(radius)
     if not len(surface):
         return Verdict(radius, inf, (), (), 0.0, crosses_itself=False)
     with np.errstate(all="ignore"):
         return _judged(surface, side, radius, centre)
+
+
+def _unjudged(radius: float) -> Verdict:
+    return Verdict(radius, nan, (), (), nan, crosses_itself=False, judged=False)
 
 
 def _sound(path: Path) -> bool:
@@ -38,9 +43,12 @@ def _sound(path: Path) -> bool:
 
 
 def _judged(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
-    reach = radius + 10.0 * GOUGE
     walls, moves = measured(surface), measured(centre)
-    pairs = pairs_of(moves, walls, reach + _largest_slack(walls) + _largest_slack(moves))
+    slack = _largest_slack(walls) + _largest_slack(moves)
+    if isinf(slack):
+        return _unjudged(radius)
+    reach = radius + 10.0 * GOUGE
+    pairs = pairs_of(moves, walls, reach + slack)
     closed = _closed(walls)
     crossed = crossings(walls, pairs.surface_stations, pairs.surface_boxes, closed=closed)
     middle = middles(pairs)

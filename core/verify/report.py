@@ -22,7 +22,10 @@ def findings(verdict: Verdict, surface: Path) -> tuple[Finding, ...]:
 
 
 def _unjudged() -> Finding:
-    text = "The path cannot be judged: a coordinate or the tool radius is not a number a machine can have."
+    text = (
+        "The path cannot be judged: a coordinate or the tool radius is no number a machine can have, "
+        "or an arc's radii at its start and its end differ."
+    )
     return Finding("UNJUDGED", Severity.ERROR, text)
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import band_places, distance, nearest_places
+from core.geometry.distance import band_places, distance, feet
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place
 from core.geometry.path import Path
 from core.tolerance import ON_PATH, STOCK, UNCUT
@@ -14,6 +15,10 @@ from core.verify.farthest import Farthest, farthest
 from core.verify.pairs import Pairs
 from core.verify.reach import Parts, Stretches, union, within
 from core.verify.verdict import Uncut
+
+
+FEW: Final = 300
+"""Pairs that are all tried at once."""
 
 
 def reached(pairs: Pairs, radius: float) -> Stretches:
@@ -24,14 +29,17 @@ def reached(pairs: Pairs, radius: float) -> Stretches:
     surface piece is tried first; where it reaches all, no other is.
     """
     grant = UNCUT + _rounding(pairs.surface) + pairs.slack
-    own = _nearest_to_middle(pairs)
-    parts = _within(pairs, own, radius + grant)
+    parts = _within(
+        pairs, np.arange(len(pairs.j)) if len(pairs.j) <= FEW else _nearest_to_middle(pairs), radius + grant
+    )
     stretches = union(parts.first, parts.last)
-    rest = np.flatnonzero(~_whole(pairs, stretches)[pairs.j])
-    if not len(rest):
+    whole = _whole(pairs, stretches)
+    if whole.all():
         return stretches
-    more = _within(pairs, rest, radius + grant)
-    parts = Parts(*(np.concatenate(both) for both in zip(_columns(parts), _columns(more), strict=True)))
+    if len(pairs.j) > FEW:
+        rest = np.flatnonzero(~whole[pairs.j])
+        more = _within(pairs, rest, radius + grant)
+        parts = Parts(*(np.concatenate(both) for both in zip(_columns(parts), _columns(more), strict=True)))
     return _settled(pairs, parts, union(parts.first, parts.last), radius, grant)
 
 
@@ -43,14 +51,16 @@ def _settled(pairs: Pairs, parts: Parts, stretches: Stretches, radius: float, gr
     """Both ends of each stretch drawn in to where the piece that reaches them does so with the radius alone."""
     owner = stretches.index(parts.first)
     change = np.flatnonzero(np.diff(np.sort(owner), append=-1))
-    begin = np.lexsort((-parts.first, owner))[change]
-    end = np.lexsort((parts.last, owner))[change]
-    first = _draw_in(pairs, parts.pair[begin], stretches.first, 1.0, radius, grant)
-    last = _draw_in(pairs, parts.pair[end], stretches.last, -1.0, radius, grant)
+    begin, end = np.lexsort((-parts.first, owner))[change], np.lexsort((parts.last, owner))[change]
+    pair = parts.pair[np.concatenate((begin, end))]
+    ends = np.concatenate((stretches.first, stretches.last))
+    inward = np.repeat((1.0, -1.0), len(stretches))
+    ends = _draw_in(pairs, pair, ends, inward, radius, grant[pair])
+    first, last = ends[: len(stretches)], ends[len(stretches) :]
     return Stretches(first, np.maximum(first, last))
 
 
-def _draw_in(pairs: Pairs, pair: Rows, ends: Floats, inward: float, radius: float, grant: Floats) -> Floats:
+def _draw_in(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: float, grant: Floats) -> Floats:
     """Ends moved `inward` (+1 or -1 along the surface) to where the distance is the radius, or least.
 
     What is granted moves an end by as much as sqrt(2 r grant) where the reach ends in a circle about the end of a
@@ -58,11 +68,10 @@ def _draw_in(pairs: Pairs, pair: Rows, ends: Floats, inward: float, radius: floa
     """
     i, j = pairs.i[pair], pairs.j[pair]
     piece, other = pairs.surface.take(j), pairs.centre.take(i)
-    places = np.concatenate((band_places(piece, other, np.full(len(pair), radius)), nearest_places(piece, other)))
+    places = np.concatenate((band_places(piece, other, np.full(len(pair), radius)), feet(piece, other)))
     moved = (pairs.surface_stations[j] + places * piece.length - ends) * inward
-    widest = 2.0 * np.sqrt(2.0 * (radius + grant[pair]) * grant[pair])
-    moved = np.where((moved > 0.0) & (moved < widest), moved, np.inf)
-    least = moved.min(axis=0)
+    widest = 2.0 * np.sqrt(2.0 * (radius + grant) * grant)
+    least = np.where((moved > 0.0) & (moved < widest), moved, np.inf).min(axis=0)
     return ends + inward * np.where(np.isinf(least), 0.0, least)
 
 

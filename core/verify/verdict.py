@@ -47,7 +47,8 @@ class Verdict:
     `clearance` is the least distance from path to surface (infinite for an empty path); gouges are deepest first,
     uncut stretches in the contour's order.  `wrong_side` lists rows of the path that run on the part's side.
     `crossing_at` is the first place where the surface crosses or touches itself.  `judged` is False, and
-    `clearance` not a number, where coordinates or radius are no lengths a machine could have: nothing is known then.
+    `clearance` not a number, where coordinates or radius are no lengths a machine could have or an arc has two clearly
+    different radii: nothing is known then.
     """
 
     radius: float

@@ -207,6 +207,8 @@ def test_an_arc_with_two_radii_is_granted_the_difference() -> None:
     surface = Path.from_pieces([Arc((10.0, 0.0), (0.0, 10.002), (0.0, 0.0), Turn.CCW)])
     path = Path.from_pieces([Arc((9.0, 0.0), (0.0, 9.002), (0.0, 0.0), Turn.CCW)])
     assert judge(surface, Side.LEFT, 1.0, path).clean
+    spiral = Path.from_pieces([Arc((9.0, 0.0), (0.0, 9.1), (0.0, 0.0), Turn.CCW)])
+    assert not judge(surface, Side.LEFT, 1.0, spiral).judged
 
 
 def test_far_from_the_origin_rounding_is_still_rounding() -> None:
