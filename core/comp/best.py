@@ -1,0 +1,96 @@
+"""The best path: the true offset of a whole contour, every place the cutter can reach on its side and nothing it cannot.
+
+The control's look-ahead rule does not bind it: it is trimmed globally, across the start too, in one or several loops.
+It is made of the raw chain's pieces, cut wherever they meet: a slice belongs to the path where the cutter is clear of
+every segment, whatever that segment's number.  So the best path is exact wherever the raw chain is.
+
+Two things count as surface on both sides: an open contour, about whose ends the cutter could go, and a contour that
+crosses itself, where over-run lead-ins are walls like any other segment; a finding says so.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.comp.best_events import events
+from core.comp.best_loops import loop_of
+from core.comp.best_raw import Raw, raw_of
+from core.comp.best_slices import clear_slices, sliced
+from core.comp.best_stitch import Stitched, chains, stitch
+from core.comp.best_surface import Surface, crosses_itself, surface_of
+from core.finding import Finding, Severity
+from core.geometry.path import Path
+from core.geometry.side import Side
+from core.tolerance import GOUGE
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class BestPath:
+    """The loops of the best path in the contour's direction and the order of its segments; `closed` tells which are.
+
+    A closed loop starts at the image of START if that is on it, else with the first segment of the contour it follows.
+    An open contour has open chains too.  Pieces bear the programmed number k, corner arcs k + 1/2.
+    Without loops, a finding says why.
+    """
+
+    loops: tuple[Path, ...]
+    closed: tuple[bool, ...]
+    findings: tuple[Finding, ...]
+
+
+def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> BestPath:
+    """Every place of the cutter's centre at exactly `radius` millimetres from the contour on `side`, clear of all of it.
+
+    `closed` is whether the programmed contour ends at its start.  Never raises: a contour that cannot be offset, or
+    beside which the cutter fits nowhere, gives no loops and an error finding.
+    """
+    surface = surface_of(contour, radius, closed=closed)
+    if not len(surface.path):
+        return BestPath((), (), surface.findings)
+    crossing = crosses_itself(surface.path, closed=closed)
+    findings = surface.findings if crossing is None else (*surface.findings, _crossing(crossing))
+    raw = raw_of(surface.path, side, radius, closed=closed, crossing=crossing is not None)
+    found = events(raw, side.sign)
+    if found is None:
+        return BestPath((), (), (*findings, _tangled()))
+    made = stitch(raw, clear_slices(raw, sliced(raw, found), surface.path, radius), side.sign)
+    return _best(raw, made, surface, findings)
+
+
+def _best(raw: Raw, made: Stitched, surface: Surface, findings: tuple[Finding, ...]) -> BestPath:
+    """The loops longer than rounding, and what is to be said of them."""
+    walked = chains(made)
+    long = [np.sum((made.cut.end - made.cut.begin)[rows]) > GOUGE for rows, _ in walked]
+    walked = [chain for chain, enough in zip(walked, long, strict=True) if enough]
+    loops = tuple(loop_of(raw, made.cut, rows, surface.origin) for rows, _ in walked)
+    if not loops:
+        findings = (*findings, _no_path())
+    loose = np.concatenate([rows[made.loose[rows]] for rows, _ in walked] or [np.empty(0, np.intp)])
+    if len(loose):
+        findings = (*findings, _broken(raw, made, int(loose[0]), surface))
+    return BestPath(loops, tuple(ring for _, ring in walked), findings)
+
+
+def _no_path() -> Finding:
+    text = "The tool fits nowhere beside this contour: there is no best path."
+    return Finding("NO_PATH", Severity.ERROR, text)
+
+
+def _tangled() -> Finding:
+    text = "The contour lies on itself so often that no best path is worked out."
+    return Finding("TANGLED", Severity.ERROR, text)
+
+
+def _crossing(numbers: tuple[float, float]) -> Finding:
+    one, other = numbers
+    text = f"Segments {one:g} and {other:g} cross or touch: the best path takes every segment as a wall on both sides."
+    return Finding("CROSSES_ITSELF", Severity.WARNING, text, one)
+
+
+def _broken(raw: Raw, made: Stitched, row: int, surface: Surface) -> Finding:
+    x, y = (raw.end[made.cut.piece[row]].item().real, raw.end[made.cut.piece[row]].item().imag)
+    at = (x + float(surface.origin[0]), y + float(surface.origin[1]))
+    number = float(raw.path.numbers[raw.rows[made.cut.piece[row]]])
+    return Finding("BEST_BROKEN", Severity.WARNING, "The best path does not close near X {x} Y {y}.", number, at=at)

@@ -1,0 +1,118 @@
+"""Events: the points where raw pieces meet, and which way round each meeting may be passed.
+
+Where two raw pieces properly cross, the cutter may only come along the one and leave along the other so that it turns
+towards its free side; the two other stretches lie, next to the point, nearer to a wall than the radius.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import tau
+from typing import Final
+
+import numpy as np
+
+from core.comp.best_raw import Raw
+from core.comp.best_tree import near_selves, piece_boxes, tree
+from core.geometry.intersect import Indices, Meeting, Meetings, Planes, meet, planes
+from core.geometry.path import Floats
+from core.tolerance import JOINED, ON_PATH
+
+MOST_PAIRS: Final = 30_000_000
+"""More pairs of pieces that lie on one another than any part has: such a scribble is refused."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Events:
+    """e meetings of raw pieces `one` and `other` (e,) at `points` (e,), `along_one` and `along_other` mm from their starts.
+
+    `turn` (e,) is positive where they cross off their ends and the way from one to the other turns to the cutter's side,
+    negative where the way from other to one does, 0 where they touch, overlap, or meet at an end.
+    """
+
+    one: Indices
+    other: Indices
+    along_one: Floats
+    along_other: Floats
+    points: Planes
+    turn: Floats
+
+
+def events(raw: Raw, sign: int) -> Events | None:
+    """All meetings of side pieces with raw pieces but at their common joints; None if there are too many to be a part's."""
+    found, pairs = [], 0
+    for i, j in _pairs(raw):
+        pairs += len(i)
+        if pairs > MOST_PAIRS:
+            return None
+        met = meet(raw.path, raw.rows[i], raw.path, raw.rows[j])
+        found.append(_events(raw, i, j, met, sign))
+        over = np.flatnonzero(met.kinds == Meeting.OVERLAP)
+        if len(over):
+            found.append(_overlaps(raw, i[over], j[over]))
+    return _all(found)
+
+
+def _pairs(raw: Raw) -> Iterator[tuple[Indices, Indices]]:
+    boxes = tree(piece_boxes(raw.start, raw.end, raw.centre, raw.turns, 2.0 * ON_PATH))
+    for i, j in near_selves(boxes):
+        keep = (raw.side[i] | raw.side[j]) & (raw.following[i] != j) & (raw.following[j] != i)
+        yield i[keep], j[keep]
+
+
+def _all(found: list[Events]) -> Events:
+    none = np.empty(0, np.intp)
+    found = found or [Events(none, none, np.empty(0), np.empty(0), np.empty(0, np.complex128), np.empty(0))]
+    names = ("one", "other", "along_one", "along_other", "points", "turn")
+    return Events(*(np.concatenate([getattr(some, name) for some in found]) for name in names))
+
+
+def _events(raw: Raw, i: Indices, j: Indices, met: Meetings, sign: int) -> Events:
+    one, other, points = i[met.pair], j[met.pair], planes(met.points)
+    bend = directions(raw, one, points).conj() * directions(raw, other, points)
+    ends = np.minimum(np.minimum(met.along_a, met.rest_a), np.minimum(met.along_b, met.rest_b))
+    proper = (met.kinds[met.pair] == Meeting.CROSS) & (ends > JOINED)
+    return Events(one, other, met.along_a, met.along_b, points, np.where(proper, sign * bend.imag, 0.0))
+
+
+def directions(raw: Raw, rows: Indices, points: Planes) -> Planes:
+    """(k,) directions of travel of pieces at points on them, not of unit length."""
+    along: Planes = np.where(
+        raw.turns[rows] == 0, raw.end[rows] - raw.start[rows], 1j * raw.turns[rows] * (points - raw.centre[rows])
+    )
+    return along
+
+
+def _overlaps(raw: Raw, i: Indices, j: Indices) -> Events:
+    """Of pieces that run along each other, each end that lies on the other piece."""
+    found = []
+    for one, other in ((i, j), (j, i)):
+        for ends, along in ((raw.start[other], np.zeros(len(other))), (raw.end[other], raw.lengths[other])):
+            at = along_of(raw, one, ends)
+            on = np.flatnonzero((at > JOINED) & (at < raw.lengths[one] - JOINED))
+            found.append(Events(one[on], other[on], at[on], along[on], ends[on], np.zeros(len(on))))
+    return _all(found)
+
+
+def along_of(raw: Raw, rows: Indices, points: Planes) -> Floats:
+    """(k,) distances from the pieces' starts of the places abreast of points."""
+    start, centre, turns = raw.start[rows], raw.centre[rows], raw.turns[rows]
+    straight = turns == 0
+    span = raw.end[rows] - start
+    line = (span.conj() * (points - start)).real / np.where(straight, np.abs(span), 1.0)
+    arm = start - centre
+    arc = np.mod(np.angle(arm.conj() * (points - centre)) * turns, tau) * np.abs(arm)
+    along: Floats = np.where(straight, line, arc)
+    return along
+
+
+def places(raw: Raw, rows: Indices, along: Floats) -> Planes:
+    """(k,) points at distances from the pieces' starts."""
+    start, turns = raw.start[rows], raw.turns[rows]
+    arm = np.where(turns == 0, raw.start[rows] - raw.end[rows], start - raw.centre[rows])
+    size = np.abs(arm)
+    straight = start - arm * (along / size)
+    curved = start - arm + arm * np.exp(1j * turns * (along / size))
+    points: Planes = np.where(turns == 0, straight, curved)
+    return points

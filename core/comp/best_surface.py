@@ -1,0 +1,138 @@
+"""The surface as the best path takes it: every segment with a length, arcs of one radius, closed where it is, centred."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from core.comp import trouble
+from core.comp.best_tree import near_selves, piece_boxes, tree
+from core.finding import Finding
+from core.geometry.intersect import Indices, Masks, Meeting, Planes, coordinates, meet, planes
+from core.geometry.path import EMPTY, Floats, Path
+from core.tolerance import JOINED, ON_PATH
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Surface:
+    """`path` is the surface moved by -`origin` (2,) so that it lies about (0, 0); empty when it is refused."""
+
+    path: Path
+    origin: Floats
+    findings: tuple[Finding, ...]
+
+
+def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
+    """The contour made fit to be offset, or why it cannot be.
+
+    Zero-length segments are dropped.  An arc whose radii differ (by less than ARC_RADII) gets the centre equally far
+    from both its ends.  A closed contour's gap is bridged by a line of its last segment's number.
+    """
+    refused = trouble.refusal(contour, radius, ())
+    if refused:
+        return Surface(EMPTY, np.zeros(2), refused)
+    points = planes(contour.points)
+    kept = np.abs(points[1:] - points[:-1]) > JOINED
+    if not kept.all():
+        kept |= contour.lengths > JOINED
+    findings = tuple(trouble.zero_length(contour, np.flatnonzero(~kept)))
+    if not kept.all():
+        contour = _without(contour, kept)
+    if not len(contour):
+        return Surface(EMPTY, np.zeros(2), (*findings, *trouble.refusal(contour, radius, ())))
+    origin = (contour.points.min(axis=0) + contour.points.max(axis=0)) / 2.0
+    path = Path.of(contour.points - origin, contour.centres - origin, contour.turns, contour.numbers)
+    return Surface(_closed(_even(path)) if closed else _even(path), origin, findings)
+
+
+def _without(contour: Path, kept: Masks) -> Path:
+    """The contour's kept segments: each starts where the one kept before it ends, full circles stay full."""
+    ends = contour.points[1:][kept]
+    whole = np.flatnonzero((contour.points[1:] == contour.points[:-1]).all(axis=1)[kept])
+    points = np.concatenate((contour.points[:1], ends))
+    for row in whole[::-1].tolist():
+        points[row] = points[row + 1]
+    return Path.of(points, contour.centres[kept], contour.turns[kept], contour.numbers[kept])
+
+
+def _even(path: Path) -> Path:
+    """The path with arcs of one radius each: the centre moved onto the chord's bisector."""
+    points, centres = planes(path.points), planes(path.centres)
+    start, end = points[:-1], points[1:]
+    off = np.abs(np.abs(start - centres) - np.abs(end - centres))
+    rows = np.flatnonzero((path.turns != 0) & (off > ON_PATH))
+    if not len(rows):
+        return path
+    start, chord = start[rows], (end - start)[rows]
+    along = (chord.conj() * (centres[rows] - start)).real / np.abs(chord) - np.abs(chord) / 2.0
+    centres = centres.copy()
+    centres[rows] -= along * chord / np.abs(chord)
+    return Path(path.points, coordinates(centres), path.turns, path.numbers)
+
+
+def _closed(path: Path) -> Path:
+    """The path that ends exactly at its start."""
+    gap = float(np.abs(planes(path.points)[-1] - planes(path.points)[0]))
+    if gap <= JOINED:
+        points = path.points.copy()
+        points[-1] = points[0]
+        return Path(points, path.centres, path.turns, path.numbers)
+    return Path.of(
+        np.concatenate((path.points, path.points[:1])),
+        np.concatenate((path.centres, path.points[-1:])),
+        np.append(path.turns, 0).astype(np.int8),
+        np.append(path.numbers, path.numbers[-1]),
+    )
+
+
+def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
+    """The numbers of two segments that cross, touch or run along each other elsewhere than at their joint; or None."""
+    points, centres = planes(path.points), planes(path.centres)
+    boxes = tree(piece_boxes(points[:-1], points[1:], centres, path.turns, ON_PATH))
+    for i, j in near_selves(boxes):
+        beside = (j - i == 1) | ((j - i == len(path) - 1) if closed else False)
+        i, j = _worth_a_look(path, i, j, beside)
+        met = meet(path, i, path, j)
+        hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], planes(met.points))]
+        hit = np.concatenate((hit, np.flatnonzero(met.kinds == Meeting.OVERLAP)))
+        if len(hit):
+            return float(path.numbers[i[hit[0]]]), float(path.numbers[j[hit[0]]])
+    return None
+
+
+def _worth_a_look(path: Path, i: Indices, j: Indices, beside: Masks) -> tuple[Indices, Indices]:
+    """All pairs but neighbours that together turn through less than half a turn: those cannot meet again."""
+    rows = np.flatnonzero(beside)
+    a, b = i[rows], j[rows]
+    tangents = (*_tangents(path, a), *_tangents(path, b))
+    turned = sum(np.abs(np.angle(one.conj() * two)) for one, two in pairwise(tangents))
+    wide = _wide(path, a) | _wide(path, b) | (b - a > 1)
+    straight = (path.turns[a] == 0) & (path.turns[b] == 0)
+    keep = np.ones(len(i), np.bool_)
+    keep[rows] = ~straight & (wide | (turned > 3.1))
+    return i[keep], j[keep]
+
+
+def _tangents(path: Path, rows: Indices) -> tuple[Planes, Planes]:
+    """Directions of travel at the starts and at the ends of pieces, not of unit length."""
+    start, end = planes(path.points)[rows], planes(path.points)[rows + 1]
+    centre, turns = planes(path.centres)[rows], path.turns[rows]
+    first = np.where(turns == 0, end - start, 1j * turns * (start - centre))
+    return first, np.where(turns == 0, end - start, 1j * turns * (end - centre))
+
+
+def _wide(path: Path, rows: Indices) -> Masks:
+    """Which pieces are arcs of half a turn or more."""
+    first, last = _tangents(path, rows)
+    return (path.turns[rows] != 0) & ((first.conj() * last).imag * path.turns[rows] <= 0.0)
+
+
+def _at_joint(path: Path, i: Indices, j: Indices, at: Planes) -> Masks:
+    """Which points are the joint of neighbours i and j, or of the last and the first of a closed path."""
+    points = planes(path.points)
+    near = (j - i == 1) & (np.abs(at - points[j]) <= JOINED)
+    around = (i == 0) & (j == len(path) - 1) & (np.abs(at - points[0]) <= JOINED) & (points[0] == points[-1])
+    joint: Masks = near | around
+    return joint

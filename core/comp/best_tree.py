@@ -1,0 +1,157 @@
+"""Which boxes are near each other: a tree over boxes in their order along a path, for joins of any size in pieces.
+
+Pieces that follow each other lie beside each other, so groups of consecutive boxes make a good tree without sorting.
+A box is kept as (x0, y0, -x1, -y1) in single precision, rounded outwards, sixteen bytes that are gathered as one
+number; two boxes' gaps are then one subtraction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.geometry.intersect import Indices, Masks, Planes
+from core.geometry.path import Floats, Turns
+
+FAN: Final = 4
+"""Boxes in a group."""
+
+AT_ONCE: Final = 1 << 17
+"""Pairs of boxes held against each other at once."""
+
+_NOWHERE: Final = 1e18
+"""Least coordinates of a box that is near nothing, and whose square a single float still holds."""
+
+Packed = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Tree:
+    """Boxes in groups of groups: `levels` from the coarsest to the `count` boxes themselves, packed."""
+
+    levels: tuple[Packed, ...]
+    count: int
+
+
+def tree(boxes: Floats) -> Tree:
+    """The tree over boxes (4, n): least x, least y, largest x, largest y."""
+    count = boxes.shape[1]
+    low = np.empty((count, 4), np.float32)
+    low[:, 0], low[:, 1], low[:, 2], low[:, 3] = boxes[0], boxes[1], -boxes[2], -boxes[3]
+    np.nextafter(low, np.float32(-np.inf), out=low)
+    levels = [low]
+    while len(levels[-1]) > FAN:
+        levels.append(_grouped(levels[-1]))
+    return Tree(tuple(level.view(np.complex128)[:, 0] for level in reversed(levels)), count)
+
+
+def _grouped(low: NDArray[np.float32]) -> NDArray[np.float32]:
+    groups = -(-len(low) // FAN)
+    padded = np.full((groups * FAN, 4), _NOWHERE, np.float32)
+    padded[: len(low)] = low
+    grouped: NDArray[np.float32] = padded.reshape(groups, FAN, 4).min(axis=1)
+    return grouped
+
+
+def near(one: Tree, two: Tree, reach: float) -> Iterator[tuple[Indices, Indices]]:
+    """All pairs (i, j) of boxes of both trees no farther apart than `reach`, in batches."""
+    return _descend(one, two, reach, selves=False)
+
+
+def near_selves(boxes: Tree) -> Iterator[tuple[Indices, Indices]]:
+    """All pairs (i, j), i < j, of boxes of one tree that meet, in batches."""
+    return _descend(boxes, boxes, 0.0, selves=True)
+
+
+def _descend(one: Tree, two: Tree, reach: float, *, selves: bool) -> Iterator[tuple[Indices, Indices]]:
+    """Pairs of groups replaced by pairs of their members, nearest to the leaves first, so that little is held."""
+    if not one.count or not two.count:
+        return
+    first, second = _as_deep(one, two), _as_deep(two, one)
+    depth = _beginning(first, second)
+    i, j = np.divmod(np.arange(len(first[depth]) * len(second[depth])), len(second[depth]))
+    stack = [(depth, i, j)]
+    while stack:
+        depth, i, j = stack.pop()
+        last = depth == len(first) - 1
+        keep = _meet(first[depth][i], second[depth][j], reach)
+        if selves:
+            keep &= (i < j) if last else (i <= j)
+        i, j = i[keep], j[keep]
+        if last:
+            yield i, j
+            continue
+        for begin in range(0, len(i), AT_ONCE // (FAN * FAN)):
+            some = slice(begin, begin + AT_ONCE // (FAN * FAN))
+            stack.append((depth + 1, *_members(i[some], j[some], first, second, depth)))
+
+
+def _as_deep(boxes: Tree, other: Tree) -> tuple[Packed, ...]:
+    """The levels of a tree, its coarsest repeated until it is as deep as the other."""
+    missing = len(other.levels) - len(boxes.levels)
+    return boxes.levels[:1] * missing + boxes.levels
+
+
+def _beginning(first: tuple[Packed, ...], second: tuple[Packed, ...]) -> int:
+    """The deepest level whose boxes may all be held against each other."""
+    return max(depth for depth in range(len(first)) if depth == 0 or len(first[depth]) * len(second[depth]) <= 4096)
+
+
+def _members(
+    i: Indices, j: Indices, first: tuple[Packed, ...], second: tuple[Packed, ...], depth: int
+) -> tuple[Indices, Indices]:
+    """All pairs of members of paired groups; a level that is repeated has itself as its only member."""
+    if first[depth] is not first[depth + 1]:
+        i, j = _brood(i, j, len(first[depth + 1]))
+    if second[depth] is not second[depth + 1]:
+        j, i = _brood(j, i, len(second[depth + 1]))
+    return i, j
+
+
+def _brood(grow: Indices, keep: Indices, count: int) -> tuple[Indices, Indices]:
+    """Each group in `grow` replaced by its members below `count`, its partner in `keep` repeated."""
+    members = (grow[:, None] * FAN + np.arange(FAN)).ravel()
+    partners = np.repeat(keep, FAN)
+    real = members < count
+    return (members, partners) if real.all() else (members[real], partners[real])
+
+
+def _meet(a: Packed, b: Packed, reach: float) -> Masks:
+    """Which boxes of a are within reach of those of b: the distance between boxes where there is a reach."""
+    gap = a.view(np.float32).reshape(-1, 2, 2) + b.view(np.float32).reshape(-1, 2, 2)[:, ::-1]
+    if reach == 0.0:
+        meeting: Masks = (gap.reshape(-1, 4) <= 0.0).view(np.uint32)[:, 0] == 0x01010101
+        return meeting
+    apart = np.maximum(np.maximum(gap[:, 0], gap[:, 1]), 0.0)
+    squared = apart[:, 0] * apart[:, 0] + apart[:, 1] * apart[:, 1]
+    near: Masks = squared <= np.float32(reach * reach * (1.0 + 1e-6))
+    return near
+
+
+def piece_boxes(start: Planes, end: Planes, centre: Planes, turns: Turns, grow: float) -> Floats:
+    """(4, n) boxes around pieces, grown on all sides: of a line its ends, of an arc its ends and tangents' corner.
+
+    Arcs of more than a quarter turn get the whole circle's box.
+    """
+    corner = end.copy()
+    low, high = np.empty((2, len(start))), np.empty((2, len(start)))
+    arcs = np.flatnonzero(turns)
+    first, last = start[arcs] - centre[arcs], end[arcs] - centre[arcs]
+    bend = first.conj() * last
+    quarter = (bend.imag * turns[arcs] > 0.0) & (bend.real >= 0.0)
+    square = first.real * first.real + first.imag * first.imag
+    chord = (first + last) / 2.0
+    height = np.where(quarter, chord.real * chord.real + chord.imag * chord.imag, 1.0)
+    corner[arcs] = centre[arcs] + chord * (square / height)
+    for axis, (one, two, far) in enumerate(((start.real, end.real, corner.real), (start.imag, end.imag, corner.imag))):
+        low[axis] = np.minimum(np.minimum(one, two), far) - grow
+        high[axis] = np.maximum(np.maximum(one, two), far) + grow
+    wide = arcs[~quarter]
+    radius = np.sqrt(square[~quarter])
+    for axis, middle in enumerate((centre[wide].real, centre[wide].imag)):
+        low[axis, wide], high[axis, wide] = middle - radius - grow, middle + radius + grow
+    return np.concatenate((low, high))
