@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import sys
 from codecs import IncrementalDecoder, getincrementaldecoder
+from collections.abc import Callable
 from functools import partial
 from typing import Final
 
-LENIENT: Final[partial[IncrementalDecoder]] = partial(getincrementaldecoder("utf-8"), errors="replace")
+LENIENT: Final[Callable[[], IncrementalDecoder]] = partial(getincrementaldecoder("utf-8"), errors="replace")
 """Makes a decoder of UTF-8 in pieces that puts a replacement character for what is none."""
 
 
@@ -24,6 +25,6 @@ def be_lenient() -> None:
         linux_driver.__dict__["getincrementaldecoder"] = _lenient
 
 
-def _lenient(encoding: str) -> partial[IncrementalDecoder]:
+def _lenient(encoding: str) -> Callable[[], IncrementalDecoder]:
     assert encoding == "utf-8"
     return LENIENT

@@ -62,7 +62,7 @@ class Contour(FormPage):
             return self._gone(session, Where(session.where.block, there))
         if self.cursor(session) == SEGMENT:
             return self._segment_key(key, character, session)
-        if key == "enter" and self.cursor(session) == self.fields(session)[-1].name:
+        if key == "enter" and session.where.segment and self.cursor(session) == self.fields(session)[-1].name:
             return self._finished(session)
         return FormPage.press(self, key, character, session)
 
@@ -74,7 +74,7 @@ class Contour(FormPage):
         return replace(self, editing=None).moved(session, there)
 
     def _finished(self, session: Session) -> Answer:
-        """Enter on the last field: on to the next segment."""
+        """Enter on the last field of a segment: on to the next one.  On START it goes back to SEGMENT."""
         settled = self.settle(session)
         if any(isinstance(message, Say) for message in settled.messages):
             return settled

@@ -9,12 +9,12 @@ from typing import Final
 
 from app.screens.page import Sketch
 from app.widgets.rows import Look, Row, Span
-from app.widgets.scene import block_scene, table_scene
 from core.draw.mode import Mode
 from core.draw.raster import Picture, draw
 from core.draw.scene import Scene, Style
 from core.draw.view import View
 from core.pipeline.derived import DerivedBlock
+from core.pipeline.plot import block_scene
 from core.pipeline.table import Table
 from core.units import Unit
 
@@ -39,10 +39,8 @@ LOOKS: Final = {
 
 def scene_of(found: DerivedBlock, table: Table | None, segment: int, unit: Unit, sketch: Sketch) -> Scene:
     """The scene of a block, or that of one value of its look-ahead table."""
-    if sketch.lookahead is None or table is None:
-        return block_scene(found, segment, unit)
-    fate = table.row(sketch.lookahead)
-    return table_scene(found, fate.compensated, fate.verdict, unit)
+    row = None if sketch.lookahead is None or table is None else table.row(sketch.lookahead)
+    return block_scene(found, segment, unit, row)
 
 
 def picture_rows(scene: Scene, sketch: Sketch, columns: int, rows: int, mode: str) -> tuple[Row, ...]:

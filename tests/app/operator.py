@@ -1,0 +1,77 @@
+"""An operator at the desk: presses keys and reads the screen, without a terminal."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from textual.keys import _character_to_key
+
+from app.desk import Desk
+from app.engine import Known
+from app.files import empty_program
+from app.screens.frame import Painted, painted
+from app.session import Session
+from app.surroundings import Surroundings
+from app.widgets.rows import text_of
+from core.pipeline.outline import outline
+from core.program.model import Block, Program, Segment
+
+FROZEN = Surroundings(clock=lambda: "16:51", free=lambda: 16034847)
+
+
+@dataclass
+class Operator:
+    """One desk; after every key what follows from the program is calculated, without geometry."""
+
+    desk: Desk
+
+    @staticmethod
+    def at(program: Program | None = None) -> Operator:
+        """An operator who has just started the program on this."""
+        return Operator(Desk(Session.of(program or empty_program())))
+
+    def press(self, *keys: str) -> Operator:
+        """Keys by name, or single characters."""
+        for key in keys:
+            character = key if len(key) == 1 else " " if key == "space" else None
+            name = _character_to_key(key) if len(key) == 1 else key
+            self.desk = self.desk.press(name, character)
+            if self.session.stale:
+                self.desk = self.desk.knowing(outline(self.session.program))
+        return self
+
+    def type(self, *texts: str) -> Operator:
+        """Texts, each followed by Enter."""
+        for text in texts:
+            self.press(*text, "enter")
+        return self
+
+    @property
+    def session(self) -> Session:
+        return self.desk.session
+
+    @property
+    def block(self) -> Block:
+        return self.session.block
+
+    @property
+    def segments(self) -> tuple[Segment, ...]:
+        return self.session.block.segments
+
+    @property
+    def said(self) -> str:
+        """The sentence on the prompt line."""
+        return " ".join(self.part("prompt").split())
+
+    def screen(self, width: int = 80, height: int = 24) -> Painted:
+        """Everything on a terminal of this size, but for the drawing."""
+        return painted(self.desk, Known(), FROZEN, width, height)
+
+    def part(self, name: str, width: int = 80, height: int = 24) -> str:
+        """The text of one part of the screen."""
+        return "\n".join(text_of(row).rstrip() for row in self.screen(width, height).rows[name])
+
+    def saved(self) -> Operator:
+        """The same operator, the program being as its file has it."""
+        self.desk = replace(self.desk, session=replace(self.session, saved=self.session.program))
+        return self

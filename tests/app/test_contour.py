@@ -1,0 +1,306 @@
+"""The MILL CONTOUR form, keyed as an operator keys it."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.screens.new_segment import NewSegment
+from app.session import SEGMENT
+from core.program.edit import Where
+from core.program.model import (
+    ArcSegment,
+    BlendSegment,
+    CutterComp,
+    Direction,
+    Entry,
+    LineSegment,
+    Unread,
+)
+from tests.app.operator import Operator
+
+START = ("1", "", "0", "-1", "0", "0", "-.25", "20", "300", "0")
+
+
+def square() -> Operator:
+    """START of the note's own screen, and four lines."""
+    operator = Operator.at().press("enter").type("1").press("r").type("", "0", "-1", "0", "0", "-.25", "20", "300", "0")
+    operator.press("pagedown")
+    for x, y in (("2", "0"), ("2", "2"), ("0", "2"), ("0", "-1")):
+        operator.press("l").type(x, y, "", "", "", "10")
+    return operator.press("escape", "ctrl+home")
+
+
+def test_the_notes_own_screen() -> None:
+    assert square().part("header") + "\n" + square().part("body") == "\n".join(
+        (
+            " BLOCK       1   MILL CONTOUR",
+            " SEGMENT >   0   START                        new program*",
+            "",
+            " TOOL                     1  PLUNGE FEED             20.0",
+            " CUTTER COMP.         RIGHT  SPEED (RPM)              300",
+            " FINISH TOOL              0  PECK DEPTH            0.0000",
+            " X START            -1.0000  CUTCOMP LOOKAHEAD CAL      2",
+            " Y START             0.0000  (TOOL DIAMETER        0.5000)",
+            " Z START             0.0000  (TYPE               END MILL)",
+            " Z BOTTOM           -0.2500",
+            "",
+        )
+    )
+
+
+def look_ahead(operator: Operator) -> str:
+    line = next(line for line in operator.part("body").splitlines() if "LOOKAHEAD" in line)
+    return " ".join(line.split()[-2:])
+
+
+def to_look_ahead(operator: Operator) -> Operator:
+    return operator.press(*["tab"] * 11)
+
+
+def test_cal_2_usr_4_and_f3_back_to_cal_2() -> None:
+    operator = to_look_ahead(square())
+    assert look_ahead(operator) == "CAL 2"
+    assert "Not recommended unless necessary" in operator.said
+    assert look_ahead(operator.type("4")) == "USR 4"
+    assert operator.block.lookahead == Entry(4.0)
+    assert look_ahead(operator.press("f3")) == "CAL 2"
+    assert operator.block.lookahead is None
+
+
+def test_f3_recalculates_from_any_field_of_start() -> None:
+    operator = to_look_ahead(square()).type("4").press("up", "up", "f3")
+    assert operator.block.lookahead is None
+    assert "CAL 2" in operator.said
+
+
+def test_usr_stays_through_edits_and_cal_follows_them() -> None:
+    operator = square()
+    assert look_ahead(operator) == "CAL 2"
+    operator.press("ctrl+end", "right", "l").type("5", "5", "", "", "", "10").press("escape", "ctrl+end", "right")
+    operator.press("l").type("6", "5", "", "", "", "10").press("escape", "ctrl+home")
+    assert look_ahead(operator) == "CAL 3"
+    assert look_ahead(to_look_ahead(operator).type("7")) == "USR 7"
+    operator.press("ctrl+end", "f1", "ctrl+home")
+    assert look_ahead(operator) == "USR 7"
+
+
+@pytest.mark.parametrize("text", ["0", "21", "x", "2.5", "-3"])
+def test_a_look_ahead_out_of_range_is_refused_and_the_old_one_stays(text: str) -> None:
+    operator = to_look_ahead(square()).type("4").press("up").type(text)
+    assert look_ahead(operator) == "USR 4"
+    assert "from 1 to 20" in operator.said
+    assert operator.session.field == "lookahead"
+
+
+def test_comp_on_hides_the_field_and_keeps_its_value() -> None:
+    operator = to_look_ahead(square()).type("4").press("ctrl+home", "tab", "tab", "o")
+    assert operator.block.cutter_comp is CutterComp.ON
+    assert "LOOKAHEAD" not in operator.part("body")
+    assert look_ahead(operator.press("l")) == "USR 4"
+
+
+def test_the_look_ahead_field_has_its_own_softkeys() -> None:
+    operator = square()
+    assert "DELETE SEGMENT" in operator.part("softkeys")
+    assert "RECALCULATE" not in operator.part("softkeys")
+    to_look_ahead(operator)
+    assert "RECALCULATE" in operator.part("softkeys")
+    assert "DELETE SEGMENT" not in operator.part("softkeys")
+    assert "TOOL SETUP" not in operator.part("softkeys")
+
+
+def test_digits_and_enter_go_to_a_segment() -> None:
+    operator = square().press("3", "enter")
+    assert operator.session.where == Where(1, 3)
+    assert operator.session.field == SEGMENT
+
+
+def test_a_segment_that_does_not_exist_is_told() -> None:
+    operator = square().press("9", "enter")
+    assert operator.session.where == Where(1, 0)
+    assert operator.said == "!! There is no segment 9: the last one is 4. Right arrow past the last adds one."
+
+
+def test_arrows_walk_and_the_last_one_offers_a_new_segment() -> None:
+    operator = square().press("right", "right", "left")
+    assert operator.session.where.segment == 1
+    operator.press("right", "right", "right", "right")
+    assert isinstance(operator.desk.page, NewSegment)
+    assert "NEW" in operator.part("header")
+    assert "LINE" in operator.part("softkeys")
+    operator.press("escape")
+    assert operator.session.where.segment == 4
+
+
+def test_deleting_a_segment_joins_its_neighbours() -> None:
+    operator = square().press("2", "enter", "f1")
+    assert [segment.x_end for segment in operator.segments] == [Entry(2.0), Entry(0.0), Entry(0.0)]
+    assert "(X START            2.0000)" in operator.part("body")
+
+
+def test_start_cannot_be_deleted_and_nothing_goes_before_it() -> None:
+    operator = square().press("f1")
+    assert operator.said == "!! START cannot be deleted."
+    assert operator.press("f2").said == "!! START comes first: nothing goes before it."
+    assert len(operator.segments) == 4
+
+
+def test_a_segment_is_inserted_before() -> None:
+    operator = square().press("2", "enter", "f2", "a")
+    assert isinstance(operator.segments[1], ArcSegment)
+    assert operator.session.where.segment == 2
+    assert operator.session.field == "direction"
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [("1 1/2", 1.5), ("2.5-.125", 2.375), ("25.4/2", 12.7), ("12.7mm", 0.5), (".5in", 0.5), ("-0", 0.0)],
+)
+def test_what_a_field_takes(text: str, value: float) -> None:
+    operator = square().press("tab", "tab", "tab", "tab").type(text)
+    assert operator.block.x_start == Entry(pytest.approx(value, abs=1e-12))
+
+
+def test_unreadable_text_stays_in_the_field_marked_with_the_reason() -> None:
+    operator = square().press("tab", "tab", "tab", "tab").type("1..5")
+    assert isinstance(operator.block.x_start, Unread)
+    assert operator.session.field == "x_start"
+    assert operator.said.startswith("!! 1..5 cannot be read")
+    operator.press("enter")
+    assert "X START     ERR       1..5" in operator.part("body")
+    assert operator.session.field == "y_start"
+    assert operator.press("up").said.startswith("!! 1..5 cannot be read")
+
+
+def test_escape_brings_the_old_value_back() -> None:
+    operator = square().press("tab", "tab", "tab", "tab", "7", "7", "escape")
+    assert operator.block.x_start == Entry(-1.0)
+    assert "X START            -1.0000" in operator.part("body")
+    assert operator.session.history.undo_count == square().session.history.undo_count
+
+
+def test_a_text_is_changed_in_the_middle() -> None:
+    operator = square().press("tab", "tab", "tab", "tab", "home", "right", "delete", "3", "enter")
+    assert operator.block.x_start == Entry(-3.0)
+
+
+def test_looking_at_a_rounded_number_does_not_round_it() -> None:
+    operator = square().press("tab", "tab", "tab", "tab").type("1/3").press("up", "left", "right", "enter")
+    assert operator.block.x_start == Entry(1 / 3)
+
+
+@pytest.mark.parametrize("key", ["delete", "backspace"])
+def test_an_emptied_field_becomes_blank(key: str) -> None:
+    operator = square().press("1", "enter", "tab", key, "enter")
+    assert operator.segments[0] == LineSegment(None, Entry(0.0), None, None, None, Entry(10.0))
+
+
+def test_a_calculated_value_is_tagged_and_follows_an_edit_upstream() -> None:
+    operator = square().press("2", "enter")
+    assert "XY LENGTH     CAL     2.0000" in operator.part("body")
+    operator.press("1", "enter", "tab", "tab").type("1").press("ctrl+home", "2", "enter")
+    assert "XY LENGTH     CAL     1.0000" in operator.part("body")
+    assert operator.segments[1] == LineSegment(Entry(2.0), Entry(2.0), None, None, None, Entry(10.0))
+
+
+def test_a_segment_not_determined_marks_what_is_needed() -> None:
+    operator = square().press("ctrl+end", "right", "l", "4", "enter")
+    assert "Y END                    ?" in operator.part("body")
+
+
+def test_two_solutions_are_picked_by_softkey_or_field() -> None:
+    operator = square().press("ctrl+end", "right", "a", "c")
+    assert operator.block.segments[-1] == ArcSegment(Direction.CCW)
+    operator.press("enter").type("1", "-1", "", "", "", "1")
+    assert "SOLUTION                   ?" in operator.part("body")
+    assert "SOLUTION 1" in operator.part("softkeys")
+    operator.press("f2")
+    assert operator.segments[-1].choice == 1
+    assert "2 of 2" in operator.part("body")
+
+
+def test_choices_step_and_letters_select() -> None:
+    operator = square().press("tab", "tab", "right")
+    assert operator.block.cutter_comp is CutterComp.PROFILE_LEFT
+    operator.press("space", "space")
+    assert operator.block.cutter_comp is CutterComp.ON
+    operator.press("p", "p")
+    assert operator.block.cutter_comp is CutterComp.PROFILE_RIGHT
+
+
+def test_undo_and_redo_reach_over_everything_and_say_what() -> None:
+    operator = square()
+    before = operator.session.program
+    operator.press("tab", "tab", "tab", "tab").type("5").press("ctrl+z")
+    assert operator.session.program == before
+    assert "X START of START" in operator.said
+    operator.press("ctrl+y")
+    assert operator.block.x_start == Entry(5.0)
+
+
+def test_undo_first_takes_back_what_is_half_typed() -> None:
+    operator = square().press("tab", "tab", "tab", "tab", "7", "ctrl+z")
+    assert operator.block.x_start == Entry(-1.0)
+    assert operator.session.program == square().session.program
+
+
+def test_undo_of_a_new_segment_brings_the_cursor_to_one_that_exists() -> None:
+    operator = square().press("ctrl+end", "right", "l", "ctrl+z")
+    assert operator.session.where == Where(1, 4)
+    assert len(operator.segments) == 4
+
+
+def test_escape_then_a_digit_is_a_softkey() -> None:
+    operator = square().press("1", "enter", "escape", "1")
+    assert len(operator.segments) == 3
+
+
+def test_escape_that_takes_something_back_does_not_arm_the_digits() -> None:
+    operator = square().press("1", "enter", "tab", "9", "escape", "1", "enter")
+    assert operator.segments[0].x_end == Entry(1.0)
+    assert len(operator.segments) == 4
+
+
+POCKET = (
+    ("l", ("4.0", "0.25", "", "", "", "12")),
+    ("a", ("ccw", "4.75", "1.0", "", "4.0", "1.0")),
+    ("l", ("4.75", "3.5")),
+    ("b", ("0.5",)),
+    ("l", ("3.0", "3.5")),
+    ("l", ("2.5", "3.0")),
+    ("l", ("1.0", "3.0")),
+    ("a", ("cw", "0.5", "3.5", "", "1.0", "3.5")),
+    ("l", ("0.25", "3.5")),
+    ("l", ("0.25", "0.25")),
+    ("l", ("2.0", "0.25")),
+)
+
+
+def pocket() -> Operator:
+    """The pocket outline with a boss, from the drawing."""
+    operator = Operator.at().press("enter").type("1").press("l")
+    operator.type("", "0", "2.0", "0.25", "0", "-0.25", "20", "300", "0.1").press("pagedown")
+    for letter, texts in POCKET:
+        operator.press(letter)
+        for text in texts:
+            if text == "ccw":
+                operator.press("right", "enter")
+            elif text == "cw":
+                operator.press("enter")
+            else:
+                operator.type(text)
+        operator.press("pagedown")
+    return operator.press("escape", "ctrl+home")
+
+
+def test_the_pocket_keyed_in_from_the_drawing() -> None:
+    operator = pocket()
+    found = operator.session.found
+    assert len(operator.segments) == 11
+    assert found.solved.closed
+    assert found.solved.determined == 11
+    assert look_ahead(operator) == "CAL 8"
+    assert operator.segments[3] == BlendSegment(Entry(0.5))
+    assert operator.segments[1] == ArcSegment(
+        Direction.CCW, Entry(4.75), Entry(1.0), None, Entry(4.0), Entry(1.0), None, None, None
+    )
