@@ -56,7 +56,7 @@ class Record:
     def open(self, step: Step) -> None:
         """Compensation begins: the next moves are a stretch."""
         self.programmed, self.entry = Tape(self.tape.last), step
-        self.first, self.leaving = len(self.tape.rows), 0
+        self.first, self.leaving = len(self.tape.rows) - 1, 0
         self.remember(step)
 
     def remember(self, step: Step) -> None:
@@ -73,7 +73,7 @@ class Record:
         """Compensation ends: keep the stretch, unless it is the path itself or only its entry."""
         entry, programmed = self.entry, self.programmed
         self.entry, self.programmed = None, None
-        if entry is None or programmed is None or not entry.offset or len(self.tape.rows) <= self.first:
+        if entry is None or programmed is None or not entry.offset or len(self.tape.rows) <= self.first + 1:
             return
         side = Side.LEFT if entry.offset > 0.0 else Side.RIGHT
         moves, last = programmed.moves(), len(self.tape.rows)

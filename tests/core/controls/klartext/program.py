@@ -1,0 +1,48 @@
+"""Running small Klartext programs and looking at what came out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from core.controls.klartext.control import run
+from core.controls.moves import Move
+from core.controls.report import Run
+from core.controls.tools import ToolTable
+
+DATA = Path(__file__).parents[3] / "data"
+HEAD = "BEGIN PGM P MM\nTOOL DEF 1 L+0 R+{radius}\nTOOL CALL 1 Z S1000\n"
+TOOLS = ToolTable()
+
+
+def runs(*blocks: str, radius: float = 5.0, tools: ToolTable = TOOLS) -> Run:
+    """The blocks with a tool of this radius in the spindle; the first of them is line 4."""
+    text = HEAD.format(radius=radius) + "".join(f"{block}\n" for block in blocks) + "END PGM P MM\n"
+    return run(text.encode(), "", tools)
+
+
+def clean(*blocks: str, radius: float = 5.0) -> Run:
+    """The same of a program that runs to its end with nothing to be said."""
+    made = runs(*blocks, radius=radius)
+    assert not made.findings, made.findings
+    assert made.stopped_at is None
+    return made
+
+
+def flat(made: Run, first: int = 2) -> list[tuple[float, ...]]:
+    """The moves from a row on: x, y of a line; x, y, centre x, y, turn of an arc."""
+    return [_told(move) for move in list(made.moves)[first:]]
+
+
+def _told(move: Move) -> tuple[float, ...]:
+    x, y, _ = move.point
+    return (x, y, *move.centre[:2], move.turn) if move.turn else (x, y)
+
+
+def points(made: Run, first: int = 2) -> list[tuple[float, float, float]]:
+    """The ends of the moves from a row on."""
+    return [move.point for move in list(made.moves)[first:]]
+
+
+def codes(made: Run) -> list[tuple[str, int | None]]:
+    """Rule and line of every finding."""
+    return [(finding.code, finding.line) for finding in made.findings]
