@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
-from core.controls.corners import Element, offset_radius, runs_back, square_end
+from core.controls.corners import Element, runs_back, square_end
 from core.controls.follower import Follower
 from core.controls.report import Log
 from core.geometry.piece import Point
@@ -102,8 +102,3 @@ class Chain(Follower):
         if self.held is not None:
             self.release(square_end(self.held, self.offset))
         self.start = None
-
-
-def fits(element: Element, offset: float) -> bool:
-    """Whether the tool can run along an element at all: not inside an arc that is no larger than it."""
-    return not element.turn or offset_radius(element, offset) > 0.0

@@ -110,30 +110,35 @@ def offset_radius(element: Element, offset: float) -> float:
     return element.radius - element.turn * offset
 
 
-def meeting(first: Element, second: Element, offset: float) -> Point | None:
+def meeting(first: Element, second: Element, offset: float, other: float | None = None) -> Point | None:
     """The inside corner: where the offsets of two elements meet, the meeting nearest to P; None if nowhere.
 
     Lines count beyond their ends and arcs as whole circles: whether the point lies on what is left of the elements
-    is for the control to say.
+    is for the control to say.  `other` is the second element's offset where it is not the first one's.
     """
-    points = meetings(first, second, offset)
+    points = meetings(first, second, offset, offset if other is None else other)
     corner = first.end
     return min(points, key=lambda at: hypot(at[0] - corner[0], at[1] - corner[1]), default=None)
 
 
-def meetings(first: Element, second: Element, offset: float) -> tuple[Point, ...]:
+def meetings(first: Element, second: Element, offset: float, other: float) -> tuple[Point, ...]:
     """Every meeting of the offsets of two elements, none where an inside arc has no offset."""
-    if any(one.turn and offset_radius(one, offset) <= 0.0 for one in (first, second)):
+    if not fits(first, offset) or not fits(second, other):
         return ()
     if not first.turn and not second.turn:
-        return _line_line(square_end(first, offset), first.arriving, square_start(second, offset), second.leaving)
+        return _line_line(square_end(first, offset), first.arriving, square_start(second, other), second.leaving)
     if not first.turn:
         at = square_end(first, offset)
-        return _line_circle(at, first.arriving, second.centre, offset_radius(second, offset))
+        return _line_circle(at, first.arriving, second.centre, offset_radius(second, other))
     if not second.turn:
-        at = square_start(second, offset)
+        at = square_start(second, other)
         return _line_circle(at, second.leaving, first.centre, offset_radius(first, offset))
-    return _circle_circle(first.centre, offset_radius(first, offset), second.centre, offset_radius(second, offset))
+    return _circle_circle(first.centre, offset_radius(first, offset), second.centre, offset_radius(second, other))
+
+
+def fits(element: Element, offset: float) -> bool:
+    """Whether the tool can run along an element at all: not inside an arc that is no larger than it."""
+    return not element.turn or offset_radius(element, offset) > 0.0
 
 
 def _line_line(at: Point, way: Point, other: Point, heading: Point) -> tuple[Point, ...]:
@@ -190,7 +195,7 @@ def runs_back(element: Element, start: Point, end: Point) -> bool:
         travelled = sweep(start, end, element.centre, element.turn)
         return travelled - element_sweep(element) > pi
     way = element.leaving
-    return (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1] < 0.0
+    return (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1] < -WHOLE
 
 
 def turned(at: Point, centre: Point, angle: float) -> Point:

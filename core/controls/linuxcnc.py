@@ -8,26 +8,18 @@ from there to its own point.
 
 from __future__ import annotations
 
-from math import hypot, pi
-from typing import Final, NamedTuple
+from typing import Final
 
-from core.controls.corners import Element, meetings, offset_radius, square_end, square_start, sweep, turning
 from core.controls.dialect import Arcs, Dialect, Do, codes
-from core.controls.follower import Follower
+from core.controls.lookahead import LookAhead
 from core.controls.moves import Plane
 from core.controls.report import Log, Run
 from core.controls.runner import execute
 from core.controls.tools import ToolTable
 from core.controls.words import Block, whole
 from core.finding import Severity
-from core.geometry.piece import Point
 from core.geometry.side import Side
 from core.units import Unit
-
-TANGENT: Final = 0.05
-"""Radians under which a corner is none."""
-
-NO_FIT: Final = "The cutter does not fit into this corner without gouging; use a smaller cutter or open the corner."
 
 _ARCS: Final = Arcs(inch=0.002828427, mm=0.02828427, worst=100.0)
 
@@ -72,23 +64,8 @@ REFUSED: Final = {
 """What G codes are refused while compensation is on: rule and reason."""
 
 
-class Held(NamedTuple):
-    """A move that waits: where it would end, and its rapid or feed element; Z moves have their own element."""
-
-    element: Element
-    end: Point
-
-
-class LookAhead(Follower):
-    """The queue of LinuxCNC; `radius` signed, positive on the left, in millimetres."""
-
-    def __init__(self, log: Log) -> None:
-        super().__init__(log)
-        self.offset = 0.0
-        self.first = True
-        self.queue: list[Held] = []
-        self.started: Point | None = None
-        self.no_arc = False
+class LinuxCnc(LookAhead):
+    """What turns LinuxCNC's compensation on, and what it refuses meanwhile."""
 
     def watch(self, block: Block) -> None:
         """Codes that compensation does not allow."""
@@ -114,9 +91,7 @@ class LookAhead(Follower):
             text = "Compensation is on already; write G40 before it is turned on again."
             self.log.stop("N-ONWHENON", text, block.line, block.column("G"))
         radius = self.radius(block)
-        self.offset = radius * side.sign
-        self.active = self.watching = True
-        self.first = True
+        self.turn_on(radius * side.sign)
 
     def radius(self, block: Block) -> float:
         """The radius asked for, millimetres; negative flips the side."""
@@ -151,165 +126,10 @@ class LookAhead(Follower):
             text = "L, the orientation of a lathe tool, goes with G18 only; leave it out."
             self.log.stop("N-ORIENTATION", text, block.line, block.column("L"))
 
-    def finish(self, block: Block) -> None:
-        """G40: what is held ends square."""
-        if self.active and self.offset and not self.first:
-            self._move_ends(square_end(self._front, self.offset), block.line)
-            self.no_arc = True
-            self.leave(entry=1, exits=0)
-        self.active = self.watching = False
-        self.first = True
-
-    def close(self) -> None:
-        """The end of the program: what is held ends square."""
-        if self.queue:
-            self._move_ends(square_end(self._front, self.offset), self.queue[-1].element.line)
-
-    def travel(self, element: Element) -> None:
-        """One element: alone, as entry, or against what is held."""
-        if element.turn and self.no_arc:
-            text = "The first move after G40 is straight; write a line before the arc."
-            self.log.stop("N-ARCEXIT", text, element.line, 1)
-        self.no_arc = False
-        if not self.active or not self.offset:
-            super().travel(element)
-        elif self.first:
-            self._enter(element)
-        elif element.moves:
-            self._corner(element)
-        else:
-            self.note(element)
-            self.queue.append(Held(element, square_end(self._front, self.offset)))
-
-    @property
-    def _front(self) -> Element:
-        return self.queue[0].element
-
-    def _enter(self, element: Element) -> None:
-        """The first move: longer than the radius, and square to itself at its end."""
-        length = hypot(element.end[0] - element.start[0], element.end[1] - element.start[1])
-        if length <= abs(self.offset):
-            text = "The entry move is {0} long and the radius is {1}; it has to be longer than the radius."
-            self.log.stop("N-GOUGE", text, element.line, 1, lengths=(length, abs(self.offset)))
-        if element.turn and offset_radius(element, self.offset) <= 0.0:
-            self._too_small(element)
-        side = Side.LEFT if self.offset > 0.0 else Side.RIGHT
-        self.open_span(side, self.offset, element)
-        self.note(element)
-        end = square_end(element, self.offset)
-        self.queue = [Held(self._as_entry(element, end), end)]
-        self.started = None if element.turn else element.start
-        self.first = False
-
-    def _as_entry(self, element: Element, end: Point) -> Element:
-        """The entry as it runs; LinuxCNC does not look whether a later trim turns it round."""
-        if not element.turn:
-            return element._replace(leaving=(0.0, 0.0))
-        return element._replace(start=element.end, centre=self._entry_centre(element, end))
-
-    def _entry_centre(self, element: Element, end: Point) -> Point:
-        """The centre of the entry arc: from the present point to the square end, with the programmed tangent there."""
-        (sx, sy), (ex, ey), (cx, cy) = element.start, end, element.centre
-        half = hypot(sx - ex, sy - ey) / 2
-        reach = hypot(cx - ex, cy - ey) or 1.0
-        way = ((cx - ex) / reach, (cy - ey) / reach)
-        lean = ((sx - ex) * way[0] + (sy - ey) * way[1]) / (2 * half)
-        if abs(lean) < 1e-6:
-            self._too_small(element)
-        return ex + way[0] * half / lean, ey + way[1] * half / lean
-
-    def _too_small(self, element: Element) -> None:
-        text = "The arc's radius {0} is not larger than the cutter's {1}; use a smaller cutter or a larger arc."
-        self.log.stop("N-ARCRADIUS", text, element.line, 1, lengths=(element.radius, abs(self.offset)))
-
-    def _corner(self, element: Element) -> None:
-        """A further move in the plane, against the one that is held."""
-        if element.turn and element.turn * self.offset > 0.0 and offset_radius(element, self.offset) <= 0.0:
-            self._too_small(element)
-        front = self._front
-        angle = turning(front, element) * (1 if self.offset > 0.0 else -1)
-        back = abs(angle) > pi - TANGENT
-        if (angle > TANGENT and not back) or (back and self._hooks(front, element)):
-            self._inside(front, element)
-        elif angle < -TANGENT or back:
-            self._outside(front, element)
-        else:
-            self._run_queue()
-            self.started = square_end(front, self.offset)
-        self.note(element)
-        self.queue = [Held(element, square_end(element, self.offset))]
-
-    def _hooks(self, front: Element, element: Element) -> bool:
-        """Reversals that are inside corners: off the top of an arc, or onto one, with the cutter outside of it."""
-        bent = element.turn or front.turn
-        return bent * self.offset < 0.0
-
-    def _inside(self, front: Element, element: Element) -> None:
-        points = meetings(front, element, self.offset)
-        if not points:
-            self.log.stop("N-CONCAVE", NO_FIT, element.line, 1, at=element.start)
-        self._move_ends(points[self._which(front, element)] if len(points) > 1 else points[0], element.line)
-
-    def _which(self, front: Element, element: Element) -> int:
-        """Which of two meetings: along a line the first one outside its arc, two arcs by the side they bend to."""
-        if not front.turn:
-            return 1 if element.turn * self.offset > 0.0 else 0
-        if not element.turn:
-            return 0 if front.turn * self.offset > 0.0 else 1
-        return 0 if (front.turn * self.offset > 0.0) == (element.turn > 0) else 1
-
-    def _outside(self, front: Element, element: Element) -> None:
-        corner = square_end(front, self.offset)
-        if element.turn:
-            self._run_queue()
-        else:
-            self._move_ends(corner, element.line)
-        start = square_start(element, self.offset)
-        if element.rapid:
-            self.straight(element, start, low=True)
-        else:
-            self.bend(element, start, element.start, -1 if self.offset > 0.0 else 1, element.low)
-        self.started = start
-
-    def _move_ends(self, point: Point, line: int) -> None:
-        """Everything held ends at this point instead; a move that would run backwards stops the program."""
-        for held in self.queue:
-            if held.element.turn:
-                self._check_arc(held, point, line)
-            elif self.started is not None:
-                self._check_line(held, point, line)
-        self.queue = [held._replace(end=point) for held in self.queue]
-        self._run_queue()
-        self.started = point
-
-    def _check_line(self, held: Held, point: Point, line: int) -> None:
-        way, start = held.element.leaving, self.started or point
-        if (point[0] - start[0]) * way[0] + (point[1] - start[1]) * way[1] < 0.0:
-            self.log.stop("N-CONCAVE", NO_FIT, line, 1, at=held.element.end)
-
-    def _check_arc(self, held: Held, point: Point, line: int) -> None:
-        element = held.element
-        if self.started is None:
-            return
-        swept = sweep(element.start, element.end, element.centre, element.turn) or 2 * pi
-        now = sweep(self.started, point, element.centre, element.turn) or 2 * pi
-        slack = 0.001 if self.machine.unit is Unit.IN else 0.0254
-        if now > swept + slack:
-            self.log.stop("N-CONCAVE", NO_FIT, line, 1, at=element.end)
-
-    def _run_queue(self) -> None:
-        for element, end in self.queue:
-            if element.turn:
-                self.arc(element, end, element.centre)
-            else:
-                self.straight(element, end)
-        self.queue = []
-        self.started = None
-
 
 _PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
 
 
 def run(text: bytes, _: str, tools: ToolTable) -> Run:
     """A program as LinuxCNC runs it; there are no variants."""
-    return execute(text, "linuxcnc", DIALECT, tools, Log(), LookAhead)
+    return execute(text, "linuxcnc", DIALECT, tools, Log(), LinuxCnc)

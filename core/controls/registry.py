@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
 
-from core.controls import linuxcnc, threeblock
+from core.controls import linuxcnc, rosettacnc, threeblock
 from core.controls.report import Run
 from core.controls.tools import ToolTable
 
@@ -37,7 +37,14 @@ class Entry:
     compared: tuple[str, ...] = ("",)
 
 
-CONTROLS: Final[Mapping[str, Entry]] = MappingProxyType({"threeblock": Entry(threeblock.run), "linuxcnc": Entry(linuxcnc.run)})
+CONTROLS: Final[Mapping[str, Entry]] = MappingProxyType(
+    {
+        "threeblock": Entry(threeblock.run),
+        "rosettacnc": Entry(rosettacnc.run, ("nist", "easy", "normal"), ("nist", "easy", "normal")),
+        "linuxcnc": Entry(linuxcnc.run),
+    }
+)
+"""The controls, in the order a comparison shows them."""
 
 
 def names() -> tuple[str, ...]:

@@ -12,8 +12,17 @@ import re
 from math import hypot, radians
 from typing import Final, NoReturn
 
-from core.controls.chain import Chain, Joint, fits
-from core.controls.corners import Element, element_sweep, meeting, offset_radius, square_end, square_start, turning
+from core.controls.chain import Chain, Joint
+from core.controls.corners import (
+    Element,
+    element_sweep,
+    fits,
+    meeting,
+    offset_radius,
+    square_end,
+    square_start,
+    turning,
+)
 from core.controls.dialect import Arcs, Dialect, Do, codes
 from core.controls.moves import Plane
 from core.controls.report import Log, Run

@@ -1,0 +1,216 @@
+"""The queue of LinuxCNC and what follows its rules: one move of the plane is held until the next one is known.
+
+The first move ends square to itself.  Z moves may stand behind the held move in the queue.  An outside corner gets an
+arc, an inside corner moves the ends of what is held, anything under 0.05 radians is taken as tangent.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import hypot, pi
+from typing import Final, NamedTuple
+
+from core.controls.corners import Element, meetings, offset_radius, square_end, square_start, sweep, turning
+from core.controls.follower import Follower
+from core.controls.report import Log
+from core.controls.words import Block
+from core.geometry.piece import Point
+from core.geometry.side import Side
+from core.units import Unit
+
+TANGENT: Final = 0.05
+"""Radians under which a corner is none."""
+
+NO_FIT: Final = "The cutter does not fit into this corner without gouging; use a smaller cutter or open the corner."
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """The ids of a control's rules for the same faults."""
+
+    entry: str
+    arc_radius: str
+    concave: str
+    arc_exit: str
+
+
+class Held(NamedTuple):
+    """A move that waits: where it would end, and its rapid or feed element; Z moves have their own element."""
+
+    element: Element
+    end: Point
+
+
+class LookAhead(Follower):
+    """The queue; `offset` is the radius in millimetres, positive with the tool on the left."""
+
+    rules = Rules("N-GOUGE", "N-ARCRADIUS", "N-CONCAVE", "N-ARCEXIT")
+
+    def __init__(self, log: Log) -> None:
+        super().__init__(log)
+        self.offset = 0.0
+        self.first = True
+        self.queue: list[Held] = []
+        self.started: Point | None = None
+        self.no_arc = False
+
+    def turn_on(self, offset: float) -> None:
+        """Compensation is on from the next move on."""
+        self.offset = offset
+        self.active = self.watching = True
+        self.first = True
+
+    def finish(self, block: Block) -> None:
+        """G40: what is held ends square."""
+        if self.active and self.offset and not self.first:
+            self._move_ends(square_end(self._front, self.offset), block.line)
+            self.no_arc = True
+            self.leave(entry=1, exits=0)
+        self.active = self.watching = False
+        self.first = True
+
+    def close(self) -> None:
+        """The end of the program: what is held ends square."""
+        if self.queue:
+            self._move_ends(square_end(self._front, self.offset), self.queue[-1].element.line)
+
+    def travel(self, element: Element) -> None:
+        """One element: alone, as entry, or against what is held."""
+        if element.turn and self.no_arc:
+            text = "The first move after G40 is straight; write a line before the arc."
+            self.log.stop(self.rules.arc_exit, text, element.line, 1)
+        self.no_arc = False
+        if not self.active or not self.offset:
+            super().travel(element)
+        elif self.first:
+            self._enter(element)
+        elif element.moves:
+            self._corner(element)
+        else:
+            self.note(element)
+            self.queue.append(Held(element, square_end(self._front, self.offset)))
+
+    @property
+    def _front(self) -> Element:
+        return self.queue[0].element
+
+    def _enter(self, element: Element) -> None:
+        """The first move: longer than the radius, and square to itself at its end."""
+        length = hypot(element.end[0] - element.start[0], element.end[1] - element.start[1])
+        if length <= abs(self.offset):
+            text = "The entry move is {0} long and the radius is {1}; it has to be longer than the radius."
+            self.log.stop(self.rules.entry, text, element.line, 1, lengths=(length, abs(self.offset)))
+        if element.turn and offset_radius(element, self.offset) <= 0.0:
+            self._too_small(element)
+        side = Side.LEFT if self.offset > 0.0 else Side.RIGHT
+        self.open_span(side, self.offset, element)
+        self.note(element)
+        end = square_end(element, self.offset)
+        self.queue = [Held(self._as_entry(element, end), end)]
+        self.started = None if element.turn else element.start
+        self.first = False
+
+    def _as_entry(self, element: Element, end: Point) -> Element:
+        """The entry as it runs; LinuxCNC does not look whether a later trim turns it round."""
+        if not element.turn:
+            return element._replace(leaving=(0.0, 0.0))
+        return element._replace(start=element.end, centre=self._entry_centre(element, end))
+
+    def _entry_centre(self, element: Element, end: Point) -> Point:
+        """The centre of the entry arc: from the present point to the square end, with the programmed tangent there."""
+        (sx, sy), (ex, ey), (cx, cy) = element.start, end, element.centre
+        half = hypot(sx - ex, sy - ey) / 2
+        reach = hypot(cx - ex, cy - ey) or 1.0
+        way = ((cx - ex) / reach, (cy - ey) / reach)
+        lean = ((sx - ex) * way[0] + (sy - ey) * way[1]) / (2 * half)
+        if abs(lean) < 1e-6:
+            self._too_small(element)
+        return ex + way[0] * half / lean, ey + way[1] * half / lean
+
+    def _too_small(self, element: Element) -> None:
+        text = "The arc's radius {0} is not larger than the cutter's {1}; use a smaller cutter or a larger arc."
+        self.log.stop(self.rules.arc_radius, text, element.line, 1, lengths=(element.radius, abs(self.offset)))
+
+    def _corner(self, element: Element) -> None:
+        """A further move in the plane, against the one that is held."""
+        if element.turn and element.turn * self.offset > 0.0 and offset_radius(element, self.offset) <= 0.0:
+            self._too_small(element)
+        front = self._front
+        angle = turning(front, element) * (1 if self.offset > 0.0 else -1)
+        back = abs(angle) > pi - TANGENT
+        if (angle > TANGENT and not back) or (back and self._hooks(front, element)):
+            self._inside(front, element)
+        elif angle < -TANGENT or back:
+            self._outside(front, element)
+        else:
+            self._run_queue()
+            self.started = square_end(front, self.offset)
+        self.note(element)
+        self.queue = [Held(element, square_end(element, self.offset))]
+
+    def _hooks(self, front: Element, element: Element) -> bool:
+        """Reversals that are inside corners: off the top of an arc, or onto one, with the cutter outside of it."""
+        bent = element.turn or front.turn
+        return bent * self.offset < 0.0
+
+    def _inside(self, front: Element, element: Element) -> None:
+        points = meetings(front, element, self.offset, self.offset)
+        if not points:
+            self.log.stop(self.rules.concave, NO_FIT, element.line, 1, at=element.start)
+        self._move_ends(points[self._which(front, element)] if len(points) > 1 else points[0], element.line)
+
+    def _which(self, front: Element, element: Element) -> int:
+        """Which of two meetings: along a line the first one outside its arc, two arcs by the side they bend to."""
+        if not front.turn:
+            return 1 if element.turn * self.offset > 0.0 else 0
+        if not element.turn:
+            return 0 if front.turn * self.offset > 0.0 else 1
+        return 0 if (front.turn * self.offset > 0.0) == (element.turn > 0) else 1
+
+    def _outside(self, front: Element, element: Element) -> None:
+        corner = square_end(front, self.offset)
+        if element.turn:
+            self._run_queue()
+        else:
+            self._move_ends(corner, element.line)
+        start = square_start(element, self.offset)
+        if element.rapid:
+            self.straight(element, start, low=True)
+        else:
+            self.bend(element, start, element.start, -1 if self.offset > 0.0 else 1, element.low)
+        self.started = start
+
+    def _move_ends(self, point: Point, line: int) -> None:
+        """Everything held ends at this point instead; a move that would run backwards stops the program."""
+        for held in self.queue:
+            if held.element.turn:
+                self._check_arc(held, point, line)
+            elif self.started is not None:
+                self._check_line(held, point, line)
+        self.queue = [held._replace(end=point) for held in self.queue]
+        self._run_queue()
+        self.started = point
+
+    def _check_line(self, held: Held, point: Point, line: int) -> None:
+        way, start = held.element.leaving, self.started or point
+        if (point[0] - start[0]) * way[0] + (point[1] - start[1]) * way[1] < 0.0:
+            self.log.stop(self.rules.concave, NO_FIT, line, 1, at=held.element.end)
+
+    def _check_arc(self, held: Held, point: Point, line: int) -> None:
+        element = held.element
+        if self.started is None:
+            return
+        swept = sweep(element.start, element.end, element.centre, element.turn) or 2 * pi
+        now = sweep(self.started, point, element.centre, element.turn) or 2 * pi
+        slack = 0.001 if self.machine.unit is Unit.IN else 0.0254
+        if now > swept + slack:
+            self.log.stop(self.rules.concave, NO_FIT, line, 1, at=element.end)
+
+    def _run_queue(self) -> None:
+        for element, end in self.queue:
+            if element.turn:
+                self.arc(element, end, element.centre)
+            else:
+                self.straight(element, end)
+        self.queue = []
+        self.started = None

@@ -1,0 +1,297 @@
+"""RosettaCNC with its three entries: `nist` (the default), `easy` and `normal`.
+
+nist: every move ends at once where it can; the first one along the tangent from its end to the tool where it stands.
+Every inside corner is an error, also that between the first two moves.  easy: the first move waits for the second one
+and ends square to its start; later inside corners are errors.  normal: inside corners are where the offsets meet; that
+the rest follows LinuxCNC is an interpretation.
+"""
+
+from __future__ import annotations
+
+from math import acos, atan2, cos, hypot, pi, sin
+from typing import Final, NoReturn
+
+from core.controls.corners import Element, fits, square_end, square_start, turning
+from core.controls.dialect import Dialect, Do, codes
+from core.controls.follower import Follower
+from core.controls.lookahead import LookAhead, Rules
+from core.controls.moves import Plane
+from core.controls.report import Log, Run
+from core.controls.runner import execute
+from core.controls.tools import ToolTable
+from core.controls.words import Block, whole
+from core.finding import Severity
+from core.geometry.piece import Point
+from core.geometry.side import Side
+from core.units import Unit
+
+DIALECT: Final = Dialect(
+    "rosettacnc",
+    codes(
+        ("compensation", Do.SIDE, (411, 421)),
+        ("system", Do.SYSTEM, (591, 592, 593)),
+        ("path", Do.MODE, (610, 640)),
+        ("spindle", Do.MODE, (960, 970)),
+        ("retract", Do.MODE, (980, 990)),
+        ("scaling", Do.MODE, (500,)),
+        ("rotation", Do.MODE, (690,)),
+        ("once", Do.SHIFT, (520,)),
+        ("once", Do.MACHINE, (530,)),
+        ("once", Do.DATA, (100,)),
+    ),
+    Unit.MM,
+)
+
+TANGENT: Final = 0.01
+"""Radians under which a corner is none, by the text of NIST."""
+
+_SWITCHES: Final = frozenset((410, 420, 411, 421))
+_NOT_NOW: Final = frozenset((170, 180, 190, 280, 300, 520, 530, 920, 540, 550, 560, 570, 580, 590, 591, 592, 593))
+_PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
+
+
+class Switch:
+    """What G41, G42, G41.1 and G42.1 ask for on this control, and what is refused while they are in force."""
+
+    def __init__(self, follower: Follower) -> None:
+        self.follower = follower
+
+    def offset(self, side: Side, block: Block) -> float:
+        """The signed radius asked for, in millimetres; trouble stops the run."""
+        column = block.column("G")
+        if self.follower.active:
+            text = "Compensation is on already; write G40 before it is turned on again."
+            self.follower.log.stop("C2", text, block.line, column)
+        point_one = not {411, 421}.isdisjoint(block.g)
+        radius = self._diameter(block) / 2 if point_one else self._table(block)
+        if radius < 0.0:
+            text = "The radius is negative and changes the side; that is an interpretation."
+            self.follower.log.tell(Severity.INFO, "NEGATIVE", text, block.line, column)
+        return radius * side.sign
+
+    def _diameter(self, block: Block) -> float:
+        machine, log = self.follower.machine, self.follower.log
+        if machine.plane is Plane.YZ:
+            text = "G41.1 and G42.1 do not work in the plane G19; write G41 or another plane."
+            log.stop("C3", text, block.line, block.column("G"))
+        if "D" not in block.words:
+            text = "G41.1 and G42.1 need D and the cutter's diameter."
+            log.stop("C1", text, block.line, block.column("G"))
+        self._orientation(block)
+        return block.words["D"] * machine.scale
+
+    def _orientation(self, block: Block) -> None:
+        log, column = self.follower.log, block.column("L")
+        if "L" not in block.words:
+            return
+        number = whole(block.words["L"])
+        if number is None or not 0 <= number <= 9:
+            log.stop("C4", "L, the orientation of a lathe tool, is 0 to 9.", block.line, column)
+        if self.follower.machine.plane is not Plane.ZX:
+            log.stop("C5", "L goes with the plane G18 only; leave it out.", block.line, column)
+        if number not in (0, 9):
+            text = "The moves are those of the centre of the tool's nose; the orientation does not shift them here."
+            log.tell(Severity.WARNING, "ORIENTATION", text, block.line, column)
+
+    def _table(self, block: Block) -> float:
+        machine, log = self.follower.machine, self.follower.log
+        number = machine.tool
+        if "D" in block.words:
+            wanted = whole(block.words["D"])
+            if wanted is None or wanted <= 0:
+                text = "D is a tool number, 1 or more; a diameter goes with G41.1."
+                log.stop("C1", text, block.line, block.column("D"))
+            number = wanted
+        tool = machine.tools.get(number)
+        if tool is None and number:
+            text = f"The tool table has no tool {number}; enter it, or write the number of one that is there."
+            log.stop("C1", text, block.line, block.column("D" if "D" in block.words else "G"))
+        if tool is None:
+            text = "No tool is loaded and there is no D, so the radius is 0 and nothing is compensated."
+            log.tell(Severity.WARNING, "RADIUS0", text, block.line, block.column("G"))
+        radius = tool.diameter_mm(machine.unit) / 2 if tool else 0.0
+        return radius - block.words.pop("I", 0.0) * machine.scale
+
+    def watch(self, block: Block) -> None:
+        """The list of NIST, of which nobody said that it holds here."""
+        log = self.follower.log
+        if "D" in block.words and _SWITCHES.isdisjoint(block.g):
+            text = "D needs G41 or G42 in its block. That is an interpretation, by the list of NIST."
+            log.stop("C8", text, block.line, block.column("D"))
+        if not self.follower.active:
+            return
+        for code in _NOT_NOW.intersection(block.g):
+            if _PLANES.get(code) is not self.follower.machine.plane:
+                text = f"G{code / 10:g} is not allowed under compensation. That is an interpretation, by NIST's list."
+                log.stop("C8", text, block.line, block.column("G", code))
+
+
+class Normal(LookAhead):
+    """The entry `normal`: LinuxCNC's queue, in all three planes."""
+
+    rules = Rules("C8", "C7", "C6", "C8")
+
+    def __init__(self, log: Log) -> None:
+        super().__init__(log)
+        self.watching = True
+        self.switch = Switch(self)
+
+    def watch(self, block: Block) -> None:
+        """What is refused."""
+        self.switch.watch(block)
+
+    def begin(self, side: Side, block: Block) -> None:
+        """G41 and its kin."""
+        self.turn_on(self.switch.offset(side, block))
+        text = "The entry follows LinuxCNC: square to its own move. That is an interpretation."
+        self.log.tell(Severity.INFO, "ENTRY", text, block.line, block.column("G"))
+
+    def finish(self, block: Block) -> None:
+        """G40."""
+        super().finish(block)
+        self.watching = True
+
+
+class Nist(Follower):
+    """The entry `nist`: no look-ahead at all."""
+
+    def __init__(self, log: Log) -> None:
+        super().__init__(log)
+        self.watching = True
+        self.switch = Switch(self)
+        self.offset = 0.0
+        self.before: Element | None = None
+        self.first = True
+
+    def watch(self, block: Block) -> None:
+        """What is refused."""
+        self.switch.watch(block)
+
+    def begin(self, side: Side, block: Block) -> None:
+        """G41 and its kin."""
+        self.offset = self.switch.offset(side, block)
+        self.active, self.first, self.before = True, True, None
+
+    def finish(self, _: Block) -> None:
+        """G40: no move; the next one starts where the tool is."""
+        if self.active and self.offset and not self.first:
+            self.leave(entry=1, exits=0)
+        self.active = False
+
+    def travel(self, element: Element) -> None:
+        """One element, at once."""
+        if self._leaving and element.turn:
+            self._refuse_arc(element, "The first move after G40 has to be straight")
+        if not self.active or not self.offset:
+            super().travel(element)
+        elif self.first:
+            self.enter(element)
+        elif element.moves:
+            self._corner(element)
+            self.follow(element)
+        else:
+            self.note(element)
+            self.straight(element, self.here)
+
+    def enter(self, element: Element) -> None:
+        """The first move ends so that it runs along the tangent from its end to the tool where it stands."""
+        (sx, sy), (px, py) = element.start, element.end
+        length, radius = hypot(px - sx, py - sy), abs(self.offset)
+        if element.turn:
+            self._refuse_arc(element, "An arc as first move has to touch the tool where it stands; write a line")
+        if length <= radius:
+            self._too_short(element, length)
+        self.start_span(element)
+        self.note(element)
+        angle = atan2(sy - py, sx - px) - acos(radius / length) * (1 if self.offset > 0.0 else -1)
+        way = angle - (pi / 2 if self.offset > 0.0 else -pi / 2)
+        self.before = element._replace(arriving=(cos(way), sin(way)))
+        self.straight(element, (px + radius * cos(angle), py + radius * sin(angle)))
+        self.first = False
+
+    def start_span(self, element: Element) -> None:
+        """The stretch of compensated moves begins."""
+        self.open_span(Side.LEFT if self.offset > 0.0 else Side.RIGHT, self.offset, element)
+
+    def _refuse_arc(self, element: Element, what: str) -> NoReturn:
+        self.log.stop("C8", f"{what}. That is an interpretation, by the rules of NIST.", element.line, 1)
+
+    def _too_short(self, element: Element, length: float) -> None:
+        text = "The first move is {0} long and has to be longer than the radius {1}. That is an interpretation."
+        self.log.stop("C8", text, element.line, 1, lengths=(length, abs(self.offset)))
+
+    def _corner(self, element: Element) -> None:
+        before = self.before
+        if before is None:
+            return
+        angle = turning(before, element) * (1 if self.offset > 0.0 else -1)
+        if TANGENT < angle < pi - TANGENT:
+            text = "An inside corner is an error with this entry; round it in the program or use the normal entry."
+            self.log.stop("C6", text, element.line, 1, at=element.start)
+        if abs(angle) <= TANGENT:
+            return
+        start = square_start(element, self.offset)
+        if element.rapid:
+            self.straight(element, start, low=True)
+        else:
+            self.bend(element, start, element.start, -1 if self.offset > 0.0 else 1, element.low)
+
+    def follow(self, element: Element) -> None:
+        """A move on its offset, to its square end."""
+        if not fits(element, self.offset):
+            text = "The arc's radius {0} has to be larger than the cutter's {1}; use a smaller cutter."
+            self.log.stop("C7", text, element.line, 1, lengths=(element.radius, abs(self.offset)))
+        self.note(element)
+        end = square_end(element, self.offset)
+        if element.turn:
+            self.arc(element, end, element.centre)
+        else:
+            self.straight(element, end)
+        self.before = element
+
+
+class Easy(Nist):
+    """The entry `easy`: the first move waits for the second one."""
+
+    def __init__(self, log: Log) -> None:
+        super().__init__(log)
+        self.held: Element | None = None
+        self.standing: list[Element] = []
+
+    def enter(self, element: Element) -> None:
+        """Holds the first move; with the second one it ends square to that one's start."""
+        if self.held is None:
+            if element.turn:
+                self._refuse_arc(element, "The first move has to be straight")
+            self.start_span(element)
+            self.note(element)
+            self.held = element
+        elif not element.moves:
+            self.note(element)
+            self.standing.append(element)
+        else:
+            self._end_entry(square_start(element, self.offset))
+            self.follow(element)
+
+    def _end_entry(self, point: Point) -> None:
+        held, standing = self.held, self.standing
+        self.held, self.standing, self.first = None, [], False
+        for one in (held, *standing):
+            if one is not None:
+                self.straight(one, point)
+
+    def finish(self, block: Block) -> None:
+        """G40; a first move that still waits ends square to itself."""
+        self.close()
+        super().finish(block)
+
+    def close(self) -> None:
+        """The end of the program."""
+        if self.held is not None:
+            self._end_entry(square_end(self.held, self.offset))
+
+
+def run(text: bytes, variant: str, tools: ToolTable) -> Run:
+    """A program as RosettaCNC runs it with the entry `nist`, `easy` or `normal`."""
+    followers: dict[str, type[Follower]] = {"nist": Nist, "easy": Easy, "normal": Normal}
+    return execute(text, f"rosettacnc:{variant}", DIALECT, tools, Log(), followers[variant])
