@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from hypothesis import strategies as st
 
 from core.program.fields import TABLES, Field, Form
@@ -41,15 +43,18 @@ BLOCK = Block(
 """START at X 0 Y 0 with everything typed."""
 
 
-def line(*, choice: int | None = None, **typed: float) -> LineSegment:
-    """A LINE with these fields typed."""
-    return changed(LineSegment(choice=choice), {name: Entry(value) for name, value in typed.items()})
+def line(**typed: float) -> LineSegment:
+    """A LINE with these fields typed, and `choice` picked."""
+    return changed(LineSegment(), _typed(typed))
 
 
-def arc(direction: str, *, choice: int | None = None, **typed: float) -> ArcSegment:
-    """An ARC with these fields typed."""
-    entries = {name: Entry(value) for name, value in typed.items()}
-    return changed(ArcSegment(Direction(direction), choice=choice), entries)
+def arc(direction: str, **typed: float) -> ArcSegment:
+    """An ARC with these fields typed, and `choice` picked."""
+    return changed(ArcSegment(Direction(direction)), _typed(typed))
+
+
+def _typed(typed: dict[str, float]) -> dict[str, Entry | int]:
+    return {name: int(value) if name == "choice" else Entry(value) for name, value in typed.items()}
 
 
 def blend(radius: float) -> BlendSegment:
@@ -57,9 +62,11 @@ def blend(radius: float) -> BlendSegment:
     return BlendSegment(Entry(radius))
 
 
-def program(*segments: Segment, unit: Unit = Unit.MM, x: float = 0.0, y: float = 0.0, **start: object) -> Program:
-    """A program of one block that starts at x, y, with tool 1 of diameter 0.5."""
-    block = changed(BLOCK, {"segments": segments, "x_start": Entry(x), "y_start": Entry(y), **start})
+def program(
+    *segments: Segment, unit: Unit = Unit.MM, x: float = 0.0, y: float = 0.0, start: Mapping[str, object] | None = None
+) -> Program:
+    """A program of one block from x, y, with tool 1 of diameter 0.5; `start` changes fields of START."""
+    block = changed(BLOCK, {"segments": segments, "x_start": Entry(x), "y_start": Entry(y), **(start or {})})
     return Program(unit=unit, tools=(Tool(1, "END MILL", Entry(0.5)),), blocks=(block,))
 
 
@@ -84,12 +91,12 @@ def _numbers(one: Field) -> st.SearchStrategy[float]:
 
 
 def _unread(one: Field, unit: Unit) -> st.SearchStrategy[Unread]:
-    def kept(text: str) -> Unread | None:
-        reason = parse(text, one.kind, unit)
-        return Unread(text, reason.reason) if isinstance(reason, Unreadable) else None
+    def kept(text: str) -> Unread:
+        value = parse(text, one.kind, unit)
+        assert isinstance(value, Unreadable)
+        return Unread(text, value.reason)
 
-    texts = st.text(st.characters(codec="utf-8"), min_size=1, max_size=12).filter(lambda text: text.strip())
-    return texts.map(kept).filter(lambda unread: unread is not None).map(lambda unread: unread or Unread("", ""))
+    return st.text(st.characters(codec="utf-8"), max_size=4).map(lambda text: kept("x" + text))
 
 
 def typed(one: Field, unit: Unit) -> st.SearchStrategy[Typed]:
@@ -116,7 +123,7 @@ def blocks(unit: Unit) -> st.SearchStrategy[Block]:
         Block,
         **_entries(Form.START, unit),
         cutter_comp=st.sampled_from(CutterComp),
-        segments=st.lists(segments(unit), max_size=4).map(tuple),
+        segments=st.lists(segments(unit), max_size=3).map(tuple),
     )
 
 
@@ -124,7 +131,7 @@ def _programs(unit: Unit) -> st.SearchStrategy[Program]:
     names = st.text(st.characters(codec="utf-8"), max_size=8).filter(str.isprintable)
     diameter = typed(TABLES[Form.TOOL][-1], unit)
     tools = st.lists(
-        st.builds(Tool, st.integers(1, 9999), names, diameter), max_size=3, unique_by=lambda one: one.number
+        st.builds(Tool, st.integers(1, 9999), names, diameter), max_size=2, unique_by=lambda one: one.number
     )
     return st.builds(
         Program,
@@ -132,7 +139,7 @@ def _programs(unit: Unit) -> st.SearchStrategy[Program]:
         st.builds(Parameters, **_entries(Form.PARAMETERS, unit), path=st.sampled_from(PathChoice)),
         st.builds(PartSetup, names, **_entries(Form.SETUP, unit)),
         tools.map(lambda some: tuple(sorted(some, key=lambda one: one.number))),
-        st.lists(blocks(unit), max_size=3).map(tuple),
+        st.lists(blocks(unit), max_size=2).map(tuple),
     )
 
 

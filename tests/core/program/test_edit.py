@@ -263,7 +263,7 @@ def test_set_unit_keeps_what_could_not_be_read():
     assert edit.set_unit(given, Unit.IN).blocks[0].segments[0] == LineSegment(x_end=unread, y_end=Entry(0.0))
 
 
-@settings(derandomize=True, max_examples=60)
+@settings(derandomize=True, max_examples=30)
 @given(programs)
 def test_set_unit_loses_no_field(given_program):
     other = Unit.IN if given_program.unit is Unit.MM else Unit.MM

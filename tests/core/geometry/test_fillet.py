@@ -1,0 +1,152 @@
+"""Blends of two pieces: by hand for lines, by law for every pair of line and arc."""
+
+from __future__ import annotations
+
+from math import cos, dist, pi, sin, sqrt, tau
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from core.geometry.fillet import Fillet, NoFillet, Reason, direction, fillet
+from core.geometry.piece import Arc, Line, Piece, Point, Turn
+
+
+def near(one: Point, other: Point, tolerance: float = 1e-9) -> bool:
+    return dist(one, other) <= tolerance
+
+
+def blended(before: Piece, behind: Piece, radius: float) -> Fillet:
+    found = fillet(before, behind, radius)
+    assert isinstance(found, Fillet)
+    return found
+
+
+def largest_of(before: Piece, behind: Piece) -> float | None:
+    refused = fillet(before, behind, 1e4)
+    assert isinstance(refused, NoFillet)
+    assert refused.reason is Reason.TOO_LARGE
+    return refused.largest
+
+
+def test_a_square_corner():
+    found = blended(Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, 10.0)), 2.0)
+    assert found.before == Line((0.0, 0.0), (8.0, 0.0))
+    assert near(found.arc.centre, (8.0, 2.0))
+    assert found.arc.turn is Turn.CCW
+    assert found.behind == Line((10.0, 2.0), (10.0, 10.0))
+
+
+def test_a_corner_to_the_right():
+    found = blended(Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, -10.0)), 2.0)
+    assert near(found.arc.centre, (8.0, -2.0))
+    assert found.arc.turn is Turn.CW
+
+
+def test_a_blend_may_use_a_whole_line():
+    found = blended(Line((0.0, 0.0), (2.0, 0.0)), Line((2.0, 0.0), (2.0, 10.0)), 2.0)
+    assert found.before is None
+    assert near(found.arc.start, (0.0, 0.0))
+
+
+def test_a_radius_that_does_not_fit_says_the_largest_that_does():
+    short, long = Line((0.0, 0.0), (2.0, 0.0)), Line((2.0, 0.0), (2.0, 10.0))
+    assert largest_of(short, long) == pytest.approx(2.0)
+    sharp = Line((2.0, 0.0), (0.0, 2.0))
+    largest = sqrt(2) - 1
+    assert largest_of(short, sharp) == pytest.approx(2.0 * largest)
+    assert isinstance(fillet(short, long, 2.1), NoFillet)
+    assert isinstance(fillet(short, sharp, 2.0 * largest - 1e-6), Fillet)
+
+
+def test_no_corner_no_blend():
+    line = Line((0.0, 0.0), (2.0, 0.0))
+    assert fillet(line, Line((2.0, 0.0), (5.0, 0.0)), 1.0) == NoFillet(Reason.TANGENT)
+    assert fillet(line, Arc((2.0, 0.0), (3.0, 1.0), (2.0, 1.0), Turn.CCW), 1.0) == NoFillet(Reason.TANGENT)
+    assert fillet(line, Line((2.0, 0.0), (0.0, 0.0)), 1.0) == NoFillet(Reason.REVERSAL)
+
+
+def test_line_and_arc_by_hand():
+    """Along X into a circle of radius 5 about (5, 0) that starts upwards at (0, 0): the blend of 1 lies at (h, 1)."""
+    before = Line((-10.0, 0.0), (0.0, 0.0))
+    behind = Arc((0.0, 0.0), (5.0, 5.0), (5.0, 0.0), Turn.CW)
+    found = blended(before, behind, 1.0)
+    assert found.arc.turn is Turn.CCW
+    assert near(found.arc.centre, (5.0 - sqrt(35.0), 1.0))
+    assert near(found.arc.start, (5.0 - sqrt(35.0), 0.0))
+    assert dist(found.arc.end, (5.0, 0.0)) == pytest.approx(5.0)
+
+
+def test_two_arcs_by_hand():
+    """Two half circles of radius 3 beside each other meet at a cusp; the blend of radius 1 stands above it."""
+    before = Arc((-6.0, 0.0), (0.0, 0.0), (-3.0, 0.0), Turn.CW)
+    behind = Arc((0.0, 0.0), (6.0, 0.0), (3.0, 0.0), Turn.CW)
+    found = blended(before, behind, 1.0)
+    assert near(found.arc.centre, (0.0, sqrt(7.0)))
+    assert found.arc.turn is Turn.CCW
+    assert near(found.arc.start, (-0.75, sqrt(7.0) * 0.75))
+
+
+def test_an_arc_too_short_for_the_radius():
+    before = Line((-10.0, 0.0), (0.0, 0.0))
+    behind = Arc((0.0, 0.0), (0.1, 1.0), (5.0, 0.0), Turn.CW)
+    assert fillet(before, behind, 3.0) == NoFillet(Reason.TOO_LARGE)
+
+
+def piece_from(corner: Point, heading: float, length: float, bend: float) -> Piece:
+    """A piece that starts at a corner: straight, or turning by `bend` on its way."""
+    if abs(bend) < 0.1:
+        return Line(corner, (corner[0] + length * cos(heading), corner[1] + length * sin(heading)))
+    radius, turn = length / abs(bend), Turn.CCW if bend > 0 else Turn.CW
+    centre = (corner[0] - turn * radius * sin(heading), corner[1] + turn * radius * cos(heading))
+    out = heading + bend
+    return Arc(corner, (centre[0] + turn * radius * sin(out), centre[1] - turn * radius * cos(out)), centre, turn)
+
+
+def back(piece: Piece) -> Piece:
+    if isinstance(piece, Line):
+        return Line(piece.end, piece.start)
+    return Arc(piece.end, piece.start, piece.centre, Turn(-piece.turn))
+
+
+pieces = st.tuples(st.floats(0, tau), st.floats(2, 30), st.floats(-3.0, 3.0))
+
+
+@settings(derandomize=True, max_examples=400)
+@given(pieces, pieces, st.floats(0.05, 3.0))
+def test_a_blend_is_tangent_to_both_and_lies_within_both(first, second, radius):
+    before, behind = back(piece_from((1.0, 2.0), *first)), piece_from((1.0, 2.0), *second)
+    found = fillet(before, behind, radius)
+    assume(isinstance(found, Fillet))
+    assert isinstance(found, Fillet)
+    arc = found.arc
+    assert arc.radius == pytest.approx(radius, abs=1e-7)
+    assert dist(arc.end, arc.centre) == pytest.approx(radius, abs=1e-7)
+    for piece, point, left in ((before, arc.start, found.before), (behind, arc.end, found.behind)):
+        assert near(direction(piece, point), direction(arc, point), 1e-6)
+        assert (left.length if left else 0.0) <= piece.length + 1e-7
+    if found.before:
+        assert (found.before.start, found.before.end) == (before.start, arc.start)
+    if found.behind:
+        assert (found.behind.start, found.behind.end) == (arc.end, behind.end)
+
+
+@settings(derandomize=True, max_examples=200)
+@given(pieces, pieces, st.floats(0.05, 3.0))
+def test_a_blend_is_the_same_travelled_back(first, second, radius):
+    before, behind = back(piece_from((0.0, 0.0), *first)), piece_from((0.0, 0.0), *second)
+    one, other = fillet(before, behind, radius), fillet(back(behind), back(before), radius)
+    assert type(one) is type(other)
+    if isinstance(one, Fillet) and isinstance(other, Fillet):
+        assert near(one.arc.centre, other.arc.centre, 1e-6)
+        assert one.arc.turn == -other.arc.turn
+
+
+@settings(derandomize=True, max_examples=100)
+@given(st.floats(0.2, pi - 0.2), st.floats(5, 20), st.floats(5, 20))
+def test_the_largest_radius_of_a_corner_fits(corner, one, other):
+    before, behind = Line((-one, 0.0), (0.0, 0.0)), piece_from((0.0, 0.0), corner, other, 0.0)
+    largest = largest_of(before, behind)
+    assert largest is not None
+    assert isinstance(fillet(before, behind, largest * (1 - 1e-9)), Fillet)
+    assert isinstance(fillet(before, behind, largest * (1 + 1e-6)), NoFillet)

@@ -1,0 +1,230 @@
+"""A whole block: how segments follow one another, what is carried over, what counts as determined and closed."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import replace
+from itertools import pairwise
+from math import dist
+
+import pytest
+from hypothesis import given, settings
+
+from core.geometry.piece import Arc, Line
+from core.program.assist import solve_block
+from core.program.model import ArcSegment, BlendSegment, Entry, LineSegment, Program, Unread
+from core.program.solved import Solved, SolvedBlock
+from core.units import Unit, sentence, to_mm
+from tests.core.program.parts import arc, blend, line, number, program, programs, tags
+
+
+def solved(given_program: Program) -> SolvedBlock:
+    return solve_block(given_program.blocks[0], given_program)
+
+
+def codes(block: SolvedBlock) -> list[tuple[str, float | None]]:
+    return [(finding.code, finding.segment) for finding in block.every_finding]
+
+
+POCKET = program(
+    line(x_end=4.0, y_end=0.25, feed=12.0),
+    arc("CCW", x_end=4.75, y_end=1.0, x_center=4.0, y_center=1.0),
+    line(x_end=4.75, y_end=3.5),
+    blend(0.5),
+    line(x_end=3.0, y_end=3.5),
+    line(x_end=2.5, y_end=3.0),
+    line(x_end=1.0, y_end=3.0),
+    arc("CW", x_end=0.5, y_end=3.5, x_center=1.0, y_center=3.5),
+    line(x_end=0.25, y_end=3.5),
+    line(x_end=0.25, y_end=0.25),
+    line(x_end=2.0, y_end=0.25),
+    unit=Unit.IN,
+    x=2.0,
+    y=0.25,
+)
+
+
+def test_a_pocket():
+    block = solved(POCKET)
+    assert block.postable
+    assert block.closed
+    assert block.determined == 11
+    assert block.every_finding == ()
+    assert [number_ for number_, _ in block.pieces] == list(range(1, 12))
+    third, corner, fifth = block.segments[2:5]
+    assert isinstance(corner.piece, Arc)
+    assert dist(corner.piece.centre, (to_mm(4.25, Unit.IN), to_mm(3.0, Unit.IN))) < 1e-9
+    assert third.piece == Line(block.segments[1].end or (0, 0), corner.piece.start)
+    assert fifth.piece == Line(corner.piece.end, fifth.end or (0, 0))
+
+
+def test_pieces_join_end_to_start():
+    pieces = [piece for _, piece in solved(POCKET).pieces]
+    for before, behind in pairwise(pieces):
+        assert before.end == behind.start
+
+
+def test_neighbours_of_a_blend_show_what_was_programmed():
+    third = solved(POCKET).segments[2]
+    assert number(third, "y_end") == 3.5
+    assert number(third, "length") == pytest.approx(2.5)
+    assert third.end == (to_mm(4.75, Unit.IN), to_mm(3.5, Unit.IN))
+
+
+def test_feeds_and_z_are_carried_over():
+    block = solved(
+        program(
+            line(x_end=1.0, y_end=0.0), line(x_end=2.0, y_end=0.0, feed=7.0, z_end=-0.5), line(x_end=3.0, y_end=0.0)
+        )
+    )
+    assert [segment.feed for segment in block.segments] == [20.0, 7.0, 7.0]
+    assert [(segment.z_start, segment.z_end) for segment in block.segments] == [
+        (-0.25, -0.25),
+        (-0.25, -0.5),
+        (-0.5, -0.5),
+    ]
+    first, second, third = block.segments
+    assert (first.values["feed"], first.values["z_end"]) == (Solved(20.0), Solved(-0.25))
+    assert (second.values["feed"], second.values["z_end"]) == (Entry(7.0), Entry(-0.5))
+    assert (third.values["feed"], third.values["z_end"]) == (Solved(7.0), Solved(-0.5))
+
+
+def test_inch_values_are_millimetres_inside_and_inches_on_the_form():
+    block = solved(program(line(length=1.0, angle=0.0), unit=Unit.IN, x=-1.0))
+    assert block.segments[0].piece == Line((-25.4, 0.0), (0.0, 0.0))
+    assert number(block.segments[0], "x_end") == 0.0
+    assert block.segments[0].feed == 508.0
+    assert (block.z_bottom, block.plunge_feed, block.speed, block.tool_diameter) == (-6.35, 508.0, 300.0, 12.7)
+
+
+def test_an_edit_upstream_recalculates():
+    before = solved(program(line(x_end=1.0, y_end=0.0), line(length=2.0, angle=90.0)))
+    behind = solved(program(line(x_end=5.0, y_end=0.0), line(length=2.0, angle=90.0)))
+    assert number(before.segments[1], "x_end") == pytest.approx(1.0)
+    assert number(behind.segments[1], "x_end") == pytest.approx(5.0)
+    assert tags(behind.segments[1])["x_end"] == "CAL"
+
+
+def test_a_gap_stops_what_is_determined_and_later_segments_go_on_from_what_is_typed():
+    block = solved(
+        program(
+            line(x_end=1.0, y_end=0.0),
+            LineSegment(),
+            line(x_end=3.0, y_end=3.0),
+            line(x_end=0.0, y_end=3.0),
+            line(x_end=0.0, y_end=0.0),
+        )
+    )
+    assert block.determined == 1
+    assert [number_ for number_, _ in block.pieces] == [1]
+    assert not block.postable
+    assert not block.closed
+    assert codes(block) == [("MISSING", 2)]
+    assert block.segments[2].piece is None
+    assert block.segments[2].start is None
+    assert block.segments[3].piece == Line((3.0, 3.0), (0.0, 3.0))
+
+
+def test_a_contradiction_is_not_determined_although_its_end_is_typed():
+    block = solved(program(line(x_end=1.0, y_end=0.0, length=9.0), line(x_end=3.0, y_end=3.0)))
+    assert block.determined == 0
+    assert block.pieces == ()
+    assert block.segments[1].piece == Line((1.0, 0.0), (3.0, 3.0))
+
+
+@pytest.mark.parametrize(
+    ("off", "closed"), [(0.0, True), (0.00253, True), (0.00255, False), (-0.00253, True), (1.0, False)]
+)
+def test_closed(off, closed):
+    corners = (line(x_end=2.0, y_end=0.0), line(x_end=2.0, y_end=2.0), line(x_end=off, y_end=0.0))
+    assert solved(program(*corners)).closed is closed
+
+
+def test_no_length_is_not_closed():
+    block = solved(program(line(x_end=0.0, y_end=0.0)))
+    assert not block.closed
+    assert block.determined == 1
+    assert not block.postable
+    assert codes(block) == [("ZERO_LENGTH", 1)]
+
+
+def test_a_segment_without_length_is_passed_over():
+    block = solved(program(line(x_end=2.0, y_end=0.0), line(x_end=2.0, y_end=0.0), line(x_end=2.0, y_end=2.0)))
+    assert block.determined == 3
+    assert [number_ for number_, _ in block.pieces] == [1, 3]
+    assert block.postable
+
+
+def test_unreadable_text_blocks_posting_and_is_said_once():
+    block = solved(program(LineSegment(x_end=Unread("1,5", "Type a point."), y_end=Entry(0.0))))
+    (finding,) = block.every_finding
+    assert (finding.code, finding.segment, finding.field) == ("UNREADABLE", 1, "x_end")
+    assert sentence(finding, Unit.IN) == "X END: 1,5 cannot be read. Type a point."
+    assert block.segments[0].values["x_end"] == Unread("1,5", "Type a point.")
+    assert block.segments[0].missing == ("x_end", "length", "angle")
+
+
+def test_unreadable_text_in_a_feed_leaves_the_shape_known():
+    block = solved(program(LineSegment(x_end=Entry(1.0), y_end=Entry(0.0), feed=Unread("x", "Type a number."))))
+    assert block.segments[0].piece == Line((0.0, 0.0), (1.0, 0.0))
+    assert codes(block) == [("UNREADABLE", 1)]
+    assert not block.postable
+
+
+def test_a_number_out_of_its_range_is_not_used():
+    block = solved(program(line(length=-1.0, angle=0.0)))
+    (finding,) = block.every_finding
+    assert (finding.code, finding.segment, finding.field) == ("OUT_OF_RANGE", 1, "length")
+    assert finding.text == "XY LENGTH must be above 0, at most 100000."
+    assert block.segments[0].piece is None
+
+
+@pytest.mark.parametrize("name", ["x_start", "y_start"])
+def test_without_a_start_nothing_is_determined(name):
+    block = solved(program(line(x_end=1.0, y_end=0.0), line(x_end=1.0, y_end=1.0), start={name: None}))
+    assert block.determined == 0
+    assert codes(block) == [("MISSING", 0)]
+    assert block.segments[1].piece == Line((1.0, 0.0), (1.0, 1.0))
+
+
+@settings(derandomize=True, max_examples=80, deadline=None)
+@given(programs)
+def test_any_program_is_solved_without_raising(given_program):
+    for block in given_program.blocks:
+        found = solve_block(block, given_program)
+        assert len(found.segments) == len(block.segments)
+        for typed, one in zip(block.segments, found.segments, strict=True):
+            for name, value in one.values.items():
+                entered = getattr(typed, name)
+                assert value == entered if entered is not None else not isinstance(value, Entry | Unread)
+        for finding in found.every_finding:
+            assert sentence(finding, given_program.unit).endswith((".", "?", "!"))
+        for segment in found.segments:
+            assert all(finding.segment == segment.number for finding in segment.findings)
+        assert all(finding.segment == 0 for finding in found.findings)
+        assert found.determined == len(found.segments) or not found.postable
+
+
+def test_typing_a_part_in_from_nothing_always_says_what_is_next():
+    segments: tuple[LineSegment | ArcSegment | BlendSegment, ...] = (LineSegment(), ArcSegment(), BlendSegment())
+    for segment in segments:
+        block = solved(program(line(x_end=1.0, y_end=0.0), segment))
+        assert block.determined == 1
+        assert not block.postable
+        assert next(finding.segment for finding in block.every_finding) == 2
+
+
+def test_blocks_do_not_share_tools():
+    two = replace(POCKET, tools=())
+    assert codes(solved(two)) == [("TOOL_MISSING", 0)]
+    assert solved(two).determined == 11
+
+
+def test_no_numpy_is_loaded():
+    """The first screen is painted before the heavy packages are there."""
+    names = ("assist", "convert", "edit", "fields", "history", "model", "solved", "store", "tools")
+    imports = ", ".join(f"core.program.{name}" for name in names)
+    script = f"import {imports}, core.units, core.geometry.fillet, sys; print('numpy' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"

@@ -1,0 +1,119 @@
+"""BLEND ARCs in their places, and out of place."""
+
+from __future__ import annotations
+
+import pytest
+
+from core.geometry.piece import Arc, Line
+from core.program.assist import solve_block
+from core.program.model import BlendSegment, LineSegment, Segment, Unread
+from core.program.solved import Solved, SolvedBlock
+from core.units import Unit, sentence
+from tests.core.program.parts import arc, blend, line, program
+
+
+def solved(*segments: Segment) -> SolvedBlock:
+    given = program(*segments)
+    return solve_block(given.blocks[0], given)
+
+
+def texts(block: SolvedBlock) -> list[str]:
+    return [f"{one.code} {one.segment} {one.field}: {sentence(one, Unit.MM)}" for one in block.every_finding]
+
+
+RIGHT, UP, LEFT = line(x_end=10.0, y_end=0.0), line(x_end=10.0, y_end=10.0), line(x_end=0.0, y_end=10.0)
+
+
+def test_a_line_between_two_blends_loses_both_its_ends():
+    block = solved(RIGHT, blend(2.0), UP, blend(3.0), LEFT)
+    assert texts(block) == []
+    assert block.segments[2].piece == Line((10.0, 2.0), (10.0, 7.0))
+    assert [number for number, _ in block.pieces] == [1, 2, 3, 4, 5]
+
+
+def test_the_second_blend_has_what_the_first_leaves():
+    block = solved(RIGHT, blend(6.0), UP, blend(5.0), LEFT)
+    assert texts(block) == [
+        "BLEND_RADIUS 4 radius: RADIUS 5.000 does not fit between segments 3 and 5: the largest that fits is 4.000."
+    ]
+    assert block.determined == 3
+    assert block.segments[2].piece == Line((10.0, 6.0), (10.0, 10.0))
+    assert block.segments[4].piece == Line((10.0, 10.0), (0.0, 10.0))
+
+
+def test_nothing_left_to_blend():
+    block = solved(RIGHT, blend(10.0), UP, blend(1.0), LEFT)
+    words = "Segment 3 has no length left to blend: correct it or delete this BLEND ARC."
+    assert texts(block) == [f"BLEND_RADIUS 4 radius: {words}"]
+    assert block.segments[2].piece is None
+    assert block.segments[2].end == (10.0, 10.0)
+
+
+def test_blends_of_arcs_keep_their_centres():
+    half = arc("CW", x_end=20.0, y_end=0.0, x_center=15.0, y_center=0.0)
+    block = solved(RIGHT, blend(1.0), half)
+    assert texts(block) == []
+    piece = block.segments[2].piece
+    assert isinstance(piece, Arc)
+    assert piece.centre == (15.0, 0.0)
+    assert piece.end == (20.0, 0.0)
+    assert block.segments[2].values["radius"] == Solved(5.0)
+
+
+@pytest.mark.parametrize(
+    ("segments", "at", "words"),
+    [
+        ((blend(1.0), RIGHT), 1, "cannot be the first segment: put a LINE or an ARC before it."),
+        ((RIGHT, blend(1.0)), 2, "cannot be the last segment: add the LINE or ARC behind it."),
+        (
+            (RIGHT, blend(1.0), blend(1.0), UP),
+            3,
+            "cannot stand beside another BLEND ARC: delete one or put a segment between.",
+        ),
+    ],
+)
+def test_out_of_place(segments, at, words):
+    block = solved(*segments)
+    assert f"BLEND_PLACE {at} radius: A BLEND ARC {words}" in texts(block)
+    assert not block.postable
+    assert block.determined < len(segments)
+
+
+def test_no_corner():
+    block = solved(RIGHT, blend(1.0), line(x_end=20.0, y_end=0.0))
+    words = "There is no corner to blend: segments 1 and 3 already run smoothly into each other."
+    assert texts(block) == [f"BLEND_TANGENT 2 radius: {words}"]
+    back = solved(RIGHT, blend(1.0), line(x_end=0.0, y_end=0.0))
+    words = "No arc fits: segment 3 goes straight back along segment 1."
+    assert texts(back) == [f"BLEND_RADIUS 2 radius: {words}"]
+
+
+def test_too_large_for_an_arc():
+    quarter = arc("CW", x_end=15.0, y_end=5.0, x_center=15.0, y_center=0.0)
+    block = solved(RIGHT, blend(30.0), quarter)
+    words = "RADIUS 30.000 does not fit between segments 1 and 3: enter a smaller one."
+    assert texts(block) == [f"BLEND_RADIUS 2 radius: {words}"]
+
+
+def test_a_blend_waits_for_its_neighbours():
+    block = solved(RIGHT, blend(1.0), LineSegment(), UP)
+    assert [one.segment for one in block.every_finding] == [3]
+    assert block.determined == 1
+    assert block.segments[0].piece == Line((0.0, 0.0), (10.0, 0.0))
+
+
+def test_beside_a_segment_without_length():
+    block = solved(RIGHT, blend(1.0), line(x_end=10.0, y_end=0.0), UP)
+    words = "Segment 3 has no length left to blend: correct it or delete this BLEND ARC."
+    assert f"BLEND_RADIUS 2 radius: {words}" in texts(block)
+    assert block.determined == 1
+
+
+def test_without_a_radius():
+    block = solved(RIGHT, BlendSegment(), UP)
+    assert texts(block) == ["MISSING 2 radius: Not determined yet: enter RADIUS."]
+    assert block.segments[1].missing == ("radius",)
+    assert block.segments[2].piece == Line((10.0, 0.0), (10.0, 10.0))
+    unread = solved(RIGHT, BlendSegment(radius=Unread("x", "Type a number.")), UP)
+    assert texts(unread) == ["UNREADABLE 2 radius: RADIUS: x cannot be read. Type a number."]
+    assert unread.determined == 1

@@ -1,0 +1,171 @@
+"""A LINE from what is typed of it."""
+
+from __future__ import annotations
+
+from math import dist
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from core.geometry.piece import Line
+from core.program.assist import solve_block
+from core.program.model import LineSegment
+from core.program.solved import SolvedSegment
+from core.units import Unit, sentence
+from tests.core.program.parts import line, number, program, tags
+
+
+def solved(segment: LineSegment, x: float = 0.0, y: float = 0.0) -> SolvedSegment:
+    """The segment as the only one of a metric block that starts at x, y."""
+    given_program = program(segment, x=x, y=y)
+    return solve_block(given_program.blocks[0], given_program).segments[0]
+
+
+def text(segment: SolvedSegment) -> str:
+    (finding,) = segment.findings
+    return f"{finding.code} {finding.field}: {sentence(finding, Unit.MM)}"
+
+
+@pytest.mark.parametrize(
+    ("typed", "end"),
+    [
+        ({"x_end": 4.0, "y_end": 5.0}, (4.0, 5.0)),
+        ({"length": 5.0, "angle": 90.0}, (1.0, 6.0)),
+        ({"x_end": 4.0, "angle": 45.0}, (4.0, 4.0)),
+        ({"y_end": 4.0, "angle": 135.0}, (-2.0, 4.0)),
+        ({"x_end": 1.0, "angle": 90.0, "length": 2.0}, (1.0, 3.0)),
+        ({"x_end": 4.0, "length": 5.0, "choice": 0}, (4.0, 5.0)),
+        ({"x_end": 4.0, "length": 5.0, "choice": 1}, (4.0, -3.0)),
+        ({"y_end": 4.0, "length": 5.0, "choice": 0}, (5.0, 4.0)),
+        ({"x_end": 4.0, "length": 3.0}, (4.0, 1.0)),
+        ({"x_end": 4.0, "y_end": 5.0, "length": 5.0, "angle": 53.130}, (4.0, 5.0)),
+        ({"x_end": 4.0, "length": 5.0, "angle": -53.130}, (4.0, -3.0)),
+    ],
+)
+def test_solves(typed, end):
+    found = solved(line(**typed), 1.0, 1.0)
+    assert found.findings == ()
+    assert isinstance(found.piece, Line)
+    assert dist(found.piece.end, end) < 1e-4
+    assert found.piece.start == (1.0, 1.0)
+
+
+def test_an_end_gives_length_and_angle():
+    found = solved(line(x_end=3.0, y_end=-4.0))
+    assert number(found, "length") == 5.0
+    assert number(found, "angle") == pytest.approx(306.8698976)
+    assert tags(found) == {
+        "x_end": "typed",
+        "y_end": "typed",
+        "z_end": "CAL",
+        "length": "CAL",
+        "angle": "CAL",
+        "feed": "CAL",
+    }
+
+
+def test_what_is_typed_is_never_replaced():
+    found = solved(line(x_end=4.0, y_end=3.0, length=5.001))
+    assert found.findings == ()
+    assert number(found, "length") == 5.001
+    assert tags(found)["length"] == "typed"
+
+
+def test_two_solutions_wait_to_be_picked():
+    found = solved(line(x_end=4.0, length=5.0))
+    assert text(found) == "PICK_SOLUTION choice: Two solutions fit: pick one of them."
+    assert found.piece is None
+    assert found.end is None
+    assert [piece.end for piece in found.choices] == [(4.0, 3.0), (4.0, -3.0)]
+    assert found.sketch == found.choices[0]
+    assert tags(found)["y_end"] == "blank"
+
+
+def test_a_picked_solution_still_shows_both():
+    found = solved(line(x_end=4.0, length=5.0, choice=1))
+    assert len(found.choices) == 2
+    assert found.piece == found.choices[1]
+    assert number(found, "y_end") == -3.0
+
+
+@pytest.mark.parametrize(
+    ("typed", "missing", "words"),
+    [
+        (
+            {},
+            ("x_end", "y_end", "length", "angle"),
+            "enter X END and Y END, or XY LENGTH and XY ANGLE, or one end and one of these.",
+        ),
+        ({"x_end": 3.0}, ("y_end", "length", "angle"), "enter Y END, XY LENGTH or XY ANGLE."),
+        ({"y_end": 3.0}, ("x_end", "length", "angle"), "enter X END, XY LENGTH or XY ANGLE."),
+        ({"length": 3.0}, ("x_end", "y_end", "angle"), "enter X END, Y END or XY ANGLE."),
+        ({"angle": 3.0}, ("x_end", "y_end", "length"), "enter X END, Y END or XY LENGTH."),
+        ({"x_end": 1.0, "angle": 90.0}, ("y_end", "length"), "enter Y END or XY LENGTH."),
+    ],
+)
+def test_says_what_is_missing(typed, missing, words):
+    found = solved(line(**typed), 1.0, 1.0)
+    assert found.piece is None
+    assert found.missing == missing
+    assert text(found) == f"MISSING {missing[0]}: Not determined yet: {words}"
+
+
+@pytest.mark.parametrize(
+    ("typed", "words"),
+    [
+        (
+            {"x_end": 3.0, "y_end": 4.0, "length": 6.0},
+            "length: XY LENGTH is 6.000, but 5.000 by X END and Y END: correct or blank one of them.",
+        ),
+        (
+            {"x_end": 3.0, "y_end": 4.0, "angle": 50.0},
+            "angle: XY ANGLE is 50.000, but 53.130 by X END and Y END: correct or blank one of them.",
+        ),
+        (
+            {"x_end": 3.0, "angle": 45.0, "length": 6.0},
+            "length: XY LENGTH is 6.000, but 4.243 by X END and XY ANGLE: correct or blank one of them.",
+        ),
+        (
+            {"x_end": 1.0, "angle": 90.0, "length": 6.0},
+            "x_end: X END is 1.000, but 0.000 by XY LENGTH and XY ANGLE: correct or blank one of them.",
+        ),
+        ({"x_end": -3.0, "angle": 45.0}, "angle: XY ANGLE 45.000 leads away from X END -3.000: correct one of them."),
+        ({"y_end": 6.0, "length": 5.0}, "length: XY LENGTH 5.000 does not reach Y END 6.000: it takes at least 6.000."),
+    ],
+)
+def test_contradictions_name_both_sides(typed, words):
+    found = solved(line(**typed))
+    assert found.piece is None
+    assert text(found) == f"CONTRADICTION {words}"
+
+
+def test_a_line_without_length_is_passed_over():
+    found = solved(line(x_end=1.0, y_end=1.0), 1.0, 1.0)
+    assert text(found) == "ZERO_LENGTH None: This segment has no length: it is passed over."
+    assert found.piece is None
+    assert found.end == (1.0, 1.0)
+
+
+def test_a_sketch_leads_to_what_is_typed():
+    assert solved(line(x_end=3.0), 1.0, 1.0).sketch == Line((1.0, 1.0), (3.0, 1.0))
+    assert solved(line(angle=3.0), 1.0, 1.0).sketch is None
+
+
+coordinates = st.floats(-50, 50).map(lambda value: round(value, 4))
+PAIRS = (("x_end", "y_end"), ("length", "angle"), ("x_end", "angle"), ("y_end", "angle"))
+
+
+@settings(derandomize=True, max_examples=200)
+@given(st.tuples(coordinates, coordinates), st.tuples(coordinates, coordinates))
+def test_any_two_calculated_fields_give_the_line_again(start, end):
+    assume(min(abs(start[0] - end[0]), abs(start[1] - end[1])) > 0.5)
+    whole = solved(line(x_end=end[0], y_end=end[1]), *start)
+    for pair in PAIRS:
+        found = solved(line(**{name: number(whole, name) for name in pair}), *start)
+        assert found.findings == ()
+        assert found.piece is not None
+        assert dist(found.piece.end, end) < 1e-9
+    for name in ("x_end", "y_end"):
+        two = solved(line(**{name: number(whole, name), "length": number(whole, "length")}), *start)
+        assert min(dist(piece.end, end) for piece in two.choices) < 1e-5
