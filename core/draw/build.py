@@ -36,28 +36,32 @@ def contour_scene(
     pieces meet; `gouges` the spots cut into; `uncut` stretches of the surface; `cutter` (centre, radius); `current`
     the segment under the cursor; `start` the contour's START.
     """
-    groups: tuple[tuple[Sequence[Path], Style, bool], ...] = (
-        ((surface,), Style.SURFACE, False),
-        (sketches, Style.SURFACE, True),
-        (rough, Style.RAPID, True),
-        (leads, Style.LEAD, False),
-        ((path,), Style.PATH, False),
-        (deleted, Style.DELETED, True),
-        (uncut, Style.UNCUT, False),
-        ((current or EMPTY,), Style.CURRENT, False),
+    layers = (
+        *_layers(sketches, Style.SURFACE, dashed=True),
+        *_layers((surface,), Style.SURFACE),
+        *_layers(rough, Style.RAPID, dashed=True),
+        *_layers(leads, Style.LEAD),
+        *_layers((path,), Style.PATH),
+        *_layers(uncut, Style.UNCUT),
+        *_layers(deleted, Style.DELETED, dashed=True),
+        *_layers((current or EMPTY,), Style.CURRENT),
     )
-    return Scene(
-        tuple(Layer(one, style, dashed) for paths, style, dashed in groups for one in paths if len(one)),
-        () if cutter is None else (Circle(*cutter),),
-        (
-            *_travel(path if len(path) else surface),
-            *_plunge(leads, path),
-            *(() if start is None else (Mark(start, Style.START, Symbol.START),)),
-            *(Mark(at, Style.DELETED, Symbol.DELETED) for at in meetings),
-            *(Mark(at, Style.GOUGE, Symbol.GOUGE) for at in gouges),
-        ),
-        unit,
+    marks = (
+        *_travel(path if len(path) else surface),
+        *_plunge(leads, path),
+        *_spots(() if start is None else (start,), Style.START, Symbol.START),
+        *_spots(meetings, Style.DELETED, Symbol.DELETED),
+        *_spots(gouges, Style.GOUGE, Symbol.GOUGE),
     )
+    return Scene(layers, () if cutter is None else (Circle(*cutter),), marks, unit)
+
+
+def _layers(paths: Sequence[Path], style: Style, *, dashed: bool = False) -> Iterator[Layer]:
+    return (Layer(path, style, dashed) for path in paths if len(path))
+
+
+def _spots(places: Sequence[Point], style: Style, symbol: Symbol) -> Iterator[Mark]:
+    return (Mark(at, style, symbol) for at in places)
 
 
 def stretch(surface: Path, first: float, start: Point, last: float, end: Point) -> Path:
@@ -91,7 +95,7 @@ def _before(piece: Piece, point: Point, other: Point) -> bool:
 
 def _travel(path: Path) -> Iterator[Mark]:
     """An arrow in the middle of the path's first piece with a length."""
-    for row in np.flatnonzero(np.hypot(*(path.ends - path.starts).T) > 0.0)[:1].tolist():
+    for row in np.flatnonzero(path.lengths > 0.0)[:1].tolist():
         at, along = _middle(path[row])
         yield Mark(at, Style.START, Symbol.ARROW, along)
 

@@ -15,10 +15,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.draw.scene import Layer
+from core.draw.scene import BEYOND, Layer
 from core.draw.view import TALL, View
 from core.geometry.path import Floats
-from core.tolerance import LARGEST
 
 SAG: Final = 0.1
 """How far a chord may stray from its arc, in cells' widths: less than half a dot of the finest mode."""
@@ -28,8 +27,6 @@ SHORT: Final = 0.25
 """An arc shorter than this, in cells' widths, is its own chord: half a dot of the finest mode."""
 CONCENTRIC: Final = 1e-9
 """An arc about the window's centre is all in sight or all out of it; this keeps the division finite."""
-BEYOND: Final = 10 * LARGEST
-"""A coordinate larger than this, or not a number, is not drawn."""
 
 Points = NDArray[np.complex128]
 Rows = NDArray[np.intp]

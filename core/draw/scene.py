@@ -8,14 +8,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum, IntEnum, auto
+from typing import Final
 
 import numpy as np
 
 from core.geometry.path import Floats, Path
 from core.geometry.piece import Point
+from core.tolerance import LARGEST
 from core.units import Unit
 
 Box = tuple[float, float, float, float]
+
+BEYOND: Final = 10 * LARGEST
+"""A coordinate larger than this, or not a number, is neither drawn nor fitted into a view."""
 
 
 class Style(IntEnum):
@@ -88,12 +93,12 @@ class Scene:
 
     @property
     def bounds(self) -> Box | None:
-        """Least x, least y, largest x, largest y of all that is finite; None for an empty scene."""
+        """Least x, least y, largest x, largest y of all that can be drawn; None for an empty scene."""
         boxes = [layer.path.boxes for layer in self.layers if len(layer.path)]
         boxes += [_box_of(circle.centre, circle.radius) for circle in self.circles]
         boxes += [_box_of(mark.at, 0.0) for mark in self.marks]
         rows = np.concatenate(boxes) if boxes else np.empty((0, 4))
-        rows = rows[np.all(np.isfinite(rows), axis=1)]
+        rows = rows[np.all(np.abs(rows) <= BEYOND, axis=1)]
         if not len(rows):
             return None
         (x0, y0), (x1, y1) = rows[:, :2].min(axis=0).tolist(), rows[:, 2:].max(axis=0).tolist()

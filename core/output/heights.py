@@ -8,16 +8,17 @@ A corner arc keeps the height of its corner.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import tau
+from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.geometry.path import Floats, Path
 from core.output.job import Floor, Job, Run
 from core.tolerance import JOINED
 
-WRAPPED = 1e-6
+WRAPPED: Final = 1e-6
 """Radians by which rounding may put an arc's first point before its segment's first point."""
 
 
@@ -40,42 +41,53 @@ def heights(job: Job, run: Run) -> Floats:
     return np.concatenate((lead_in, path, lead_out))
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class _Ground:
+    """The programmed contour: its floors and the row of each segment by number, and the arcs' angles."""
+
+    surface: Path
+    floors: dict[int, Floor]
+    rows: dict[int, int]
+    sweeps: Floats
+
+
 def _along(job: Job, path: Path) -> Floats:
-    floors = {floor.number: floor for floor in job.floors}
     rows = {int(number): row for row, number in enumerate(job.surface.numbers.tolist())}
-    found = [_ends(path, piece, floors, rows, job.surface) for piece in range(len(path))]
+    ground = _Ground(job.surface, {floor.number: floor for floor in job.floors}, rows, np.abs(job.surface.sweeps))
+    sweeps = np.abs(path.sweeps).tolist()
+    found = [_ends(path, piece, sweep, ground) for piece, sweep in enumerate(sweeps)]
     return np.array(found).reshape(-1, 2)
 
 
-def _ends(path: Path, piece: int, floors: dict[int, Floor], rows: dict[int, int], surface: Path) -> tuple[float, float]:
+def _ends(path: Path, piece: int, sweep: float, ground: _Ground) -> tuple[float, float]:
+    """Heights at a piece's two ends; no height at all for a piece of no segment."""
     number = float(path.numbers[piece])
-    floor = floors.get(int(number))
+    floor, row = ground.floors.get(int(number)), ground.rows.get(int(number))
     if floor is None:
         return -np.inf, -np.inf
-    if number != int(number) or int(number) not in rows:
+    if number != int(number) or row is None:
         return floor.z_end, floor.z_end
-    first, last = _fractions(path, piece, surface, rows[int(number)])
+    first, last = _fractions(path.points[piece : piece + 2], sweep, ground, row)
     rise = floor.z_end - floor.z_start
     return floor.z_start + first * rise, floor.z_start + last * rise
 
 
-def _fractions(path: Path, piece: int, surface: Path, row: int) -> tuple[float, float]:
-    """Which part of the segment has been travelled at a piece's start and end, 0 to 1."""
+def _fractions(ends: Floats, sweep: float, ground: _Ground, row: int) -> tuple[float, float]:
+    """Which part of the segment has been travelled at a piece's two ends, 0 to 1; `sweep` is the piece's own angle."""
+    surface = ground.surface
     if surface.turns[row] == 0:
         run = surface.ends[row] - surface.starts[row]
         square = max(float(run @ run), np.finfo(float).tiny)
-        first, last = ((point - surface.starts[row]) @ run / square for point in path.points[piece : piece + 2])
-        return _held(float(first)), _held(float(last))
-    sweep = abs(float(surface.part(row, row + 1).sweeps[0]))
-    begun = _turned(surface, row, path.starts[piece])
-    travelled = abs(float(path.part(piece, piece + 1).sweeps[0]))
-    return _held(begun / sweep), _held((begun + travelled) / sweep)
+        first, last = ((ends - surface.starts[row]) @ run / square).tolist()
+        return _held(first), _held(last)
+    whole, begun = float(ground.sweeps[row]), _turned(surface, row, ends[0])
+    return _held(begun / whole), _held((begun + sweep) / whole)
 
 
 def _turned(surface: Path, row: int, point: Floats) -> float:
     """Radians from the arc's start to the ray through `point`, in the arc's direction."""
     centre, start = surface.centres[row], surface.starts[row]
-    angles: NDArray[np.float64] = np.arctan2(*(np.array((start, point)) - centre).T[::-1])
+    angles: Floats = np.arctan2(*(np.array((start, point)) - centre).T[::-1])
     turned = float((angles[1] - angles[0]) * surface.turns[row]) % tau
     return 0.0 if turned > tau - WRAPPED else turned
 

@@ -12,12 +12,17 @@ LEAD = Path.from_pieces([Arc((-1, -2), (0, -1), (0, -2), Turn.CW)])
 
 
 def test_the_current_segment_lies_over_everything_and_the_surface_below():
-    scene = contour_scene(SQUARE, path=SHIFTED, leads=(LEAD,), deleted=(SHIFTED,), current=SHIFTED, sketches=(LEAD,))
+    one = (SHIFTED,)
+    scene = contour_scene(
+        SQUARE, path=SHIFTED, leads=(LEAD,), deleted=one, uncut=one, rough=one, current=SHIFTED, sketches=(LEAD,)
+    )
     assert [(layer.style, layer.dashed) for layer in scene.layers] == [
-        (Style.SURFACE, False),
         (Style.SURFACE, True),
+        (Style.SURFACE, False),
+        (Style.RAPID, True),
         (Style.LEAD, False),
         (Style.PATH, False),
+        (Style.UNCUT, False),
         (Style.DELETED, True),
         (Style.CURRENT, False),
     ]
@@ -45,6 +50,13 @@ def test_the_arrow_on_an_arc_points_along_it_in_its_middle():
     (mark,) = contour_scene(half).marks
     assert mark.at == pytest.approx((0, -1))
     assert mark.direction == pytest.approx((-1, 0))
+
+
+def test_a_full_circle_has_its_arrow_opposite_the_start():
+    ring = Path.from_pieces([Arc((1, 0), (1, 0), (0, 0), Turn.CCW)])
+    (mark,) = contour_scene(ring).marks
+    assert mark.at == pytest.approx((-1, 0))
+    assert mark.direction == pytest.approx((0, -1))
 
 
 def test_the_cutter_is_a_circle():

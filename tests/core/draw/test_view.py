@@ -52,8 +52,9 @@ def test_cell_is_the_inverse_of_at(column, row, scale):
 def test_bounds_take_in_arcs_circles_and_marks_and_pass_over_what_is_not_finite():
     half = Path.from_pieces([Arc((1.0, 0.0), (-1.0, 0.0), (0.0, 0.0), Turn.CCW)])
     broken = Path.from_pieces([Line((0.0, 0.0), (float("nan"), 0.0))])
+    far = Path.from_pieces([Line((0.0, 0.0), (1e300, 0.0))])
     scene = Scene(
-        (Layer(half, Style.SURFACE), Layer(broken, Style.PATH)),
+        (Layer(half, Style.SURFACE), Layer(broken, Style.PATH), Layer(far, Style.PATH)),
         (Circle((4.0, 0.0), 2.0),),
         (Mark((0.0, 9.0), Style.START, Symbol.START),),
     )
