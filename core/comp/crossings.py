@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.comp.offset import Chain, Part
+from core.comp.offset import Chain, Part, stacked
 from core.geometry.intersect import Indices, Masks, Meeting, Planes, meet, planes
 from core.geometry.path import Floats
 from core.tolerance import ON_PATH
@@ -41,7 +41,7 @@ class Crossings:
     def __len__(self) -> int:
         return len(self.a)
 
-    def chosen(self, rows: Masks) -> Crossings:
+    def chosen(self, rows: Masks | Indices) -> Crossings:
         """Those crossings only."""
         return Crossings(*(getattr(self, name)[rows] for name in self.__slots__))
 
@@ -82,9 +82,10 @@ def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
 
 
 def _all(parts: list[Crossings]) -> Crossings:
-    if len(parts) == 1:
-        return parts[0]
-    return Crossings(*(np.concatenate([getattr(part, name) for part in parts]) for name in Crossings.__slots__))
+    """The crossings of all parts, one behind the other; takes the list apart."""
+    rows = [tuple(getattr(part, name) for name in Crossings.__slots__) for part in parts]
+    parts.clear()
+    return Crossings(*stacked(rows))
 
 
 def _meet(chain: Chain, a: Indices, b: Indices, joint: Masks) -> tuple[Crossings, Masks]:

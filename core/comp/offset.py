@@ -8,10 +8,11 @@ between it and the next, so that two parts are within a look-ahead of v when the
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 from itertools import pairwise
-from typing import Final, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,15 +48,14 @@ class Chain:
 
 
 class _Stretch(NamedTuple):
-    """The chain's pieces of a run of segments, as complex numbers; `last` is the end of its last piece."""
+    """The chain's pieces of a run of segments, as complex numbers; `points` are starts, and the chain's very end."""
 
-    starts: Planes
+    points: Planes
     centres: Planes
     turns: Turns
     numbers: Floats
     parts: NDArray[np.uint8]
     places: NDArray[np.int32]
-    last: complex
 
 
 class _Beside(NamedTuple):
@@ -72,16 +72,20 @@ def offset(contour: Path, side: Side, radius: float) -> Chain:
     """The raw chain of a contour without zero-length segments, at `radius` > 0 millimetres to `side`."""
     count = len(contour)
     bounds = [*range(0, count, _STRETCH), count]
-    stretches = [_stretch(contour, side.sign, radius, first, last) for first, last in pairwise(bounds)]
-    last = stretches[-1].last
-    starts, centres, turns, numbers, parts, places = (
-        columns[0] if len(columns) == 1 else np.concatenate(columns)
-        for columns in list(zip(*stretches, strict=True))[:-1]
+    points, centres, turns, numbers, parts, places = stacked(
+        [_stretch(contour, side.sign, radius, first, last) for first, last in pairwise(bounds)]
     )
-    points = np.append(starts, last)
     _close_circles(points, contour, places)
-    raw = Path(coordinates(points), coordinates(centres), turns, numbers)
-    return Chain(raw, parts, places)
+    return Chain(Path(coordinates(points), coordinates(centres), turns, numbers), parts, places)
+
+
+def stacked(rows: list[tuple[Any, ...]]) -> Iterator[Any]:
+    """Each column of arrays as one array; the rows are taken apart, so that a column's parts go when it is done."""
+    columns = [list(column) for column in zip(*rows, strict=True)][::-1]
+    rows.clear()
+    while columns:
+        column = columns.pop()
+        yield column[0] if len(column) == 1 else np.concatenate(column)
 
 
 def _stretch(contour: Path, sign: int, radius: float, first: int, last: int) -> _Stretch:
@@ -109,7 +113,8 @@ def _stretch(contour: Path, sign: int, radius: float, first: int, last: int) -> 
     numbers[between] = numbers[between - 1] + 0.5
     places = np.empty(len(starts), np.int32)
     places[where], places[between] = 2 * np.arange(first, last), 2 * (link + first) + 1
-    return _Stretch(starts, centres, turns, numbers, parts, places, complex(beside.ends[count - 1]))
+    points = starts if joints == count else np.append(starts, beside.ends[-1])
+    return _Stretch(points, centres, turns, numbers, parts, places)
 
 
 def _beside(contour: Path, shift: float, first: int, last: int) -> _Beside:

@@ -41,10 +41,10 @@ def prune(chain: Chain, joints: Crossings, others: Crossings, *, last_wins: bool
     `last_wins`: a joint takes the latest point on the earlier piece (closed contours of two segments).
     """
     left, unsettled = _joined(chain, joints, last_wins=last_wins)
-    events: list[int] = []
+    met = np.empty(0, np.intp)
     if len(others) or len(unsettled):
-        events = Walk(chain, left, joints, others, last_wins=last_wins).visit(unsettled)
-    return _what_is_left(chain, left, others.chosen(np.array(events, np.intp)))
+        met = Walk(chain, left, joints, others).visit(unsettled)
+    return _what_is_left(chain, left, others.chosen(met))
 
 
 def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, Indices]:
@@ -80,11 +80,14 @@ def _what_is_left(chain: Chain, left: Left, events: Crossings) -> Pruned:
 
 def _not_slivers(chain: Chain, left: Left, alive: Indices, starts: NDArray[np.complex128]) -> Masks:
     """Which pieces still have a length: an arc trimmed to a point must not be taken for a full circle."""
-    real = np.ones(len(alive), np.bool_)
-    for row in np.flatnonzero(np.abs(starts[1:] - starts[:-1]) <= JOINED).tolist():
-        piece = int(alive[row])
-        rest = min(float(left.high[piece]), chain.raw[piece].length) - float(left.low[piece])
-        real[row] = rest > JOINED
+    real = np.abs(starts[1:] - starts[:-1]) > JOINED
+    near = np.flatnonzero(~real)
+    arcs = near[chain.raw.turns[alive[near]] != 0]
+    rest = left.high[alive[arcs]] - left.low[alive[arcs]]
+    for row in np.flatnonzero(np.isinf(rest)).tolist():
+        piece = int(alive[arcs[row]])
+        rest[row] = chain.raw[piece].length - left.low[piece]
+    real[arcs] = rest > JOINED
     return real
 
 

@@ -6,21 +6,24 @@ numbers.  Pieces at which nothing happens are never visited.
 
 from __future__ import annotations
 
-from bisect import bisect_left
+from bisect import bisect_right
+from collections.abc import Iterator
 from dataclasses import dataclass
+from math import inf
 from typing import Final, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.comp.crossings import Crossings
-from core.comp.offset import Chain, Part
+from core.comp.offset import Chain
 from core.geometry.intersect import Indices, planes
 from core.geometry.path import Floats
 from core.tolerance import ON_PATH
 
 _NOBODY: Final = -1
 _GONE: Final = b"\1"
+_STRETCH: Final = 4096
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -39,84 +42,84 @@ class Left:
     gone: bytearray
 
 
+class Walk:
+    """One walk along a chain whose inside corners are trimmed at their first crossings already."""
+
+    def __init__(self, chain: Chain, left: Left, joints: Crossings, others: Crossings) -> None:
+        self._chain, self._left, self._joints, self._others = chain, left, joints, others
+        self._low, self._high = _numbers(left.low), _numbers(left.high)
+        self._joint, self._along_a, self._along_b = joints.b.data, _numbers(joints.along_a), _numbers(joints.along_b)
+        self._bridged: list[int] = []
+        self._rejoined: list[int] = []
+
+    def visit(self, unsettled: Indices) -> Indices:
+        """Visit in order all crossings, and the joints of the `unsettled` pieces with their predecessors.
+
+        Returns the rows of the crossings that deleted something, in order.
+        """
+        met = np.array(self._meet(unsettled.tolist()[::-1]), np.intp)
+        left, joints, others = self._left, self._joints, self._others
+        bridged, rejoined = np.array(self._bridged, np.intp), np.array(self._rejoined, np.intp)
+        left.standing[bridged - 1] = 1
+        left.starts[bridged] = planes(self._chain.raw.points)[bridged]
+        left.starts[joints.b[rejoined]] = joints.points[rejoined]
+        left.starts[others.b[met]] = others.points[met]
+        return met
+
+    def _meet(self, agenda: list[int]) -> list[int]:
+        """Test every piece by its crossings: it takes the first that lies on what is left of both pieces.
+
+        One's very end at the other's very start is no crossing.  The earlier piece then ends there, the later one
+        starts there, everything between is gone.  `agenda` holds pieces whose joint is to be made anew, last first.
+        """
+        low, high, gone, met = self._low, self._high, self._left.gone, list[int]()
+        piece, start, over = _NOBODY, 0.0, True
+        for row, (b, a, at, on, a_ends, b_ends) in enumerate(_rows(self._others)):
+            if b != piece:
+                self._settle(piece, b, agenda)
+                piece, start, over = b, low[b], False
+            if over or gone[a] or on < start - ON_PATH or at < low[a] - ON_PATH or at > high[a] + ON_PATH:
+                continue
+            if on <= start + ON_PATH and (a_ends or at >= high[a] - ON_PATH):
+                continue
+            if b_ends and at <= low[a] + ON_PATH:
+                continue
+            high[a], low[b], over = at, on, True
+            gone[a + 1 : b] = _GONE * (b - a - 1)
+            met.append(row)
+        self._settle(piece, len(self._chain), agenda)
+        return met
+
+    def _settle(self, piece: int, until: int, agenda: list[int]) -> None:
+        """Join anew what no longer holds behind `piece`, up to the joint of piece `until` with its predecessor."""
+        low, high = self._low, self._high
+        if piece >= 0 and high[piece] < low[piece] - ON_PATH:
+            agenda.append(piece + 2)
+        while agenda and agenda[-1] <= until:
+            follower = agenda.pop()
+            if high[follower - 2] < low[follower - 2] - ON_PATH:
+                self._join(follower)
+            if follower < until and high[follower] < low[follower] - ON_PATH:
+                agenda.append(follower + 2)
+
+    def _join(self, piece: int) -> None:
+        """Trim predecessor and piece at their other crossing, if they have one that is left, else bridge them."""
+        row = bisect_right(self._joint, piece) - 1
+        if self._along_a[row] >= self._low[piece - 2] - ON_PATH:
+            self._high[piece - 2], self._low[piece] = self._along_a[row], self._along_b[row]
+            self._rejoined.append(row)
+        else:
+            self._high[piece - 2], self._low[piece] = inf, 0.0
+            self._bridged.append(piece)
+
+
 def _numbers(values: Floats) -> memoryview[float]:
     """The same numbers, quicker to read and write one by one than the array."""
     return cast("memoryview[float]", values.data)
 
 
-class Walk:
-    """One walk along a chain whose inside corners are trimmed at their first crossings already."""
-
-    def __init__(self, chain: Chain, left: Left, joints: Crossings, others: Crossings, *, last_wins: bool) -> None:
-        self._chain, self._left, self._joints, self._last_wins = chain, left, joints, last_wins
-        self._low, self._high, self._others = _numbers(left.low), _numbers(left.high), others
-        self._a = others.a.data
-        self._along_a, self._along_b = _numbers(others.along_a), _numbers(others.along_b)
-        self._a_ends = cast("memoryview[bool]", others.a_ends.data)
-        self._b_ends = cast("memoryview[bool]", others.b_ends.data)
-        self._events: list[int] = []
-
-    def visit(self, unsettled: Indices) -> list[int]:
-        """Visit in order all pieces with crossings and the unsettled ones; the crossings that deleted, in order."""
-        pieces = np.union1d(self._others.b, unsettled)
-        begin = np.searchsorted(self._others.b, pieces).tolist()
-        end = np.searchsorted(self._others.b, pieces, "right").tolist()
-        follower = _NOBODY
-        for piece, first, last in zip(pieces.tolist(), begin, end, strict=True):
-            while _NOBODY < follower < piece:
-                follower = self._arrive(follower, 0, 0)
-            follower = self._arrive(piece, first, last)
-        while follower > _NOBODY:
-            follower = self._arrive(follower, 0, 0)
-        return self._events
-
-    def _arrive(self, piece: int, first: int, last: int) -> int:
-        """Join a piece to its predecessor, test it by crossings first ... last - 1.
-
-        Returns the next piece if its joint with this one no longer lies on what is left of it.
-        """
-        before = piece - 2
-        if before >= 0 and self._high[before] < self._low[before] - ON_PATH:
-            self._join(piece)
-        for row in range(first, last):
-            if self._is_left(piece, row):
-                self._meet(piece, row)
-                break
-        return piece + 2 if self._high[piece] < self._low[piece] - ON_PATH else _NOBODY
-
-    def _join(self, piece: int) -> None:
-        """Trim predecessor and piece at another of their crossings that is left, else let the bridge stand."""
-        before, joints, left = piece - 2, self._joints, self._left
-        if self._chain.parts[piece - 1] != Part.BRIDGE.value:
-            return
-        first = bisect_left(joints.b.data, piece)
-        rows = [row for row in range(first, min(first + 2, len(joints))) if joints.b[row] == piece]
-        rows = [row for row in rows if joints.along_a[row] >= self._low[before] - ON_PATH]
-        if not rows:
-            left.standing[piece - 1] = 1
-            self._high[before], self._low[piece] = np.inf, 0.0
-            left.starts[piece] = planes(self._chain.raw.points)[piece]
-            return
-        row = rows[-1 if self._last_wins else 0]
-        self._high[before], self._low[piece] = joints.along_a[row], joints.along_b[row]
-        left.starts[piece] = joints.points[row]
-
-    def _is_left(self, piece: int, row: int) -> bool:
-        """Does a crossing lie on what is left of both pieces?  One's very end at the other's very start is none."""
-        a = self._a[row]
-        if self._left.gone[a]:
-            return False
-        at, on, low, high, start = self._along_a[row], self._along_b[row], self._low[a], self._high[a], self._low[piece]
-        if at < low - ON_PATH or at > high + ON_PATH or on < start - ON_PATH:
-            return False
-        if on <= start + ON_PATH and (self._a_ends[row] or at >= high - ON_PATH):
-            return False
-        return not (self._b_ends[row] and at <= low + ON_PATH)
-
-    def _meet(self, piece: int, row: int) -> None:
-        """End the earlier piece and start the later one at their crossing; delete everything between."""
-        a = self._a[row]
-        self._high[a], self._low[piece] = self._along_a[row], self._along_b[row]
-        self._left.starts[piece] = self._others.points[row]
-        self._left.gone[a + 1 : piece] = _GONE * (piece - a - 1)
-        self._events.append(row)
+def _rows(crossings: Crossings) -> Iterator[tuple[int, int, float, float, bool, bool]]:
+    """The crossings' b, a, along_a, along_b, a_ends, b_ends one by one, made plain numbers a stretch at a time."""
+    columns = crossings.b, crossings.a, crossings.along_a, crossings.along_b, crossings.a_ends, crossings.b_ends
+    for first in range(0, len(crossings), _STRETCH):
+        yield from zip(*(column[first : first + _STRETCH].tolist() for column in columns), strict=True)

@@ -1,7 +1,7 @@
 """Where lines and arcs meet: many pairs of pieces at once, tangent and overlapping cases told apart.
 
-Words: a pair meets CROSS where one piece passes through the other (one or two points), TOUCH where they
-are tangent or only end on one another along one line, OVERLAP where they run along each other, APART else.
+Words: a pair meets CROSS where one piece passes through the other or ends on it (one or two points), TOUCH where
+they are tangent or lie end to end in one line, OVERLAP where they run along each other, APART else.
 A point's `along` is its distance from the piece's start, measured on the piece.  Inside this module points
 are complex numbers: conj(u) v has the dot product as real and the cross product as imaginary part.
 """
@@ -11,14 +11,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 from math import tau
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.path import Floats, Path, Turns
 from core.geometry.piece import SLIVER
-from core.tolerance import ON_PATH
+from core.tolerance import JOINED, ON_PATH
 
 Indices = NDArray[np.intp]
 Planes = NDArray[np.complex128]
@@ -41,7 +41,7 @@ class Meetings:
     `kinds` (k,) holds a `Meeting` for each pair.  `pair` (p,) is the row of each point's pair, `along_a` and
     `along_b` (p,) its distance from the start of either piece, `rest_a` and `rest_b` (p,) that from their ends,
     `points` (p, 2) the point.  Points come in the order of pairs and, within a pair, as travelled on a; a
-    touch within rounding of a crossing may have two.  Millimetres.  An OVERLAP has no points.
+    touch that is nearly a crossing may have two.  Millimetres.  An OVERLAP has no points.
     """
 
     kinds: NDArray[np.int8]
@@ -62,29 +62,19 @@ class _Pieces(NamedTuple):
     turn: Turns
 
 
-class _Found(NamedTuple):
-    """Pairs of one combination of kinds: (k, c) points and their distances from the ends, `along_a` NaN where none."""
-
-    kinds: NDArray[np.int8]
-    along_a: Floats
-    along_b: Floats
-    rest_a: Floats
-    rest_b: Floats
-    points: Planes
-
-
-class _Flat(NamedTuple):
-    """Points of several pairs, one below the other: `Meetings` without its kinds."""
+class _Points(NamedTuple):
+    """p points in the order of their pairs: `Meetings` without its kinds."""
 
     pair: Indices
     along_a: Floats
     along_b: Floats
     rest_a: Floats
     rest_b: Floats
-    points: Planes
+    point: Planes
 
 
-_SIDES: Final = np.array([-1.0, 1.0])
+_Solved = tuple[NDArray[np.int8], _Points]
+"""How each of k pairs meets, and the points where they do."""
 
 
 def planes(pairs: Floats) -> Planes:
@@ -111,10 +101,10 @@ def meet(one: Path, a: Indices, other: Path, b: Indices) -> Meetings:
     for which, solve in enumerate((_lines, _arc_line, _line_arc, _arcs)):
         rows = np.flatnonzero(combination == which)
         if len(rows):
-            found = solve(_gather(one, a[rows]), _gather(other, b[rows]))
-            kinds[rows] = found.kinds
-            parts.append(_flat(rows, found))
-    return _merged(kinds, parts)
+            kinds[rows], found = solve(_gather(one, a[rows]), _gather(other, b[rows]))
+            parts.append(found._replace(pair=rows[found.pair]))
+    found = _joined(parts)
+    return Meetings(kinds, *found[:5], coordinates(found.point))
 
 
 def _gather(path: Path, rows: Indices) -> _Pieces:
@@ -122,169 +112,182 @@ def _gather(path: Path, rows: Indices) -> _Pieces:
     return _Pieces(points[rows], points[rows + 1], planes(path.centres)[rows], path.turns[rows])
 
 
-def _flat(rows: Indices, found: _Found) -> _Flat:
-    pair, column = np.nonzero(found.along_a == found.along_a)
-    at = (pair, column)
-    rests = found.rest_a[at], found.rest_b[at]
-    return _Flat(rows[pair], found.along_a[at], found.along_b[at], *rests, found.points[at])
+def _taken(pieces: _Pieces, rows: Indices) -> _Pieces:
+    return _Pieces._make(column[rows] for column in pieces)
 
 
-def _merged(kinds: NDArray[np.int8], parts: list[_Flat]) -> Meetings:
+def _joined(parts: list[_Points]) -> _Points:
+    """All points in the order of their pairs."""
+    if len(parts) == 1:
+        return parts[0]
     if not parts:
         none = np.empty(0)
-        return Meetings(kinds, np.empty(0, np.intp), none, none, none, none, np.empty((0, 2)))
-    flat = parts[0]
-    if len(parts) > 1:
-        order = np.argsort(np.concatenate([part.pair for part in parts]), kind="stable")
-        flat = _Flat._make(np.concatenate(column)[order] for column in zip(*parts, strict=True))
-    return Meetings(kinds, *flat[:-1], coordinates(flat.points))
+        return _Points(np.empty(0, np.intp), none, none, none, none, np.empty(0, np.complex128))
+    pair, *columns = (np.concatenate(column) for column in zip(*parts, strict=True))
+    order = np.argsort(pair, kind="stable")
+    return _Points(pair[order], *(column[order] for column in columns))
 
 
-def _lines(a: _Pieces, b: _Pieces) -> _Found:
+def _kinds(count: int, pair: Indices, touching: Masks) -> NDArray[np.int8]:
+    """CROSS or TOUCH for the pairs that have a point."""
+    kinds = np.zeros(count, np.int8)
+    kinds[pair] = np.where(touching[pair], Meeting.TOUCH.value, Meeting.CROSS.value)
+    return kinds
+
+
+def _lines(a: _Pieces, b: _Pieces) -> _Solved:
     """Line with line: a.start + s (a.end - a.start) = b.start + t (b.end - b.start) by cross products."""
     span_a, span_b, between = a.end - a.start, b.end - b.start, b.start - a.start
     length_a, length_b = np.abs(span_a), np.abs(span_b)
     cross = (span_a.conj() * span_b).imag
     parallel = np.abs(cross) <= ON_PATH * np.minimum(length_a, length_b)
     divisor = np.where(parallel, 1.0, cross)
-    part_a = (between.conj() * span_b).imag / divisor
-    along_a = part_a * length_a
-    along_b = (between.conj() * span_a).imag / divisor * length_b
-    on = _within(along_a, length_a) & _within(along_b, length_b) & ~parallel
-    along_a = np.where(on, along_a, np.nan)
-    found = _Found(
-        np.where(on, Meeting.CROSS.value, Meeting.APART.value).astype(np.int8),
-        along_a[:, None],
-        along_b[:, None],
-        (length_a - along_a)[:, None],
-        (length_b - along_b)[:, None],
-        (a.start + part_a * span_a)[:, None],
-    )
+    part = (between.conj() * span_b).imag / divisor
+    along_a, along_b = part * length_a, (between.conj() * span_a).imag / divisor * length_b
+    on = np.flatnonzero(_within(along_a, length_a) & _within(along_b, length_b) & ~parallel)
+    rests = (length_a - along_a)[on], (length_b - along_b)[on]
+    found = _Points(on, along_a[on], along_b[on], *rests, (a.start + part * span_a)[on])
+    kinds = _kinds(len(cross), on, parallel)
     rows = np.flatnonzero(parallel & (length_a > 0.0) & (length_b > 0.0))
     if len(rows):
-        _collinear(found, rows, a, b)
-    return found
+        kinds[rows], touches = _parallel(_taken(a, rows), _taken(b, rows))
+        found = _joined([found, touches._replace(pair=rows[touches.pair])])
+    return kinds, found
 
 
-def _collinear(found: _Found, rows: Indices, a: _Pieces, b: _Pieces) -> None:
-    """Mark what parallel lines do that lie in one line: overlap, or touch end to end."""
-    start, span, length = a.start[rows], a.end[rows] - a.start[rows], np.abs(a.end[rows] - a.start[rows])
-    unit = (span / length).conj()
-    first, last = unit * (b.start[rows] - start), unit * (b.end[rows] - start)
+def _parallel(a: _Pieces, b: _Pieces) -> _Solved:
+    """Parallel lines: those in one line overlap, or touch end to end."""
+    span, other = a.end - a.start, b.end - b.start
+    length = np.abs(span)
+    unit = span / length
+    first, last = unit.conj() * (b.start - a.start), unit.conj() * (b.end - a.start)
     low = np.maximum(np.minimum(first.real, last.real), 0.0)
     common = np.minimum(np.maximum(first.real, last.real), length) - low
     in_line = np.minimum(np.abs(first.imag), np.abs(last.imag)) <= ON_PATH
-    found.kinds[rows[in_line & (common > ON_PATH)]] = Meeting.OVERLAP
-    touch = in_line & (np.abs(common) <= ON_PATH)
-    at, low, first = rows[touch], low[touch], first[touch]
-    found.kinds[at] = Meeting.TOUCH
-    found.along_a[at, 0] = low
-    found.along_b[at, 0] = np.abs(low - first.real)
-    found.rest_a[at, 0] = length[touch] - low
-    found.rest_b[at, 0] = np.abs(low - last.real[touch])
-    found.points[at, 0] = start[touch] + low * unit[touch].conj()
+    touch = np.flatnonzero(in_line & (np.abs(common) <= ON_PATH))
+    kinds = np.where(in_line & (common > ON_PATH), Meeting.OVERLAP.value, Meeting.APART.value).astype(np.int8)
+    kinds[touch] = Meeting.TOUCH.value
+    along_a, along_b = low[touch], np.abs(low - first.real)[touch]
+    rests = length[touch] - along_a, np.abs(other[touch]) - along_b
+    return kinds, _Points(touch, along_a, along_b, *rests, (a.start + low * unit)[touch])
 
 
-def _line_arc(line: _Pieces, arc: _Pieces) -> _Found:
+def _line_arc(line: _Pieces, arc: _Pieces) -> _Solved:
     """Line with arc: half the chord on either side of the foot of the arc's centre."""
     span, radius = line.end - line.start, np.abs(arc.start - arc.centre)
     length = np.abs(span)
     unit = span / np.where(length == 0.0, 1.0, length)
     foot = unit.conj() * (arc.centre - line.start)
     height = np.abs(foot.imag)
-    inside = radius - height
-    half = np.sqrt(np.maximum(inside * (radius + height), 0.0))
-    along = foot.real[:, None] + half[:, None] * _SIDES
-    points = line.start[:, None] + along * unit[:, None]
-    run, swept = _along_arc(points, arc, radius)
-    on = _within(along, length[:, None]) & _within(run, swept) & (inside >= -ON_PATH)[:, None]
-    on[:, 1] &= half > 0.0
-    kinds = _kinds(on, np.abs(inside) <= ON_PATH)
-    return _Found(kinds, np.where(on, along, np.nan), run, length[:, None] - along, swept - run, points)
+    room = radius - height
+    pair, half = _half_chords(np.sqrt(np.maximum(room * (radius + height), 0.0)), room)
+    along = foot.real[pair] + half
+    on = np.flatnonzero(_within(along, length[pair]))
+    pair, along = pair[on], along[on]
+    points = line.start[pair] + along * unit[pair]
+    run, rest = _along_arc(points, _taken(arc, pair), radius[pair])
+    found = _on_both(_Points(pair, along, run, length[pair] - along, rest, points))
+    return _kinds(len(room), found.pair, np.abs(room) <= ON_PATH), found
 
 
-def _arc_line(arc: _Pieces, line: _Pieces) -> _Found:
-    kinds, along, run, rest, left, points = _line_arc(line, arc)
-    run = np.where(np.isnan(along), np.nan, run)
-    return _as_travelled(_Found(kinds, run, along, left, rest, points))
+def _arc_line(arc: _Pieces, line: _Pieces) -> _Solved:
+    kinds, (pair, along, run, left, rest, points) = _line_arc(line, arc)
+    return kinds, _as_travelled(_Points(pair, run, along, rest, left, points))
 
 
-def _arcs(a: _Pieces, b: _Pieces) -> _Found:
+def _arcs(a: _Pieces, b: _Pieces) -> _Solved:
     """Arc with arc: half the common chord by Heron's formula, which keeps its digits near tangency."""
     between, big, small = b.centre - a.centre, np.abs(a.start - a.centre), np.abs(b.start - b.centre)
     apart, total, differ = np.abs(between), big + small, big - small
     concentric = apart <= ON_PATH
     divisor = np.where(concentric, 1.0, apart)
     area = (total + apart) * (total - apart) * (apart + differ) * (apart - differ)
-    half = np.sqrt(np.maximum(area, 0.0)) / (2.0 * divisor)
+    room = np.where(concentric, -np.inf, np.minimum(total - apart, apart - np.abs(differ)))
+    pair, half = _half_chords(np.sqrt(np.maximum(area, 0.0)) / (2.0 * divisor), room)
     foot = (apart + differ * total / divisor) / 2.0
-    points = a.centre[:, None] + (between / divisor)[:, None] * (foot[:, None] + 1j * half[:, None] * _SIDES)
-    run_a, swept_a = _along_arc(points, a, big)
-    run_b, swept_b = _along_arc(points, b, small)
-    reach = np.where(concentric, -np.inf, np.minimum(total - apart, apart - np.abs(differ)))
-    on = _within(run_a, swept_a) & _within(run_b, swept_b) & (reach >= -ON_PATH)[:, None]
-    on[:, 1] &= half > 0.0
-    kinds = _kinds(on, np.abs(reach) <= ON_PATH)
+    points = a.centre[pair] + (between / divisor)[pair] * (foot[pair] + 1j * half)
+    run_a, rest_a = _along_arc(points, _taken(a, pair), big[pair])
+    run_b, rest_b = _along_arc(points, _taken(b, pair), small[pair])
+    found = _as_travelled(_on_both(_Points(pair, run_a, run_b, rest_a, rest_b, points)))
+    kinds = _kinds(len(room), found.pair, np.abs(room) <= ON_PATH)
     rows = np.flatnonzero(concentric & (np.abs(differ) <= ON_PATH))
     if len(rows):
-        kinds[rows] = _concentric(a, b, rows)
-    run_a = np.where(on, run_a, np.nan)
-    return _as_travelled(_Found(kinds, run_a, run_b, swept_a - run_a, swept_b - run_b, points))
+        kinds[rows[_overlap(_taken(a, rows), _taken(b, rows))]] = Meeting.OVERLAP.value
+    return kinds, found
 
 
-def _concentric(a: _Pieces, b: _Pieces, rows: Indices) -> NDArray[np.int8]:
-    """Do arcs of one circle share more than their ends: does either start, or a's middle, lie inside the other?"""
-    a, b = (_Pieces._make(column[rows] for column in piece) for piece in (a, b))
-    radius = np.abs(a.start - a.centre)
-    inside = _inside(a, _middle(b)) | _inside(b, _middle(a)) | _inside(a, b.start) | _inside(a, b.end)
-    return np.where(inside & (radius > 0.0), Meeting.OVERLAP.value, Meeting.APART.value).astype(np.int8)
+def _half_chords(half: Floats, room: Floats) -> tuple[Indices, Floats]:
+    """The pairs with a common chord, twice in a row, and its two halves, the first below 0.
+
+    Halves within JOINED make one point: the foot between them, once, free of rounding.  `room` is what the pair is
+    short of tangency; below 0 there is no chord.
+    """
+    rows = np.flatnonzero(room >= -ON_PATH)
+    pair = np.repeat(rows, np.where(half[rows] > JOINED, 2, 1))
+    signed = np.where(half[pair] > JOINED, half[pair], 0.0)
+    signed[:-1] *= np.where(pair[1:] == pair[:-1], -1.0, 1.0)
+    return pair, signed
+
+
+def _overlap(a: _Pieces, b: _Pieces) -> Masks:
+    """Do arcs of one circle share more than their ends?"""
+    return _inside(a, _middle(b)) | _inside(b, _middle(a)) | _inside(a, b.start) | _inside(a, b.end)
 
 
 def _middle(arc: _Pieces) -> Planes:
     """The point half way along each arc."""
-    half = _sweep(arc) / 2.0 * arc.turn
-    middle: Planes = arc.centre + (arc.start - arc.centre) * np.exp(1j * half)
+    middle: Planes = arc.centre + (arc.start - arc.centre) * np.exp(1j * _sweep(arc) / 2.0 * arc.turn)
     return middle
 
 
 def _inside(arc: _Pieces, point: Planes) -> Masks:
     """Does a point of the arc's circle lie on the arc, off its ends?"""
-    run, swept = _along_arc(point[:, None], arc, np.abs(arc.start - arc.centre))
-    return ((run > ON_PATH) & (run < swept - ON_PATH))[:, 0]
+    run, rest = _along_arc(point, arc, np.abs(arc.start - arc.centre))
+    return (run > ON_PATH) & (rest > ON_PATH)
 
 
 def _sweep(arc: _Pieces) -> Floats:
     """Angle travelled, 0 ... a full turn: equal ends are the full circle, rounding past the start is nothing."""
-    swept = np.mod(np.angle((arc.start - arc.centre).conj() * (arc.end - arc.centre)) * arc.turn, tau)
+    swept = _turned(arc, arc.end)
     swept[swept > tau - SLIVER] = 0.0
     swept[arc.start == arc.end] = tau
     return swept
 
 
-def _along_arc(points: Planes, arc: _Pieces, radius: Floats) -> tuple[Floats, Floats]:
-    """Distance on each arc from its start to points (k, c) of its circle, and the arc's length (k, 1).
+def _turned(arc: _Pieces, point: Planes) -> Floats:
+    """The angle from the arc's start to a point, in the arc's direction, 0 ... a full turn."""
+    across = (arc.start - arc.centre).conj() * (point - arc.centre)
+    angle = np.arctan2(across.imag, across.real) * arc.turn
+    turned: Floats = np.where(angle < 0.0, angle + tau, angle)
+    return turned
 
-    A point off the arc gets the nearer end's side: below 0 before the start, above the length behind the end.
+
+def _along_arc(point: Planes, arc: _Pieces, radius: Floats) -> tuple[Floats, Floats]:
+    """Distance on each arc from its start to a point of its circle, and from there to its end.
+
+    A point off the arc is on the nearer end's side: the one distance is below 0 before the start, the other behind
+    the end.
     """
-    radial = (arc.start - arc.centre).conj()[:, None] * (points - arc.centre[:, None])
-    run = np.mod(np.angle(radial) * arc.turn[:, None], tau) * radius[:, None]
-    swept, whole = (_sweep(arc) * radius)[:, None], (tau * radius)[:, None]
-    beyond = run - swept
-    return np.where((beyond > 0.0) & (whole - run < beyond), run - whole, run), swept
+    run, length, whole = _turned(arc, point) * radius, _sweep(arc) * radius, tau * radius
+    run = np.where((run > length) & (whole - run < run - length), run - whole, run)
+    return run, length - run
 
 
 def _within(along: Floats, length: Floats) -> Masks:
     return (along >= -ON_PATH) & (along <= length + ON_PATH)
 
 
-def _kinds(on: Masks, touching: Masks) -> NDArray[np.int8]:
-    met = np.where(touching, Meeting.TOUCH.value, Meeting.CROSS.value)
-    return np.where(on.any(axis=1), met, Meeting.APART.value).astype(np.int8)
+def _on_both(points: _Points) -> _Points:
+    """The points that lie on both pieces."""
+    least = np.minimum(np.minimum(points.along_a, points.along_b), np.minimum(points.rest_a, points.rest_b))
+    on = least >= -ON_PATH
+    return _Points._make(column[on] for column in points)
 
 
-def _as_travelled(found: _Found) -> _Found:
+def _as_travelled(points: _Points) -> _Points:
     """Put two points of a pair in the order in which a is travelled."""
-    rows = np.flatnonzero(found.along_a[:, 0] > found.along_a[:, 1])
-    for column in found[1:]:
-        column[rows] = column[rows, ::-1]
-    return found
+    pair, along = points.pair, points.along_a
+    swap = np.flatnonzero((pair[1:] == pair[:-1]) & (along[1:] < along[:-1]))
+    for column in points[1:]:
+        column[swap], column[swap + 1] = column[swap + 1], column[swap]
+    return points

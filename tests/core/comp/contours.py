@@ -44,7 +44,11 @@ _SQUARE = [1 + 0j, 1j, -1j, 1j, -1j, -1 + 0j]
 _ANY = [rect(1.0, angle) for angle in (pi / 4, -pi / 4, 0.1, -0.1, 1e-3, -1e-3, 2.8, -2.8, 1.2, -1.2)]
 _LENGTHS = [0.1, 0.2, 0.25, 0.5, 0.75, 1.0, 2.0, 0.05]
 
-corners = st.sampled_from(_SQUARE) | st.sampled_from(_ANY) | st.floats(-3.1, 3.1).map(lambda angle: rect(1.0, round(angle, 3)))
+corners = (
+    st.sampled_from(_SQUARE)
+    | st.sampled_from(_ANY)
+    | st.floats(-3.1, 3.1).map(lambda angle: rect(1.0, round(angle, 3)))
+)
 straight = st.builds(Step, corners, st.sampled_from(_LENGTHS) | st.floats(0.02, 3.0))
 rounds = st.builds(
     Step,

@@ -30,7 +30,7 @@ def _agree(contour: Path, side: Side, radius: float, lookahead: int, *, closed: 
 def _same_piece(piece, cut: Cut) -> None:
     assert abs(complex(*piece.start) - cut.start) <= NEAR
     assert abs(complex(*piece.end) - cut.end) <= NEAR
-    assert isinstance(piece, Arc) == (cut.centre is not None)
+    assert isinstance(piece, Arc) == (cut.turn != 0)
     if isinstance(piece, Arc):
         assert piece.turn == cut.turn
         assert abs(complex(*piece.centre) - cut.centre) <= NEAR

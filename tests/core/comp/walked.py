@@ -10,7 +10,7 @@ from cmath import phase, rect
 from dataclasses import dataclass, replace
 from math import sqrt, tau
 
-from core.geometry.piece import Arc, Line, Piece
+from core.geometry.piece import Line, Piece
 from core.tolerance import JOINED, ON_PATH
 
 
@@ -18,7 +18,7 @@ from core.tolerance import JOINED, ON_PATH
 class Cut:
     """A piece of the chain: the whole of it, and from where to where on it is left (distances from its start).
 
-    `centre` is None for a line; `partner` is False for bridges.
+    `turn` is 0 for a line; `partner` is False for bridges.
     """
 
     label: float
@@ -26,7 +26,7 @@ class Cut:
     whole_end: complex
     low: float
     high: float
-    centre: complex | None = None
+    centre: complex = 0j
     turn: int = 0
     partner: bool = True
 
@@ -44,14 +44,14 @@ class Cut:
 
     def at(self, along: float) -> complex:
         """The point at a distance from the whole piece's start."""
-        if self.centre is not None:
+        if self.turn:
             return self.centre + (self.whole_start - self.centre) * rect(1.0, self.turn * along / self.radius)
         length = abs(self.whole_end - self.whole_start)
         return self.whole_start + (self.whole_end - self.whole_start) * (along / length if length else 0.0)
 
     def along(self, point: complex) -> float:
         """How far along the whole piece a point of its line or circle is, as near to what is left as can be."""
-        if self.centre is None:
+        if not self.turn:
             unit = (self.whole_end - self.whole_start) / abs(self.whole_end - self.whole_start)
             return ((point - self.whole_start) * unit.conjugate()).real
         angle = self.turn * phase((point - self.centre) / (self.whole_start - self.centre)) % tau
@@ -64,11 +64,11 @@ class Cut:
 
 def meetings(a: Cut, b: Cut) -> tuple[list[complex], bool]:
     """The points on both pieces in the order of a, and whether they only touch."""
-    if a.centre is None and b.centre is None:
+    if not a.turn and not b.turn:
         found, touch = _line_line(a, b), False
-    elif a.centre is None:
+    elif not a.turn:
         found, touch = _line_circle(a, b)
-    elif b.centre is None:
+    elif not b.turn:
         found, touch = _line_circle(b, a)
     else:
         found, touch = _circles(a, b)
@@ -91,7 +91,7 @@ def _line_circle(line: Cut, arc: Cut) -> tuple[list[complex], bool]:
     if room < -ON_PATH:
         return [], False
     half = sqrt(max(room * (arc.radius + abs(across)), 0.0))
-    return [foot - half * unit, foot + half * unit], abs(room) <= ON_PATH
+    return _pair(foot, half, unit), abs(room) <= ON_PATH
 
 
 def _circles(a: Cut, b: Cut) -> tuple[list[complex], bool]:
@@ -104,7 +104,12 @@ def _circles(a: Cut, b: Cut) -> tuple[list[complex], bool]:
     unit = (b.centre - a.centre) / apart
     foot = (apart**2 + a.radius**2 - b.radius**2) / (2 * apart)
     half = sqrt(max(a.radius**2 - foot**2, 0.0))
-    return [a.centre + unit * complex(foot, half), a.centre + unit * complex(foot, -half)], abs(room) <= ON_PATH
+    return _pair(a.centre + foot * unit, half, 1j * unit), abs(room) <= ON_PATH
+
+
+def _pair(foot: complex, half: float, unit: complex) -> list[complex]:
+    """The chord's two points; within JOINED they are one, and that is the foot."""
+    return [foot - half * unit, foot + half * unit] if half > JOINED else [foot]
 
 
 @dataclass
