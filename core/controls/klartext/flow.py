@@ -21,7 +21,8 @@ _CALL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*(?:REP\s*(\d{1,5})(?:/\d+)?
 _SET: Final = re.compile(r"\s*(\d+)\s*=(.*)$")
 _FUNCTION: Final = re.compile(r"\s*(\d+)\s*:\s*(.*)$")
 _ASSIGN: Final = re.compile(r"(Q[LR]?\d+)\s*=(.*)$")
-_IF: Final = re.compile(r'IF\s*(.+?)\s*(EQU|NE|GT|LT)\s*(.+?)\s*GOTO\s*LBL\s*("[^"]*"|\d+)\s*$')
+_COMPARISON: Final = re.compile(r"EQU|NE(?!G)|GT|LT")
+_GOAL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*$')
 
 
 def labels_of(blocks: Sequence[Block]) -> Mapping[str, int]:
@@ -102,16 +103,18 @@ def function(state: State, block: Block) -> None:
 
 def condition(state: State, block: Block) -> None:
     """IF a EQU, NE, GT or LT b GOTO LBL n."""
-    found = _IF.match(block.body)
-    if found is None:
+    question, _, goal = block.body.strip().removeprefix("IF").partition("GOTO")
+    found, label = _COMPARISON.search(question), _GOAL.match(goal)
+    if found is None or label is None:
         unknown(state, block)
         return
-    first, second = evaluate(found[1], state.parameters), evaluate(found[3], state.parameters)
+    first = evaluate(question[: found.start()], state.parameters)
+    second = evaluate(question[found.end() :], state.parameters)
     if isinstance(first, NoValue):
         _no_value(state, block, first)
     if isinstance(second, NoValue):
         _no_value(state, block, second)
     equal = isclose(first, second, rel_tol=0.0, abs_tol=1e-9)
     holds = {"EQU": equal, "NE": not equal, "GT": first > second and not equal, "LT": first < second and not equal}
-    if holds[found[2]]:
-        _jump(state, block, found[4])
+    if holds[found[0]]:
+        _jump(state, block, label[1])

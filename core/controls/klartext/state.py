@@ -124,7 +124,9 @@ class State:
         elif name == "R" and number in ("+", "-"):
             text = "R+ and R- are for single-axis blocks, which are not worked out here; write L with R0, RL or RR."
         else:
-            text = f"{shown(name)} is not understood in a block {shown(block.head)}."
+            at = place(block, name)
+            written = block.body[at.column - block.column :].split(maxsplit=1)[0]
+            text = f"{shown(written)} is not understood in a block {shown(block.head)}."
         self.stop("WORD", text, block, name)
 
     def number(self, block: Block, words: Words, name: str) -> float:

@@ -147,7 +147,7 @@ def test_rounding_inside_and_outside_is_compensated() -> None:
 
 @pytest.mark.parametrize(("axis", "plane", "end"), [("Y", Plane.ZX, (2, 0, 2)), ("X", Plane.YZ, (0, 2, 2))])
 def test_the_working_plane_follows_the_tool_axis(axis: str, plane: Plane, end: tuple[float, ...]) -> None:
-    first, second = plane.name
+    first, second = plane.name[0], plane.name[1]
     made = clean(f"TOOL CALL 1 {axis}", START, f"CC {first}+0 {second}+2", f"C {first}+2 {second}+2 DR+")
     arc = made.moves[1]
     assert (arc.plane, arc.turn, arc.point) == (plane, 1, end)

@@ -14,6 +14,7 @@ import pytest
 from core.controls.klartext.control import run
 from core.controls.report import Run
 from core.controls.tools import ToolTable
+from core.verify.judge import judge
 from tests.core.controls.klartext.program import DATA, flat
 
 WAY = (2 / sqrt(13), 3 / sqrt(13))
@@ -80,7 +81,7 @@ def test_appr_lct_runs_at_its_own_feed_from_its_start() -> None:
     assert [(moves[row].rapid, moves[row].feed) for row in (2, 3)] == [(False, 200.0)] * 2
 
 
-DEPARTURES = {
+DEPARTURES: dict[str, list[tuple[float, ...]]] = {
     "dep_lt": [(35.0, 32.5)],
     "dep_ln": [(55.0, 20.0)],
     "dep_ct": [(51.0, 20.0, 43.0, 20.0, -1)],
@@ -94,7 +95,7 @@ def test_departures(name: str) -> None:
     assert moves[0] == NEAR((50.0, 5.0), abs=1e-6)
     assert moves[1] == NEAR((35.0, 5.0), abs=1e-6)
     assert moves[2] == NEAR((35.0, 20.0), abs=1e-6)
-    assert [tuple(move) for move in moves[3:]] == [NEAR(want, abs=1e-6) for want in DEPARTURES[name]]
+    assert moves[3:] == [NEAR(want, abs=1e-6) for want in DEPARTURES[name]]
 
 
 @pytest.mark.parametrize("name", DEPARTURES)
@@ -104,3 +105,17 @@ def test_a_departure_runs_at_the_feed_in_force_and_ends_compensation(name: str) 
     (stretch,) = made.stretches
     assert (stretch.entry, stretch.exit, stretch.radius, stretch.side.value) == (1, 1, 5.0, "RIGHT")
     assert (stretch.first, stretch.last) == (1, len(made.moves))
+
+
+def test_a_program_with_one_of_everything_runs_to_its_end() -> None:
+    made = run((DATA / "klartext" / "part.h").read_bytes(), "", ToolTable())
+    assert made.stopped_at is None, made.findings
+    assert {finding.code for finding in made.findings} == {"IGNORED"}
+    assert [stretch.radius for stretch in made.stretches] == [NEAR(4.0)] * 2
+    first, second = made.stretches
+    surface = first.programmed.part(first.entry, len(first.programmed) - first.exit).path()
+    assert judge(surface, first.side, first.radius, made.moves.part(first.first, first.last).path()).clean
+    around = made.moves.part(second.first, second.last)
+    assert [move.turn for move in around][2:] == [1, 1, 1, 1]
+    assert around[2].point == NEAR((57, 40, 1))
+    assert around[4].point == NEAR((57, 40, -3))

@@ -1,0 +1,32 @@
+"""Bad programs: each file says in its first line which rule stops it, and where."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from core.controls.klartext.control import run
+from core.controls.tools import ToolTable
+from core.finding import Severity
+from tests.core.controls.klartext.program import DATA
+
+FILES = sorted((DATA / "bad" / "klartext").glob("*.h"))
+WANTED = re.compile(r"; (\w+) at line (\d+) column (\d+)")
+
+
+def test_every_rule_of_the_control_has_a_bad_program() -> None:
+    assert {f"HE{number}" for number in range(1, 8)} <= {file.stem.partition("-")[0] for file in FILES}
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_the_rule_is_found_where_it_is_broken(file: Path) -> None:
+    text = file.read_bytes()
+    wanted = WANTED.match(text.decode())
+    assert wanted is not None
+    made = run(text, "", ToolTable())
+    (stop,) = [finding for finding in made.findings if finding.severity is Severity.ERROR]
+    assert (stop.code, stop.line, stop.column) == (wanted[1], int(wanted[2]), int(wanted[3]))
+    assert made.stopped_at == stop.line
+    assert stop.text.endswith(".")

@@ -1,0 +1,61 @@
+"""Program text into blocks: numbers, comments, continuation lines, places."""
+
+from __future__ import annotations
+
+from core.controls.klartext.blocks import LONGEST, TOO_LONG, WORD, Block, Place, blocks, place
+
+
+def only(line: str) -> Block:
+    (block,) = blocks([line])
+    return block
+
+
+def test_block_numbers_and_blanks_stand_before_the_head() -> None:
+    assert only("  12 L X+1 ; go") == Block(1, "L", " X+1", 7, skip=False)
+    assert only("L X+1").column == 2
+    assert only("/ 7 L X+1") == Block(1, "L", " X+1", 6, skip=True)
+
+
+def test_lower_case_counts_and_other_alphabets_keep_their_length() -> None:
+    assert only("l x+1") == Block(1, "L", " X+1", 2, skip=False)
+    assert only("L ß").body == " ß"
+
+
+def test_glued_heads() -> None:
+    assert [only(line).head for line in ("LX+1", "CCX+1", "CX+1", "LIX1", "CTX", "LBL 1")] == [
+        "L", "CC", "C", "L", "CTX", "LBL",
+    ]  # fmt: skip
+
+
+def test_empty_lines_and_comments_are_no_blocks() -> None:
+    assert list(blocks(["", "   ", "; only this", "14", "15 ; that"])) == []
+
+
+def test_a_line_that_ends_in_a_tilde_goes_on_in_the_next() -> None:
+    lines = ["5 CYCL DEF 200 DRILLING ~", " Q200=2 ;CLEARANCE ~", " Q201=-20 ;DEPTH", "6 L X+1"]
+    assert [(block.line, block.head) for block in blocks(lines)] == [(1, "CYCL"), (4, "L")]
+
+
+def test_a_sign_that_begins_nothing_is_a_head_of_its_own() -> None:
+    assert only("  % junk")[:4] == (1, "%", "% JUNK", 3)
+    assert only("* - TOOL 3").head == "*"
+
+
+def test_a_line_of_a_megabyte_is_not_read() -> None:
+    assert only("L X+1 " * 170_000) == Block(1, TOO_LONG, "", 1, skip=False)
+    assert only("L" + " " * (LONGEST - 4) + "X+1").head == "L"
+
+
+def test_words() -> None:
+    found = [word[:2] for word in WORD.findall("X+10 IY-.5 RL F100 FMAXM3 R0 DR- PA Q5 LEN 7 R-Q3 RLF5")]
+    assert found == [
+        ("X", "+10"), ("IY", "-.5"), ("RL", ""), ("F", "100"), ("FMAX", ""), ("M", "3"), ("R", "0"), ("DR", "-"),
+        ("PA", "Q5"), ("LEN", "7"), ("R", "-Q3"), ("RL", ""), ("F", "5"),
+    ]  # fmt: skip
+
+
+def test_places_of_words() -> None:
+    block = only("12 L X+1 RL M3")
+    assert place(block, "RL") == Place(1, 10)
+    assert place(block, "M3") == Place(1, 13)
+    assert place(block, "Y") == Place(1, 4)

@@ -1,0 +1,65 @@
+"""Formulas of Q parameters."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core.controls.klartext.formula import NoValue, evaluate
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("+5", 5),
+        ("-2,5", -2.5),
+        ("2 + 3 * 4", 14),
+        ("( 2 + 3 ) * 4", 20),
+        ("2 ^ 3 * 2", 16),
+        ("10 - 4 - 3", 3),
+        ("+Q1 DIV -2", -3.5),
+        ("SIN 30 * 4", 2),
+        ("SQRT ( 9 + 16 )", 5),
+        ("+3 LEN +4", 5),
+        ("+1 ANG -1", 135),
+        ("SQ 3 - ABS -2", 7),
+        ("INT -2.7", -2),
+        ("FRAC 2.25", 0.25),
+        ("NEG Q1", -7),
+        ("SGN -4", -1),
+        ("PI", 3.141592653589793),
+        ("ATAN 1", 45),
+        ("LOG 1000 + LN EXP 2", 5),
+    ],
+)
+def test_values(text: str, value: float) -> None:
+    assert evaluate(text, {"Q1": 7.0}) == pytest.approx(value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("1 / 0", "no value"),
+        ("SQRT -1", "no value"),
+        ("Q2 + 1", "Q2 has no value yet"),
+        ("1 +", "The end stands"),
+        ("( 1", "not closed"),
+        ("1 2", "2 is not understood"),
+        ("10 ^ 400", "no value"),
+        ("%", "stands where"),
+        ("", "The end stands"),
+        ("(" * 5000, "too deep"),
+        ("-" * 5000, "too deep"),
+        ("1e5", "not understood"),
+    ],
+)
+def test_no_values(text: str, words: str) -> None:
+    value = evaluate(text, {"Q1": 7.0})
+    assert isinstance(value, NoValue)
+    assert words in value.text
+
+
+@given(st.text("Q1+-*/^() .,SINCOQRTL29", max_size=40))
+def test_no_formula_raises(text: str) -> None:
+    assert isinstance(evaluate(text, {"Q1": 2.0}), float | NoValue)

@@ -1,0 +1,97 @@
+"""Broken programs never raise, hang or take long.
+
+`python -m tests.core.controls.klartext.test_mutations` runs 1,000 mutations of every sample.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from random import Random
+from time import perf_counter
+
+import pytest
+
+from core.controls.klartext.control import run
+from core.controls.report import Run
+from core.controls.tools import ToolTable
+from tests.core.controls.klartext.program import DATA
+
+SAMPLES = sorted((DATA / "klartext").glob("*.h"))
+JUNK = (b"\x00", b"\xff\xfe", b"\x1b[2J", b"\r", b"\n", b"Q", b"9" * 400, b"(", b"~", b"/", b";", b"REP 9999", b"-")
+
+
+def mutated(text: bytes, random: Random) -> bytes:
+    """The text with a few of its signs or lines broken."""
+    for _ in range(random.randint(1, 6)):
+        at = random.randrange(len(text) or 1)
+        match random.randrange(6):
+            case 0:
+                text = text[:at] + text[at + 1 :]
+            case 1:
+                text = text[:at] + text[at : at + 1] * random.randint(2, 5) + text[at + 1 :]
+            case 2:
+                text = text[:at] + text[at + 1 : at + 2] + text[at : at + 1] + text[at + 2 :]
+            case 3:
+                lines = text.split(b"\n")
+                random.shuffle(lines)
+                text = b"\n".join(lines)
+            case 4:
+                text = text[:at] + random.choice(JUNK) + text[at:]
+            case _:
+                line = random.choice(text.split(b"\n"))
+                text = text[:at] + b"\n" + line + b"\n" + text[at:]
+    return text
+
+
+def sound(made: Run) -> bool:
+    """Moves that are numbers, and findings that say where."""
+    finite = bool((abs(made.moves.points) < 1e9).all() and (abs(made.moves.centres) < 1e12).all())
+    return finite and all(finding.line is not None for finding in made.findings)
+
+
+def broken(file: Path, count: int) -> float:
+    """Seconds the slowest of so many mutations took."""
+    text, random, slowest = file.read_bytes(), Random(file.stem), 0.0
+    for number in range(count):
+        program = mutated(text, random)
+        before = perf_counter()
+        made = run(program, "", ToolTable())
+        slowest = max(slowest, perf_counter() - before)
+        assert sound(made), (file.name, number, program)
+    return slowest
+
+
+@pytest.mark.parametrize("file", SAMPLES, ids=lambda file: file.stem)
+def test_a_hundred_mutations_of_each_sample(file: Path) -> None:
+    assert broken(file, 100) < 1.0
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        b"",
+        b"\x00" * 5000,
+        bytes(range(256)) * 40,
+        b"L X+1 " * 200_000,
+        b"9" * 1_000_000,
+        b"FN 9: IF " + b" " * 900 + b"GOTO",
+        b"Q1 = " + b"-" * 990,
+        b"TOOL CALL " + b"9" * 980 + b" Z",
+        b"L X+" + b"9" * 990,
+        b"L M" + b"9" * 990,
+        b"L X+1\n" * 20_000,
+        b"LBL 1\nCALL LBL 1 REP 65534\n" * 50,
+    ],
+    ids=range(12),
+)
+def test_what_is_no_program_is_answered_in_time(text: bytes) -> None:
+    before = perf_counter()
+    made = run(text, "", ToolTable())
+    assert perf_counter() - before < 1.0
+    assert sound(made)
+    assert made.findings
+
+
+if __name__ == "__main__":
+    for sample in SAMPLES:
+        print(f"{sample.name:16} slowest {broken(sample, 1000) * 1000:8.1f} ms")

@@ -1,0 +1,157 @@
+"""Program frame, units, tools, M functions and what is passed over or refused."""
+
+from __future__ import annotations
+
+import pytest
+
+from core.controls.klartext.control import run
+from core.controls.tools import CutterTool, ToolTable
+from core.finding import Severity
+from core.units import Unit
+from tests.core.controls.klartext.program import clean, codes, flat, points, runs
+
+NEAR = pytest.approx
+CONTOUR = ("L X-20 Y+0 R0 FMAX", "L X+0 Y+0 RL F9", "L X+30", "L X+60 R0")
+NONE = ToolTable()
+
+
+def entry(*before: str, tools: ToolTable = NONE) -> float:
+    """How far beside the contour the tool runs."""
+    return flat(runs(*before, *CONTOUR, tools=tools))[0][1]
+
+
+def test_inches() -> None:
+    tool = "TOOL DEF 1 L+0 R+.25\nTOOL CALL 1 Z DR+.01\n"
+    moves = "L X+1 Y+0 F10\nCC X+0 Y+0\nCP PA+90 DR+\n"
+    made = run(f"BEGIN PGM P INCH\n{tool}{moves}END PGM P INCH".encode(), "", NONE)
+    assert made.unit is Unit.IN
+    assert codes(made) == [("UNIT", 1)]
+    assert made.moves[1].point == (25.4, 0, 0)
+    assert made.moves[1].feed == 254
+    assert flat(made)[0] == NEAR((0, 25.4, 0, 0, 1))
+
+
+def test_tool_data() -> None:
+    assert entry() == 5
+    assert entry("TOOL CALL 1 Z S1 DL+1 DR-0.5") == 4.5
+    assert entry("TOOL CALL DR+0.5") == 5.5
+    assert entry("TOOL DEF 7 L+0 R+3", "TOOL CALL 7 Z") == 3
+    assert entry('TOOL DEF "MILL 3" R1,5', 'TOOL CALL "MILL 3" Z S900 F100') == 1.5
+    assert entry("TOOL DEF 9") == 5
+    assert entry("TOOL DEF 3 L+1 R+2 R2+1", "TOOL CALL 3 Z DR2+0.1") == 2
+
+
+def test_a_tool_of_the_table_counts_before_tool_def_and_says_so() -> None:
+    tools = ToolTable.of(CutterTool(1, 9.0), CutterTool(4, 0.25, unit=Unit.IN))
+    made = runs("TOOL CALL 1 Z", *CONTOUR, tools=tools)
+    assert [(finding.code, finding.severity) for finding in made.findings] == [("TOOL", Severity.INFO)] * 2
+    assert entry("TOOL CALL 1 Z", tools=tools) == 4.5
+    assert entry("TOOL CALL 4 Z", tools=tools) == NEAR(3.175)
+
+
+def test_a_feed_in_the_tool_call_holds() -> None:
+    assert clean("TOOL CALL 1 Z F77", "L X+1 Y+1").moves[1].feed == 77
+
+
+@pytest.mark.parametrize(
+    ("blocks", "rule", "line"),
+    [
+        (("TOOL CALL 5 Z", *CONTOUR), "TOOL", 6),
+        (("L X+0 Y+0 Z+1 R0 F9", "L X+9 RL", "L X+20", "TOOL CALL 1 Z"), "TOOL", 7),
+        (("TOOL DEF L+0 R+5",), "TOOL", 4),
+        (("TOOL CALL 1 Z X",), "TWICE", 4),
+        (("TOOL NAME 1",), "WORD", 4),
+        (("CYCL CALL",), "WORD", 4),
+        (("CYCL DEF 10.0 ROTATION",), "WORD", 4),
+        (("CYCL DEF 7.1 #5",), "WORD", 4),
+        (("PLANE SPATIAL SPA+10",), "WORD", 4),
+        (("CALL PGM OTHER",), "WORD", 4),
+        (("FC DR+ R10",), "WORD", 4),
+        (("FN 18: SYSREAD Q1 = ID1",), "WORD", 4),
+        (("BEGIN PGM Q MM",), "PROGRAM", 4),
+        (("L X+1 M91",), "WORD", 4),
+        (("L X+1 A+90",), "WORD", 4),
+        (("L X+1 R+",), "WORD", 4),
+        (("L X+1 LA5",), "WORD", 4),
+        (("X+30 R+ F100",), "WORD", 4),
+        (("G1 X10",), "WORD", 4),
+        (("L X+1 X+2",), "TWICE", 4),
+        (("L X+1 IX+2",), "TWICE", 4),
+        (("L X+1 F1 FMAX",), "TWICE", 4),
+        (("L X+1 R0 RL",), "TWICE", 4),
+        (("L X",), "NUMBER", 4),
+        (("L X+",), "NUMBER", 4),
+        (("L X+99999999",), "NUMBER", 4),
+        (("L X+1 F-3",), "NUMBER", 4),
+        (("L X+1 M",), "NUMBER", 4),
+        (("LBL",), "LABEL", 4),
+        (("CHF",), "CORNER", 4),
+        (("DEP PLT LEN5",), "WORD", 4),
+        (("APPR XX",), "WORD", 4),
+        (("END",), "WORD", 4),
+        (("STOP X+1",), "WORD", 4),
+        (("TRANS MIRROR AXIS X",), "WORD", 4),
+    ],
+)
+def test_what_is_not_understood_or_worked_out_stops_the_program(blocks: tuple[str, ...], rule: str, line: int) -> None:
+    made = runs(*blocks)
+    assert codes(made)[-1] == (rule, line)
+    assert made.stopped_at == line
+    assert made.findings[-1].severity is Severity.ERROR
+
+
+@pytest.mark.parametrize(
+    ("block", "rule", "severity"),
+    [
+        ("BLK FORM 0.1 Z X+0 Y+0 Z-20", "IGNORED", Severity.INFO),
+        ("CYCL DEF 200 DRILLING", "IGNORED", Severity.INFO),
+        ("L X+1 F9 M120 LA5", "M", Severity.WARNING),
+        ("L X+1 F9 M136", "M", Severity.WARNING),
+        ("L X+1 F9 M42", "M", Severity.INFO),
+        ("/ L X+1 F9", "SKIP", Severity.INFO),
+        ("L X+1", "FEED", Severity.WARNING),
+    ],
+)
+def test_what_is_told_and_goes_on(block: str, rule: str, severity: Severity) -> None:
+    made = runs("L X+0 Y+0 Z+1 FMAX", block, "L X+5 F9")
+    assert [(finding.code, finding.severity, finding.line) for finding in made.findings] == [(rule, severity, 5)]
+    assert points(made)[-1] == (5, 0, 1)
+
+
+@pytest.mark.parametrize(
+    "block", ["* - ROUGHING", "STOP M5", "M9", "L M3", "CYCL DEF 7.0 DATUM SHIFT", "TOOL CALL S500"]
+)
+def test_what_needs_no_word(block: str) -> None:
+    assert len(clean(block).moves) == 1
+
+
+def test_m2_ends_the_program_behind_its_block() -> None:
+    made = clean("L X+1 Y+1 F9 M2", "this is never read")
+    assert flat(made, 1) == [(1, 1)]
+
+
+def test_a_program_without_its_frame() -> None:
+    made = run(b"L X+10 Y+10 R0 FMAX M3", "", NONE)
+    assert codes(made) == [("PROGRAM", 1)]
+    assert flat(made, 1) == [(10, 10)]
+    assert codes(run(b"BEGIN PGM P MM\nL X+1 Y+1 FMAX\n", "", NONE)) == [("PROGRAM", 2)]
+    assert codes(run(b"", "", NONE)) == [("PROGRAM", 1)]
+
+
+def test_a_feed_move_from_an_unknown_place_is_told() -> None:
+    assert codes(runs("L X+1 F9", "L X+2")) == [("POSITION", 4)]
+
+
+def test_line_ends_and_encodings() -> None:
+    program = "BEGIN PGM P MM\nL X+1 Y+2 FMAX ; größer\nEND PGM P MM"
+    for text in (program, program.replace("\n", "\r\n"), program.replace("\n", "\r")):
+        for encoding in ("utf-8", "latin-1", "utf-16", "utf-8-sig"):
+            assert flat(run(text.encode(encoding), "", NONE), 1) == [(1, 2)]
+
+
+def test_nothing_of_the_file_reaches_the_terminal_raw() -> None:
+    for junk in (b"\x1b[31m", b"L X+1 \x1b]0;hi\x07", b"\x00\x01", b"LBL {0}", "L X+1 \u202e".encode()):
+        made = run(b"BEGIN PGM P MM\n" + junk, "", NONE)
+        assert made.stopped_at == 2
+        assert all(one.isprintable() for one in made.findings[-1].text)
+        assert "{0}" not in made.findings[-1].text
