@@ -15,13 +15,13 @@ from typing import Final
 from core.geometry.piece import Arc, Point, Turn
 from core.units import Unit, from_mm
 
-DECIMALS: Final = {Unit.IN: 5, Unit.MM: 4}
+DECIMALS: Final = {Unit.IN: 6, Unit.MM: 5}
 FINER: Final = 1
 """Further decimals of I and J, which keep the two radii of an arc equal."""
 ASTRAY: Final = 4.0
 """How far, in last digits, an arc as written may end from where it should, measured along it."""
-SMALLEST: Final = 16.0
-"""An arc of a smaller radius, in last digits, is written as chords: its radii could not agree."""
+SMALLEST: Final = 160.0
+"""An arc of a smaller radius, in last digits, is written as chords: LinuxCNC refuses it as one without a radius."""
 SHALLOW: Final = 1e-5
 """Radians.  Controls take an angle much smaller than this for none at all, and so the arc for a full circle."""
 FLAT: Final = 0.5

@@ -128,9 +128,9 @@ def positions(nc: str, scale: float) -> list[tuple[float, float, float]]:
 
 def test_moves_that_vanish_in_rounding_are_left_out_and_do_not_add_up():
     """A thousand steps of a twentieth of the last digit end where they should."""
-    steps = polyline(*((number * 5e-7, 0.0) for number in range(1001)))
+    steps = polyline(*((number * 5e-8, 0.0) for number in range(1001)))
     lines = [line for line in text(job(steps, peck_depth=0.0)).splitlines() if line.startswith("G1 X")]
-    assert lines[-1] == "G1 X0.0005"
+    assert lines[-1] == "G1 X0.00005"
     assert len(lines) == 50
 
 
@@ -141,7 +141,7 @@ def test_a_full_circle_is_one_line():
 
 def test_a_feed_that_vanished_moves_does_not_take_effect():
     """The second segment is too short to write; its feed must not stay for the third."""
-    path = polyline((0, 0), (1, 0), (1.000001, 0), (2, 0))
+    path = polyline((0, 0), (1, 0), (1.0000001, 0), (2, 0))
     given = tuple(floor for floor in floors(3))
     slow = given[1].__class__(2, given[1].z_start, given[1].z_end, 1.0)
     found = text(job(path, floors=(given[0], slow, given[2]), peck_depth=0.0))
