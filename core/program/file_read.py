@@ -6,6 +6,7 @@ range is refused, since the form never holds one.
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -158,7 +159,15 @@ def _parsed(text: str, file: str) -> dict[str, Any]:
     except RecursionError:
         raise StoreError(f"{file}: brackets are nested too deep for a program file.") from None
     except ValueError as error:
-        raise StoreError(f"{file}: {error}. Correct it there, or open a saved copy.") from error
+        raise StoreError(f"{file}, {_placed(str(error), text)}. Correct it there, or open a saved copy.") from error
+
+
+def _placed(fault: str, text: str) -> str:
+    """A fault of syntax with its line in front; what a cut file lacks is missed in its last line."""
+    found = re.fullmatch(r"(.*) \(at (?:(line \d+, column \d+)|end of document)\)", fault, re.DOTALL)
+    if found is None:
+        return "somewhere in it: a number has too many digits"
+    return f"{found[2] or f'line {len(text.splitlines()) or 1}'}: {found[1]}"
 
 
 def _numbers(table: _Table, form: Form) -> dict[str, Typed]:

@@ -45,7 +45,7 @@ def _keys(form: Form, part: Typable) -> Iterator[str]:
         value = getattr(part, one.name)
         if isinstance(value, Entry):
             yield f"{one.name} = {_number(value.value, one.kind)}"
-        elif isinstance(value, int | str) and value != "":
+        elif isinstance(value, int | str) and (one.name, value) != ("name", ""):
             yield f"{one.name} = {_quoted(value) if isinstance(value, str) else value}"
     choice = getattr(part, "choice", None)
     if choice is not None:
