@@ -1,0 +1,241 @@
+"""Meetings of lines and arcs: cases found by hand, then laws that hold for all of them."""
+
+from __future__ import annotations
+
+from cmath import rect
+from math import pi, sqrt, tau
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from core.geometry.intersect import Meeting, Meetings, meet
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Piece, Turn
+
+APART, TOUCH, CROSS, OVERLAP = Meeting
+CIRCLE = Arc((1, 0), (1, 0), (0, 0), Turn.CCW)
+UPPER = Arc((1, 0), (-1, 0), (0, 0), Turn.CCW)
+LOWER = Arc((1, 0), (-1, 0), (0, 0), Turn.CW)
+ONLY = np.array([0])
+
+
+def _meet(a: Piece, b: Piece) -> Meetings:
+    return meet(Path.from_pieces([a]), ONLY, Path.from_pieces([b]), ONLY)
+
+
+def _points(met: Meetings) -> list[tuple[float, float]]:
+    return [(x, y) for x, y in met.points.tolist()]
+
+
+def _expect(a: Piece, b: Piece, kind: Meeting, *points: tuple[float, float]) -> None:
+    met = _meet(a, b)
+    assert met.kinds.tolist() == [kind]
+    assert _points(met) == [pytest.approx(point, abs=1e-12) for point in points]
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "kind", "points"),
+    [
+        (Line((0, 0), (2, 0)), Line((1, -1), (1, 1)), CROSS, [(1, 0)]),
+        (Line((0, 0), (2, 0)), Line((3, -1), (3, 1)), APART, []),
+        (Line((0, 0), (2, 0)), Line((2, 0), (2, 1)), CROSS, [(2, 0)]),
+        (Line((0, 0), (2, 0)), Line((2, 1), (2, 1e-10)), CROSS, [(2, 0)]),
+        (Line((0, 0), (2, 0)), Line((2, 1), (2, 1e-8)), APART, []),
+        (Line((0, 0), (2, 0)), Line((0, 1), (2, 1)), APART, []),
+        (Line((0, 0), (2, 0)), Line((1, 0), (3, 0)), OVERLAP, []),
+        (Line((0, 0), (2, 0)), Line((3, 0), (1, 0)), OVERLAP, []),
+        (Line((0, 0), (2, 0)), Line((2, 0), (3, 0)), TOUCH, [(2, 0)]),
+        (Line((0, 0), (2, 0)), Line((3, 0), (4, 0)), APART, []),
+        (Line((0, 0), (0, 0)), Line((-1, 0), (1, 0)), APART, []),
+    ],
+)
+def test_line_and_line(a, b, kind, points):
+    _expect(a, b, kind, *points)
+
+
+@pytest.mark.parametrize(
+    ("line", "arc", "kind", "points"),
+    [
+        (Line((-2, 0), (2, 0)), CIRCLE, CROSS, [(-1, 0), (1, 0)]),
+        (Line((2, 0), (-2, 0)), CIRCLE, CROSS, [(1, 0), (-1, 0)]),
+        (Line((0, 0), (2, 0)), CIRCLE, CROSS, [(1, 0)]),
+        (Line((0, 0.5), (0, 2)), UPPER, CROSS, [(0, 1)]),
+        (Line((0, 0.5), (0, 2)), LOWER, APART, []),
+        (Line((0, -2), (0, 2)), LOWER, CROSS, [(0, -1)]),
+        (Line((-2, 1), (2, 1)), UPPER, TOUCH, [(0, 1)]),
+        (Line((-2, 1), (2, 1)), LOWER, APART, []),
+        (Line((-2, 1 + 1e-10), (2, 1 + 1e-10)), UPPER, TOUCH, [(0, 1)]),
+        (Line((-2, 1 + 1e-8), (2, 1 + 1e-8)), UPPER, APART, []),
+        (Line((-2, 3), (2, 3)), CIRCLE, APART, []),
+        (Line((-1, 0), (-3, 0)), UPPER, CROSS, [(-1, 0)]),
+        (Line((0, 0), (0, 0)), CIRCLE, APART, []),
+    ],
+)
+def test_line_and_arc_either_way(line, arc, kind, points):
+    met, other = _meet(line, arc), _meet(arc, line)
+    assert met.kinds.tolist() == other.kinds.tolist() == [kind]
+    assert _points(met) == [pytest.approx(point, abs=1e-9) for point in points]
+    assert sorted(_points(other)) == sorted(_points(met))
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "kind", "points"),
+    [
+        (CIRCLE, Arc((2, 0), (2, 0), (1, 0), Turn.CCW), CROSS, [(0.5, sqrt(0.75)), (0.5, -sqrt(0.75))]),
+        (UPPER, Arc((2, 0), (2, 0), (1, 0), Turn.CCW), CROSS, [(0.5, sqrt(0.75))]),
+        (UPPER, Arc((0, 0), (2, 0), (1, 0), Turn.CCW), APART, []),
+        (CIRCLE, Arc((3, 0), (3, 0), (2, 0), Turn.CCW), TOUCH, [(1, 0)]),
+        (CIRCLE, Arc((1, 0), (1, 0), (0.5, 0), Turn.CCW), TOUCH, [(1, 0)]),
+        (CIRCLE, Arc((4, 0), (4, 0), (3, 0), Turn.CCW), APART, []),
+        (CIRCLE, Arc((0.5, 0), (0.5, 0), (0, 0), Turn.CW), APART, []),
+        (CIRCLE, Arc((0.3, 0), (0.3, 0), (0.2, 0), Turn.CW), APART, []),
+        (CIRCLE, CIRCLE, OVERLAP, []),
+        (UPPER, UPPER, OVERLAP, []),
+        (UPPER, LOWER, APART, []),
+        (UPPER, Arc((0, 1), (0, -1), (0, 0), Turn.CCW), OVERLAP, []),
+        (UPPER, Arc((0, 1), (1, 0), (0, 0), Turn.CW), OVERLAP, []),
+    ],
+)
+def test_arc_and_arc(a, b, kind, points):
+    _expect(a, b, kind, *points)
+
+
+def test_distances_along_and_rests():
+    met = _meet(UPPER, Line((0, 0), (0, 3)))
+    assert met.along_a.tolist() == [pytest.approx(pi / 2)]
+    assert met.rest_a.tolist() == [pytest.approx(pi / 2)]
+    assert met.along_b.tolist() == [pytest.approx(1)]
+    assert met.rest_b.tolist() == [pytest.approx(2)]
+
+
+def test_clockwise_arcs_are_measured_as_travelled():
+    met = _meet(Arc((-1, 0), (1, 0), (0, 0), Turn.CW), Line((-2, 0.5), (2, 0.5)))
+    assert met.along_a.tolist() == [pytest.approx(pi / 6), pytest.approx(5 * pi / 6)]
+
+
+def test_touch_of_parallel_lines_has_its_place():
+    met = _meet(Line((0, 0), (2, 0)), Line((5, 0), (2, 0)))
+    assert (met.along_a.tolist(), met.rest_a.tolist()) == ([2], [0])
+    assert (met.along_b.tolist(), met.rest_b.tolist()) == ([3], [0])
+
+
+def test_no_pairs_are_no_meetings():
+    none = np.empty(0, np.intp)
+    met = meet(Path.from_pieces([CIRCLE]), none, Path.from_pieces([CIRCLE]), none)
+    assert len(met.kinds) == len(met.points) == 0
+
+
+def test_many_pairs_keep_their_order():
+    pieces: list[Piece] = [Line((-2, 0), (2, 0)), Arc((2, 0), (2, 0), (0, 0), Turn.CCW), Line((2, 0), (0, 3))]
+    path = Path.from_pieces(pieces)
+    across = Path.from_pieces([Line((0, -5), (0, 5)), Line((0, 5), (9, 5)), Arc((9, 5), (7, 5), (8, 5), Turn.CW)])
+    met = meet(path, np.array([0, 1, 2, 0, 1]), across, np.array([0, 0, 0, 2, 0]))
+    assert met.kinds.tolist() == [CROSS, CROSS, CROSS, APART, CROSS]
+    assert met.pair.tolist() == [0, 1, 1, 2, 4, 4]
+    assert met.points.tolist() == [
+        pytest.approx(point, abs=1e-12) for point in [(0, 0), (0, 2), (0, -2), (0, 3), (0, 2), (0, -2)]
+    ]
+
+
+numbers = st.floats(-10, 10).map(lambda value: round(value, 4))
+places = st.builds(complex, numbers, numbers)
+
+
+def _line(start: complex, end: complex) -> Line:
+    return Line((start.real, start.imag), (end.real, end.imag))
+
+
+def _arc(centre: complex, radius: float, begin: float, sweep: float) -> Arc:
+    one, two = centre + rect(radius, begin), centre + rect(radius, begin + sweep)
+    turn = Turn.CCW if sweep > 0 else Turn.CW
+    return Arc((one.real, one.imag), (two.real, two.imag), (centre.real, centre.imag), turn)
+
+
+sweeps = st.floats(0.05, 6.2) | st.floats(-6.2, -0.05)
+any_line = st.tuples(places, places).filter(lambda ends: abs(ends[0] - ends[1]) > 0.01).map(lambda ends: _line(*ends))
+any_arc = st.builds(_arc, places, st.floats(0.1, 8), st.floats(0, tau), sweeps)
+any_piece = any_line | any_arc
+
+
+def _distance(piece: Piece, point: complex) -> float:
+    """How far a point is from the whole line or circle of a piece."""
+    if isinstance(piece, Arc):
+        return abs(abs(point - complex(*piece.centre)) - piece.radius)
+    along = complex(*piece.end) - complex(*piece.start)
+    return abs((along.conjugate() * (point - complex(*piece.start))).imag) / abs(along)
+
+
+def _clear(met: Meetings) -> bool:
+    """Are all points well inside both pieces, and none near tangent?  Only there must rounding not decide."""
+    ends = np.concatenate((met.along_a, met.along_b, met.rest_a, met.rest_b))
+    return bool((ends > 1e-4).all()) and met.kinds[0] in (APART, CROSS)
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(any_piece, any_piece)
+def test_points_lie_on_both_pieces(a, b):
+    met = _meet(a, b)
+    for x, y in met.points.tolist():
+        assert _distance(a, complex(x, y)) < 1e-8
+        assert _distance(b, complex(x, y)) < 1e-8
+    assert np.allclose(met.along_a + met.rest_a, a.length, atol=1e-9)
+    assert np.allclose(met.along_b + met.rest_b, b.length, atol=1e-9)
+    assert (np.diff(met.along_a) >= 0).all()
+
+
+@settings(max_examples=200, deadline=None, derandomize=True)
+@given(any_piece, any_piece)
+def test_order_of_the_pair_does_not_matter(a, b):
+    one, two = _meet(a, b), _meet(b, a)
+    assert one.kinds.tolist() == two.kinds.tolist()
+    order = np.argsort(two.along_b)
+    assert np.allclose(one.points, two.points[order], atol=1e-6)
+
+
+@settings(max_examples=200, deadline=None, derandomize=True)
+@given(any_piece, any_piece, st.floats(0, tau), st.builds(complex, st.floats(-1e4, 1e4), st.floats(-1e4, 1e4)))
+def test_moving_and_turning_moves_the_points(a, b, angle, shift):
+    met = _meet(a, b)
+    assume(_clear(met))
+    turned = rect(1.0, angle)
+
+    def moved(point: tuple[float, float]) -> tuple[float, float]:
+        place = complex(*point) * turned + shift
+        return place.real, place.imag
+
+    def carried(piece: Piece) -> Piece:
+        if isinstance(piece, Line):
+            return Line(moved(piece.start), moved(piece.end))
+        return Arc(moved(piece.start), moved(piece.end), moved(piece.centre), piece.turn)
+
+    other = _meet(carried(a), carried(b))
+    assume(len(other.points) == len(met.points) or _steep(a, b, met))
+    assert len(other.points) == len(met.points)
+    assert np.allclose(other.along_a, met.along_a, atol=1e-6)
+
+
+def _steep(a: Piece, b: Piece, met: Meetings) -> bool:
+    """Is a pair that does not meet far from doing so?  Points of a, densely taken, keep a distance from b's curve."""
+    if len(met.points):
+        return True
+    path = Path.from_pieces([a])
+    shares = np.linspace(0.0, 1.0, 400)
+    if isinstance(a, Line):
+        on = path.starts + shares[:, None] * (path.ends - path.starts)
+    else:
+        angle = np.arctan2(*(path.starts - path.centres)[0][::-1]) + shares * path.sweeps[0]
+        on = path.centres + a.radius * np.stack((np.cos(angle), np.sin(angle)), axis=1)
+    return min(_distance(b, complex(x, y)) for x, y in on.tolist()) > 0.1
+
+
+@settings(max_examples=200, deadline=None, derandomize=True)
+@given(any_piece, any_piece)
+def test_travelled_backwards_pieces_meet_at_the_same_points(a, b):
+    met = _meet(a, b)
+    back = meet(Path.from_pieces([a]).reversed(), ONLY, Path.from_pieces([b]), ONLY)
+    assume(_clear(met))
+    assert len(back.points) == len(met.points)
+    assert np.allclose(back.along_a[::-1], met.rest_a, atol=1e-7)
+    assert np.allclose(back.points[::-1], met.points, atol=1e-7)
