@@ -43,8 +43,12 @@ def closest_pairs(first: Floats, second: Floats) -> tuple[Rows, Rows]:
     return i, j
 
 
-def nearest_boxes(points: Points, boxes: Floats, tie: float) -> tuple[Rows, Rows]:
-    """Indices (k, j) in rising order of k: for each point the boxes that may hold what is nearest, or `tie` farther."""
+def nearest_boxes(points: Points, boxes: Floats, within: Floats, slack: float) -> tuple[Rows, Rows]:
+    """Indices (k, j) in rising order of k: for each point the boxes that may hold what is nearest.
+
+    `within` (n,) are distances at which something is known to be, infinite where nothing is known.  What is farther
+    than the nearest by no more than `slack` is wanted too.
+    """
     spots = np.array((points.real, points.imag, points.real, points.imag))
     tree = _tree(boxes, max(1, AT_ONCE // (4 * max(1, len(points)))))
     k, j = np.nonzero(np.ones((len(points), tree[0].shape[1]), np.bool_))
@@ -52,8 +56,10 @@ def nearest_boxes(points: Points, boxes: Floats, tie: float) -> tuple[Rows, Rows
         if depth:
             k, j = _brood(k, j, level.shape[1])
         near, far = _apart(spots[:, k], level[:, j]), _span(spots[:, k], level[:, j])
-        limit = np.minimum.reduceat(far, np.searchsorted(k, np.arange(len(points))))
-        keep = near <= limit[k] + tie
+        starts = np.searchsorted(k, np.arange(len(points)))
+        within = np.minimum(within, np.minimum.reduceat(far, starts))
+        within = np.maximum(within, np.minimum.reduceat(near, starts))
+        keep = near <= within[k] + slack
         k, j = k[keep], j[keep]
     return k, j
 

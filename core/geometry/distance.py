@@ -71,26 +71,28 @@ def _line_on_line(line: Measured, through: Points, unit: Points) -> Floats:
 
 def _arc_on_line(arc: Measured, through: Points, unit: Points) -> Floats:
     normal = 1j * unit
-    return _fan(arc, normal, ((through - arc.centre) * np.conj(normal)).real / arc.radius)
+    height = ((through - arc.centre) * np.conj(normal)).real
+    return _fan(arc, normal, (arc.radius - height) / (2.0 * arc.radius))
 
 
 def _line_on_circle(line: Measured, centre: Points, radius: Floats) -> Floats:
     unit = line.unit
     seen = (centre - line.start) * np.conj(unit)
-    half = np.sqrt(radius * radius - seen.imag * seen.imag)
+    half = np.sqrt((radius - seen.imag) * (radius + seen.imag))
     return np.stack((seen.real - half, seen.real + half)) / line.length
 
 
 def _arc_on_circle(arc: Measured, centre: Points, radius: Floats) -> Floats:
     between = centre - arc.centre
     size = np.abs(between)
-    cosine = (arc.radius * arc.radius + size * size - radius * radius) / (2.0 * arc.radius * size)
-    return _fan(arc, between, cosine)
+    over = size - arc.radius
+    return _fan(arc, between, (radius - over) * (radius + over) / (4.0 * arc.radius * size))
 
 
-def _fan(arc: Measured, axis: Points, cosine: Floats) -> Floats:
-    """Fractions at the two directions from the arc's centre that make an angle of this cosine with `axis`."""
-    half = np.arccos(cosine)
+def _fan(arc: Measured, axis: Points, share: Floats) -> Floats:
+    """Fractions at the two directions from the arc's centre at an angle to `axis`, half of which has the sine squared
+    `share`: near a touch, where the cosine is all but 1, this keeps the digits."""
+    half = 2.0 * np.arcsin(np.sqrt(share))
     towards = np.angle(axis * np.conj(arc.arm)) * arc.turn
     return np.mod(np.stack((towards - half, towards + half)), tau) / arc.angle
 

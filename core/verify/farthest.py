@@ -15,6 +15,7 @@ import numpy as np
 
 from core.geometry.distance import between, distance, farthest_places
 from core.geometry.measured import Flags, Floats, Measured, Rows, at, boxes, place
+from core.tolerance import STOCK
 from core.verify.reach import Stretches, nearest
 
 FINE: Final = 1e-8
@@ -47,25 +48,29 @@ class _Spans:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Search:
-    """The path that is walked, its stations, the other path and its boxes."""
+    """The path that is walked, its stations, the other path and its boxes; `give` is for rounding and uneven arcs."""
 
     walked: Measured
     stations: Floats
     other: Measured
     bounds: Floats
+    give: float
 
-    def look(self, s: Floats) -> tuple[Floats, Rows]:
-        """Distance of each place from the other path and the piece it is nearest to."""
+    def look(self, s: Floats, known: Floats) -> tuple[Floats, Rows]:
+        """Distance of each place from the other path, no larger than `known`, and the piece it is nearest to."""
         index, t = place(self.walked, self.stations, s)
-        found = nearest(at(self.walked.take(index), t), self.other, self.bounds)
+        found = nearest(at(self.walked.take(index), t), self.other, self.bounds, known=known + self.give)
         first = np.searchsorted(found.k, np.arange(len(s)))
         return found.apart[first], found.j[first]
 
 
-def farthest(walked: Measured, stretches: Stretches, other: Measured) -> Farthest:
-    """The largest distance from `other`, within FINE, on each stretch of `walked`; `other` has at least one piece."""
-    search = _Search(walked, walked.stations, other, boxes(other))
-    spans, best = _begin(search, stretches)
+def farthest(walked: Measured, stretches: Stretches, other: Measured, ends: float) -> Farthest:
+    """The largest distance from `other`, within FINE, on each stretch of `walked`; `other` has at least one piece.
+
+    `ends` is no less than the distance at the stretches' ends, except those at the very ends of `walked`.
+    """
+    search = _Search(walked, walked.stations, other, boxes(other), STOCK + 2.0 * float(walked.slack.max(initial=0.0)))
+    spans, best = _begin(search, stretches, ends)
     for turn in range(ROUNDS):
         bound, crossing = _bounds(search, spans)
         open_still = bound > best.apart[spans.owner] + FINE
@@ -76,7 +81,7 @@ def farthest(walked: Measured, stretches: Stretches, other: Measured) -> Farthes
     return best
 
 
-def _begin(search: _Search, stretches: Stretches) -> tuple[_Spans, Farthest]:
+def _begin(search: _Search, stretches: Stretches, ends: float) -> tuple[_Spans, Farthest]:
     """Stretches parted at the joints within them, and the best of all their ends and joints."""
     joints = search.stations[1:-1]
     owner = stretches.index(joints)
@@ -86,11 +91,19 @@ def _begin(search: _Search, stretches: Stretches) -> tuple[_Spans, Farthest]:
     s = np.concatenate((stretches.first, stretches.last, joints[inside]))
     order = np.lexsort((s, owners))
     owners, s = owners[order], s[order]
-    apart, near = search.look(s)
+    apart, near = search.look(s, ends + _from_ends(search, stretches, owners, s))
     pairs = np.flatnonzero((owners[1:] == owners[:-1]) & (s[1:] > s[:-1]))
     both = np.stack((pairs, pairs + 1))
     none = Farthest(np.zeros(len(each)), np.full(len(each), -np.inf))
     return _Spans(owners[pairs], s[both], apart[both], near[both]), _better(none, owners, s, apart)
+
+
+def _from_ends(search: _Search, stretches: Stretches, owner: Rows, s: Floats) -> Floats:
+    """Length along the stretch to the nearer of its ends, not counting an end of the whole path."""
+    first = np.where(stretches.first > 0.0, stretches.first, -np.inf)
+    last = np.where(stretches.last < search.stations[-1], stretches.last, np.inf)
+    nearer: Floats = np.minimum(s - first[owner], last[owner] - s)
+    return nearer
 
 
 def _better(best: Farthest, owner: Rows, s: Floats, apart: Floats) -> Farthest:
@@ -131,7 +144,7 @@ def _within_span(piece: Measured, near: Measured, t: Floats) -> Floats:
 def _divide(search: _Search, spans: _Spans, share: Floats, best: Farthest) -> tuple[_Spans, Farthest]:
     """Every span in two at `share` of its length, and the best of the places between."""
     s = spans.s[0] + share * (spans.s[1] - spans.s[0])
-    apart, near = search.look(s)
+    apart, near = search.look(s, (spans.apart + np.abs(s - spans.s)).min(axis=0))
     halves = [
         np.hstack((np.stack((kept[0], new)), np.stack((new, kept[1]))))
         for kept, new in ((spans.s, s), (spans.apart, apart), (spans.near, near))

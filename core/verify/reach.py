@@ -86,9 +86,15 @@ class Nearest:
     apart: Floats
 
 
-def nearest(points: Points, pieces: Measured, bounds: Floats, tie: float = 0.0) -> Nearest:
-    """For each point the pieces no farther than the nearest one and `tie`; `bounds` are the pieces' boxes."""
-    k, j = nearest_boxes(points, bounds, tie)
+def nearest(
+    points: Points, pieces: Measured, bounds: Floats, *, tie: float = 0.0, known: Floats | None = None
+) -> Nearest:
+    """For each point the pieces no farther than the nearest one and `tie`.
+
+    `bounds` are the pieces' boxes, `known` (n,) distances within which there is a piece for sure.
+    """
+    within = np.full(len(points), np.inf) if known is None else known
+    k, j = nearest_boxes(points, bounds, within, tie + ON_PATH)
     apart = distance(pieces.take(j), points[k])
     return least_of(k, j, apart, len(points), tie)
 

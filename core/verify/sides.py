@@ -67,7 +67,7 @@ def wrong_side(pairs: Pairs, middle: Floats, found: Gouging, surface: Sided, rea
     if len(more):
         index, t = place(pairs.centre, pairs.centre_stations, more)
         points = at(pairs.centre.take(index), t)
-        near = nearest(points, pairs.surface, pairs.surface_boxes, tie)
+        near = nearest(points, pairs.surface, pairs.surface_boxes, tie=tie)
         wrong.append(index[_wrong(pairs, more, points, near, surface, found)])
     return tuple(pairs.centre.rows[np.unique(np.concatenate(wrong))].tolist())
 

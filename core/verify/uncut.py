@@ -16,7 +16,6 @@ from core.verify.pairs import Pairs
 from core.verify.reach import Parts, Stretches, union, within
 from core.verify.verdict import Uncut
 
-
 FEW: Final = 300
 """Pairs that are all tried at once."""
 
@@ -76,8 +75,8 @@ def _draw_in(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: flo
 
 
 def _rounding(surface: Measured) -> float:
-    """Four units in the last place of the largest coordinate."""
-    largest = max(np.abs(surface.start.real).max(), np.abs(surface.start.imag).max())
+    """Four units in the last place of the largest coordinate or radius."""
+    largest = max(np.abs(surface.start.real).max(), np.abs(surface.start.imag).max(), surface.radius.max())
     return 4.0 * float(np.spacing(largest))
 
 
@@ -115,17 +114,18 @@ def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool) -> tuple[
     gaps = gaps.keep(gaps.last - gaps.first > STOCK)
     if not len(gaps):
         return ()
-    far = _farthest(pairs, gaps)
+    far = _farthest(pairs, gaps, radius)
     told = _stretches(pairs, gaps, far, radius, surface)
     if closed and len(told) > 1 and gaps.first[0] == 0.0 and gaps.last[-1] == total:
         told = [*told[1:-1], _over_start(told[-1], told[0])]
     return tuple(stretch for stretch in told if stretch.thickness > STOCK)
 
 
-def _farthest(pairs: Pairs, gaps: Stretches) -> Farthest:
+def _farthest(pairs: Pairs, gaps: Stretches, radius: float) -> Farthest:
     if not len(pairs.centre):
         return Farthest(gaps.first, np.full(len(gaps), np.inf))
-    return farthest(pairs.surface, gaps, pairs.centre)
+    grant = float(pairs.slack.max(initial=0.0))
+    return farthest(pairs.surface, gaps, pairs.centre, radius + STOCK + grant)
 
 
 def _stretches(pairs: Pairs, gaps: Stretches, far: Farthest, radius: float, surface: Path) -> list[Uncut]:

@@ -87,3 +87,43 @@ def length_near(path: Path, other: Path, radius: float, step: float) -> float:
     """Length of path nearer to the other than the radius, in steps."""
     points, weights = samples(path, step)
     return float(weights[apart(points, other) < radius].sum())
+
+
+def extreme(path: Path, other: Path, step: float, sign: float) -> float:
+    """The largest (sign 1) or least (-1) distance from path to other: dense points, then denser about the best ones."""
+    found = []
+    for piece in path:
+        count = max(2, int(np.ceil(length(piece) / step)))
+        shares = np.linspace(0.0, 1.0, count + 1)
+        values = apart(along(piece, shares), other) * sign
+        found.append((float(values.max()), piece, float(shares[values.argmax()]), 1.0 / count))
+    found.sort(key=lambda one: -one[0])
+    return sign * max(_closer(piece, other, share, width, sign) for _, piece, share, width in found[:4])
+
+
+def _closer(piece: Piece, other: Path, share: float, width: float, sign: float) -> float:
+    for _ in range(5):
+        shares = np.clip(np.linspace(share - width, share + width, 41), 0.0, 1.0)
+        values = apart(along(piece, shares), other) * sign
+        share, width = float(shares[values.argmax()]), width / 15.0
+    return float(values.max())
+
+
+def turning(path: Path) -> float:
+    """Twice the area inside a closed path, positive counter-clockwise, by the polygon of dense points."""
+    x, y = samples(path, 0.05)[0].T
+    return float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+
+def inside(path: Path, outline: Path, step: float) -> bool:
+    """Most of a path's points that are clear of a closed outline are inside it, by the winding of its polygon."""
+    points, _ = samples(path, 20.0 * step)
+    points = points[apart(points, outline) > 0.05]
+    return bool(len(points)) and float(np.mean(_winding(points, samples(outline, 0.05)[0]))) > 0.5
+
+
+def _winding(points: Points, polygon: Points) -> Points:
+    off = polygon[None, :, :] - points[:, None, :]
+    spot = off[..., 0] + 1j * off[..., 1]
+    turned = np.angle(np.roll(spot, -1, axis=1) / spot).sum(axis=1)
+    return np.asarray(np.abs(turned) > 3.0, np.float64)

@@ -1,0 +1,27 @@
+"""The judge catches every spoiled path that gouges or leaves stock, and accuses none falsely."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.core.verify.mutants import MUTATIONS, Row, table
+
+
+@pytest.fixture(scope="module")
+def rows() -> dict[str, Row]:
+    return table(7, 10)
+
+
+@pytest.mark.parametrize("name", [mutation.__name__ for mutation in MUTATIONS])
+def test_none_is_missed_and_none_falsely_accused(rows: dict[str, Row], name: str) -> None:
+    row = rows[name]
+    assert row.mutants > 0
+    assert row.missed == 0
+    assert row.falsely_accused == 0
+
+
+def test_the_mutants_are_worth_judging(rows: dict[str, Row]) -> None:
+    assert sum(row.gouging for row in rows.values()) > 30
+    assert sum(row.leaving for row in rows.values()) > 30
+    for name in ("shift_all", "flip_an_arc", "narrower", "on_the_other_side"):
+        assert rows[name].gouging > 0
