@@ -15,16 +15,20 @@ from typing import TYPE_CHECKING, Final, TypeVar
 from app.screens.page import Sketch
 from app.widgets.rows import Row
 from core.pipeline.derived import Derived, DerivedBlock
+from core.pipeline.outline import outline
 from core.program.model import Program
 
 if TYPE_CHECKING:
     from app.desk import Desk
+    from app.session import Session
     from core.pipeline.table import Table
 
 NUMERIC: Final = ("core.pipeline.derive", "core.pipeline.table", "app.widgets.drawing")
 """Modules that need the numeric library."""
 FAST: Final = 0.016
-"""Seconds: what took no longer the last time is done before the next picture."""
+"""Seconds: what took no longer lately is done before the next picture."""
+OLD: Final = 0.5
+"""How much a measurement counts beside the next one: a machine that was busy once is not taken for a slow one."""
 
 Result = TypeVar("Result")
 
@@ -35,6 +39,8 @@ class Known:
 
     table: Table | None = None
     ready: bool = False
+    trial: Session | None = None
+    """The session as it would be with the half-typed number accepted."""
 
     def drawing(self, desk: Desk, sketch: Sketch, columns: int, rows: int) -> tuple[Row, ...]:
         """The drawing as rows; none before the numeric library is there."""
@@ -42,7 +48,7 @@ class Known:
             return ()
         from app.widgets.drawing import picture_rows, scene_of
 
-        session = desk.session
+        session = self.trial or desk.session
         scene = scene_of(session.found, self.table, session.where.segment, session.program.unit, sketch)
         return picture_rows(scene, sketch, columns, rows, desk.mode)
 
@@ -51,25 +57,32 @@ class Known:
 class Engine:
     """Remembers how long things took, and the look-ahead table of the last block asked for."""
 
+    limit: float = FAST
     ready: bool = False
     took: dict[str, float] = field(default_factory=dict)
     table: Table | None = None
     table_of: DerivedBlock | None = None
 
-    def load(self) -> None:
-        """Fetch the numeric library; for a thread."""
+    def load(self, program: Program) -> Derived:
+        """Fetch the numeric library and derive the program; for a thread."""
         for module in NUMERIC:
             import_module(module)
+        first = outline(program)
+        self.derive(program, first)
+        self.took.clear()
+        # measured when everything is warm
+        return self.derive(program, first)
 
     def fast(self, task: str) -> bool:
         """Whether a task may be done before the next picture."""
-        return self.ready and self.took.get(task, 0.0) <= FAST
+        return self.ready and self.took.get(task, 0.0) <= self.limit
 
     def timed(self, task: str, work: Callable[[], Result]) -> Result:
         """Do a task and remember how long it took."""
         begun = perf_counter()
         result = work()
-        self.took[task] = perf_counter() - begun
+        took = perf_counter() - begun
+        self.took[task] = OLD * min(self.took.get(task, took), 2 * self.limit) + (1 - OLD) * took
         return result
 
     def derive(self, program: Program, before: Derived) -> Derived:
@@ -78,12 +91,13 @@ class Engine:
 
         return self.timed("derive", lambda: derive(program, before))
 
-    def make_table(self, found: DerivedBlock, program: Program) -> Table | None:
-        """The look-ahead table of a block."""
+    def keep_table(self, found: DerivedBlock, program: Program) -> None:
+        """Make and keep the look-ahead table of a block."""
         from core.pipeline.table import look_ahead_table
 
-        return self.timed("table", lambda: look_ahead_table(found, program))
+        self.table = self.timed("table", lambda: look_ahead_table(found, program))
+        self.table_of = found
 
-    def known(self, found: DerivedBlock) -> Known:
+    def known(self, found: DerivedBlock, trial: Session | None) -> Known:
         """What the screens may show of this block."""
-        return Known(self.table if self.table_of is found else None, self.ready)
+        return Known(self.table if self.table_of is found else None, self.ready, trial)

@@ -13,19 +13,18 @@ from typing import ClassVar, Final
 from textual.app import App
 
 from app import driver, files, keys
+from app.behind import Behind
 from app.desk import Desk
 from app.engine import Engine
 from app.screens.frame import Frame, painted
 from app.session import Session
 from app.surroundings import Surroundings, real
-from core.pipeline.derived import Derived, DerivedBlock
+from core.pipeline.derived import Derived
 from core.pipeline.outline import outline
 from core.program.store import StoreError, load
 
 UNUSABLE: Final = 2
 """Exit status: the file cannot be used."""
-PAUSE: Final = 0.1
-"""Seconds without a key before a slow look-ahead table is calculated."""
 MINUTE: Final = 60.0
 
 
@@ -37,12 +36,22 @@ class CutcompApp(App[int], inherit_bindings=False):
     ENABLE_COMMAND_PALETTE = False
     BINDINGS: ClassVar = []
 
-    def __init__(self, session: Session, around: Surroundings | None = None) -> None:
+    def __init__(self, session: Session, around: Surroundings | None = None, engine: Engine | None = None) -> None:
         super().__init__()
         self.desk = Desk(session)
+        self.trial: Session | None = None
         self.around = around or real()
-        self.engine = Engine()
+        self.engine = engine or Engine()
         self._cells = (80, 24)
+        self._loading = Behind(self, self._loaded)
+        self._deriving = Behind(self, self._derived)
+        self._trying = Behind(self, self._tried)
+        self._tabling = Behind(self, self._tabled)
+
+    @property
+    def shown(self) -> Session:
+        """The session as the screens show it: with a half-typed number tried out, if there is one."""
+        return self.trial or self.desk.session
 
     def get_default_screen(self) -> Frame:
         """The frame."""
@@ -51,7 +60,8 @@ class CutcompApp(App[int], inherit_bindings=False):
     def on_ready(self) -> None:
         """Once the first screen stands, fetch what it did not need."""
         self.set_interval(MINUTE, self.refresh_screen)
-        self.run_worker(self._load, thread=True, group="load")
+        program = self.desk.session.program
+        self._loading.ask(lambda: self.engine.load(program))
 
     def key(self, key: str, character: str | None) -> None:
         """A key was pressed."""
@@ -72,7 +82,7 @@ class CutcompApp(App[int], inherit_bindings=False):
         """Paint what changed."""
         frame = self.screen
         if isinstance(frame, Frame) and frame.is_mounted:
-            known = self.engine.known(self.desk.session.found)
+            known = self.engine.known(self.shown.found, self.trial)
             frame.show(painted(self.desk, known, self.around, *self._cells))
 
     def _advance(self) -> None:
@@ -81,65 +91,68 @@ class CutcompApp(App[int], inherit_bindings=False):
             self.exit(0)
             return
         self._derive()
+        self._try()
         self._tabulate()
         self.refresh_screen()
 
-    def _load(self) -> None:
-        self.engine.load()
-        self.call_from_thread(self._loaded)
-
-    def _loaded(self) -> None:
+    def _loaded(self, derived: Derived) -> None:
         self.engine.ready = True
+        self._derived(derived)
         self._advance()
 
     def _derive(self) -> None:
         """Everything that follows from the program: now while it is fast, else in a thread."""
         session = self.desk.session
-        if session.stale or not all(found.known for found in session.derived.blocks):
-            if self.engine.fast("derive"):
-                self._take(self.engine.derive(session.program, session.derived))
-                return
-            if session.stale:
-                self._take(outline(session.program))
-            if self.engine.ready:
-                before = session.derived
-                self.run_worker(lambda: self._derive_behind(before), thread=True, exclusive=True, group="derive")
-
-    def _derive_behind(self, before: Derived) -> None:
-        derived = self.engine.derive(self.desk.session.program, before)
-        self.call_from_thread(self._derived, derived)
+        if not session.stale and all(found.known for found in session.derived.blocks):
+            return
+        program, before = session.program, session.derived
+        if self.engine.fast("derive"):
+            self.desk = self.desk.knowing(self.engine.derive(program, before))
+            return
+        if session.stale:
+            self.desk = self.desk.knowing(outline(program))
+        if self.engine.ready:
+            self._deriving.ask(lambda: self.engine.derive(program, before))
 
     def _derived(self, derived: Derived) -> None:
-        self._take(derived)
+        """A result from a thread; one for another program than that of now is dropped."""
+        self.desk = self.desk.knowing(derived)
         self._tabulate()
         self.refresh_screen()
 
-    def _take(self, derived: Derived) -> None:
-        self.desk = self.desk.knowing(derived)
+    def _try(self) -> None:
+        """While a number is being typed, what it would do: with every key, or as soon as it is calculated."""
+        session = self.desk.session
+        program = self.desk.page.preview(session)
+        self.trial = None
+        self._trying.forget()
+        if program is None or not self.engine.ready:
+            return
+        before = session.derived
+        if self.engine.fast("derive"):
+            self.trial = session.trying(self.engine.derive(program, before))
+        else:
+            self._trying.ask(lambda: self.engine.derive(program, before))
+
+    def _tried(self, derived: Derived) -> None:
+        """A late trial is shown while the same number still stands in the field."""
+        if self.desk.page.preview(self.desk.session) == derived.program:
+            self.trial = self.desk.session.trying(derived)
+            self._tabulate()
+            self.refresh_screen()
 
     def _tabulate(self) -> None:
-        """The look-ahead table of the block with the cursor, kept until the block changes."""
-        session = self.desk.session
-        found = session.found
-        if self.engine.table_of is found or found.work is None:
+        """The look-ahead table of the block shown, kept until the block changes."""
+        found, program = self.shown.found, self.shown.program
+        if found.work is None or self.engine.table_of is found:
             return
         if self.engine.fast("table"):
-            self._tabled(found)
-            return
-        self.set_timer(PAUSE, lambda: self._tabulate_behind(found))
+            self.engine.keep_table(found, program)
+        else:
+            self._tabling.ask(lambda: self.engine.keep_table(found, program))
 
-    def _tabled(self, found: DerivedBlock) -> None:
-        self.engine.table = self.engine.make_table(found, self.desk.session.program)
-        self.engine.table_of = found
-
-    def _tabulate_behind(self, found: DerivedBlock) -> None:
-        """In a thread, unless the block has changed meanwhile."""
-        if self.desk.session.found is found and self.engine.table_of is not found:
-            self.run_worker(lambda: self._table_thread(found), thread=True, exclusive=True, group="table")
-
-    def _table_thread(self, found: DerivedBlock) -> None:
-        self._tabled(found)
-        self.call_from_thread(self.refresh_screen)
+    def _tabled(self, _: None) -> None:
+        self.refresh_screen()
 
 
 def run(path: Path | None, *, example: str | None = None) -> int:

@@ -133,6 +133,10 @@ class Session:
         """The session with what follows from its program; a result for another program is dropped."""
         return replace(self, derived=derived) if derived.program is self.program else self
 
+    def trying(self, derived: Derived) -> Session:
+        """The session as it would be with another program; for showing only."""
+        return replace(self, history=replace(self.history, program=derived.program), derived=derived)
+
     def _with(self, history: History) -> Session:
         where = _nearest(history.program, self.where)
         same = where == self.where and _kind(history.program, where) is _kind(self.program, where)

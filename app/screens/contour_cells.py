@@ -104,13 +104,20 @@ def _lookahead(found: DerivedBlock) -> Value:
 def cells_at(session: Session) -> tuple[Cell, ...]:
     """Every cell of the form there, the read-only ones too."""
     places, unit = PLACES[form_at(session)], session.program.unit
-    missing = () if session.segment is None else _solved(session).missing
+    missing = _missing(session)
     cells = (
         _cell(one, value_at(session, one.name), unit, places[one.name], needed=one.name in missing)
         for one in fields_at(session)
     )
     extra = _start_extra(session.found, unit) if session.segment is None else _segment_extra(_solved(session), unit)
     return (*cells, *extra)
+
+
+def _missing(session: Session) -> tuple[str, ...]:
+    """The blank fields of which the contour needs one more, or all on START."""
+    if session.segment is not None:
+        return _solved(session).missing
+    return tuple(one.field for one in session.found.solved.findings if one.code == "MISSING" and one.field)
 
 
 def _cell(one: Field, held: Value | str, unit: Unit, place: tuple[int, int], *, needed: bool) -> Cell:
@@ -132,6 +139,9 @@ def _segment_extra(solved: SolvedSegment, unit: Unit) -> Iterator[Cell]:
     if solved.start is not None:
         yield _read_only("X START", _length(solved.start[0], unit), 0, 5)
         yield _read_only("Y START", _length(solved.start[1], unit), 0, 6)
+    if "x_end" not in solved.values and solved.piece is not None:
+        yield _read_only("X END", _length(solved.piece.end[0], unit), 1, 5)
+        yield _read_only("Y END", _length(solved.piece.end[1], unit), 1, 6)
 
 
 def _read_only(label: str, text: str, column: int, line: int) -> Cell:

@@ -8,6 +8,7 @@ from app.messages import Close
 from app.screens.page import Answer, Page
 from app.session import Session
 from app.widgets.field import Editing, press, window
+from app.widgets.form import typed_spans
 from app.widgets.rows import Look, Row, Span
 
 
@@ -31,13 +32,7 @@ class EntryPage(Page):
 def entry_row(label: str, entry: Editing, width: int, *, fresh: bool) -> Row:
     """A label and the text with its caret."""
     room = max(width - len(label) - 3, 8)
-    text, caret = window(entry, room)
-    text = f"{text:<{room}}"[:room]
     if fresh:
-        return (Span(f" {label} ", Look.HEAD), Span(text, Look.CURSOR))
-    return (
-        Span(f" {label} ", Look.HEAD),
-        Span(text[:caret], Look.CURSOR),
-        Span(text[caret : caret + 1], Look.CARET),
-        Span(text[caret + 1 :], Look.CURSOR),
-    )
+        text, _ = window(entry, room)
+        return (Span(f" {label} ", Look.HEAD), Span(f"{text:<{room}}"[:room], Look.CURSOR))
+    return (Span(f" {label} ", Look.HEAD), *typed_spans(entry, room, right=False))

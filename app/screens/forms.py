@@ -13,7 +13,7 @@ from app.widgets.form import Cell, State
 from core.pipeline.derived import Tag
 from core.program.edit import Refused, read
 from core.program.fields import Field
-from core.program.model import Entry, Unread
+from core.program.model import Entry, Program, Unread
 from core.program.solved import Solved, Value
 from core.units import Kind, Unit, show
 
@@ -89,6 +89,16 @@ class FormPage(Page):
         if isinstance(unread, Unread):
             return Answer(done, (edit, Say(_unread_sentence(unread), Tone.ERROR)))
         return Answer(done, (edit,))
+
+    def preview(self, session: Session) -> Program | None:
+        """A number that can be read already is tried out while it is being typed."""
+        one, editing = self.field(session), self.editing
+        if one is None or editing is None or one.kind is Kind.TEXT or editing.text == self.text(session, one):
+            return None
+        if not isinstance(read(editing.text, one, session.program.unit), Entry):
+            return None
+        outcome = self.edit(session, one, editing.text).outcome
+        return None if isinstance(outcome, Refused) else outcome
 
     def escape(self, session: Session) -> Answer | None:
         """The half-typed text forgotten: the field shows what it held."""

@@ -12,6 +12,7 @@ from textual.screen import Screen
 from app.desk import Desk
 from app.screens.page import Layout, Surface, View
 from app.screens.plan import NATIVE, Area, Plan, plan
+from app.session import Session
 from app.surroundings import Surroundings
 from app.widgets.prompt import prompt_rows
 from app.widgets.rows import Look, Row, Rows, plain
@@ -87,7 +88,7 @@ def _place(widget: Rows, area: Area) -> None:
 
 def painted(desk: Desk, known: Known, around: Surroundings, width: int, height: int) -> Painted:
     """The whole terminal as rows: a pure function of the desk, of what is derived, and of the size."""
-    session = desk.session
+    session = known.trial or desk.session
     layout = desk.page.view(session, Surface()).layout
     areas = plan(width, height, layout)
     surface = Surface(areas.body.width or areas.header.width, areas.body.height, known.table)
@@ -97,11 +98,11 @@ def painted(desk: Desk, known: Known, around: Surroundings, width: int, height: 
         "notice": _notice(width, height),
         "header": view.header,
         "body": view.body,
-        "verdict": _verdict(desk, known, view, areas),
+        "verdict": _verdict(session, known, view, areas),
         "drawing": known.drawing(desk, view.sketch, areas.drawing.width, areas.drawing.height),
-        "softkeys": softkey_rows(desk.page.softkeys(session), areas.softkeys.height),
+        "softkeys": softkey_rows(desk.page.softkeys(desk.session), areas.softkeys.height),
         "prompt": prompt_rows(said, areas.prompt.width),
-        "status": (status_row(session, around.clock(), around.free(), width),),
+        "status": (status_row(desk.session, around.clock(), around.free(), width),),
     }
     return Painted(areas, rows, view.focus)
 
@@ -110,12 +111,12 @@ def _notice(width: int, height: int) -> tuple[Row, ...]:
     return (plain(f"{width}x{height}: make it {NATIVE[0]}x{NATIVE[1]}"[:width], Look.WARNING),)
 
 
-def _verdict(desk: Desk, known: Known, view: View, areas: Plan) -> tuple[Row, ...]:
+def _verdict(session: Session, known: Known, view: View, areas: Plan) -> tuple[Row, ...]:
     area = areas.verdict
     if area.height == 0:
         return ()
-    unit = desk.session.program.unit
-    rows = verdict_rows(desk.session.found, known.table, unit, area.width, look=view.sketch.lookahead)
+    unit = session.program.unit
+    rows = verdict_rows(session.found, known.table, unit, area.width, look=view.sketch.lookahead)
     if view.layout is not Layout.FORM:
         rows = rows[1:]
     return fitted(rows, area.height - (area.height == 4), area.width)

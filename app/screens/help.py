@@ -11,27 +11,29 @@ from app.session import Session
 from app.widgets.rows import Look, Row, Span
 
 KEYS: Final[tuple[tuple[str, str], ...]] = (
-    ("Enter", "take the field and go on; on SEGMENT: go there, or edit it"),
+    ("Enter", "take the field and go on"),
     ("Tab, up, down", "from field to field"),
-    ("Esc", "the field's old value back; out of a dialog"),
-    ("left, right", "change the text in the middle; step a choice; walk on SEGMENT"),
-    ("Del, Backspace", "empty the field; Enter then makes it blank"),
-    ("Page Up, Down", "the segment before, the next one; behind the last a new one"),
+    ("Esc", "the old value back; out of a dialog"),
+    ("left, right", "change the text; step a choice; walk"),
+    ("Del, Backspace", "empty the field; Enter makes it blank"),
+    ("Page Up, Down", "segment before, next or new segment"),
     ("Ctrl+Home, End", "START, the last segment"),
     ("Ctrl+Z, Ctrl+Y", "undo, redo"),
-    ("Ctrl+S", "save"),
+    ("Ctrl+S, Ctrl+O", "save, open"),
     ("Ctrl+Q", "leave the program"),
-    ("F1 to F8", "the softkeys at the right; also Esc, then the digit"),
+    ("F1 to F8", "the softkeys; also Esc, then the digit"),
     ("?", "this help"),
 )
+"""Key and what it does, each short enough for one line."""
 MARKS: Final[tuple[tuple[str, str], ...]] = (
     ("CAL", "calculated, follows every edit"),
-    ("USR", "a look-ahead that was typed in place of the calculated one"),
+    ("USR", "a look-ahead that was typed"),
     ("DEF", "blank: the usual value is in force"),
-    ("ERR", "cannot be read; nothing is posted while it stands"),
-    ("?", "one more of the fields marked so is needed"),
-    ("3!  3*  [3]", "look-ahead 3 gouges; erases segments; is in force"),
-    ("S > ! x", "in the drawing: start, direction, gouge, where segments were erased"),
+    ("ERR", "cannot be read; blocks posting"),
+    ("?", "one more of these fields is needed"),
+    ("3! 3* [3]", "look-ahead 3 gouges; erases; in force"),
+    ("S > o", "START, direction, plunge point"),
+    ("! x", "gouge; where segments were erased"),
 )
 
 

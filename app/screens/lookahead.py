@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Final
 from app.messages import Close, Edit
 from app.screens.page import Answer, Layout, Page, Sketch, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
-from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, padded, plain
 from app.widgets.verdict import mark_of
 from app.widgets.words import length, numbers
@@ -23,6 +22,12 @@ if TYPE_CHECKING:
 
 HALF: Final = (HIGHEST - LOWEST + 1) // 2
 """The table stands in two columns of ten values."""
+HEADING: Final = f"{'value':>6}{'gouge':>9}{'uncut':>9}{'':5}"
+NOTHING: Final = (
+    "There is nothing to compare yet: a tool, a side and a",
+    "determined contour are needed.",
+)
+PROMPT: Final = "Up and down show what a value does. Enter takes it as USR. ! gouges, * erases segments, < recommended."
 STEPS: Final = {"up": -1, "down": 1, "left": -HALF, "right": HALF, "pageup": -HALF, "pagedown": HALF}
 
 
@@ -61,29 +66,20 @@ class LookaheadTable(Page):
 
     def view(self, session: Session, surface: Surface) -> View:
         """The table, or why there is none yet."""
-        title = plain(f" LOOKAHEAD TABLE, {session.found.lookahead.tag} {session.found.lookahead.value}", Look.HEAD)
-        first = header(f"BLOCK{session.where.block:>8}   MILL CONTOUR", title, session, surface.width)
-        body = self._body(session, surface.table)
-        prompt = (
-            "Up and down show what a value does. Enter takes it as USR. ! gouges, * erases segments, < recommended."
-        )
-        return View(first, body, Said(prompt), Layout.TABLE, 1, Sketch(self.at))
+        ahead = session.found.lookahead
+        title = f"BLOCK{session.where.block:>8}   LOOKAHEAD TABLE   {ahead.tag} {ahead.value}"
+        heading = plain(HEADING * 2 if surface.table else "", Look.LABEL)
+        body = self._body(session.program.unit, surface.table)
+        return View((plain(f" {title}", Look.HEAD), heading), body, Said(PROMPT), Layout.TABLE, 0, Sketch(self.at))
 
-    def _body(self, session: Session, table: Table | None) -> tuple[Row, ...]:
+    def _body(self, unit: Unit, table: Table | None) -> tuple[Row, ...]:
         if table is None:
-            return (
-                (),
-                plain(
-                    " There is nothing to compare yet: a tool, a side and a determined contour are needed.", Look.LABEL
-                ),
-            )
-        unit = session.program.unit
+            return tuple(plain(f" {line}", Look.LABEL) for line in NOTHING)
         lines = []
         for line in range(HALF):
             pair = (_fate(table, LOWEST + line + half, self.at, unit) for half in (0, HALF))
             lines.append(tuple(span for row in pair for span in padded(row, 29)))
-        heading = f"{'':4}{'':>3}{'gouge':>7}{'uncut':>9}{'':6}"
-        return (plain(heading * 2, Look.LABEL), *lines)
+        return tuple(lines)
 
 
 def _fate(table: Table, value: int, at: int, unit: Unit) -> Row:

@@ -13,6 +13,7 @@ from app.widgets.rows import Row
 
 if TYPE_CHECKING:
     from core.pipeline.table import Table
+    from core.program.model import Program
 
 
 class Layout(StrEnum):
@@ -103,6 +104,10 @@ class Page:
 
     def escape(self, session: Session) -> Answer | None:
         """What Esc takes back; None when there is nothing to take back."""
+        return None
+
+    def preview(self, session: Session) -> Program | None:
+        """The program as it would be if the half-typed text were accepted; None when there is none to accept."""
         return None
 
     def help(self, session: Session) -> tuple[str, ...]:

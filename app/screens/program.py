@@ -16,6 +16,7 @@ from app.screens.tools import ToolsPage
 from app.session import Said, Session
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, plain
+from core.finding import Severity
 from core.pipeline.derived import DerivedBlock
 from core.program.edit import Where, copy_block, delete_block, insert_block, move_block
 from core.program.model import Entry
@@ -76,7 +77,10 @@ def verdict_word(found: DerivedBlock) -> tuple[str, Look]:
     if found.errors:
         gouges = any(finding.code.endswith(("GOUGE", "GOUGES")) for finding in found.errors)
         return ("GOUGE" if gouges else "open"), Look.ERROR
-    return ("warning", Look.WARNING) if found.findings else ("clean", Look.GOOD)
+    if any(finding.severity is Severity.WARNING for finding in found.findings):
+        return "warning", Look.WARNING
+    uncut = found.work is not None and found.work.verdict is not None and found.work.verdict.uncut
+    return ("uncut", Look.WARNING) if uncut else ("clean", Look.GOOD)
 
 
 def _first(page: ProgramPage, session: Session) -> Softkeys:

@@ -9,7 +9,8 @@ from app.messages import Close, Edit, Message
 from app.screens.forms import FormPage, shown_text
 from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
-from app.widgets.field import Editing, window
+from app.widgets.field import Editing
+from app.widgets.form import typed_spans
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, padded, plain
 from core.program.edit import Edited, Refused, delete_tool, read, set_tool
@@ -74,6 +75,10 @@ class ToolsPage(FormPage):
                 return Answer(replace(self, editing=None, row=row), settled.messages)
         return settled
 
+    def preview(self, session: Session) -> Program | None:
+        """A diameter is tried out; another number would move the row that is being typed in."""
+        return FormPage.preview(self, session) if self.name == "diameter" else None
+
     def softkeys(self, session: Session) -> Softkeys:
         """Rows out and in."""
         tool = self.tool(session)
@@ -122,13 +127,7 @@ def _table_cell(
     held: Value | str, one: Field, unit: Unit, width: int, editing: Editing | None, *, here: bool
 ) -> tuple[Span, ...]:
     if editing is not None:
-        text, caret = window(editing, width)
-        text = f"{text:<{width}}"
-        return (
-            Span(text[:caret], Look.CURSOR),
-            Span(text[caret : caret + 1], Look.CARET),
-            Span(text[caret + 1 : width], Look.CURSOR),
-        )
+        return typed_spans(editing, width, right=one.name != "type")
     shown = shown_text(held, one, unit)
     text = f"{shown:<{width}}" if one.name == "type" else f"{shown:>{width}}"
     if len(text) > width:

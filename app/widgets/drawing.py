@@ -5,6 +5,7 @@ Imported only when the numeric library is loaded, after the first screen stands.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 from app.screens.page import Sketch
@@ -18,6 +19,8 @@ from core.pipeline.plot import block_scene
 from core.pipeline.table import Table
 from core.units import Unit
 
+ROOM_FOR_SCALE: Final = 10
+"""In fewer rows the scale bar would cover the part."""
 LOOKS: Final = {
     Style.BACKGROUND: Look.PLAIN,
     Style.AXIS: Look.AXIS,
@@ -45,6 +48,10 @@ def scene_of(found: DerivedBlock, table: Table | None, segment: int, unit: Unit,
 
 def picture_rows(scene: Scene, sketch: Sketch, columns: int, rows: int, mode: str) -> tuple[Row, ...]:
     """The scene in columns x rows cells, in the window the sketch gives."""
+    if rows < ROOM_FOR_SCALE:
+        scene = replace(scene, unit=None)
+    if scene.bounds is None:
+        return ()
     view = View.fit(scene.bounds, columns, rows).zoom(sketch.zoom).pan(sketch.dx, sketch.dy, columns, rows)
     return tuple(_rows(draw(scene, view, columns, rows, Mode(mode))))
 

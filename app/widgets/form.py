@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Final
 
@@ -74,7 +74,8 @@ def form_rows(cells: Sequence[Cell], cursor: str, editing: Editing | None, width
         return tuple(_cell(cell, narrow, cursor, editing) for cell in ordered)
     by_place = {(cell.column, cell.line): cell for cell in cells}
     lines = range(max([LINES, *(cell.line + 1 for cell in cells)]))
-    return tuple(_line(by_place, line, cursor, editing) for line in lines)
+    places = tuple(_aligned(place, cells, column) for column, place in enumerate(PLACES))
+    return tuple(_line(by_place, places, line, cursor, editing) for line in lines)
 
 
 def cursor_line(cells: Sequence[Cell], cursor: str, width: int) -> int:
@@ -85,9 +86,18 @@ def cursor_line(cells: Sequence[Cell], cursor: str, width: int) -> int:
     return next((cell.line for cell in cells if cell.name == cursor), 0)
 
 
-def _line(cells: Mapping[tuple[int, int], Cell], line: int, cursor: str, editing: Editing | None) -> Row:
+def _aligned(place: Place, cells: Sequence[Cell], column: int) -> Place:
+    """The column with values as narrow as its longest tagged label asks for, so that its tags stand in one line."""
+    tagged = [cell for cell in cells if cell.column == column and cell.tag]
+    beside = [place.width - len(cell.label) - len(cell.tag) - 2 for cell in tagged]
+    return replace(place, value=min([place.value, *beside]))
+
+
+def _line(
+    cells: Mapping[tuple[int, int], Cell], places: tuple[Place, ...], line: int, cursor: str, editing: Editing | None
+) -> Row:
     left, right, across = (cells.get((column, line)) for column in range(3))
-    first, second, whole = PLACES
+    first, second, whole = places
     if across is not None:
         return (Span(" " * whole.first), *_cell(across, whole, cursor, editing))
     row = (Span(" " * first.width),) if left is None else _cell(left, first, cursor, editing)
@@ -121,18 +131,25 @@ def _room(cell: Cell, place: Place, tag: int, editing: Editing | None) -> int:
 
 def _value(cell: Cell, room: int, editing: Editing | None, *, on_it: bool) -> Row:
     if editing is not None:
-        text, caret = window(editing, room)
-        text = f"{text:<{room}}"[:room]
-        return (
-            Span(text[:caret], Look.CURSOR),
-            Span(text[caret : caret + 1], Look.CARET),
-            Span(text[caret + 1 :], Look.CURSOR),
-        )
+        return typed_spans(editing, room, right=True)
     text = f"{cell.text:>{room}}" if len(cell.text) <= room else f"{cell.text[: room - 1]}…"
     if on_it:
         return (Span(text, Look.CURSOR),)
     bare = text.lstrip()
     return (Span(" " * (room - len(bare))), Span(bare, _LOOKS[cell.state]))
+
+
+def typed_spans(editing: Editing, room: int, *, right: bool) -> Row:
+    """A half-typed text with its caret, at the right of its room as a number or at the left as a word."""
+    text, caret = window(editing, room)
+    blank = max(room - len(text) - 1, 0) if right else 0
+    text = f"{' ' * blank}{text:<{room - blank}}"[:room]
+    caret += blank
+    return (
+        Span(text[:caret], Look.CURSOR),
+        Span(text[caret : caret + 1], Look.CARET),
+        Span(text[caret + 1 :], Look.CURSOR),
+    )
 
 
 def _read_only(cell: Cell, place: Place) -> Row:

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from textwrap import wrap
+from typing import TYPE_CHECKING
 
-from app.widgets.rows import Look, Row, Span, plain, text_of
+from app.widgets.rows import Look, Row, Span, padded, plain, text_of
 from app.widgets.words import length, number, numbers, place
 from core.finding import Finding, Severity
 from core.pipeline.derived import DerivedBlock
@@ -20,9 +21,6 @@ if TYPE_CHECKING:
     from core.pipeline.table import Row as Fate
     from core.pipeline.table import Table
     from core.verify.verdict import Verdict
-
-TOLD: Final = frozenset({"GOUGE", "UNCUT", "DELETED"})
-"""Findings that the verdict's own lines tell already."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -39,22 +37,43 @@ def verdict_rows(found: DerivedBlock, table: Table | None, unit: Unit, width: in
     first = _strip(found, table, width)
     if look is not None and case is not None:
         return [first, *_case_lines(case, unit)]
-    errors = [_sentence(one, unit) for one in found.findings if _shown(one, Severity.ERROR)]
-    rest = [_sentence(one, unit) for one in found.findings if _shown(one, Severity.WARNING, Severity.INFO)]
+    findings = _untold(found.findings, case)
+    errors = [_sentence(one, unit) for one in findings if one.severity is Severity.ERROR]
+    rest = [_sentence(one, unit) for one in findings if one.severity is not Severity.ERROR]
     lines = [] if case is None else list(_case_lines(case, unit))
     return [first, *errors, *lines, *rest]
 
 
+def _untold(findings: tuple[Finding, ...], case: Case | None) -> list[Finding]:
+    """The findings but for the deepest gouge, which the verdict's own line tells."""
+    deepest = next((one for one in findings if one.code == "GOUGE"), None) if case is not None else None
+    return [one for one in findings if one is not deepest]
+
+
 def fitted(rows: list[Row], height: int, width: int) -> tuple[Row, ...]:
-    """The first rows that fit, the last of them saying how many there are besides."""
-    if len(rows) <= height:
-        return tuple(rows)
-    kept = rows[: max(height, 0)]
-    more = f" +{len(rows) - height} more"
-    if kept:
-        cut = text_of(kept[-1])[: max(width - len(more) - 1, 0)]
-        kept[-1] = (Span(f"{cut:<{max(width - len(more) - 1, 0)}}", kept[-1][-1].look), Span(more, Look.LABEL))
+    """The rows wrapped to the width where all of that fits; else the first ones, the last saying how many more."""
+    wrapped = [line for row in rows for line in _wrapped(row, width)]
+    if len(wrapped) <= height:
+        return tuple(wrapped)
+    kept = [_cut(row, width) for row in rows[: max(height, 0)]]
+    if kept and len(rows) > height:
+        more = f" +{len(rows) - height} more"
+        kept[-1] = (*padded(_cut(kept[-1], width - len(more) - 1), width - len(more) - 1), Span(more, Look.LABEL))
     return tuple(kept)
+
+
+def _wrapped(row: Row, width: int) -> list[Row]:
+    text = text_of(row)
+    if len(text) < width:
+        return [row]
+    return [plain(f" {line}", row[-1].look) for line in wrap(text, max(width - 2, 8), subsequent_indent="    ")]
+
+
+def _cut(row: Row, width: int) -> Row:
+    if len(text_of(row)) < width:
+        return row
+    kept = padded(row, width - 2)
+    return (*kept, Span("…", row[-1].look))
 
 
 def _case(found: DerivedBlock, table: Table | None, look: int | None) -> Case | None:
@@ -64,10 +83,6 @@ def _case(found: DerivedBlock, table: Table | None, look: int | None) -> Case | 
     if work is None or work.compensated is None or work.verdict is None:
         return None
     return Case(work.compensated, work.verdict)
-
-
-def _shown(finding: Finding, *severities: Severity) -> bool:
-    return finding.severity in severities and finding.code not in TOLD
 
 
 def _sentence(finding: Finding, unit: Unit) -> Row:
