@@ -12,6 +12,7 @@ from types import MappingProxyType
 from typing import Final
 
 from core.controls import linuxcnc, nine_series, rosettacnc, threeblock
+from core.controls.klartext import control as klartext
 from core.controls.report import Run
 from core.controls.tools import ToolTable
 
@@ -42,6 +43,7 @@ CONTROLS: Final[Mapping[str, Entry]] = MappingProxyType(
         "threeblock": Entry(threeblock.run),
         "rosettacnc": Entry(rosettacnc.run, ("nist", "easy", "normal"), ("nist", "easy", "normal")),
         "nine-series": Entry(nine_series.run, ("a", "a-g39", "a-g39.1", "b", "b-g39", "b-g39.1"), ("a", "b")),
+        "klartext": Entry(klartext.run),
         "linuxcnc": Entry(linuxcnc.run),
     }
 )

@@ -21,7 +21,8 @@ class Stretch:
     `programmed` are the moves as written, without compensation, its row 0 the point they start from: the part's
     surface.  `entry` and `exit` count the moves at its beginning and end that lead in and out and are no surface.
     `first` ... `last` - 1 are the rows of the run's moves that belong to it.  `radius` is in millimetres and
-    positive: the side a negative one flips to is already in `side`.
+    positive: the side a negative one flips to is already in `side`.  `led_in` and `led_out`: it is entered and left
+    along leads that the control makes, not in programmed moves.
     """
 
     side: Side
@@ -32,6 +33,8 @@ class Stretch:
     exit: int
     first: int
     last: int
+    led_in: bool = False
+    led_out: bool = False
 
 
 @dataclass(frozen=True, eq=False, slots=True)

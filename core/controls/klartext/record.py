@@ -21,6 +21,7 @@ class Record:
     entry: Step | None = None
     first: int = 0
     leaving: int = 0
+    led_out: bool = False
 
     def at(self, step: Step) -> Point3:
         """Where the centre stands, in the coordinates of the step's plane."""
@@ -68,6 +69,7 @@ class Record:
         centre = solid(*element.centre, element.high, step.plane) if element.turn else stop
         self.programmed.rows.append((*stop, *centre, element.turn, plane, element.rapid, element.feed, element.line))
         self.leaving = int(step.role in (Role.EXIT, Role.DEPARTURE))
+        self.led_out = step.role is Role.DEPARTURE
 
     def close(self) -> None:
         """Compensation ends: keep the stretch, unless it is the path itself or only its entry."""
@@ -77,5 +79,6 @@ class Record:
             return
         side = Side.LEFT if entry.offset > 0.0 else Side.RIGHT
         moves, last = programmed.moves(), len(self.tape.rows)
-        stretch = Stretch(side, abs(entry.offset), entry.plane, moves, 1, self.leaving, self.first, last)
+        leads = (entry.role is Role.APPROACH, self.led_out)
+        stretch = Stretch(side, abs(entry.offset), entry.plane, moves, 1, self.leaving, self.first, last, *leads)
         self.stretches.append(stretch)

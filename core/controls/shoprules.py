@@ -1,0 +1,184 @@
+"""Shop rules for applying and cancelling compensation, checked on any control's run when they are asked for.
+
+They are habits that hold on every control: compensation goes on and off in a move of one axis, square to a move of
+one axis, at full depth, clear of the component.  The component is what is programmed under compensation.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import hypot
+from typing import Final
+
+import numpy as np
+
+from core.controls.moves import Moves
+from core.controls.report import Run, Stretch
+from core.finding import Finding, Severity
+from core.geometry.distance import distance
+from core.geometry.measured import measured
+from core.geometry.path import Path
+from core.geometry.piece import Point
+from core.geometry.side import Side
+from core.tolerance import JOINED
+
+SQUARE: Final = 1e-6
+"""Cosine up to which two directions are at right angles."""
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """A move in the plane: where it starts and ends, and its source line."""
+
+    start: Point
+    end: Point
+    line: int
+
+    @property
+    def axes(self) -> int:
+        """How many axes of the plane it moves."""
+        return sum(abs(b - a) > JOINED for a, b in zip(self.start, self.end, strict=True))
+
+    def square_to(self, way: Point) -> bool:
+        """Whether it is at right angles to a direction."""
+        dx, dy = self.end[0] - self.start[0], self.end[1] - self.start[1]
+        return abs(dx * way[0] + dy * way[1]) <= SQUARE * hypot(dx, dy)
+
+
+def check(run: Run) -> tuple[Finding, ...]:
+    """What of a run breaks the shop rules H1 to H9, by line."""
+    found = [finding for stretch in run.stretches for finding in _stretch(run.moves, stretch)]
+    return tuple(sorted(found, key=lambda finding: (finding.line or 0, finding.code)))
+
+
+def _stretch(moves: Moves, stretch: Stretch) -> list[Finding]:
+    if len(stretch.programmed) <= stretch.entry:
+        return []
+    contour = _contour(stretch)
+    found = [*_depths(moves, stretch), _side(stretch)]
+    if not len(contour):
+        return found
+    if not stretch.led_in:
+        found += _applying(_entry(stretch), contour)
+    found += _clear("H2", _entry(stretch).start, contour, stretch, _entry(stretch).line)
+    last = _exit(moves, stretch, contour)
+    if last is not None:
+        if not stretch.led_out:
+            found += _cancelling(last, contour)
+        found += _clear("H6", last.start, contour.part(0, len(contour) - 1), stretch, int(contour.numbers[-1]))
+    return found
+
+
+def _contour(stretch: Stretch) -> Path:
+    """The programmed moves between entry and exit, as seen on the plane, numbered by their lines."""
+    programmed = stretch.programmed
+    return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
+
+
+def _entry(stretch: Stretch) -> Leg:
+    """The programmed move that applies compensation."""
+    first, second, _ = stretch.plane.axes
+    points, row = stretch.programmed.points, stretch.entry
+    start, end = points[row - 1], points[row]
+    ends = (float(start[first]), float(start[second])), (float(end[first]), float(end[second]))
+    return Leg(*ends, int(stretch.programmed.lines[row]))
+
+
+def _exit(moves: Moves, stretch: Stretch, contour: Path) -> Leg | None:
+    """The programmed move that cancels compensation, None where nothing does."""
+    row = stretch.last - 1
+    line = int(moves.lines[row])
+    if not stretch.exit and line == int(stretch.programmed.lines[-1]):
+        return None
+    first, second, _ = stretch.plane.axes
+    x, y = contour.points[-1].tolist()
+    return Leg((x, y), (float(moves.points[row, first]), float(moves.points[row, second])), line)
+
+
+def _applying(entry: Leg, contour: Path) -> list[Finding]:
+    found = []
+    if entry.axes != 1:
+        text = "Compensation is applied in a move of two axes; apply it in a move of one axis, X or Y alone."
+        found.append(_warn("H4", text, entry.line))
+    way = _direction(contour.start_directions[0].tolist())
+    if not _one_axis(contour, 0):
+        text = "The move behind the one that applies compensation is not of one axis; put a move of one axis before it."
+        found.append(_warn("H3", text, int(contour.numbers[0])))
+    elif not entry.square_to(way):
+        text = "Compensation is not applied at 90 degrees to the next move; start square to it."
+        found.append(_warn("H3", text, entry.line))
+    return found
+
+
+def _cancelling(leg: Leg, contour: Path) -> list[Finding]:
+    found = []
+    if leg.axes != 1:
+        text = "Compensation is cancelled in a move of two axes; cancel it in a move of one axis, X or Y alone."
+        found.append(_warn("H8", text, leg.line))
+    way = _direction(contour.end_directions[-1].tolist())
+    if not _one_axis(contour, -1):
+        text = "The last move before compensation is cancelled is not of one axis; put a move of one axis behind it."
+        found.append(_warn("H7", text, int(contour.numbers[-1])))
+    elif not leg.square_to(way):
+        text = "Compensation is not cancelled at 90 degrees to the last move; leave square to it."
+        found.append(_warn("H7", text, leg.line))
+    return found
+
+
+def _direction(way: list[float]) -> Point:
+    return way[0], way[1]
+
+
+def _one_axis(contour: Path, piece: int) -> bool:
+    run = contour.ends[piece] - contour.starts[piece]
+    return not contour.turns[piece] and bool(np.min(np.abs(run)) <= JOINED)
+
+
+def _clear(rule: str, at: Point, component: Path, stretch: Stretch, line: int) -> list[Finding]:
+    """H2 and H6: the tool is a diameter clear of the component before and behind it, if possible."""
+    if not len(component):
+        return []
+    pieces = measured(component)
+    away = float(np.min(distance(pieces, np.full(len(component), complex(*at)))))
+    if away >= 2.0 * stretch.radius - JOINED:
+        return []
+    where = "start before compensation is applied" if rule == "H2" else "finish before compensation is cancelled"
+    text = f"The {where} is {{0}} from the component; if possible keep it a cutter diameter, {{1}}, away."
+    return [Finding(rule, Severity.WARNING, text, lengths=(away, 2.0 * stretch.radius), line=line, column=1)]
+
+
+def _depths(moves: Moves, stretch: Stretch) -> list[Finding]:
+    """H1 and H5: the tool axis moves before compensation is applied and after it is cancelled, once at its start."""
+    height = stretch.plane.axes[2]
+    programmed = stretch.programmed
+    heights = programmed.points[:, height]
+    sinking = np.flatnonzero(heights[1:] != heights[:-1]) + 1
+    flat = stretch.plane.axes[:2]
+    moving = np.any(programmed.points[1:, flat] != programmed.points[:-1, flat], axis=1) | (programmed.turns[1:] != 0)
+    contour = np.flatnonzero(moving[stretch.entry :])
+    begin = stretch.entry + 1 + int(contour[0]) if len(contour) else len(programmed)
+    found = [_sunk(index, int(programmed.lines[row])) for index, row in enumerate(sinking[sinking < begin].tolist())]
+    late = programmed.lines[sinking[sinking >= begin]].tolist()
+    if not stretch.exit and len(late) == 0 and moves.points[stretch.last - 1, height] != heights[-1]:
+        late.append(int(moves.lines[stretch.last - 1]))
+    text = "The tool axis moves under compensation; move it when compensation is cancelled."
+    return found + [_warn("H5", text, line) for line in dict.fromkeys(late)]
+
+
+def _sunk(index: int, line: int) -> Finding:
+    if index:
+        text = "The tool axis moves again after compensation is applied; move it to its final depth before."
+        return _warn("H1", text, line)
+    text = "The tool axis reaches its depth after compensation is applied; once is tolerated, better is before."
+    return Finding("H1", Severity.INFO, text, line=line, column=1)
+
+
+def _side(stretch: Stretch) -> Finding:
+    climb = "left (RL, G41), climb" if stretch.side is Side.LEFT else "right (RR, G42), conventional"
+    text = f"The tool runs {climb} milling with a right-hand cutter; to leave material add to the radius offset {{0}}."
+    line = int(stretch.programmed.lines[stretch.entry])
+    return Finding("H9", Severity.INFO, text, lengths=(stretch.radius,), line=line, column=1)
+
+
+def _warn(rule: str, text: str, line: int) -> Finding:
+    return Finding(rule, Severity.WARNING, text, line=line, column=1)
