@@ -22,7 +22,7 @@ class NotASumError(Exception):
 
 _TOKEN: Final = re.compile(r"\s*(?:(?P<number>[0-9]+\.?[0-9]*|\.[0-9]+)|(?P<sign>[-+*/()])|(?P<word>[^\W\d_]+|\S))")
 
-_ALIKE: Final = str.maketrans({"\N{MINUS SIGN}": "-", "\N{EN DASH}": "-", "\N{MULTIPLICATION SIGN}": "*"})
+_ALIKE: Final = str.maketrans({"\t": " ", "\N{MINUS SIGN}": "-", "\N{EN DASH}": "-", "\N{MULTIPLICATION SIGN}": "*"})
 
 _DASHED: Final = re.compile(r"\s*([-+]?[0-9]+)-([0-9]+)/(2|4|8|16|32|64)\s*[^-+*/()0-9]*")
 
@@ -37,6 +37,8 @@ def total(text: str, scales: Mapping[str, Fraction], expected: str) -> Fraction:
         raise NotASumError("Nothing is typed: a number is needed.")
     if len(text) > LONGEST:
         raise NotASumError(f"That is too long: type at most {LONGEST} characters.")
+    if not text.isprintable():
+        raise NotASumError("There is a sign in it that cannot be shown: type it again.")
     if "," in text:
         raise NotASumError("A comma may mean two things: type a point, as in 1.5, and thousands without a mark.")
     _refuse_dashed(text)

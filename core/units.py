@@ -18,6 +18,9 @@ from core.arithmetic import NotASumError, total
 from core.finding import Finding
 from core.tolerance import LARGEST
 
+QUOTED: Final = 24
+"""Characters of somebody's text that a message repeats."""
+
 WIDEST: Final = 10
 """Characters `show` takes at most: larger numbers lose decimals."""
 
@@ -104,6 +107,12 @@ def _decimals(kind: Kind, unit: Unit) -> int:
             return 0
         case _:
             assert_never(kind)
+
+
+def printable(text: str) -> str:
+    """Somebody's text as it may stand in a message: on one line, short, and nothing that moves a terminal's cursor."""
+    plain = "".join(sign if sign.isprintable() else "?" for sign in text.strip())
+    return plain if len(plain) <= QUOTED else f"{plain[:QUOTED]}..."
 
 
 def sentence(finding: Finding, unit: Unit) -> str:

@@ -22,7 +22,7 @@ from core.program.solution import Known, Outcome, Task, solve
 from core.program.solve_blend import Blends, blended
 from core.program.solve_start import Start, solve_start
 from core.program.solved import SolvedBlock, SolvedSegment
-from core.tolerance import CLOSED, JOINED
+from core.tolerance import CLOSED, JOINED, LARGEST
 from core.units import Unit
 
 
@@ -178,11 +178,20 @@ def _solved(task: Task, reading: Reading, start: Point | None, choice: int | Non
     if not pieces:
         return _unsolved(task, outcome, reading, start)
     piece = pieces[choice or 0] if len(pieces) > 1 else pieces[0]
+    if _too_far(piece):
+        text = "This segment leads farther than any machine goes: check its numbers."
+        return _Shape(findings=(Finding("OUT_OF_RANGE", Severity.ERROR, text, field=task.shape[0]),))
     _calculate(reading, piece, unit)
     if piece.length > JOINED:
         return _Shape(piece, piece.end, choices=pieces if len(pieces) > 1 else ())
     text = "This segment has no length: it is passed over."
     return _Shape(end=start, findings=(Finding("ZERO_LENGTH", Severity.WARNING, text),))
+
+
+def _too_far(piece: Piece) -> bool:
+    """Whether a piece leaves the numbers that are still exact."""
+    places = (*piece.end, *piece.centre) if isinstance(piece, Arc) else piece.end
+    return max(map(abs, places)) > LARGEST
 
 
 def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> _Shape:

@@ -29,7 +29,7 @@ from core.program.model import (
     Unread,
     changed,
 )
-from core.units import Unit, Unreadable, parse
+from core.units import Unit, Unreadable, parse, printable
 
 
 @dataclass(frozen=True, slots=True)
@@ -260,7 +260,7 @@ def _lookahead_misfit(block: Block, name: str, typed: Typed) -> Refused | None:
     if name != "lookahead" or isinstance(typed, Entry) or typed == block.lookahead:
         return None
     one = field(Form.START, "lookahead")
-    again = "" if typed is None else f" {typed.text.strip()} cannot be read."
+    again = "" if typed is None else f" {printable(typed.text)} cannot be read."
     return Refused(f"{check(one, 0)}{again} Press F3 to go back to CAL.")
 
 

@@ -12,7 +12,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from enum import StrEnum
-from math import isfinite
 from typing import Any, Final, TypeVar
 
 from core.program.fields import TABLES, Field, Form, check
@@ -35,7 +34,7 @@ from core.program.model import (
     Unread,
 )
 from core.tolerance import LARGEST
-from core.units import Kind, Unit, Unreadable, parse
+from core.units import Kind, Unit, Unreadable, parse, printable, to_mm
 
 FORMAT: Final = 1
 """The format of program files that is read and written."""
@@ -76,7 +75,7 @@ class _Table:
             if key not in allowed:
                 near = get_close_matches(key, allowed, 1)
                 hint = f"did you mean {near[0]}?" if near else "remove it."
-                raise self.fault(key, f"{key} is not a key of {self.title()}: {hint}")
+                raise self.fault(key, f"{printable(key)} is not a key of {self.title()}: {hint}")
 
     def title(self) -> str:
         """What this table is, for a message."""
@@ -96,7 +95,7 @@ class _Table:
         words = [choice.value for choice in choices]
         value = self.data.get(key)
         if not isinstance(value, str) or value not in words:
-            what = "is missing" if value is None else f"cannot be {_shown(value)}"
+            what = "is missing" if value is None else f"cannot be {printable(str(value))}"
             raise self.fault(key, f"{key} {what}: write one of {', '.join(words)}, in quotes.")
         return choices(value)
 
@@ -104,11 +103,11 @@ class _Table:
         """A number a field can hold."""
         value = self.data[key]
         if isinstance(value, bool) or not isinstance(value, int | float):
-            raise self.fault(key, f"{key} must be a number, not {_shown(value)}.")
-        if (isinstance(value, float) and not isfinite(value)) or abs(value) > LARGEST:
-            raise self.fault(key, f"{key} is {_shown(value)}: no machine has such a number, correct it.")
+            raise self.fault(key, f"{key} must be a number, not {printable(str(value))}.")
+        if _beyond(value, one, self.unit):
+            raise self.fault(key, f"{key} is {printable(str(value))}: no machine has such a number, correct it.")
         if one.kind is Kind.COUNT and value != int(value):
-            raise self.fault(key, f"{key} must be a whole number, not {_shown(value)}.")
+            raise self.fault(key, f"{key} must be a whole number, not {printable(str(value))}.")
         return float(value)
 
     def table(self, key: str) -> _Table:
@@ -127,12 +126,14 @@ class _Table:
             yield _Table(self.file, self.lines, (*self.path, key, index), one, self.unit)
 
 
+def _beyond(value: float, one: Field, unit: Unit) -> bool:
+    """Whether a number is none a machine could have, in either unit."""
+    if not abs(value) <= LARGEST:
+        return True
+    return one.kind in (Kind.LENGTH, Kind.FEED) and round(to_mm(abs(value), unit), 3) > LARGEST
+
+
 Choice = TypeVar("Choice", bound=StrEnum)
-
-
-def _shown(value: object) -> str:
-    text = str(value)
-    return text if len(text) <= 20 else f"{text[:20]}..."
 
 
 def read_program(text: str, file: str) -> Program:
@@ -141,7 +142,7 @@ def read_program(text: str, file: str) -> Program:
     top.only(("format", "units", "parameters", "setup", "tool", "block"))
     version = top.data.get("format")
     if isinstance(version, bool) or version != FORMAT:
-        what = "is missing" if version is None else f"cannot be {_shown(version)}"
+        what = "is missing" if version is None else f"cannot be {printable(str(version))}"
         raise top.fault("format", f"format {what}: this program reads format = {FORMAT}.")
     top = _Table(file, top.lines, (), top.data, top.chosen("units", Unit))
     return Program(
@@ -253,11 +254,11 @@ def _segment(table: _Table) -> Segment:
             table.only(_keys(Form.BLEND, "kind"))
             return BlendSegment(**_numbers(table, Form.BLEND))
         case other:
-            raise table.fault("kind", f"kind cannot be {_shown(other)}: write LINE, ARC or BLEND ARC, in quotes.")
+            raise table.fault("kind", f"kind cannot be {printable(other)}: write LINE, ARC or BLEND ARC, in quotes.")
 
 
 def _choice(table: _Table) -> int | None:
     value = table.data.get("choice")
     if value is None or (value in (0, 1) and type(value) is int):
         return value
-    raise table.fault("choice", f"choice cannot be {_shown(value)}: write 0 or 1.")
+    raise table.fault("choice", f"choice cannot be {printable(str(value))}: write 0 or 1.")

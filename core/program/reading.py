@@ -11,7 +11,7 @@ from core.finding import Finding, Severity
 from core.program.fields import TABLES, Field, Form, check
 from core.program.model import Block, Entry, Segment, Unread
 from core.program.solved import Solved, Value
-from core.units import Kind, Unit, from_mm, from_radians, to_mm, to_radians
+from core.units import Kind, Unit, from_mm, from_radians, printable, to_mm, to_radians
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +42,7 @@ def read(form: Form, part: Block | Segment, unit: Unit, number: int) -> Reading:
 
 def _fault(one: Field, typed: Entry | Unread, number: int) -> Finding | None:
     if isinstance(typed, Unread):
-        text = f"{one.label}: {typed.text.strip()} cannot be read. {typed.reason}"
+        text = f"{one.label}: {printable(typed.text)} cannot be read. {typed.reason}"
         return Finding("UNREADABLE", Severity.ERROR, text, number, one.name)
     text = check(one, typed.value) or ""
     return Finding("OUT_OF_RANGE", Severity.ERROR, text, number, one.name) if text else None

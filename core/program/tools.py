@@ -8,7 +8,7 @@ from typing import assert_never
 
 from core.finding import Finding, Severity
 from core.program.model import Entry, Program, Tool, Typed, Unread
-from core.units import Unit, to_mm
+from core.units import Unit, printable, to_mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +60,7 @@ def _diameter_trouble(tool: Tool) -> str | None:
         case None:
             return f"{there}; it is blank."
         case Unread(text, _):
-            return f"{there}; {text.strip()} cannot be read."
+            return f"{there}; {printable(text)} cannot be read."
         case Entry(value) if not isfinite(value) or value <= 0.0:
             return f"{there}; it must be above 0, and it is {value:g}."
         case Entry():

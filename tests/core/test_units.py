@@ -18,6 +18,7 @@ from core.units import (
     from_mm,
     from_radians,
     parse,
+    printable,
     sentence,
     show,
     to_mm,
@@ -162,3 +163,8 @@ def test_sentence_fills_lengths_in_program_units():
 
 def test_sentence_leaves_braces_it_does_not_know():
     assert sentence(finding("{odd} {0} {x} {} {value!r}"), IN) == "{odd} {0} {x} {} {value!r}"
+
+
+def test_printable_text_moves_no_cursor():
+    assert printable(" \x1b[31m red\n") == "?[31m red"
+    assert printable("x" * 100) == "x" * 24 + "..."

@@ -228,3 +228,17 @@ def test_no_numpy_is_loaded():
     script = f"import {imports}, core.units, core.geometry.fillet, sys; print('numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
+
+
+def test_a_segment_that_leads_too_far_is_refused():
+    far = [line(length=1e5, angle=0.0) for _ in range(5)]
+    block = solved(program(*far, unit=Unit.IN))
+    assert codes(block) == [("OUT_OF_RANGE", 4)]
+    assert block.determined == 3
+    flat = solved(program(arc("CW", x_end=1e4, y_end=0.0, sweep=1e-4)))
+    assert codes(flat) == [("OUT_OF_RANGE", 1)]
+
+
+def test_text_in_a_message_moves_no_cursor():
+    block = solved(program(LineSegment(x_end=Unread("\x1b[2J", "why."), y_end=Entry(0.0))))
+    assert block.every_finding[0].text == "X END: ?[2J cannot be read. why."

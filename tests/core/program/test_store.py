@@ -12,8 +12,10 @@ from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from core.program import store
+from core.program.edit import set_unit
 from core.program.model import Entry, Program, Unread
 from core.program.store import StoreError, dumps, load, loads, save
 from core.units import Unit
@@ -319,3 +321,13 @@ def test_a_file_size_limit_stands_for_a_really_full_disk(tmp_path):
     assert done.stdout.strip().startswith(f"{path} is not saved: it is too large")
     assert dumps(load(path)) == TEXT
     assert list(tmp_path.iterdir()) == [path]
+
+
+@settings(derandomize=True, max_examples=100, deadline=None)
+@given(st.floats(-393700.0, 393700.0), st.sampled_from(Unit))
+def test_what_could_be_read_can_be_read_in_the_other_unit_too(value, unit):
+    text = dumps(program(start={"x_start": Entry(value)}, unit=unit))
+    part = loads(text, "x")
+    other = Unit.IN if unit is Unit.MM else Unit.MM
+    turned = set_unit(part, other)
+    assert loads(dumps(turned), "x") == turned
