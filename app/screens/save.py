@@ -58,6 +58,6 @@ class SaveAsPage(EntryPage):
 
 
 def with_suffix(path: Path, suffix: str) -> Path:
-    """The path with the home folder filled in, and with a suffix if it has none."""
+    """The path with the home folder filled in, and with a suffix if it has none and is no folder."""
     path = path.expanduser()
-    return path if path.suffix else path.with_suffix(suffix)
+    return path if path.suffix or path.is_dir() else path.with_suffix(suffix)

@@ -17,7 +17,7 @@ def prompt_rows(said: Said, width: int) -> tuple[Row, ...]:
     """The sentence on two lines, marked by !! and a colour when it is an error; what is longer ends in an ellipsis."""
     text = "".join(character if character.isprintable() else "?" for character in said.text)
     room = max(width - 2, 1)
-    lines = wrap(_MARKS[said.tone] + text, room) or [""]
+    lines = wrap(_MARKS[said.tone] + text, room, break_on_hyphens=False) or [""]
     if len(lines) > LINES:
         lines = [*lines[: LINES - 1], f"{lines[LINES - 1][: room - 1]}…"]
     rows = [(Span(f" {line}", _LOOKS[said.tone]),) for line in lines]

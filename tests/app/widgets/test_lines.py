@@ -1,0 +1,47 @@
+"""Softkeys, prompt and status line as text."""
+
+from __future__ import annotations
+
+from app.files import empty_program
+from app.screens.page import Softkey
+from app.session import Said, Session, Tone
+from app.widgets.prompt import prompt_rows
+from app.widgets.rows import text_of
+from app.widgets.softkeys import softkey_rows
+from app.widgets.status import status_row
+
+
+def test_eight_keys_share_the_height_and_labels_wrap() -> None:
+    rows = [text_of(row) for row in softkey_rows({3: Softkey("RECALCULATE LOOKAHEAD"), 8: Softkey("EXIT")}, 21)]
+    assert [row.split()[1] for row in rows if "F" in row] == [f"F{number}" for number in range(1, 9)]
+    first = next(index for index, row in enumerate(rows) if "F3" in row)
+    assert rows[first : first + 2] == ["│ F3 RECALCULATE", "│    LOOKAHEAD"]
+
+
+def test_any_height_is_possible() -> None:
+    for height in range(30):
+        assert len(softkey_rows({1: Softkey("DELETE SEGMENT")}, height)) == height
+
+
+def test_an_error_is_marked_without_colour() -> None:
+    assert text_of(prompt_rows(Said("It is wrong.", Tone.ERROR), 80)[0]) == " !! It is wrong."
+
+
+def test_a_long_sentence_takes_two_lines_and_then_an_ellipsis() -> None:
+    rows = prompt_rows(Said("word " * 60), 40)
+    assert len(rows) == 2
+    assert text_of(rows[1]).endswith("…")
+    assert all(len(text_of(row)) <= 40 for row in rows)
+
+
+def test_control_characters_of_a_files_name_do_not_reach_the_terminal() -> None:
+    assert "\x1b" not in text_of(prompt_rows(Said("Opened: \x1b[2J.toml"), 80)[0])
+
+
+def test_the_status_line() -> None:
+    session = Session.of(empty_program())
+    assert text_of(status_row(session, "16:51", 16034847, 80)) == (
+        " Prog Units: IN   Free: 16034847" + " " * 42 + "16:51 "
+    )
+    for width in range(30):
+        assert len(text_of(status_row(session, "16:51", 16034847, width))) == width

@@ -1,0 +1,23 @@
+"""Numbers in words."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.widgets.words import length, number, numbers, place
+from core.units import Unit
+
+
+@pytest.mark.parametrize(
+    ("segments", "text"),
+    [((), ""), ((2.0,), "2"), ((2.0, 3.0, 4.0, 7.0), "2-4 7"), ((3.0, 2.5, 2.0), "2-3"), ((2.5,), "")],
+)
+def test_runs_of_segments_are_joined_and_corner_arcs_left_out(segments: tuple[float, ...], text: str) -> None:
+    assert numbers(segments) == text
+
+
+def test_lengths_come_in_program_units() -> None:
+    assert length(12.7, Unit.IN) == "0.5000"
+    assert length(12.7, Unit.MM) == "12.700"
+    assert place((25.4, -12.7), Unit.IN) == "X 1.0000 Y -0.5000"
+    assert number(3.5) == "3.5"
