@@ -129,7 +129,6 @@ class Follower:
             self._leaving = True
 
     def _left(self) -> None:
-        self._leaving = False
         self.close_span()
 
     def close_span(self) -> None:

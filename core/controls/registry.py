@@ -6,6 +6,7 @@ corners in force; a G39 or G39.1 in the program changes them from there on, as o
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -14,6 +15,7 @@ from typing import Final
 from core.controls import linuxcnc, nine_series, rosettacnc, threeblock
 from core.controls.klartext import control as klartext
 from core.controls.report import Run
+from core.controls.source import lines_of
 from core.controls.tools import ToolTable
 
 Control = Callable[[bytes, str, ToolTable], Run]
@@ -62,6 +64,15 @@ def compared() -> tuple[str, ...]:
 
 def _joined(name: str, variant: str) -> str:
     return f"{name}:{variant}" if variant else name
+
+
+_BEGINS: Final = re.compile(r"\s*+(?:[0-9]++\s++)?BEGIN\s++PGM\b", re.IGNORECASE)
+
+
+def reads(control: str, text: bytes) -> bool:
+    """Whether a control reads the language a program is written in: Klartext begins with BEGIN PGM."""
+    klartext_text = _BEGINS.match("\n".join(lines_of(text[:4096]))) is not None
+    return klartext_text == control.startswith("klartext")
 
 
 def resolve(control: str) -> str | UnknownControl:

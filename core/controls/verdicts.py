@@ -1,0 +1,96 @@
+"""What a control's path does to the contour that the program describes, by the program's lines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from core.controls.report import Run, Stretch
+from core.finding import Finding, Severity
+from core.geometry.path import Path
+from core.verify.judge import judge
+from core.verify.verdict import Gouge, Verdict
+
+MOST_GOUGES: Final = 20
+"""Gouges of a stretch that are told one by one, deepest first."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Judged:
+    """A compensated stretch, the surface it cuts, the centre path with its leads, and the verdict on them."""
+
+    stretch: Stretch
+    surface: Path
+    centre: Path
+    verdict: Verdict
+
+
+def judged(run: Run) -> tuple[Judged, ...]:
+    """The verdict on every compensated stretch of a run, in its own plane; paths are numbered by lines."""
+    return tuple(_judged(run, stretch) for stretch in run.stretches)
+
+
+def surface_of(stretch: Stretch) -> Path:
+    """The part's surface: what is programmed between the moves that lead in and out."""
+    programmed = stretch.programmed
+    return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
+
+
+def _judged(run: Run, stretch: Stretch) -> Judged:
+    surface = surface_of(stretch)
+    centre = run.moves.part(stretch.first, stretch.last).path(stretch.plane)
+    return Judged(stretch, surface, centre, judge(surface, stretch.side, stretch.radius, centre))
+
+
+def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
+    """The verdicts as findings with lines: gouges and the wrong side are errors, the rest is a warning."""
+    return tuple(finding for result in results for finding in (*_cuts(result), *_rest(result)))
+
+
+def depth(results: tuple[Judged, ...]) -> tuple[float, int | None]:
+    """The deepest gouge of a run in millimetres with its line; 0 and None if there is none."""
+    gouges = [gouge for result in results for gouge in result.verdict.gouges]
+    deepest = max(gouges, key=lambda gouge: gouge.depth, default=None)
+    return (deepest.depth, int(deepest.path_number)) if deepest else (0.0, None)
+
+
+def _cuts(result: Judged) -> list[Finding]:
+    verdict = result.verdict
+    if not verdict.judged:
+        line = int(result.centre.numbers[0]) if len(result.centre) else None
+        return [Finding("UNJUDGED", Severity.ERROR, "This path cannot be judged: its numbers are none.", line=line)]
+    found = [_gouge(gouge) for gouge in verdict.gouges[:MOST_GOUGES]]
+    left = len(verdict.gouges) - len(found)
+    if left:
+        found.append(Finding("GOUGE", Severity.ERROR, f"There are {left} more gouges, none of them deeper."))
+    if verdict.wrong_side:
+        line = int(result.centre.numbers[verdict.wrong_side[0]])
+        text = "The cutter runs on the wrong side of the contour; exchange G41 and G42, or RL and RR."
+        found.append(Finding("WRONG-SIDE", Severity.ERROR, text, line=line))
+    return found
+
+
+def _gouge(gouge: Gouge) -> Finding:
+    text = f"The cutter gouges the surface of line {int(gouge.surface_number)} by {{value}} at X {{x}} Y {{y}}."
+    line = int(gouge.path_number)
+    return Finding("GOUGE", Severity.ERROR, text, at=gouge.surface_at, value=gouge.depth, line=line)
+
+
+def _rest(result: Judged) -> list[Finding]:
+    verdict, found = result.verdict, []
+    if verdict.judged and verdict.uncut:
+        worst = max(verdict.uncut, key=lambda stretch: stretch.thickness)
+        text = "{0} of {1} of the surface stays uncut, at most {value} thick at X {x} Y {y}."
+        lengths = (verdict.uncut_length, verdict.surface_length)
+        line = int(worst.first_number)
+        place, thick = worst.thickest, worst.thickness
+        found.append(
+            Finding("UNCUT", Severity.WARNING, text, at=place, value=thick, lengths=lengths, line=line),
+        )
+    if verdict.crosses_itself:
+        at = verdict.crossing_at
+        where = " at X {x} Y {y}" if at else ""
+        text = f"The programmed contour crosses or touches itself{where}; the verdict counts all of it as surface."
+        began = int(result.surface.numbers[0]) if len(result.surface) else None
+        found.append(Finding("CROSSES", Severity.WARNING, text, at=at, line=began))
+    return found
