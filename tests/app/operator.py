@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 from textual.keys import _character_to_key
 
 from app.desk import Desk
 from app.engine import Known
 from app.files import empty_program
+from app.screens.draw import DrawPage
 from app.screens.frame import Painted, painted
+from app.screens.page import Sketch
 from app.session import Session
 from app.surroundings import Surroundings
 from app.widgets.rows import text_of
@@ -62,6 +65,16 @@ class Operator:
     def said(self) -> str:
         """The sentence on the prompt line."""
         return " ".join(self.part("prompt").split())
+
+    def typed(self, name: str) -> list[Any]:
+        """What was typed into a field of every segment that has it."""
+        return [getattr(segment, name) for segment in self.segments if hasattr(segment, name)]
+
+    @property
+    def sketch(self) -> Sketch:
+        """The window of the DRAW screen."""
+        assert isinstance(self.desk.page, DrawPage)
+        return self.desk.page.sketch
 
     def screen(self, width: int = 80, height: int = 24) -> Painted:
         """Everything on a terminal of this size, but for the drawing."""

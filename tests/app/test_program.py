@@ -7,7 +7,6 @@ import pytest
 from app.desk import Desk
 from app.files import example
 from app.screens.contour import Contour
-from app.screens.draw import DrawPage
 from app.screens.program import ProgramPage
 from app.session import Session
 from core.program.edit import Where
@@ -117,8 +116,7 @@ def test_another_unit_is_asked_about_and_converts() -> None:
     assert operator.session.program.unit is Unit.IN
     assert "Convert every typed length" in operator.part("body")
     assert operator.press("escape").session.program.unit is Unit.IN
-    operator.press("m", "c")
-    assert operator.session.program.unit is Unit.MM
+    assert operator.press("m", "c").session.program.unit is Unit.MM
     assert operator.block.x_start == Entry(50.8)
     assert "Prog Units: MM" in operator.part("status")
     assert operator.press("ctrl+z").session.program.unit is Unit.IN
@@ -133,13 +131,11 @@ def test_part_setup_takes_a_name_and_numbers() -> None:
 
 def test_the_draw_screen_zooms_pans_walks_and_fits() -> None:
     operator = opened().press("f7", "+", "+", "left", "up", "n", "n")
-    page = operator.desk.page
-    assert isinstance(page, DrawPage)
-    assert page.sketch.zoom == pytest.approx(1.5625)
-    assert (page.sketch.dx, page.sketch.dy) == (-0.125, 0.125)
+    assert operator.sketch.zoom == pytest.approx(1.5625)
+    assert (operator.sketch.dx, operator.sketch.dy) == (-0.125, 0.125)
     assert operator.session.where.segment == 2
     operator.press("0", "p", "m")
-    assert operator.desk.page.sketch.zoom == 1.0
+    assert operator.sketch.zoom == 1.0
     assert operator.session.where.segment == 1
     assert operator.desk.mode == "block"
     assert isinstance(operator.press("escape").desk.page, Contour)
@@ -147,7 +143,7 @@ def test_the_draw_screen_zooms_pans_walks_and_fits() -> None:
 
 def test_zooming_keeps_the_middle_where_it_is() -> None:
     operator = opened().press("f7", "right", "right", *["+"] * 8, *["-"] * 8)
-    assert operator.desk.page.sketch.dx == pytest.approx(0.25)
+    assert operator.sketch.dx == pytest.approx(0.25)
 
 
 def test_the_look_ahead_table_is_stepped_over_and_one_value_taken() -> None:

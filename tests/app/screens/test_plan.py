@@ -27,8 +27,8 @@ def test_no_parts_overlap_and_none_leaves_the_terminal(layout: Layout) -> None:
         for height in (*range(1, 30), 43, 60):
             found = areas(plan(width, height, layout))
             assert not any(overlap(one, other) for one, other in combinations(found, 2))
-            assert all(0 <= area.x and area.x + area.width <= width for area in found)
-            assert all(0 <= area.y and area.y + area.height <= height for area in found)
+            assert all(area.x >= 0 and area.x + area.width <= width for area in found)
+            assert all(area.y >= 0 and area.y + area.height <= height for area in found)
 
 
 def test_the_native_size() -> None:
