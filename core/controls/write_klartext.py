@@ -210,7 +210,7 @@ def _agrees(text: str, compensated: Compensated, passes: int) -> bool:
 def _near(path: Path, other: Path) -> bool:
     """Do the ends and the middles of a path's pieces lie on another path?"""
     pieces, onto = measured(path), measured(other)
-    if not len(path) or not len(other):
+    if not len(pieces) or not len(onto):
         return False
-    places = np.concatenate([at(pieces, np.full(len(path), part)) for part in (0.0, 0.5, 1.0)])
-    return all(float(np.min(distance(onto, np.full(len(other), place)))) <= AGREES for place in places)
+    places = np.concatenate([at(pieces, np.full(len(pieces), part)) for part in (0.0, 0.5, 1.0)])
+    return all(float(np.min(distance(onto, np.full(len(onto), place)))) <= AGREES for place in places)
