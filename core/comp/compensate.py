@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -57,41 +58,55 @@ def compensate_all(
     Look-aheads that test the same crossings share their arrays: their `path` is one object.
     """
     values = tuple(lookaheads)
+    asked = _Asked(contour, side, radius, closed, blend, overlap)
     refused = trouble.refusal(contour, radius, values)
     if refused or not values:
-        return tuple(_nothing(contour, side, radius, value, refused, closed=closed) for value in values)
+        return tuple(_nothing(asked, value, refused) for value in values)
     surface, common = _with_length(contour)
+    asked = asked._replace(contour=surface)
     if not len(surface):
-        empty = trouble.refusal(surface, radius, values)
-        return tuple(_nothing(surface, side, radius, value, (*common, *empty), closed=closed) for value in values)
+        refused = (*common, *trouble.refusal(surface, radius, values))
+        return tuple(_nothing(asked, value, refused) for value in values)
     if closed:
         common += trouble.inside_start(surface, side, radius)
     chain = offset(surface, side, radius)
     found = crossings(chain, max(values), closed=closed)
     made: dict[int, Compensated] = {}
-    for value in sorted(set(values)):
-        others = found.within(value)
-        same = next((one for one in made.values() if len(found.within(one.lookahead)) == len(others)), None)
-        if same is None:
-            pruned = prune(chain, found.joints, others, last_wins=closed and len(surface) == 2)
-            findings = (*common, *_findings(surface, chain, pruned, radius, closed=closed))
-            made[value] = Compensated(
-                surface,
-                side,
-                radius,
-                value,
-                closed,
-                chain.raw,
-                pruned.path,
-                pruned.bridged,
-                pruned.deleted,
-                blend_in(pruned.path, side, blend),
-                blend_out(pruned.path, side, blend, overlap, closed=closed),
-                findings,
-            )
-        else:
-            made[value] = replace(same, lookahead=value)
-    return tuple(made[value] for value in values)
+    for value in values:
+        if found.count(value) not in made:
+            pruned = prune(chain, found.joints, found.within(value), last_wins=closed and len(surface) == 2)
+            made[found.count(value)] = _compensated(asked, value, chain, pruned, common)
+    return tuple(replace(made[found.count(value)], lookahead=value) for value in values)
+
+
+class _Asked(NamedTuple):
+    """What is to be compensated, and how."""
+
+    contour: Path
+    side: Side
+    radius: float
+    closed: bool
+    blend: float
+    overlap: float
+
+
+def _compensated(asked: _Asked, lookahead: int, chain: Chain, pruned: Pruned, common: list[Finding]) -> Compensated:
+    """The pruned path with its blend moves and all that is to be said about it."""
+    contour, side, radius, closed, blend, overlap = asked
+    return Compensated(
+        contour=contour,
+        side=side,
+        radius=radius,
+        lookahead=lookahead,
+        closed=closed,
+        raw=chain.raw,
+        path=pruned.path,
+        bridged=pruned.bridged,
+        deleted=pruned.deleted,
+        lead_in=blend_in(pruned.path, side, blend),
+        lead_out=blend_out(pruned.path, side, blend, overlap, closed=closed),
+        findings=(*common, *_findings(contour, chain, pruned, radius, closed=closed)),
+    )
 
 
 def _findings(surface: Path, chain: Chain, pruned: Pruned, radius: float, *, closed: bool) -> list[Finding]:
@@ -103,13 +118,22 @@ def _findings(surface: Path, chain: Chain, pruned: Pruned, radius: float, *, clo
     return found
 
 
-def _nothing(
-    contour: Path, side: Side, radius: float, lookahead: int, findings: tuple[Finding, ...], *, closed: bool
-) -> Compensated:
+def _nothing(asked: _Asked, lookahead: int, findings: tuple[Finding, ...]) -> Compensated:
     """The answer to a contour that has no centre path."""
-    none = Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))
-    still = np.empty(0, np.bool_)
-    return Compensated(contour, side, radius, lookahead, closed, EMPTY, EMPTY, still, none, EMPTY, EMPTY, findings)
+    return Compensated(
+        contour=asked.contour,
+        side=asked.side,
+        radius=asked.radius,
+        lookahead=lookahead,
+        closed=asked.closed,
+        raw=EMPTY,
+        path=EMPTY,
+        bridged=np.empty(0, np.bool_),
+        deleted=Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2))),
+        lead_in=EMPTY,
+        lead_out=EMPTY,
+        findings=findings,
+    )
 
 
 def _with_length(contour: Path) -> tuple[Path, list[Finding]]:

@@ -59,6 +59,10 @@ class Candidates:
         rows = self.reach <= 2 * lookahead
         return self.others if rows.all() else self.others.chosen(rows)
 
+    def count(self, lookahead: int) -> int:
+        """How many those are: look-aheads of one count test the same."""
+        return int(np.count_nonzero(self.reach <= 2 * lookahead))
+
 
 def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
     """Every crossing that a look-ahead up to `lookahead` may have to know of.

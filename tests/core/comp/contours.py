@@ -81,3 +81,29 @@ def shut(contour: Path) -> Path:
     first, last = pieces[0].start, pieces[-1].end
     gap = abs(complex(*first) - complex(*last))
     return contour if gap < 1e-6 else Path.from_pieces([*pieces, Line(last, first)])
+
+
+def _off_the_grid(steps: list[Step]) -> Path:
+    """The contour with sizes and corners moved a little, each otherwise, so that nothing coincides by design."""
+    moved = [
+        Step(
+            step.corner * rect(1.0, 0.017 * ((row * 0.618) % 1.0) - 0.01),
+            step.size * (1.0 + 0.03 * ((row * 0.754) % 1.0)),
+            step.sweep,
+            step.turn,
+        )
+        for row, step in enumerate(steps, 1)
+    ]
+    return assembled(moved)
+
+
+_plain = st.builds(Step, st.floats(-2.8, 2.8).map(lambda angle: rect(1.0, angle)), st.floats(0.1, 3.0))
+_round = st.builds(
+    Step,
+    st.floats(-2.8, 2.8).map(lambda angle: rect(1.0, angle)),
+    st.floats(0.1, 3.0),
+    st.floats(0.2, 5.5),
+    st.sampled_from([-1, 1]),
+)
+loose = st.lists(_plain | _round, min_size=1, max_size=10).map(_off_the_grid)
+"""Open contours of lines and arcs in which no two things coincide: rounding decides nothing."""

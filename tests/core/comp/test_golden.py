@@ -359,7 +359,11 @@ def test_calculated_lookahead(golden):
 @every_case
 def test_arcs_of_the_path_are_about_the_corners(golden):
     for done in compensate_all(golden.contour, golden.side, RADIUS, range(1, 21), closed=golden.closed):
-        arcs = [(piece, number) for piece, number in zip(done.path, done.path.numbers, strict=True) if isinstance(piece, Arc)]
+        arcs = [
+            (piece, number)
+            for piece, number in zip(done.path, done.path.numbers, strict=True)
+            if isinstance(piece, Arc)
+        ]
         assert all(number % 1 == 0.5 for _, number in arcs)
         for piece, number in arcs:
             assert _near(piece.centre, golden.contour.points[int(number)])

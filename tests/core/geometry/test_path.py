@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.geometry.path import EMPTY, Path, joined
-from core.geometry.piece import Arc, Line, Turn
+from core.geometry.piece import Arc, Line, Piece, Turn
 from tests.core.comp.contours import mixed
 
-PIECES = [
+PIECES: list[Piece] = [
     Line((0, 0), (2, 0)),
     Arc((2, 0), (3, 1), (2, 1), Turn.CCW),
     Arc((3, 1), (3, 1), (4, 1), Turn.CW),

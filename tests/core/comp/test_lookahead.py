@@ -1,0 +1,41 @@
+"""The calculated look-ahead and what makes a contour closed."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from core.comp.lookahead import HIGHEST, LOWEST, calculated, is_closed
+
+OPEN = [2, 2, 2, 2, 2, 3, 4, 5, 6, 7, 8, 8]
+CLOSED = [3, 3, 3, 3, 4, 5, 6, 7, 8, 8, 8, 8]
+
+
+@pytest.mark.parametrize(("count", "value"), enumerate(OPEN, 1))
+def test_open(count, value):
+    assert calculated(count, closed=False) == value
+
+
+@pytest.mark.parametrize(("count", "value"), enumerate(CLOSED, 1))
+def test_closed(count, value):
+    assert calculated(count, closed=True) == value
+
+
+def test_long_contours_stay_at_eight():
+    assert calculated(1000, closed=False) == calculated(1000, closed=True) == 8
+
+
+def test_range_of_a_typed_value():
+    assert (LOWEST, HIGHEST) == (1, 20)
+
+
+@pytest.mark.parametrize(("end", "closed"), [((1, 2), True), ((1.00254, 2), True), ((1.0026, 2), False)])
+def test_closed_within_a_ten_thousandth_of_an_inch(end, closed):
+    assert is_closed((1, 2), end) is closed
+
+
+def test_needs_no_numpy():
+    program = "import sys, core.comp.lookahead; sys.exit('numpy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0

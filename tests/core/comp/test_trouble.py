@@ -1,0 +1,223 @@
+"""Contours that are refused, and what is said about those that are not."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import inf, nan, pi
+
+import numpy as np
+import pytest
+
+from core.comp.compensate import compensate, compensate_all
+from core.comp.result import Compensated
+from core.comp.trouble import NAMED_AT_MOST, spoken
+from core.finding import Finding, Severity
+from core.geometry.path import EMPTY, Path
+from core.geometry.piece import Arc, Line, Point, Turn
+from core.geometry.side import Side
+from tests.core.comp.contours import lines
+
+L = lines((0, 0), (2, 0), (2, 2))
+BAD = [nan, inf, -inf, 1e8, 1e300]
+
+
+def _only(done: Compensated) -> Finding:
+    (finding,) = done.findings
+    return finding
+
+
+def _refused(done: Compensated, code: str) -> Finding:
+    finding = _only(done)
+    assert (finding.code, finding.severity) == (code, Severity.ERROR)
+    assert len(done.path) == len(done.raw) == len(done.deleted) == len(done.whole) == 0
+    return finding
+
+
+@pytest.mark.parametrize("radius", [0.0, -1.0, nan, inf, 1e300])
+def test_radius_that_is_none(radius):
+    _refused(compensate(L, Side.LEFT, radius, 2, closed=False), "RADIUS")
+
+
+@pytest.mark.parametrize("lookahead", [0, -3])
+def test_lookahead_that_is_none(lookahead):
+    _refused(compensate(L, Side.LEFT, 0.25, lookahead, closed=False), "LOOKAHEAD")
+
+
+def test_empty_contour():
+    _refused(compensate(EMPTY, Side.LEFT, 0.25, 2, closed=False), "EMPTY_CONTOUR")
+
+
+@pytest.mark.parametrize("bad", BAD)
+def test_point_that_is_no_number(bad):
+    contour = lines((0, 0), (2, 0), (2, bad), (0, 2))
+    assert _refused(compensate(contour, Side.LEFT, 0.25, 2, closed=False), "NOT_FINITE").segment == 2
+
+
+@pytest.mark.parametrize("bad", BAD)
+def test_centre_that_is_no_number(bad):
+    contour = Path.from_pieces([Line((0, 0), (1, 0)), Arc((1, 0), (2, 0), (bad, 0), Turn.CW)])
+    assert _refused(compensate(contour, Side.LEFT, 0.25, 2, closed=False), "NOT_FINITE").segment == 2
+
+
+def test_arc_with_two_radii():
+    contour = Path.from_pieces([Line((0, 0), (1, 0)), Arc((1, 0), (2, 0), (1.6, 0), Turn.CW)])
+    finding = _refused(compensate(contour, Side.LEFT, 0.25, 2, closed=False), "ARC_RADII")
+    assert finding.segment == 2
+    assert finding.lengths == pytest.approx((0.6, 0.4))
+
+
+def test_arc_about_its_own_start():
+    contour = Path.from_pieces([Arc((1, 0), (1.002, 0), (1, 0), Turn.CW)])
+    _refused(compensate(contour, Side.LEFT, 0.25, 2, closed=False), "ARC_RADII")
+
+
+def test_refusal_is_given_for_every_lookahead():
+    for done in compensate_all(EMPTY, Side.LEFT, 0.25, (1, 2, 3), closed=False):
+        _refused(done, "EMPTY_CONTOUR")
+    assert compensate_all(L, Side.LEFT, 0.25, (), closed=False) == ()
+
+
+def test_segments_without_length_are_passed_over():
+    contour = lines((0, 0), (0, 0), (2, 0), (2, 0), (2, 2))
+    done = compensate(contour, Side.LEFT, 0.25, 2, closed=False)
+    assert [(one.code, one.segment, one.severity) for one in done.findings] == [
+        ("ZERO_LENGTH", 1, Severity.WARNING),
+        ("ZERO_LENGTH", 3, Severity.WARNING),
+    ]
+    assert done.path.numbers.tolist() == [2, 4]
+    assert done.contour.numbers.tolist() == [2, 4]
+
+
+def test_segments_without_length_add_no_reach():
+    stepped = lines((0, 0), (2, 0), (2, 0.1), (4, 0.1), (4, 2))
+    padded = lines((0, 0), (2, 0), (2, 0), (2, 0), (2, 0.1), (4, 0.1), (4, 2))
+    one, two = (compensate(contour, Side.LEFT, 0.25, 2, closed=False) for contour in (stepped, padded))
+    assert np.array_equal(one.path.points, two.path.points)
+    assert [deleted.segment for deleted in two.deleted] == [4]
+
+
+def test_arcs_that_are_points_are_passed_over():
+    contour = Path.from_pieces([Line((0, 0), (2, 0)), Arc((2, 0), (2, 0), (2, 0), Turn.CW), Line((2, 0), (2, 2))])
+    done = compensate(contour, Side.LEFT, 0.25, 2, closed=False)
+    assert _only(done).code == "ZERO_LENGTH"
+    assert done.path.numbers.tolist() == [1, 3]
+
+
+def test_contour_of_points_alone():
+    done = compensate(lines((1, 1), (1, 1)), Side.LEFT, 0.25, 2, closed=True)
+    assert [one.code for one in done.findings] == ["ZERO_LENGTH", "EMPTY_CONTOUR"]
+    assert not len(done.path)
+
+
+def test_full_circle_is_not_passed_over():
+    circle = Arc((2, 0), (2, 0), (0, 0), Turn.CCW)
+    contour = Path.from_pieces([Line((5, 0), (2, 0)), circle, Line((2, 0), (2, 1e-8)), Line((2, 1e-8), (5, 0))])
+    done = compensate(contour, Side.RIGHT, 0.25, 2, closed=False)
+    assert abs(done.contour.sweeps).max() == pytest.approx(2 * pi)
+    assert done.contour.numbers.tolist() == [1, 2, 4]
+
+
+def test_inside_arc_too_small_for_the_tool():
+    contour = Path.from_pieces(
+        [Line((0, 0), (2, 0)), Arc((2, 0), (2.2, 0.2), (2, 0.2), Turn.CCW), Line((2.2, 0.2), (2.2, 3))]
+    )
+    one = _only(compensate(contour, Side.LEFT, 0.25, 1, closed=False))
+    assert (one.code, one.severity, one.segment) == ("VANISHED", Severity.WARNING, 2)
+    assert one.value == pytest.approx(0.2)
+    pruned = compensate(contour, Side.LEFT, 0.25, 2, closed=False)
+    assert not pruned.findings
+    assert [(deleted.segment, deleted.by) for deleted in pruned.deleted] == [(2, (1, 3))]
+
+
+@pytest.mark.parametrize("lookahead", [1, 2, 8])
+def test_inside_arc_exactly_as_large_as_the_tool(lookahead):
+    contour = Path.from_pieces(
+        [Line((0, 0), (2, 0)), Arc((2, 0), (2.25, 0.25), (2, 0.25), Turn.CCW), Line((2.25, 0.25), (2.25, 3))]
+    )
+    done = compensate(contour, Side.LEFT, 0.25, lookahead, closed=False)
+    assert not done.findings
+    assert done.path.points.tolist() == [[0, 0.25], [2, 0.25], [2, 3]]
+    assert not len(done.deleted)
+
+
+@pytest.mark.parametrize("radius", [2.0, 2.5])
+def test_hole_too_small_for_the_tool(radius):
+    contour = Path.from_pieces([Arc((2, 0), (2, 0), (0, 0), Turn.CCW)])
+    done = compensate(contour, Side.LEFT, radius, 3, closed=True, blend=0.1, overlap=0.1)
+    assert len(done.whole) == 0
+    assert Severity.ERROR in {one.severity for one in done.findings}
+    assert len(compensate(contour, Side.RIGHT, radius, 3, closed=True).path) == 1
+
+
+def test_start_at_an_inside_corner_of_arcs():
+    lens = Path.from_pieces([Arc((-1, 0), (1, 0), (0, 1), Turn.CCW), Arc((1, 0), (-1, 0), (0, -1), Turn.CCW)])
+    assert [one.code for one in compensate(lens, Side.LEFT, 0.25, 3, closed=True).findings] == ["START_INSIDE_CORNER"]
+    assert not compensate(lens, Side.RIGHT, 0.25, 3, closed=True).findings
+
+
+def test_tangent_start_is_no_corner():
+    slot = Path.from_pieces(
+        [
+            Line((0, 0), (4, 0)),
+            Arc((4, 0), (4, 2), (4, 1), Turn.CCW),
+            Line((4, 2), (0, 2)),
+            Arc((0, 2), (0, 0), (0, 1), Turn.CCW),
+        ]
+    )
+    for side in Side:
+        done = compensate(slot, side, 0.25, 3, closed=True)
+        assert not done.findings
+        assert done.path.numbers.tolist() == [1, 2, 3, 4]
+
+
+def test_long_way_names_what_it_erased():
+    contour = lines((0.1, 0), (2, 0), (2, 2), (0, 2), (0, 0.1), (0.1, 0))
+    found = compensate(contour, Side.LEFT, 0.25, 4, closed=True).findings[-1]
+    assert found.code == "LONG_WAY"
+    assert found.value == pytest.approx(4.0)
+    assert "segments 2-3" in found.text
+
+
+def test_many_places_are_counted_not_listed():
+    notch = [(0.0, 0.0), (2.0, 0.0), (2.0, -0.3), (2.3, -0.3), (2.3, 0.0)]
+    done = compensate(
+        lines(*((x + 4 * row, y) for row in range(150) for x, y in notch)), Side.LEFT, 0.25, 1, closed=False
+    )
+    assert done.bridged.sum() == 150
+    assert {(one.code, one.severity) for one in done.findings} == {("CORNER_MISSED", Severity.WARNING)}
+    assert [one.segment for one in done.findings[:3]] == [3.5, 8.5, 13.5]
+    assert len(done.findings) == NAMED_AT_MOST + 1
+    assert "150" in done.findings[-1].text
+
+
+def test_zero_lengths_beyond_a_hundred_are_counted():
+    contour = lines((0, 0), *[(1, 0)] * 150, (2, 0))
+    found = compensate(contour, Side.LEFT, 0.25, 1, closed=False).findings
+    assert len(found) == NAMED_AT_MOST + 1
+    assert "149" in found[-1].text
+
+
+@pytest.mark.parametrize(
+    ("numbers", "text"),
+    [([4], "segment 4"), ([2, 3], "segments 2-3"), ([1, 2, 3, 7, 9, 10], "segments 1-3, 7, 9-10")],
+)
+def test_spoken_numbers(numbers, text):
+    assert spoken(np.array(numbers, np.float64)) == text
+
+
+@pytest.mark.parametrize("radius", [1e-6, 0.3, 50.0, 1e6])
+def test_odd_contours_never_fail(radius):
+    odd: list[list[Point]] = [
+        [(0, 0), (1, 0), (1, 0), (0, 0), (1, 0)],
+        [(0, 0), (1, 0), (0, 0), (1, 0), (0, 0)],
+        [(1e7, 1e7), (1e7, 1e7 - 1), (1e7 - 1, 1e7), (1e7, 1e7)],
+        [(0, 0), (1e7, 0), (1e7, 1e-6), (0, 1e-6)],
+        [(0, 0), (1, 1), (1, 0), (0, 1), (0, 0)],
+    ]
+    for points in odd:
+        for side in Side:
+            for done in compensate_all(lines(*points), side, radius, range(1, 21), closed=points[0] == points[-1]):
+                assert np.isfinite(done.whole.points).all()
+                assert len(done.path) or any(one.severity is Severity.ERROR for one in done.findings)
+                assert all(piece.length > 0 for piece in done.path)
+                assert all(one.start == two.end for two, one in pairwise(done.path))
