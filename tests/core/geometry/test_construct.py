@@ -188,5 +188,5 @@ def test_chord_factor():
     assert construct.chord_factor(pi / 3) == pytest.approx(1.0)
 
 
-def test_infinite_radius_is_not_needed_here():
+def test_nothing_reaches_infinitely_far():
     assert construct.on_circle((0.0, 0.0), 1.0, 0, inf) == Apart(inf)

@@ -1,0 +1,73 @@
+"""A program in the other unit, field by field."""
+
+from __future__ import annotations
+
+import pytest
+
+from core.program.convert import converted
+from core.program.fields import PARAMETERS, SETUP, START, TABLES, Form
+from core.program.model import (
+    ArcSegment,
+    BlendSegment,
+    Block,
+    Entry,
+    LineSegment,
+    Parameters,
+    PartSetup,
+    Program,
+    Segment,
+    Tool,
+    changed,
+)
+from core.units import Kind, Unit
+
+SEGMENTS: dict[Form, Segment] = {Form.LINE: LineSegment(), Form.ARC: ArcSegment(), Form.BLEND: BlendSegment()}
+
+
+def expected(kind: Kind) -> Entry:
+    """What 2 inches, or 2 of anything else, is in a metric program."""
+    return Entry(50.8) if kind in (Kind.LENGTH, Kind.FEED) else Entry(2.0)
+
+
+def numbers(form: Form) -> list[tuple[str, Kind]]:
+    return [(one.name, one.kind) for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT)]
+
+
+@pytest.mark.parametrize(("name", "kind"), numbers(Form.START))
+def test_start(name, kind):
+    part = converted(Program(Unit.IN, blocks=(changed(Block(), {name: Entry(2.0)}),)), Unit.MM)
+    assert getattr(part.blocks[0], name) == expected(kind)
+    others = [one.name for one in START if one.kind is not Kind.CHOICE and one.name != name]
+    assert all(getattr(part.blocks[0], other) is None for other in others)
+
+
+@pytest.mark.parametrize("form", SEGMENTS)
+def test_segments(form):
+    for name, kind in numbers(form):
+        segment = changed(SEGMENTS[form], {name: Entry(2.0)})
+        part = converted(Program(Unit.IN, blocks=(Block(segments=(segment,)),)), Unit.MM)
+        assert part.blocks[0].segments == (changed(SEGMENTS[form], {name: expected(kind)}),)
+
+
+@pytest.mark.parametrize(("name", "kind"), numbers(Form.PARAMETERS))
+def test_parameters(name, kind):
+    part = converted(Program(Unit.IN, changed(Parameters(), {name: Entry(2.0)})), Unit.MM)
+    assert part.parameters == changed(Parameters(), {name: expected(kind)})
+    assert len(numbers(Form.PARAMETERS)) == len(PARAMETERS) - 1
+
+
+@pytest.mark.parametrize(("name", "kind"), numbers(Form.SETUP))
+def test_setup(name, kind):
+    part = converted(Program(Unit.IN, setup=changed(PartSetup("A"), {name: Entry(2.0)})), Unit.MM)
+    assert part.setup == changed(PartSetup("A"), {name: expected(kind)})
+    assert len(numbers(Form.SETUP)) == len(SETUP) - 1
+
+
+def test_tools():
+    part = converted(Program(Unit.IN, tools=(Tool(2, "BALL MILL", Entry(2.0)), Tool(3))), Unit.MM)
+    assert part.tools == (Tool(2, "BALL MILL", Entry(50.8)), Tool(3))
+
+
+def test_the_same_unit_is_the_same_program():
+    part = Program(Unit.MM)
+    assert converted(part, Unit.MM) is part
