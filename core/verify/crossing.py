@@ -34,7 +34,7 @@ def crossings(surface: Measured, stations: Floats, bounds: Floats, *, closed: bo
     keep = ~joint | _may_meet_again(surface, i, j, following)
     i, j, following, around = i[keep], j[keep], following[keep], around[keep]
     one, other = surface.take(i), surface.take(j)
-    places = nearest_places(one, other)
+    places = np.vstack((nearest_places(one, other), np.full(len(one), 0.5)))
     points = at(one, places)
     apart = distance(other, points)
     met = (apart <= JOINED) & _away(one, other, places, points, following, around)
@@ -56,7 +56,7 @@ def _may_meet_again(surface: Measured, i: Rows, j: Rows, following: Flags) -> Fl
 
 
 def _away(one: Measured, other: Measured, places: Floats, points: Points, following: Flags, around: Flags) -> Flags:
-    """(8, m) places that are no part of a joint.
+    """(9, m) places that are no part of a joint.
 
     Pieces that leave a joint smoothly stay within any tolerance of each other for a while; they meet again
     only if they are apart in between, or if the later one runs back over the earlier one.

@@ -9,7 +9,7 @@ import numpy as np
 from core.geometry.distance import foot
 from core.geometry.measured import Floats, Rows, at
 from core.geometry.path import Path
-from core.tolerance import GOUGE, JOINED
+from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.pairs import Approaches, Pairs
 from core.verify.reach import Parts, Stretches, union, within
 from core.verify.verdict import Gouge
@@ -49,10 +49,10 @@ def gouging(pairs: Pairs, near: Approaches, radius: float) -> Gouging:
 
 
 def _deepest(parts: Parts, i: Rows, j: Rows) -> Gouging:
-    """Parts as stretches, each with the least distance measured in it."""
+    """Parts as stretches, each with the least distance measured in it; of equal ones the earliest along the path."""
     stretches = union(parts.first, parts.last)
     owner = stretches.index(parts.middle)
-    order = np.lexsort((parts.apart, owner))
+    order = np.lexsort((parts.pair, np.round(parts.apart / ON_PATH), owner))
     best = order[np.flatnonzero(np.diff(owner[order], prepend=-1))]
     pair = parts.pair[best]
     return Gouging(stretches, parts.middle[best], parts.apart[best], i[pair], j[pair])

@@ -25,7 +25,7 @@ def judge(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
     that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than ARC_RADII give
     a verdict that is not `judged` and so never clean.
     """
-    if not (_sound(surface) and _sound(centre) and isfinite(radius) and 0.0 <= radius <= LARGEST):
+    if not judgeable(surface, radius, centre):
         return _unjudged(radius)
     if not len(surface):
         return Verdict(radius, inf, (), (), 0.0, crosses_itself=False)
@@ -33,12 +33,16 @@ def judge(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
         return _judged(surface, side, radius, centre)
 
 
+def judgeable(surface: Path, radius: float, centre: Path) -> bool:
+    """All coordinates and the radius are lengths a machine could have."""
+    return _sound(surface) and _sound(centre) and isfinite(radius) and 0.0 <= radius <= LARGEST
+
+
 def _unjudged(radius: float) -> Verdict:
     return Verdict(radius, nan, (), (), nan, crosses_itself=False, judged=False)
 
 
 def _sound(path: Path) -> bool:
-    """All coordinates are numbers a machine could have."""
     return all(bool(np.all(np.abs(array) <= LARGEST)) for array in (path.points, path.centres))
 
 

@@ -6,6 +6,7 @@ from math import isinf
 
 from core.finding import Finding, Severity
 from core.geometry.path import Path
+from core.verify.stray import Away, Stray
 from core.verify.verdict import Gouge, Uncut, Verdict
 
 
@@ -18,6 +19,29 @@ def findings(verdict: Verdict, surface: Path) -> tuple[Finding, ...]:
         *_wrong_side(verdict),
         *_crosses_itself(verdict),
         *(_uncut(stretch, surface) for stretch in verdict.uncut),
+    )
+
+
+def stray_findings(found: Stray) -> tuple[Finding, ...]:
+    """What an operator should see of a path's stretches away from the part and of pieces travelled backwards."""
+    backwards: tuple[Finding, ...] = ()
+    if found.backwards:
+        count = len(found.backwards)
+        text = f"{count} {'move runs' if count == 1 else 'moves run'} against the direction of the contour."
+        backwards = (Finding("BACKWARDS", Severity.WARNING, text),)
+    return (*backwards, *(_away(stretch) for stretch in found.away))
+
+
+def _away(stretch: Away) -> Finding:
+    text = "{value} of path does not touch the part: at X {x} Y {y} the cutter is {0} off it."
+    return Finding(
+        "AWAY",
+        Severity.INFO,
+        text,
+        segment=stretch.first_number,
+        at=stretch.farthest,
+        value=stretch.length,
+        lengths=(stretch.beyond,),
     )
 
 

@@ -1,0 +1,109 @@
+"""Stray: where a centre path is off the surface by more than the radius, and where it runs against the contour.
+
+Neither is a gouge.  Lead moves are always away; in a path read from elsewhere a stretch away that is no lead move, or a
+piece travelled backwards, is a mistake worth seeing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import isinf
+from typing import Final
+
+import numpy as np
+
+from core.geometry.distance import foot
+from core.geometry.measured import Flags, Floats, Measured, Rows, at, direction, measured
+from core.geometry.path import Path
+from core.geometry.piece import Point
+from core.tolerance import GOUGE
+from core.verify.judge import judgeable
+from core.verify.pairs import Pairs, pairs_of
+from core.verify.uncut import uncut
+
+PARALLEL: Final = 1e-6
+"""Sine of the angle up to which a move and the wall it touches run the same way."""
+
+
+@dataclass(frozen=True, slots=True)
+class Away:
+    """A stretch of the path farther from the surface than the radius: numbers and places of its ends, its length.
+
+    `beyond` is how much farther than the radius it gets, at `farthest`.
+    """
+
+    first_number: float
+    last_number: float
+    start: Point
+    end: Point
+    length: float
+    beyond: float
+    farthest: Point
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Stray:
+    """Stretches away from the surface in the path's order, and the rows of pieces that run against all they touch."""
+
+    away: tuple[Away, ...]
+    backwards: tuple[int, ...]
+
+
+def stray(surface: Path, radius: float, centre: Path) -> Stray:
+    """Where `centre` leaves the surface by more than the radius (millimetres), and where it runs backwards.
+
+    Nothing is told of a path that cannot be judged.
+    """
+    if not (len(surface) and len(centre) and judgeable(surface, radius, centre)):
+        return Stray((), ())
+    walls, moves = measured(surface), measured(centre)
+    slack = float(walls.slack.max() + moves.slack.max())
+    if isinf(slack):
+        return Stray((), ())
+    with np.errstate(all="ignore"):
+        pairs = pairs_of(moves, walls, radius + 10.0 * GOUGE + slack)
+        return Stray(_away(pairs, radius, centre), _backwards(pairs, radius))
+
+
+def _away(pairs: Pairs, radius: float, centre: Path) -> tuple[Away, ...]:
+    """The path is to the surface what the surface is to the path: what it does not reach it is away from."""
+    told = uncut(_exchanged(pairs), radius, centre, closed=False)
+    return tuple(
+        Away(one.first_number, one.last_number, one.start, one.end, one.length, one.thickness, one.thickest)
+        for one in told
+    )
+
+
+def _exchanged(pairs: Pairs) -> Pairs:
+    return replace(
+        pairs,
+        centre=pairs.surface,
+        surface=pairs.centre,
+        centre_stations=pairs.surface_stations,
+        surface_stations=pairs.centre_stations,
+        centre_boxes=pairs.surface_boxes,
+        surface_boxes=pairs.centre_boxes,
+        i=pairs.j,
+        j=pairs.i,
+    )
+
+
+def _backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
+    """Rows of pieces that touch a wall in their middle or a wall's, all of them against its direction."""
+    moves, walls = pairs.centre.take(pairs.i), pairs.surface.take(pairs.j)
+    limit = 2.0 * GOUGE + pairs.slack
+    way = np.concatenate((_way(moves, walls, radius, limit), _way(walls, moves, radius, limit)))
+    row = np.tile(pairs.i, 2)
+    with_it, against = np.unique(row[way > 0]), np.unique(row[way < 0])
+    return tuple(pairs.centre.rows[np.setdiff1d(against, with_it)].tolist())
+
+
+def _way(pieces: Measured, other: Measured, radius: float, limit: Floats) -> Rows:
+    """+1 where the middle of a piece is a radius from its partner and both run the same way, -1 opposite, else 0."""
+    half = np.full(len(pieces), 0.5)
+    middle = at(pieces, half)
+    t = foot(other, middle)
+    turn = direction(pieces, half) * np.conj(direction(other, t))
+    touching: Flags = np.abs(np.abs(middle - at(other, t)) - radius) <= limit
+    alike: Flags = touching & (t > 0.0) & (t < 1.0) & (np.abs(turn.imag) < PARALLEL)
+    return np.where(alike, np.sign(turn.real), 0.0).astype(np.intp)

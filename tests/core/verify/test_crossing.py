@@ -1,0 +1,91 @@
+"""Contours that cross or touch themselves, and those that only seem to."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Point, Turn
+from core.geometry.side import Side
+from core.verify.judge import judge
+from core.verify.verdict import Verdict
+from tests.core.verify.shapes import circle, lines, moved, paths, square
+
+FAR = lines((1000, 1000), (1001, 1000))
+
+
+def verdict(surface: Path) -> Verdict:
+    return judge(surface, Side.LEFT, 0.1, FAR)
+
+
+@pytest.mark.parametrize(
+    ("surface", "at"),
+    [
+        (lines((0, 0), (4, 0), (4, 4), (2, 4), (2, -1)), (2, 0)),
+        (lines((0, 0), (4, 0), (4, 4), (2, 4), (2, 0)), (2, 0)),
+        (lines((0, 0), (4, 0), (4, 4), (0, 4), (1, 0), (-1, 2)), (1, 0)),
+        (lines((0, 0), (4, 0), (1, 0)), (1, 0)),
+        (Path.from_pieces([Line((0, 0), (4, 0)), Arc((4, 0), (2, 0), (3, 0), Turn.CCW)]), (2, 0)),
+        (Path.from_pieces([Arc((2, 0), (-2, 0), (0, 0), Turn.CCW), Arc((-2, 0), (2, 0), (0, 0), Turn.CW)]), (0, 2)),
+        (lines((0, 0), (4, 0), (0, 0)), (2, 0)),
+    ],
+)
+def test_crossings_and_touches_are_found(surface: Path, at: Point) -> None:
+    told = verdict(surface)
+    assert told.crosses_itself
+    assert told.crossing_at == pytest.approx(at, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "surface",
+    [
+        square(),
+        circle((3, 3), 2.0),
+        lines((0, 0), (4, 0), (4, 4)),
+        lines((0, 0), (4, 0), (0, 1e-5)),
+        lines((0, 0), (1, 0), (1 + 1e-6, 0), (2, 0), (2, 1), (0, 1), (0, 0)),
+        Path.from_pieces([Arc((2, 0), (-2, 0), (0, 0), Turn.CCW), Arc((-2, 0), (2, 0), (0, 0), Turn.CCW)]),
+        Path.from_pieces([Line((0, 0), (4, 0)), Arc((4, 0), (4, 2), (4, 1), Turn.CCW), Line((4, 2), (0, 2))]),
+        Path.from_pieces([Arc((2, 0), (0, 2), (0, 0), Turn.CCW), Arc((0, 2), (-2, 4), (0, 4), Turn.CW)]),
+    ],
+)
+def test_joints_are_no_crossings(surface: Path) -> None:
+    assert not verdict(surface).crosses_itself
+    assert not verdict(surface.reversed()).crosses_itself
+
+
+def test_a_curve_of_many_small_arcs_does_not_cross_itself() -> None:
+    angle = np.linspace(0.0, 2 * pi, 500)
+    radius = np.where(np.arange(500) % 2, 5.0, 5.001)
+    points = [(r * cos(a), r * sin(a)) for r, a in zip(radius.tolist(), angle.tolist(), strict=True)]
+    pieces = [Arc(a, b, _about(a, b), Turn.CCW) for a, b in pairwise(points)]
+    assert not verdict(Path.from_pieces(pieces)).crosses_itself
+
+
+def _about(a: Point, b: Point) -> Point:
+    """A centre two chords to the left of the chord's middle."""
+    return (a[0] + b[0]) / 2 - 2 * (b[1] - a[1]), (a[1] + b[1]) / 2 + 2 * (b[0] - a[0])
+
+
+@settings(deadline=None, max_examples=60, derandomize=True)
+@given(paths(most=4))
+def test_a_straight_cut_across_a_contour_is_found(surface: Path) -> None:
+    """A contour continued by a line back through the middle of its first piece crosses itself there."""
+    first, last = surface[0], surface.points[-1]
+    middle = np.array(first.start) + 0.5 * (np.array(first.end) - np.array(first.start))
+    if isinstance(first, Arc) or np.hypot(*(middle - last)) < 1e-3:
+        return
+    along = np.array(first.end) - np.array(first.start)
+    out = middle - last
+    if abs(along[0] * out[1] - along[1] * out[0]) < 1e-3:
+        return
+    back = Line(tuple(last.tolist()), tuple((middle + 0.5 * out).tolist()))
+    longer = Path.from_pieces([*surface, back])
+    if len(surface) > 1:
+        assert verdict(longer).crosses_itself
+        assert verdict(moved(longer, 1.0, (100.0, 50.0))).crosses_itself

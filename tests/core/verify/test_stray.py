@@ -1,0 +1,67 @@
+"""Stretches away from the part and pieces travelled backwards, on paths small enough to check by hand."""
+
+from __future__ import annotations
+
+from math import inf, pi, sqrt
+
+import pytest
+
+from core.geometry.path import EMPTY, Path
+from core.geometry.piece import Arc, Line, Turn
+from core.verify.stray import stray
+from tests.core.verify.shapes import around, circle, lines, square
+from tests.core.verify.test_judge import CORNERS, MID_SIDE, MID_SIDE_PATH, R
+
+WALL = lines((0, 0), (10, 0))
+
+
+def test_a_correct_path_never_strays() -> None:
+    for surface, path in ((MID_SIDE, MID_SIDE_PATH), (square(), around(CORNERS, R))):
+        found = stray(surface, R, path)
+        assert found.away == ()
+        assert found.backwards == ()
+
+
+def test_lead_moves_are_away() -> None:
+    path = Path.from_pieces([Arc((1, 3), (3, 1), (3, 3), Turn.CCW), Line((3, 1), (10, 1))], [1, 1])
+    (away,) = stray(WALL, 1.0, path).away
+    assert away.start == (1, 3)
+    assert away.end == pytest.approx((3, 1), abs=1e-3)
+    assert away.length == pytest.approx(pi, abs=1e-3)
+    assert away.beyond == pytest.approx(2.0)
+    assert away.farthest == pytest.approx((1, 3))
+
+
+def test_a_detour_over_several_moves_is_one_stretch() -> None:
+    (away,) = stray(WALL, 1.0, lines((0, 1), (4, 1), (5, 2), (6, 1), (10, 1))).away
+    assert away.length == pytest.approx(2 * sqrt(2), abs=1e-6)
+    assert (away.first_number, away.last_number) == (2, 3)
+    assert away.farthest == pytest.approx((5, 2))
+    assert away.beyond == pytest.approx(1.0)
+
+
+def test_moves_against_the_contour_are_named() -> None:
+    assert stray(WALL, 1.0, lines((0, 1), (6, 1), (4, 1), (10, 1))).backwards == (1,)
+    assert stray(WALL, 1.0, lines((10, 1), (0, 1))).backwards == (0,)
+    assert stray(WALL, 1.0, lines((0, 2), (10, 2))).backwards == ()
+
+
+def test_a_long_move_against_a_short_wall_is_seen_from_the_wall() -> None:
+    assert stray(lines((0, 0), (1, 0)), 1.0, lines((1, 1), (-20, 1))).backwards == (0,)
+
+
+def test_an_arc_the_other_way_round_is_backwards() -> None:
+    hole = circle((0, 0), 5.0)
+    assert stray(hole, 1.0, circle((0, 0), 4.0)).backwards == ()
+    assert stray(hole, 1.0, circle((0, 0), 4.0, Turn.CW)).backwards == (0,)
+
+
+def test_in_a_slot_as_wide_as_the_cutter_one_wall_is_passed_the_right_way() -> None:
+    slot = lines((0, 0), (10, 0), (10, 2), (0, 2))
+    assert stray(slot, 1.0, lines((0, 1), (9, 1))).backwards == ()
+
+
+def test_nothing_is_told_of_what_cannot_be_judged() -> None:
+    for surface, path in ((EMPTY, MID_SIDE_PATH), (MID_SIDE, EMPTY), (MID_SIDE, lines((0, 0), (inf, 0)))):
+        found = stray(surface, R, path)
+        assert (found.away, found.backwards) == ((), ())
