@@ -1,0 +1,62 @@
+"""The pictures in `screenshots/`, made by the program in a real terminal: `python -m tests.screenshots`."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tests.picture import save_picture
+from tests.terminal import running
+
+FOLDER = Path(__file__).parent.parent / "screenshots"
+DOWN, RIGHT, PAGE_DOWN, F4, F7 = b"\x1b[B", b"\x1b[C", b"\x1b[6~", b"\x1b4", b"\x1b7"
+
+
+@dataclass(frozen=True)
+class Shot:
+    """One picture: the example it shows, the keys that lead there, and the terminal's size."""
+
+    name: str
+    example: str
+    keys: tuple[bytes, ...] = ()
+    size: tuple[int, int] = (80, 24)
+    environment: dict[str, str] = field(default_factory=dict)
+
+
+TO_LOOKAHEAD = (DOWN, *(b"\t",) * 9)
+
+SHOTS = (
+    Shot("start", "pocket"),
+    Shot("start-wide", "pocket", size=(132, 43)),
+    Shot("segment", "pocket", (b"8\r",)),
+    Shot("gouge", "overrun-square"),
+    Shot("draw", "pocket", (b"8\r", F7)),
+    Shot("lookahead-table", "notch", (b"L",)),
+    Shot("no-colour", "pocket", environment={"NO_COLOR": "1"}),
+)
+
+
+def take(shot: Shot) -> None:
+    """Run the program, press the keys, save the screen."""
+    columns, rows = shot.size
+    arguments = [sys.executable, "-m", "app", "--example", shot.example]
+    with running(arguments, columns=columns, rows=rows, environment=shot.environment) as terminal:
+        terminal.until("MILL CONTOUR")
+        terminal.read(quiet=1.5)
+        for key in shot.keys:
+            terminal.send(key)
+            terminal.read(quiet=0.4)
+        save_picture(terminal.screen, FOLDER / f"{shot.name}.png")
+
+
+def main() -> None:
+    """Take every picture, or those named on the command line."""
+    for shot in SHOTS:
+        if not sys.argv[1:] or shot.name in sys.argv[1:]:
+            take(shot)
+            print(shot.name)
+
+
+if __name__ == "__main__":
+    main()
