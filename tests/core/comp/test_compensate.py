@@ -45,7 +45,7 @@ def _sampled(piece: Piece) -> Floats:
     return piece.centre + piece.radius * np.stack((np.cos(angle), np.sin(angle)), axis=1)
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=200, deadline=None, derandomize=True)
 @given(mixed | polygons, sides, radii, lookaheads, st.booleans())
 def test_every_piece_runs_at_the_radius_from_its_own_segment(contour, side, radius, lookahead, closed):
     contour = shut(contour) if closed else contour
@@ -60,7 +60,7 @@ def test_every_piece_runs_at_the_radius_from_its_own_segment(contour, side, radi
         assert np.abs(away - radius).max() < 2 * JOINED
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=200, deadline=None, derandomize=True)
 @given(mixed | polygons, sides, radii, lookaheads, st.booleans())
 def test_path_is_whole(contour, side, radius, lookahead, closed):
     contour = shut(contour) if closed else contour
@@ -77,7 +77,7 @@ def test_path_is_whole(contour, side, radius, lookahead, closed):
     assert np.abs(last - path.radii)[arcs].max(initial=0.0) < 2 * JOINED
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=200, deadline=None, derandomize=True)
 @given(mixed | polygons, sides, radii, st.booleans())
 def test_all_lookaheads_together_are_those_one_by_one(contour, side, radius, closed):
     contour = shut(contour) if closed else contour
@@ -110,10 +110,13 @@ def _same(one: Compensated, two: Compensated, move: Callable[[Floats], Floats], 
         assert np.abs(before.turns).tolist() == np.abs(after.turns).tolist()
     assert [(gone.segment, gone.by) for gone in one.deleted] == [(gone.segment, gone.by) for gone in two.deleted]
     assert one.bridged.tolist() == two.bridged.tolist()
-    assert [finding.code for finding in one.findings] == [finding.code for finding in two.findings]
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+def _told(one: Compensated) -> list[tuple[str, float | None]]:
+    return [(finding.code, finding.segment) for finding in one.findings]
+
+
+@settings(max_examples=200, deadline=None, derandomize=True)
 @given(mixed | polygons, sides, radii, lookaheads, st.booleans())
 def test_mirrored_contour_gives_the_mirrored_path_on_the_other_side(contour, side, radius, lookahead, closed):
     def mirror(points: Floats) -> Floats:
@@ -123,6 +126,7 @@ def test_mirrored_contour_gives_the_mirrored_path_on_the_other_side(contour, sid
     one = compensate(contour, side, radius, lookahead, closed=closed)
     two = compensate(_moved(contour, mirror, mirrored=True), OTHER[side], radius, lookahead, closed=closed)
     _same(one, two, mirror, 1e-9)
+    assert _told(one) == _told(two)
     assert one.path.turns.tolist() == (-two.path.turns).tolist()
 
 
@@ -137,6 +141,7 @@ def test_turned_contour_gives_the_turned_path(contour, side, radius, lookahead, 
     one = compensate(contour, side, radius, lookahead, closed=False)
     two = compensate(_moved(contour, turn), side, radius, lookahead, closed=False)
     _same(one, two, turn, 1e-7)
+    assert _told(one) == _told(two)
 
 
 @settings(max_examples=200, deadline=None, derandomize=True)
@@ -148,6 +153,7 @@ def test_contour_far_from_the_origin_gives_the_same_path_there(contour, side, ra
     one = compensate(contour, side, radius, lookahead, closed=False)
     two = compensate(_moved(contour, shift), side, radius, lookahead, closed=False)
     _same(one, two, shift, 1e-6)
+    assert _told(one) == _told(two)
 
 
 @settings(max_examples=200, deadline=None, derandomize=True)
@@ -167,7 +173,7 @@ def _one_way(contour: Path, side: Side, radius: float) -> bool:
     return len(np.unique(joints.b)) == len(joints)
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=200, deadline=None, derandomize=True)
 @given(loose, sides, radii)
 def test_contour_travelled_backwards_gives_the_same_path_backwards(contour, side, radius):
     one = compensate(contour, side, radius, 1, closed=False)
