@@ -12,6 +12,7 @@ from core.controls.registry import UnknownControl, compared, reads, run
 from core.controls.report import Run
 from core.controls.tools import ToolTable
 from core.controls.verdicts import Judged, depth, judged
+from core.units import Unit
 
 APART: Final = 0.0005
 """Millimetres from which on two paths are told to part."""
@@ -45,15 +46,15 @@ class OtherLanguage:
     control: str
 
 
-def compare(text: bytes, tools: ToolTable) -> tuple[Compared | OtherLanguage, ...]:
-    """The program on every control, in the registry's order."""
+def compare(text: bytes, tools: ToolTable, unit: Unit | None = None) -> tuple[Compared | OtherLanguage, ...]:
+    """The program on every control, in the registry's order; `unit` where it names none, inches if none is given."""
     first: Run | None = None
     rows: list[Compared | OtherLanguage] = []
     for control in compared():
         if not reads(control, text):
             rows.append(OtherLanguage(control))
             continue
-        done = run(text, control, tools)
+        done = run(text, control, tools, unit or Unit.IN)
         if isinstance(done, UnknownControl):
             continue
         results = judged(done)

@@ -6,7 +6,7 @@ Codes are in tenths (G41.1 is 411).  A group holds the codes of which a block ta
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum, auto
 from types import MappingProxyType
 from typing import Final
@@ -121,3 +121,7 @@ class Dialect:
     percent_ends: bool = False
     end_needed: bool = False
     group_rule: str = "GROUP"
+
+    def starting(self, unit: Unit | None) -> Dialect:
+        """The same in a machine that starts in another unit, the control's usual one for None."""
+        return self if unit is None else replace(self, unit=unit)

@@ -130,6 +130,6 @@ class LinuxCnc(LookAhead):
 _PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
 
 
-def run(text: bytes, _: str, tools: ToolTable) -> Run:
+def run(text: bytes, _: str, tools: ToolTable, unit: Unit | None = None) -> Run:
     """A program as LinuxCNC runs it; there are no variants."""
-    return execute(text, "linuxcnc", DIALECT, tools, Log(), LinuxCnc)
+    return execute(text, "linuxcnc", DIALECT.starting(unit), tools, Log(), LinuxCnc)

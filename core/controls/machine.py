@@ -48,6 +48,7 @@ class Machine:
         self.unit = dialect.unit
         self.scale = 25.4 if dialect.unit is Unit.IN else 1.0
         self.moved_in: Unit | None = None
+        self.unit_said = False
         self.mode = dialect.mode
         self.plane = Plane.XY
         self.position: Point3 = (0.0, 0.0, 0.0)
@@ -118,6 +119,7 @@ class Machine:
             case Do.UNITS:
                 self.unit = Unit.MM if code.value in _METRIC else Unit.IN
                 self.scale = 1.0 if self.unit is Unit.MM else 25.4
+                self.unit_said = True
             case Do.DISTANCE:
                 self.incremental = code.value == 910
             case Do.CENTRES:
@@ -217,7 +219,8 @@ class Machine:
         rapid = self.mode == 0
         if not rapid and not self.feed:
             self._no_feed(block)
-        self.moved_in = self.moved_in or self.unit
+        if self.moved_in is None:
+            self._first_motion(block)
         if self.plane is Plane.XY:
             start, low, high = self.position[:2], self.position[2], end[2]
             stop: Point = end[:2]
@@ -228,10 +231,18 @@ class Machine:
         self.position = end
         self.follower.travel(line_element(start, stop, low, high, rapid, self.feed, block.line))
 
+    def _first_motion(self, block: Block) -> None:
+        self.moved_in = self.unit
+        if not self.unit_said:
+            name = "inches" if self.unit is Unit.IN else "millimetres"
+            text = f"The program does not say its unit; it is taken as {name}."
+            self.log.tell(Severity.INFO, "UNIT", text, block.line, block.column("XYZ"))
+
     def _arc(self, block: Block, turn: int) -> None:
         if not self.feed:
             self._no_feed(block)
-        self.moved_in = self.moved_in or self.unit
+        if self.moved_in is None:
+            self._first_motion(block)
         end = self.target(block.words)
         ax, ay, low = flat(self.position, self.plane)
         bx, by, high = flat(end, self.plane)

@@ -259,7 +259,7 @@ class NineSeries(NineWords):
         self.release_square()
 
 
-def run(text: bytes, variant: str, tools: ToolTable) -> Run:
+def run(text: bytes, variant: str, tools: ToolTable, unit: Unit | None = None) -> Run:
     """A program as the 9/Series runs it, type `a` or `b`, with the corners of G39 or `-g39.1` in force."""
     kind, _, corners = variant.partition("-")
 
@@ -269,4 +269,4 @@ def run(text: bytes, variant: str, tools: ToolTable) -> Run:
         follower.corners = Corners(corners or "g39")
         return follower
 
-    return execute(text, f"nine-series:{variant}", DIALECT, tools, Log(), make)
+    return execute(text, f"nine-series:{variant}", DIALECT.starting(unit), tools, Log(), make)

@@ -17,9 +17,13 @@ from core.controls.klartext import control as klartext
 from core.controls.report import Run
 from core.controls.source import lines_of
 from core.controls.tools import ToolTable
+from core.units import Unit
 
-Control = Callable[[bytes, str, ToolTable], Run]
-"""Runs a program's text on a variant of a control with these tools; never raises for any text."""
+Control = Callable[[bytes, str, ToolTable, Unit | None], Run]
+"""Runs a program's text on a variant of a control with these tools; never raises for any text.
+
+The unit is the one in force at the start, None for the one that the control usually starts in.
+"""
 
 NO_TOOLS: Final = ToolTable()
 
@@ -40,12 +44,17 @@ class Entry:
     compared: tuple[str, ...] = ("",)
 
 
+def _klartext(text: bytes, variant: str, tools: ToolTable, _: Unit | None) -> Run:
+    """Klartext says its unit itself."""
+    return klartext.run(text, variant, tools)
+
+
 CONTROLS: Final[Mapping[str, Entry]] = MappingProxyType(
     {
         "threeblock": Entry(threeblock.run),
         "rosettacnc": Entry(rosettacnc.run, ("nist", "easy", "normal"), ("nist", "easy", "normal")),
         "nine-series": Entry(nine_series.run, ("a", "a-g39", "a-g39.1", "b", "b-g39", "b-g39.1"), ("a", "b")),
-        "klartext": Entry(klartext.run),
+        "klartext": Entry(_klartext),
         "linuxcnc": Entry(linuxcnc.run),
     }
 )
@@ -84,10 +93,10 @@ def resolve(control: str) -> str | UnknownControl:
     return _joined(name, variant or entry.variants[0])
 
 
-def run(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -> Run | UnknownControl:
-    """A program's text on a control, by the control's full or short name."""
+def run(text: bytes, control: str, tools: ToolTable = NO_TOOLS, unit: Unit | None = None) -> Run | UnknownControl:
+    """A program's text on a control, by the control's full or short name; `unit` where the text names none."""
     full = resolve(control)
     if isinstance(full, UnknownControl):
         return full
     name, _, variant = full.partition(":")
-    return CONTROLS[name].control(text, variant, tools)
+    return CONTROLS[name].control(text, variant, tools, unit)

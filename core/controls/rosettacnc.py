@@ -291,7 +291,7 @@ class Easy(Nist):
             self._end_entry(square_end(self.held, self.offset))
 
 
-def run(text: bytes, variant: str, tools: ToolTable) -> Run:
+def run(text: bytes, variant: str, tools: ToolTable, unit: Unit | None = None) -> Run:
     """A program as RosettaCNC runs it with the entry `nist`, `easy` or `normal`."""
     followers: dict[str, type[Follower]] = {"nist": Nist, "easy": Easy, "normal": Normal}
-    return execute(text, f"rosettacnc:{variant}", DIALECT, tools, Log(), followers[variant])
+    return execute(text, f"rosettacnc:{variant}", DIALECT.starting(unit), tools, Log(), followers[variant])

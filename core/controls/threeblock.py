@@ -295,6 +295,6 @@ class ThreeBlock(Chain):
         self.release_square()
 
 
-def run(text: bytes, _: str, tools: ToolTable) -> Run:
+def run(text: bytes, _: str, tools: ToolTable, unit: Unit | None = None) -> Run:
     """A program as this control runs it; there are no variants."""
-    return execute(text, "threeblock", DIALECT, tools, Log(), ThreeBlock)
+    return execute(text, "threeblock", DIALECT.starting(unit), tools, Log(), ThreeBlock)

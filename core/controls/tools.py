@@ -6,7 +6,6 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite
-from types import MappingProxyType
 from typing import Final
 
 from core.controls.source import lines_of, shown
@@ -37,12 +36,12 @@ class CutterTool:
 class ToolTable:
     """The tools a control knows, by number."""
 
-    tools: Mapping[int, CutterTool] = field(default_factory=lambda: MappingProxyType({}))
+    tools: Mapping[int, CutterTool] = field(default_factory=dict)
 
     @staticmethod
     def of(*tools: CutterTool) -> ToolTable:
         """A table of these tools; a later one of the same number replaces an earlier one."""
-        return ToolTable(MappingProxyType({tool.number: tool for tool in tools}))
+        return ToolTable({tool.number: tool for tool in tools})
 
     @staticmethod
     def diameters(diameters: Mapping[int, float], unit: Unit | None = None) -> ToolTable:
@@ -55,7 +54,7 @@ class ToolTable:
 
     def with_tools(self, other: ToolTable) -> ToolTable:
         """This table with another's tools over it."""
-        return ToolTable(MappingProxyType({**self.tools, **other.tools}))
+        return ToolTable({**self.tools, **other.tools})
 
 
 _WORD: Final = re.compile(r"\s*([A-Za-z])\s*([-+]?(?:\d+(?:\.\d*)?|\.\d+))")

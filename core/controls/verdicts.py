@@ -5,9 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
+
 from core.controls.report import Run, Stretch
 from core.finding import Finding, Severity
 from core.geometry.path import Path
+from core.tolerance import CLOSED
 from core.verify.judge import judge
 from core.verify.verdict import Gouge, Verdict
 
@@ -17,12 +20,18 @@ MOST_GOUGES: Final = 20
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Judged:
-    """A compensated stretch, the surface it cuts, the centre path with its leads, and the verdict on them."""
+    """A compensated stretch, the surface it cuts, the centre path with its leads, and the verdict on them.
+
+    `leads` are programmed moves taken for leads because a closed contour begins behind them or ends before them, and
+    `lead_gouges` what is cut of them: they may be surface after all.
+    """
 
     stretch: Stretch
     surface: Path
     centre: Path
     verdict: Verdict
+    leads: tuple[int, ...] = ()
+    lead_gouges: tuple[Gouge, ...] = ()
 
 
 def judged(run: Run) -> tuple[Judged, ...]:
@@ -31,20 +40,39 @@ def judged(run: Run) -> tuple[Judged, ...]:
 
 
 def surface_of(stretch: Stretch) -> Path:
-    """The part's surface: what is programmed between the moves that lead in and out."""
+    """What is programmed between the moves that lead in and out."""
     programmed = stretch.programmed
     return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
 
 
 def _judged(run: Run, stretch: Stretch) -> Judged:
-    surface = surface_of(stretch)
+    whole = surface_of(stretch)
+    first, last = closed_part(whole)
+    surface = whole.part(first, last)
     centre = run.moves.part(stretch.first, stretch.last).path(stretch.plane)
-    return Judged(stretch, surface, centre, judge(surface, stretch.side, stretch.radius, centre))
+    verdict = judge(surface, stretch.side, stretch.radius, centre)
+    leads = (*whole.numbers[:first].tolist(), *whole.numbers[last:].tolist())
+    if not leads:
+        return Judged(stretch, surface, centre, verdict)
+    cut = judge(whole, stretch.side, stretch.radius, centre).gouges
+    cut_leads = tuple(gouge for gouge in cut if gouge.surface_number in leads)
+    return Judged(stretch, surface, centre, verdict, tuple(int(line) for line in leads), cut_leads)
+
+
+def closed_part(path: Path) -> tuple[int, int]:
+    """The longest run of pieces that ends where it begins, as first and one behind the last; all if there is none."""
+    first_seen: dict[tuple[float, float], int] = {}
+    best = (0, 0)
+    for index, (x, y) in enumerate(np.round(path.points / CLOSED).tolist()):
+        begin = first_seen.setdefault((x, y), index)
+        if index - begin > best[1] - best[0]:
+            best = (begin, index)
+    return best if best[1] else (0, len(path))
 
 
 def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
     """The verdicts as findings with lines: gouges and the wrong side are errors, the rest is a warning."""
-    return tuple(finding for result in results for finding in (*_cuts(result), *_rest(result)))
+    return tuple(finding for result in results for finding in (*_cuts(result), *_leads(result), *_rest(result)))
 
 
 def depth(results: tuple[Judged, ...]) -> tuple[float, int | None]:
@@ -67,6 +95,19 @@ def _cuts(result: Judged) -> list[Finding]:
         line = int(result.centre.numbers[verdict.wrong_side[0]])
         text = "The cutter runs on the wrong side of the contour; exchange G41 and G42, or RL and RR."
         found.append(Finding("WRONG-SIDE", Severity.ERROR, text, line=line))
+    return found
+
+
+def _leads(result: Judged) -> list[Finding]:
+    """That moves are taken for leads, and what is cut of them."""
+    if not result.leads:
+        return []
+    text = f"{len(result.leads)} moves before or behind the closed contour are taken for leads, not for surface."
+    found = [Finding("LEADS", Severity.INFO, text, line=result.leads[0])]
+    for gouge in result.lead_gouges[:MOST_GOUGES]:
+        text = f"The cutter gouges line {int(gouge.surface_number)} by {{value}}, which is taken for a lead."
+        line = int(gouge.path_number)
+        found.append(Finding("LEAD-GOUGE", Severity.WARNING, text, at=gouge.surface_at, value=gouge.depth, line=line))
     return found
 
 

@@ -1,0 +1,161 @@
+"""What a check answers for one program on one control: findings, outcome in words, and the machine-readable object."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from core.controls import shoprules
+from core.controls.compare import Compared, OtherLanguage, Parting, compare
+from core.controls.moves import Move, Moves
+from core.controls.registry import UnknownControl, reads, run
+from core.controls.report import Run
+from core.controls.tools import ToolTable
+from core.controls.verdicts import Judged, depth, findings, judged
+from core.finding import Finding, Severity
+from core.units import Kind, Unit, from_mm, sentence, show
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Asked:
+    """What is asked of every program: a control's full name or `all`, the tools, the shop's rules or not.
+
+    `unit` counts where a program names none; None is what the control starts in.
+    """
+
+    control: str
+    tools: ToolTable
+    shop: bool
+    unit: Unit | None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Answer:
+    """A program on a control, told."""
+
+    control: str
+    unit: Unit
+    moves: Moves | None
+    findings: tuple[Finding, ...]
+    stopped_at: int | None
+    outcome: str
+    stretches: int = 0
+    parts: str = ""
+
+    @property
+    def errors(self) -> bool:
+        """Whether anything is an error."""
+        return any(finding.severity is Severity.ERROR for finding in self.findings)
+
+    @property
+    def count(self) -> int:
+        """Number of moves, the start point left out."""
+        return len(self.moves) - 1 if self.moves is not None else 0
+
+    def json(self) -> dict[str, object]:
+        """The machine-readable object, in program units."""
+        moves = [] if self.moves is None else [_move(move, self.unit) for move in self.moves]
+        told = [_finding(finding, self.unit) for finding in self.findings]
+        return {
+            "control": self.control,
+            "units": self.unit.value,
+            "moves": moves,
+            "findings": told,
+            "stopped_at": self.stopped_at,
+        }
+
+
+def answer(text: bytes, asked: Asked) -> Answer:
+    """One control's answer."""
+    done = run(text, asked.control, asked.tools, asked.unit)
+    assert not isinstance(done, UnknownControl), done.text
+    results = judged(done)
+    return _answer(done, results, _foreign(asked.control, text), "", shop=asked.shop)
+
+
+def answer_all(text: bytes, asked: Asked) -> tuple[Answer, ...]:
+    """Every control's answer, and where its path leaves that of the first one that runs the program."""
+    return tuple(_compared(row, asked) for row in compare(text, asked.tools, asked.unit))
+
+
+def _compared(row: Compared | OtherLanguage, asked: Asked) -> Answer:
+    if isinstance(row, OtherLanguage):
+        return Answer(row.control, Unit.MM, None, (), None, "reads another language")
+    parts = _parting(row.parts, row.run.unit) if row.parts else ""
+    return _answer(row.run, row.results, (), parts, shop=asked.shop)
+
+
+def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
+    if reads(control, text):
+        return ()
+    said = "The program is not written in this control's language."
+    return (Finding("LANGUAGE", Severity.WARNING, said, line=1, column=1),)
+
+
+def _answer(done: Run, results: tuple[Judged, ...], before: tuple[Finding, ...], parts: str, *, shop: bool) -> Answer:
+    told = (*before, *done.findings, *findings(results), *(shoprules.check(done) if shop else ()))
+    outcome = _outcome(done, results)
+    return Answer(
+        done.control, done.unit, done.moves, _by_line(told), done.stopped_at, outcome, len(done.stretches), parts
+    )
+
+
+def _by_line(told: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    return tuple(sorted(told, key=lambda finding: finding.line or 0))
+
+
+def _outcome(done: Run, results: tuple[Judged, ...]) -> str:
+    cut, line = depth(results)
+    gouges = f"gouges by {_length(cut, done.unit)} at line {line}" if cut else ""
+    if done.stopped_at is not None:
+        rule = next((one.code for one in reversed(done.findings) if one.severity is Severity.ERROR), "")
+        return f"alarms at line {done.stopped_at} ({rule})" + (f", {gouges} before" if gouges else "")
+    if gouges:
+        return gouges
+    wrong = any(result.verdict.wrong_side for result in results)
+    return "runs on the wrong side" if wrong else "runs"
+
+
+def _parting(parts: Parting, unit: Unit) -> str:
+    where = f"parts at line {parts.line}"
+    return f"{where}, by {_length(parts.distance, unit)} at most, at line {parts.farthest}"
+
+
+def _length(value: float, unit: Unit) -> str:
+    return show(from_mm(value, unit), Kind.LENGTH, unit)
+
+
+def _move(move: Move, unit: Unit) -> dict[str, object]:
+    x, y, z = (from_mm(value, unit) for value in move.point)
+    told: dict[str, object] = {
+        "type": "arc" if move.turn else "line",
+        "mode": "rapid" if move.rapid else "feed",
+        "line": move.line,
+        "x": x,
+        "y": y,
+        "z": z,
+    }
+    if move.turn:
+        cx, cy, cz = (from_mm(value, unit) for value in move.centre)
+        told |= {"cx": cx, "cy": cy, "cz": cz, "plane": move.plane.name, "ccw": move.turn > 0}
+    if not move.rapid:
+        told["feed"] = from_mm(move.feed, unit)
+    return told
+
+
+def _finding(finding: Finding, unit: Unit) -> dict[str, object]:
+    return {
+        "rule": finding.code,
+        "severity": finding.severity.value,
+        "line": finding.line,
+        "column": finding.column,
+        "text": sentence(finding, unit),
+    }
+
+
+def lines(one: Answer) -> Iterator[str]:
+    """An answer as text, a line for each finding and one for the outcome."""
+    for finding in one.findings:
+        place = "" if finding.line is None else f"{finding.line}:{finding.column or 1}"
+        yield f"{place:>9}  {finding.severity.value:<7}  {finding.code:<13}  {sentence(finding, one.unit)}"
+    yield f"{one.control}: {one.outcome}; {one.count} moves, {one.stretches} compensated stretches, {one.unit.value}."
