@@ -1,4 +1,4 @@
-"""The best path: the true offset of a whole contour, every place the cutter can reach on its side and nothing it cannot.
+"""The best path: the true offset of a whole contour, every place its cutter can reach and nothing it cannot.
 
 The control's look-ahead rule does not bind it: it is trimmed globally, across the start too, in one or several loops.
 It is made of the raw chain's pieces, cut wherever they meet: a slice belongs to the path where the cutter is clear of
@@ -15,9 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.comp.best_events import events
+from core.comp.best_fate import clear_slices
 from core.comp.best_loops import loop_of
 from core.comp.best_raw import Raw, raw_of
-from core.comp.best_slices import clear_slices, sliced
+from core.comp.best_slices import sliced
 from core.comp.best_stitch import Stitched, chains, stitch
 from core.comp.best_surface import Surface, crosses_itself, surface_of
 from core.finding import Finding, Severity
@@ -41,7 +42,7 @@ class BestPath:
 
 
 def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> BestPath:
-    """Every place of the cutter's centre at exactly `radius` millimetres from the contour on `side`, clear of all of it.
+    """Every place of the cutter's centre at `radius` millimetres from the contour on `side` that is clear of all of it.
 
     `closed` is whether the programmed contour ends at its start.  Never raises: a contour that cannot be offset, or
     beside which the cutter fits nowhere, gives no loops and an error finding.
@@ -49,13 +50,13 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     surface = surface_of(contour, radius, closed=closed)
     if not len(surface.path):
         return BestPath((), (), surface.findings)
-    crossing = crosses_itself(surface.path, closed=closed)
+    crossing = crosses_itself(surface, closed=closed)
     findings = surface.findings if crossing is None else (*surface.findings, _crossing(crossing))
     raw = raw_of(surface.path, side, radius, closed=closed, crossing=crossing is not None)
     found = events(raw, side.sign)
     if found is None:
         return BestPath((), (), (*findings, _tangled()))
-    made = stitch(raw, clear_slices(raw, sliced(raw, found), surface.path, radius), side.sign)
+    made = stitch(raw, clear_slices(raw, sliced(raw, found), surface, radius), side.sign)
     return _best(raw, made, surface, findings)
 
 

@@ -4,22 +4,42 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.comp.best_tree import near, piece_boxes, tree
+from core.comp.best_surface import Surface
+from core.comp.best_tree import near, tree
 from core.geometry.intersect import Indices, Masks, Planes, planes
 from core.geometry.path import Floats, Path, Turns
 from core.tolerance import CLEAR
 
 
-def clear(surface: Path, points: Planes, radius: float) -> Masks:
-    """(k,) which points are no nearer to any piece of the surface than the radius, within CLEAR."""
-    ends, centres, turns = planes(surface.points), planes(surface.centres), surface.turns
-    walls = tree(piece_boxes(ends[:-1], ends[1:], centres, turns, 0.0))
-    spots = tree(np.array((points.real, points.imag, points.real, points.imag)))
+def clear(surface: Surface, points: Planes, segments: Indices, radius: float) -> Masks:
+    """(k,) which points are no nearer to any piece of the surface than the radius, within CLEAR.
+
+    `segments` (k,) are the pieces the points were offset from: most points that are not clear are too near to a joint
+    not far from there.
+    """
+    found = _clear_nearby(surface.path, points, segments, radius)
+    rows = np.flatnonzero(found)
+    spots = points[rows]
+    for i, j in near(tree(np.array((spots.real, spots.imag, spots.real, spots.imag))), surface.walls, radius):
+        some = np.flatnonzero(found[rows[i]])
+        i, j = rows[i[some]], j[some]
+        found[i[distances(surface.path, j, points[i]) < radius - CLEAR]] = False
+    return found
+
+
+def _clear_nearby(surface: Path, points: Planes, segments: Indices, radius: float) -> Masks:
+    """Which points are clear of the joints 1, 2, 4, 8 ... segments ahead and behind, as far as any of those is near."""
     found = np.ones(len(points), np.bool_)
-    for i, j in near(spots, walls, radius):
-        rows = np.flatnonzero(found[i])
-        i, j = i[rows], j[rows]
-        found[i[distances(surface, j, points[i]) < radius - CLEAR]] = False
+    joints, step, near_some = planes(surface.points), 1, True
+    while near_some and step < len(surface):
+        near_some = False
+        for shift in (step, -step):
+            rows = np.flatnonzero(found)
+            joint = joints[np.clip(segments[rows] + shift, 0, len(surface))]
+            apart = np.abs(points[rows] - joint)
+            found[rows[apart < radius - CLEAR]] = False
+            near_some |= bool((apart < 2.0 * radius).any())
+        step *= 2
     return found
 
 

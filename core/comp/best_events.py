@@ -25,10 +25,10 @@ MOST_PAIRS: Final = 30_000_000
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Events:
-    """e meetings of raw pieces `one` and `other` (e,) at `points` (e,), `along_one` and `along_other` mm from their starts.
+    """e meetings of pieces `one` and `other` (e,) at `points` (e,), `along_one` and `along_other` mm along them.
 
-    `turn` (e,) is positive where they cross off their ends and the way from one to the other turns to the cutter's side,
-    negative where the way from other to one does, 0 where they touch, overlap, or meet at an end.
+    `turn` (e,) is positive where they cross off their ends and the way from one to the other turns to the cutter's
+    side, negative where the way from other to one does, 0 where they touch, overlap, or meet at an end.
     """
 
     one: Indices
@@ -40,7 +40,7 @@ class Events:
 
 
 def events(raw: Raw, sign: int) -> Events | None:
-    """All meetings of side pieces with raw pieces but at their common joints; None if there are too many to be a part's."""
+    """All meetings of side pieces with raw pieces but at their joints; None if there are too many to be a part's."""
     found, pairs = [], 0
     for i, j in _pairs(raw):
         pairs += len(i)

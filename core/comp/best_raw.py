@@ -26,7 +26,8 @@ class Raw:
     """m raw pieces, side pieces and outline pieces in order of travel.
 
     `rows` (m,) are their rows in `path`; `start`, `end`, `centre` (m,) complex; `turns` (m,); `lengths` (m,) mm.
-    `following` (m,) is the piece whose start is this one's end, -1 where none is; `side` (m,) marks the side pieces.
+    `following` (m,) is the piece whose start is this one's end, -1 where none is; `side` (m,) marks the side pieces,
+    which belong to the surface's `segment` (m,), from 0, or to the corner behind it.
     """
 
     path: Path
@@ -38,6 +39,7 @@ class Raw:
     lengths: Floats
     following: NDArray[np.intp]
     side: Masks
+    segment: Indices
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -92,7 +94,19 @@ def _raw(chain: Chain, outline: int, *, ring: int) -> Raw:
     centre = planes(path.centres)[rows]
     following = np.concatenate([np.roll(part, -1) for part in np.split(np.arange(len(rows)), [_before(rows, ring)])])
     following[np.abs(start[following] - end) > JOINED] = -1
-    return Raw(path, rows, start, end, centre, turns, lengths(start, end, centre, turns), following, rows < outline)
+    length = lengths(start, end, centre, turns)
+    return Raw(
+        path,
+        rows,
+        start,
+        end,
+        centre,
+        turns,
+        length,
+        following,
+        rows < outline,
+        chain.places[rows].astype(np.intp) // 2,
+    )
 
 
 def _before(rows: Indices, row: int) -> int:

@@ -1,30 +1,31 @@
 """Slices: the side pieces cut at every event, and which of them the cutter can run along.
 
-Whether the cutter is clear of the part changes only at events.  So slices joined without an event between them, a RUN,
-share their fate; a run with a slice that turns the wrong way at a crossing is not clear, and of every other one place
-is measured.  Nodes are the points where slices begin and end; points within JOINED on a piece are one node.
+Whether the cutter is clear of the part changes only at events, and at a crossing the slice before it and the one behind
+it that turns to the cutter's side are clear or not together.  Nodes are the points where slices begin and end; points
+within JOINED of each other on a piece are one node.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from core.comp.best_clear import clear
-from core.comp.best_events import Events, places
+from core.comp.best_events import Events
 from core.comp.best_raw import Raw
 from core.geometry.intersect import Indices, Masks, Planes
-from core.geometry.path import Floats, Path
-from core.tolerance import JOINED
+from core.geometry.path import Floats
+from core.tolerance import CROWDED, JOINED
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Slices:
-    """s slices in order of travel: `piece` (s,), from `begin` to `end` (s,) mm along it, between nodes `first` and `last`.
+    """s slices in order of travel: of `piece` (s,), from `begin` to `end` mm along it, between nodes `first` and `last`.
 
-    `dead` (s,) marks slices that turn the wrong way at one of their ends.  `points` are the nodes' places; `met` and
-    `outer` mark the nodes where pieces meet otherwise than at a joint, and those where the outline takes part.
+    `dead` (s,) marks slices that turn the wrong way at one of their ends; `turning` (s,) is the slice on another piece
+    that a slice at its end turns to at a crossing, -1 if none.  `points` are the nodes' places; `met` and `outer` mark
+    the nodes where pieces meet otherwise than at a joint, and those where the outline takes part.
     """
 
     piece: Indices
@@ -33,6 +34,7 @@ class Slices:
     first: Indices
     last: Indices
     dead: Masks
+    turning: Indices
     points: Planes
     met: Masks
     outer: Masks
@@ -42,43 +44,93 @@ class Slices:
 
     def take(self, rows: Indices) -> Slices:
         """Some slices, with all nodes."""
-        cut = (column[rows] for column in (self.piece, self.begin, self.end, self.first, self.last, self.dead))
-        return Slices(*cut, self.points, self.met, self.outer)
+        place = np.full(len(self) + 1, -1)
+        place[rows] = np.arange(len(rows))
+        return Slices(
+            self.piece[rows],
+            self.begin[rows],
+            self.end[rows],
+            self.first[rows],
+            self.last[rows],
+            self.dead[rows],
+            place[self.turning[rows]],
+            self.points,
+            self.met,
+            self.outer,
+        )
 
 
 def sliced(raw: Raw, found: Events) -> Slices:
     """The side pieces cut at all events."""
-    count = len(raw)
-    piece, along, node, turn = _stations(raw, found)
+    stations = _stations(raw, found)
     pieces = np.flatnonzero(raw.side)
-    cuts = np.bincount(piece, minlength=count)[pieces] + 1
-    slot = np.zeros(count, np.intp)
+    cuts = np.bincount(stations.piece, minlength=len(raw))[pieces] + 1
+    slot = np.zeros(len(raw), np.intp)
     slot[pieces] = np.cumsum(cuts) - cuts
-    at = slot[piece] + np.arange(len(piece)) - np.searchsorted(piece, piece)
-    total = int(cuts.sum())
-    begin, end = np.zeros(total), np.repeat(raw.lengths[pieces], cuts)
+    at = slot[stations.piece] + np.arange(len(stations.piece)) - np.searchsorted(stations.piece, stations.piece)
+    begin, end = np.zeros(int(cuts.sum())), np.repeat(raw.lengths[pieces], cuts)
     first, last = np.repeat(pieces, cuts), np.repeat(_end_nodes(raw)[pieces], cuts)
-    begin[at + 1], end[at], first[at + 1], last[at] = along, along, node, node
-    dead = np.zeros(total, np.bool_)
-    dead[at[turn < 0.0]] = True
-    dead[at[turn > 0.0] + 1] = True
-    cut = Slices(np.repeat(pieces, cuts), begin, end, first, last, dead, *_nodes(raw, found))
+    begin[at + 1], end[at], first[at + 1], last[at] = stations.along, stations.along, stations.node, stations.node
+    dead, turning = _turns(stations, at, _alone(raw, stations), len(begin))
+    cut = Slices(np.repeat(pieces, cuts), begin, end, first, last, dead, turning, *_nodes(raw, found))
     return _welded(cut)
 
 
-def _stations(raw: Raw, found: Events) -> tuple[Indices, Floats, Indices, Floats]:
-    """Every event on every side piece it lies on, as travelled: piece, distance along it, node, and which way to turn.
+class _Stations(NamedTuple):
+    """Every event on every side piece it lies on, as travelled: piece, distance along it, event, node, and turn.
 
-    Turning is positive where the piece ends its clear stretch at the event, negative where it begins it.
+    `turn` is positive where the piece ends its clear stretch at the event, negative where it begins it.
     """
+
+    piece: Indices
+    along: Floats
+    event: Indices
+    node: Indices
+    turn: Floats
+
+
+def _stations(raw: Raw, found: Events) -> _Stations:
     piece = np.concatenate((found.one, found.other))
     along = np.concatenate((found.along_one, found.along_other))
-    node = np.tile(2 * len(raw) + np.arange(len(found.one)), 2)
+    event = np.tile(np.arange(len(found.one)), 2)
     turn = np.concatenate((found.turn, -found.turn))
-    order = np.lexsort((along, piece))
+    order = _sorted(piece, along)
     order = order[raw.side[piece[order]]]
-    piece = piece[order]
-    return piece, np.clip(along[order], 0.0, raw.lengths[piece]), node[order], turn[order]
+    piece, event = piece[order], event[order]
+    return _Stations(piece, np.clip(along[order], 0.0, raw.lengths[piece]), event, 2 * len(raw) + event, turn[order])
+
+
+def _sorted(piece: Indices, along: Floats) -> Indices:
+    """The order by piece and then along it: ranks along everything are whole numbers, and sort faster together."""
+    rank = np.empty(len(along), np.int64)
+    rank[np.argsort(along)] = np.arange(len(along))
+    return np.argsort(piece * len(along) + rank)
+
+
+def _alone(raw: Raw, stations: _Stations) -> Masks:
+    """The stations with no other, and no joint beyond which another may be, within CROWDED on their piece."""
+    piece, along = stations.piece, stations.along
+    joined = np.zeros(len(raw), np.bool_)
+    joined[raw.following[raw.following >= 0]] = True
+    crowded = joined[piece] & (along < CROWDED)
+    crowded |= (raw.following[piece] >= 0) & (raw.lengths[piece] - along < CROWDED)
+    close = np.flatnonzero((piece[1:] == piece[:-1]) & (along[1:] - along[:-1] < CROWDED))
+    crowded[close] = True
+    crowded[close + 1] = True
+    return ~crowded
+
+
+def _turns(stations: _Stations, at: Indices, alone: Masks, count: int) -> tuple[Masks, Indices]:
+    """Which of `count` slices turn the wrong way, and where the others turn to; slice at[k] ends at station k."""
+    dead, turning = np.zeros(count, np.bool_), np.full(count, -1)
+    ending, beginning = stations.turn > 0.0, stations.turn < 0.0
+    dead[at[ending] + 1] = True
+    dead[at[beginning]] = True
+    ending, beginning = ending & alone, beginning & alone
+    onward = np.full(int(stations.event.max(initial=-1)) + 1, -1)
+    onward[stations.event[beginning]] = at[beginning] + 1
+    turning[at[ending]] = onward[stations.event[ending]]
+    return dead, turning
 
 
 def _end_nodes(raw: Raw) -> Indices:
@@ -104,25 +156,17 @@ def _welded(cut: Slices) -> Slices:
     short = cut.end - cut.begin <= JOINED
     if not short.any():
         return cut
-    same = _merged(len(cut.points), cut.first[short], cut.last[short])
+    same = merged(len(cut.points), cut.first[short], cut.last[short])
     met, outer = cut.met.copy(), cut.outer.copy()
     met[same[cut.met]] = True
     outer[same[cut.outer]] = True
-    keep = ~short
-    return Slices(
-        cut.piece[keep],
-        cut.begin[keep],
-        cut.end[keep],
-        same[cut.first[keep]],
-        same[cut.last[keep]],
-        cut.dead[keep],
-        cut.points,
-        met,
-        outer,
+    joined = Slices(
+        cut.piece, cut.begin, cut.end, same[cut.first], same[cut.last], cut.dead, cut.turning, cut.points, met, outer
     )
+    return joined.take(np.flatnonzero(~short))
 
 
-def _merged(count: int, one: Indices, other: Indices) -> Indices:
+def merged(count: int, one: Indices, other: Indices) -> Indices:
     """(count,) the least number among all numbers that pairs one, other (p,) connect with each."""
     same = np.arange(count)
     while True:
@@ -135,25 +179,3 @@ def _merged(count: int, one: Indices, other: Indices) -> Indices:
         same = same[same]
         if np.array_equal(same, before):
             return same
-
-
-def clear_slices(raw: Raw, cut: Slices, surface: Path, radius: float) -> Slices:
-    """The slices along which the cutter is nowhere nearer to the surface than the radius."""
-    if not len(cut):
-        return cut
-    joint = np.empty(len(cut), np.bool_)
-    joint[0] = False
-    joint[1:] = (cut.last[:-1] == cut.first[1:]) & ~cut.met[cut.first[1:]]
-    runs = np.flatnonzero(~joint)
-    run = np.cumsum(~joint) - 1
-    alive = ~np.logical_or.reduceat(cut.dead, runs)
-    sample = _longest(cut.end - cut.begin, runs, run)[alive]
-    middle = places(raw, cut.piece[sample], (cut.begin[sample] + cut.end[sample]) / 2.0)
-    alive[alive] = clear(surface, middle, radius)
-    return cut.take(np.flatnonzero(alive[run]))
-
-
-def _longest(lengths: Floats, runs: Indices, run: Indices) -> Indices:
-    """The first of the longest slices of each run."""
-    rows = np.flatnonzero(lengths == np.maximum.reduceat(lengths, runs)[run])
-    return rows[np.searchsorted(run[rows], np.arange(len(runs)))]

@@ -11,10 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.comp.best_events import directions
+from core.comp.best_fate import middles
 from core.comp.best_raw import Raw
 from core.comp.best_slices import Slices
 from core.geometry.intersect import Indices, Masks
-from core.tolerance import GOUGE
+from core.tolerance import GOUGE, WHISKER
 
 _ROUNDS = 32
 """How often slices are taken away that lead nowhere; near-tangent joints leave one or two in a row."""
@@ -22,7 +23,7 @@ _ROUNDS = 32
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Stitched:
-    """Slices `cut`, for each the one that follows it or -1, and whether loose ends were met that belong to no outline."""
+    """Slices `cut`, for each the one that follows it or -1, and which are `loose`: an end leads nowhere."""
 
     cut: Slices
     following: Indices
@@ -31,7 +32,7 @@ class Stitched:
 
 def stitch(raw: Raw, cut: Slices, sign: int) -> Stitched:
     """Each clear slice with the one that follows it."""
-    cut = _without_whiskers(cut)
+    cut = _without_whiskers(_without_doubles(raw, cut))
     following = _straight_on(cut)
     if len(cut):
         _across(raw, cut, following, sign)
@@ -42,14 +43,28 @@ def stitch(raw: Raw, cut: Slices, sign: int) -> Stitched:
     return Stitched(cut, following, loose)
 
 
+def _without_doubles(raw: Raw, cut: Slices) -> Slices:
+    """Of slices that run along each other the same way, the earliest: contours that touch themselves have them."""
+    crowded = np.flatnonzero(np.bincount(cut.first, minlength=1)[cut.first] > 1)
+    order = crowded[np.lexsort((cut.last[crowded], cut.first[crowded]))]
+    one, two = order[:-1], order[1:]
+    same = (cut.first[one] == cut.first[two]) & (cut.last[one] == cut.last[two])
+    same &= np.abs(middles(raw, cut, one) - middles(raw, cut, two)) <= GOUGE
+    if not same.any():
+        return cut
+    keep = np.ones(len(cut), np.bool_)
+    keep[two[same]] = False
+    return cut.take(np.flatnonzero(keep))
+
+
 def _without_whiskers(cut: Slices) -> Slices:
-    """Slices taken away that lead from or to nowhere and are so short that they are rounding at a near-tangent joint."""
+    """Slices taken away that lead nowhere and are so short that they are rounding at a near-tangent joint."""
     size = len(cut.points)
     for _ in range(_ROUNDS):
         begins, ends = np.zeros(size, np.bool_), np.zeros(size, np.bool_)
         begins[cut.first], ends[cut.last] = True, True
         nowhere = ~(begins[cut.last] | cut.outer[cut.last]) | ~(ends[cut.first] | cut.outer[cut.first])
-        nowhere &= cut.end - cut.begin < 1000.0 * GOUGE
+        nowhere &= cut.end - cut.begin < WHISKER
         if not nowhere.any():
             break
         cut = cut.take(np.flatnonzero(~nowhere))
@@ -113,7 +128,7 @@ def chains(made: Stitched) -> list[tuple[Indices, bool]]:
 
 
 def _walk(following: Indices, heads: Indices, tails: Indices, entry: Indices) -> list[tuple[Indices, bool]]:
-    """Runs heads[k] ... tails[k], run entry[k] after run k, put together; open chains are walked from their beginning."""
+    """Runs heads[k] ... tails[k], run entry[k] behind run k, put together; open chains from their beginning."""
     onward = np.where(following[tails] < 0, -1, entry).tolist()
     reached = set(onward)
     unwalked = dict.fromkeys(range(len(onward)))

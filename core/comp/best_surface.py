@@ -1,4 +1,4 @@
-"""The surface as the best path takes it: every segment with a length, arcs of one radius, closed where it is, centred."""
+"""The surface as the best path takes it: segments that have a length, arcs of one radius, closed, centred."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from core.comp import trouble
-from core.comp.best_tree import near_selves, piece_boxes, tree
+from core.comp.best_tree import Tree, near_selves, piece_boxes, tree
 from core.finding import Finding
 from core.geometry.intersect import Indices, Masks, Meeting, Planes, coordinates, meet, planes
 from core.geometry.path import EMPTY, Floats, Path
@@ -17,9 +17,13 @@ from core.tolerance import JOINED, ON_PATH
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Surface:
-    """`path` is the surface moved by -`origin` (2,) so that it lies about (0, 0); empty when it is refused."""
+    """`path` is the surface moved by -`origin` (2,) so that it lies about (0, 0); empty when it is refused.
+
+    `walls` is the tree over its segments' boxes.
+    """
 
     path: Path
+    walls: Tree
     origin: Floats
     findings: tuple[Finding, ...]
 
@@ -32,7 +36,7 @@ def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
     """
     refused = trouble.refusal(contour, radius, ())
     if refused:
-        return Surface(EMPTY, np.zeros(2), refused)
+        return Surface(EMPTY, _walls(EMPTY), np.zeros(2), refused)
     points = planes(contour.points)
     kept = np.abs(points[1:] - points[:-1]) > JOINED
     if not kept.all():
@@ -41,10 +45,16 @@ def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
     if not kept.all():
         contour = _without(contour, kept)
     if not len(contour):
-        return Surface(EMPTY, np.zeros(2), (*findings, *trouble.refusal(contour, radius, ())))
+        return Surface(EMPTY, _walls(EMPTY), np.zeros(2), (*findings, *trouble.refusal(contour, radius, ())))
     origin = (contour.points.min(axis=0) + contour.points.max(axis=0)) / 2.0
-    path = Path.of(contour.points - origin, contour.centres - origin, contour.turns, contour.numbers)
-    return Surface(_closed(_even(path)) if closed else _even(path), origin, findings)
+    path = _even(Path.of(contour.points - origin, contour.centres - origin, contour.turns, contour.numbers))
+    path = _closed(path) if closed else path
+    return Surface(path, _walls(path), origin, findings)
+
+
+def _walls(path: Path) -> Tree:
+    points = planes(path.points)
+    return tree(piece_boxes(points[:-1], points[1:], planes(path.centres), path.turns, ON_PATH))
 
 
 def _without(contour: Path, kept: Masks) -> Path:
@@ -87,11 +97,10 @@ def _closed(path: Path) -> Path:
     )
 
 
-def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
+def crosses_itself(surface: Surface, *, closed: bool) -> tuple[float, float] | None:
     """The numbers of two segments that cross, touch or run along each other elsewhere than at their joint; or None."""
-    points, centres = planes(path.points), planes(path.centres)
-    boxes = tree(piece_boxes(points[:-1], points[1:], centres, path.turns, ON_PATH))
-    for i, j in near_selves(boxes):
+    path = surface.path
+    for i, j in near_selves(surface.walls):
         beside = (j - i == 1) | ((j - i == len(path) - 1) if closed else False)
         i, j = _worth_a_look(path, i, j, beside)
         met = meet(path, i, path, j)
@@ -126,7 +135,8 @@ def _tangents(path: Path, rows: Indices) -> tuple[Planes, Planes]:
 def _wide(path: Path, rows: Indices) -> Masks:
     """Which pieces are arcs of half a turn or more."""
     first, last = _tangents(path, rows)
-    return (path.turns[rows] != 0) & ((first.conj() * last).imag * path.turns[rows] <= 0.0)
+    wide: Masks = (path.turns[rows] != 0) & ((first.conj() * last).imag * path.turns[rows] <= 0.0)
+    return wide
 
 
 def _at_joint(path: Path, i: Indices, j: Indices, at: Planes) -> Masks:
