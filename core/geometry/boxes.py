@@ -20,13 +20,15 @@ AT_ONCE: Final = 65_536
 
 
 def near_pairs(first: Floats, second: Floats, reach: float) -> tuple[Rows, Rows]:
-    """Indices (i, j), in rising order of i, of all boxes no farther apart than `reach` in x and in y."""
+    """Indices (i, j), in rising order of i, of all boxes no farther apart than `reach`."""
     one, two = _level_trees(first, second)
     i, j = np.nonzero(_near(one[0][:, :, None], two[0][:, None, :], reach))
     for low, high in zip(one[1:], two[1:], strict=True):
         i, j = _children(i, j, low.shape[1], high.shape[1])
         keep = _near(low[:, i], high[:, j], reach)
         i, j = i[keep], j[keep]
+    keep = _apart(first[:, i], second[:, j]) <= reach
+    i, j = i[keep], j[keep]
     if len(one) == 1:
         return i, j
     order = np.argsort(i, kind="stable")
@@ -110,6 +112,7 @@ def _brood(keep: Rows, grow: Rows, count: int) -> tuple[Rows, Rows]:
 
 
 def _near(a: Floats, b: Floats, reach: float) -> Flags:
+    """Boxes no farther apart than `reach` in x and in y."""
     beside = (a[0] - reach <= b[2]) & (b[0] - reach <= a[2])
     near: Flags = beside & (a[1] - reach <= b[3]) & (b[1] - reach <= a[3])
     return near

@@ -18,7 +18,7 @@ from core.geometry.path import Path
 from core.geometry.piece import SLIVER
 from core.tolerance import ARC_RADII, ON_PATH
 
-FEW: Final = 1000
+FEW: Final = 300
 """Pieces for which working out both formulas costs less than parting lines from arcs."""
 
 Floats = NDArray[np.float64]
@@ -136,10 +136,10 @@ def _one_radius(start: Points, end: Points, centre: Points) -> tuple[Points, Flo
 
 
 def _angles(arm: Points, last: Points, turn: Floats, whole: Flags) -> Floats:
-    """Angles travelled from `arm` to `last`, in [0, tau]; a hair less than a full turn is an empty arc."""
+    """Angles travelled from `arm` to `last`, in [0, tau]; a hair less than a full turn or no radius is an empty arc."""
     arm = np.where(arm == 0.0, 1.0, arm)
     angle = np.mod(np.angle(last / arm) * turn, tau)
-    angle[angle > tau - SLIVER] = 0.0
+    angle[(angle > tau - SLIVER) | np.isnan(angle)] = 0.0
     angle[whole] = tau
     return angle
 

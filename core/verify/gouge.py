@@ -9,7 +9,7 @@ import numpy as np
 from core.geometry.distance import foot
 from core.geometry.measured import Floats, Rows, at
 from core.geometry.path import Path
-from core.tolerance import GOUGE, JOINED, ON_PATH
+from core.tolerance import JOINED, ON_PATH
 from core.verify.pairs import Approaches, Pairs
 from core.verify.reach import Parts, Stretches, union, within
 from core.verify.verdict import Gouge
@@ -26,26 +26,20 @@ class Gouging:
     j: Rows
 
 
-def gouging(pairs: Pairs, near: Approaches, radius: float) -> Gouging:
-    """Where the centre path is nearer to the surface than the radius.
-
-    Nearer by no more than GOUGE, or than the slack of uneven arcs, is rounding.
-    """
-    limit = radius - GOUGE - pairs.centre.slack[near.i] - pairs.surface.slack[near.j]
-    deep = np.flatnonzero((near.apart < limit).any(axis=0))
-    i, j, apart = near.i[deep], near.j[deep], near.apart[:, deep]
-    piece, starts = pairs.centre.take(i), pairs.centre_stations[i]
-    parts = within(piece, pairs.surface.take(j), starts, limit[deep])
-    k, pair = np.nonzero(apart < limit[deep])
-    spots = starts[pair] + near.places[:, deep][k, pair] * piece.length[pair]
+def gouging(pairs: Pairs, near: Approaches) -> Gouging:
+    """Where the centre path is nearer to the surface than the limits of `near`."""
+    piece, starts = pairs.centre.take(near.i), pairs.centre_stations[near.i]
+    parts = within(piece, pairs.surface.take(near.j), starts, near.limit)
+    k, pair = np.nonzero(near.apart < near.limit)
+    spots = starts[pair] + near.places[k, pair] * piece.length[pair]
     every = Parts(
         np.concatenate((parts.first, spots)),
         np.concatenate((parts.last, spots)),
         np.concatenate((parts.middle, spots)),
-        np.concatenate((parts.apart, apart[k, pair])),
+        np.concatenate((parts.apart, near.apart[k, pair])),
         np.concatenate((parts.pair, pair)),
     )
-    return _deepest(every, i, j)
+    return _deepest(every, near.i, near.j)
 
 
 def _deepest(parts: Parts, i: Rows, j: Rows) -> Gouging:

@@ -21,9 +21,10 @@ from core.verify.verdict import Verdict
 def judge(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
     """What a cutter of this radius does whose centre runs along `centre`, lead moves included, beside `surface`.
 
-    Every distance is exact, between lines and arcs.  Nothing is raised for any joined paths: coordinates or a radius
-    that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than ARC_RADII give
-    a verdict that is not `judged` and so never clean.
+    Every distance is exact, between lines and arcs.  Nearer than the radius by no more than GOUGE, or than what the
+    uneven radii of an arc leave open, is rounding and no gouge.  Nothing is raised for any joined paths: coordinates
+    or a radius that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than
+    ARC_RADII give a verdict that is not `judged` and so never clean.
     """
     if not judgeable(surface, radius, centre):
         return _unjudged(radius)
@@ -56,8 +57,8 @@ def _judged(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
     closed = _closed(walls)
     crossed = crossings(walls, pairs.surface_stations, pairs.surface_boxes, closed=closed)
     middle = middles(pairs)
-    near = approaches(pairs, middle, radius)
-    found = gouging(pairs, near, radius)
+    near = approaches(pairs, middle, radius - GOUGE)
+    found = gouging(pairs, near)
     sides = sided(side, crossed, float(pairs.surface_stations[-1]), closed=closed)
     return Verdict(
         radius=radius,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
@@ -10,6 +12,9 @@ from core.geometry.boxes import closest_pairs, near_pairs
 from core.geometry.distance import between, distance, nearest_places
 from core.geometry.measured import Floats, Measured, Rows, at, boxes
 from core.tolerance import GOUGE
+
+BLOCK: Final = 50_000
+"""Pairs worked out at a time."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -44,45 +49,69 @@ def pairs_of(centre: Measured, surface: Measured, reach: float) -> Pairs:
 
 def middles(pairs: Pairs) -> Floats:
     """(m,) distance from the middle of each pair's piece of the centre path to its piece of the surface."""
-    half = np.full(len(pairs.i), 0.5)
-    return distance(pairs.surface.take(pairs.j), at(pairs.centre.take(pairs.i), half))
+    return middle_distances(pairs.centre, pairs.i, pairs.surface, pairs.j)
+
+
+def middle_distances(pieces: Measured, i: Rows, others: Measured, j: Rows) -> Floats:
+    """(m,) distance from the middle of pieces `i` to their partners `j`."""
+    middle = at(pieces, np.full(len(pieces), 0.5))
+    apart = np.empty(len(i))
+    for block in blocks(len(i)):
+        apart[block] = distance(others.take(j[block]), middle[i[block]])
+    return apart
+
+
+def blocks(count: int) -> Iterator[slice]:
+    """Runs of a long array that are worked through one after the other, to bound the memory in use."""
+    return (slice(first, first + BLOCK) for first in range(0, count, BLOCK))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Approaches:
-    """Places (8, m) on pieces `i` of the centre path where they may be nearest to pieces `j`, and how near they are."""
+    """The least distance among all pairs, infinite without any, and the pairs nearer than was asked for.
 
+    Of these: places (8, m) on pieces `i` of the centre path where they may be nearest to pieces `j`, how near they are
+    there, and what each pair was asked for.
+    """
+
+    least: float
     i: Rows
     j: Rows
     places: Floats
     apart: Floats
-
-    @property
-    def least(self) -> float:
-        """The least of all distances, infinite without pairs."""
-        return float(self.apart.min()) if self.apart.size else np.inf
+    limit: Floats
 
 
-def approaches(pairs: Pairs, middle: Floats, radius: float) -> Approaches:
-    """The pairs that may be nearer than the radius, or nearest of all; `middle` as of `middles`.
+def approaches(pairs: Pairs, middle: Floats, limit: float) -> Approaches:
+    """All pairs nearer than `limit` less their slack; `middle` as of `middles`.
 
     A piece is nowhere nearer than its middle less half its length.
     """
-    if not len(pairs.i):
-        return _measure(pairs, pairs.i, pairs.j)
-    limit = max(radius, float(middle.min()) + GOUGE)
-    keep = middle - pairs.centre.length[pairs.i] / 2.0 < limit
-    return _measure(pairs, pairs.i[keep], pairs.j[keep])
+    reach = max(limit, float(middle.min(initial=np.inf)) + GOUGE)
+    chosen = np.flatnonzero(middle - pairs.centre.length[pairs.i] / 2.0 < reach)
+    return _measure(pairs, pairs.i[chosen], pairs.j[chosen], limit)
 
 
-def _measure(pairs: Pairs, i: Rows, j: Rows) -> Approaches:
+def _measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
+    found = [_measure_block(pairs, i[block], j[block], limit) for block in blocks(len(i))]
+    if not found:
+        none = np.zeros((8, 0))
+        return Approaches(np.inf, i, j, none, none, none[0])
+    columns = zip(*((one.i, one.j, one.places, one.apart, one.limit) for one in found), strict=True)
+    return Approaches(min(one.least for one in found), *(np.concatenate(column, axis=-1) for column in columns))
+
+
+def _measure_block(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
     piece, other = pairs.centre.take(i), pairs.surface.take(j)
     places = nearest_places(piece, other)
-    return Approaches(i, j, places, between(piece, other, places))
+    apart = between(piece, other, places)
+    limits = limit - piece.slack - other.slack
+    deep = (apart < limits).any(axis=0)
+    return Approaches(float(apart.min()), i[deep], j[deep], places[:, deep], apart[:, deep], limits[deep])
 
 
 def clearance(pairs: Pairs, near: Approaches, reach: float) -> float:
     """Least distance of the two paths, infinite if one is empty; `near` knows it if it is within `reach`."""
     if near.least <= reach or not len(pairs.centre) or not len(pairs.surface):
         return near.least
-    return _measure(pairs, *closest_pairs(pairs.centre_boxes, pairs.surface_boxes)).least
+    return _measure(pairs, *closest_pairs(pairs.centre_boxes, pairs.surface_boxes), 0.0).least

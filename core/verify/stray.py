@@ -56,11 +56,11 @@ def stray(surface: Path, radius: float, centre: Path) -> Stray:
     """
     if not (len(surface) and len(centre) and judgeable(surface, radius, centre)):
         return Stray((), ())
-    walls, moves = measured(surface), measured(centre)
-    slack = float(walls.slack.max() + moves.slack.max())
-    if isinf(slack):
-        return Stray((), ())
     with np.errstate(all="ignore"):
+        walls, moves = measured(surface), measured(centre)
+        slack = float(walls.slack.max() + moves.slack.max())
+        if isinf(slack):
+            return Stray((), ())
         pairs = pairs_of(moves, walls, radius + 10.0 * GOUGE + slack)
         return Stray(_away(pairs, radius, centre), _backwards(pairs, radius))
 

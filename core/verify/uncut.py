@@ -7,16 +7,16 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import band_places, distance, feet
+from core.geometry.distance import band_places, feet
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place
 from core.geometry.path import Path
 from core.tolerance import ON_PATH, STOCK, UNCUT
 from core.verify.farthest import Farthest, farthest
-from core.verify.pairs import Pairs
+from core.verify.pairs import Pairs, middle_distances
 from core.verify.reach import Parts, Stretches, union, within
 from core.verify.verdict import Uncut
 
-FEW: Final = 300
+FEW: Final = 1500
 """Pairs that are all tried at once."""
 
 
@@ -82,8 +82,7 @@ def _rounding(surface: Measured) -> float:
 
 def _nearest_to_middle(pairs: Pairs) -> Rows:
     """Of each surface piece that has pairs the one whose centre piece is nearest to its middle."""
-    half = np.full(len(pairs.j), 0.5)
-    apart = distance(pairs.centre.take(pairs.i), at(pairs.surface.take(pairs.j), half))
+    apart = middle_distances(pairs.surface, pairs.j, pairs.centre, pairs.i)
     order = np.lexsort((apart, pairs.j))
     nearest: Rows = order[np.flatnonzero(np.diff(pairs.j[order], prepend=-1))]
     return nearest

@@ -20,10 +20,10 @@ def wander(seed: int, count: int) -> Floats:
 
 
 def apart(a: Floats, b: Floats) -> Floats:
-    """(n, m) distances of boxes in x or in y, whichever is larger."""
+    """(n, m) distances of boxes."""
     x = np.maximum(a[0][:, None] - b[2], b[0] - a[2][:, None])
     y = np.maximum(a[1][:, None] - b[3], b[1] - a[3][:, None])
-    return np.asarray(np.maximum(np.maximum(x, y), 0.0))
+    return np.asarray(np.hypot(np.maximum(x, 0.0), np.maximum(y, 0.0)))
 
 
 @pytest.fixture(params=[65_536, 16], ids=["at once", "by the tree"])
