@@ -17,10 +17,12 @@ from core.controls.klartext.leads import Form
 from core.controls.klartext.record import Record
 from core.controls.klartext.steps import Corner, Role, Speed, Step
 from core.controls.report import Log
+from core.finding import Severity
 from core.geometry.piece import Point
 from core.tolerance import JOINED
 
 NO_CONTOUR: Final = "No contour element follows the start of compensation; write the contour before its end."
+DEPTH_FIRST: Final = "At this outside corner the tool axis is taken to move before the arc about the corner."
 INSIDE_CIRCLE: Final = "Here stands PS or PN inside the circle of radius {0} of the lead; move it out or shorten R."
 
 
@@ -45,6 +47,9 @@ class Centre:
             case Role.CONTOUR:
                 self._contour(step)
             case Role.FREE:
+                if self.entry:  # an approach without compensation
+                    self._arrive(self.entry, step.element)
+                    self.record.close()
                 self.record.plain(step, step.element.end)
             case Role.DEPTH if self.held or self.entry:
                 self.depths.append(step)
@@ -160,6 +165,9 @@ class Centre:
                 self._finish(before, end)
                 self.record.line(begin, first.high, before)
             case (False, Corner.PLAIN | Corner.M98):
+                if self.depths:
+                    line, column = self.depths[0].element.line, self.depths[0].element.column
+                    self.log.tell(Severity.INFO, "INTERPRETED", DEPTH_FIRST, line, column)
                 self._finish(before, end)
                 self.record.arc(begin, self.record.at(before)[2], first.end, -1 if offset > 0.0 else 1, before)
             case (inside, _):
@@ -168,7 +176,7 @@ class Centre:
         return begin
 
     def _meeting(self, first: Element, second: Element, offset: float, *, inside: bool) -> Point:
-        meeting = corners.meeting(first, second, offset)
+        meeting = corners.meeting(ending(first), second, offset)
         end, begin = corners.square_end(first, offset), corners.square_start(second, offset)
         if meeting is None or (inside and min(advance(first, meeting, end), advance(second, begin, meeting)) < -JOINED):
             self._too_large(second, "the tool of radius {0} cannot come into the corner before this block", abs(offset))
@@ -210,6 +218,11 @@ def is_inside(first: Element, second: Element, offset: float) -> bool:
     (ax, ay), (bx, by) = first.arriving, second.leaving
     back = hypot(ax + bx, ay + by) <= corners.WHOLE
     return not back and corners.turning(first, second) * offset > 0.0
+
+
+def ending(element: Element) -> Element:
+    """The element as it is at its end: an arc's radius there may differ a little from that at its start."""
+    return element._replace(start=element.end) if element.turn else element
 
 
 def advance(element: Element, start: Point, end: Point) -> float:

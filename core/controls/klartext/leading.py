@@ -14,6 +14,7 @@ from core.controls.klartext.polar import POLAR, polar_target
 from core.controls.klartext.state import AXES, COMMON, State, Words
 from core.controls.klartext.steps import Role, Step
 from core.controls.moves import solid
+from core.finding import Severity
 
 _FORM: Final = re.compile(r"[ \t]*(P?)(LT|LN|CT|LCT)(?![A-Z])")
 _SIZES: Final = frozenset(("LEN", "CCA", "R"))
@@ -74,6 +75,9 @@ def _sided(state: State, block: Block, form: Form, code: str) -> None:
     if form in (Form.LN, Form.CT) and not (state.side or state.applied):
         text = f"{block.head} {form} has no side without compensation; write RL or RR with it."
         state.stop(code, text, block, "R0")
+    if form is Form.LCT and not (state.side or state.applied):
+        text = "Without compensation this arc is taken to lie on the side of the contour on which the free point lies."
+        state.tell(Severity.INFO, "INTERPRETED", text, block)
 
 
 def _lead(state: State, block: Block, form: Form, words: Words) -> Lead:

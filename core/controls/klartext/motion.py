@@ -8,9 +8,12 @@ from core.controls.corners import line_element
 from core.controls.klartext.blocks import Block
 from core.controls.klartext.functions import functions
 from core.controls.klartext.polar import POLAR, polar_target
-from core.controls.klartext.state import AXES, COMMON, Blend, State, Words
+from core.controls.klartext.state import AXES, COMMON, SIDES, Blend, State, Words
 from core.controls.klartext.steps import Role, Step
+from core.finding import Severity
 from core.tolerance import JOINED
+
+NOT_YET: Final = "RL, RR or R0 beside the tool axis alone is taken to act in the next line of the working plane."
 
 _LINE: Final = COMMON | frozenset(AXES)
 _POLAR: Final = COMMON | POLAR
@@ -44,6 +47,8 @@ def _line_to(state: State, block: Block, words: Words, end: list[float]) -> None
     if goal == start:
         state.last = None
         state.push(Step(Role.DEPTH, element, 0.0, state.plane))
+        if state.side != state.applied and SIDES.keys() & words.keys():
+            state.tell(Severity.INFO, "INTERPRETED", NOT_YET, block)
     elif state.side == state.applied:
         role = Role.CONTOUR if state.side else Role.FREE
         state.push(Step(role, element, state.offset, state.plane, corner, state.speed))

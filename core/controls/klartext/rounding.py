@@ -28,10 +28,11 @@ def rounding(first: Element, second: Element, radius: float) -> Joined | NoRoom:
     if abs(angle) < corners.WHOLE or not _level(first, second):
         return NoRoom("There is no corner to round: both blocks must lie in the working plane and meet at an angle.")
     aside = radius if angle > 0.0 else -radius
-    centre = corners.meeting(first, second, aside)
+    ending = first._replace(start=first.end) if first.turn else first
+    centre = corners.meeting(ending, second, aside)
     if centre is None:
         return NoRoom("No arc of this radius touches both blocks; write a smaller R.")
-    start, end = _touch(first, centre, aside), _touch(second, centre, aside)
+    start, end = _touch(ending, centre, aside), _touch(second, centre, aside)
     if not _on(first, start) or not _on(second, end):
         return NoRoom("The rounding is longer than the blocks it joins; write a smaller R.")
     turn = 1 if angle > 0.0 else -1

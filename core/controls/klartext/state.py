@@ -254,7 +254,8 @@ class State:
 
     def apply(self, block: Block) -> None:
         """RL or RR takes effect from here on, at the radius of the tool in the spindle."""
-        if self.applied == self.side:
+        if not self.side or self.applied == self.side:
+            self.applied, self.offset = self.side, self.offset if self.side else 0.0
             return
         if self.radius is None:
             text = "The tool's radius is not known; write TOOL DEF and TOOL CALL, or give the tool's diameter."

@@ -97,7 +97,8 @@ def test_height_in_a_contour_block_goes_with_it() -> None:
 
 
 def test_sides_set_without_moving_in_the_plane_take_effect_with_the_next_line() -> None:
-    made = clean(START, "L Z-5 RL F100", "L X+0 Y+0", "L X+30", "L Z+5 R0", "L X+60", radius=5)
+    made = runs(START, "L Z-5 RL F100", "L X+0 Y+0", "L X+30", "L Z+5 R0", "L X+60", radius=5)
+    assert codes(made) == [("INTERPRETED", 5), ("INTERPRETED", 8)]
     want = [(-20, 0, -5), (0, 5, -5), (30, 5, -5), (30, 5, 5), (60, 0, 5)]
     assert points(made) == [NEAR(point) for point in want]
 
@@ -179,3 +180,22 @@ def test_what_is_left_of_an_arc_between_its_trims() -> None:
     half = 8.0 * sqrt(0.5)
     assert remaining(arc, (half, half), (0.0, 8.0), 2.0) == NEAR(quarter / 2)
     assert remaining(arc, (half, half), (8.0, 0.0), 2.0) == NEAR(-quarter / 2)
+
+
+def test_an_approach_without_compensation_leads_the_centre_itself() -> None:
+    made = clean("L X-30 Y+20 R0 FMAX", "APPR LT X+0 Y+0 LEN+10 R0 F100", "L X+30", "DEP LT LEN+10", radius=5)
+    assert flat(made) == [NEAR(want) for want in [(-10, 0), (0, 0), (30, 0), (40, 0)]]
+    assert made.stretches == ()
+
+
+def test_leads_on_an_arc_without_compensation_say_which_side_they_take() -> None:
+    blocks = ("APPR LCT X+0 Y+0 R10 R0 F100", "L X+30", "DEP LCT X+60 Y-20 R10")
+    made = runs("L X-30 Y+20 R0 FMAX", *blocks, radius=5)
+    assert codes(made) == [("INTERPRETED", 5), ("INTERPRETED", 7)]
+    assert [move.turn for move in made.moves] == [0, 0, 0, 1, 0, -1, 0]
+
+
+def test_depth_at_an_outside_corner_comes_before_its_arc_and_says_so() -> None:
+    made = runs(START, "L X+0 Y+0 RL F100", "L X+30", "L Z-3", "L Y-30", "L X-40 R0", radius=5)
+    assert codes(made) == [("INTERPRETED", 7)]
+    assert points(made)[1:4] == [NEAR(point) for point in [(30, 5, 0), (30, 5, -3), (35, 0, -3)]]
