@@ -16,9 +16,10 @@ from app import driver, files, keys
 from app.behind import Behind
 from app.desk import Desk
 from app.engine import Engine
-from app.screens.frame import Frame, painted
+from app.screens.frame import Frame, picture
 from app.session import Session
 from app.surroundings import Surroundings, real
+from app.widgets.rows import Row
 from core.pipeline.derived import Derived
 from core.pipeline.outline import outline
 from core.program.store import StoreError, load
@@ -42,7 +43,6 @@ class CutcompApp(App[int], inherit_bindings=False):
         self.trial: Session | None = None
         self.around = around or real()
         self.engine = engine or Engine()
-        self._cells = (80, 24)
         self._loading = Behind(self, self._loaded)
         self._deriving = Behind(self, self._derived)
         self._trying = Behind(self, self._tried)
@@ -73,17 +73,16 @@ class CutcompApp(App[int], inherit_bindings=False):
         self.desk = self.desk.paste(text)
         self._advance()
 
-    def repaint(self, width: int, height: int) -> None:
-        """The terminal has this size now."""
-        self._cells = (width, height)
-        self.refresh_screen()
-
-    def refresh_screen(self) -> None:
-        """Paint what changed."""
+    def refresh_screen(self, width: int = 0, height: int = 0) -> None:
+        """Paint what changed, on a terminal of this size if one is given."""
         frame = self.screen
         if isinstance(frame, Frame) and frame.is_mounted:
-            known = self.engine.known(self.shown.found, self.trial)
-            frame.show(painted(self.desk, known, self.around, *self._cells))
+            frame.show(self.picture(width or self.size.width, height or self.size.height))
+
+    def picture(self, width: int, height: int) -> tuple[Row, ...]:
+        """The terminal as it is now."""
+        known = self.engine.known(self.shown.found, self.trial)
+        return picture(self.desk, known, self.around, width, height)
 
     def _advance(self) -> None:
         """After every change of the desk: derive what is stale, paint, or leave."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from textwrap import wrap
 
 from app.messages import Close, Message
-from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, View
+from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, plain
@@ -47,7 +47,6 @@ class Ask(Page):
             header(self.title, plain(""), session, surface.width),
             ((), *asked, (), *answers, _answer("Esc", "leave everything as it is")),
             Said("Press the softkey or the letter of an answer."),
-            Layout.FORM,
         )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import ClassVar
 
 from app.messages import Browse, Close, Load, Message
 from app.screens.entry import EntryPage, entry_row
@@ -27,6 +28,7 @@ class Item:
 class BrowsePage(EntryPage):
     """A folder's items; a typed path wins over the item with the cursor."""
 
+    layout: ClassVar[Layout] = Layout.TEXT
     folder: Path = Path()
     examples: Path = Path()
     items: tuple[Item, ...] = ()
@@ -72,7 +74,6 @@ class BrowsePage(EntryPage):
             (plain(" OPEN", Look.HEAD), title),
             ((), *rows, (), entry_row("PATH", self.entry, surface.width, fresh=False)),
             Said("Up and down choose, Enter opens. Or type a path; one that ends in / shows that folder."),
-            Layout.TEXT,
             1 + self.row - top,
         )
 

@@ -9,7 +9,7 @@ from app.messages import Edit, Move, Say
 from app.screens import contour_keys
 from app.screens.contour_cells import cells_at, fields_at, form_at, value_at
 from app.screens.forms import FormPage
-from app.screens.page import Answer, Layout, Softkeys, Surface, View
+from app.screens.page import Answer, Softkeys, Surface, View
 from app.session import SEGMENT, Said, Session, Tone
 from app.widgets.field import press
 from app.widgets.form import cursor_line, form_rows
@@ -123,7 +123,6 @@ class Contour(FormPage):
             header(block_line(session), self._segment_line(session), session, surface.width),
             ((), *form_rows(cells, cursor, self.editing, surface.width), ()),
             self._prompt(session),
-            Layout.FORM,
             1 + cursor_line(cells, cursor, surface.width),
         )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Final
+from typing import ClassVar, Final
 
 from app.messages import Close, Message, Move, NextMode, Open, Say, Swap
 from app.screens.findings import FindingsPage
@@ -26,6 +26,7 @@ FARTHEST: Final = 2.0
 class DrawPage(Page):
     """The window is kept relative to the whole part, so that it survives edits and another terminal size."""
 
+    layout: ClassVar[Layout] = Layout.DRAW
     sketch: Sketch = field(default_factory=Sketch)
 
     def softkeys(self, session: Session) -> Softkeys:
@@ -68,9 +69,7 @@ class DrawPage(Page):
         prompt = (
             "+ - zoom, arrows move, 0 fits. n and p walk over the segments. m changes the characters. Esc goes back."
         )
-        return View(
-            header(block_line(session), number, session, surface.width), (), Said(prompt), Layout.DRAW, 0, self.sketch
-        )
+        return View(header(block_line(session), number, session, surface.width), (), Said(prompt), 0, self.sketch)
 
 
 def _zoomed(sketch: Sketch, factor: float) -> Sketch:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from app.messages import Close, Edit
 from app.screens.page import Answer, Layout, Page, Sketch, Softkey, Softkeys, Surface, View
@@ -35,6 +35,7 @@ STEPS: Final = {"up": -1, "down": 1, "left": -HALF, "right": HALF, "pageup": -HA
 class LookaheadTable(Page):
     """The table with the cursor on `at`, whose path is drawn."""
 
+    layout: ClassVar[Layout] = Layout.TABLE
     at: int
 
     def softkeys(self, session: Session) -> Softkeys:
@@ -70,7 +71,7 @@ class LookaheadTable(Page):
         title = f"BLOCK{session.where.block:>8}   LOOKAHEAD TABLE   {ahead.tag} {ahead.value}"
         heading = plain(HEADING * 2 if surface.table else "", Look.LABEL)
         body = self._body(session.program.unit, surface.table)
-        return View((plain(f" {title}", Look.HEAD), heading), body, Said(PROMPT), Layout.TABLE, 0, Sketch(self.at))
+        return View((plain(f" {title}", Look.HEAD), heading), body, Said(PROMPT), 0, Sketch(self.at))
 
     def _body(self, unit: Unit, table: Table | None) -> tuple[Row, ...]:
         if table is None:

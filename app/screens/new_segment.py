@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from app.messages import Close, Edit, Message, Move
-from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, View
+from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
 from app.widgets.header import block_line, header, segment_line
 from app.widgets.rows import Look, Row, Span
@@ -61,7 +61,6 @@ class NewSegment(Page):
             header(block_line(session), number, session, surface.width),
             ((), *rows),
             Said("Press the softkey or the letter of the new segment, or left arrow to go back."),
-            Layout.FORM,
         )
 
 

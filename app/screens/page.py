@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from app.messages import Message
 from app.session import Said, Session
@@ -66,7 +66,6 @@ class View:
     header: tuple[Row, ...]
     body: tuple[Row, ...]
     prompt: Said
-    layout: Layout = Layout.FORM
     focus: int = 0
     sketch: Sketch = field(default_factory=Sketch)
 
@@ -81,6 +80,8 @@ class Answer:
 
 class Page:
     """A screen: frozen, its own state is no more than a half-typed text, a cursor, a window."""
+
+    layout: ClassVar[Layout] = Layout.FORM
 
     def view(self, session: Session, surface: Surface) -> View:
         """What stands on the terminal."""

@@ -8,7 +8,7 @@ from typing import Final
 from app.messages import Close, Edit, Open
 from app.screens.ask import Ask
 from app.screens.forms import FormPage, cell_of
-from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
+from app.screens.page import Answer, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
 from app.widgets.form import Cell, State, cursor_line, form_rows
 from app.widgets.header import header
@@ -94,7 +94,6 @@ class ParametersPage(FormPage):
             header("PROGRAM PARAMETERS", plain(""), session, surface.width),
             ((), *form_rows(cells, self.name, self.editing, surface.width)),
             self.reason(session) or Said(_prompt(one, session.program.unit) if one else ""),
-            Layout.FORM,
             1 + cursor_line(cells, self.name, surface.width),
         )
 

@@ -7,6 +7,7 @@ from typing import Final
 
 from app.screens.page import Layout
 from app.widgets import softkeys
+from app.widgets.rows import NOWHERE, Area
 
 NATIVE: Final = (80, 24)
 """Columns and rows at which everything stands without scrolling."""
@@ -20,27 +21,17 @@ VERDICT: Final = {Layout.FORM: 4, Layout.TABLE: 3}
 
 
 @dataclass(frozen=True, slots=True)
-class Area:
-    """Cells of the terminal: left, top, width, height; nothing is shown where one of them is 0."""
-
-    x: int = 0
-    y: int = 0
-    width: int = 0
-    height: int = 0
-
-
-@dataclass(frozen=True, slots=True)
 class Plan:
     """The area of each part."""
 
-    notice: Area = Area()
-    header: Area = Area()
-    body: Area = Area()
-    verdict: Area = Area()
-    drawing: Area = Area()
-    softkeys: Area = Area()
-    prompt: Area = Area()
-    status: Area = Area()
+    notice: Area = NOWHERE
+    header: Area = NOWHERE
+    body: Area = NOWHERE
+    verdict: Area = NOWHERE
+    drawing: Area = NOWHERE
+    softkeys: Area = NOWHERE
+    prompt: Area = NOWHERE
+    status: Area = NOWHERE
 
 
 def plan(width: int, height: int, layout: Layout) -> Plan:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 from textwrap import wrap
-from typing import Final, Self
+from typing import ClassVar, Final, Self
 
 from app.messages import Close, Message, Post, Say
 from app.screens.entry import EntryPage, entry_row
@@ -27,6 +27,7 @@ OVERRIDE: Final = "POST WITH GOUGE"
 class PostPage(EntryPage):
     """First the file's name in `entry`; then, with `path` known, the sentence that overrides."""
 
+    layout: ClassVar[Layout] = Layout.TEXT
     path: Path | None = None
 
     @classmethod
@@ -74,7 +75,7 @@ class PostPage(EntryPage):
         elif against:
             said = Said("Enter the name of the NC file. The findings stand against posting.", Tone.WARNING)
         body = ((), *rows, (), *_against(against, session.program.unit, surface.width))
-        return View(header("POST NC", plain(""), session, surface.width), body, said, Layout.TEXT, 1)
+        return View(header("POST NC", plain(""), session, surface.width), body, said, 1)
 
 
 def errors(session: Session) -> tuple[tuple[int, Finding], ...]:

@@ -7,7 +7,7 @@ from typing import Final
 
 from app.messages import Browse, Edit, Leave, Message, Move, Open, Save, Swap
 from app.screens.contour import Contour
-from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, View
+from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View
 from app.screens.parameters import ParametersPage
 from app.screens.post import PostPage
 from app.screens.save import SaveAsPage
@@ -53,7 +53,6 @@ class ProgramPage(Page):
             header("PROGRAM", title, session, surface.width),
             ((), _headings(), *rows[top : top + room]),
             Said(PROMPT),
-            Layout.FORM,
             2 + at - 1 - top,
         )
 

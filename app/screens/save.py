@@ -8,7 +8,7 @@ from typing import Self
 
 from app.messages import Close, Message, Save, Say
 from app.screens.entry import EntryPage, entry_row
-from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
+from app.screens.page import Answer, Softkey, Softkeys, Surface, View
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header
@@ -52,7 +52,6 @@ class SaveAsPage(EntryPage):
                 plain(" The folder must exist. .toml is added where nothing is.", Look.LABEL),
             ),
             Said("Type the name of the file, Enter saves. Left arrow changes the name that stands there."),
-            Layout.FORM,
             1,
         )
 

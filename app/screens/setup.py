@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from app.messages import Close, Edit
 from app.screens.forms import FormPage, cell_of
-from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
+from app.screens.page import Answer, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
 from app.widgets.form import Cell, State, cursor_line, form_rows
 from app.widgets.header import header
@@ -68,6 +68,5 @@ class SetupPage(FormPage):
             header("PART SETUP", plain(""), session, surface.width),
             ((), *form_rows(cells, self.name, self.editing, surface.width)),
             self.reason(session) or Said(one.prompt if one else ""),
-            Layout.FORM,
             1 + cursor_line(cells, self.name, surface.width),
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from textwrap import wrap
+from typing import ClassVar
 
 from app.messages import Close
 from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, View
@@ -18,6 +19,7 @@ SCREENFUL = 16
 class TextPage(Page):
     """Text that begins at line `top`; a line that begins with two blanks keeps its columns."""
 
+    layout: ClassVar[Layout] = Layout.TEXT
     top: int = 0
 
     def title(self, session: Session) -> str:
@@ -55,7 +57,7 @@ class TextPage(Page):
             f"{behind} more lines: down or Page Down shows them. Esc goes back." if behind > 0 else "Esc goes back."
         )
         first = header(self.title(session), plain(""), session, surface.width)
-        return View(first, ((), *lines[top : top + room]), Said(prompt), Layout.TEXT)
+        return View(first, ((), *lines[top : top + room]), Said(prompt))
 
 
 def paragraph(text: str, width: int, look: Look = Look.PLAIN, indent: str = "") -> tuple[Row, ...]:

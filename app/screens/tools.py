@@ -7,7 +7,7 @@ from typing import Final
 
 from app.messages import Close, Edit, Message
 from app.screens.forms import FormPage, shown_text
-from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
+from app.screens.page import Answer, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
 from app.widgets.field import Editing
 from app.widgets.form import typed_spans
@@ -109,7 +109,6 @@ class ToolsPage(FormPage):
             header("TOOL SETUP", plain(""), session, surface.width),
             ((), _headings(), *(shown[top : top + room] or empty)),
             self.reason(session) or Said(one.prompt if one else "F2 ADD TOOL puts the first tool into the table."),
-            Layout.FORM,
             2 + row - top,
         )
 

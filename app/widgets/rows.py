@@ -2,13 +2,13 @@
 
 A *span* is a text and its look, a *row* a tuple of spans.  What a screen shows is calculated as rows by pure
 functions; the widget compares them with what stands on the terminal and repaints only the cells that differ.
+Every character of a row takes one cell: others are replaced before they get here.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
-from typing import ClassVar
+from typing import Final, NamedTuple
 
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -50,8 +50,7 @@ class Look(StrEnum):
     SCALE = "scale"
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
+class Span(NamedTuple):
     """A piece of text with one look."""
 
     text: str
@@ -59,6 +58,8 @@ class Span:
 
 
 Row = tuple[Span, ...]
+LOOKS: Final = frozenset(f"look--{look}" for look in Look)
+"""The component classes of a screen that shows rows."""
 
 
 def plain(text: str, look: Look = Look.PLAIN) -> Row:
@@ -72,15 +73,23 @@ def text_of(row: Row) -> str:
 
 
 def padded(row: Row, width: int) -> Row:
-    """The row cut or filled with blanks to exactly `width` cells; every character of it is one cell wide."""
+    """The row cut or filled with blanks to exactly `width` cells."""
     spans: list[Span] = []
     left = width
     for span in row:
         if left <= 0:
             break
-        spans.append(span if len(span.text) <= left else Span(span.text[:left], span.look))
-        left -= len(span.text)
+        text = single(span.text)[:left]
+        spans.append(Span(text, span.look))
+        left -= len(text)
     return (*spans, Span(" " * left)) if left > 0 else tuple(spans)
+
+
+def single(text: str) -> str:
+    """The text with a question mark for every character that does not take exactly one cell."""
+    if text.isascii() and text.isprintable():
+        return text
+    return "".join(one if one.isprintable() and cell_len(one) == 1 else "?" for one in text)
 
 
 def changed(old: Row, new: Row) -> tuple[int, int] | None:
@@ -96,50 +105,76 @@ def changed(old: Row, new: Row) -> tuple[int, int] | None:
 
 
 def _cells(row: Row) -> list[tuple[str, Look]]:
-    return [
-        (character, span.look) for span in row for character in span.text for _ in range(max(cell_len(character), 1))
-    ]
+    return [(character, span.look) for span in row for character in span.text]
+
+
+class Area(NamedTuple):
+    """Cells of the terminal: left, top, width, height; nothing is shown where one of the latter is 0."""
+
+    x: int
+    y: int
+    width: int
+    height: int
+
+
+NOWHERE: Final = Area(0, 0, 0, 0)
+"""The area of a part that is not shown."""
+
+
+class Part(NamedTuple):
+    """Rows in an area; where there is less height than rows, the row `focus` stays in sight."""
+
+    area: Area
+    rows: tuple[Row, ...]
+    focus: int = 0
+
+
+def composed(parts: list[Part], width: int, height: int) -> tuple[Row, ...]:
+    """The whole terminal: every part in its area, blanks elsewhere.  Areas do not overlap."""
+    return tuple(_line(parts, y, width) for y in range(height))
+
+
+def _line(parts: list[Part], y: int, width: int) -> Row:
+    row: list[Span] = []
+    column = 0
+    across = [part for part in parts if part.area.y <= y < part.area.y + part.area.height and part.area.width > 0]
+    for part in sorted(across, key=lambda part: part.area.x):
+        if part.area.x > column:
+            row.append(Span(" " * (part.area.x - column)))
+        row.extend(padded(_row(part, y - part.area.y), part.area.width))
+        column = part.area.x + part.area.width
+    return (*row, Span(" " * (width - column))) if column < width else tuple(row)
+
+
+def _row(part: Part, line: int) -> Row:
+    top = max(0, min(part.focus, len(part.rows) - 1) - part.area.height + 1)
+    return part.rows[top + line] if top + line < len(part.rows) else ()
 
 
 class Rows(Widget):
-    """Shows rows.  Where there is less height than rows, it keeps the row `focus` in sight."""
+    """Shows rows from its top on."""
 
-    COMPONENT_CLASSES: ClassVar[set[str]] = {f"rows--{look}" for look in Look}
+    def __init__(self, rows: tuple[Row, ...] = ()) -> None:
+        super().__init__()
+        self.rows = rows
 
-    def __init__(self, id: str) -> None:
-        super().__init__(id=id)
-        self.rows: tuple[Row, ...] = ()
-        self.focus_row = 0
-        self.area: object = None
-
-    def show(self, rows: tuple[Row, ...], focus: int = 0) -> None:
+    def show(self, rows: tuple[Row, ...]) -> None:
         """Put these rows on the screen; cells that stay the same are not painted again."""
-        old, top = self.rows, self._top
-        self.rows, self.focus_row = rows, focus
-        if top != self._top:
+        old, self.rows = self.rows, rows
+        if len(old) != len(rows):
             self.refresh()
             return
-        regions = self._differences(old, top)
+        regions = [
+            Region(difference[0], number, difference[1], 1)
+            for number, (before, after) in enumerate(zip(old, rows, strict=True))
+            if (difference := changed(before, after)) is not None
+        ]
         if regions:
             self.refresh(*regions)
 
-    @property
-    def _top(self) -> int:
-        """The first row shown."""
-        return max(0, min(self.focus_row, len(self.rows) - 1) - self.size.height + 1)
-
-    def _differences(self, old: tuple[Row, ...], top: int) -> list[Region]:
-        regions = []
-        for number in range(top, min(max(len(old), len(self.rows)), top + self.size.height)):
-            before = old[number] if number < len(old) else ()
-            after = self.rows[number] if number < len(self.rows) else ()
-            if (difference := changed(before, after)) is not None:
-                regions.append(Region(difference[0], number - top, difference[1], 1))
-        return regions
-
     def render_line(self, y: int) -> Strip:
         """One line of the terminal, as Textual asks for it."""
-        number, width = self._top + y, self.size.width
-        row = self.rows[number] if number < len(self.rows) else ()
-        segments = [Segment(span.text, self.get_component_rich_style(f"rows--{span.look}")) for span in row]
+        row, width = self.rows[y] if y < len(self.rows) else (), self.size.width
+        look = self.screen.get_component_rich_style
+        segments = [Segment(span.text, look(f"look--{span.look}")) for span in row]
         return Strip(segments).adjust_cell_length(width, self.rich_style).crop(0, width)

@@ -11,7 +11,7 @@ from app.desk import Desk
 from app.engine import Known
 from app.files import empty_program
 from app.screens.draw import DrawPage
-from app.screens.frame import Painted, painted
+from app.screens.frame import parts, picture
 from app.screens.page import Sketch
 from app.session import Session
 from app.surroundings import Surroundings
@@ -76,13 +76,14 @@ class Operator:
         assert isinstance(self.desk.page, DrawPage)
         return self.desk.page.sketch
 
-    def screen(self, width: int = 80, height: int = 24) -> Painted:
-        """Everything on a terminal of this size, but for the drawing."""
-        return painted(self.desk, Known(), FROZEN, width, height)
+    def screen(self, width: int = 80, height: int = 24) -> list[str]:
+        """Everything on a terminal of this size, but for the drawing, line by line."""
+        return [text_of(row) for row in picture(self.desk, Known(), FROZEN, width, height)]
 
     def part(self, name: str, width: int = 80, height: int = 24) -> str:
         """The text of one part of the screen."""
-        return "\n".join(text_of(row).rstrip() for row in self.screen(width, height).rows[name])
+        part = parts(self.desk, Known(), FROZEN, width, height)[name]
+        return "\n".join(text_of(row).rstrip() for row in part.rows)
 
     def saved(self) -> Operator:
         """The same operator, the program being as its file has it."""

@@ -8,7 +8,8 @@ from itertools import combinations
 import pytest
 
 from app.screens.page import Layout
-from app.screens.plan import Area, Plan, plan
+from app.screens.plan import Plan, plan
+from app.widgets.rows import Area
 
 
 def areas(places: Plan) -> list[Area]:
