@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from core.comp.offset import Chain, Part, stacked
 from core.geometry.intersect import Indices, Masks, Meeting, Planes, meet, planes
-from core.geometry.path import Floats
+from core.geometry.path import Floats, Turns
 from core.tolerance import ON_PATH
 
 _STRETCH: Final = 8192
@@ -142,30 +142,35 @@ def _shifted(values: Floats, window: int) -> Floats:
 def _boxes(chain: Chain, first: int, last: int) -> Floats:
     """(4, last - first) boxes that hold the pieces: least x, least y, largest x, largest y.
 
-    An arc's box is that of its ends, grown by its height over the chord, or the circle's beyond a half turn.
     Pieces that are no partners, and rows before the chain's first, get the empty box.
     """
     begin, pad = max(first, 0), max(-first, 0)
-    points, turns = planes(chain.raw.points)[begin : last + 1], chain.raw.turns[begin:last]
-    start, end = points[:-1], points[1:]
-    boxes = np.empty((4, last - first))
-    boxes[:2], boxes[2:] = np.inf, -np.inf
-    low, high = boxes[:2, pad:], boxes[2:, pad:]
+    points, centres = planes(chain.raw.points)[begin : last + 1], planes(chain.raw.centres)[begin:last]
+    turns = chain.raw.turns[begin:last]
     grow = np.full(len(turns), ON_PATH)
+    lift = np.zeros(len(turns), np.complex128)
     arcs = np.flatnonzero(turns)
-    grow[arcs] += _bulge(start[arcs], end[arcs], planes(chain.raw.centres)[begin:last][arcs], turns[arcs])
-    partner = chain.parts[begin:last] <= Part.CORNER.value
-    grow = np.where(partner, grow, -np.inf)
-    for axis, (one, two) in enumerate(((start.real, end.real), (start.imag, end.imag))):
-        np.subtract(np.minimum(one, two), grow, out=low[axis])
-        np.add(np.maximum(one, two), grow, out=high[axis])
+    if len(arcs):
+        lift[arcs], beyond = _lifts(points[arcs], points[arcs + 1], centres[arcs], turns[arcs])
+        grow[arcs] += beyond
+    grow[chain.parts[begin:last] > Part.CORNER.value] = -np.inf
+    boxes = np.empty((4, last - first))
+    boxes[:2, :pad], boxes[2:, :pad] = np.inf, -np.inf
+    for axis, (at, up) in enumerate(((points.real, lift.real), (points.imag, lift.imag))):
+        boxes[axis, pad:] = np.minimum(at[:-1], at[1:]) + np.minimum(up, 0.0) - grow
+        boxes[axis + 2, pad:] = np.maximum(at[:-1], at[1:]) + np.maximum(up, 0.0) + grow
     return boxes
 
 
-def _bulge(start: Planes, end: Planes, centre: Planes, turns: NDArray[np.int8]) -> Floats:
-    """How far arcs reach beyond the box of their ends, at most: their height, or the diameter beyond a half turn."""
-    first, last = start - centre, end - centre
-    radius, half = np.abs(first), np.abs(end - start) / 2.0
-    minor = ((first.conj() * last).imag * turns >= 0.0) & (half > 0.0)
+def _lifts(start: Planes, end: Planes, centre: Planes, turns: Turns) -> tuple[Planes, Floats]:
+    """By how much arcs lie beside their chords, as vectors, and by how much a box must grow on all sides besides.
+
+    An arc of half a turn or less lies in the rectangle of its chord and its height, on the chord's right if
+    counter-clockwise; a larger one within a diameter of its ends.  An arc whose radii differ grows by that.
+    """
+    first, last, chord = start - centre, end - centre, end - start
+    radius, half = np.abs(first), np.abs(chord) / 2.0
+    small = ((first.conj() * last).imag * turns > 0.0) & (half > 0.0)
     height = radius - np.sqrt(np.maximum((radius - half) * (radius + half), 0.0))
-    return np.where(minor, height, 2.0 * radius)
+    lift = -1j * turns * chord * np.where(small, height / np.where(small, 2.0 * half, 1.0), 0.0)
+    return lift, np.abs(np.abs(last) - radius) + np.where(small, 0.0, 2.0 * radius)

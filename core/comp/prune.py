@@ -44,7 +44,9 @@ def prune(chain: Chain, joints: Crossings, others: Crossings, *, last_wins: bool
     met = np.empty(0, np.intp)
     if len(others) or len(unsettled):
         met = Walk(chain, left, joints, others).visit(unsettled)
-    return _what_is_left(chain, left, others.chosen(met))
+    path, bridges = _what_is_left(chain, left)
+    del left
+    return Pruned(path, *bridges, _deletions(chain, others.chosen(met)))
 
 
 def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, Indices]:
@@ -62,24 +64,27 @@ def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, 
     return left, np.flatnonzero(left.low > left.high + ON_PATH) + 2
 
 
-def _what_is_left(chain: Chain, left: Left, events: Crossings) -> Pruned:
-    """The path of the pieces that still stand, and who deleted the others; `events` in the order they happened."""
+def _what_is_left(chain: Chain, left: Left) -> tuple[Path, tuple[Masks, Indices]]:
+    """The path of the pieces that still stand; which of them are bridges, and their rows in the chain."""
     alive = np.flatnonzero((np.frombuffer(left.gone, np.uint8) == 0) & (left.standing != 0))
     starts = np.append(left.starts[alive], complex(*chain.raw.points[-1]))
     real = _not_slivers(chain, left, alive, starts)
     if not real.all():
         alive, starts = alive[real], starts[np.append(real, True)]
+    bridged = chain.parts[alive] >= Part.BRIDGE.value
     if not len(alive):
-        return Pruned(EMPTY, np.empty(0, np.bool_), alive, _deletions(chain, events))
-    parts, turns = chain.parts[alive], chain.raw.turns[alive]
+        return EMPTY, (bridged, alive)
+    turns = chain.raw.turns[alive]
     centres = np.where(turns == 0, starts[:-1], planes(chain.raw.centres)[alive])
     path = Path(coordinates(starts), coordinates(centres), turns, chain.raw.numbers[alive])
-    bridged = parts >= Part.BRIDGE.value
-    return Pruned(path, bridged, alive[bridged], _deletions(chain, events))
+    return path, (bridged, alive[bridged])
 
 
 def _not_slivers(chain: Chain, left: Left, alive: Indices, starts: NDArray[np.complex128]) -> Masks:
-    """Which pieces still have a length: an arc trimmed to a point must not be taken for a full circle."""
+    """Which pieces still have a length: an arc trimmed to a point must not be taken for a full circle.
+
+    One that is left for a whole turn but for rounding is made one: its ends in `starts` become the same numbers.
+    """
     real = np.abs(starts[1:] - starts[:-1]) > JOINED
     near = np.flatnonzero(~real)
     arcs = near[chain.raw.turns[alive[near]] != 0]
@@ -87,7 +92,9 @@ def _not_slivers(chain: Chain, left: Left, alive: Indices, starts: NDArray[np.co
     for row in np.flatnonzero(np.isinf(rest)).tolist():
         piece = int(alive[arcs[row]])
         rest[row] = chain.raw[piece].length - left.low[piece]
-    real[arcs] = rest > JOINED
+    whole = arcs[rest > JOINED]
+    starts[whole + 1] = starts[whole]
+    real[whole] = True
     return real
 
 
@@ -96,12 +103,11 @@ def _deletions(chain: Chain, events: Crossings) -> Deletions:
     if not len(events):
         return Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))
     between = events.b - events.a - 1
-    ends = np.cumsum(between)
-    event = np.repeat(np.arange(len(events)), between)
-    piece = np.arange(len(event)) - np.repeat(ends - between, between) + events.a[event] + 1
-    piece, first = np.unique(piece, return_index=True)
-    segment = (chain.places[piece] & 1) == 0
-    piece, event = piece[segment], event[first[segment]]
-    numbers = chain.raw.numbers
+    event = np.repeat(np.arange(len(events), dtype=np.int32), between)
+    piece = np.arange(len(event), dtype=np.int32) + (events.b - np.cumsum(between, dtype=np.int32))[event]
+    spanned = np.full(len(chain), -1, np.int32)
+    spanned[piece[::-1]] = event[::-1]
+    deleted = np.flatnonzero((spanned >= 0) & (chain.places % 2 == 0))
+    event, numbers = spanned[deleted], chain.raw.numbers
     by = np.stack((numbers[events.a[event]], numbers[events.b[event]]), axis=1)
-    return Deletions(numbers[piece], by, coordinates(events.points[event]))
+    return Deletions(numbers[deleted], by, coordinates(events.points[event]))

@@ -101,7 +101,7 @@ def _vanished(contour: Path, chain: Chain, rows: Indices, radius: float) -> list
     segments = chain.places[rows] // 2
     radii = np.abs(planes(contour.points)[segments] - planes(contour.centres)[segments])
     small = radii < radius - JOINED
-    text = "The inside radius {value} is smaller than the tool's, and nothing prunes it: the cutter cannot follow it."
+    text = "The inside radius {value} is smaller than the tool's: the path bridges it and can cut into a wall."
     numbers, at = contour.numbers[segments[small]], contour.points[segments[small]]
     return _named("VANISHED", text, numbers, at, radii[small])
 
@@ -110,7 +110,7 @@ def _missed(contour: Path, chain: Chain, rows: Indices, radius: float) -> list[F
     """Inside corners bridged where the bridge enters a wall: by the square of its length over the tool's diameter."""
     points = planes(chain.raw.points)
     rows = rows[np.abs(points[rows + 1] - points[rows]) ** 2 > 2.0 * radius * GOUGE]
-    text = "At this inside corner the offsets do not meet within the look-ahead: the cutter cuts into a wall."
+    text = "At this inside corner the offsets do not meet: the path bridges it and can cut into a wall."
     at = contour.points[chain.places[rows] // 2 + 1]
     return _named("CORNER_MISSED", text, chain.raw.numbers[rows], at)
 

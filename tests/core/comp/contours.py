@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import rect
 from dataclasses import dataclass
 from itertools import pairwise
-from math import pi
+from math import pi, tau
 
 from hypothesis import strategies as st
 
@@ -34,8 +34,8 @@ class Step:
             end = at + self.size * heading
             return Line((at.real, at.imag), (end.real, end.imag)), end, heading
         centre = at + self.turn * 1j * heading * self.size
-        turned = rect(1.0, self.turn * self.sweep)
-        end = centre + (at - centre) * turned
+        turned = rect(1.0, self.turn * self.sweep) if self.sweep < tau else 1 + 0j
+        end = centre + (at - centre) * turned if self.sweep < tau else at
         points = [(place.real, place.imag) for place in (at, end, centre)]
         return Arc(points[0], points[1], points[2], Turn(self.turn)), end, heading * turned
 
@@ -54,7 +54,7 @@ rounds = st.builds(
     Step,
     corners,
     st.sampled_from([0.1, 0.25, 0.3, 0.5, 1.0, 2.5]) | st.floats(0.05, 4.0),
-    st.sampled_from([pi / 6, pi / 2, pi, 1.5 * pi, 0.3]) | st.floats(0.02, 6.0),
+    st.sampled_from([pi / 6, pi / 2, pi, 1.5 * pi, 0.3, tau]) | st.floats(0.02, 6.0),
     st.sampled_from([-1, 1]),
 )
 

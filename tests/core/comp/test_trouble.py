@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import inf, nan, pi
+from math import cos, inf, nan, pi, sin
 
 import numpy as np
 import pytest
@@ -115,6 +115,14 @@ def test_full_circle_is_not_passed_over():
     done = compensate(contour, Side.RIGHT, 0.25, 2, closed=False)
     assert abs(done.contour.sweeps).max() == pytest.approx(2 * pi)
     assert done.contour.numbers.tolist() == [1, 2, 4]
+
+
+@pytest.mark.parametrize("short", [2e-8, 5e-8])
+def test_arc_short_of_a_full_circle_by_less_than_a_point_is_one(short):
+    contour = Path.from_pieces([Arc((1, 0), (cos(short), -sin(short)), (0, 0), Turn.CCW)])
+    done = compensate(contour, Side.RIGHT, 0.5, 2, closed=True)
+    assert done.path.lengths.tolist() == [pytest.approx(3 * pi)]
+    assert done.path[0].start == done.path[0].end
 
 
 def test_inside_arc_too_small_for_the_tool():
