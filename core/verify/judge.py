@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from math import inf, isfinite, isinf, nan
 
 import numpy as np
 
-from core.geometry.measured import Measured, measured
+from core.geometry.measured import Floats, Measured, boxes, measured
 from core.geometry.path import Path
 from core.geometry.side import Side
 from core.tolerance import CLOSED, GOUGE, LARGEST
@@ -26,12 +28,19 @@ def judge(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
     or a radius that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than
     ARC_RADII give a verdict that is not `judged` and so never clean.
     """
-    if not judgeable(surface, radius, centre):
-        return _unjudged(radius)
-    if not len(surface):
-        return Verdict(radius, inf, (), (), 0.0, crosses_itself=False)
+    return judge_all(surface, side, radius, (centre,))[0]
+
+
+def judge_all(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> tuple[Verdict, ...]:
+    """The verdict of `judge` on each centre path; the surface is looked at once, and equal paths are judged once."""
+    keys = [_key(centre) for centre in centres]
     with np.errstate(all="ignore"):
-        return _judged(surface, side, radius, centre)
+        ground = _ground(surface) if len(surface) and _sound(surface) else None
+        verdicts = {
+            key: _verdict(surface, ground, side, radius, centre)
+            for key, centre in dict(zip(keys, centres, strict=True)).items()
+        }
+    return tuple(verdicts[key] for key in keys)
 
 
 def judgeable(surface: Path, radius: float, centre: Path) -> bool:
@@ -39,45 +48,69 @@ def judgeable(surface: Path, radius: float, centre: Path) -> bool:
     return _sound(surface) and _sound(centre) and isfinite(radius) and 0.0 <= radius <= LARGEST
 
 
-def _unjudged(radius: float) -> Verdict:
-    return Verdict(radius, nan, (), (), nan, crosses_itself=False, judged=False)
-
-
 def _sound(path: Path) -> bool:
     return all(bool(np.all(np.abs(array) <= LARGEST)) for array in (path.points, path.centres))
 
 
-def _judged(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
-    walls, moves = measured(surface), measured(centre)
-    slack = _largest_slack(walls) + _largest_slack(moves)
+def _key(path: Path) -> tuple[bytes, ...]:
+    """What two equal paths have in common."""
+    return tuple(array.tobytes() for array in (path.points, path.centres, path.turns, path.numbers))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Ground:
+    """A surface as every path over it needs it."""
+
+    walls: Measured
+    stations: Floats
+    bounds: Floats
+    closed: bool
+    crossed: Crossings
+
+
+def _ground(surface: Path) -> _Ground:
+    walls = measured(surface)
+    stations, bounds = walls.stations, boxes(walls)
+    closed = bool(abs(walls.end[-1] - walls.start[0]) <= CLOSED)
+    return _Ground(walls, stations, bounds, closed, crossings(walls, stations, bounds, closed=closed))
+
+
+def _verdict(surface: Path, ground: _Ground | None, side: Side, radius: float, centre: Path) -> Verdict:
+    if not judgeable(surface, radius, centre):
+        return _unjudged(radius)
+    if ground is None:
+        return Verdict(radius, inf, (), (), 0.0, crosses_itself=False)
+    moves = measured(centre)
+    slack = float(ground.walls.slack.max() + moves.slack.max(initial=0.0))
     if isinf(slack):
         return _unjudged(radius)
+    return _judged(surface, ground, side, radius, centre, moves, slack)
+
+
+def _unjudged(radius: float) -> Verdict:
+    return Verdict(radius, nan, (), (), nan, crosses_itself=False, judged=False)
+
+
+def _judged(
+    surface: Path, ground: _Ground, side: Side, radius: float, centre: Path, moves: Measured, slack: float
+) -> Verdict:
     reach = radius + 10.0 * GOUGE
-    pairs = pairs_of(moves, walls, reach + slack)
-    closed = _closed(walls)
-    crossed = crossings(walls, pairs.surface_stations, pairs.surface_boxes, closed=closed)
+    pairs = pairs_of(moves, ground.walls, ground.stations, ground.bounds, reach + slack)
     middle = middles(pairs)
     near = approaches(pairs, middle, radius - GOUGE)
     found = gouging(pairs, near)
-    sides = sided(side, crossed, float(pairs.surface_stations[-1]), closed=closed)
+    length = float(ground.stations[-1])
+    sides = sided(side, ground.crossed, length, closed=ground.closed)
     return Verdict(
         radius=radius,
         clearance=clearance(pairs, near, reach),
         gouges=gouges(found, pairs, radius, surface, centre),
-        uncut=uncut(pairs, radius, surface, closed=closed),
-        surface_length=float(pairs.surface_stations[-1]),
-        crosses_itself=len(crossed) > 0,
+        uncut=uncut(pairs, radius, surface, closed=ground.closed),
+        surface_length=length,
+        crosses_itself=len(ground.crossed) > 0,
         wrong_side=wrong_side(pairs, middle, found, sides, reach),
-        crossing_at=_first(crossed),
+        crossing_at=_first(ground.crossed),
     )
-
-
-def _largest_slack(pieces: Measured) -> float:
-    return float(pieces.slack.max(initial=0.0))
-
-
-def _closed(surface: Measured) -> bool:
-    return bool(abs(surface.end[-1] - surface.start[0]) <= CLOSED)
 
 
 def _first(crossed: Crossings) -> tuple[float, float] | None:

@@ -40,11 +40,11 @@ class Pairs:
         return self.centre.slack[self.i] + self.surface.slack[self.j]
 
 
-def pairs_of(centre: Measured, surface: Measured, reach: float) -> Pairs:
-    """All pairs within `reach`, by their bounding boxes."""
-    around, along = boxes(centre), boxes(surface)
-    i, j = near_pairs(around, along, reach)
-    return Pairs(centre, surface, centre.stations, surface.stations, around, along, i, j)
+def pairs_of(centre: Measured, surface: Measured, stations: Floats, bounds: Floats, reach: float) -> Pairs:
+    """All pairs within `reach`, by their bounding boxes; `stations` and `bounds` are the surface's."""
+    around = boxes(centre)
+    i, j = near_pairs(around, bounds, reach)
+    return Pairs(centre, surface, centre.stations, stations, around, bounds, i, j)
 
 
 def middles(pairs: Pairs) -> Floats:

@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.measured import Flags, Floats, Measured, Rows, at, direction, measured
+from core.geometry.measured import Flags, Floats, Measured, Rows, at, boxes, direction, measured
 from core.geometry.path import Path
 from core.geometry.piece import Point
 from core.tolerance import GOUGE
@@ -61,7 +61,7 @@ def stray(surface: Path, radius: float, centre: Path) -> Stray:
         slack = float(walls.slack.max() + moves.slack.max())
         if isinf(slack):
             return Stray((), ())
-        pairs = pairs_of(moves, walls, radius + 10.0 * GOUGE + slack)
+        pairs = pairs_of(moves, walls, walls.stations, boxes(walls), radius + 10.0 * GOUGE + slack)
         return Stray(_away(pairs, radius, centre), _backwards(pairs, radius))
 
 

@@ -13,7 +13,7 @@ from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Turn
 from core.geometry.side import Side
 from core.tolerance import GOUGE
-from core.verify.judge import judge
+from core.verify.judge import judge, judge_all
 from tests.core.verify import oracle
 from tests.core.verify.shapes import around, circle, lines, mirrored, moved, paths, square
 
@@ -216,6 +216,64 @@ def test_far_from_the_origin_rounding_is_still_rounding() -> None:
     verdict = judge(moved(MID_SIDE, 0.0, shift), Side.LEFT, R, moved(MID_SIDE_PATH, 0.0, shift))
     assert verdict.clean
     assert verdict.uncut_length == pytest.approx(8 * R, abs=1e-3)
+
+
+def test_many_paths_over_one_surface_are_judged_as_each_alone() -> None:
+    centres = (MID_SIDE_PATH, EMPTY, lines((0, 0), (1, nan)), MID_SIDE_PATH, lines((1, 0.1), (1.5, 0.1)))
+    together = judge_all(MID_SIDE, Side.LEFT, R, centres)
+    for verdict, centre in zip(together, centres, strict=True):
+        alone = judge(MID_SIDE, Side.LEFT, R, centre)
+        assert verdict.gouges == alone.gouges
+        assert verdict.uncut == alone.uncut
+        assert verdict.judged == alone.judged
+    assert together[0] is together[3]
+
+
+NASTY = st.sampled_from((0.0, 1.0, -1.0, 2.0, 1e-12, 1e-9, 1e-7, 1e-6, 5e-324, 1e7, -9.9e6, 0.1, 1e4))
+
+
+@st.composite
+def nasty_paths(draw: st.DrawFn) -> Path:
+    """Paths of repeated points, arcs without radius, radii that do not fit, coordinates of any size."""
+    count = draw(st.integers(0, 5))
+    points = np.array([draw(st.tuples(NASTY, NASTY)) for _ in range(count + 1)])
+    turns = np.array([draw(st.sampled_from((0, 0, 1, -1))) for _ in range(count)], np.int8)
+    centres = [
+        points[k] if not turns[k] or draw(st.booleans()) else (points[k] + points[k + 1]) / 2 for k in range(count)
+    ]
+    return Path.of(points, np.array(centres).reshape(-1, 2), turns)
+
+
+@settings(deadline=None, max_examples=200, derandomize=True)
+@given(nasty_paths(), nasty_paths(), st.sampled_from((0.0, 1e-7, 0.5, 1.0, 1e3, 1e7)), st.sampled_from(Side))
+def test_nothing_is_raised_whatever_the_paths(surface: Path, centre: Path, radius: float, side: Side) -> None:
+    verdict = judge(surface, side, radius, centre)
+    assert verdict.judged != isnan(verdict.clearance)
+    assert all(np.isfinite((gouge.depth, gouge.extent, *gouge.at, *gouge.surface_at)).all() for gouge in verdict.gouges)
+    assert all(np.isfinite((stretch.length, *stretch.start, *stretch.end)).all() for stretch in verdict.uncut)
+
+
+def test_a_ring_of_ten_thousand_teeth_is_as_right_as_a_small_one() -> None:
+    """Long arcs of a large radius and short ones, too many to compare all with all."""
+    teeth, radius, depth = 2500, 1000.0, 0.6
+    angle = np.linspace(0.0, 2 * pi, 2 * teeth + 1)
+    size = np.where(np.arange(2 * teeth) % 2, radius, radius + depth)
+    spots = [(r * np.cos(a), r * np.sin(a)) for r, a in zip(size, angle[:-1], strict=True)]
+    pieces: list[Piece] = []
+    for (x, y), far, a in zip(spots, angle[1:], size, strict=True):
+        end = (a * np.cos(far), a * np.sin(far))
+        pieces.append(Arc((x, y), end, (0.0, 0.0), Turn.CCW))
+        other = (radius + depth if a == radius else radius) / a
+        pieces.append(Line(end, (end[0] * other, end[1] * other)))
+    verdict = judge(Path.from_pieces(pieces), Side.RIGHT, 3.0, circle((0.0, 0.0), radius + depth + 3.0))
+    assert verdict.clean
+    assert verdict.clearance == pytest.approx(3.0, abs=1e-9)
+    assert len(verdict.uncut) == teeth
+    half = radius * pi / (2 * teeth)
+    thickness = {round(stretch.thickness, 6) for stretch in verdict.uncut}
+    assert max(thickness) - min(thickness) < 1e-5
+    assert depth - 0.01 < max(thickness) <= depth + 1e-9
+    assert verdict.uncut[0].length == pytest.approx(2 * (half + depth), abs=2e-3)
 
 
 STEP = 4e-3
