@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import isfinite
-from typing import Final
 
-from core.controls.source import lines_of, shown
-from core.finding import Finding, Severity
-from core.tolerance import LARGEST
+from core.controls.source import lines_of
+from core.finding import Finding
+from core.program.tool_table import Listed, listed
 from core.units import Unit, to_mm
 
 
@@ -57,36 +54,18 @@ class ToolTable:
         return ToolTable({**self.tools, **other.tools})
 
 
-_WORD: Final = re.compile(r"\s*([A-Za-z])\s*([-+]?(?:\d+(?:\.\d*)?|\.\d+))")
-
-
 def read_table(text: bytes, unit: Unit | None = None) -> tuple[ToolTable, tuple[Finding, ...]]:
     """The tools of a LinuxCNC table (`T1 P1 Z0 D.25 Q0 ;comment`, one tool a line), and what cannot be read."""
     tools: list[CutterTool] = []
     findings: list[Finding] = []
-    for number, line in enumerate(lines_of(text), 1):
-        words = line.split(";", 1)[0].strip()
-        if not words:
-            continue
-        tool = _tool(words, unit)
-        if isinstance(tool, str):
-            findings.append(Finding("TOOLTABLE", Severity.ERROR, tool, line=number, column=1))
+    for one in listed(lines_of(text)):
+        if isinstance(one, Finding):
+            findings.append(one)
         else:
-            tools.append(tool)
+            tools.append(_tool(one, unit))
     return ToolTable.of(*tools), tuple(findings)
 
 
-def _tool(text: str, unit: Unit | None) -> CutterTool | str:
-    """One line of a table as a tool, or the sentence that says what is wrong with it."""
-    end, values = 0, {}
-    while found := _WORD.match(text, end):
-        values[found[1].upper()] = float(found[2])
-        end = found.end()
-    if text[end:].strip():
-        return f"{shown(text[end:])} is no word of a tool table; write T1 P1 D.25 Z0."
-    if "T" not in values or not values["T"].is_integer() or not isfinite(values["T"]):
-        return "A tool table's line needs a whole tool number; write T1 P1 D.25 Z0."
-    if any(abs(value) > LARGEST for value in values.values()):
-        return "A number of this line is too large for any tool."
-    orientation = int(values.get("Q", 0.0))
-    return CutterTool(int(values["T"]), values.get("D", 0.0), values.get("Z", 0.0), orientation, unit)
+def _tool(one: Listed, unit: Unit | None) -> CutterTool:
+    words = one.words
+    return CutterTool(one.number, words.get("D", 0.0), words.get("Z", 0.0), int(words.get("Q", 0.0)), unit)
