@@ -38,6 +38,7 @@ HEADS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
         "TOOL": setup.tool,
         "CYCL": setup.cycle,
         "TRANS": setup.transformation,
+        "PLANE": setup.plane,
         "*": setup.structure,
         "STOP": functions.only_functions,
         "M": functions.only_functions,

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Final
 
 from core.controls.klartext.blocks import Block
-from core.controls.klartext.state import State, Words
+from core.controls.klartext.state import AXES, State, Words
 from core.controls.klartext.steps import Corner, Speed
 from core.controls.source import shown
 from core.finding import Severity
@@ -16,6 +16,8 @@ _SPEEDS: Final[Mapping[int, Speed]] = MappingProxyType({109: Speed.EDGE, 110: Sp
 _CORNERS: Final[Mapping[int, Corner]] = MappingProxyType({97: Corner.M97, 98: Corner.M98})
 _SILENT: Final = frozenset((0, 1, 3, 4, 5, 6, 7, 8, 9, 13, 14))
 _MOVING: Final = frozenset((89, 91, 92, 99, 114, 128, 130, 140, 144))
+_MACHINE: Final = frozenset(("M91", "M92", "M140"))
+_BELONGS: Final[Mapping[str, str]] = MappingProxyType({"LA": "M120", "MB": "M140", "MAX": "M140"})
 _DIFFERENT: Final[Mapping[int, str]] = MappingProxyType(
     {
         90: "the control rounds corners that run without compensation",
@@ -32,10 +34,11 @@ def functions(state: State, block: Block, words: Words) -> Corner:
     """Take up the block's M words; how the corner at its end is made."""
     corner = Corner.PLAIN
     for name in words:
-        if name[0] == "M":
+        if name[0] == "M" and name not in _BELONGS:
             corner = _function(state, block, name, corner)
-    if "LA" in words and "M120" not in words:
-        state.stop("WORD", "LA belongs to M120; write M120 LA with a number, or leave it out.", block, "LA")
+    for name, owner in _BELONGS.items():
+        if name in words and owner not in words:
+            state.stop("WORD", f"{name} belongs to {owner}; write it with {owner}, or leave it out.", block, name)
     return corner
 
 
@@ -62,4 +65,21 @@ def _function(state: State, block: Block, name: str, corner: Corner) -> Corner:
 def only_functions(state: State, block: Block) -> None:
     """STOP, or a block of M words alone."""
     body = block.body if block.head == "STOP" else block.head + block.body
-    functions(state, block, state.words(block._replace(body=body), frozenset(("M", "LA"))))
+    column = block.column if block.head == "STOP" else block.column - len(block.head)
+    whole = block._replace(body=body, column=column)
+    words = state.words(whole, frozenset(("M", "LA", "MB", "MAX")))
+    if not leaves_workpiece(state, whole, words):
+        functions(state, whole, words)
+
+
+def leaves_workpiece(state: State, block: Block, words: Words) -> bool:
+    """M91, M92 and M140 without compensation: the axes go where only the machine knows, and the move is left out."""
+    if _MACHINE.isdisjoint(words) or state.applied or state.side:
+        return False
+    for name in words.keys() & AXES.keys():
+        state.known.discard(AXES[name][0])
+    state.flush()
+    state.last = None
+    text = "This move ends where only the machine knows, and is left out; the next absolute words set the place again."
+    state.tell(Severity.WARNING, "MACHINE", text, block)
+    return True

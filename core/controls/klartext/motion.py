@@ -6,7 +6,7 @@ from typing import Final
 
 from core.controls.corners import line_element
 from core.controls.klartext.blocks import Block
-from core.controls.klartext.functions import functions
+from core.controls.klartext.functions import functions, leaves_workpiece
 from core.controls.klartext.polar import POLAR, polar_target
 from core.controls.klartext.state import AXES, COMMON, SIDES, Blend, State, Words
 from core.controls.klartext.steps import Role, Step
@@ -24,6 +24,10 @@ _CORNER: Final = frozenset(("R", "F", "LEN"))
 def straight(state: State, block: Block) -> None:
     """L: a straight line; in the block whose RL, RR or R0 is new it applies or cancels compensation."""
     words = state.words(block, _LINE)
+    if "FMAX" in words or "MB" in words:
+        state.chosen_side(block, words)
+        if leaves_workpiece(state, block, words):
+            return
     _line_to(state, block, words, state.target(block, words))
 
 

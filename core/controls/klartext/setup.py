@@ -16,6 +16,14 @@ from core.units import Unit, to_mm
 _BEGIN: Final = re.compile(r"\s*PGM(?:\s+(\S+))?\s+(MM|INCH)\s*$")
 _NUMBERED: Final = re.compile(r'\s*(DEF|CALL)\b\s*(?:"([^"]*)"|([+-]?\d+(?:[.,]\d+)?)(?![\d.]))?')
 _CYCLE: Final = re.compile(r"\s*(DEF|CALL)\s*(?:(\d+)(?:\.(\d+))?)?")
+_NEUTRAL: Final = {
+    8: re.compile(r"\s*"),
+    10: re.compile(r"\s*ROT\s*[+-]?0*(?:\.0*)?\s*"),
+    11: re.compile(r"\s*SCL\s*\+?0*1(?:\.0*)?\s*"),
+    19: re.compile(r"(?:\s*[ABC]\s*[+-]?0+(?:\.0*)?)*\s*"),
+}
+"""Cycles that turn, mirror, scale or tilt, and what stands behind them where they do none of it."""
+
 _PLANES: Final = {"Z": Plane.XY, "X": Plane.YZ, "Y": Plane.ZX}
 _AXES: Final = frozenset(_PLANES)
 _DEF: Final = frozenset(("L", "R", "R2", "DL", "DR", "DR2"))
@@ -51,6 +59,13 @@ def ignored(state: State, block: Block) -> None:
 
 def structure(state: State, block: Block) -> None:
     """A structuring line `* - text`."""
+
+
+def plane(state: State, block: Block) -> None:
+    """PLANE RESET STAY, which undoes a tilting there is none of; any other PLANE is not worked out here."""
+    if block.body.split() != ["RESET", "STAY"]:
+        unknown(state, block)
+    ignored(state, block)
 
 
 def unknown(state: State, block: Block) -> None:
@@ -133,6 +148,12 @@ def cycle(state: State, block: Block) -> None:
     elif number == 7:
         if found[3] not in (None, "0"):
             shift(state, rest)
+    elif number in _NEUTRAL and (found[3] == "0" or _NEUTRAL[number].fullmatch(rest.body)):
+        text = f"Cycle {number} is passed over: here it turns nothing, mirrors nothing and scales nothing."
+        state.tell(Severity.INFO, "IGNORED", text, block)
+    elif number == 247 and len(state.centre.record.tape) == 1 and state.waiting is None:
+        text = "Cycle 247 chooses the workpiece's datum, from which everything is shown."
+        state.tell(Severity.INFO, "IGNORED", text, block)
     elif number in (8, 10, 11, 19, 26, 27, 28, 29, 220, 221, 247) or number >= 400:
         text = f"Cycle {number} changes where things are; it is not worked out here."
         state.stop("WORD", text, block)

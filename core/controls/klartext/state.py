@@ -33,7 +33,8 @@ AXES: Final[Mapping[str, tuple[int, bool]]] = MappingProxyType(
 """Axis words: which axis, and whether the value counts from the last programmed position."""
 
 SIDES: Final[Mapping[str, int]] = MappingProxyType({"R0": 0, "RL": 1, "RR": -1})
-COMMON: Final = frozenset(("R0", "RL", "RR", "F", "FMAX", "FAUTO", "M", "LA"))
+COMMON: Final = frozenset(("R0", "RL", "RR", "F", "FMAX", "FAUTO", "M", "LA", "MB", "MAX"))
+FEEDS: Final = frozenset(("F", "FMAX", "FAUTO"))
 OTHER_AXES: Final = frozenset(f"{step}{name}" for step in ("", "I") for name in "ABCUVW")
 
 NOT_BESIDE: Final = "RND and CHF stand between two contour elements of one side, with nothing else between; move it."
@@ -175,9 +176,9 @@ class State:
 
     def chosen_side(self, block: Block, words: Words) -> None:
         """Take up the block's R0, RL or RR."""
-        names = [name for name in SIDES if name in words]
-        if not names:
+        if SIDES.keys().isdisjoint(words):
             return
+        names = [name for name in SIDES if name in words]
         if len(names) > 1:
             self.stop("TWICE", f"{names[0]} and {names[1]} stand in one block; keep one.", block, names[1])
         side = SIDES[names[0]]
@@ -188,9 +189,9 @@ class State:
 
     def chosen_feed(self, block: Block, words: Words) -> tuple[bool, float]:
         """Rapid and feed of the block: FMAX for this block alone, F from here on."""
-        names = [name for name in ("F", "FMAX", "FAUTO") if name in words]
-        if not names:
+        if FEEDS.isdisjoint(words):
             return False, self.feed
+        names = [name for name in words if name in FEEDS]
         if len(names) > 1:
             self.stop("TWICE", f"{names[0]} and {names[1]} stand in one block; keep one.", block, names[1])
         if "F" in words:

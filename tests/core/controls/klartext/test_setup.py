@@ -62,7 +62,16 @@ def test_a_feed_in_the_tool_call_holds() -> None:
         (("TOOL CALL 1 Z X",), "TWICE", 4),
         (("TOOL NAME 1",), "WORD", 4),
         (("CYCL CALL",), "WORD", 4),
-        (("CYCL DEF 10.0 ROTATION",), "WORD", 4),
+        (("CYCL DEF 10.1 ROT+30",), "WORD", 4),
+        (("CYCL DEF 8.1 X",), "WORD", 4),
+        (("CYCL DEF 10 ROT+5",), "WORD", 4),
+        (("CYCL DEF 11.1 SCL 1.5",), "WORD", 4),
+        (("CYCL DEF 19.1 A+0 B+15",), "WORD", 4),
+        (("L X+1 Y+0 FMAX", "L X+5 F9", "CYCL DEF 247 DATUM SETTING"), "WORD", 6),
+        (("PLANE RESET MOVE",), "WORD", 4),
+        (("L X+1 Y+1 RL F9", "L Z+0 FMAX M91"), "WORD", 5),
+        (("M89",), "WORD", 4),
+        (("L Z+1 MB MAX",), "WORD", 4),
         (("CYCL DEF 7.1 #5",), "WORD", 4),
         (("PLANE SPATIAL SPA+10",), "WORD", 4),
         (("CALL PGM OTHER",), "WORD", 4),
@@ -105,6 +114,14 @@ def test_what_is_not_understood_or_worked_out_stops_the_program(blocks: tuple[st
     [
         ("BLK FORM 0.1 Z X+0 Y+0 Z-20", "IGNORED", Severity.INFO),
         ("CYCL DEF 200 DRILLING", "IGNORED", Severity.INFO),
+        ("CYCL DEF 10.1 ROT+0", "IGNORED", Severity.INFO),
+        ("CYCL DEF 8.1", "IGNORED", Severity.INFO),
+        ("CYCL DEF 11.1 SCL 1", "IGNORED", Severity.INFO),
+        ("CYCL DEF 19.1 A+0 B+0 C+0", "IGNORED", Severity.INFO),
+        ("PLANE RESET STAY", "IGNORED", Severity.INFO),
+        ("L Z-1 R0 FMAX M91", "MACHINE", Severity.WARNING),
+        ("L M140 MB MAX", "MACHINE", Severity.WARNING),
+        ("M140 MB MAX", "MACHINE", Severity.WARNING),
         ("L X+1 F9 M120 LA5", "M", Severity.WARNING),
         ("L X+1 F9 M136", "M", Severity.WARNING),
         ("L X+1 F9 M42", "M", Severity.INFO),
@@ -155,3 +172,14 @@ def test_nothing_of_the_file_reaches_the_terminal_raw() -> None:
         assert made.stopped_at == 2
         assert all(one.isprintable() for one in made.findings[-1].text)
         assert "{0}" not in made.findings[-1].text
+
+
+def test_the_datum_is_chosen_before_anything_moves() -> None:
+    made = runs("CYCL DEF 247 DATUM SETTING ~", "  Q339=+1 ;DATUM NUMBER", "L X+1 Y+1 FMAX")
+    assert codes(made) == [("IGNORED", 4)]
+    assert flat(made, 1) == [(1, 1)]
+
+
+def test_behind_a_machine_position_relative_words_start_from_an_unknown_place() -> None:
+    made = runs("L X+1 Y+1 Z+1 FMAX", "L X+0 R0 FMAX M92", "L IX+5 F9")
+    assert codes(made) == [("MACHINE", 5), ("POSITION", 6)]
