@@ -1,0 +1,29 @@
+"""Programs for the pipeline's tests: golden contours as an operator types them, inch, tool 0.5 across."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from core.program.edit import new_block
+from core.program.model import Block, CutterComp, Entry, LineSegment, Parameters, Program, Tool
+
+OVER_RUN_SQUARE = ((-1, 0), (2, 0), (2, 2), (0, 2), (0, -1))
+NOTCH = ((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
+OUTSIDE_SQUARE = ((0, 0), (2, 0), (2, 2), (0, 2), (0, 0))
+MID_SIDE_SQUARE = ((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0))
+
+Points = tuple[tuple[float, float], ...]
+
+
+def block(points: Points, comp: CutterComp, **changes: object) -> Block:
+    """A block of lines through these points."""
+    segments = tuple(LineSegment(x_end=Entry(x), y_end=Entry(y)) for x, y in points[1:])
+    start = {"x_start": Entry(points[0][0]), "y_start": Entry(points[0][1]), "z_bottom": Entry(-0.25)}
+    return replace(new_block(Program()), tool=Entry(1), cutter_comp=comp, segments=segments, **start, **changes)
+
+
+def program(*blocks: Block, parameters: Parameters | None = None) -> Program:
+    """A program of these blocks with tools 1 (0.5) and 2 (0.25), and no blend moves unless parameters say so."""
+    tools = (Tool(1, diameter=Entry(0.5)), Tool(2, diameter=Entry(0.25)))
+    plain = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0))
+    return Program(tools=tools, blocks=blocks, parameters=parameters or plain)

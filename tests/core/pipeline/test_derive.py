@@ -1,0 +1,143 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.finding import Severity
+from core.pipeline.derive import derive, stocks
+from core.pipeline.derived import Tag
+from core.pipeline.outline import outline
+from core.program.model import CutterComp, Entry, LineSegment, Parameters, Unread
+from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE, block, program
+
+IN = 25.4
+
+
+def codes(found):
+    return [finding.code for finding in found.findings]
+
+
+def test_the_over_run_square_gouges_at_cal_and_is_mended_by_four():
+    part = program(block(OVER_RUN_SQUARE, CutterComp.RIGHT))
+    (found,) = derive(part).blocks
+    assert (found.lookahead.value, found.lookahead.tag) == (2, Tag.CAL)
+    assert not found.postable
+    assert codes(found)[0] == "GOUGE"
+
+    mended = replace(part, blocks=(replace(part.blocks[0], lookahead=Entry(4)),))
+    (found,) = derive(mended).blocks
+    assert (found.lookahead.value, found.lookahead.tag, found.lookahead.calculated) == (4, Tag.USR, 2)
+    assert found.postable
+    np.testing.assert_allclose(found.work.centre.points / IN, [(-1, -0.25), (-0.25, -0.25), (-0.25, -1)], atol=1e-9)
+    assert found.work.verdict.uncut_length / IN == pytest.approx(8.5, abs=1e-5)
+    assert found.work.verdict.surface_length / IN == pytest.approx(10.0, abs=1e-12)
+    assert "USR_LOOKAHEAD" in codes(found)
+    assert "CROSSES_ITSELF" in codes(found)
+
+
+def test_errors_come_before_warnings_and_warnings_before_the_rest():
+    (found,) = derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT))).blocks
+    order = [list(Severity).index(finding.severity) for finding in found.findings]
+    assert order == sorted(order)
+
+
+def test_on_runs_on_the_contour_and_is_not_judged():
+    (found,) = derive(program(block(NOTCH, CutterComp.ON))).blocks
+    assert found.side is None
+    assert found.work.compensated is None
+    assert found.work.verdict is None
+    np.testing.assert_allclose(found.work.centre.points / IN, NOTCH, atol=1e-12)
+
+
+def test_blocks_that_did_not_change_are_not_derived_again():
+    part = program(block(NOTCH, CutterComp.LEFT), block(OUTSIDE_SQUARE, CutterComp.RIGHT))
+    before = derive(part)
+    after = derive(replace(part, blocks=(part.blocks[0], replace(part.blocks[1], lookahead=Entry(5)))), before)
+    assert after.blocks[0] is before.blocks[0]
+    assert after.blocks[1] is not before.blocks[1]
+
+
+@pytest.mark.parametrize("changed", ["tools", "parameters"])
+def test_what_every_block_depends_on_derives_every_block_again(changed):
+    part = program(block(NOTCH, CutterComp.LEFT))
+    before = derive(part)
+    copies = {"tools": tuple(list(part.tools)), "parameters": replace(part.parameters)}
+    other = (
+        replace(part, tools=(*part.tools[:1],)) if changed == "tools" else replace(part, **{changed: copies[changed]})
+    )
+    assert derive(other, before).blocks[0] is not before.blocks[0]
+
+
+def test_a_block_that_moved_to_another_place_has_its_own_number():
+    first, second = block(NOTCH, CutterComp.LEFT), block(OUTSIDE_SQUARE, CutterComp.RIGHT)
+    before = derive(program(first, second))
+    after = derive(replace(before.program, blocks=(second, first)), before)
+    assert [found.number for found in after.blocks] == [1, 2]
+    assert after.blocks[0].solved.closed
+
+
+def test_an_outline_knows_the_look_ahead_but_no_path():
+    (found,) = outline(program(block(OUTSIDE_SQUARE, CutterComp.RIGHT))).blocks
+    assert found.lookahead.value == 3
+    assert found.work is None
+    assert not found.known
+    assert not found.postable
+
+
+def test_the_part_that_is_determined_is_compensated_while_the_rest_is_typed():
+    typed = block(MID_SIDE_SQUARE, CutterComp.LEFT)
+    typed = replace(typed, segments=(*typed.segments[:2], LineSegment(), *typed.segments[3:]))
+    (found,) = derive(program(typed)).blocks
+    assert len(found.work.surface) == 2
+    assert "MISSING" in codes(found)
+    assert not found.postable
+
+
+def test_text_that_cannot_be_read_blocks_posting():
+    typed = replace(block(NOTCH, CutterComp.LEFT), lookahead=Entry(3), plunge_feed=Unread("2..0", "two points"))
+    (found,) = derive(program(typed)).blocks
+    assert found.work.verdict.clean
+    assert not found.postable
+
+
+def test_profile_comes_in_from_the_largest_offset_and_a_finish_tool_leaves_its_stock():
+    parameters = Parameters(
+        blend_offset=Entry(0),
+        blend_overlap=Entry(0),
+        max_offset=Entry(1.0),
+        pocket_overlap=Entry(20.0),
+        finish_xy=Entry(0.02),
+    )
+    typed = block(OUTSIDE_SQUARE, CutterComp.PROFILE_RIGHT, finish_tool=Entry(2))
+    (found,) = derive(program(typed, parameters=parameters)).blocks
+    # 0.5 across less 20 percent steps in by 0.4: 1.0, 0.6, 0.2, then the stock of 0.02
+    assert [one.stock / IN for one in found.work.rough] == pytest.approx([1.0, 0.6, 0.2, 0.02])
+    assert found.radius / IN == pytest.approx(0.125)
+    lowest = [float(one.centre.points[:, 1].min()) / IN for one in found.work.rough]
+    assert lowest == pytest.approx([-1.25, -0.85, -0.45, -0.27])
+    assert float(found.work.centre.points[:, 1].min()) / IN == pytest.approx(-0.125)
+    assert stocks(found, derive(program(typed, parameters=parameters)).program) == tuple(
+        one.stock for one in found.work.rough
+    )
+
+
+def test_a_gouging_roughing_pass_is_an_error_of_its_own():
+    """The stock's larger radius does not fit into the corner notch that the small finish tool clears."""
+    slot = ((0, 0), (2, 0), (2, -1), (2.3, -1), (2.3, 0), (5, 0))
+    typed = block(slot, CutterComp.LEFT, finish_tool=Entry(2))
+    (found,) = derive(program(typed)).blocks
+    assert found.work.verdict.clean
+    assert [finding.code for finding in found.errors] == ["ROUGH_GOUGES"]
+
+
+def test_a_blend_arc_that_gouges_is_named():
+    parameters = Parameters(blend_offset=Entry(0.9), blend_overlap=Entry(0))
+    narrow = ((1, 0), (2, 0), (2, 0.8), (0, 0.8), (0, 0), (1, 0))
+    (found,) = derive(program(block(narrow, CutterComp.LEFT), parameters=parameters)).blocks
+    assert [finding.code for finding in found.errors].count("BLEND_GOUGES") == 2
+
+
+def test_a_tool_larger_than_the_part_is_said():
+    tiny = ((0, 0), (0.2, 0), (0.2, 0.2), (0, 0.2), (0, 0))
+    (found,) = derive(program(block(tiny, CutterComp.RIGHT))).blocks
+    assert "TOOL_LARGE" in codes(found)

@@ -1,0 +1,103 @@
+import json
+
+import pytest
+
+from core.pipeline.derive import derive
+from core.pipeline.document import path_document, table_document
+from core.pipeline.jobs import jobs
+from core.pipeline.listing import path_listing, table_listing
+from core.pipeline.plot import block_scene, svg_of
+from core.pipeline.table import look_ahead_table
+from core.program.model import CutterComp, Entry, Parameters
+from core.units import Unit
+from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
+
+BLENDS = Parameters(blend_offset=Entry(0.125), blend_overlap=Entry(0.125))
+
+
+def test_moves_are_joined_in_program_units_and_tell_their_part():
+    derived = derive(program(block(MID_SIDE_SQUARE, CutterComp.LEFT), parameters=BLENDS))
+    document = json.loads(json.dumps(path_document(derived), allow_nan=False))
+    (found,) = document["blocks"]
+    assert document["units"] == "IN"
+    assert found["closed"] is True
+    assert found["lookahead"] == {"value": 4, "tag": "CAL"}
+    assert found["radius"] == pytest.approx(0.25)
+    moves = found["moves"]
+    for one, following in zip(moves, moves[1:], strict=False):
+        assert (one["x"], one["y"]) == (following["x0"], following["y0"])
+    assert [move["part"] for move in moves] == ["blend-in", *["path"] * 5, "blend-out", "blend-out"]
+    first = moves[0]
+    assert (first["type"], first["ccw"]) == ("arc", True)
+    assert (first["x0"], first["y0"]) == pytest.approx((0.875, 0.375))
+    assert (first["cx"], first["cy"]) == pytest.approx((1.0, 0.375))
+    assert (first["x"], first["y"]) == pytest.approx((1.0, 0.25))
+
+
+def test_corner_arcs_have_half_numbers_and_deletions_their_causes():
+    derived = derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3))))
+    (found,) = path_document(derived)["blocks"]
+    assert [move["segment"] for move in found["moves"]] == [1, 1.5, 4.5, 5]
+    assert [(one["segment"], one["by"]) for one in found["deleted"]] == [
+        (2, [1.5, 4.5]),
+        (3, [1.5, 4.5]),
+        (4, [1.5, 4.5]),
+    ]
+    assert (found["deleted"][0]["x"], found["deleted"][0]["y"]) == pytest.approx((2.15, 0.2))
+
+
+def test_findings_carry_their_place_and_a_sentence():
+    derived = derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT)))
+    gouge = path_document(derived)["blocks"][0]["findings"][0]
+    assert (gouge["code"], gouge["severity"]) == ("GOUGE", "error")
+    assert gouge["value"] == pytest.approx(0.25)
+    assert "0.2500" in gouge["text"]
+
+
+def test_only_the_block_that_was_asked_for():
+    part = program(block(NOTCH, CutterComp.LEFT), block(OVER_RUN_SQUARE, CutterComp.RIGHT))
+    assert [found["block"] for found in path_document(derive(part), 2)["blocks"]] == [2]
+
+
+def test_the_table_as_a_document_and_as_lines():
+    part = program(block(NOTCH, CutterComp.LEFT))
+    (found,) = derive(part).blocks
+    table = look_ahead_table(found, part)
+    document = table_document(found, table, Unit.IN)
+    assert document["recommended"] == 3
+    assert document["values"][1]["clean"] is False
+    assert document["values"][2] == {
+        "value": 3,
+        "clean": True,
+        "gouge": 0.0,
+        "uncut": pytest.approx(document["values"][2]["uncut"]),
+        "deleted": [2, 3, 4],
+    }
+    lines = list(table_listing(found, table, Unit.IN))
+    assert len(lines) == 23
+    assert lines[-1].strip() == "Recommended: 3"
+
+
+def test_the_listing_names_every_move():
+    derived = derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3))))
+    lines = list(path_listing(derived))
+    assert lines[0] == "BLOCK 1  CUTTER COMP. LEFT  open  LOOKAHEAD USR 3  IN"
+    assert len(lines) == 1 + 4 + 3
+    assert "about X       2.0000 Y       0.0000" in lines[2]
+
+
+def test_a_job_carries_what_is_posted():
+    (job,) = jobs(derive(program(block(MID_SIDE_SQUARE, CutterComp.LEFT), parameters=BLENDS)))
+    assert (job.cutter.number, job.finisher) == (1, None)
+    assert (job.lookahead, job.comp) == ("CAL 4", "LEFT")
+    assert job.z_bottom == pytest.approx(-0.25 * 25.4)
+    assert [floor.number for floor in job.floors] == [1, 2, 3, 4, 5]
+    assert len(job.finish) == 1
+    assert job.rough == ()
+
+
+def test_a_drawing_of_a_block_that_is_not_determined_yet():
+    part = program(block(NOTCH[:1], CutterComp.LEFT))
+    (found,) = derive(part).blocks
+    assert block_scene(found, 0, Unit.IN).layers == ()
+    assert svg_of(derive(part), title="empty").startswith("<")
