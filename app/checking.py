@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Final
 
 from core.controls import shoprules
 from core.controls.compare import Compared, OtherLanguage, Parting, compare
@@ -14,6 +15,9 @@ from core.controls.tools import ToolTable
 from core.controls.verdicts import Judged, depth, findings, judged
 from core.finding import Finding, Severity
 from core.units import Kind, Unit, from_mm, sentence, show
+
+NOT_FOLLOWED: Final = ("MACRO", "LIMIT")
+"""Rules at which not the control stops but the reading of the program."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -109,7 +113,8 @@ def _outcome(done: Run, results: tuple[Judged, ...]) -> str:
     gouges = f"gouges by {_length(cut, done.unit)} at line {line}" if cut else ""
     if done.stopped_at is not None:
         rule = next((one.code for one in reversed(done.findings) if one.severity is Severity.ERROR), "")
-        return f"alarms at line {done.stopped_at} ({rule})" + (f", {gouges} before" if gouges else "")
+        stops = "cannot be followed behind" if rule in NOT_FOLLOWED else "alarms at"
+        return f"{stops} line {done.stopped_at} ({rule})" + (f", {gouges} before" if gouges else "")
     if gouges:
         return gouges
     wrong = any(result.verdict.wrong_side for result in results)

@@ -16,7 +16,7 @@ from core.controls.moves import Plane
 from core.controls.report import Log, Run
 from core.controls.runner import execute
 from core.controls.tools import ToolTable
-from core.controls.words import Block, whole
+from core.controls.words import SWITCHES, Block, whole
 from core.finding import Severity
 from core.geometry.side import Side
 from core.units import Unit
@@ -26,7 +26,7 @@ _ARCS: Final = Arcs(inch=0.002828427, mm=0.02828427, worst=100.0)
 DIALECT: Final = Dialect(
     "linuxcnc",
     codes(
-        ("motion", Do.CYCLE, (730, 740)),
+        ("motion", Do.CYCLE, (382, 383, 384, 385, 730, 740)),
         ("compensation", Do.SIDE, (411, 421)),
         ("centres", Do.CENTRES, (901, 911)),
         ("system", Do.SYSTEM, (591, 592, 593)),
@@ -67,10 +67,31 @@ REFUSED: Final = {
 class LinuxCnc(LookAhead):
     """What turns LinuxCNC's compensation on, and what it refuses meanwhile."""
 
+    always = True
+
     def watch(self, block: Block) -> None:
-        """Codes that compensation does not allow."""
+        """Words without a code that takes them, and codes that compensation does not allow."""
+        words = block.words
+        if "D" in words and SWITCHES.isdisjoint(block.g) and 960 not in block.g:
+            text = "D needs G41, G42, G41.1 or G42.1 in its block."
+            self.log.stop("N-DALONE", text, block.line, block.column("D"))
+        if not _CENTRES.isdisjoint(words):
+            self._arc_words(block)
         for code in block.g:
-            self._refused(code, block)
+            if code // 10 == 38 and code != 380:
+                text = "Where a probe stops is not known before it runs."
+                self.log.stop("N-PROBE", text, block.line, block.column("G", code))
+            if self.active:
+                self._refused(code, block)
+
+    def _arc_words(self, block: Block) -> None:
+        """I, J, K and R go with arcs, and with codes that take no part in compensation."""
+        given = (code for code in block.g if code in DIALECT.codes and DIALECT.codes[code].group == "motion")
+        motion = next(given, self.machine.mode)
+        if motion in (0, 10) and not {100, 640}.intersection(block.g):
+            column = block.column("IJKR")
+            text = "I, J, K and R go with G2 and G3 only; leave them out."
+            self.log.stop("N-WORDALONE", text, block.line, column)
 
     def _refused(self, code: int, block: Block) -> None:
         column = block.column("G", code)
@@ -86,10 +107,10 @@ class LinuxCnc(LookAhead):
         """G41, G42, G41.1 and G42.1."""
         if self.machine.plane is Plane.YZ:
             text = "Compensation works in the planes G17 and G18 only; write one of them before it."
-            self.log.stop("N-XZYZ", text, block.line, block.column("G"))
+            self.log.stop("N-XZYZ", text, block.line, block.side_column())
         if self.active:
             text = "Compensation is on already; write G40 before it is turned on again."
-            self.log.stop("N-ONWHENON", text, block.line, block.column("G"))
+            self.log.stop("N-ONWHENON", text, block.line, block.side_column())
         radius = self.radius(block)
         self.turn_on(radius * side.sign)
 
@@ -98,7 +119,7 @@ class LinuxCnc(LookAhead):
         if not {411, 421}.isdisjoint(block.g):
             if "D" not in block.words:
                 text = "G41.1 and G42.1 need D and the cutter's diameter."
-                self.log.stop("N-DMISSING", text, block.line, block.column("G"))
+                self.log.stop("N-DMISSING", text, block.line, block.side_column())
             self._orientation(block)
             return block.words["D"] * self.machine.scale / 2
         number = self.machine.tool
@@ -108,7 +129,7 @@ class LinuxCnc(LookAhead):
         if tool is None:
             if number == 0 or "D" not in block.words:
                 text = "No tool is loaded, so the radius is 0 and nothing is compensated."
-                self.log.tell(Severity.WARNING, "RADIUS0", text, block.line, block.column("G"))
+                self.log.tell(Severity.WARNING, "RADIUS0", text, block.line, block.side_column())
                 return 0.0
             text = f"The tool table has no tool {number}; enter it, or write the number of one that is there."
             self.log.stop("N-DBIG", text, block.line, block.column("D"))
@@ -127,6 +148,7 @@ class LinuxCnc(LookAhead):
             self.log.stop("N-ORIENTATION", text, block.line, block.column("L"))
 
 
+_CENTRES: Final = frozenset("IJKR")
 _PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
 
 

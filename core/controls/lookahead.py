@@ -44,6 +44,9 @@ class Held(NamedTuple):
 class LookAhead(Follower):
     """The queue; `offset` is the radius in millimetres, positive with the tool on the left."""
 
+    always = False
+    """Whether blocks are watched without compensation too."""
+
     rules = Rules("N-GOUGE", "N-ARCRADIUS", "N-CONCAVE", "N-ARCEXIT")
 
     def __init__(self, log: Log) -> None:
@@ -53,6 +56,7 @@ class LookAhead(Follower):
         self.queue: list[Held] = []
         self.started: Point | None = None
         self.no_arc = False
+        self.watching = self.always
 
     def turn_on(self, offset: float) -> None:
         """Compensation is on from the next move on."""
@@ -66,7 +70,7 @@ class LookAhead(Follower):
             self._move_ends(square_end(self._front, self.offset), block.line)
             self.no_arc = True
             self.leave(entry=1, exits=0)
-        self.active = self.watching = False
+        self.active, self.watching = False, self.always
         self.first = True
 
     def close(self) -> None:

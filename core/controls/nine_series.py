@@ -72,7 +72,7 @@ class NineSeries(NineWords):
             self._leave_square()
         if not self.active:
             if self.machine.mode in (20, 30):
-                self._circular_start(block.line, block.column("G"))
+                self._circular_start(block.line, block.side_column())
             self.active, self.entering, self.quiet = True, True, 0
             self.held, self.start, self.elements = None, None, 0
         self.side = side

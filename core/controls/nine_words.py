@@ -7,12 +7,11 @@ from typing import Final
 from core.controls.chain import Chain
 from core.controls.generated import Corners
 from core.controls.report import Log
-from core.controls.words import Block, whole
+from core.controls.words import SWITCHES, Block, whole
 from core.finding import Severity
 from core.geometry.side import Side
 
 _CHANGES: Final = frozenset((520, 920, 921, 540, 550, 560, 570, 580, 590))
-_SWITCHES: Final = frozenset((410, 420))
 
 
 class NineWords(Chain):
@@ -49,7 +48,7 @@ class NineWords(Chain):
             self.interrupt(block)
         if self.active and self.leaving is None and not {170, 180, 190}.isdisjoint(block.g):
             text = "The plane is not changed under compensation; write G40 before."
-            self.log.stop("PLANE", text, block.line, block.column("G"))
+            self.log.stop("PLANE", text, block.line, block.side_column())
 
     def _take_number(self, block: Block) -> None:
         number = whole(block.words["D"])
@@ -57,10 +56,10 @@ class NineWords(Chain):
             text = "D is an offset number, a whole number."
             self.log.stop("NUMBER", text, block.line, block.column("D"))
         self.number = number
-        if number == 0 and (self.active or not _SWITCHES.isdisjoint(block.g)):
+        if number == 0 and (self.active or not SWITCHES.isdisjoint(block.g)):
             text = "D0 does not cancel compensation, it goes on with radius 0; write G40 to cancel."
             self.log.tell(Severity.WARNING, "R3", text, block.line, block.column("D"))
-        if self.active and self.leaving is None and _SWITCHES.isdisjoint(block.g) and self.side is not None:
+        if self.active and self.leaving is None and SWITCHES.isdisjoint(block.g) and self.side is not None:
             self.coming = self.radius(block) * self.side.sign
 
     def radius(self, block: Block) -> float:

@@ -19,7 +19,7 @@ from core.controls.moves import Plane
 from core.controls.report import Log, Run
 from core.controls.runner import execute
 from core.controls.tools import ToolTable
-from core.controls.words import Block, whole
+from core.controls.words import SWITCHES, Block, whole
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.geometry.side import Side
@@ -45,7 +45,6 @@ DIALECT: Final = Dialect(
 TANGENT: Final = 0.01
 """Radians under which a corner is none, by the text of NIST."""
 
-_SWITCHES: Final = frozenset((410, 420, 411, 421))
 _NOT_NOW: Final = frozenset((170, 180, 190, 280, 300, 520, 530, 920, 540, 550, 560, 570, 580, 590, 591, 592, 593))
 _PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
 
@@ -58,7 +57,7 @@ class Switch:
 
     def offset(self, side: Side, block: Block) -> float:
         """The signed radius asked for, in millimetres; trouble stops the run."""
-        column = block.column("G")
+        column = block.side_column()
         if self.follower.active:
             text = "Compensation is on already; write G40 before it is turned on again."
             self.follower.log.stop("C2", text, block.line, column)
@@ -73,10 +72,10 @@ class Switch:
         machine, log = self.follower.machine, self.follower.log
         if machine.plane is Plane.YZ:
             text = "G41.1 and G42.1 do not work in the plane G19; write G41 or another plane."
-            log.stop("C3", text, block.line, block.column("G"))
+            log.stop("C3", text, block.line, block.side_column())
         if "D" not in block.words:
             text = "G41.1 and G42.1 need D and the cutter's diameter."
-            log.stop("C1", text, block.line, block.column("G"))
+            log.stop("C1", text, block.line, block.side_column())
         self._orientation(block)
         return block.words["D"] * machine.scale
 
@@ -105,17 +104,17 @@ class Switch:
         tool = machine.tools.get(number)
         if tool is None and number:
             text = f"The tool table has no tool {number}; enter it, or write the number of one that is there."
-            log.stop("C1", text, block.line, block.column("D" if "D" in block.words else "G"))
+            log.stop("C1", text, block.line, block.column("D") if "D" in block.words else block.side_column())
         if tool is None:
             text = "No tool is loaded and there is no D, so the radius is 0 and nothing is compensated."
-            log.tell(Severity.WARNING, "RADIUS0", text, block.line, block.column("G"))
+            log.tell(Severity.WARNING, "RADIUS0", text, block.line, block.side_column())
         radius = tool.diameter_mm(machine.unit) / 2 if tool else 0.0
         return radius - block.words.pop("I", 0.0) * machine.scale
 
     def watch(self, block: Block) -> None:
         """The list of NIST, of which nobody said that it holds here."""
         log = self.follower.log
-        if "D" in block.words and _SWITCHES.isdisjoint(block.g):
+        if "D" in block.words and SWITCHES.isdisjoint(block.g):
             text = "D needs G41 or G42 in its block. That is an interpretation, by the list of NIST."
             log.stop("C8", text, block.line, block.column("D"))
         if not self.follower.active:
@@ -130,10 +129,10 @@ class Normal(LookAhead):
     """The entry `normal`: LinuxCNC's queue, in all three planes."""
 
     rules = Rules("C8", "C7", "C6", "C8")
+    always = True
 
     def __init__(self, log: Log) -> None:
         super().__init__(log)
-        self.watching = True
         self.switch = Switch(self)
 
     def watch(self, block: Block) -> None:
@@ -144,12 +143,7 @@ class Normal(LookAhead):
         """G41 and its kin."""
         self.turn_on(self.switch.offset(side, block))
         text = "The entry follows LinuxCNC: square to its own move. That is an interpretation."
-        self.log.tell(Severity.INFO, "ENTRY", text, block.line, block.column("G"))
-
-    def finish(self, block: Block) -> None:
-        """G40."""
-        super().finish(block)
-        self.watching = True
+        self.log.tell(Severity.INFO, "ENTRY", text, block.line, block.side_column())
 
 
 class Nist(Follower):
@@ -164,8 +158,11 @@ class Nist(Follower):
         self.first = True
 
     def watch(self, block: Block) -> None:
-        """What is refused."""
+        """What is refused, a change of unit among it."""
         self.switch.watch(block)
+        if self.active and not {200, 210}.isdisjoint(block.g):
+            text = "The unit is not changed under compensation. That is an interpretation, by NIST's list."
+            self.log.stop("C8", text, block.line, block.side_column())
 
     def begin(self, side: Side, block: Block) -> None:
         """G41 and its kin."""

@@ -119,7 +119,7 @@ class ThreeBlock(Chain):
 
     def begin(self, side: Side, block: Block) -> None:
         """G41, G42: the conditions, and the offset in force from the next block on."""
-        column = block.column("G")
+        column = block.side_column()
         if self.active:
             self._again(side, block)
             return
@@ -137,7 +137,7 @@ class ThreeBlock(Chain):
         self.turned_on = block.line
 
     def _again(self, side: Side, block: Block) -> None:
-        column = block.column("G")
+        column = block.side_column()
         if (self.offset > 0.0) != (side is Side.LEFT) and self._radius(block) > 0.0:
             text = "G41 and G42 cannot be exchanged while compensation is on; write G40 before."
             self.log.stop("B8-SIDE", text, block.line, column)
@@ -151,12 +151,12 @@ class ThreeBlock(Chain):
             text = f"The diameter of tool {self.machine.tool} is not entered; write T1/length/diameter before."
             if self.machine.tool == 0:
                 text = "The tool number has to stand before G41 or G42; write T and the number."
-            self.log.stop("B5-TOOL", text, block.line, block.column("G"))
+            self.log.stop("B5-TOOL", text, block.line, block.side_column())
         diameter = tool.diameter_mm(self.machine.unit)
         if abs(diameter) > LARGEST_DIAMETER + 1e-6:
             text = "The diameter {0} is beyond the largest of this control, {1}."
             lengths = (diameter, LARGEST_DIAMETER)
-            self.log.stop("B4-MAX", text, block.line, block.column("G"), lengths=lengths)
+            self.log.stop("B4-MAX", text, block.line, block.side_column(), lengths=lengths)
         return diameter / 2
 
     def idle(self, block: Block) -> None:

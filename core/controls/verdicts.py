@@ -93,7 +93,9 @@ def _cuts(result: Judged) -> list[Finding]:
         found.append(Finding("GOUGE", Severity.ERROR, f"There are {left} more gouges, none of them deeper."))
     if verdict.wrong_side:
         line = int(result.centre.numbers[verdict.wrong_side[0]])
-        text = "The cutter runs on the wrong side of the contour; exchange G41 and G42, or RL and RR."
+        text = "The cutter runs on the wrong side of the contour here."
+        if 2 * len(verdict.wrong_side) > len(result.centre):
+            text = "The cutter runs on the wrong side of the contour; exchange G41 and G42, or RL and RR."
         found.append(Finding("WRONG-SIDE", Severity.ERROR, text, line=line))
     return found
 
@@ -104,10 +106,10 @@ def _leads(result: Judged) -> list[Finding]:
         return []
     text = f"{len(result.leads)} moves before or behind the closed contour are taken for leads, not for surface."
     found = [Finding("LEADS", Severity.INFO, text, line=result.leads[0])]
-    for gouge in result.lead_gouges[:MOST_GOUGES]:
-        text = f"The cutter gouges line {int(gouge.surface_number)} by {{value}}, which is taken for a lead."
+    for gouge in result.lead_gouges[:1]:
+        text = f"The cutter cuts {{value}} into line {int(gouge.surface_number)}; if that is no lead, it is a gouge."
         line = int(gouge.path_number)
-        found.append(Finding("LEAD-GOUGE", Severity.WARNING, text, at=gouge.surface_at, value=gouge.depth, line=line))
+        found.append(Finding("LEAD-GOUGE", Severity.INFO, text, at=gouge.surface_at, value=gouge.depth, line=line))
     return found
 
 

@@ -26,6 +26,10 @@ WHOLE: Final = 1e-4
 """How far a code or a tool number may be from a whole number (a code: of tenths) and still be one."""
 
 
+SWITCHES: Final = frozenset((410, 420, 411, 421))
+"""The codes that turn compensation on."""
+
+
 class Semicolon(Enum):
     """What a semicolon is to a control: the beginning of a comment, or the end of a block."""
 
@@ -72,6 +76,10 @@ class Block:
             if letter in letters and (code is None or tenths(float(number)) == code):
                 return at
         return self.start + 1
+
+    def side_column(self) -> int:
+        """Where the code that turns compensation on stands."""
+        return self.column("G", next((code for code in self.g if code in SWITCHES), None))
 
     def second(self, letter: str) -> int:
         """Where the second word of a letter stands."""

@@ -1,0 +1,66 @@
+"""Runs of programs in a shape that a person can compare with a calculation by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from core.controls import registry
+from core.controls.registry import UnknownControl
+from core.controls.report import Run
+from core.controls.tools import ToolTable
+from core.finding import Finding
+from core.units import from_mm
+
+DATA = Path(__file__).parents[2] / "data"
+
+
+def ran(text: str | bytes, control: str, **diameters: float) -> Run:
+    """The run of a program with tools named t1, t2 ... of these diameters in program units."""
+    table = ToolTable.diameters({int(name[1:]): value for name, value in diameters.items()})
+    program = text.encode() if isinstance(text, str) else text
+    done = registry.run(program, control, table)
+    assert not isinstance(done, UnknownControl)
+    return done
+
+
+def sample(name: str, control: str, **diameters: float) -> Run:
+    """The run of a sample program."""
+    return ran((DATA / "nc" / name).read_bytes(), control, **diameters)
+
+
+def told(done: Run, code: str) -> list[Finding]:
+    """The findings of one rule."""
+    return [finding for finding in done.findings if finding.code == code]
+
+
+def lines_and_ends(done: Run, line: int | None = None) -> list[tuple[float, float]]:
+    """The end points X, Y of the moves (of one line), in program units, to nine decimals."""
+    return [
+        (round(from_mm(move.point[0], done.unit), 9), round(from_mm(move.point[1], done.unit), 9))
+        for move in done.moves
+        if move.line and (line is None or move.line == line)
+    ]
+
+
+def shape(done: Run, start: int = 1) -> list[tuple[object, ...]]:
+    """Every move from a row on: its turn as letter, its end and an arc's centre in X, Y, program units."""
+    letters = {0: "line", 1: "ccw", -1: "cw"}
+    out: list[tuple[object, ...]] = []
+    for move in list(done.moves)[start:]:
+        values = [*move.point[:2], *(move.centre[:2] if move.turn else ())]
+        name = "rapid" if move.rapid else letters[move.turn]
+        out.append((name, *(from_mm(value, done.unit) for value in values)))
+    return out
+
+
+def same(shapes: Sequence[tuple[object, ...]], wanted: Sequence[tuple[object, ...]], within: float = 1e-6) -> bool:
+    """Whether two shapes agree in kind, and in every number to a tolerance."""
+    if len(shapes) != len(wanted):
+        return False
+    for one, other in zip(shapes, wanted, strict=True):
+        if one[0] != other[0] or len(one) != len(other):
+            return False
+        if any(abs(float(str(a)) - float(str(b))) > within for a, b in zip(one[1:], other[1:], strict=True)):
+            return False
+    return True

@@ -1,0 +1,114 @@
+"""LinuxCNC against its own interpreter, and its modal machine by hand."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from core.controls.moves import Plane
+from core.units import Unit, from_mm
+from tests.core.controls.compare_rs274 import outcome, programs
+from tests.core.controls.hand import ran, same, shape, told
+from tests.core.controls.rs274 import WITNESS, difference, printed, witness
+
+needs_witness = pytest.mark.skipif(WITNESS is None, reason="LinuxCNC's rs274 is not installed")
+
+DIAMETERS = {1: 0.5, 2: 0.25}
+
+
+@needs_witness
+def test_random_programs_run_or_are_refused_as_by_the_interpreter_itself(tmp_path: Path) -> None:
+    fared = {name: outcome(text, tmp_path) for name, text in programs(360)}
+    wrong = {name: what for name, what in fared.items() if not what[0].startswith(("same moves", "both refuse"))}
+    assert not wrong
+    assert sum(what[0] == "same moves" for what in fared.values()) > 120
+
+
+MODAL = {
+    "subprograms, repeated": "G20 F9\nM98 P7 L3\nG90\nM98 P8\nM2\nO7\nG91 G1 X1 Y.5\nM99\nO8\nG1 X0\nM98 P7\nM99\n",
+    "a local shift replaces the last one": "G20 F9\nG52 X5\nG1 X1\nG52 X-5 Y1\nG1 X1 Y1\nG52 X0 Y0\nG1 X1\nM2\n",
+    "a preset origin": "G20 F9\nG1 X1 Y1\nG92 X0 Y5\nG1 X2 Y2\nG92.1\nG1 X0 Y0\nM2\n",
+    "arcs by radius": "G20 F9\nG1 X1\nG2 X3 R1\nG3 X3 Y2 R-1.5\nG2 X2 Y3 R1\nM2\n",
+    "arcs with absolute centres": "G20 F9\nG90.1\nG1 X1\nG2 X3 Y0 I2 J0\nG3 X3 Y0 I4 J0\nM2\n",
+    "planes": "G20 F9\nG18\nG2 X2 Z0 I1 K0\nG19\nG3 Y1 Z1 J0 K1\nG17\nG2 X4 Y1 I1\nM2\n",
+    "a helix": "G20 F9\nG2 X2 Y0 Z-1 I1\nG3 X2 Y0 Z-2 J1\nM2\n",
+    "incremental moves under compensation": "G20 F9\nG42 D1\nG1 X2\nG91\nX2\nY-2\nG2 X1 Y-1 I1\nG40\nG1 G90 X0\nM2\n",
+    "z moves wait at an inside corner": "G20 F9\nG41 D1\nG1 X2\nX4\nZ-1\nZ0\nY3\nG40\nX0\nM2\n",
+    "compensation of radius 0": "G20 F9\nG41\nG1 X2\nX4\nY3\nG40\nX0\nM2\n",
+    "the program ends under compensation": "G20 F9\nG41 D1\nG1 X2\nX4\nM2\n",
+    "machine coordinates": "G20 F9\nG52 X3\nG1 X1\nG53 G0 X1\nG1 X1\nM2\n",
+    "a rapid corner": "G20 F9\nG42 D1\nG0 X2\nG0 X4\nG0 Y3\nG1 X0\nG40\nX-2\nM2\n",
+    "comments and spaces": "g20 (inch) f 9\ng1 x1 (y2) y 3 ; z4\nm2\n",
+    "a work offset set by the program": "G20 F9\nG55\nG1 X1\nG54\nG1 X1\nM2\n",
+}
+
+
+@needs_witness
+@pytest.mark.parametrize("name", MODAL)
+def test_the_modal_machine_moves_as_the_interpreter_itself(name: str, tmp_path: Path) -> None:
+    theirs = witness(MODAL[name], tmp_path, DIAMETERS, Unit.IN)
+    ours = ran(MODAL[name], "linuxcnc", t1=0.5, t2=0.25)
+    assert not theirs.refusal
+    assert ours.stopped_at is None
+    assert not difference(printed(ours), theirs.moves)
+
+
+REFUSED = {
+    "no feed": "G20\nG1 X1\nM2\n",
+    "no motion": "G20 F9\nX1\nM2\n",
+    "an arc that does not reach": "G20 F9\nG2 X5 R1\nM2\n",
+    "radii that differ": "G20 F9\nG2 X2 I1.5\nM2\n",
+    "a centre outside the plane": "G20 F9\nG2 X2 K1\nM2\n",
+    "an arc without centre": "G20 F9\nG2 X2\nM2\n",
+    "a radius and a centre": "G20 F9\nG2 X2 R1 I1\nM2\n",
+    "a full circle by radius": "G20 F9\nG2 X0 Y0 R1\nM2\n",
+    "an unknown code": "G20 F9\nG77 X1\nM2\n",
+    "a tool that is not there": "G20 F9\nT8 M6\nM2\n",
+    "a missing subprogram": "G20 F9\nM98 P44\nM2\n",
+    "no end": "G20 F9\nG1 X1\n\n",
+}
+
+
+@needs_witness
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_the_interpreter_refuses_is_refused_or_warned_of(name: str, tmp_path: Path) -> None:
+    assert witness(REFUSED[name], tmp_path, DIAMETERS, Unit.IN).refusal
+    ours = ran(REFUSED[name], "linuxcnc", t1=0.5)
+    assert ours.stopped_at is not None or told(ours, "END")
+
+
+def test_entry_corner_and_exit_by_hand() -> None:
+    done = ran("G20 F9\nG41 D1\nG1 X1 Y0\nX2 Y0\nX2 Y1\nG40\nX5 Y5\nM2\n", "linuxcnc", t1=0.5)
+    wanted = [("line", 1, 0.25), ("line", 1.75, 0.25), ("line", 1.75, 1), ("line", 5, 5)]
+    assert same(shape(done), wanted)
+
+
+def test_the_unit_may_change_under_compensation() -> None:
+    done = ran("G20 F9\nG41 D1\nG1 X2\nX4\nG21\nX152.4\nG40\nG1 Y25.4\nM2\n", "linuxcnc", t1=0.5)
+    assert same(shape(done), [("line", 2, 0.25), ("line", 4, 0.25), ("line", 6, 0.25), ("line", 6, 1)])
+
+
+def test_subprograms_that_call_themselves_are_stopped() -> None:
+    done = ran("G20 F9\nM98 P1\nM2\nO1\nG1 X1\nM98 P2\nM99\nO2\nM98 P1\nM99\n", "linuxcnc")
+    assert done.stopped_at == told(done, "SUBPROGRAM")[0].line == 9
+
+
+def test_endless_repeats_are_given_up() -> None:
+    text = "G20 F9\nM98 P1 L9999999\nM2\nO1\nS1\nM99\n"
+    assert told(ran(text, "linuxcnc"), "LIMIT")
+
+
+def test_the_feed_of_a_block_counts_in_the_unit_before() -> None:
+    done = ran("G20 F20\nG1 X1\nF20\nG1 X2\nM2\n", "linuxcnc")
+    assert [from_mm(move.feed, Unit.IN) for move in list(done.moves)[1:]] == pytest.approx([20 / 25.4, 20])
+
+
+def test_a_stretch_knows_what_was_programmed() -> None:
+    done = ran("G20 F9\nG0 X0 Y-1\nG42 D1\nG1 Y0\nX4\nY4\nG40\nX9\nM2\n", "linuxcnc", t1=0.5)
+    (stretch,) = done.stretches
+    assert (stretch.plane, stretch.entry, stretch.exit) == (Plane.XY, 1, 0)
+    points = [(0, -1, 0), (0, 0, 0), (4, 0, 0), (4, 4, 0)]
+    assert np.allclose(stretch.programmed.points / 25.4, points)
+    assert [int(line) for line in stretch.programmed.lines] == [0, 4, 5, 6]

@@ -1,0 +1,54 @@
+"""Broken programs never raise, hang or take long on any control.
+
+`python -m tests.core.controls.test_mutations` runs 1,000 mutations of every sample on every control.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from random import Random
+from time import perf_counter
+
+import numpy as np
+import pytest
+
+from core.controls.registry import names
+from tests.core.controls.hand import DATA, ran
+from tests.core.controls.klartext.test_mutations import mutated
+
+SAMPLES = sorted((DATA / "nc").glob("*.n*"))
+ISO = [name for name in names() if not name.startswith("klartext")]
+SLOWEST = 1.0
+"""Seconds a program of this size may take."""
+
+
+def slowest(sample: Path, count: int, controls: list[str]) -> float:
+    """Runs mutations of a sample, each on one of the controls in turn; seconds of the slowest."""
+    random, text, most = Random(sample.name), sample.read_bytes(), 0.0
+    for index in range(count):
+        program, control = mutated(text, random), controls[index % len(controls)]
+        before = perf_counter()
+        done = ran(program, control, t1=0.5, t3=10.0)
+        most = max(most, perf_counter() - before)
+        assert np.isfinite(done.moves.points).all(), (control, program)
+        assert np.isfinite(done.moves.centres).all(), (control, program)
+        for finding in done.findings:
+            assert finding.text.isprintable(), (control, program)
+            assert finding.line is None or finding.line >= 1
+    return most
+
+
+@pytest.mark.parametrize("sample", SAMPLES, ids=lambda sample: sample.stem)
+def test_mutations_of_a_sample(sample: Path) -> None:
+    assert slowest(sample, 60, ISO) < SLOWEST
+
+
+def main() -> None:
+    """The full thing."""
+    for sample in SAMPLES:
+        for control in ISO:
+            print(f"{sample.name:32}{control:24}{slowest(sample, 1000, [control]):8.3f} s")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,170 @@
+"""The 9/Series against calculations by hand; radius .25, tool on the left unless said."""
+
+from __future__ import annotations
+
+from math import sqrt, tan
+
+import pytest
+
+from core.units import from_mm
+from tests.core.controls.hand import ran, same, sample, shape, told
+
+ROOT = sqrt(0.5)
+
+
+def path(body: str, control: str = "nine-series:a", diameter: float = 0.5) -> list[tuple[object, ...]]:
+    """The shape of a program that starts at 0, 0 in inches."""
+    return shape(ran(f"G20 G17 G1 F10\n{body}", control, t1=diameter, t2=0.2))
+
+
+def test_one_two_and_three_blocks_enter_alike() -> None:
+    shapes = [shape(sample(f"nine-series-{name}.nc", "nine-series", t1=0.5)) for name in ("one-block", "two-blocks")]
+    shapes.append(shape(sample("nine-series-three-blocks.nc", "nine-series", t1=0.5)))
+    entered = [("line", 0, -1), ("line", 1, 0.75), ("line", 3.25, 0.75), ("line", 3.25, 3), ("line", 0, 3)]
+    assert all(same(one, entered) for one in shapes)
+
+
+def test_d_may_stand_in_the_motion_block_behind_g41() -> None:
+    assert same(path("G41\nX1 Y1 D1\nX3")[:2], [("line", 1, 1.25), ("line", 3, 1.25)])
+
+
+def test_type_a_goes_straight_to_the_square_start() -> None:
+    assert same(path("G41 D1 X1 Y1\nX1 Y-3")[:1], [("line", 1.25, 1)])
+
+
+def test_type_b_at_an_obtuse_wedge_goes_by_the_meeting_of_the_prolonged_offsets() -> None:
+    bent = path("G41 D1 X2 Y0\nX2 Y-3", "nine-series:b")
+    assert same(bent[:2], [("line", 2.25, 0.25), ("line", 2.25, 0)])
+
+
+def test_type_b_at_an_acute_wedge_makes_three_blocks() -> None:
+    bent = path("G41 D1 X2 Y0\nX0 Y-2", "nine-series:b")
+    out = (2 + 0.25 * ROOT, -0.25 * ROOT)
+    wanted = [("line", 2, 0.25), ("line", 2.25, 0.25), ("line", out[0] + 0.25 * ROOT, out[1] + 0.25 * ROOT)]
+    assert same(bent[:4], [*wanted, ("line", *out)])
+
+
+def test_type_b_with_g39_1_goes_round_the_corner() -> None:
+    out = (2 + 0.25 * ROOT, -0.25 * ROOT)
+    bent = path("G39.1\nG41 D1 X2 Y0\nX0 Y-2", "nine-series:b")
+    assert same(bent[:2], [("line", 2, 0.25), ("cw", *out, 2, 0)])
+    assert same(path("G41 D1 X2 Y0\nX0 Y-2", "nine-series:b-g39.1"), bent)
+
+
+def test_type_b_at_an_inside_corner_is_type_a() -> None:
+    body = "G41 D1 X2 Y0\nX2 Y3\nG40 X0 Y3"
+    assert same(path(body, "nine-series:b"), path(body, "nine-series:a"))
+
+
+def test_an_obtuse_outside_corner_is_prolonged() -> None:
+    bent = path("G41 D1 X0 Y1\nX4 Y1\nX4 Y-3")
+    assert same(bent[1:3], [("line", 4.25, 1.25), ("line", 4.25, -3)])
+
+
+def test_the_prolongation_is_the_tangent_of_half_the_turn() -> None:
+    bent = path("G41 D1 X0 Y1\nX4 Y1\nX8 Y-3")
+    assert same(bent[1:2], [("line", 4 + 0.25 * tan(0.7853981633974483 / 2), 1.25)])
+
+
+def test_an_acute_outside_corner_gets_a_generated_block() -> None:
+    bent = path("G41 D1 X0 Y1\nX4 Y1\nX0 Y-3")
+    second = (4 + 0.5 * ROOT, 1)
+    assert same(bent[1:3], [("line", 4.25, 1.25), ("line", *second)])
+
+
+def test_g39_1_makes_an_arc_between_lines_only() -> None:
+    bent = path("G39.1\nG41 D1 X0 Y1\nX4 Y1\nX0 Y-3")
+    assert same(bent[1:3], [("line", 4, 1.25), ("cw", 4 + 0.25 * ROOT, 1 - 0.25 * ROOT, 4, 1)])
+    arc = path("G39.1\nG41 D1 X0 Y1\nX4 Y1\nG2 X4 Y-1 I0 J-1\nG2 X4 Y1 I0 J1")
+    assert not any(move[0] == "cw" and move[3:] == (4, -1) for move in arc)
+
+
+def test_g39_switches_back() -> None:
+    assert same(
+        path("G39.1\nG39\nG41 D1 X0 Y1\nX4 Y1\nX0 Y-3"),
+        path("G41 D1 X0 Y1\nX4 Y1\nX0 Y-3"),
+    )
+
+
+def test_a_corner_of_line_and_arc_takes_the_arc_s_tangent() -> None:
+    bent = path("G41 D1 X0 Y1\nX4 Y1\nG2 X5 Y0 I0 J-1\nG1 X5 Y-3")
+    assert same(bent[1:4], [("line", 4, 1.25), ("cw", 5.25, 0, 4, 0), ("line", 5.25, -3)])
+    sharp = path("G41 D1 X0 Y1\nX4 Y1\nG2 X5 Y2 I1 J0")
+    assert sharp[1][0] == "line"
+
+
+def test_an_outside_corner_onto_an_arc_goes_over_the_prolonged_tangents() -> None:
+    bent = path("G41 D1 X0 Y1\nX4 Y1\nG3 X8 Y1 I2 J0\nG1 Y5")
+    assert same(bent[1:4], [("line", 4.25, 1.25), ("line", 4.25, 1), ("ccw", 7.75, 1, 6, 1)])
+
+
+def test_inside_corners_meet() -> None:
+    assert same(path("G41 D1 X0 Y1\nX4 Y1\nX4 Y4")[1:2], [("line", 3.75, 1.25)])
+
+
+def test_type_a_leaves_from_the_square_end() -> None:
+    assert same(path("G41 D1 X0 Y1\nX4 Y1\nG40 X4 Y-3")[1:], [("line", 4, 1.25), ("line", 4, -3)])
+
+
+def test_type_b_leaves_as_the_mirror_image_of_its_entry() -> None:
+    bent = path("G41 D1 X0 Y1\nX4 Y1\nG40 X4 Y-3", "nine-series:b")
+    assert same(bent[-3:], [("line", 4, 1.25), ("line", 4.25, 1.25), ("line", 4, -3)])
+
+
+def test_a_vector_bends_the_exit_by_one_radius_at_most() -> None:
+    bent = path("G41 D1 X0 Y1\nX4 Y1\nG40 X6 Y4 I0 J1")
+    assert same(bent[1:], [("line", 3.75, 1.25), ("line", 6, 4)])
+    far = path("G41 D1 X0 Y1\nX4 Y1\nG40 X6 Y4 I-1 J.1")
+    assert same(far[1:2], [("line", 3.75, 1.25)])
+
+
+def test_a_vector_along_the_path_shifts_against_itself() -> None:
+    assert same(path("G41 D1 X0 Y1\nX4 Y1\nG40 X6 Y4 I1")[1:2], [("line", 3.75, 1.25)])
+
+
+def test_the_side_changes_square_to_both() -> None:
+    done = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG42 X4 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
+    assert same(shape(done)[1:4], [("line", 4, 1.25), ("line", 4.25, 1), ("line", 4.25, 4)])
+    assert "interpretation" in told(done, "CHANGE")[0].text
+
+
+def test_the_side_may_change_in_an_arc_block() -> None:
+    done = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG42 G3 X5 Y2 I0 J1\nG40 G1 X0 Y9", "nine-series", t1=0.5)
+    assert done.stopped_at is None
+
+
+def test_a_new_radius_counts_from_the_start_of_its_block() -> None:
+    bent = path("G41 D1 X0 Y1\nX4 Y1\nD2 X4 Y4\nG40 X0 Y9")
+    assert same(bent[1:4], [("line", 4, 1.25), ("line", 3.9, 1), ("line", 3.9, 4)])
+
+
+def test_d0_goes_on_with_radius_0() -> None:
+    bent = path("G41 D1 X0 Y1\nX4 Y1\nD0 X4 Y4\nX8\nG40 X0 Y9")
+    assert same(bent[2:5], [("line", 4, 1), ("line", 4, 4), ("line", 8, 4)])
+
+
+def test_inside_arcs_keep_the_surface_s_feed() -> None:
+    done = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nG3 X5 Y2 I0 J1\nG1 Y4\nG40 X0", "nine-series", t1=0.5)
+    (arc,) = [move for move in done.moves if move.turn]
+    assert from_mm(arc.feed, done.unit) == pytest.approx(7.5)
+
+
+def test_too_many_blocks_without_motion_end_the_move_square() -> None:
+    quiet = "S100\n" * 11
+    done = ran(f"G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\n{quiet}X4 Y4\nX8 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
+    assert same(shape(done)[1:3], [("line", 4, 1.25), ("line", 4, 4.25)])
+    few = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nS100\nX4 Y4\nX8 Y4\nG40 X0 Y9", "nine-series", t1=0.5)
+    assert same(shape(few)[1:2], [("line", 3.75, 1.25)])
+
+
+def test_a_change_of_origin_leaves_and_enters_again() -> None:
+    done = ran("G20 G1 F10\nG41 D1 X0 Y1\nX4 Y1\nX4 Y4\nG55\nX8 Y4\nX8 Y9\nG40 X0 Y9", "nine-series", t1=0.5)
+    wanted = [("line", 4, 1.25), ("line", 4, 4), ("line", 7.75, 4), ("line", 7.75, 9), ("line", 0, 9)]
+    assert same(shape(done)[1:], wanted)
+
+
+def test_m800_lets_a_backwards_move_run() -> None:
+    body = "G41 D1 X1 Y1\nX5 Y1\nX5 Y1.1\nX1 Y1.1\nG40 X0 Y0\n"
+    assert ran(f"G20 G1 F10\n{body}", "nine-series", t1=0.5).stopped_at == 4
+    assert ran(f"G20 G1 F10\nM800\n{body}", "nine-series", t1=0.5).stopped_at is None
+    assert ran(f"G20 G1 F10\nM800\nM801\n{body}", "nine-series", t1=0.5).stopped_at == 6

@@ -1,0 +1,147 @@
+"""Reading lines into words, with columns for what is wrong."""
+
+from __future__ import annotations
+
+from time import perf_counter
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.controls.report import AlarmError, Log
+from core.controls.source import lines_of, shown
+from core.controls.words import Block, Semicolon, Slash, ToolData, read_line, tenths, whole
+from core.finding import Finding
+
+
+def block(text: str, **options: Semicolon | Slash) -> Block:
+    (found,) = read_line(text, 1, Log(), **options)  # type: ignore[arg-type]  # names are those of the parameters
+    return found
+
+
+def alarm(text: str) -> Finding | None:
+    try:
+        read_line(text, 1, Log(), Semicolon.END, Slash.DATA)
+    except AlarmError as caught:
+        return caught.finding
+    return None
+
+
+def fault(text: str) -> tuple[str, int | None]:
+    with pytest.raises(AlarmError) as caught:
+        read_line(text, 3, Log())
+    assert caught.value.finding.line == 3
+    return caught.value.finding.code, caught.value.finding.column
+
+
+@pytest.mark.parametrize(
+    "text", ["G1X1.5Y-.25F20.", "g1 x1.5 y-.25 f20.", "  G01  X 1.5\tY-.25 F20", "G1X+1.5Y-0.25F20;end"]
+)
+def test_words_touching_spaced_and_small(text: str) -> None:
+    found = block(text)
+    assert found.g == [10]
+    assert found.words == {"X": 1.5, "Y": -0.25, "F": 20.0}
+
+
+def test_codes_are_counted_in_tenths() -> None:
+    found = block("G41.1 G90 M6 M03")
+    assert (found.g, found.m) == ([411, 900], [60, 30])
+    assert (tenths(41.1), tenths(41.15), tenths(-1.0), tenths(1e9)) == (411, None, None, None)
+    assert (whole(3.00001), whole(2.5)) == (3, None)
+
+
+@pytest.mark.parametrize("text", ["", "   ", "%", "(nothing)", "; nothing", "(a)(b) ; c"])
+def test_lines_without_a_block(text: str) -> None:
+    assert read_line(text, 1, Log()) == []
+
+
+def test_comments_stand_anywhere() -> None:
+    assert block("G1 (to X9) X2 (Y9) ; Y8").words == {"X": 2.0}
+    assert block("(a;b) X2").words == {"X": 2.0}
+
+
+def test_columns_count_from_1_and_see_through_comments() -> None:
+    found = block("(X9) G1 X2")
+    assert (found.column("X"), found.column("G", 10), found.column("Z")) == (9, 6, 1)
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "column"),
+    [
+        ("G1 X1 X2", "TWICE", 7),
+        ("G1 X", "WORD", 4),
+        ("G1 X1 ?", "WORD", 7),
+        ("G1 X1..2", "WORD", 7),
+        ("G1 X[1+2]", "MACRO", 4),
+        ("#1=2", "MACRO", 1),
+        ("G1 X#1", "MACRO", 4),
+        ("G1 (open", "COMMENT", 4),
+        ("G1 X1) Y2", "WORD", 6),
+        ("G1.55 X1", "CODE", 1),
+        ("X1" + "0" * 30, "NUMBER", 1),
+    ],
+)
+def test_faults_have_a_place(text: str, code: str, column: int) -> None:
+    assert fault(text) == (code, column)
+
+
+def test_tool_data_behind_slashes() -> None:
+    assert block("T4/.75/.2", slash=Slash.DATA).data == ToolData(4, 0.75, 0.2)
+    assert block("T5//-.5", slash=Slash.DATA).data == ToolData(5, None, -0.5)
+
+
+def test_a_semicolon_may_end_a_block() -> None:
+    found = read_line("G1X1;X2;Y3.", 1, Log(), Semicolon.END, Slash.DATA)
+    assert [one.words for one in found] == [{"X": 1.0}, {"X": 2.0}, {"Y": 3.0}]
+    assert [one.column("XY") for one in found] == [3, 6, 9]
+
+
+def test_prose_behind_the_end_of_a_block_is_told() -> None:
+    log = Log()
+    (found,) = read_line("T5//-.5;        For tool 5, DIA=-.5", 1, log, Semicolon.END, Slash.DATA)
+    assert found.data == ToolData(5, None, -0.5)
+    assert [(one.code, one.column) for one in log.findings] == [("TEXT", 17)]
+
+
+def test_block_skip_is_off_and_told() -> None:
+    log = Log()
+    (found,) = read_line("/G1X1", 1, log)
+    assert found.words == {"X": 1.0}
+    assert [one.code for one in log.findings] == ["SKIP"]
+
+
+@pytest.mark.parametrize(
+    "text", [b"G1\nX2\n", b"G1\r\nX2", b"G1\rX2\r", b"\xef\xbb\xbfG1\nX2", "G1\nX2".encode("utf-16")]
+)
+def test_line_ends_and_encodings(text: bytes) -> None:
+    assert lines_of(text) == ["G1", "X2"]
+
+
+def test_bytes_that_are_no_text_are_lines_all_the_same() -> None:
+    assert lines_of(b"\xff\x00\x81\nG1") == ["\xff\x00\x81", "G1"]
+    assert lines_of(b"") == []
+
+
+def test_letters_that_only_look_plain_are_not_words() -> None:
+    assert fault("\u017f500")[0] == "WORD"
+
+
+def test_what_is_shown_has_no_signs_a_terminal_obeys() -> None:
+    assert shown("\x1b[2J\x07{x}") == "?[2J??x?"
+    assert shown("A" * 100) == "A" * 24 + "..."
+
+
+@pytest.mark.parametrize("piece", ["X1", "(", "()", "1", " ", ";", ")(", "X"])
+def test_a_line_of_a_megabyte_takes_no_time(piece: str) -> None:
+    before = perf_counter()
+    said = alarm(piece * (1_000_000 // len(piece)))
+    assert perf_counter() - before < 4.0
+    assert said is None or len(said.text) < 200
+
+
+@given(st.text(max_size=60))
+@settings(max_examples=300, derandomize=True)
+def test_any_text_is_read_or_faulted(text: str) -> None:
+    said = alarm(text)
+    assert said is None or said.text.isprintable()
+    assert said is None or (said.column or 0) >= 1
