@@ -1,4 +1,5 @@
 import json
+from itertools import pairwise
 
 import pytest
 
@@ -24,7 +25,7 @@ def test_moves_are_joined_in_program_units_and_tell_their_part():
     assert found["lookahead"] == {"value": 4, "tag": "CAL"}
     assert found["radius"] == pytest.approx(0.25)
     moves = found["moves"]
-    for one, following in zip(moves, moves[1:], strict=False):
+    for one, following in pairwise(moves):
         assert (one["x"], one["y"]) == (following["x0"], following["y0"])
     assert [move["part"] for move in moves] == ["blend-in", *["path"] * 5, "blend-out", "blend-out"]
     first = moves[0]
