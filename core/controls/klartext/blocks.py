@@ -16,10 +16,10 @@ NUMBER: Final = r"[+-]?(?:Q[LR]?\d+|\d+[.,]?\d*|[.,]\d+)"
 """A number with a point or a comma, or a Q parameter; either with a sign or without."""
 
 _NAMES: Final = r"FMAX|FAUTO|R[LR](?=[FM]|\s|$)|[A-PR-Z]+"
-WORD: Final = re.compile(rf"({_NAMES})[ \t]*({NUMBER}|[+-])?|([^ \t])")
+WORD: Final = re.compile(rf"({_NAMES})[ \t]*({NUMBER}|[+-])?|([^ \t])", re.ASCII)
 """A word: letters with a number, a bare sign or nothing behind them; or a sign that is no word."""
 
-TOOL_WORD: Final = re.compile(rf"(DR2|R2(?=[+-])|{_NAMES})[ \t]*({NUMBER}|[+-])?|([^ \t])")
+TOOL_WORD: Final = re.compile(rf"(DR2|R2(?=[+-])|{_NAMES})[ \t]*({NUMBER}|[+-])?|([^ \t])", re.ASCII)
 """The same where a second tool radius may stand."""
 
 LONGEST: Final = 1000
@@ -28,9 +28,9 @@ LONGEST: Final = 1000
 TOO_LONG: Final = "TOO LONG"
 """The head of a block that is not read for its length."""
 
-_START: Final = re.compile(r"[ \t]*(/)?[ \t]*(?:\d+(?=[ \t]|$|\*))?[ \t]*")
-_HEAD: Final = re.compile(r"[A-Z]+|\*|$")
-_GLUED: Final = re.compile(r"(L|CC|C)(?=I?[XYZ][ \t]*[-+.\dQ])")
+_START: Final = re.compile(r"[ \t]*(/)?[ \t]*(?:\d+(?=[ \t]|$|\*))?[ \t]*", re.ASCII)
+_HEAD: Final = re.compile(r"[A-Z]+|\*|$", re.ASCII)
+_GLUED: Final = re.compile(r"(L|CC|C)(?=I?[XYZ][ \t]*[-+.\dQ])", re.ASCII)
 
 
 class Block(NamedTuple):

@@ -16,13 +16,13 @@ from core.controls.source import shown
 DEEPEST: Final = 19
 """Subprograms that may call one another."""
 
-_LABEL: Final = re.compile(r'\s*("[^"]*"|\d+)\s*$')
-_CALL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*(?:REP\s*(\d{1,5})(?:/\d+)?)?\s*$')
-_SET: Final = re.compile(r"\s*(\d+)\s*=(.*)$")
-_FUNCTION: Final = re.compile(r"\s*(\d+)\s*:\s*(.*)$")
-_ASSIGN: Final = re.compile(r"(Q[LR]?\d+)\s*=(.*)$")
-_COMPARISON: Final = re.compile(r"EQU|NE(?!G)|GT|LT")
-_GOAL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*$')
+_LABEL: Final = re.compile(r'\s*("[^"]*"|\d+)\s*$', re.ASCII)
+_CALL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*(?:REP\s*(\d{1,5})(?:/\d+)?)?\s*$', re.ASCII)
+_SET: Final = re.compile(r"\s*(\d+)\s*=(.*)$", re.ASCII)
+_FUNCTION: Final = re.compile(r"\s*(\d+)\s*:\s*(.*)$", re.ASCII)
+_ASSIGN: Final = re.compile(r"(Q[LR]?\d+)\s*=(.*)$", re.ASCII)
+_COMPARISON: Final = re.compile(r"EQU|NE(?!G)|GT|LT", re.ASCII)
+_GOAL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*$', re.ASCII)
 
 
 def labels_of(blocks: Sequence[Block]) -> Mapping[str, int]:

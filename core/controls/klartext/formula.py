@@ -17,7 +17,7 @@ from core.controls.source import shown
 DEEPEST: Final = 50
 """Brackets and functions within one another that a formula may have."""
 
-_TOKEN: Final = re.compile(r"\s*(?:(\d+[.,]?\d*|[.,]\d+)|(Q[LR]?\d+)|([A-Z]+|[-+*/^()])|(\S))")
+_TOKEN: Final = re.compile(r"\s*(?:(\d+[.,]?\d*|[.,]\d+)|(Q[LR]?\d+)|([A-Z]+|[-+*/^()])|(\S))", re.ASCII)
 
 _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = MappingProxyType(
     {

@@ -45,7 +45,7 @@ def functions(state: State, block: Block, words: Words) -> Corner:
 def _function(state: State, block: Block, name: str, corner: Corner) -> Corner:
     if not name[1:].isdecimal():
         state.stop("NUMBER", "M needs a whole number behind it.", block, name)
-    code = int(name[1:5])
+    code = int(name[1:])
     if code in (2, 30):
         state.ended = True
     elif code in _SPEEDS:

@@ -16,7 +16,7 @@ from core.controls.klartext.steps import Role, Step
 from core.controls.moves import solid
 from core.finding import Severity
 
-_FORM: Final = re.compile(r"[ \t]*(P?)(LT|LN|CT|LCT)(?![A-Z])")
+_FORM: Final = re.compile(r"[ \t]*(P?)(LT|LN|CT|LCT)(?![A-Z])", re.ASCII)
 _SIZES: Final = frozenset(("LEN", "CCA", "R"))
 _NEEDED: Final = {Form.LT: ("LEN",), Form.LN: ("LEN",), Form.CT: ("CCA", "R"), Form.LCT: ("R",)}
 

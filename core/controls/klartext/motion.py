@@ -85,9 +85,11 @@ def centre(state: State, block: Block) -> None:
 
 def corner(state: State, block: Block) -> None:
     """RND R and CHF: a rounding or chamfer between the element before and the one behind."""
-    body = block.body.lstrip()
+    body, head = block.body.lstrip(), block.column - len(block.head)
     bare = body != "" and body[0] in "+-.0123456789Q"
-    words = state.words(block._replace(body=f"LEN{body}") if bare else block, _CORNER)
+    if bare:  # the size stands without a name, as in CHF 5
+        block = block._replace(body=f"LEN{body}", column=block.column + len(block.body) - len(body) - 3)
+    words = state.words(block, _CORNER)
     name = next((one for one in ("R", "LEN") if one in words), "")
     if not name:
         state.stop("CORNER", f"{block.head} needs its size; write RND R5 or CHF 5.", block)
@@ -97,4 +99,4 @@ def corner(state: State, block: Block) -> None:
     if state.waiting is None or state.last is None or state.blend:
         state.stop("CORNER", "RND and CHF need a contour element directly before them; move the block.", block)
     feed = state.length(block, words, "F") if "F" in words else state.feed
-    state.blend = Blend(block, size, block.head == "RND", feed, block.column - len(block.head))
+    state.blend = Blend(block, size, block.head == "RND", feed, head)

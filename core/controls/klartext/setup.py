@@ -13,14 +13,14 @@ from core.controls.source import shown
 from core.finding import Severity
 from core.units import Unit, to_mm
 
-_BEGIN: Final = re.compile(r"\s*PGM(?:\s+(\S+))?\s+(MM|INCH)\s*$")
-_NUMBERED: Final = re.compile(r'\s*(DEF|CALL)\b\s*(?:"([^"]*)"|([+-]?\d+(?:[.,]\d+)?)(?![\d.]))?')
-_CYCLE: Final = re.compile(r"\s*(DEF|CALL)\s*(?:(\d+)(?:\.(\d+))?)?")
+_BEGIN: Final = re.compile(r"\s*PGM(?:\s+(\S+))?\s+(MM|INCH)\s*$", re.ASCII)
+_NUMBERED: Final = re.compile(r'\s*(DEF|CALL)\b\s*(?:"([^"]*)"|([+-]?\d+(?:[.,]\d+)?)(?![\d.]))?', re.ASCII)
+_CYCLE: Final = re.compile(r"\s*(DEF|CALL)\s*(?:(\d+)(?:\.(\d+))?)?", re.ASCII)
 _NEUTRAL: Final = {
-    8: re.compile(r"\s*"),
-    10: re.compile(r"\s*ROT\s*[+-]?0*(?:\.0*)?\s*"),
-    11: re.compile(r"\s*SCL\s*\+?0*1(?:\.0*)?\s*"),
-    19: re.compile(r"(?:\s*[ABC]\s*[+-]?0+(?:\.0*)?)*\s*"),
+    8: re.compile(r"\s*", re.ASCII),
+    10: re.compile(r"\s*ROT\s*[+-]?0*(?:\.0*)?\s*", re.ASCII),
+    11: re.compile(r"\s*SCL\s*\+?0*1(?:\.0*)?\s*", re.ASCII),
+    19: re.compile(r"(?:\s*[ABC]\s*[+-]?0+(?:\.0*)?)*\s*", re.ASCII),
 }
 """Cycles that turn, mirror, scale or tilt, and what stands behind them where they do none of it."""
 
@@ -176,7 +176,7 @@ def shift(state: State, block: Block) -> None:
 
 def transformation(state: State, block: Block) -> None:
     """TRANS DATUM AXIS and TRANS DATUM RESET."""
-    found = re.match(r"\s*DATUM\s+(AXIS|RESET)\b", block.body)
+    found = re.match(r"\s*DATUM\s+(AXIS|RESET)\b", block.body, re.ASCII)
     if found is None:
         unknown(state, block)
     elif found[1] == "AXIS":

@@ -88,6 +88,7 @@ def test_a_feed_in_the_tool_call_holds() -> None:
         (("L X+1 IX+2",), "TWICE", 4),
         (("L X+1 F1 FMAX",), "TWICE", 4),
         (("L X+1 R0 RL",), "TWICE", 4),
+        (("L X+\u0663",), "WORD", 4),
         (("L X",), "NUMBER", 4),
         (("L X+",), "NUMBER", 4),
         (("L X+99999999",), "NUMBER", 4),
