@@ -6,7 +6,7 @@ a place on a whole path is the length s travelled since its first point.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import tau
 from typing import Any, Final
@@ -20,6 +20,9 @@ from core.tolerance import ARC_RADII, ON_PATH
 
 FEW: Final = 300
 """Pieces for which working out both formulas costs less than parting lines from arcs."""
+
+BLOCK: Final = 16_000
+"""Pairs worked out at a time."""
 
 Floats = NDArray[np.float64]
 Points = NDArray[np.complex128]
@@ -151,11 +154,11 @@ def by_kind(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArra
     """
     if len(chosen) <= FEW:
         return _both(chosen, line, arc, *given)
-    rows_line, rows_arc = np.flatnonzero(~chosen), np.flatnonzero(chosen)
-    if not len(rows_arc):
+    if not chosen.any():
         return line(*given)
-    if not len(rows_line):
+    if chosen.all():
         return arc(*given)
+    rows_line, rows_arc = np.flatnonzero(~chosen), np.flatnonzero(chosen)
     lines, arcs = line(*_pick(given, rows_line)), arc(*_pick(given, rows_arc))
     both = np.empty((*lines.shape[:-1], len(chosen)), lines.dtype)
     both[..., rows_line], both[..., rows_arc] = lines, arcs
@@ -168,6 +171,21 @@ def _both(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArray[
     if chosen.all():
         return arc(*given)
     return np.where(chosen, arc(*given), line(*given))
+
+
+def blocks(first: Flags, second: Flags) -> Iterator[Rows]:
+    """Indices of pairs, parted by which of the two pieces are arcs, at most BLOCK at a time; few pairs all at once.
+
+    Blocks of one kind need no parting in every formula, and bound the memory in use.
+    """
+    if 0 < len(first) <= FEW:
+        yield np.arange(len(first))
+        return
+    kinds = 2 * first.astype(np.int8) + second
+    for kind in range(4):
+        rows = np.flatnonzero(kinds == kind)
+        for start in range(0, len(rows), BLOCK):
+            yield rows[start : start + BLOCK]
 
 
 def _pick(given: tuple[Given, ...], rows: Rows) -> list[Given]:

@@ -11,7 +11,7 @@ from core.geometry.measured import Floats, Rows, at
 from core.geometry.path import Path
 from core.tolerance import JOINED, ON_PATH
 from core.verify.pairs import Approaches, Pairs
-from core.verify.reach import Parts, Stretches, union, within
+from core.verify.reach import Parts, Stretches, joined, union, within
 from core.verify.verdict import Gouge
 
 
@@ -28,17 +28,10 @@ class Gouging:
 
 def gouging(pairs: Pairs, near: Approaches) -> Gouging:
     """Where the centre path is nearer to the surface than the limits of `near`."""
-    piece, starts = pairs.centre.take(near.i), pairs.centre_stations[near.i]
-    parts = within(piece, pairs.surface.take(near.j), starts, near.limit)
+    parts = within(pairs.centre, near.i, pairs.surface, near.j, near.limit)
     k, pair = np.nonzero(near.apart < near.limit)
-    spots = starts[pair] + near.places[k, pair] * piece.length[pair]
-    every = Parts(
-        np.concatenate((parts.first, spots)),
-        np.concatenate((parts.last, spots)),
-        np.concatenate((parts.middle, spots)),
-        np.concatenate((parts.apart, near.apart[k, pair])),
-        np.concatenate((parts.pair, pair)),
-    )
+    spots = pairs.centre_stations[near.i[pair]] + near.places[k, pair] * pairs.centre.length[near.i[pair]]
+    every = joined((parts, Parts(spots, spots, spots, near.apart[k, pair], pair)))
     return _deepest(every, near.i, near.j)
 
 
@@ -82,7 +75,7 @@ def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, centre: P
 
 def _over_seam(stretches: Stretches, pairs: Pairs) -> bool:
     """The first and the last stretch are one: the path ends where it begins, and gouges there."""
-    joined = bool(abs(pairs.centre.end[-1] - pairs.centre.start[0]) <= JOINED)
+    meets = bool(abs(pairs.centre.end[-1] - pairs.centre.start[0]) <= JOINED)
     return (
-        joined and bool(stretches.first[0] <= JOINED) and bool(stretches.last[-1] >= pairs.centre_stations[-1] - JOINED)
+        meets and bool(stretches.first[0] <= JOINED) and bool(stretches.last[-1] >= pairs.centre_stations[-1] - JOINED)
     )

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
 from core.geometry.boxes import closest_pairs, near_pairs
 from core.geometry.distance import between, distance, nearest_places
-from core.geometry.measured import Floats, Measured, Rows, at, boxes
+from core.geometry.measured import Floats, Measured, Rows, at, blocks, boxes
 from core.tolerance import GOUGE
-
-BLOCK: Final = 50_000
-"""Pairs worked out at a time."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -55,15 +50,10 @@ def middles(pairs: Pairs) -> Floats:
 def middle_distances(pieces: Measured, i: Rows, others: Measured, j: Rows) -> Floats:
     """(m,) distance from the middle of pieces `i` to their partners `j`."""
     middle = at(pieces, np.full(len(pieces), 0.5))
-    apart = np.empty(len(i))
-    for block in blocks(len(i)):
+    apart, arcs = np.empty(len(i)), others.arcs[j]
+    for block in blocks(arcs, arcs):
         apart[block] = distance(others.take(j[block]), middle[i[block]])
     return apart
-
-
-def blocks(count: int) -> Iterator[slice]:
-    """Runs of a long array that are worked through one after the other, to bound the memory in use."""
-    return (slice(first, first + BLOCK) for first in range(0, count, BLOCK))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -93,7 +83,10 @@ def approaches(pairs: Pairs, middle: Floats, limit: float) -> Approaches:
 
 
 def _measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
-    found = [_measure_block(pairs, i[block], j[block], limit) for block in blocks(len(i))]
+    found = [
+        _measure_block(pairs, i[block], j[block], limit)
+        for block in blocks(pairs.centre.arcs[i], pairs.surface.arcs[j])
+    ]
     if not found:
         none = np.zeros((8, 0))
         return Approaches(np.inf, i, j, none, none, none[0])

@@ -6,13 +6,14 @@ within the radius of the centre path) and moves away from the part.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from core.geometry.boxes import nearest_boxes
 from core.geometry.distance import band_places, between, distance
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows, blocks
 from core.tolerance import ON_PATH
 
 
@@ -51,19 +52,36 @@ class Parts:
     pair: Rows
 
 
-def within(pieces: Measured, other: Measured, starts: Floats, reach: Floats) -> Parts:
-    """All parts of the pieces that are nearer to their partners than `reach` (n,).
+def within(pieces: Measured, i: Rows, others: Measured, j: Rows, reach: Floats) -> Parts:
+    """All parts of pieces `i` that are nearer to their partners `j` than `reach` (m,).
 
-    `starts` (n,) are the lengths travelled at the pieces' starts.  The pieces are parted wherever the distance can
-    pass `reach`, and the middle of each part decides.
+    The pieces are parted wherever the distance can pass `reach`, and the middle of each part decides.
     """
-    places = band_places(pieces, other, reach)
+    starts = pieces.stations[i]
+    found = [
+        _within_block(pieces.take(i[rows]), others.take(j[rows]), starts[rows], reach[rows], rows)
+        for rows in blocks(pieces.arcs[i], others.arcs[j])
+    ]
+    return joined(found)
+
+
+def joined(found: Sequence[Parts]) -> Parts:
+    """All of these parts."""
+    if len(found) == 1:
+        return found[0]
+    columns = zip(*((one.first, one.last, one.middle, one.apart) for one in found), strict=True)
+    first, last, middle, apart = (np.concatenate(column) for column in columns) if found else np.zeros((4, 0))
+    return Parts(first, last, middle, apart, np.concatenate((np.zeros(0, np.intp), *(one.pair for one in found))))
+
+
+def _within_block(pieces: Measured, others: Measured, starts: Floats, reach: Floats, rows: Rows) -> Parts:
+    places = band_places(pieces, others, reach)
     middles = (places[1:] + places[:-1]) / 2.0
-    apart = between(pieces, other, middles)
+    apart = between(pieces, others, middles)
     part, pair = np.nonzero((apart < reach) & (places[1:] > places[:-1]))
     start, length = starts[pair], pieces.length[pair]
     first, last, middle = places[part, pair], places[part + 1, pair], middles[part, pair]
-    return Parts(start + first * length, start + last * length, start + middle * length, apart[part, pair], pair)
+    return Parts(start + first * length, start + last * length, start + middle * length, apart[part, pair], rows[pair])
 
 
 def union(first: Floats, last: Floats) -> Stretches:

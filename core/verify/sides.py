@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -59,11 +59,11 @@ def wrong_side(pairs: Pairs, middle: Floats, found: Gouging, surface: Sided, rea
         return ()
     tie = _tie(pairs.surface, surface)
     contact = _contact(pairs, middle, reach, tie)
-    rows = np.unique(contact.k)
+    rows = contact.k[np.flatnonzero(np.diff(contact.k, prepend=-1))]
     s = _middle_places(pairs)
     spots = at(pairs.centre, np.full(len(pairs.centre), 0.5))
-    wrong = [rows[_wrong(pairs, s[rows], spots[rows], _counted(contact), surface, found)]]
-    more = _samples(pairs, np.setdiff1d(np.arange(len(pairs.centre)), rows), found)
+    wrong = [rows[_wrong(pairs, s[rows], spots[rows], replace(contact, k=_counted(contact.k)), surface, found)]]
+    more = _samples(pairs, _others(len(pairs.centre), rows), found)
     if len(more):
         index, t = place(pairs.centre, pairs.centre_stations, more)
         points = at(pairs.centre.take(index), t)
@@ -82,14 +82,22 @@ def _contact(pairs: Pairs, middle: Floats, reach: float, tie: float) -> Nearest:
     close = np.flatnonzero(middle <= reach)
     if not len(close):
         return Nearest(close, close, np.zeros(0))
-    rows, k = np.unique(pairs.i[close], return_inverse=True)
-    near = least_of(k, pairs.j[close], middle[close], len(rows), tie)
+    i = pairs.i[close]
+    rows = i[np.flatnonzero(np.diff(i, prepend=-1))]
+    near = least_of(_counted(i), pairs.j[close], middle[close], len(rows), tie)
     return Nearest(rows[near.k], near.j, near.apart)
 
 
-def _counted(near: Nearest) -> Nearest:
-    """The same with k renumbered 0, 1, 2 ..."""
-    return Nearest(np.unique(near.k, return_inverse=True)[1], near.j, near.apart)
+def _counted(rising: Rows) -> Rows:
+    """Rising numbers replaced by 0, 1, 2 ... for their distinct values."""
+    return np.cumsum(np.diff(rising, prepend=rising[:1]) > 0)
+
+
+def _others(count: int, rows: Rows) -> Rows:
+    """0 ... count - 1 without `rows`."""
+    rest = np.ones(count, np.bool_)
+    rest[rows] = False
+    return np.flatnonzero(rest)
 
 
 def _middle_places(pairs: Pairs) -> Floats:

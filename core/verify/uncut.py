@@ -13,7 +13,7 @@ from core.geometry.path import Path
 from core.tolerance import ON_PATH, STOCK, UNCUT
 from core.verify.farthest import Farthest, farthest
 from core.verify.pairs import Pairs, middle_distances
-from core.verify.reach import Parts, Stretches, union, within
+from core.verify.reach import Parts, Stretches, joined, union, within
 from core.verify.verdict import Uncut
 
 FEW: Final = 1500
@@ -37,13 +37,8 @@ def reached(pairs: Pairs, radius: float) -> Stretches:
         return stretches
     if len(pairs.j) > FEW:
         rest = np.flatnonzero(~whole[pairs.j])
-        more = _within(pairs, rest, radius + grant)
-        parts = Parts(*(np.concatenate(both) for both in zip(_columns(parts), _columns(more), strict=True)))
+        parts = joined((parts, _within(pairs, rest, radius + grant)))
     return _settled(pairs, parts, union(parts.first, parts.last), radius, grant)
-
-
-def _columns(parts: Parts) -> tuple[Floats, Floats, Floats, Floats, Rows]:
-    return parts.first, parts.last, parts.middle, parts.apart, parts.pair
 
 
 def _settled(pairs: Pairs, parts: Parts, stretches: Stretches, radius: float, grant: Floats) -> Stretches:
@@ -89,8 +84,7 @@ def _nearest_to_middle(pairs: Pairs) -> Rows:
 
 
 def _within(pairs: Pairs, chosen: Rows, reach: Floats) -> Parts:
-    i, j = pairs.i[chosen], pairs.j[chosen]
-    parts = within(pairs.surface.take(j), pairs.centre.take(i), pairs.surface_stations[j], reach[chosen])
+    parts = within(pairs.surface, pairs.j[chosen], pairs.centre, pairs.i[chosen], reach[chosen])
     return replace(parts, pair=chosen[parts.pair])
 
 
