@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from core.program.edit import new_block
-from core.program.model import Block, CutterComp, Entry, LineSegment, Parameters, Program, Tool
+from core.program.model import Block, CutterComp, Entry, LineSegment, Parameters, Program, Tool, Typed, changed
 
 OVER_RUN_SQUARE = ((-1, 0), (2, 0), (2, 2), (0, 2), (0, -1))
 NOTCH = ((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
@@ -15,11 +15,12 @@ MID_SIDE_SQUARE = ((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0))
 Points = tuple[tuple[float, float], ...]
 
 
-def block(points: Points, comp: CutterComp, **changes: object) -> Block:
+def block(points: Points, comp: CutterComp, **changes: Typed) -> Block:
     """A block of lines through these points."""
     segments = tuple(LineSegment(x_end=Entry(x), y_end=Entry(y)) for x, y in points[1:])
-    start = {"x_start": Entry(points[0][0]), "y_start": Entry(points[0][1]), "z_bottom": Entry(-0.25)}
-    return replace(new_block(Program()), tool=Entry(1), cutter_comp=comp, segments=segments, **start, **changes)
+    (x, y), tool, bottom = points[0], Entry(1), Entry(-0.25)
+    plain = replace(new_block(Program()), tool=tool, x_start=Entry(x), y_start=Entry(y), z_bottom=bottom)
+    return changed(replace(plain, cutter_comp=comp, segments=segments), changes)
 
 
 def program(*blocks: Block, parameters: Parameters | None = None) -> Program:
