@@ -77,7 +77,7 @@ class LinuxCnc(LookAhead):
             self.log.stop("N-DALONE", text, block.line, block.column("D"))
         if not _CENTRES.isdisjoint(words):
             self._arc_words(block)
-        for code in block.g:
+        for code in () if block.moves_only else block.g:
             if code // 10 == 38 and code != 380:
                 text = "Where a probe stops is not known before it runs."
                 self.log.stop("N-PROBE", text, block.line, block.column("G", code))
@@ -94,14 +94,13 @@ class LinuxCnc(LookAhead):
             self.log.stop("N-WORDALONE", text, block.line, column)
 
     def _refused(self, code: int, block: Block) -> None:
-        column = block.column("G", code)
         if code in REFUSED:
             rule, what = REFUSED[code]
             text = f"G{code / 10:g} {what}, which is not allowed under compensation; write G40 before it."
-            self.log.stop(rule, text, block.line, column)
+            self.log.stop(rule, text, block.line, block.column("G", code))
         if code in (170, 180, 190) and _PLANES[code] is not self.machine.plane:
             text = "The plane cannot be changed under compensation; write G40 before it."
-            self.log.stop("N-PLANE", text, block.line, column)
+            self.log.stop("N-PLANE", text, block.line, block.column("G", code))
 
     def begin(self, side: Side, block: Block) -> None:
         """G41, G42, G41.1 and G42.1."""

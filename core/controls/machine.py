@@ -23,7 +23,6 @@ from core.geometry.side import Side
 from core.tolerance import ON_PATH
 from core.units import Unit
 
-_QUICK: Final = frozenset("NXYZIJKRF")
 _UNUSED: Final = "ABCUVW"
 _PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
 _METRIC: Final = (210, 710)
@@ -65,11 +64,12 @@ class Machine:
         """Runs one block: its codes in the order the controls take them, then its motion."""
         if self.follower.watching:
             self.follower.watch(block)
-        once = None
-        if block.g or block.m or block.data or not _QUICK.issuperset(block.words):
-            once = self._codes(block)
-        elif "F" in block.words:
-            self.feed = block.words["F"] * self.scale
+        if block.moves_only:
+            if block.g:
+                self.mode = block.g[0]
+            self._motion(block)
+            return
+        once = self._codes(block)
         if once is None:
             self._motion(block)
         else:

@@ -139,6 +139,8 @@ def _run(flow: _Flow, machine: Machine) -> None:
         text = lines[line - 1]
         for block in read_line(text, line, log, dialect.semicolon, dialect.slash):
             machine.step(block)
+            if block.moves_only:
+                continue
             if machine.ended or (_calls(block) and not flow.after(block)):
                 machine.follower.close()
                 return

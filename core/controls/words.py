@@ -7,9 +7,10 @@ by two expressions; only a line with comments or with something wrong in it is l
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum, auto
+from types import MappingProxyType
 from typing import Final
 
 from core.controls.report import Log
@@ -21,6 +22,13 @@ _NUMBER: Final = r"[-+]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)"
 _CLEAN: Final = re.compile(rf"(?:[ \t]*+[A-Z][ \t]*+{_NUMBER})*+[ \t]*+")
 _PAIR: Final = re.compile(rf"([A-Z])[ \t]*+({_NUMBER})")
 _DATA: Final = re.compile(rf"T[ \t]*+([0-9]++)[ \t]*+/[ \t]*+({_NUMBER})?+[ \t]*+/[ \t]*+({_NUMBER})?+")
+
+_CODES: Final[Mapping[str, int]] = MappingProxyType(
+    {f"{code:{width}}": 10 * code for code in range(100) for width in ("", "02")}
+)
+"""Codes in tenths as they are mostly written."""
+
+_PLACES: Final = frozenset("NXYZIJKR")
 
 WHOLE: Final = 1e-4
 """How far a code or a tool number may be from a whole number (a code: of tenths) and still be one."""
@@ -56,10 +64,11 @@ class ToolData:
 class Block:
     """One block: the values of its words by letter, its G and M codes in tenths, as written.
 
-    `start` is the column, less one, at which the block begins on its line.
+    `start` is the column, less one, at which the block begins on its line.  `moves_only`: there is nothing but
+    positions, an arc's centre, and one of G0 to G3 at most.
     """
 
-    __slots__ = ("data", "g", "line", "m", "start", "text", "words")
+    __slots__ = ("data", "g", "line", "m", "moves_only", "start", "text", "words")
 
     def __init__(self, line: int, text: str, start: int = 0) -> None:
         self.line = line
@@ -69,6 +78,7 @@ class Block:
         self.g: list[int] = []
         self.m: list[int] = []
         self.data: ToolData | None = None
+        self.moves_only = False
 
     def column(self, letters: str, code: int | None = None) -> int:
         """Where the first word of one of these letters stands, from 1; of codes the one of `code` tenths."""
@@ -167,7 +177,7 @@ def _filled(block: Block, upper: str, log: Log) -> Block:
     words = block.words
     for letter, number in _PAIR.findall(upper):
         if letter == "G" or letter == "M":
-            code = tenths(float(number))
+            code = _CODES.get(number) or tenths(float(number))
             if code is None:
                 column = block.column(letter)
                 log.stop("CODE", f"{letter}{shown(number)} is no code of any control.", block.line, column)
@@ -179,6 +189,9 @@ def _filled(block: Block, upper: str, log: Log) -> Block:
         if not -LARGEST < value < LARGEST:
             words_too = f"The number of {letter} is too large for any machine."
             log.stop("NUMBER", words_too, block.line, block.column(letter))
+    codes = block.g
+    plain = not codes or (len(codes) == 1 and codes[0] <= 30)
+    block.moves_only = plain and not block.m and not block.data and _PLACES.issuperset(words)
     return block
 
 
