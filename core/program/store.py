@@ -14,6 +14,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
+from core.program.disk import sync_folder, why, write_all
 from core.program.file_read import StoreError, read_program
 from core.program.file_write import written
 from core.program.model import Program
@@ -40,7 +41,7 @@ def load(path: str | Path) -> Program:
     try:
         data = _content(path)
     except (OSError, ValueError) as error:
-        raise StoreError(f"{path} cannot be read: {_why(error)}") from error
+        raise StoreError(f"{path} cannot be read: {why(error)}") from error
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -73,7 +74,7 @@ def write_text(path: str | Path, text: str) -> None:
         target = Path(os.path.realpath(path))
         _replace(target, text.encode())
     except (OSError, ValueError) as error:
-        raise StoreError(f"{path} is not saved: {_why(error)}") from error
+        raise StoreError(f"{path} is not saved: {why(error)}") from error
 
 
 def _replace(target: Path, data: bytes) -> None:
@@ -84,7 +85,7 @@ def _replace(target: Path, data: bytes) -> None:
         try:
             if old is not None:
                 os.fchmod(handle, stat.S_IMODE(old.st_mode))
-            _write_all(handle, data)
+            write_all(handle, data)
             os.fsync(handle)
         finally:
             os.close(handle)
@@ -93,7 +94,7 @@ def _replace(target: Path, data: bytes) -> None:
         with suppress(OSError):
             beside.unlink()
         raise
-    _sync_folder(target.parent)
+    sync_folder(target.parent)
 
 
 def _status(target: Path) -> os.stat_result | None:
@@ -107,44 +108,3 @@ def _status(target: Path) -> os.stat_result | None:
     if not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, "write protected")
     return old
-
-
-def _write_all(handle: int, data: bytes) -> None:
-    rest = memoryview(data)
-    while rest:
-        rest = rest[os.write(handle, rest) :]
-
-
-def _sync_folder(folder: Path) -> None:
-    """Force the rename to the disk; some file systems cannot, and then the file is whole all the same."""
-    with suppress(OSError):
-        handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
-        try:
-            os.fsync(handle)
-        finally:
-            os.close(handle)
-
-
-def _why(error: OSError | ValueError) -> str:
-    """The reason and the remedy."""
-    match error.errno if isinstance(error, OSError) else None:
-        case errno.ENOSPC | errno.EDQUOT:
-            return "the disk is full. Make room or save elsewhere; nothing is lost."
-        case errno.EISDIR | errno.ENOTDIR:
-            return "this is not a file. Choose the name of a file."
-        case errno.ENOENT:
-            return "there is no such file or folder. Check the name."
-        case errno.EACCES | errno.EPERM:
-            return "it is protected. Ask for permission, or choose another place."
-        case errno.EROFS:
-            return "the disk is write protected. Choose another place."
-        case errno.EFBIG:
-            return "it is too large for a program file. Choose another file."
-        case errno.ENAMETOOLONG:
-            return "the name is too long. Choose a shorter one."
-        case None:
-            return "this is no file name. Choose another."
-        case _:
-            return (
-                f"{error.strerror or error}. Try again or choose another place." if isinstance(error, OSError) else ""
-            )
