@@ -12,8 +12,10 @@ from importlib import import_module
 from time import perf_counter
 from typing import TYPE_CHECKING, Final, TypeVar
 
+from app.memory import Memory
 from app.screens.page import Sketch
 from app.widgets.rows import Row
+from app.widgets.verdict import verdict_rows
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.outline import outline
 from core.program.model import Program
@@ -39,6 +41,7 @@ class Known:
 
     table: Table | None = None
     ready: bool = False
+    memory: Memory = field(default_factory=Memory)
     trial: Session | None = None
     """The session as it would be with the half-typed number accepted."""
 
@@ -49,8 +52,19 @@ class Known:
         from app.widgets.drawing import picture_rows, scene_of
 
         session = self.trial or desk.session
-        scene = scene_of(session.found, self.table, session.where.segment, session.program.unit, sketch)
-        return picture_rows(scene, sketch, columns, rows, desk.mode)
+        found, segment, unit = session.found, session.where.segment, session.program.unit
+        if not found.known and (before := self.memory.last("picture", tuple)) is not None:
+            # while the new path is being calculated the old drawing stands; the verdict says that it is not known
+            return before
+        about = (found, self.table, segment, unit, sketch.lookahead)
+        scene = self.memory.recall("scene", about, lambda: scene_of(found, self.table, segment, unit, sketch))
+        window = (scene, sketch, columns, rows, desk.mode)
+        return self.memory.recall("picture", window, lambda: picture_rows(*window))
+
+    def verdict(self, session: Session, look: int | None) -> list[Row]:
+        """All lines of the verdict, of the path in force or of that of a look-ahead value."""
+        about = (session.found, self.table, session.program.unit, look)
+        return self.memory.recall("verdict", about, lambda: verdict_rows(*about))
 
 
 @dataclass(slots=True)
@@ -59,6 +73,7 @@ class Engine:
 
     limit: float = FAST
     ready: bool = False
+    memory: Memory = field(default_factory=Memory)
     took: dict[str, float] = field(default_factory=dict)
     table: Table | None = None
     table_of: DerivedBlock | None = None
@@ -73,9 +88,10 @@ class Engine:
         # measured when everything is warm
         return self.derive(program, first)
 
-    def fast(self, task: str) -> bool:
-        """Whether a task may be done before the next picture."""
-        return self.ready and self.took.get(task, 0.0) <= self.limit
+    def fast(self, *tasks: str) -> bool:
+        """Whether these tasks, the first of which comes before all others, may be done before the next picture."""
+        limit = self.limit if len(tasks) == 1 else self.limit / 2
+        return self.ready and sum(self.took.get(task, 0.0) for task in tasks) <= limit
 
     def timed(self, task: str, work: Callable[[], Result]) -> Result:
         """Do a task and remember how long it took."""
@@ -100,4 +116,4 @@ class Engine:
 
     def known(self, found: DerivedBlock, trial: Session | None) -> Known:
         """What the screens may show of this block."""
-        return Known(self.table if self.table_of is found else None, self.ready, trial)
+        return Known(self.table if self.table_of is found else None, self.ready, self.memory, trial)

@@ -1,163 +1,30 @@
-"""The App: owns the one desk, hands keys to it, and has it painted."""
+"""The entry of the screens: prepares the terminal's side of Textual, then imports and runs the App."""
 
 from __future__ import annotations
 
+import gc
 import os
-
-os.environ.setdefault("TEXTUAL_DISABLE_KITTY_KEY", "1")
-
 import sys
 from pathlib import Path
-from typing import ClassVar, Final
+from typing import TYPE_CHECKING, Final
 
-from textual.app import App
-
-from app import driver, files, keys
-from app.behind import Behind
-from app.desk import Desk
-from app.engine import Engine
-from app.screens.frame import Frame, picture
-from app.session import Session
-from app.surroundings import Surroundings, real
-from app.widgets.rows import Row
-from core.pipeline.derived import Derived
-from core.pipeline.outline import outline
 from core.program.store import StoreError, load
+
+if TYPE_CHECKING:
+    from app.session import Session
 
 UNUSABLE: Final = 2
 """Exit status: the file cannot be used."""
-MINUTE: Final = 60.0
-
-
-class CutcompApp(App[int], inherit_bindings=False):
-    """The screens.  The only place where the session changes hands."""
-
-    CSS_PATH = "app.tcss"
-    TITLE = "cutcomp"
-    ENABLE_COMMAND_PALETTE = False
-    BINDINGS: ClassVar = []
-
-    def __init__(self, session: Session, around: Surroundings | None = None, engine: Engine | None = None) -> None:
-        super().__init__()
-        self.desk = Desk(session)
-        self.trial: Session | None = None
-        self.around = around or real()
-        self.engine = engine or Engine()
-        self._loading = Behind(self, self._loaded)
-        self._deriving = Behind(self, self._derived)
-        self._trying = Behind(self, self._tried)
-        self._tabling = Behind(self, self._tabled)
-
-    @property
-    def shown(self) -> Session:
-        """The session as the screens show it: with a half-typed number tried out, if there is one."""
-        return self.trial or self.desk.session
-
-    def get_default_screen(self) -> Frame:
-        """The frame."""
-        return Frame()
-
-    def on_ready(self) -> None:
-        """Once the first screen stands, fetch what it did not need."""
-        self.set_interval(MINUTE, self.refresh_screen)
-        program = self.desk.session.program
-        self._loading.ask(lambda: self.engine.load(program))
-
-    def key(self, key: str, character: str | None) -> None:
-        """A key was pressed."""
-        self.desk = self.desk.press(key, character)
-        self._advance()
-
-    def paste(self, text: str) -> None:
-        """Text was pasted."""
-        self.desk = self.desk.paste(text)
-        self._advance()
-
-    def refresh_screen(self, width: int = 0, height: int = 0) -> None:
-        """Paint what changed, on a terminal of this size if one is given."""
-        frame = self.screen
-        if isinstance(frame, Frame) and frame.is_mounted:
-            frame.show(self.picture(width or self.size.width, height or self.size.height))
-
-    def picture(self, width: int, height: int) -> tuple[Row, ...]:
-        """The terminal as it is now."""
-        known = self.engine.known(self.shown.found, self.trial)
-        return picture(self.desk, known, self.around, width, height)
-
-    def _advance(self) -> None:
-        """After every change of the desk: derive what is stale, paint, or leave."""
-        if self.desk.exit:
-            self.exit(0)
-            return
-        self._derive()
-        self._try()
-        self._tabulate()
-        self.refresh_screen()
-
-    def _loaded(self, derived: Derived) -> None:
-        self.engine.ready = True
-        self._derived(derived)
-        self._advance()
-
-    def _derive(self) -> None:
-        """Everything that follows from the program: now while it is fast, else in a thread."""
-        session = self.desk.session
-        if not session.stale and all(found.known for found in session.derived.blocks):
-            return
-        program, before = session.program, session.derived
-        if self.engine.fast("derive"):
-            self.desk = self.desk.knowing(self.engine.derive(program, before))
-            return
-        if session.stale:
-            self.desk = self.desk.knowing(outline(program))
-        if self.engine.ready:
-            self._deriving.ask(lambda: self.engine.derive(program, before))
-
-    def _derived(self, derived: Derived) -> None:
-        """A result from a thread; one for another program than that of now is dropped."""
-        self.desk = self.desk.knowing(derived)
-        self._tabulate()
-        self.refresh_screen()
-
-    def _try(self) -> None:
-        """While a number is being typed, what it would do: with every key, or as soon as it is calculated."""
-        session = self.desk.session
-        program = self.desk.page.preview(session)
-        self.trial = None
-        self._trying.forget()
-        if program is None or not self.engine.ready:
-            return
-        before = session.derived
-        if self.engine.fast("derive"):
-            self.trial = session.trying(self.engine.derive(program, before))
-        else:
-            self._trying.ask(lambda: self.engine.derive(program, before))
-
-    def _tried(self, derived: Derived) -> None:
-        """A late trial is shown while the same number still stands in the field."""
-        if self.desk.page.preview(self.desk.session) == derived.program:
-            self.trial = self.desk.session.trying(derived)
-            self._tabulate()
-            self.refresh_screen()
-
-    def _tabulate(self) -> None:
-        """The look-ahead table of the block shown, kept until the block changes."""
-        found, program = self.shown.found, self.shown.program
-        if found.work is None or self.engine.table_of is found:
-            return
-        if self.engine.fast("table"):
-            self.engine.keep_table(found, program)
-        else:
-            self._tabling.ask(lambda: self.engine.keep_table(found, program))
-
-    def _tabled(self, _: None) -> None:
-        self.refresh_screen()
 
 
 def run(path: Path | None, *, example: str | None = None) -> int:
     """Show the screens on a program file, an example or an empty program; returns the exit status."""
+    prepare()
+    from app import driver, keys
+    from app.application import CutcompApp
+
     try:
-        session = _session(path, example)
+        session = begin(path, example)
     except StoreError as error:
         print(f"cutcomp: {error}", file=sys.stderr)
         return UNUSABLE
@@ -168,12 +35,25 @@ def run(path: Path | None, *, example: str | None = None) -> int:
     return app.return_code or 0
 
 
-def _session(path: Path | None, example: str | None) -> Session:
+def prepare() -> None:
+    """What must be so before Textual is imported.
+
+    Without the first, F3 of some terminals is lost.  The imports make hundreds of thousands of objects that stay:
+    looking through them again and again costs a tenth of the start, so the App switches the collector on again.
+    """
+    os.environ.setdefault("TEXTUAL_DISABLE_KITTY_KEY", "1")
+    gc.disable()
+
+
+def begin(path: Path | None, example: str | None) -> Session:
+    """The session to begin with; StoreError when the file is none."""
+    from app import files
+    from app.session import Session
+
     if example is not None:
         return Session.of(load(files.example(example)))
     if path is None:
         return Session.of(files.empty_program())
     if not path.exists() and path.parent.is_dir():
-        program = files.empty_program()
-        return Session.of(program, path).saying(f"{path} does not exist yet: saving makes it.")
+        return Session.of(files.empty_program(), path).saying(f"{path} does not exist yet: saving makes it.")
     return Session.of(load(path), path)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from app.session import SEGMENT, Tone
 from core.program.edit import Edited, Where
@@ -13,66 +12,56 @@ if TYPE_CHECKING:
     from app.screens.page import Page
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Edit:
+class Edit(NamedTuple):
     """A change of the program, made or refused; `label` is what undo calls it."""
 
     outcome: Edited
     label: str
 
 
-@dataclass(frozen=True, slots=True)
-class Move:
+class Move(NamedTuple):
     """The cursor goes to a field of the MILL CONTOUR form."""
 
     where: Where
     field: str = SEGMENT
 
 
-@dataclass(frozen=True, slots=True)
-class Say:
+class Say(NamedTuple):
     """A sentence for the prompt line."""
 
     text: str
     tone: Tone = Tone.PLAIN
 
 
-@dataclass(frozen=True, slots=True)
-class Undo:
+class Undo(NamedTuple):
     """Take back the last change."""
 
 
-@dataclass(frozen=True, slots=True)
-class Redo:
+class Redo(NamedTuple):
     """Make the last undone change again."""
 
 
-@dataclass(frozen=True, slots=True)
-class Open:
+class Open(NamedTuple):
     """Put a screen on top of this one."""
 
     page: Page
 
 
-@dataclass(frozen=True, slots=True)
-class Close:
+class Close(NamedTuple):
     """Back to the screen below."""
 
 
-@dataclass(frozen=True, slots=True)
-class Swap:
+class Swap(NamedTuple):
     """Put a screen in the place of this one."""
 
     page: Page
 
 
-@dataclass(frozen=True, slots=True)
-class NextMode:
+class NextMode(NamedTuple):
     """Draw with the next set of characters: braille, half blocks, ASCII."""
 
 
-@dataclass(frozen=True, slots=True)
-class Save:
+class Save(NamedTuple):
     """Write the program to `path`, to its own file when None; `overwrite` says that the operator agreed."""
 
     path: Path | None = None
@@ -81,23 +70,20 @@ class Save:
     """Leave the program once it is saved."""
 
 
-@dataclass(frozen=True, slots=True)
-class Browse:
+class Browse(NamedTuple):
     """Show the programs in a folder, in that of the program when None."""
 
     folder: Path | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Load:
+class Load(NamedTuple):
     """Work on the program in a file, on an empty one when None; `unsaved` gives up what is not saved."""
 
     path: Path | None
     unsaved: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Post:
+class Post(NamedTuple):
     """Write the NC file; `override` is the sentence the operator typed to post in spite of the findings."""
 
     path: Path
@@ -105,8 +91,7 @@ class Post:
     override: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Leave:
+class Leave(NamedTuple):
     """End the program; `unsaved` says that the operator agreed to lose what is not saved."""
 
     unsaved: bool = False

@@ -21,7 +21,7 @@ class FindingsPage(TextPage):
 
     def lines(self, session: Session, surface: Surface) -> tuple[Row, ...]:
         """The strip, then every finding."""
-        rows = verdict_rows(session.found, surface.table, session.program.unit, surface.width, look=None)
+        rows = verdict_rows(session.found, surface.table, session.program.unit, None)
         told = [one for row in rows[1:] for one in _wrapped(row, surface.width)]
         return (rows[0], (), *(told or [plain(" Nothing to report.")]))
 

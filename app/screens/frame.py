@@ -17,11 +17,11 @@ from app.widgets.prompt import prompt_rows
 from app.widgets.rows import LOOKS, Look, Part, Row, Rows, composed, plain
 from app.widgets.softkeys import softkey_rows
 from app.widgets.status import status_row
-from app.widgets.verdict import fitted, verdict_rows
+from app.widgets.verdict import fitted
 
 if TYPE_CHECKING:
+    from app.application import CutcompApp
     from app.engine import Known
-    from app.main import CutcompApp
 
 SECOND = 1
 """Where a header does not fit, its second line counts."""
@@ -89,7 +89,7 @@ def _verdict(session: Session, known: Known, view: View, layout: Layout, areas: 
     area = areas.verdict
     if area.height == 0:
         return ()
-    rows = verdict_rows(session.found, known.table, session.program.unit, area.width, look=view.sketch.lookahead)
+    rows = known.verdict(session, view.sketch.lookahead)
     if layout is not Layout.FORM:
         rows = rows[1:]
     # the form's last line of four stays blank above the drawing

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
 
 from app.messages import Message
 from app.session import Said, Session
@@ -25,8 +25,7 @@ class Layout(StrEnum):
     DRAW = "draw"
 
 
-@dataclass(frozen=True, slots=True)
-class Surface:
+class Surface(NamedTuple):
     """What a page may know of the terminal, in cells, and of what takes long to calculate."""
 
     width: int = 59
@@ -35,8 +34,7 @@ class Surface:
     """The look-ahead table of the block with the cursor, None while it is not known."""
 
 
-@dataclass(frozen=True, slots=True)
-class Softkey:
+class Softkey(NamedTuple):
     """One of F1 to F8: its label, and what it asks for."""
 
     label: str
@@ -59,19 +57,21 @@ class Sketch:
     dy: float = 0.0
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class View:
+WHOLE: Final = Sketch()
+"""The block itself, as large as it fits."""
+
+
+class View(NamedTuple):
     """A page as it stands: rows for each part of the terminal."""
 
     header: tuple[Row, ...]
     body: tuple[Row, ...]
     prompt: Said
     focus: int = 0
-    sketch: Sketch = field(default_factory=Sketch)
+    sketch: Sketch = WHOLE
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Answer:
+class Answer(NamedTuple):
     """What a key does: the page as it is then, and what it asks of the App."""
 
     page: Page

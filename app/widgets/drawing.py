@@ -12,7 +12,7 @@ from app.screens.page import Sketch
 from app.widgets.rows import Look, Row, Span
 from core.draw.mode import Mode
 from core.draw.raster import Picture, draw
-from core.draw.scene import Scene, Style
+from core.draw.scene import Box, Scene, Style
 from core.draw.view import View
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.plot import block_scene
@@ -21,6 +21,8 @@ from core.units import Unit
 
 ROOM_FOR_SCALE: Final = 10
 """In fewer rows the scale bar would cover the part."""
+AGAIN: Final = frozenset({Style.UNCUT, Style.DELETED, Style.GOUGE})
+"""Roles of layers that are parts of the surface."""
 LOOKS: Final = {
     Style.BACKGROUND: Look.PLAIN,
     Style.AXIS: Look.AXIS,
@@ -50,10 +52,16 @@ def picture_rows(scene: Scene, sketch: Sketch, columns: int, rows: int, mode: st
     """The scene in columns x rows cells, in the window the sketch gives."""
     if rows < ROOM_FOR_SCALE:
         scene = replace(scene, unit=None)
-    if scene.bounds is None:
+    bounds = bounds_of(scene)
+    if bounds is None:
         return ()
-    view = View.fit(scene.bounds, columns, rows).zoom(sketch.zoom).pan(sketch.dx, sketch.dy, columns, rows)
+    view = View.fit(bounds, columns, rows).zoom(sketch.zoom).pan(sketch.dx, sketch.dy, columns, rows)
     return tuple(_rows(draw(scene, view, columns, rows, Mode(mode))))
+
+
+def bounds_of(scene: Scene) -> Box | None:
+    """The bounds of what spans the drawing: parts of the surface that are drawn once more cannot widen it."""
+    return replace(scene, layers=tuple(layer for layer in scene.layers if layer.style not in AGAIN), marks=()).bounds
 
 
 def _rows(picture: Picture) -> list[Row]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from textwrap import wrap
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from app.widgets.rows import Look, Row, Span, padded, plain, text_of
 from app.widgets.words import length, number, numbers, place
@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from core.verify.verdict import Verdict
 
 
+STRIP: Final = 59
+"""Cells of the strip: it stands above the form's drawing."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Case:
     """The path the verdict is about: the block's own, or that of a look-ahead value of the table."""
@@ -31,10 +35,10 @@ class Case:
     verdict: Verdict
 
 
-def verdict_rows(found: DerivedBlock, table: Table | None, unit: Unit, width: int, *, look: int | None) -> list[Row]:
+def verdict_rows(found: DerivedBlock, table: Table | None, unit: Unit, look: int | None) -> list[Row]:
     """All lines of the verdict; `look` is a look-ahead value to judge instead of the one in force."""
     case = _case(found, table, look)
-    first = _strip(found, table, width)
+    first = _strip(found, table)
     if look is not None and case is not None:
         return [first, *_case_lines(case, unit)]
     findings = _untold(found.findings, case)
@@ -52,9 +56,10 @@ def _untold(findings: tuple[Finding, ...], case: Case | None) -> list[Finding]:
 
 def fitted(rows: list[Row], height: int, width: int) -> tuple[Row, ...]:
     """The rows wrapped to the width where all of that fits; else the first ones, the last saying how many more."""
-    wrapped = [line for row in rows for line in _wrapped(row, width)]
-    if len(wrapped) <= height:
-        return tuple(wrapped)
+    if len(rows) <= height:
+        wrapped = [line for row in rows for line in _wrapped(row, width)]
+        if len(wrapped) <= height:
+            return tuple(wrapped)
     kept = [_cut(row, width) for row in rows[: max(height, 0)]]
     if kept and len(rows) > height:
         more = f" +{len(rows) - height} more"
@@ -124,19 +129,19 @@ def _deleted(compensated: Compensated, unit: Unit) -> Iterator[Row]:
             yield (Span(" DELETED ", Look.LABEL), Span(f"{erased}  {by}", Look.WARNING))
 
 
-def _strip(found: DerivedBlock, table: Table | None, width: int) -> Row:
+def _strip(found: DerivedBlock, table: Table | None) -> Row:
     if found.side is None:
         return plain(" CUTTER COMP. ON: the tool's centre runs on the contour.", Look.LABEL)
     if table is None:
-        return plain(f" look-ahead [{found.lookahead.value}]", Look.LABEL)
+        return plain(f" look-ahead [{found.lookahead.value}]{'' if found.known else '   calculating ...'}", Look.LABEL)
     here = found.lookahead.value
     spans = [Span(" look-ahead", Look.LABEL)]
     for first, last, mark in _runs(table, here):
         spans.append(_run(first, last, mark, here=first == here == last))
     advice = _advice(table, here)
-    left = width - sum(len(span.text) for span in spans)
+    left = STRIP - sum(len(span.text) for span in spans)
     if left < len(advice) + 2:
-        spans = _shortened(spans, width - len(advice) - 6)
+        spans = _shortened(spans, STRIP - len(advice) - 6)
     return (*spans, Span(f"   {advice}", Look.LABEL))
 
 

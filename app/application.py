@@ -1,0 +1,148 @@
+"""The App: owns the one desk, hands keys to it, and has it painted."""
+
+from __future__ import annotations
+
+import gc
+from typing import ClassVar, Final
+
+from textual.app import App
+
+from app.behind import Behind
+from app.desk import Desk
+from app.engine import Engine
+from app.screens.frame import Frame, picture
+from app.session import Session
+from app.surroundings import Surroundings, real
+from app.widgets.rows import Row
+from core.pipeline.derived import Derived
+from core.pipeline.outline import outline
+
+MINUTE: Final = 60.0
+
+
+class CutcompApp(App[int], inherit_bindings=False):
+    """The screens.  The only place where the session changes hands."""
+
+    CSS_PATH = "app.tcss"
+    TITLE = "cutcomp"
+    ENABLE_COMMAND_PALETTE = False
+    BINDINGS: ClassVar = []
+
+    def __init__(self, session: Session, around: Surroundings | None = None, engine: Engine | None = None) -> None:
+        super().__init__()
+        self.desk = Desk(session)
+        self.trial: Session | None = None
+        self.around = around or real()
+        self.engine = engine or Engine()
+        self._loading = Behind(self, self._loaded)
+        self._deriving = Behind(self, self._derived)
+        self._trying = Behind(self, self._tried)
+        self._tabling = Behind(self, self._tabled)
+
+    @property
+    def shown(self) -> Session:
+        """The session as the screens show it: with a half-typed number tried out, if there is one."""
+        return self.trial or self.desk.session
+
+    def get_default_screen(self) -> Frame:
+        """The frame."""
+        return Frame()
+
+    def on_ready(self) -> None:
+        """Once the first screen stands, fetch what it did not need."""
+        # what came with the imports stays: the collector need not look through it ever again
+        gc.freeze()
+        gc.enable()
+        self.set_interval(MINUTE, self.refresh_screen)
+        program = self.desk.session.program
+        self._loading.ask(lambda: self.engine.load(program))
+
+    def key(self, key: str, character: str | None) -> None:
+        """A key was pressed."""
+        self.desk = self.desk.press(key, character)
+        self._advance()
+
+    def paste(self, text: str) -> None:
+        """Text was pasted."""
+        self.desk = self.desk.paste(text)
+        self._advance()
+
+    def refresh_screen(self, width: int = 0, height: int = 0) -> None:
+        """Paint what changed, on a terminal of this size if one is given."""
+        frame = self.screen
+        if isinstance(frame, Frame) and frame.is_mounted:
+            frame.show(self.picture(width or self.size.width, height or self.size.height))
+
+    def picture(self, width: int, height: int) -> tuple[Row, ...]:
+        """The terminal as it is now."""
+        known = self.engine.known(self.shown.found, self.trial)
+        return picture(self.desk, known, self.around, width, height)
+
+    def _advance(self) -> None:
+        """After every change of the desk: derive what is stale, paint, or leave."""
+        if self.desk.exit:
+            self.exit(0)
+            return
+        self._derive()
+        self._try()
+        self._tabulate()
+        self.refresh_screen()
+
+    def _loaded(self, derived: Derived) -> None:
+        self.engine.ready = True
+        self._derived(derived)
+        self._advance()
+
+    def _derive(self) -> None:
+        """Everything that follows from the program: now while it is fast, else in a thread."""
+        session = self.desk.session
+        if not session.stale and all(found.known for found in session.derived.blocks):
+            return
+        program, before = session.program, session.derived
+        if self.engine.fast("derive"):
+            self.desk = self.desk.knowing(self.engine.derive(program, before))
+            return
+        if session.stale:
+            self.desk = self.desk.knowing(outline(program))
+        if self.engine.ready:
+            self._deriving.ask(lambda: self.engine.derive(program, before))
+
+    def _derived(self, derived: Derived) -> None:
+        """A result from a thread; one for another program than that of now is dropped."""
+        self.desk = self.desk.knowing(derived)
+        self._tabulate()
+        self.refresh_screen()
+
+    def _try(self) -> None:
+        """While a number is being typed, what it would do: with every key, or as soon as it is calculated."""
+        session = self.desk.session
+        program = self.desk.page.preview(session)
+        self.trial = None
+        self._trying.forget()
+        if program is None or not self.engine.ready:
+            return
+        before = session.derived
+        if self.engine.fast("derive", "trial"):
+            self.trial = session.trying(self.engine.derive(program, before))
+        else:
+            self._trying.ask(lambda: self.engine.derive(program, before))
+
+    def _tried(self, derived: Derived) -> None:
+        """A late trial is shown while the same number still stands in the field."""
+        if self.desk.page.preview(self.desk.session) == derived.program:
+            self.trial = self.desk.session.trying(derived)
+            self._tabulate()
+            self.refresh_screen()
+
+    def _tabulate(self) -> None:
+        """The look-ahead table of the block shown, kept until the block changes."""
+        found, program = self.shown.found, self.shown.program
+        if found.work is None or self.engine.table_of is found:
+            return
+        if self.engine.fast("derive", "table"):
+            self.engine.keep_table(found, program)
+        else:
+            self._tabling.ask(lambda: self.engine.keep_table(found, program))
+
+    def _tabled(self, _: None) -> None:
+        self.refresh_screen()
