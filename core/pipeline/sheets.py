@@ -1,0 +1,29 @@
+"""A derived program's setup sheet, as text or as a page with a drawing of each block."""
+
+from __future__ import annotations
+
+from core.output.sheet import About, Sheet, sheet
+from core.output.sheet_page import as_page
+from core.output.sheet_text import as_text
+from core.output.svg import svg
+from core.pipeline.derived import Derived
+from core.pipeline.jobs import jobs
+from core.pipeline.plot import block_scene
+
+
+def sheet_of(derived: Derived, *, name: str, day: str) -> Sheet:
+    """The sheet of a program called `name`, printed on `day` (any text)."""
+    program = derived.program
+    return sheet(jobs(derived), program.unit, About(name, program.setup.name, day))
+
+
+def sheet_text(derived: Derived, *, name: str, day: str) -> str:
+    """The sheet as plain text."""
+    return as_text(sheet_of(derived, name=name, day=day))
+
+
+def sheet_page(derived: Derived, *, name: str, day: str) -> str:
+    """The sheet as an HTML page, with the exact drawing of every block."""
+    unit = derived.program.unit
+    drawings = [svg(block_scene(found, None, unit), title=f"BLOCK {found.number}") for found in derived.blocks]
+    return as_page(sheet_of(derived, name=name, day=day), drawings)

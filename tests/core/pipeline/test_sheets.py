@@ -1,0 +1,29 @@
+"""Setup sheets of whole programs."""
+
+from __future__ import annotations
+
+from core.pipeline.derive import derive
+from core.pipeline.outline import outline
+from core.pipeline.sheets import sheet_page, sheet_text
+from core.program.edit import new_block
+from core.program.model import Program
+from core.program.store import load
+from tests.core.program.test_examples import EXAMPLES
+
+
+def test_every_example_has_a_sheet_with_a_drawing_a_block():
+    for path in sorted(EXAMPLES.glob("*.toml")):
+        derived = derive(load(path))
+        page = sheet_page(derived, name=path.stem, day="2026-01-02")
+        assert page.count("<svg") == len(derived.blocks)
+        text = sheet_text(derived, name=path.stem, day="2026-01-02")
+        assert ("DO NOT RUN" in text) == any(found.errors for found in derived.blocks)
+        assert f"LOOKAHEAD          {derived.blocks[0].lookahead.tag} " in text or derived.blocks[0].side is None
+
+
+def test_a_program_that_is_only_begun_is_not_ready():
+    program = Program()
+    program = Program(blocks=(new_block(program),))
+    for derived in (outline(program), derive(program)):
+        assert "DO NOT RUN" in sheet_text(derived, name="new", day="")
+        assert "DO NOT RUN" in sheet_page(derived, name="new", day="")
