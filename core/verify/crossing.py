@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import pi
+from typing import Final
 
 import numpy as np
 
@@ -10,6 +12,9 @@ from core.geometry.boxes import near_pairs
 from core.geometry.distance import between, distance, foot, nearest_places
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction
 from core.tolerance import JOINED
+
+TURN: Final = 1e-6
+"""Radians short of half a turn that are taken for one."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -31,7 +36,9 @@ def crossings(surface: Measured, stations: Floats, bounds: Floats, *, closed: bo
     following = j == i + 1
     around = (i == 0) & (j == len(surface) - 1) if closed else np.zeros(len(i), np.bool_)
     joint = following | around
-    keep = ~joint | _may_meet_again(surface, i, j, following)
+    keep = np.flatnonzero(~joint | _may_meet_again(surface, i, j, following))
+    if not len(keep):
+        return Crossings(np.zeros((0, 2)), np.zeros(0, np.complex128))
     i, j, following, around = i[keep], j[keep], following[keep], around[keep]
     one, other = surface.take(i), surface.take(j)
     places = np.vstack((nearest_places(one, other), np.full(len(one), 0.5)))
@@ -47,11 +54,11 @@ def crossings(surface: Measured, stations: Floats, bounds: Floats, *, closed: bo
 
 
 def _may_meet_again(surface: Measured, i: Rows, j: Rows, following: Flags) -> Flags:
-    """Neighbours that can meet elsewhere than at their joint: one is an arc, or the later runs straight back."""
-    arcs = surface.arcs
-    one, other = np.where(following, i, j), np.where(following, j, i)
-    back = (np.conj(surface.unit[one]) * surface.unit[other]).real < -0.5
-    again: Flags = arcs[i] | arcs[j] | back
+    """Neighbours that can meet elsewhere than at their joint: a curve must turn half round to come back to itself."""
+    one, other = surface.take(np.where(following, i, j)), surface.take(np.where(following, j, i))
+    leaving, arriving = direction(other, np.zeros(len(i))), direction(one, np.ones(len(i)))
+    turned = one.angle + other.angle + np.abs(np.angle(leaving * np.conj(arriving)))
+    again: Flags = turned > pi - TURN
     return again
 
 
