@@ -1,0 +1,99 @@
+"""What differs between two programs, in an operator's words: one sentence a change, in the order of the screens."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from enum import StrEnum
+
+from core.program.convert import converted
+from core.program.delta import splice
+from core.program.fields import TABLES, Form, form_of
+from core.program.model import Block, Entry, Parameters, PartSetup, Program, Segment, Tool, Unread
+from core.units import Kind, Unit, printable, show
+
+Part = Block | Segment | Tool | Parameters | PartSetup
+
+
+def differences(old: Program, new: Program) -> tuple[str, ...]:
+    """One sentence for each field, segment, block and tool in which `new` is not as `old`; none if they are equal."""
+    return tuple(_differences(old, new))
+
+
+def _differences(old: Program, new: Program) -> Iterator[str]:
+    if old.unit is not new.unit:
+        yield f"Program units: {new.unit}, was {old.unit}."
+        old = converted(old, new.unit)
+    yield from _fields("PROGRAM PARAMETERS", Form.PARAMETERS, old.parameters, new.parameters, new.unit)
+    yield from _fields("PART SETUP", Form.SETUP, old.setup, new.setup, new.unit)
+    yield from _tools(old, new)
+    yield from _blocks(old.blocks, new.blocks, new.unit)
+
+
+def _fields(where: str, form: Form, old: Part, new: Part, unit: Unit) -> Iterator[str]:
+    for one in TABLES[form]:
+        before, after = getattr(old, one.name), getattr(new, one.name)
+        if before != after:
+            yield f"{where}: {one.label} {_text(after, one.kind, unit)}, was {_text(before, one.kind, unit)}."
+    if getattr(old, "choice", None) != getattr(new, "choice", None):
+        yield f"{where}: another solution is picked."
+
+
+def _text(value: object, kind: Kind, unit: Unit) -> str:
+    match value:
+        case Entry(number):
+            return show(number, kind, unit)
+        case Unread(text):
+            return f"{printable(text)} (cannot be read)"
+        case None | "":
+            return "blank"
+        case StrEnum():
+            return value.value
+        case _:
+            return printable(str(value))
+
+
+def _tools(old: Program, new: Program) -> Iterator[str]:
+    before, after = ({tool.number: tool for tool in one.tools} for one in (old, new))
+    for number in sorted(before.keys() | after.keys()):
+        if number not in before:
+            yield f"Tool {number} is new."
+        elif number not in after:
+            yield f"Tool {number} is deleted."
+        else:
+            yield from _fields(f"Tool {number}", Form.TOOL, before[number], after[number], new.unit)
+
+
+def _blocks(old: tuple[Block, ...], new: tuple[Block, ...], unit: Unit) -> Iterator[str]:
+    middle = splice(old, new)
+    if len(middle.old) != len(middle.new):
+        yield _replaced("Block", "", middle.at, len(middle.old), len(middle.new))
+        return
+    for number, (before, after) in enumerate(zip(middle.old, middle.new, strict=True), middle.at + 1):
+        yield from _fields(f"Block {number}", Form.START, before, after, unit)
+        yield from _segments(f"Block {number}", before.segments, after.segments, unit)
+
+
+def _segments(where: str, old: tuple[Segment, ...], new: tuple[Segment, ...], unit: Unit) -> Iterator[str]:
+    middle = splice(old, new)
+    if len(middle.old) != len(middle.new):
+        yield _replaced("segment", f"{where}, ", middle.at, len(middle.old), len(middle.new))
+        return
+    for number, (before, after) in enumerate(zip(middle.old, middle.new, strict=True), middle.at + 1):
+        place, form = f"{where}, segment {number}", form_of(after)
+        if type(before) is type(after):
+            yield from _fields(place, form, before, after, unit)
+        else:
+            yield f"{place}: {form.value}, was {form_of(before).value}."
+
+
+def _replaced(thing: str, where: str, at: int, old: int, new: int) -> str:
+    """How many were taken out and put in from index `at` on."""
+    if old == 0:
+        return f"{where}{_run(thing, at, new)} {'is' if new == 1 else 'are'} new."
+    if new == 0:
+        return f"{where}{_run(thing, at, old)} {'is' if old == 1 else 'are'} deleted."
+    return f"{where}{_run(thing, at, old)}: now {new} in place of {old}."
+
+
+def _run(thing: str, at: int, count: int) -> str:
+    return f"{thing} {at + 1}" if count == 1 else f"{thing}s {at + 1} to {at + count}"

@@ -1,0 +1,164 @@
+"""Who has a program open: a small hidden file beside it, made in one step, with the owner's name in it.
+
+The lock tells, it does not force: a second opener may look or take over, and the first one finds another name in the
+file before it saves.  Two who recognise the same dead lock in the same moment may both believe that it is theirs;
+before saving, one of them finds the other's name.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from getpass import getuser
+from pathlib import Path
+from socket import gethostname
+from typing import Final
+
+from core.program.disk import sync_folder, write_all
+
+SUFFIX: Final = ".cutcomp-lock"
+
+
+@dataclass(frozen=True, slots=True)
+class Owner:
+    """A running program: its user, host and process; `started` tells it from a later process of the same number.
+
+    `since` is a time in ISO format.
+    """
+
+    user: str
+    host: str
+    pid: int
+    started: str
+    since: str
+
+
+UNKNOWN: Final = Owner("somebody", "", 0, "", "")
+"""The owner of a lock that cannot be read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lock:
+    """A lock that is held: its file and what it says."""
+
+    path: Path
+    owner: Owner
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """Somebody else has the program open."""
+
+    owner: Owner
+
+
+def myself(since: str) -> Owner:
+    """This process."""
+    return Owner(_user(), gethostname(), os.getpid(), started(os.getpid()), since)
+
+
+def _user() -> str:
+    try:
+        return getuser()
+    except (OSError, KeyError):
+        return str(os.getuid())
+
+
+def started(pid: int) -> str:
+    """What tells a process from another one of the same number, empty where the system does not say it."""
+    try:
+        boot = Path("/proc/sys/kernel/random/boot_id").read_text().strip()
+        status = Path(f"/proc/{pid}/stat").read_text()
+    except OSError:
+        return ""
+    return f"{boot}:{status.rpartition(')')[2].split()[19]}"
+
+
+def alive(owner: Owner) -> bool:
+    """Whether the owner may still be running; one on another host always may."""
+    if owner == UNKNOWN or owner.host != gethostname():
+        return True
+    try:
+        os.kill(owner.pid, 0)
+    except ProcessLookupError:
+        return False
+    except (PermissionError, OverflowError):
+        pass
+    now = started(owner.pid)
+    return not now or not owner.started or now == owner.started
+
+
+def lock_path(path: Path) -> Path:
+    """The lock's file: hidden, beside the file that a symbolic link leads to."""
+    target = Path(os.path.realpath(path))
+    return target.with_name(f".{target.name[:200]}{SUFFIX}")
+
+
+def take(path: Path, me: Owner) -> Lock | Held:
+    """Lock a program file, also one that does not exist yet; OSError where no lock can be written."""
+    lock = Lock(lock_path(path), me)
+    for _ in range(3):
+        try:
+            _create(lock)
+        except FileExistsError:
+            owner = _owner(lock.path)
+            if owner is not None and alive(owner):
+                return Held(owner)
+            with suppress(FileNotFoundError):
+                lock.path.unlink()
+        else:
+            return lock
+    return Held(_owner(lock.path) or UNKNOWN)
+
+
+def take_over(path: Path, me: Owner) -> Lock:
+    """Lock a program file whoever has it; OSError where no lock can be written."""
+    lock = Lock(lock_path(path), me)
+    with suppress(FileNotFoundError):
+        lock.path.unlink()
+    _create(lock)
+    return lock
+
+
+def taken_by(lock: Lock) -> Owner | None:
+    """Who has taken over a lock that was held, None while it is held still (or nobody has it)."""
+    owner = _owner(lock.path)
+    return None if owner == lock.owner else owner
+
+
+def release(lock: Lock) -> None:
+    """Give a lock back, unless somebody has taken it over."""
+    if _owner(lock.path) == lock.owner:
+        with suppress(OSError):
+            lock.path.unlink()
+
+
+def _create(lock: Lock) -> None:
+    handle = os.open(lock.path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o644)
+    try:
+        write_all(handle, json.dumps(asdict(lock.owner)).encode())
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+    sync_folder(lock.path.parent)
+
+
+def _owner(path: Path) -> Owner | None:
+    """What a lock file says; None where there is none, UNKNOWN where it cannot be understood."""
+    try:
+        return owner_of(json.loads(path.read_bytes()[:4096]))
+    except FileNotFoundError:
+        return None
+    except (OSError, ValueError, RecursionError):
+        return UNKNOWN
+
+
+def owner_of(values: object) -> Owner:
+    """The owner that `dataclasses.asdict` wrote; ValueError for anything else."""
+    match values:
+        case {"user": str(user), "host": str(host), "pid": int(pid), "started": str(begun), "since": str(since)}:
+            return Owner(user, host, pid, begun, since)
+        case _:
+            raise ValueError
