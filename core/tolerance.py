@@ -38,7 +38,7 @@ CLEAR: Final = 1e-8
 """May the cutter stand at a place of the best path?  It is no nearer to the surface than the radius less this."""
 
 CROWDED: Final = 1e-5
-"""Are two meetings on one piece apart?  Nearer ones may be one place where three pieces meet, and prove nothing singly."""
+"""Are two meetings on one piece apart?  Nearer ones may be one place where three pieces meet."""
 
 WHISKER: Final = 1e-3
 """Is a loose end of the best path rounding at a near-tangent joint?  A longer one is told."""

@@ -90,7 +90,7 @@ def _overlaps(raw: Raw, i: Indices, j: Indices) -> Events:
     for one, other in ((i, j), (j, i)):
         for ends, along in ((raw.start[other], np.zeros(len(other))), (raw.end[other], raw.lengths[other])):
             at = along_of(raw, one, ends)
-            on = np.flatnonzero((at > JOINED) & (at < raw.lengths[one] - JOINED))
+            on = np.flatnonzero((at >= -JOINED) & (at <= raw.lengths[one] + JOINED))
             found.append(Events(one[on], other[on], at[on], along[on], ends[on], np.zeros(len(on))))
     return _all(found)
 
@@ -102,8 +102,9 @@ def along_of(raw: Raw, rows: Indices, points: Planes) -> Floats:
     span = raw.end[rows] - start
     line = (span.conj() * (points - start)).real / np.where(straight, np.abs(span), 1.0)
     arm = start - centre
-    arc = np.mod(np.angle(arm.conj() * (points - centre)) * turns, tau) * np.abs(arm)
-    along: Floats = np.where(straight, line, arc)
+    angle = np.mod(np.angle(arm.conj() * (points - centre)) * turns, tau)
+    angle = np.where((tau - angle) * np.abs(arm) <= JOINED, angle - tau, angle)
+    along: Floats = np.where(straight, line, angle * np.abs(arm))
     return along
 
 

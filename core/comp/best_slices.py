@@ -21,7 +21,7 @@ from core.tolerance import CROWDED, JOINED
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Slices:
-    """s slices in order of travel: of `piece` (s,), from `begin` to `end` mm along it, between nodes `first` and `last`.
+    """s slices in order of travel: of `piece` (s,), from `begin` to `end` mm along it, from node `first` to `last`.
 
     `dead` (s,) marks slices that turn the wrong way at one of their ends; `turning` (s,) is the slice on another piece
     that a slice at its end turns to at a crossing, -1 if none.  `points` are the nodes' places; `met` and `outer` mark
@@ -62,7 +62,8 @@ class Slices:
 
 def sliced(raw: Raw, found: Events) -> Slices:
     """The side pieces cut at all events."""
-    stations = _stations(raw, found)
+    every = _stations(raw, found)
+    stations = every.of(raw.side)
     pieces = np.flatnonzero(raw.side)
     cuts = np.bincount(stations.piece, minlength=len(raw))[pieces] + 1
     slot = np.zeros(len(raw), np.intp)
@@ -73,11 +74,11 @@ def sliced(raw: Raw, found: Events) -> Slices:
     begin[at + 1], end[at], first[at + 1], last[at] = stations.along, stations.along, stations.node, stations.node
     dead, turning = _turns(stations, at, _alone(raw, stations), len(begin))
     cut = Slices(np.repeat(pieces, cuts), begin, end, first, last, dead, turning, *_nodes(raw, found))
-    return _welded(cut)
+    return _welded(cut, *every.of(~raw.side).twins())
 
 
 class _Stations(NamedTuple):
-    """Every event on every side piece it lies on, as travelled: piece, distance along it, event, node, and turn.
+    """Every event on both its pieces, by piece and as travelled: piece, distance along it, event, node, and turn.
 
     `turn` is positive where the piece ends its clear stretch at the event, negative where it begins it.
     """
@@ -88,6 +89,16 @@ class _Stations(NamedTuple):
     node: Indices
     turn: Floats
 
+    def of(self, pieces: Masks) -> _Stations:
+        """Those on some pieces."""
+        rows = np.flatnonzero(pieces[self.piece])
+        return _Stations(self.piece[rows], self.along[rows], self.event[rows], self.node[rows], self.turn[rows])
+
+    def twins(self) -> tuple[Indices, Indices]:
+        """The nodes of stations that follow each other on one piece within JOINED."""
+        same = (self.piece[1:] == self.piece[:-1]) & (self.along[1:] - self.along[:-1] <= JOINED)
+        return self.node[:-1][same], self.node[1:][same]
+
 
 def _stations(raw: Raw, found: Events) -> _Stations:
     piece = np.concatenate((found.one, found.other))
@@ -95,7 +106,6 @@ def _stations(raw: Raw, found: Events) -> _Stations:
     event = np.tile(np.arange(len(found.one)), 2)
     turn = np.concatenate((found.turn, -found.turn))
     order = _sorted(piece, along)
-    order = order[raw.side[piece[order]]]
     piece, event = piece[order], event[order]
     return _Stations(piece, np.clip(along[order], 0.0, raw.lengths[piece]), event, 2 * len(raw) + event, turn[order])
 
@@ -151,12 +161,13 @@ def _nodes(raw: Raw, found: Events) -> tuple[Planes, Masks, Masks]:
     return points, met, outer
 
 
-def _welded(cut: Slices) -> Slices:
-    """Slices no longer than JOINED dropped, their two nodes made one."""
+def _welded(cut: Slices, one: Indices, other: Indices) -> Slices:
+    """Slices no longer than JOINED dropped, their two nodes made one; so are the nodes `one` and `other`."""
     short = cut.end - cut.begin <= JOINED
-    if not short.any():
+    if not short.any() and not len(one):
         return cut
-    same = merged(len(cut.points), cut.first[short], cut.last[short])
+    one, other = np.concatenate((one, cut.first[short])), np.concatenate((other, cut.last[short]))
+    same = merged(len(cut.points), one, other)
     met, outer = cut.met.copy(), cut.outer.copy()
     met[same[cut.met]] = True
     outer[same[cut.outer]] = True
