@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from core.geometry.side import Side
+from core.verify.judge import judge
+from tests.core.verify.corpus import corpus
 from tests.core.verify.mutants import MUTATIONS, Row, table
 
 
@@ -25,3 +28,10 @@ def test_the_mutants_are_worth_judging(rows: dict[str, Row]) -> None:
     assert sum(row.leaving for row in rows.values()) > 30
     for name in ("shift_all", "flip_an_arc", "narrower", "on_the_other_side"):
         assert rows[name].gouging > 0
+
+
+def test_the_path_of_the_other_side_is_never_clean() -> None:
+    for case in corpus(11, 12):
+        other = Side.LEFT if case.side is Side.RIGHT else Side.RIGHT
+        assert judge(case.surface, case.side, case.radius, case.path.path()).clean
+        assert not judge(case.surface, other, case.radius, case.path.path()).clean

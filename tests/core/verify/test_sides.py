@@ -12,7 +12,7 @@ from core.geometry.piece import Arc, Line, Turn
 from core.geometry.side import Side
 from core.verify.judge import judge
 from tests.core.verify import oracle
-from tests.core.verify.mutants import Chain
+from tests.core.verify.corpus import Chain
 from tests.core.verify.shapes import lines, mirrored, moved
 
 
