@@ -10,14 +10,14 @@ crosses itself, where over-run lead-ins are walls like any other segment; a find
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from core.comp.best_events import events
 from core.comp.best_fate import clear_slices
 from core.comp.best_loops import loop_of
 from core.comp.best_raw import Raw, raw_of
+from core.comp.best_result import BestPath
+from core.comp.best_separation import Separation, separation
 from core.comp.best_slices import sliced
 from core.comp.best_stitch import Stitched, chains, stitch
 from core.comp.best_surface import Surface, crosses_itself, surface_of
@@ -26,19 +26,7 @@ from core.geometry.path import Path
 from core.geometry.side import Side
 from core.tolerance import GOUGE
 
-
-@dataclass(frozen=True, eq=False, slots=True)
-class BestPath:
-    """The loops of the best path in the contour's direction and the order of its segments; `closed` tells which are.
-
-    A closed loop starts at the image of START if that is on it, else with the first segment of the contour it follows.
-    An open contour has open chains too.  Pieces bear the programmed number k, corner arcs k + 1/2.
-    Without loops, a finding says why.
-    """
-
-    loops: tuple[Path, ...]
-    closed: tuple[bool, ...]
-    findings: tuple[Finding, ...]
+__all__ = ["BestPath", "Separation", "best_path", "separation"]
 
 
 def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> BestPath:
