@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import between, distance, farthest_places
-from core.geometry.measured import Flags, Floats, Measured, Rows, at, boxes, place
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, boxes, place
 from core.tolerance import STOCK
 from core.verify.reach import Stretches, nearest
 
@@ -58,19 +58,33 @@ class _Search:
 
     def look(self, s: Floats, known: Floats) -> tuple[Floats, Rows]:
         """Distance of each place from the other path, no larger than `known`, and the piece it is nearest to."""
-        index, t = place(self.walked, self.stations, s)
-        found = nearest(at(self.walked.take(index), t), self.other, self.bounds, known=known + self.give)
+        found = nearest(self.points(s), self.other, self.bounds, known=known + self.give)
         first = np.searchsorted(found.k, np.arange(len(s)))
         return found.apart[first], found.j[first]
 
+    def look_or_measure(self, s: Floats, near: Rows, known: Floats) -> tuple[Floats, Rows]:
+        """The same, where `near` is -1; elsewhere the nearest piece is `near`."""
+        apart, near = np.empty(len(s)), near.copy()
+        new, old = np.flatnonzero(near < 0), np.flatnonzero(near >= 0)
+        apart[old] = distance(self.other.take(near[old]), self.points(s[old]))
+        if len(new):
+            apart[new], near[new] = self.look(s[new], known[new])
+        return apart, near
 
-def farthest(walked: Measured, stretches: Stretches, other: Measured, ends: float) -> Farthest:
+    def points(self, s: Floats) -> Points:
+        """Points at places along the walked path."""
+        index, t = place(self.walked, self.stations, s)
+        return at(self.walked.take(index), t)
+
+
+def farthest(walked: Measured, stretches: Stretches, other: Measured, near: Rows, ends: float) -> Farthest:
     """The largest distance from `other`, within FINE, on each stretch of `walked`; `other` has at least one piece.
 
-    `ends` is no less than the distance at the stretches' ends, except those at the very ends of `walked`.
+    `near` (2, k) are the pieces of `other` nearest to the stretches' ends, -1 where unknown; where they are known the
+    distance is at most `ends`.
     """
     search = _Search(walked, walked.stations, other, boxes(other), STOCK + 2.0 * float(walked.slack.max(initial=0.0)))
-    spans, best = _begin(search, stretches, ends)
+    spans, best = _begin(search, stretches, near, ends)
     for turn in range(ROUNDS):
         bound, crossing = _bounds(search, spans)
         open_still = bound > best.apart[spans.owner] + FINE
@@ -81,7 +95,7 @@ def farthest(walked: Measured, stretches: Stretches, other: Measured, ends: floa
     return best
 
 
-def _begin(search: _Search, stretches: Stretches, ends: float) -> tuple[_Spans, Farthest]:
+def _begin(search: _Search, stretches: Stretches, near: Rows, ends: float) -> tuple[_Spans, Farthest]:
     """Stretches parted at the joints within them, and the best of all their ends and joints."""
     joints = search.stations[1:-1]
     owner = stretches.index(joints)
@@ -90,18 +104,20 @@ def _begin(search: _Search, stretches: Stretches, ends: float) -> tuple[_Spans, 
     owners = np.concatenate((each, each, owner[inside]))
     s = np.concatenate((stretches.first, stretches.last, joints[inside]))
     order = np.lexsort((s, owners))
+    known = np.concatenate((near[0], near[1], np.full(len(s) - 2 * len(each), -1)))[order]
     owners, s = owners[order], s[order]
-    apart, near = search.look(s, ends + _from_ends(search, stretches, owners, s))
+    most = ends + _from_ends(stretches, near, owners, s)
+    apart, near = search.look_or_measure(s, known, most)
     pairs = np.flatnonzero((owners[1:] == owners[:-1]) & (s[1:] > s[:-1]))
     both = np.stack((pairs, pairs + 1))
     none = Farthest(np.zeros(len(each)), np.full(len(each), -np.inf))
     return _Spans(owners[pairs], s[both], apart[both], near[both]), _better(none, owners, s, apart)
 
 
-def _from_ends(search: _Search, stretches: Stretches, owner: Rows, s: Floats) -> Floats:
-    """Length along the stretch to the nearer of its ends, not counting an end of the whole path."""
-    first = np.where(stretches.first > 0.0, stretches.first, -np.inf)
-    last = np.where(stretches.last < search.stations[-1], stretches.last, np.inf)
+def _from_ends(stretches: Stretches, near: Rows, owner: Rows, s: Floats) -> Floats:
+    """Length along the stretch to the nearer of those of its ends where the nearest piece is known."""
+    first = np.where(near[0] >= 0, stretches.first, -np.inf)
+    last = np.where(near[1] >= 0, stretches.last, np.inf)
     nearer: Floats = np.minimum(s - first[owner], last[owner] - s)
     return nearer
 

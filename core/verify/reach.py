@@ -31,11 +31,6 @@ class Stretches:
         """The stretch each place `s` is in or follows; -1 before the first."""
         return np.searchsorted(self.first, s, side="right") - 1
 
-    def gaps(self, total: float) -> Stretches:
-        """What is left of 0 ... total between the stretches."""
-        gaps = Stretches(np.concatenate(([0.0], self.last)), np.concatenate((self.first, [total])))
-        return gaps.keep(gaps.last > gaps.first)
-
     def keep(self, chosen: Flags) -> Stretches:
         """The stretches for which `chosen` (k,) is True."""
         return Stretches(self.first[chosen], self.last[chosen])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -20,7 +20,23 @@ FEW: Final = 1500
 """Pairs that are all tried at once."""
 
 
-def reached(pairs: Pairs, radius: float) -> Stretches:
+@dataclass(frozen=True, eq=False, slots=True)
+class Reached:
+    """Stretches of surface that are reached, and the pieces of the centre path that reach their two ends."""
+
+    stretches: Stretches
+    begin: Rows
+    end: Rows
+
+    def gaps(self, total: float) -> tuple[Stretches, Rows]:
+        """What is not reached and longer than STOCK, and (2, k) the centre pieces at its ends, -1 at the contour's."""
+        before, behind = np.concatenate(([-1], self.end)), np.concatenate((self.begin, [-1]))
+        gaps = Stretches(np.append(0.0, self.stretches.last), np.append(self.stretches.first, total))
+        wide = gaps.last - gaps.first > STOCK
+        return gaps.keep(wide), np.stack((before, behind))[:, wide]
+
+
+def reached(pairs: Pairs, radius: float) -> Reached:
     """The stretches of surface within the radius of the centre path.
 
     UNCUT, rounding of the coordinates themselves and the slack of uneven arcs decide whether a place is reached;
@@ -34,14 +50,14 @@ def reached(pairs: Pairs, radius: float) -> Stretches:
     stretches = union(parts.first, parts.last)
     whole = _whole(pairs, stretches)
     if whole.all():
-        return stretches
+        return Reached(stretches, np.full(len(stretches), -1), np.full(len(stretches), -1))
     if len(pairs.j) > FEW:
         rest = np.flatnonzero(~whole[pairs.j])
         parts = joined((parts, _within(pairs, rest, radius + grant)))
     return _settled(pairs, parts, union(parts.first, parts.last), radius, grant)
 
 
-def _settled(pairs: Pairs, parts: Parts, stretches: Stretches, radius: float, grant: Floats) -> Stretches:
+def _settled(pairs: Pairs, parts: Parts, stretches: Stretches, radius: float, grant: Floats) -> Reached:
     """Both ends of each stretch drawn in to where the piece that reaches them does so with the radius alone."""
     owner = stretches.index(parts.first)
     change = np.flatnonzero(np.diff(np.sort(owner), append=-1))
@@ -51,7 +67,7 @@ def _settled(pairs: Pairs, parts: Parts, stretches: Stretches, radius: float, gr
     inward = np.repeat((1.0, -1.0), len(stretches))
     ends = _draw_in(pairs, pair, ends, inward, radius, grant[pair])
     first, last = ends[: len(stretches)], ends[len(stretches) :]
-    return Stretches(first, np.maximum(first, last))
+    return Reached(Stretches(first, np.maximum(first, last)), pairs.i[parts.pair[begin]], pairs.i[parts.pair[end]])
 
 
 def _draw_in(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: float, grant: Floats) -> Floats:
@@ -103,22 +119,21 @@ def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool) -> tuple[
     In a closed contour a stretch that runs over START stands last.  What is nowhere thicker than STOCK is left out.
     """
     total = float(pairs.surface_stations[-1])
-    gaps = reached(pairs, radius).gaps(total)
-    gaps = gaps.keep(gaps.last - gaps.first > STOCK)
+    gaps, near = reached(pairs, radius).gaps(total)
     if not len(gaps):
         return ()
-    far = _farthest(pairs, gaps, radius)
+    far = _farthest(pairs, gaps, near, radius)
     told = _stretches(pairs, gaps, far, radius, surface)
     if closed and len(told) > 1 and gaps.first[0] == 0.0 and gaps.last[-1] == total:
         told = [*told[1:-1], _over_start(told[-1], told[0])]
     return tuple(stretch for stretch in told if stretch.thickness > STOCK)
 
 
-def _farthest(pairs: Pairs, gaps: Stretches, radius: float) -> Farthest:
+def _farthest(pairs: Pairs, gaps: Stretches, near: Rows, radius: float) -> Farthest:
     if not len(pairs.centre):
         return Farthest(gaps.first, np.full(len(gaps), np.inf))
     grant = float(pairs.slack.max(initial=0.0))
-    return farthest(pairs.surface, gaps, pairs.centre, radius + STOCK + grant)
+    return farthest(pairs.surface, gaps, pairs.centre, near, radius + STOCK + grant)
 
 
 def _stretches(pairs: Pairs, gaps: Stretches, far: Farthest, radius: float, surface: Path) -> list[Uncut]:
