@@ -161,4 +161,4 @@ def owner_of(values: object) -> Owner:
         case {"user": str(user), "host": str(host), "pid": int(pid), "started": str(begun), "since": str(since)}:
             return Owner(user, host, pid, begun, since)
         case _:
-            raise ValueError
+            raise ValueError("no owner")

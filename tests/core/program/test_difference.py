@@ -1,0 +1,74 @@
+"""What differs between two programs, in words."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from hypothesis import given, settings
+
+from core.program.difference import differences
+from core.program.edit import (
+    Where,
+    copy_block,
+    delete_segment,
+    delete_tool,
+    insert_segment,
+    set_setup,
+    set_tool,
+    set_unit,
+    type_field,
+)
+from core.program.model import ArcSegment, CutterComp, Entry, LineSegment, Program, Tool, Unread
+from core.units import Unit
+from tests.core.program.parts import line, program, programs
+
+PART = program(line(x_end=1.0), line(y_end=1.0), line(x_end=0.0), unit=Unit.IN)
+
+
+def told(edited: object) -> tuple[str, ...]:
+    assert isinstance(edited, Program)
+    return differences(PART, edited)
+
+
+def test_fields() -> None:
+    assert told(type_field(PART, Where(1, 2), "y_end", Entry(2.5))) == (
+        "Block 1, segment 2: Y END 2.5000, was 1.0000.",
+    )
+    assert told(type_field(PART, Where(1), "x_start", None)) == ("Block 1: X START blank, was 0.0000.",)
+    unread = type_field(PART, Where(1, 1), "x_end", Unread("2..5", ""))
+    assert told(unread) == ("Block 1, segment 1: X END 2..5 (cannot be read), was 1.0000.",)
+
+
+def test_choices() -> None:
+    block = replace(PART.blocks[0], cutter_comp=CutterComp.RIGHT)
+    assert told(replace(PART, blocks=(block,))) == ("Block 1: CUTTER COMP. RIGHT, was LEFT.",)
+
+
+def test_segments() -> None:
+    assert told(insert_segment(PART, Where(1, 2), LineSegment())) == ("Block 1, segment 2 is new.",)
+    assert told(delete_segment(PART, Where(1, 3))) == ("Block 1, segment 3 is deleted.",)
+    first, *_ = PART.blocks[0].segments
+    arc = replace(PART.blocks[0], segments=(first, ArcSegment(), *PART.blocks[0].segments[2:]))
+    assert told(replace(PART, blocks=(arc,))) == ("Block 1, segment 2: ARC, was LINE.",)
+    fewer = replace(PART.blocks[0], segments=(ArcSegment(),))
+    assert told(replace(PART, blocks=(fewer,))) == ("Block 1, segments 1 to 3: now 1 in place of 3.",)
+
+
+def test_blocks_and_tools() -> None:
+    assert told(copy_block(PART, 1)) == ("Block 2 is new.",)
+    assert told(set_tool(PART, Tool(7))) == ("Tool 7 is new.",)
+    assert told(delete_tool(PART, 1)) == ("Tool 1 is deleted.",)
+    assert told(set_tool(PART, Tool(1, "BALL", Entry(0.5)))) == ("Tool 1: TYPE BALL, was END MILL.",)
+
+
+def test_setup_and_units() -> None:
+    assert told(set_setup(PART, "name", "COVER")) == ("PART SETUP: PART NAME COVER, was blank.",)
+    assert told(set_unit(PART, Unit.MM)) == ("Program units: MM, was IN.",)
+
+
+@settings(max_examples=20, derandomize=True, deadline=None)
+@given(programs, programs)
+def test_told_if_and_only_if_there_is_a_difference(old: Program, new: Program) -> None:
+    assert differences(old, old) == ()
+    assert bool(differences(old, new)) is (old != new)
+    assert all(sentence.isprintable() for sentence in differences(old, new))

@@ -1,0 +1,154 @@
+"""Locks and stamps of program files."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from core.program.lock import (
+    UNKNOWN,
+    Held,
+    Lock,
+    Owner,
+    alive,
+    lock_path,
+    myself,
+    owner_of,
+    release,
+    started,
+    take,
+    take_over,
+    taken_by,
+)
+from core.program.stamp import stamp_of
+
+ME = myself("2025-03-04T06:00:00+01:00")
+ELSEWHERE = Owner("bob", "another-host", 1, "", "2025-03-04T05:00:00+01:00")
+DEAD_PID = 2**22 + 17
+"""Above every number that the system gives to a process."""
+
+
+@pytest.fixture
+def part(tmp_path: Path) -> Path:
+    path = tmp_path / "part.toml"
+    path.write_text("format = 1\n")
+    return path
+
+
+def held(part: Path, owner: Owner) -> Lock:
+    found = take(part, owner)
+    assert isinstance(found, Lock)
+    return found
+
+
+def test_the_second_opener_is_told_who_has_it(part: Path) -> None:
+    held(part, ELSEWHERE)
+    assert take(part, ME) == Held(ELSEWHERE)
+
+
+def test_a_lock_given_back_leaves_nothing(part: Path) -> None:
+    release(held(part, ME))
+    assert [one.name for one in part.parent.iterdir()] == ["part.toml"]
+
+
+def test_a_file_that_does_not_exist_yet_can_be_locked(tmp_path: Path) -> None:
+    held(tmp_path / "new.toml", ELSEWHERE)
+    assert take(tmp_path / "new.toml", ME) == Held(ELSEWHERE)
+
+
+def test_the_same_file_by_another_name_is_the_same_lock(part: Path) -> None:
+    link = part.with_name("link.toml")
+    link.symlink_to(part)
+    held(link, ELSEWHERE)
+    assert take(part, ME) == Held(ELSEWHERE)
+
+
+def test_a_dead_process_of_this_host_holds_nothing(part: Path) -> None:
+    held(part, replace(ME, pid=DEAD_PID))
+    assert take(part, ME) == Lock(lock_path(part), ME)
+
+
+def test_another_process_of_the_same_number_does_not_count(part: Path) -> None:
+    held(part, replace(ME, started="an earlier boot:5"))
+    assert isinstance(take(part, replace(ME, since="later")), Lock)
+
+
+def test_a_living_process_of_this_host_holds_it(part: Path) -> None:
+    with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE) as other:
+        owner = Owner("ann", ME.host, other.pid, started(other.pid), "earlier")
+        held(part, owner)
+        assert take(part, ME) == Held(owner)
+        other.communicate(b"\n")
+    assert isinstance(take(part, ME), Lock)
+
+
+def test_another_host_may_always_be_alive() -> None:
+    assert alive(ELSEWHERE)
+    assert alive(UNKNOWN)
+    assert alive(ME)
+    assert not alive(replace(ME, pid=DEAD_PID))
+
+
+def test_taken_over_the_first_one_finds_out(part: Path) -> None:
+    first = held(part, ELSEWHERE)
+    assert taken_by(first) is None
+    second = take_over(part, ME)
+    assert taken_by(first) == ME
+    assert taken_by(second) is None
+    release(first)
+    assert lock_path(part).exists()
+    release(second)
+    assert not lock_path(part).exists()
+
+
+def test_a_lock_that_somebody_removed_is_nobody_elses(part: Path) -> None:
+    lock = held(part, ME)
+    lock.path.unlink()
+    assert taken_by(lock) is None
+    release(lock)
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"user": 1}', "\x00\xff", "[" * 4000])
+def test_a_lock_that_cannot_be_read_is_somebodys(part: Path, text: str) -> None:
+    lock_path(part).write_text(text)
+    assert take(part, ME) == Held(UNKNOWN)
+    assert take_over(part, ME).owner == ME
+
+
+def test_owner_as_written() -> None:
+    assert owner_of(json.loads(json.dumps({**vars_of(ME)}))) == ME
+    with pytest.raises(ValueError, match="no owner"):
+        owner_of({"user": "ann"})
+
+
+def vars_of(owner: Owner) -> dict[str, object]:
+    return {name: getattr(owner, name) for name in ("user", "host", "pid", "started", "since")}
+
+
+def test_a_folder_that_cannot_be_written_has_no_lock() -> None:
+    with pytest.raises(OSError, match="part"):
+        take(Path("/proc/part.toml"), ME)
+
+
+def test_a_stamp_changes_with_the_content_only(part: Path) -> None:
+    before = stamp_of(part)
+    assert before is not None
+    part.write_text("format = 1\n")
+    again = stamp_of(part)
+    assert again is not None
+    assert before.same_content(again)
+    part.write_text("format = 2\n")
+    other = stamp_of(part)
+    assert other is not None
+    assert not before.same_content(other)
+    assert other.size == before.size
+
+
+def test_no_file_no_stamp(tmp_path: Path) -> None:
+    assert stamp_of(tmp_path / "none") is None
+    assert stamp_of(tmp_path) is None
