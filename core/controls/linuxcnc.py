@@ -64,6 +64,12 @@ REFUSED: Final = {
 """What G codes are refused while compensation is on: rule and reason."""
 
 
+def _lacks(tools: ToolTable, value: float) -> bool:
+    """Whether an H word names a tool that is not there; 0 is none."""
+    number = whole(value)
+    return number is None or (number != 0 and tools.get(number) is None)
+
+
 class LinuxCnc(LookAhead):
     """What turns LinuxCNC's compensation on, and what it refuses meanwhile."""
 
@@ -75,6 +81,9 @@ class LinuxCnc(LookAhead):
         if "D" in words and SWITCHES.isdisjoint(block.g) and 960 not in block.g:
             text = "D needs G41, G42, G41.1 or G42.1 in its block."
             self.log.stop("N-DALONE", text, block.line, block.column("D"))
+        if "H" in words and _lacks(self.machine.tools, words["H"]):
+            text = "The tool table has no tool of this number; enter it, or write the number of one that is there."
+            self.log.stop("TOOL", text, block.line, block.column("H"))
         if not _CENTRES.isdisjoint(words):
             self._arc_words(block)
         for code in () if block.moves_only else block.g:
@@ -110,17 +119,16 @@ class LinuxCnc(LookAhead):
         if self.active:
             text = "Compensation is on already; write G40 before it is turned on again."
             self.log.stop("N-ONWHENON", text, block.line, block.side_column())
-        radius = self.radius(block)
-        self.turn_on(radius * side.sign)
+        radius, orientation = self.radius(block)
+        self.turn_on(radius * side.sign, orientation)
 
-    def radius(self, block: Block) -> float:
-        """The radius asked for, millimetres; negative flips the side."""
+    def radius(self, block: Block) -> tuple[float, int]:
+        """The radius asked for, millimetres, negative flips the side; and a lathe tool's orientation."""
         if not {411, 421}.isdisjoint(block.g):
             if "D" not in block.words:
                 text = "G41.1 and G42.1 need D and the cutter's diameter."
                 self.log.stop("N-DMISSING", text, block.line, block.side_column())
-            self._orientation(block)
-            return block.words["D"] * self.machine.scale / 2
+            return block.words["D"] * self.machine.scale / 2, self._orientation(block)
         number = self.machine.tool
         if "D" in block.words:
             number = self._tool_number(block)
@@ -129,10 +137,13 @@ class LinuxCnc(LookAhead):
             if number == 0 or "D" not in block.words:
                 text = "No tool is loaded, so the radius is 0 and nothing is compensated."
                 self.log.tell(Severity.WARNING, "RADIUS0", text, block.line, block.side_column())
-                return 0.0
+                return 0.0, 0
             text = f"The tool table has no tool {number}; enter it, or write the number of one that is there."
             self.log.stop("N-DBIG", text, block.line, block.column("D"))
-        return tool.diameter_mm(self.machine.unit) / 2
+        if tool.orientation not in (0, 9) and self.machine.plane is not Plane.ZX:
+            text = "The tool is a lathe tool and needs the plane G18."
+            self.log.stop("N-ORIENTATION", text, block.line, block.side_column())
+        return tool.diameter_mm(self.machine.unit) / 2, tool.orientation
 
     def _tool_number(self, block: Block) -> int:
         number = whole(block.words["D"])
@@ -141,10 +152,11 @@ class LinuxCnc(LookAhead):
             self.log.stop("N-DNEGATIVE", text, block.line, block.column("D"))
         return number
 
-    def _orientation(self, block: Block) -> None:
+    def _orientation(self, block: Block) -> int:
         if "L" in block.words and self.machine.plane is not Plane.ZX:
             text = "L, the orientation of a lathe tool, goes with G18 only; leave it out."
             self.log.stop("N-ORIENTATION", text, block.line, block.column("L"))
+        return int(block.words.get("L", 0.0))
 
 
 _CENTRES: Final = frozenset("IJKR")

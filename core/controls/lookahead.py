@@ -6,12 +6,15 @@ arc, an inside corner moves the ends of what is held, anything under 0.05 radian
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import hypot, pi
+from types import MappingProxyType
 from typing import Final, NamedTuple
 
 from core.controls.corners import Element, meetings, offset_radius, square_end, square_start, sweep, turning
 from core.controls.follower import Follower
+from core.controls.moves import Plane
 from core.controls.report import Log
 from core.controls.words import Block
 from core.geometry.piece import Point
@@ -22,6 +25,12 @@ TANGENT: Final = 0.05
 """Radians under which a corner is none."""
 
 NO_FIT: Final = "The cutter does not fit into this corner without gouging; use a smaller cutter or open the corner."
+
+
+NOSES: Final[Mapping[int, tuple[int, int]]] = MappingProxyType(
+    {1: (1, -1), 2: (-1, -1), 3: (-1, 1), 4: (1, 1), 5: (1, 0), 6: (0, -1), 7: (-1, 0), 8: (0, 1)}
+)
+"""Lathe orientation: in which direction of Z and X the controlled point lies from the nose's centre, in radii."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,10 +66,13 @@ class LookAhead(Follower):
         self.started: Point | None = None
         self.no_arc = False
         self.watching = self.always
+        self.nose: Point = (0.0, 0.0)
 
-    def turn_on(self, offset: float) -> None:
-        """Compensation is on from the next move on."""
+    def turn_on(self, offset: float, orientation: int = 0) -> None:
+        """Compensation is on from the next move on; a lathe tool's orientation shifts its moves by the nose radius."""
         self.offset = offset
+        ways = NOSES.get(orientation, (0, 0)) if self.plane is Plane.ZX else (0, 0)
+        self.nose = (ways[0] * abs(offset), ways[1] * abs(offset))
         self.active = self.watching = True
         self.first = True
 
@@ -77,6 +89,17 @@ class LookAhead(Follower):
         """The end of the program: what is held ends square."""
         if self.queue:
             self._move_ends(square_end(self._front, self.offset), self.queue[-1].element.line)
+
+    def straight(self, element: Element, end: Point, *, low: bool = False) -> None:
+        """A straight move, of a lathe tool's controlled point."""
+        super().straight(element, self._nosed(end), low=low)
+
+    def bend(self, element: Element, end: Point, centre: Point, turn: int, height: float) -> None:
+        """An arc, of a lathe tool's controlled point."""
+        super().bend(element, self._nosed(end), self._nosed(centre), turn, height)
+
+    def _nosed(self, point: Point) -> Point:
+        return (point[0] + self.nose[0], point[1] + self.nose[1]) if self.active else point
 
     def travel(self, element: Element) -> None:
         """One element: alone, as entry, or against what is held."""
@@ -110,6 +133,8 @@ class LookAhead(Follower):
         self.open_span(side, self.offset, element)
         self.note(element)
         end = square_end(element, self.offset)
+        if element.turn and self.nose != (0.0, 0.0):
+            self.straight(element, element.start, low=True)
         self.queue = [Held(self._as_entry(element, end), end)]
         self.started = None if element.turn else element.start
         self.first = False

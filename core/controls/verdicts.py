@@ -18,6 +18,10 @@ MOST_GOUGES: Final = 20
 """Gouges of a stretch that are told one by one, deepest first."""
 
 
+FINE: Final = 0.001
+"""Millimetres under which a gouge's depth cannot be shown in digits."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Judged:
     """A compensated stretch, the surface it cuts, the centre path with its leads, and the verdict on them.
@@ -114,7 +118,8 @@ def _leads(result: Judged) -> list[Finding]:
 
 
 def _gouge(gouge: Gouge) -> Finding:
-    text = f"The cutter gouges the surface of line {int(gouge.surface_number)} by {{value}} at X {{x}} Y {{y}}."
+    much = "{value}" if gouge.depth > FINE else "less than a thousandth of a millimetre"
+    text = f"The cutter gouges the surface of line {int(gouge.surface_number)} by {much} at X {{x}} Y {{y}}."
     line = int(gouge.path_number)
     return Finding("GOUGE", Severity.ERROR, text, at=gouge.surface_at, value=gouge.depth, line=line)
 

@@ -44,10 +44,16 @@ def table_text(diameters: dict[int, float], unit: Unit) -> str:
 
 def witness(program: str, folder: Path, diameters: dict[int, float], unit: Unit) -> Witnessed:
     """What the interpreter makes of a program, in program units."""
-    assert WITNESS is not None
     text, table = folder / "program.ngc", folder / "tools.tbl"
     text.write_text(program)
     table.write_text(table_text(diameters, unit))
+    return run_witness(text, table)
+
+
+def run_witness(text: Path, table: Path) -> Witnessed:
+    """What the interpreter makes of a program's file with the file of a tool table."""
+    assert WITNESS is not None
+    folder = text.parent
     done = subprocess.run(
         [WITNESS, "-g", "-t", str(table), str(text)],
         capture_output=True,

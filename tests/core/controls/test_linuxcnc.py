@@ -7,11 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from core.controls import registry
 from core.controls.moves import Plane
+from core.controls.tools import read_table
 from core.units import Unit, from_mm
-from tests.core.controls.compare_rs274 import outcome, programs
+from tests.core.controls.compare_rs274 import COMPENSATED, SAMPLES, outcome, programs, sample_outcome
 from tests.core.controls.hand import ran, same, shape, told
-from tests.core.controls.rs274 import WITNESS, difference, printed, witness
+from tests.core.controls.rs274 import WITNESS, difference, printed, run_witness, witness
 
 needs_witness = pytest.mark.skipif(WITNESS is None, reason="LinuxCNC's rs274 is not installed")
 
@@ -24,6 +26,43 @@ def test_random_programs_run_or_are_refused_as_by_the_interpreter_itself(tmp_pat
     wrong = {name: what for name, what in fared.items() if not what[0].startswith(("same moves", "both refuse"))}
     assert not wrong
     assert sum(what[0] == "same moves" for what in fared.values()) > 120
+
+
+@needs_witness
+@pytest.mark.skipif(not SAMPLES.is_dir(), reason="LinuxCNC's sample programs are not installed")
+@pytest.mark.parametrize("name", [name for name, why in COMPENSATED.items() if not why])
+def test_the_samples_of_the_distribution_run_alike(name: str, tmp_path: Path) -> None:
+    fared, apart = sample_outcome(name, tmp_path)
+    assert fared.startswith(("same moves", "both refuse")), apart
+
+
+LATHE = """G20 G18 F30
+T{tool} M6
+G0 X.3 Z0
+G41
+G1 X.1
+G3 X0 Z.1 R.1
+G1 Z1
+G2 R.25 X-.25 Z1.25
+G1 Z1.75
+G40
+G0 X.3
+M2
+"""
+
+
+@needs_witness
+@pytest.mark.parametrize("orientation", range(10))
+def test_a_lathe_tool_s_orientation_shifts_its_moves(orientation: int, tmp_path: Path) -> None:
+    text, table = tmp_path / "p.ngc", tmp_path / "t.tbl"
+    text.write_text(LATHE.format(tool=1))
+    table.write_text(f"T1 P1 D.1 Z0 Q{orientation}\n")
+    theirs = run_witness(text, table)
+    tools, _ = read_table(table.read_bytes())
+    ours = registry.run(text.read_bytes(), "linuxcnc", tools)
+    assert not isinstance(ours, registry.UnknownControl)
+    assert not theirs.refusal
+    assert not difference(printed(ours), theirs.moves)
 
 
 MODAL = {

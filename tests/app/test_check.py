@@ -1,0 +1,137 @@
+"""The command line's check: text, tables, machine-readable, archives."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from app.check import check
+
+NC = Path(__file__).parents[1] / "data" / "nc"
+
+MOVE_KEYS = {"type", "mode", "line", "x", "y", "z"}
+ARC_KEYS = {"cx", "cy", "cz", "plane", "ccw"}
+
+
+def output(capsys: pytest.CaptureFixture[str], *arguments: str | Path) -> tuple[int, str, str]:
+    status = check([str(argument) for argument in arguments])
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+def test_json_is_one_object_in_program_units(capsys: pytest.CaptureFixture[str]) -> None:
+    file = NC / "threeblock-square.nc"
+    status, out, _ = output(capsys, file, "--control", "threeblock", "--tool", "1=.5", "--json")
+    told = json.loads(out)
+    assert set(told) == {"control", "units", "moves", "findings", "stopped_at"}
+    assert (told["control"], told["units"], told["stopped_at"]) == ("threeblock", "IN", None)
+    assert status == (1 if any(finding["severity"] == "error" for finding in told["findings"]) else 0)
+    first, second = told["moves"][0], told["moves"][1]
+    assert (first["mode"], first["line"], first["x"], first["y"], first["z"]) == ("rapid", 0, 0, 0, 0)
+    assert (second["x"], second["y"]) == pytest.approx((-1, 1))
+    arc = next(move for move in told["moves"] if move["type"] == "arc")
+    assert set(arc) == MOVE_KEYS | ARC_KEYS | {"feed"}
+    assert (arc["cx"], arc["cy"], arc["plane"], arc["ccw"]) == (pytest.approx(1.5), pytest.approx(0), "XY", False)
+    assert all(set(finding) == {"rule", "severity", "line", "column", "text"} for finding in told["findings"])
+
+
+def test_an_alarm_has_line_column_and_rule(capsys: pytest.CaptureFixture[str]) -> None:
+    file = NC / "rosettacnc-square.ngc"
+    status, out, _ = output(capsys, file, "--control", "rosettacnc", "--tool", "1=6", "--json")
+    told = json.loads(out)
+    assert (status, told["stopped_at"]) == (1, 15)
+    (alarm,) = [finding for finding in told["findings"] if finding["severity"] == "error"]
+    assert (alarm["rule"], alarm["line"]) == ("C6", 15)
+
+
+def test_text_tells_findings_and_the_outcome(capsys: pytest.CaptureFixture[str]) -> None:
+    file = NC / "rosettacnc-square.ngc"
+    status, out, _ = output(capsys, file, "--control", "rosettacnc:easy", "--tool", "1=6")
+    assert status == 0
+    assert out.splitlines()[-1] == "rosettacnc:easy: runs; 23 moves, 1 compensated stretches, MM."
+
+
+def test_all_controls_in_a_table(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = output(capsys, NC / "rosettacnc-square.ngc", "--control", "all", "--tool", "1=6")
+    rows = dict(line.split(maxsplit=1) for line in out.splitlines())
+    assert status == 1
+    assert rows["rosettacnc:nist"] == "alarms at line 15 (C6)"
+    assert rows["rosettacnc:easy"].strip() == "runs"
+    assert "parts at line 14, by 3.075 at most" in rows["rosettacnc:normal"]
+    assert rows["klartext"] == "reads another language"
+
+
+def test_the_shop_s_rules_when_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = (NC / "threeblock-square.nc", "--control", "threeblock", "--tool", "1=.5")
+    assert " H4 " not in output(capsys, *arguments)[1]
+    assert " H8 " in output(capsys, *arguments, "--shop")[1]
+
+
+def test_a_folder_is_checked_in_one_line_each(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = output(capsys, NC, "--control", "nine-series:b", "--tool", "1=.5")
+    lines = out.splitlines()
+    files = len(list(NC.iterdir()))
+    assert status == 1
+    assert len(lines) == files + 1
+    assert lines[-1].startswith(f"{files} files: ")
+
+
+def test_many_files_as_json_have_their_names(capsys: pytest.CaptureFixture[str]) -> None:
+    files = [NC / "threeblock-line.nc", NC / "threeblock-circle.nc"]
+    told = json.loads(output(capsys, *files, "--control", "threeblock", "--tool", "1=.5", "--json")[1])
+    assert [one["file"] for one in told] == [str(file) for file in files]
+
+
+def test_a_tool_table_and_units(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    table, file = tmp_path / "tool.tbl", tmp_path / "a.nc"
+    table.write_text("T1 P1 D10 ;mill\n")
+    file.write_text("G41 D1\nG1 X20 F100\nX40\nM2\n")
+    arguments = (file, "--control", "linuxcnc", "--tools", table, "--json")
+    metric = json.loads(output(capsys, *arguments, "--units", "mm")[1])
+    assert (metric["units"], metric["moves"][1]["y"]) == ("MM", 5)
+    other = json.loads(output(capsys, *arguments, "--units", "IN", "--tool", "1=25.4mm")[1])
+    assert (other["units"], other["moves"][1]["y"]) == ("IN", pytest.approx(0.5))
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("nowhere.nc", "--control", "linuxcnc"),
+        (str(NC / "threeblock-line.nc"), "--control", "fanuc"),
+        (str(NC / "threeblock-line.nc"), "--control", "linuxcnc", "--tool", "1"),
+        (str(NC / "threeblock-line.nc"), "--control", "linuxcnc", "--tool", "1=nan"),
+        (str(NC / "threeblock-line.nc"), "--control", "linuxcnc", "--tools", "nowhere.tbl"),
+        (str(NC / "threeblock-line.nc"), "--control", "linuxcnc", "--tools", str(NC)),
+    ],
+)
+def test_what_cannot_be_used_is_status_2_and_one_sentence(
+    arguments: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    status, out, err = output(capsys, *arguments)
+    assert (status, out) == (2, "")
+    assert err.startswith("cutcomp: ")
+    assert err.count("\n") == 1
+
+
+def test_arguments_that_do_not_parse_are_status_2(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as left:
+        check(["file.nc"])
+    assert left.value.code == 2
+    assert "--control" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("content", [b"", b"\x00\xff\x1b[2J\x07" * 50, b"G1 X\x1b[31m", b"%", b"M98P1\nO1\nM98P1\nM99"])
+def test_nothing_of_a_file_reaches_the_terminal_raw(
+    content: bytes, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    file = tmp_path / "x.nc"
+    file.write_bytes(content)
+    status, out, err = output(capsys, file, "--control", "linuxcnc")
+    assert status in (0, 1)
+    assert (out + err).replace("\n", "").isprintable()
+
+
+def test_an_empty_folder_is_said(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert output(capsys, tmp_path, "--control", "linuxcnc")[0] == 2

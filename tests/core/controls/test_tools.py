@@ -1,0 +1,35 @@
+"""Tool tables."""
+
+from __future__ import annotations
+
+import pytest
+
+from core.controls.tools import CutterTool, ToolTable, read_table
+from core.units import Unit
+
+
+def test_a_table_as_linuxcnc_writes_it() -> None:
+    text = b"; my tools\nT1 P1 D.25 Z+1.5 ;end mill\r\n\nT12 P2 D-.5 Q3\nT1P1D.375Z0\n"
+    table, findings = read_table(text)
+    assert not findings
+    assert table.get(1) == CutterTool(1, 0.375)
+    assert table.get(12) == CutterTool(12, -0.5, 0.0, 3)
+    assert table.get(2) is None
+
+
+@pytest.mark.parametrize("line", [b"1 1 .5", b"P1 D.5", b"T1.5 D1", b"T1 Dx", b"T1 D99999999999", b"\xff\xfe\x00"])
+def test_what_cannot_be_read_is_told_by_line(line: bytes) -> None:
+    table, findings = read_table(b"T3 D1\n" + line + b"\n")
+    assert [finding.line for finding in findings] == [2]
+    assert table.get(3) is not None
+    assert findings[0].text.isprintable()
+
+
+def test_a_diameter_without_unit_is_the_program_s() -> None:
+    assert CutterTool(1, 0.5).diameter_mm(Unit.IN) == pytest.approx(12.7)
+    assert CutterTool(1, 0.5, unit=Unit.MM).diameter_mm(Unit.IN) == 0.5
+
+
+def test_tools_given_later_replace_those_of_the_table() -> None:
+    both = ToolTable.diameters({1: 1.0, 2: 2.0}).with_tools(ToolTable.diameters({2: 3.0}))
+    assert [both.tools[number].diameter for number in (1, 2)] == [1.0, 3.0]

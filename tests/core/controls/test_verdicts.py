@@ -1,0 +1,73 @@
+"""Verdicts on a control's path by line, and all controls side by side."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core.controls.compare import Compared, OtherLanguage, compare, parting
+from core.controls.registry import compared, names, reads, resolve
+from core.controls.tools import ToolTable
+from core.controls.verdicts import closed_part, depth, findings, judged
+from core.geometry.path import Path
+from core.units import Unit, from_mm, sentence
+from tests.core.controls.hand import DATA, ran, sample
+
+NOTCH = "G20 G17 F10\nG0 X-1 Y2\nG41 D1\nG1 X0 Y0\nX2\nY-.3\nX2.3\nY0\nX5\nG40\nG0 Y2\nM2\n"
+
+
+def test_a_gouge_is_told_with_its_depth_and_lines() -> None:
+    done = sample("threeblock-outside.nc", "threeblock", t1=0.6)
+    results = judged(done)
+    cut, line = depth(results)
+    assert (round(from_mm(cut, Unit.IN), 9), line) == (0.05, 5)
+    (gouge,) = [finding for finding in findings(results) if finding.code == "GOUGE"]
+    assert "surface of line 6 by 0.0500 at X" in sentence(gouge, Unit.IN)
+
+
+def test_a_clean_path_has_no_finding() -> None:
+    done = ran("G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n", "rosettacnc:easy", t1=0.5)
+    assert not findings(judged(done))
+
+
+def test_leads_are_what_lies_outside_the_closed_contour() -> None:
+    corners = [(-1, -1), (0, 0), (2, 0), (2, 2), (0, 0), (-1, 1)]
+    points = np.array(corners, np.float64)
+    path = Path.of(points, points[:-1], np.zeros(5, np.int8))
+    assert closed_part(path) == (1, 4)
+    assert closed_part(path.part(0, 2)) == (0, 2)
+
+
+def test_a_notch_too_narrow_gouges_here_and_alarms_there() -> None:
+    rows = {row.control: row for row in compare(NOTCH.encode(), ToolTable.diameters({1: 0.5}))}
+    assert set(rows) == set(compared())
+    lenient, strict = rows["threeblock"], rows["linuxcnc"]
+    assert isinstance(lenient, Compared)
+    assert isinstance(strict, Compared)
+    assert lenient.run.stopped_at is not None
+    assert strict.run.stopped_at == 8
+    assert isinstance(rows["klartext"], OtherLanguage)
+
+
+def test_two_paths_part_at_the_entry() -> None:
+    easy = sample("rosettacnc-square.ngc", "rosettacnc:easy", t1=6)
+    normal = sample("rosettacnc-square.ngc", "rosettacnc:normal", t1=6)
+    found = parting(easy.moves, normal.moves)
+    assert found is not None
+    assert found.line == found.farthest == 14
+    assert found.distance == pytest.approx(np.hypot(23.675444679663241 - 23, 3), abs=1e-9)
+    assert parting(easy.moves, easy.moves) is None
+
+
+def test_klartext_is_told_from_iso() -> None:
+    assert reads("klartext", b"0 BEGIN PGM A MM\n")
+    assert not reads("linuxcnc", b"  BEGIN PGM A MM\n")
+    assert reads("linuxcnc", (DATA / "nc" / "rosettacnc-square.ngc").read_bytes())
+
+
+def test_names_are_whole_or_short() -> None:
+    assert resolve("rosettacnc") == "rosettacnc:nist"
+    assert resolve(" Nine-Series:B-G39.1 ") == "nine-series:b-g39.1"
+    assert all(resolve(name) == name for name in names())
+    for wrong in ("fanuc", "rosettacnc:hard", "", "linuxcnc:2"):
+        assert "linuxcnc" in getattr(resolve(wrong), "text", "")
