@@ -9,7 +9,7 @@ import numpy as np
 
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol
 from core.geometry.path import EMPTY, Floats, Path
-from core.geometry.piece import Arc, Line, Piece, Point
+from core.geometry.piece import Line, Piece, Point
 from core.units import Unit
 
 
@@ -62,35 +62,6 @@ def _layers(paths: Sequence[Path], style: Style, *, dashed: bool = False) -> Ite
 
 def _spots(places: Sequence[Point], style: Style, symbol: Symbol) -> Iterator[Mark]:
     return (Mark(at, style, symbol) for at in places)
-
-
-def stretch(surface: Path, first: float, start: Point, last: float, end: Point) -> Path:
-    """The part of a surface from the point `start` on segment `first` to the point `end` on segment `last`.
-
-    Empty if there are no such segments; it runs past a closed contour's start if `last` lies before `first`.
-    """
-    begins, ends = np.flatnonzero(surface.numbers == first), np.flatnonzero(surface.numbers == last)
-    if not len(begins) or not len(ends):
-        return EMPTY
-    row, count = int(begins[0]), len(surface)
-    backwards = ends[-1] < row or (ends[-1] == row and _before(surface[row], end, start))
-    steps = (int(ends[-1]) - row) % count + (count if backwards and ends[-1] == row else 0)
-    pieces = [surface[(row + step) % count] for step in range(steps + 1)]
-    pieces[0] = _cut(pieces[0], start, pieces[0].end)
-    pieces[-1] = _cut(pieces[-1], pieces[-1].start, end)
-    return Path.from_pieces(pieces)
-
-
-def _cut(piece: Piece, start: Point, end: Point) -> Piece:
-    if isinstance(piece, Line):
-        return Line(start, end)
-    return Arc(start, end, piece.centre, piece.turn)
-
-
-def _before(piece: Piece, point: Point, other: Point) -> bool:
-    """Is `point` passed before `other` on this piece?"""
-    to_point, to_other = _cut(piece, piece.start, point), _cut(piece, piece.start, other)
-    return to_point.length < to_other.length
 
 
 def _travel(path: Path) -> Iterator[Mark]:

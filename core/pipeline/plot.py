@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from core.comp.result import Compensated
-from core.draw.build import contour_scene, stretch
+from core.draw.build import contour_scene
 from core.draw.scene import Scene, joined_scenes
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Piece, Point
+from core.geometry.stretch import stretch
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.table import Row

@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 from math import isinf
+from typing import Final
 
 from core.finding import Finding, Severity
 from core.geometry.path import Path
+from core.geometry.stretch import stretch
+from core.tolerance import STOCK
 from core.verify.stray import Away, Stray
 from core.verify.verdict import Gouge, Uncut, Verdict
+
+LISTED: Final = 12
+"""A stretch over more segments is told by its first and its last alone."""
 
 
 def findings(verdict: Verdict, surface: Path) -> tuple[Finding, ...]:
@@ -18,7 +24,7 @@ def findings(verdict: Verdict, surface: Path) -> tuple[Finding, ...]:
         *(_gouge(gouge) for gouge in verdict.gouges),
         *_wrong_side(verdict),
         *_crosses_itself(verdict),
-        *(_uncut(stretch, surface) for stretch in verdict.uncut),
+        *(_uncut(one, surface) for one in verdict.uncut),
     )
 
 
@@ -96,29 +102,44 @@ def _crosses_itself(verdict: Verdict) -> tuple[Finding, ...]:
     return (Finding("CROSSES_ITSELF", Severity.WARNING, text, at=verdict.crossing_at),)
 
 
-def _uncut(stretch: Uncut, surface: Path) -> Finding:
-    """The segment is the one the stretch begins on; `lengths` holds the largest thickness, unless there is no path."""
-    where = _segments(stretch, surface)
-    lengths: tuple[float, ...] = (stretch.thickness,)
-    text = f"{{value}} of {where} stays uncut, {{0}} at the thickest, at X {{x}} Y {{y}}."
-    if isinf(stretch.thickness):
-        text, lengths = f"Nothing of {where} is cut: there is no path.", ()
+def _uncut(uncut: Uncut, surface: Path) -> Finding:
+    """The segment is the one the stretch begins on; `lengths` holds the largest thickness, then each share.
+
+    There is no thickness where there is no path.
+    """
+    where = _segments(uncut, surface)
+    lengths: tuple[float, ...] = ()
+    if isinf(uncut.thickness):
+        text = f"Nothing of {where} is cut: there is no path."
+    else:
+        shares = _shares(uncut, surface)
+        listed = ", ".join(f"segment {number:g} {{{row}}}" for row, (number, _) in enumerate(shares, 1))
+        told = f" ({listed})" if len(shares) > 1 else ""
+        text = f"{{value}} of {where} stays uncut{told}, {{0}} at the thickest, at X {{x}} Y {{y}}."
+        lengths = (uncut.thickness, *(length for _, length in shares))
     return Finding(
         "UNCUT",
         Severity.INFO,
         text,
-        segment=stretch.first_number,
-        at=stretch.thickest,
-        value=stretch.length,
+        segment=uncut.first_number,
+        at=uncut.thickest,
+        value=uncut.length,
         lengths=lengths,
     )
 
 
-def _segments(stretch: Uncut, surface: Path) -> str:
+def _shares(uncut: Uncut, surface: Path) -> list[tuple[float, float]]:
+    """How much of each segment a stretch takes, in the contour's order; few enough to be read."""
+    part = stretch(surface, uncut.first_number, uncut.start, uncut.last_number, uncut.end)
+    shares = zip(part.numbers.tolist(), part.lengths.tolist(), strict=True)
+    return [(number, length) for number, length in shares if length > STOCK] if len(part) <= LISTED else []
+
+
+def _segments(uncut: Uncut, surface: Path) -> str:
     """The segments a stretch lies on, from the one it begins on to the one it ends on."""
-    first, last = _number(stretch.first_number), _number(stretch.last_number)
+    first, last = _number(uncut.first_number), _number(uncut.last_number)
     if first == last:
         return f"segment {first}"
-    if stretch.first_number < stretch.last_number:
+    if uncut.first_number < uncut.last_number:
         return f"segments {first} to {last}"
     return f"segments {first} to {_number(float(surface.numbers[-1]))} and on over START to {last}"

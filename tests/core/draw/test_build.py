@@ -1,6 +1,6 @@
 import pytest
 
-from core.draw.build import contour_scene, stretch
+from core.draw.build import contour_scene
 from core.draw.scene import Circle, Mark, Style, Symbol
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Turn
@@ -66,34 +66,3 @@ def test_the_cutter_is_a_circle():
 def test_an_empty_contour_has_an_empty_scene():
     scene = contour_scene(EMPTY)
     assert (scene.layers, scene.circles, scene.marks) == ((), (), ())
-
-
-def points(path: Path) -> list[list[float]]:
-    return [[x, y] for x, y in path.points.tolist()]
-
-
-def test_a_stretch_of_one_segment():
-    assert points(stretch(SQUARE, 1, (1, 0), 1, (3, 0))) == [[1, 0], [3, 0]]
-
-
-def test_a_stretch_round_a_corner():
-    assert points(stretch(SQUARE, 1, (1, 0), 3, (2, 4))) == [[1, 0], [4, 0], [4, 4], [2, 4]]
-
-
-def test_a_stretch_past_the_start():
-    assert points(stretch(SQUARE, 4, (0, 1), 1, (3, 0))) == [[0, 1], [0, 0], [3, 0]]
-
-
-def test_a_stretch_all_round_back_to_its_own_segment():
-    found = points(stretch(SQUARE, 1, (3, 0), 1, (1, 0)))
-    assert found == [[3, 0], [4, 0], [4, 4], [0, 4], [0, 0], [1, 0]]
-
-
-def test_a_stretch_of_an_arc_keeps_its_centre():
-    half = Path.from_pieces([Arc((2, 0), (-2, 0), (0, 0), Turn.CCW)])
-    found = stretch(half, 1, (0, 2), 1, (-2, 0))
-    assert found[0] == Arc((0, 2), (-2, 0), (0, 0), Turn.CCW)
-
-
-def test_a_stretch_of_unknown_segments_is_empty():
-    assert len(stretch(SQUARE, 7, (0, 0), 8, (1, 1))) == 0

@@ -50,7 +50,8 @@ def test_uncut_stretches_name_their_segments() -> None:
     assert found[0].severity is Severity.INFO
     assert found[0].value == pytest.approx(2 * R)
     assert sentence(found[0], Unit.MM) == (
-        "0.500 of segments 1 to 2 stays uncut, 0.104 at the thickest, at X 2.000 Y 0.000."
+        "0.500 of segments 1 to 2 stays uncut (segment 1 0.250, segment 2 0.250), 0.104 at the thickest, "
+        "at X 2.000 Y 0.000."
     )
 
 

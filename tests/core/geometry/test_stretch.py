@@ -1,0 +1,40 @@
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Turn
+from core.geometry.stretch import stretch
+
+SQUARE = Path.from_pieces([Line((0, 0), (4, 0)), Line((4, 0), (4, 4)), Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
+
+
+def points(path: Path) -> list[list[float]]:
+    return [[x, y] for x, y in path.points.tolist()]
+
+
+def test_a_stretch_of_one_segment():
+    assert points(stretch(SQUARE, 1, (1, 0), 1, (3, 0))) == [[1, 0], [3, 0]]
+
+
+def test_a_stretch_round_a_corner():
+    assert points(stretch(SQUARE, 1, (1, 0), 3, (2, 4))) == [[1, 0], [4, 0], [4, 4], [2, 4]]
+
+
+def test_a_stretch_past_the_start():
+    assert points(stretch(SQUARE, 4, (0, 1), 1, (3, 0))) == [[0, 1], [0, 0], [3, 0]]
+
+
+def test_a_stretch_all_round_back_to_its_own_segment():
+    found = points(stretch(SQUARE, 1, (3, 0), 1, (1, 0)))
+    assert found == [[3, 0], [4, 0], [4, 4], [0, 4], [0, 0], [1, 0]]
+
+
+def test_a_stretch_of_an_arc_keeps_its_centre():
+    half = Path.from_pieces([Arc((2, 0), (-2, 0), (0, 0), Turn.CCW)])
+    found = stretch(half, 1, (0, 2), 1, (-2, 0))
+    assert found[0] == Arc((0, 2), (-2, 0), (0, 0), Turn.CCW)
+
+
+def test_its_pieces_keep_their_segments_numbers():
+    assert stretch(SQUARE, 4, (0, 1), 1, (3, 0)).numbers.tolist() == [4, 1]
+
+
+def test_a_stretch_of_unknown_segments_is_empty():
+    assert len(stretch(SQUARE, 7, (0, 0), 8, (1, 1))) == 0
