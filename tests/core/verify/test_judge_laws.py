@@ -48,12 +48,14 @@ STEP = 4e-3
 def test_dense_points_say_the_same(surface: Path, centre: Path, radius: float) -> None:
     verdict = judge(surface, Side.LEFT, radius, centre)
     least = oracle.least(centre, surface, STEP)
-    assert least - STEP / 2 < verdict.clearance < least + 1e-9
+    assert least - STEP / 2 - 1e-9 < verdict.clearance < least + 1e-9
     steps = 4.0 * STEP * len(centre) * len(surface)
-    near = oracle.length_near(centre, surface, radius - GOUGE, STEP)
-    assert sum(gouge.extent for gouge in verdict.gouges) == pytest.approx(near, abs=steps)
-    cut = oracle.length_near(surface, centre, radius, STEP)
-    assert verdict.surface_length - verdict.uncut_length == pytest.approx(cut, abs=steps)
+    gouged = sum(gouge.extent for gouge in verdict.gouges)
+    least, most = (oracle.length_near(centre, surface, radius - GOUGE + hair, STEP) for hair in (-1e-8, 1e-8))
+    assert least - steps <= gouged <= most + steps
+    cut = verdict.surface_length - verdict.uncut_length
+    least, most = (oracle.length_near(surface, centre, radius + hair, STEP) for hair in (-1e-8, 1e-8))
+    assert least - steps <= cut <= most + steps
     points, _ = oracle.samples(surface, STEP)
     thickest = max(0.0, float(oracle.apart(points, centre).max()) - radius)
     told = max((stretch.thickness for stretch in verdict.uncut), default=0.0)
