@@ -133,9 +133,10 @@ def _tangents(path: Path, rows: Indices) -> tuple[Planes, Planes]:
 
 
 def _wide(path: Path, rows: Indices) -> Masks:
-    """Which pieces are arcs of half a turn or more."""
+    """Which pieces are arcs of half a turn or more; rounding must not make a full circle a dot."""
     first, last = _tangents(path, rows)
-    wide: Masks = (path.turns[rows] != 0) & ((first.conj() * last).imag * path.turns[rows] <= 0.0)
+    turned = (first.conj() * last).imag * path.turns[rows]
+    wide: Masks = (path.turns[rows] != 0) & ((turned <= 0.0) | (first == last))
     return wide
 
 

@@ -151,7 +151,7 @@ def piece_boxes(start: Planes, end: Planes, centre: Planes, turns: Turns, grow: 
     arcs = np.flatnonzero(turns)
     first, last = start[arcs] - centre[arcs], end[arcs] - centre[arcs]
     bend = first.conj() * last
-    quarter = (bend.imag * turns[arcs] > 0.0) & (bend.real >= 0.0)
+    quarter = (bend.imag * turns[arcs] > 0.0) & (bend.real >= 0.0) & (first != last)
     square = first.real * first.real + first.imag * first.imag
     chord = (first + last) / 2.0
     height = np.where(quarter, chord.real * chord.real + chord.imag * chord.imag, 1.0)
