@@ -15,6 +15,7 @@ from pathlib import Path as File
 
 import pytest
 
+WITNESS = shutil.which("rs274")
 MOVE = re.compile(r"(STRAIGHT_TRAVERSE|STRAIGHT_FEED|ARC_FEED|SET_FEED_RATE)\(([^)]*)\)")
 SAYS = "rs274 is not installed (Debian and Ubuntu: apt install linuxcnc-uspace)"
 
@@ -32,8 +33,22 @@ class Ran:
 
 def require() -> None:
     """Say that the interpreter is missing; on a build machine that is a failure."""
-    if shutil.which("rs274") is None:
+    if WITNESS is None:
         pytest.fail(SAYS) if os.environ.get("CI") else pytest.skip(SAYS)
+
+
+def process(program: File, table: File) -> subprocess.CompletedProcess[str]:
+    """Run a file with the file of a tool table; the program's folder is the interpreter's home."""
+    assert WITNESS is not None, SAYS
+    return subprocess.run(
+        [WITNESS, "-g", "-t", str(table), str(program)],
+        env={**os.environ, "HOME": str(program.parent)},
+        cwd=program.parent,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
 
 
 def run(text: str, tools: Mapping[int, float], folder: File) -> Ran:
@@ -42,15 +57,7 @@ def run(text: str, tools: Mapping[int, float], folder: File) -> Ran:
     table, program = folder / "tool.tbl", folder / "program.ngc"
     table.write_text("".join(f"T{number} P{number} D{diameter:.6f} Z0\n" for number, diameter in tools.items()))
     program.write_text(text, encoding="ascii")
-    ended = subprocess.run(
-        ["rs274", "-g", "-t", str(table), str(program)],
-        env={"HOME": str(folder), "PATH": os.environ.get("PATH", "")},
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-    )
+    ended = process(program, table)
     found = [(name, [float(value) for value in values.split(",")]) for name, values in MOVE.findall(ended.stdout)]
     return Ran(
         ended.returncode == 0 and "PROGRAM_END" in ended.stdout,

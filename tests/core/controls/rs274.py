@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
-import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
 from core.controls.moves import Moves, Plane
 from core.controls.report import Run
 from core.units import Unit, from_mm
-
-WITNESS = shutil.which("rs274")
+from tests.rs274 import process
 
 _CALL = re.compile(r"^\s*\d+\s+\S+\s+(\w+)\(([^)]*)\)")
 
@@ -52,17 +48,7 @@ def witness(program: str, folder: Path, diameters: dict[int, float], unit: Unit)
 
 def run_witness(text: Path, table: Path) -> Witnessed:
     """What the interpreter makes of a program's file with the file of a tool table."""
-    assert WITNESS is not None
-    folder = text.parent
-    done = subprocess.run(
-        [WITNESS, "-g", "-t", str(table), str(text)],
-        capture_output=True,
-        text=True,
-        timeout=30,
-        env={**os.environ, "HOME": str(folder)},
-        cwd=folder,
-        check=False,
-    )
+    done = process(text, table)
     printed = done.stdout.splitlines()
     said = [line for line in done.stderr.splitlines() if line.strip() and line.strip() != "executing"]
     return Witnessed(tuple(_moves(printed)), said[0] if said else "")

@@ -12,7 +12,8 @@ import pytest
 from core.finding import Severity
 from core.units import Unit
 from tests.core.controls.hand import DATA, ran, told
-from tests.core.controls.rs274 import WITNESS, witness
+from tests.core.controls.rs274 import witness
+from tests.rs274 import WITNESS
 
 ERROR, WARNING, INFO = Severity.ERROR, Severity.WARNING, Severity.INFO
 

@@ -13,7 +13,8 @@ from core.controls.tools import read_table
 from core.units import Unit, from_mm
 from tests.core.controls.compare_rs274 import COMPENSATED, SAMPLES, outcome, programs, sample_outcome
 from tests.core.controls.hand import ran, same, shape, told
-from tests.core.controls.rs274 import WITNESS, difference, printed, run_witness, witness
+from tests.core.controls.rs274 import difference, printed, run_witness, witness
+from tests.rs274 import WITNESS
 
 needs_witness = pytest.mark.skipif(WITNESS is None, reason="LinuxCNC's rs274 is not installed")
 
@@ -80,6 +81,8 @@ MODAL = {
     "machine coordinates": "G20 F9\nG52 X3\nG1 X1\nG53 G0 X1\nG1 X1\nM2\n",
     "a rapid corner": "G20 F9\nG42 D1\nG0 X2\nG0 X4\nG0 Y3\nG1 X0\nG40\nX-2\nM2\n",
     "comments and spaces": "g20 (inch) f 9\ng1 x1 (y2) y 3 ; z4\nm2\n",
+    "blanks inside words": "G 2 0 F 9\nG1 X1 .5 Y- 2\nG4 P. 1\nM 2\n",
+    "a preset cancelled in a block of motion": "G20 F9\nG1 X1\nG92 X0\nG92.1 G1 X5\nM2\n",
     "a work offset set by the program": "G20 F9\nG55\nG1 X1\nG54\nG1 X1\nM2\n",
 }
 
@@ -106,6 +109,12 @@ REFUSED = {
     "an unknown code": "G20 F9\nG77 X1\nM2\n",
     "a tool that is not there": "G20 F9\nT8 M6\nM2\n",
     "a missing subprogram": "G20 F9\nM98 P44\nM2\n",
+    "a dwell without time": "G20 F9\nG4\nG1 X1\nM2\n",
+    "an unknown M code": "G20 F9\nG1 X1 M984\nM2\n",
+    "a comment in a comment": "G20 F9\nG1 X1 ((two)\nM2\n",
+    "a digit parted by a comment": "G20 F9\nG1 X1 (and)0\nM2\n",
+    "an arc alone": "G20 F9\nG2\nM2\n",
+    "words without their code": "G20 F9\nG1 X1 P2\nM2\n",
     "no end": "G20 F9\nG1 X1\n\n",
 }
 
