@@ -11,7 +11,7 @@ from core.comp.result import Compensated
 from core.pipeline.derive import parameter
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
-from core.verify.judge import judge
+from core.verify.judge import judge_all
 from core.verify.verdict import Verdict
 
 
@@ -69,11 +69,7 @@ def look_ahead_table(found: DerivedBlock, program: Program) -> Table | None:
         blend=parameter(program, "blend_offset"),
         overlap=parameter(program, "blend_overlap"),
     )
-    judged: dict[int, Verdict] = {}
-    rows = []
-    for value, one in zip(range(LOWEST, HIGHEST + 1), every, strict=True):
-        # values that make the same path share it, and so its verdict
-        if id(one.path) not in judged:
-            judged[id(one.path)] = judge(found.work.surface, found.side, found.radius, one.whole)
-        rows.append(Row(value, one, judged[id(one.path)]))
+    verdicts = judge_all(found.work.surface, found.side, found.radius, [one.whole for one in every])
+    values = range(LOWEST, HIGHEST + 1)
+    rows = [Row(value, one, verdict) for value, one, verdict in zip(values, every, verdicts, strict=True)]
     return Table(tuple(rows), recommended(rows))
