@@ -16,7 +16,7 @@ from core.controls.verdicts import Judged, depth, findings, judged
 from core.finding import Finding, Severity
 from core.units import Kind, Unit, from_mm, sentence, show
 
-NOT_FOLLOWED: Final = ("MACRO", "LIMIT")
+NOT_FOLLOWED: Final = ("MACRO", "LIMIT", "BEYOND")
 """Rules at which not the control stops but the reading of the program."""
 
 

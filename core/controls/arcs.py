@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import hypot, sqrt
+from types import MappingProxyType
 from typing import Final
 
 from core.controls.dialect import Arcs
+from core.controls.moves import Plane, Point3
 from core.geometry.piece import Point
 from core.units import Unit
 
@@ -50,3 +53,27 @@ def through(start: Point, end: Point, radius: float, turn: int) -> Point | NoArc
     if chord / 2 / size > 1 - 1e-12:
         away = 0.0
     return (start[0] + end[0]) / 2 - away * dy / chord, (start[1] + end[1]) / 2 + away * dx / chord
+
+
+_IN_PLANE: Final[Mapping[Plane, tuple[str, str, str]]] = MappingProxyType(
+    {Plane.XY: ("I", "J", "K"), Plane.ZX: ("K", "I", "J"), Plane.YZ: ("J", "K", "I")}
+)
+
+
+def given_centre(
+    words: Mapping[str, float], plane: Plane, start: Point, scale: float, origin: Point3 | None
+) -> Point | NoArc:  # fmt: skip
+    """The centre out of I, J, K: from the arc's start, or from an origin (in plane coordinates) where there is one."""
+    first, second, standing = _IN_PLANE[plane]
+    if "R" in words:
+        return NoArc("The arc has R beside its centre; keep one of them.")
+    if standing in words:
+        return NoArc(f"{standing} does not lie in the arc's plane; write {first} and {second}.")
+    if first not in words and second not in words:
+        return NoArc(f"The arc has neither centre nor radius; write {first} and {second}, or R.")
+    if origin is None:
+        return start[0] + words.get(first, 0.0) * scale, start[1] + words.get(second, 0.0) * scale
+    for letter in (first, second):
+        if letter not in words:
+            return NoArc(f"{letter} is missing; an absolute centre needs {first} and {second}.")
+    return origin[0] + words[first] * scale, origin[1] + words[second] * scale

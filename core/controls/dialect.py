@@ -11,7 +11,7 @@ from enum import Enum, auto
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.words import Semicolon, Slash
+from core.controls.words import PLAIN, Syntax
 from core.units import Unit
 
 
@@ -35,6 +35,8 @@ class Do(Enum):
     RATE = auto()
     MODE = auto()
     DATA = auto()
+    BEYOND = auto()
+    """A code that the control has and that is not followed here: the run stops."""
     OWN = auto()
     """Something of this control alone; its follower looks at the block."""
 
@@ -110,8 +112,7 @@ class Dialect:
     unit: Unit
     mode: int | None = 0
     arcs: Arcs = Arcs()
-    semicolon: Semicolon = Semicolon.COMMENT
-    slash: Slash = Slash.SKIP
+    syntax: Syntax = PLAIN
     moves_alone: bool = False
     feed_needed: bool = False
     loads_at_t: bool = False

@@ -8,6 +8,8 @@ from there to its own point.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Final
 
 from core.controls.dialect import Arcs, Dialect, Do, codes
@@ -16,7 +18,7 @@ from core.controls.moves import Plane
 from core.controls.report import Log, Run
 from core.controls.runner import execute
 from core.controls.tools import ToolTable
-from core.controls.words import SWITCHES, Block, whole
+from core.controls.words import SWITCHES, Block, Syntax, whole
 from core.finding import Severity
 from core.geometry.side import Side
 from core.units import Unit
@@ -27,6 +29,9 @@ DIALECT: Final = Dialect(
     "linuxcnc",
     codes(
         ("motion", Do.CYCLE, (382, 383, 384, 385, 730, 740)),
+        ("motion", Do.BEYOND, (50, 51, 52, 60, 61, 62, 330, 331, 700, 710, 711, 712, 720, 721, 722, 760)),
+        ("once", Do.BEYOND, (53, 281, 301, 923)),
+        ("lathe", Do.BEYOND, (70,)),
         ("compensation", Do.SIDE, (411, 421)),
         ("centres", Do.CENTRES, (901, 911)),
         ("system", Do.SYSTEM, (591, 592, 593)),
@@ -42,6 +47,7 @@ DIALECT: Final = Dialect(
     ),
     Unit.MM,
     mode=None,
+    syntax=Syntax(blanks=False),
     arcs=_ARCS,
     moves_alone=True,
     feed_needed=True,
@@ -81,9 +87,8 @@ class LinuxCnc(LookAhead):
         if "D" in words and SWITCHES.isdisjoint(block.g) and 960 not in block.g:
             text = "D needs G41, G42, G41.1 or G42.1 in its block."
             self.log.stop("N-DALONE", text, block.line, block.column("D"))
-        if "H" in words and _lacks(self.machine.tools, words["H"]):
-            text = "The tool table has no tool of this number; enter it, or write the number of one that is there."
-            self.log.stop("TOOL", text, block.line, block.column("H"))
+        if not _NEEDING.isdisjoint(words) or block.m or 40 in block.g:
+            self._other_words(block)
         if not _CENTRES.isdisjoint(words):
             self._arc_words(block)
         for code in () if block.moves_only else block.g:
@@ -93,11 +98,35 @@ class LinuxCnc(LookAhead):
             if self.active:
                 self._refused(code, block)
 
+    def _other_words(self, block: Block) -> None:
+        """M codes that exist; words that need a code beside them; the tool of an H."""
+        for code in block.m:
+            if code not in _KNOWN_M:
+                text = f"M{code / 10:g} is no M code of this control; leave it out."
+                self.log.stop("CODE", text, block.line, block.column("M", code))
+        beside = {f"G{code}" for code in block.g} | {f"M{code}" for code in block.m}
+        mode = self._motion(block)
+        if mode is not None:
+            beside.add(f"G{mode}")
+        for letter, codes_for in NEEDED.items():
+            if letter in block.words and beside.isdisjoint(codes_for):
+                text = f"{letter} has no code in this block that takes it; leave it out."
+                self.log.stop("N-WORDALONE", text, block.line, block.column(letter))
+        if 40 in block.g and "P" not in block.words:
+            text = "G4 needs P and the seconds to wait."
+            self.log.stop("N-WORDALONE", text, block.line, block.column("G", 40))
+        if "H" in block.words and _lacks(self.machine.tools, block.words["H"]):
+            text = "The tool table has no tool of this number; enter it, or write the number of one that is there."
+            self.log.stop("TOOL", text, block.line, block.column("H"))
+
+    def _motion(self, block: Block) -> int | None:
+        """The motion that a block's words belong to."""
+        given = (code for code in block.g if code in DIALECT.codes and DIALECT.codes[code].group == "motion")
+        return next(given, self.machine.mode)
+
     def _arc_words(self, block: Block) -> None:
         """I, J, K and R go with arcs, and with codes that take no part in compensation."""
-        given = (code for code in block.g if code in DIALECT.codes and DIALECT.codes[code].group == "motion")
-        motion = next(given, self.machine.mode)
-        if motion in (0, 10) and not {100, 640}.intersection(block.g):
+        if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g):
             column = block.column("IJKR")
             text = "I, J, K and R go with G2 and G3 only; leave them out."
             self.log.stop("N-WORDALONE", text, block.line, column)
@@ -159,6 +188,24 @@ class LinuxCnc(LookAhead):
         return int(block.words.get("L", 0.0))
 
 
+_USER_M: Final = tuple(f"M{code}" for code in range(1000, 2000, 10))
+_SWITCHED: Final = tuple(f"M{code}" for code in (500, 510, 520, 530, 620, 630, 640, 650, 660))
+_CYCLES: Final = tuple(f"G{code}" for code in (730, 740, *range(810, 900, 10)))
+
+NEEDED: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
+    {
+        "L": frozenset(("G100", "G410", "G411", "G420", "G421", "M660", "M980", *_CYCLES)),
+        "P": frozenset(("G20", "G30", "G40", "G100", "G640", "M190", "M980", *_CYCLES, *_SWITCHED, *_USER_M)),
+        "Q": frozenset(("G100", "G640", "M190", "M610", "M660", "M670", "M680", *_CYCLES, *_USER_M)),
+        "H": frozenset(("G430", "G432", "G760")),
+    }
+)
+"""Words that a block takes only beside one of these codes."""
+
+_NEEDING: Final = frozenset(NEEDED)
+_KNOWN_M: Final = frozenset(
+    10 * code for code in (*range(10), 19, 30, *range(48, 54), *range(60, 69), *range(70, 74), 98, 99, *range(100, 200))
+)
 _CENTRES: Final = frozenset("IJKR")
 _PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
 

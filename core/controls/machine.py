@@ -9,7 +9,7 @@ from math import hypot
 from typing import Final
 
 from core.controls import origin
-from core.controls.arcs import NoArc, about, through
+from core.controls.arcs import NoArc, about, given_centre, through
 from core.controls.corners import arc_element, line_element
 from core.controls.dialect import Code, Dialect, Do
 from core.controls.follower import Follower
@@ -126,9 +126,16 @@ class Machine:
                 self.absolute_centres = code.value == 901
             case Do.SIDE:
                 self._set_side(code.value, block)
-            case Do.SYSTEM:
-                self.origin = origin.selected(self, code.value, block)
-                self.shift = self.origin.shift
+            case Do.SYSTEM | Do.UNSHIFT:
+                origin.changed(self, code, block)
+            case _:
+                self._set_other(code, block)
+
+    def _set_other(self, code: Code, block: Block) -> None:
+        match code.do:
+            case Do.BEYOND:
+                text = f"G{code.value / 10:g} is not worked out here, and what follows would be wrong; nothing does."
+                self.log.stop("BEYOND", text, block.line, block.column("G", code.value))
             case Do.OWN:
                 self.follower.own(code.value, block)
             case Do.RATE:
@@ -198,10 +205,16 @@ class Machine:
         words, mode = block.words, self.mode
         if "X" in words or "Y" in words or "Z" in words or (mode in _TURNS and not _CENTRES.isdisjoint(words)):
             self._travel(block, mode)
-        elif self.dialect.moves_alone and (0 in block.g or 10 in block.g):
-            self.straight(block, self.position)
+        elif self.dialect.moves_alone and not _MOVES.isdisjoint(block.g):
+            self._alone(block)
         elif self.follower.active:
             self.follower.idle(block)
+
+    def _alone(self, block: Block) -> None:
+        if self.mode in _TURNS:
+            text = "The arc has neither end point nor centre; write them."
+            self.log.stop("ARC", text, block.line, block.column("G", self.mode))
+        self.straight(block, self.position)
 
     def _travel(self, block: Block, mode: int | None) -> None:
         if mode in _TURNS:
@@ -257,30 +270,14 @@ class Machine:
         self.follower.travel(arc_element(start, stop, centre, turn, low, high, self.feed, block.line))
 
     def _centre(self, block: Block, start: Point, end: Point, turn: int) -> Point | NoArc:
-        words = block.words
-        first, second, standing = _IN_PLANE[self.plane]
-        if "R" in words:
-            if not _CENTRES_IJK.isdisjoint(words):
-                return NoArc("The arc has R beside its centre; keep one of them.")
-            return through(start, end, words["R"] * self.scale, turn)
-        if standing in words:
-            return NoArc(f"{standing} does not lie in the arc's plane; write {first} and {second}.")
-        if first not in words and second not in words:
-            return NoArc(f"The arc has neither centre nor radius; write {first} and {second}, or R.")
-        centre = self._given_centre(words, start, first, second)
+        absolute = self.absolute_centres and not (self.incremental and self.dialect.arcs.absolute)
+        origin_there = flat(self.shift, self.plane) if absolute else None
+        if "R" in block.words and _CENTRES_IJK.isdisjoint(block.words):
+            return through(start, end, block.words["R"] * self.scale, turn)
+        centre = given_centre(block.words, self.plane, start, self.scale, origin_there)
         return (
             centre if isinstance(centre, NoArc) else about(start, end, centre, self.dialect.arcs, self.unit) or centre
         )
-
-    def _given_centre(self, words: dict[str, float], start: Point, first: str, second: str) -> Point | NoArc:
-        scale = self.scale
-        if not self.absolute_centres or (self.incremental and self.dialect.arcs.absolute):
-            return start[0] + words.get(first, 0.0) * scale, start[1] + words.get(second, 0.0) * scale
-        for letter in (first, second):
-            if letter not in words:
-                return NoArc(f"{letter} is missing; an absolute centre needs {first} and {second}.")
-        base = flat(self.shift, self.plane)
-        return base[0] + words[first] * scale, base[1] + words[second] * scale
 
     def _no_feed(self, block: Block) -> None:
         text = "There is no feed; write F before the first move at feed."
@@ -297,7 +294,7 @@ class Machine:
         self.mode = mode
 
 
+_MOVES: Final = frozenset((0, 10, 20, 30))
 _ENDS: Final = frozenset((20, 300))
 _CENTRES: Final = frozenset("IJKR")
 _CENTRES_IJK: Final = frozenset("IJK")
-_IN_PLANE: Final = {Plane.XY: ("I", "J", "K"), Plane.ZX: ("K", "I", "J"), Plane.YZ: ("J", "K", "I")}

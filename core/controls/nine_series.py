@@ -19,7 +19,7 @@ from core.controls.nine_words import NineWords
 from core.controls.report import Log, Run
 from core.controls.runner import execute
 from core.controls.tools import ToolTable
-from core.controls.words import Block, Semicolon
+from core.controls.words import Block, Semicolon, Syntax
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.geometry.side import Side
@@ -39,7 +39,7 @@ DIALECT: Final = Dialect(
         ("once", Do.UNSHIFT, (921,)),
     ),
     Unit.IN,
-    semicolon=Semicolon.END,
+    syntax=Syntax(Semicolon.END),
 )
 
 NON_MOTION: Final = 10

@@ -1,5 +1,5 @@
 """Where a program counts from: work offsets, local shifts and presets; and the codes that take axis words for
-themselves instead of moving there: G28, G52, G53, G92, G4, G10.
+themselves instead of moving there: G28, G52, G53, G92, G10.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from core.finding import Severity
 if TYPE_CHECKING:
     from core.controls.machine import Machine
 
-ONCE: Final = frozenset((Do.HOME, Do.SHIFT, Do.PRESET, Do.UNSHIFT, Do.MACHINE, Do.DATA, Do.DWELL))
+ONCE: Final = frozenset((Do.HOME, Do.SHIFT, Do.PRESET, Do.MACHINE, Do.DATA))
 """What takes a block's axis words for itself."""
 
 _ZERO: Final[Point3] = (0.0, 0.0, 0.0)
@@ -40,7 +40,16 @@ class Origin:
         return base[0] + self.local[0], base[1] + self.local[1], base[2] + self.local[2]
 
 
-def selected(machine: Machine, code: int, block: Block) -> Origin:
+def changed(machine: Machine, code: Code, block: Block) -> None:
+    """Another work offset, or no G52 and G92 any more."""
+    if code.do is Do.UNSHIFT:
+        _shifted(machine, _ZERO)
+    else:
+        machine.origin = _selected(machine, code.value, block)
+        machine.shift = machine.origin.shift
+
+
+def _selected(machine: Machine, code: int, block: Block) -> Origin:
     """The origin with another work offset in force; one that the program did not set is taken as zero, and told."""
     if code not in machine.origin.systems and code != _G54:
         text = f"The offset of G{code / 10:g} is not in the program; it is taken as zero."
@@ -55,17 +64,12 @@ def run_once(machine: Machine, code: Code, block: Block) -> None:
             _shifted(machine, _locally(machine, block, machine.origin.local))
         case Do.PRESET:
             _preset(machine, block)
-        case Do.UNSHIFT:
-            _shifted(machine, _ZERO)
         case Do.DATA:
             _offset_data(machine, block)
         case Do.HOME:
             _home(machine, block)
-        case Do.MACHINE:
-            _in_machine(machine, block)
         case _:
-            if machine.follower.active:
-                machine.follower.idle(block)
+            _in_machine(machine, block)
 
 
 def _locally(machine: Machine, block: Block, old: Point3) -> Point3:

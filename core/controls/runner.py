@@ -137,7 +137,7 @@ def _run(flow: _Flow, machine: Machine) -> None:
         line = flow.at = flow.at + 1
         flow.next_line(line)
         text = lines[line - 1]
-        for block in read_line(text, line, log, dialect.semicolon, dialect.slash):
+        for block in read_line(text, line, log, dialect.syntax):
             machine.step(block)
             if block.moves_only:
                 continue

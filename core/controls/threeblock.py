@@ -28,7 +28,7 @@ from core.controls.moves import Plane
 from core.controls.report import Log, Run
 from core.controls.runner import execute
 from core.controls.tools import ToolTable
-from core.controls.words import Block, Semicolon, Slash
+from core.controls.words import Block, Semicolon, Slash, Syntax
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.geometry.side import Side
@@ -43,8 +43,7 @@ DIALECT: Final = Dialect(
     ),
     Unit.IN,
     arcs=Arcs(absolute=True),
-    semicolon=Semicolon.END,
-    slash=Slash.DATA,
+    syntax=Syntax(Semicolon.END, Slash.DATA),
     loads_at_t=True,
     subprograms=False,
 )

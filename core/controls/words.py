@@ -28,6 +28,9 @@ _CODES: Final[Mapping[str, int]] = MappingProxyType(
 )
 """Codes in tenths as they are mostly written."""
 
+_NESTED: Final = re.compile(r"^[^;(]*+\([^()]*+\(")
+_MARK: Final = "\x01"
+_MOTIONS: Final = frozenset((0, 10, 20, 30))
 _PLACES: Final = frozenset("NXYZIJKR")
 
 WHOLE: Final = 1e-4
@@ -50,6 +53,15 @@ class Slash(Enum):
 
     SKIP = auto()
     DATA = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class Syntax:
+    """How a control writes blocks; `blanks`: whether a blank parts words, rather than being nothing anywhere."""
+
+    semicolon: Semicolon = Semicolon.COMMENT
+    slash: Slash = Slash.SKIP
+    blanks: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,26 +138,27 @@ def whole(value: float) -> int | None:
     return number if abs(number - value) < WHOLE else None
 
 
-def read_line(
-    text: str, line: int, log: Log, semicolon: Semicolon = Semicolon.COMMENT, slash: Slash = Slash.SKIP
-) -> list[Block]:  # fmt: skip
+PLAIN: Final = Syntax()
+
+
+def read_line(text: str, line: int, log: Log, syntax: Syntax = PLAIN) -> list[Block]:
     """The blocks of one line, none of an empty one; what cannot be read stops the run with its column."""
     upper = _capitals(text)
     if _CLEAN.fullmatch(upper):
         return [_filled(Block(line, text), upper, log)] if _PAIR.search(upper) else []
-    if semicolon is Semicolon.END and ";" in upper:
-        return list(_pieces(text, line, log, slash))
-    return _closer(Block(line, text), _bare(upper), log, slash)
+    if syntax.semicolon is Semicolon.END and ";" in upper:
+        return list(_pieces(text, line, log, syntax))
+    return _closer(Block(line, text), _bare(upper), log, syntax)
 
 
-def _pieces(text: str, line: int, log: Log, slash: Slash) -> Iterator[Block]:
+def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
     """The blocks between semicolons; behind the last, what is no block is told and left out."""
     start, parts = 0, text.split(";")
     for index, part in enumerate(parts):
         bare = _bare(_capitals(part))
         plain = _CLEAN.fullmatch(bare) is not None
         if plain or index < len(parts) - 1:
-            yield from _closer(Block(line, part, start), bare, log, slash)
+            yield from _closer(Block(line, part, start), bare, log, syntax)
         else:
             column = start + 1 + len(part) - len(part.lstrip())
             words = f"Behind the end of the block {shown(part)} is not read."
@@ -153,19 +166,33 @@ def _pieces(text: str, line: int, log: Log, slash: Slash) -> Iterator[Block]:
         start += len(part) + 1
 
 
-def _closer(block: Block, bare: str, log: Log, slash: Slash) -> list[Block]:
+def _closer(block: Block, bare: str, log: Log, syntax: Syntax) -> list[Block]:
     """The block of a line that has signs besides words: tool data, block skip, the percent sign."""
-    if slash is Slash.DATA and (data := _DATA.search(bare)):
+    if syntax.slash is Slash.DATA and (data := _DATA.search(bare)):
         block.data = _tool_data(data)
         bare = bare[: data.start()] + " " * len(data[0]) + bare[data.end() :]
-    elif bare.lstrip().startswith("/"):
+    if not syntax.blanks and block.text.count("(") > 1:
+        _squeezed(block, log)
+    if bare.lstrip().startswith("/"):
         log.tell(Severity.INFO, "SKIP", "The block is run: block skip is taken as switched off.", block.line, 1)
         bare = bare.replace("/", " ", 1)
     if not bare.strip() or bare.strip() == "%":
         return [block] if block.data else []
     if _CLEAN.fullmatch(bare) is None:
-        _fault(block, bare, log)
+        squeezed = "" if syntax.blanks else _squeezed(block, log)
+        if not squeezed or _CLEAN.fullmatch(squeezed) is None:
+            _fault(block, bare, log)
+        block.text = bare = squeezed
     return [_filled(block, bare, log)]
+
+
+def _squeezed(block: Block, log: Log) -> str:
+    """The block without its blanks; only a comment still parts words."""
+    nested = _NESTED.search(block.text)
+    if nested:
+        text = "A comment begins inside a comment; close the first one."
+        log.stop("COMMENT", text, block.line, block.start + nested.end())
+    return "".join(_bare(_capitals(block.text), _MARK).split()).replace(_MARK, " ")
 
 
 def _tool_data(found: re.Match[str]) -> ToolData:
@@ -190,7 +217,7 @@ def _filled(block: Block, upper: str, log: Log) -> Block:
             words_too = f"The number of {letter} is too large for any machine."
             log.stop("NUMBER", words_too, block.line, block.column(letter))
     codes = block.g
-    plain = not codes or (len(codes) == 1 and codes[0] <= 30)
+    plain = not codes or (len(codes) == 1 and codes[0] in _MOTIONS)
     block.moves_only = plain and not block.m and not block.data and _PLACES.issuperset(words)
     return block
 
@@ -209,7 +236,7 @@ def _fault(block: Block, bare: str, log: Log) -> None:
     log.stop("WORD", f"{shown(rest)} is not understood; a word is a letter and a number.", block.line, column)
 
 
-def _bare(upper: str) -> str:
+def _bare(upper: str, fill: str = " ") -> str:
     """A line with its comments blanked out and every other sign where it was."""
     if "(" not in upper and ";" not in upper:
         return upper
@@ -217,11 +244,11 @@ def _bare(upper: str) -> str:
     while at < len(upper):
         opened, ended = upper.find("(", at), upper.find(";", at)
         if ended >= 0 and (opened < 0 or ended < opened):
-            out.append(upper[at:ended].ljust(len(upper) - at))
+            out.append(upper[at:ended].ljust(len(upper) - at, fill))
             return "".join(out)
         closed = upper.find(")", opened) if opened >= 0 else -1
         if closed < 0:
             break
-        out.append(upper[at:opened].ljust(closed + 1 - at))
+        out.append(upper[at:opened].ljust(closed + 1 - at, fill))
         at = closed + 1
     return "".join((*out, upper[at:]))

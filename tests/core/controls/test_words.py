@@ -10,18 +10,18 @@ from hypothesis import strategies as st
 
 from core.controls.report import AlarmError, Log
 from core.controls.source import lines_of, shown
-from core.controls.words import Block, Semicolon, Slash, ToolData, read_line, tenths, whole
+from core.controls.words import PLAIN, Block, Semicolon, Slash, Syntax, ToolData, read_line, tenths, whole
 from core.finding import Finding
 
 
-def block(text: str, **options: Semicolon | Slash) -> Block:
-    (found,) = read_line(text, 1, Log(), **options)  # type: ignore[arg-type]  # names are those of the parameters
+def block(text: str, syntax: Syntax = PLAIN) -> Block:
+    (found,) = read_line(text, 1, Log(), syntax)
     return found
 
 
 def alarm(text: str) -> Finding | None:
     try:
-        read_line(text, 1, Log(), Semicolon.END, Slash.DATA)
+        read_line(text, 1, Log(), Syntax(Semicolon.END, Slash.DATA))
     except AlarmError as caught:
         return caught.finding
     return None
@@ -85,20 +85,31 @@ def test_faults_have_a_place(text: str, code: str, column: int) -> None:
     assert fault(text) == (code, column)
 
 
+def test_blanks_may_be_nothing_anywhere() -> None:
+    found = block("G4 1 X1 .5 Y - 2", Syntax(blanks=False))
+    assert (found.g, found.words) == ([410], {"X": 1.5, "Y": -2.0})
+    assert fault("G4 1 X1")[0] == "WORD"
+
+
+def test_plain_moves_are_told_from_others() -> None:
+    assert block("N1 G1 X1 Y2 I3").moves_only
+    assert not any(block(text).moves_only for text in ("G2.1 X1", "G1 X1 F2", "G1 G40 X1", "X1 M3", "G4 P1"))
+
+
 def test_tool_data_behind_slashes() -> None:
-    assert block("T4/.75/.2", slash=Slash.DATA).data == ToolData(4, 0.75, 0.2)
-    assert block("T5//-.5", slash=Slash.DATA).data == ToolData(5, None, -0.5)
+    assert block("T4/.75/.2", Syntax(slash=Slash.DATA)).data == ToolData(4, 0.75, 0.2)
+    assert block("T5//-.5", Syntax(slash=Slash.DATA)).data == ToolData(5, None, -0.5)
 
 
 def test_a_semicolon_may_end_a_block() -> None:
-    found = read_line("G1X1;X2;Y3.", 1, Log(), Semicolon.END, Slash.DATA)
+    found = read_line("G1X1;X2;Y3.", 1, Log(), Syntax(Semicolon.END, Slash.DATA))
     assert [one.words for one in found] == [{"X": 1.0}, {"X": 2.0}, {"Y": 3.0}]
     assert [one.column("XY") for one in found] == [3, 6, 9]
 
 
 def test_prose_behind_the_end_of_a_block_is_told() -> None:
     log = Log()
-    (found,) = read_line("T5//-.5;        For tool 5, DIA=-.5", 1, log, Semicolon.END, Slash.DATA)
+    (found,) = read_line("T5//-.5;        For tool 5, DIA=-.5", 1, log, Syntax(Semicolon.END, Slash.DATA))
     assert found.data == ToolData(5, None, -0.5)
     assert [(one.code, one.column) for one in log.findings] == [("TEXT", 17)]
 

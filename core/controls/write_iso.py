@@ -1,0 +1,263 @@
+"""Compensated contours written as a word-address control's own program with G41 or G42.
+
+The contour is written as typed, the control offsets it.  The tool goes down away from the part, is led in along a
+straight line onto the blend, and leaves the same way; where there is no blend the line itself ends on the path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import hypot
+from typing import Final
+
+from core.controls.contouring import Cut, End, Line, Programmed, begin, finish, number_text, programmed
+from core.controls.corners import Element, arc_element, beyond, line_element
+from core.controls.iso_style import Entry, IsoStyle, Radius
+from core.controls.tools import CutterTool, ToolTable
+from core.finding import Finding
+from core.geometry.piece import Point
+from core.geometry.side import Side
+from core.units import Unit, from_mm
+
+ON_LINE: Final = 1e-6
+"""Millimetres by which the joint of two lines may lie beside the line they are merged to."""
+
+SPARE: Final = 51
+"""Offsets from this number on hold the radii of runs that leave stock."""
+
+ROUNDING: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
+"""How far the machine may leave the path at a corner, in program units."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Ready:
+    """A cut with what is run of it: elements, leads included, and the points it is entered from and left to."""
+
+    cut: Cut
+    shape: Programmed
+    start: Point
+    to: Point
+    out: Point
+    offset: int
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """What holds for the whole program: unit, work offset (54 to 59), the corners of a 9/Series (G39 or G39.1)."""
+
+    unit: Unit
+    work_offset: int = 54
+    corners: str = ""
+
+
+def start_of(end: End, style: IsoStyle, reach: float) -> Point:
+    """Where the entry starts: `reach` away from where it ends, on the line the control needs it on."""
+    if end.blend:
+        return beyond(end.corner if style.entry is Entry.OWN else end.at, end.off, reach)
+    if style.entry is Entry.NEXT:
+        return beyond(end.at, end.off, reach)
+    return beyond(end.corner if style.entry is Entry.OWN else end.at, end.way, -reach)
+
+
+def out_of(end: End, reach: float) -> Point:
+    """Where the exit ends."""
+    return beyond(end.at, end.off, reach)
+
+
+def ready(cut: Cut, style: IsoStyle, reach: float, offset: int) -> Ready | Finding:
+    """A cut with its leads of a length."""
+    shape = programmed(cut.compensated)
+    if isinstance(shape, Finding):
+        return shape
+    first, last = begin(cut.compensated), finish(cut.compensated)
+    shape = _led(_merged(shape) if style.merged else shape, cut, first, last)
+    return Ready(cut, shape, start_of(first, style, reach), first.corner, out_of(last, reach), offset)
+
+
+def _led(shape: Programmed, cut: Cut, first: End, last: End) -> Programmed:
+    """With the blends as programmed arcs."""
+    if not first.blend:
+        return shape
+    lead_in, lead_out = cut.compensated.lead_in, cut.compensated.lead_out
+    elements, segments = shape.elements, shape.segments
+    (ax, ay), (bx, by) = lead_in.centres[0].tolist(), lead_out.centres[-1].tolist()
+    turn_in, turn_out = int(lead_in.turns[0]), int(lead_out.turns[-1])
+    into = arc_element(first.corner, elements[0].start, (ax, ay), turn_in, 0.0, 0.0, 0.0, 0)
+    off = arc_element(elements[-1].end, last.corner, (bx, by), turn_out, 0.0, 0.0, 0.0, 0)
+    return Programmed((into, *elements, off), (segments[0], *segments, segments[-1]))
+
+
+def _merged(shape: Programmed) -> Programmed:
+    """Lines that go on in one line made one, with the first one's segment."""
+    elements, segments = [shape.elements[0]], [shape.segments[0]]
+    for element, segment in zip(shape.elements[1:], shape.segments[1:], strict=True):
+        if _goes_on(elements[-1], element):
+            elements[-1] = line_element(elements[-1].start, element.end, 0.0, 0.0, rapid=False, feed=0.0, line=0)
+        else:
+            elements.append(element)
+            segments.append(segment)
+    return Programmed(tuple(elements), tuple(segments))
+
+
+def _goes_on(first: Element, second: Element) -> bool:
+    if first.turn or second.turn:
+        return False
+    (ax, ay), (bx, by) = first.leaving, second.leaving
+    length = min(hypot(one.end[0] - one.start[0], one.end[1] - one.start[1]) for one in (first, second))
+    return ax * bx + ay * by > 0.0 and abs(ax * by - ay * bx) * length <= ON_LINE
+
+
+def offsets(cuts: Sequence[Cut], style: IsoStyle) -> dict[tuple[int, float], int]:
+    """The number under which a control finds the radius of a tool that leaves a stock."""
+    found: dict[tuple[int, float], int] = {}
+    spare = SPARE
+    for cut in cuts:
+        key = (cut.tool, cut.stock)
+        if key not in found:
+            own = cut.stock == 0.0 or style.radius is not Radius.OFFSET
+            found[key] = cut.tool if own else spare
+            spare += 0 if own else 1
+    return found
+
+
+def tools_of(cuts: Sequence[Cut], style: IsoStyle) -> ToolTable:
+    """The tool or offset table the program counts on, in millimetres; of a control that is told, nothing."""
+    if style.radius is Radius.DATA:
+        return ToolTable()
+    numbers = offsets(cuts, style)
+    stock = style.radius is Radius.OFFSET
+    return ToolTable.of(
+        *(
+            CutterTool(numbers[cut.tool, cut.stock], cut.diameter + (2 * cut.stock if stock else 0.0), unit=Unit.MM)
+            for cut in cuts
+        )
+    )
+
+
+def write(cuts: Sequence[Ready], style: IsoStyle, frame: Frame, remarks: Sequence[str] = ()) -> tuple[Line, ...]:
+    """The lines of the program; `remarks` are ready comment lines and stand first."""
+    return tuple(_Writer(style, frame).program(cuts, remarks))
+
+
+class _Writer:
+    """Writes words in one style; `feed` is the one in force."""
+
+    def __init__(self, style: IsoStyle, frame: Frame) -> None:
+        self.style = style
+        self.frame = frame
+        self.feed = ""
+        self.at: tuple[str, str] = ("", "")
+
+    def program(self, cuts: Sequence[Ready], remarks: Sequence[str]) -> Iterator[Line]:
+        """Everything from the first line to the end."""
+        yield from (Line(remark) for remark in remarks if self.style.comments)
+        unit = self.style.inch if self.frame.unit is Unit.IN else self.style.metric
+        offset = f"G{self.frame.work_offset}"
+        for safe in self.style.safe:
+            yield Line(safe.format(unit=unit, offset=offset, rounding=ROUNDING[self.frame.unit]))
+        if self.frame.corners:
+            yield Line(self.frame.corners)
+        before: Cut | None = None
+        for one in cuts:
+            yield from self.tool(one.cut, before)
+            yield from self.cut(one)
+            before = one.cut
+        yield Line("M5")
+        yield Line("M30")
+
+    def tool(self, cut: Cut, before: Cut | None) -> Iterator[Line]:
+        """The change of tool, of its data, of the speed."""
+        speed = f"S{from_speed(cut.speed)}"
+        same = before is not None and before.tool == cut.tool
+        stands = same and before is not None and before.stock == cut.stock
+        if self.style.radius is Radius.DATA and not stands:
+            yield Line(f"T{cut.tool}//{self.length(cut.diameter + 2 * cut.stock)}")
+        if not same:
+            if before is not None:
+                yield Line("M5")
+            yield self.words(f"T{cut.tool}", "M6")
+            if self.style.length:
+                yield self.words("G43", f"H{cut.tool}")
+            yield self.words(speed, "M3")
+        elif before is not None and before.speed != cut.speed:
+            yield Line(speed)
+
+    def cut(self, one: Ready) -> Iterator[Line]:
+        """One run: down beside the part, in, along, out, up."""
+        cut, shape = one.cut, one.shape
+        own_block = self.style.radius is Radius.DATA
+        down = ("G1", *(("G41" if self.left(cut) else "G42",) if own_block else ()))
+        yield self.words("G0", f"Z{self.length(cut.travel)}")
+        yield self.words("G0", *self.place(one.start))
+        yield self.words("G0", f"Z{self.length(cut.near)}")
+        yield self.words(*down, f"Z{self.length(cut.depth)}", *self.feed_word(cut.plunge_feed))
+        feeds = [cut.feeds[int(number)] for number in shape.segments]
+        words = ("G1",) if own_block else (*self.switch(one), "G1")
+        yield self.words(*words, *self.place(one.to), *self.feed_word(feeds[0]), segment=shape.segments[0])
+        for element, feed, segment in zip(shape.elements, feeds, shape.segments, strict=True):
+            yield from self.element(element, feed, segment)
+        yield self.words("G40", "G1", *self.place(one.out), segment=shape.segments[-1])
+        yield self.words("G0", f"Z{self.length(cut.leave)}")
+
+    def left(self, cut: Cut) -> bool:
+        """Is the tool on the left?"""
+        return cut.compensated.side is Side.LEFT
+
+    def switch(self, one: Ready) -> tuple[str, ...]:
+        """What turns compensation on in the block of the entry."""
+        code, cut = "G41" if self.left(one.cut) else "G42", one.cut
+        if cut.stock and self.style.radius is Radius.DIAMETER:
+            return f"{code}.1", f"D{self.length(cut.diameter + 2 * cut.stock)}"
+        if cut.stock and self.style.radius is Radius.REDUCED:
+            return code, f"D{one.offset}", f"I{self.length(-cut.stock)}"
+        return code, f"D{one.offset}"
+
+    def element(self, element: Element, feed: float, segment: float) -> Iterator[Line]:
+        """One element; what is no move as written is left out."""
+        start, end = self.at, self.place(element.end)
+        whole = element.turn != 0 and element.start == element.end
+        if start == end and not whole:
+            return
+        code = "G1" if not element.turn else "G2" if element.turn < 0 else "G3"
+        centre = self.centre(element, start) if element.turn else ()
+        yield self.words(code, *end, *centre, *self.feed_word(feed), segment=segment)
+
+    def centre(self, element: Element, start: tuple[str, str]) -> tuple[str, str]:
+        """I and J: from the origin, or from the start as it is written."""
+        unit = self.frame.unit
+        x, y = (from_mm(value, unit) for value in element.centre)
+        if not self.style.absolute:
+            x, y = x - float(start[0][1:]), y - float(start[1][1:])
+        digits = self.style.digits(unit)
+        return f"I{_digits(x, digits)}", f"J{_digits(y, digits)}"
+
+    def place(self, point: Point) -> tuple[str, str]:
+        """X and Y."""
+        self.at = f"X{self.length(point[0])}", f"Y{self.length(point[1])}"
+        return self.at
+
+    def length(self, value: float) -> str:
+        """A length in millimetres, with its decimal point."""
+        return number_text(value, self.frame.unit, self.style.digits(self.frame.unit))
+
+    def feed_word(self, feed: float) -> tuple[str, ...]:
+        """F where it changes."""
+        text = f"F{number_text(feed, self.frame.unit, 3)}"
+        if text == self.feed:
+            return ()
+        self.feed = text
+        return (text,)
+
+    def words(self, *words: str, segment: float | None = None) -> Line:
+        """Words as a line."""
+        return Line((" " if self.style.spaced else "").join(words), segment)
+
+
+def from_speed(speed: float) -> str:
+    """A spindle speed without a needless decimal."""
+    return f"{speed:.1f}".removesuffix(".0")
+
+
+def _digits(value: float, digits: int) -> str:
+    return number_text(value, Unit.MM, digits)
