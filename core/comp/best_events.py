@@ -57,13 +57,13 @@ def events(raw: Raw, sign: int) -> Events | None:
 def _pairs(raw: Raw) -> Iterator[tuple[Indices, Indices]]:
     """Pairs of pieces that lie near each other.
 
-    Joined pieces are tangent and meet nowhere else, but that a full circle also ends where the other begins.
+    Tangent pieces meet only at their joint, but that a full circle also ends where the other begins.
     """
     boxes = tree(piece_boxes(raw.start, raw.end, raw.centre, raw.turns, 2.0 * ON_PATH))
     whole = raw.start == raw.end
     for i, j in near_selves(boxes):
-        joined = ((raw.following[i] == j) | (raw.following[j] == i)) & ~whole[i] & ~whole[j]
-        keep = (raw.side[i] | raw.side[j]) & ~joined
+        tangent = (raw.smooth[i] & (raw.following[i] == j)) | (raw.smooth[j] & (raw.following[j] == i))
+        keep = (raw.side[i] | raw.side[j]) & ~(tangent & ~whole[i] & ~whole[j])
         yield i[keep], j[keep]
 
 

@@ -26,8 +26,9 @@ class Raw:
     """m raw pieces, side pieces and outline pieces in order of travel.
 
     `rows` (m,) are their rows in `path`; `start`, `end`, `centre` (m,) complex; `turns` (m,); `lengths` (m,) mm.
-    `following` (m,) is the piece whose start is this one's end, -1 where none is; `side` (m,) marks the side pieces,
-    which belong to the surface's `segment` (m,), from 0, or to the corner behind it.
+    `following` (m,) is the piece whose start is this one's end, -1 where none is; `smooth` (m,) marks those joined
+    smoothly, nothing vanished between.  `side` (m,) marks the side pieces, which belong to the surface's `segment`
+    (m,), from 0, or to the corner behind it.
     """
 
     path: Path
@@ -38,6 +39,7 @@ class Raw:
     turns: Turns
     lengths: Floats
     following: NDArray[np.intp]
+    smooth: Masks
     side: Masks
     segment: Indices
 
@@ -64,7 +66,45 @@ def _around(surface: Path, side: Side, radius: float) -> Chain:
     """The raw chain of a closed surface with the joint at its start: travelled on over the first segment."""
     chain = offset(joined((surface, surface.part(0, 1))), side, radius)
     last = int(np.searchsorted(chain.places, 2 * len(surface)))
-    return Chain(chain.raw.part(0, last), chain.parts[:last], chain.places[:last])
+    chain = Chain(chain.raw.part(0, last), chain.parts[:last], chain.places[:last])
+    return _without_cusps(chain, surface, side)
+
+
+def _without_cusps(chain: Chain, surface: Path, side: Side) -> Chain:
+    """The chain without half circles about reversals whose inside the cutter is on: there they are behind the wall.
+
+    Which side is inside shows in how far to the left the way back lies of the way there, a little before the tip:
+    by the angle between them and by their curvatures.  Where they lie on each other both sides are outside.
+    """
+    points, centres = planes(chain.raw.points), planes(chain.raw.centres)
+    corners = np.flatnonzero(chain.parts == Part.CORNER.value)
+    across = points[corners] + points[corners + 1] - 2.0 * centres[corners]
+    corners = corners[np.abs(across) <= JOINED]
+    if not len(corners):
+        return chain
+    there = chain.places[corners].astype(np.intp) // 2
+    back = (there + 1) % len(surface)
+    first, last = points[corners] - centres[corners], points[corners + 1] - centres[corners]
+    bend = first.conj() * last
+    before = np.minimum(_lengths(surface, there), _lengths(surface, back)) / 4.0
+    aside = (
+        bend.imag / np.abs(bend) * before - (_curvature(surface, there) + _curvature(surface, back)) * before**2 / 2.0
+    )
+    parts = chain.parts.copy()
+    parts[corners[side.sign * aside > JOINED]] = Part.BRIDGE.value
+    return Chain(chain.raw, parts, chain.places)
+
+
+def _lengths(path: Path, rows: Indices) -> Floats:
+    points = planes(path.points)
+    return lengths(points[rows], points[rows + 1], planes(path.centres)[rows], path.turns[rows])
+
+
+def _curvature(path: Path, rows: Indices) -> Floats:
+    """Curvatures of pieces, positive to the left, 0 of a line."""
+    radii = np.abs(planes(path.points)[rows] - planes(path.centres)[rows])
+    curvature: Floats = path.turns[rows] / np.where(path.turns[rows] == 0, 1.0, radii)
+    return curvature
 
 
 def _both(one: Chain, two: Chain) -> Chain:
@@ -94,6 +134,8 @@ def _raw(chain: Chain, outline: int, *, ring: int) -> Raw:
     centre = planes(path.centres)[rows]
     following = np.concatenate([np.roll(part, -1) for part in np.split(np.arange(len(rows)), [_before(rows, ring)])])
     following[np.abs(start[following] - end) > JOINED] = -1
+    onward = rows + 1
+    onward[rows == ring - 1], onward[rows == len(chain) - 1] = 0, ring + 1 if ring < len(chain) else 0
     length = lengths(start, end, centre, turns)
     return Raw(
         path,
@@ -104,6 +146,7 @@ def _raw(chain: Chain, outline: int, *, ring: int) -> Raw:
         turns,
         length,
         following,
+        (following >= 0) & (rows[following] == onward),
         rows < outline,
         chain.places[rows].astype(np.intp) // 2,
     )

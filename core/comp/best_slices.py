@@ -154,6 +154,7 @@ def _nodes(raw: Raw, found: Events) -> tuple[Planes, Masks, Masks]:
     count, most = len(raw), len(found.one)
     points = np.concatenate((raw.start, raw.end, found.points))
     met = np.arange(2 * count + most) >= 2 * count
+    met[_end_nodes(raw)[~raw.smooth]] = True
     outer = np.zeros(len(met), np.bool_)
     outer[_end_nodes(raw)[~raw.side]] = True
     outer[np.flatnonzero(~raw.side)] = True
