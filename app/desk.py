@@ -6,13 +6,14 @@ Everything between a key and the next picture is here and pure, but for the mess
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Final, assert_never
 
 from app import files
 from app.messages import (
     Browse,
     Close,
+    Do,
     Edit,
     Leave,
     Load,
@@ -33,11 +34,12 @@ from app.screens.page import Answer, Page
 from app.screens.program import ProgramPage
 from app.screens.save import SaveAsPage
 from app.session import Session
+from app.settings import Settings
 from core.pipeline.derived import Derived
 from core.program.edit import Refused
 
 FUNCTION_KEYS: Final = {f"f{number}": number for number in range(1, 9)}
-EVERYWHERE: Final = frozenset({"ctrl+z", "ctrl+y", "ctrl+s", "ctrl+o", "ctrl+q", "ctrl+c"})
+EVERYWHERE: Final = frozenset({"ctrl+z", "ctrl+y", "ctrl+s", "ctrl+o", "ctrl+q", "ctrl+c", "ctrl+k", "ctrl+g"})
 MODES: Final = ("braille", "block", "ascii")
 """The sets of characters of the drawing, as `core.draw.mode.Mode` names them."""
 
@@ -46,6 +48,7 @@ MODES: Final = ("braille", "block", "ascii")
 class Desk:
     """`pages` lie on each other, the last one is seen.  `armed`: Esc was pressed, a digit is a softkey now.
 
+    `settings` are what stays from one time to the next; `guided` while the guide sits on the prompt lines.
     `exit` is set when the program is to end.
     """
 
@@ -53,6 +56,8 @@ class Desk:
     pages: tuple[Page, ...] = (ProgramPage(), Contour())
     armed: bool = False
     mode: str = MODES[0]
+    settings: Settings = field(default_factory=Settings)
+    guided: bool = False
     exit: bool = False
 
     @property
@@ -73,7 +78,7 @@ class Desk:
             return desk._everywhere(key)
         answer = desk.page.press(key, character, desk.session)
         if answer is None and character == "?":
-            return desk.take(Open(HelpPage(about=desk.page.help(desk.session))))
+            return desk._helped()
         return desk if answer is None else desk._answered(answer)
 
     def knowing(self, derived: Derived) -> Desk:
@@ -104,6 +109,8 @@ class Desk:
                 return replace(self, pages=self._stacked(message))
             case NextMode():
                 return self._next_mode()
+            case Do(work):
+                return work(self)
             case Save() | Browse() | Load() | Post() | Leave():
                 return files.carry_out(self, message)
             case _:
@@ -149,7 +156,9 @@ class Desk:
 
     def _next_mode(self) -> Desk:
         mode = MODES[(MODES.index(self.mode) + 1) % len(MODES)]
-        return replace(self, mode=mode).take(Say(f"Drawn with {mode} characters."))
+        return replace(self, mode=mode, settings=replace(self.settings, mode=mode)).take(
+            Say(f"Drawn with {mode} characters.")
+        )
 
     def _settled(self, message: Message) -> Desk:
         """A half-typed text taken before something that concerns the whole program."""
@@ -170,8 +179,15 @@ class Desk:
                 return self._settled(Browse())
             case "ctrl+q":
                 return self._settled(Leave())
+            case "ctrl+k":
+                return replace(self, armed=True).take(Say("Now 1 to 8 is the softkey F1 to F8."))
+            case "ctrl+g":
+                return self._helped()
             case _:
                 return self.take(Say("F8 goes back, Ctrl+Q leaves the program."))
+
+    def _helped(self) -> Desk:
+        return self.take(Open(HelpPage(about=self.page.help(self.session))))
 
     def _undo(self) -> Desk:
         """Undo; a half-typed text is what is taken back first."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -9,6 +10,7 @@ from app.session import SEGMENT, Tone
 from core.program.edit import Edited, Where
 
 if TYPE_CHECKING:
+    from app.desk import Desk
     from app.screens.page import Page
 
 
@@ -68,6 +70,12 @@ class Save(NamedTuple):
     overwrite: bool = False
     leave: bool = False
     """Leave the program once it is saved."""
+    linked: bool = False
+    """The operator agreed to write where a link leads."""
+    taken: bool = False
+    """The operator agreed to write although somebody has taken the program over."""
+    changed: bool = False
+    """The operator agreed that what somebody else wrote meanwhile becomes a copy."""
 
 
 class Browse(NamedTuple):
@@ -97,4 +105,10 @@ class Leave(NamedTuple):
     unsaved: bool = False
 
 
-Message = Edit | Move | Say | Undo | Redo | Open | Swap | Close | NextMode | Save | Browse | Load | Post | Leave
+class Do(NamedTuple):
+    """Work on the whole desk that touches files, such as writing a setup sheet; trouble becomes a sentence."""
+
+    work: Callable[[Desk], Desk]
+
+
+Message = Do | Edit | Move | Say | Undo | Redo | Open | Swap | Close | NextMode | Save | Browse | Load | Post | Leave
