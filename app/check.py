@@ -13,7 +13,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Final
 
-from app.checking import Answer, Asked, answer, answer_all, lines
+from app.checking import Answer, Asked, answer, answer_all, lines, same_contours
 from core.controls.registry import UnknownControl, names, resolve
 from core.controls.source import shown
 from core.controls.tools import CutterTool, ToolTable, read_table
@@ -42,6 +42,8 @@ def check(arguments: list[str]) -> int:
     except _Unusable as trouble:
         print(f"cutcomp: {trouble}", file=sys.stderr)
         return UNUSABLE
+    if options.contour:
+        return _contours(paths, asked)
     single = len(paths) == 1 and paths[0] == options.files[0]
     answers = _answers(paths, asked)
     if options.json:
@@ -67,6 +69,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--units", choices=("IN", "MM"), type=str.upper, help="the unit of a program that names none")
     parser.add_argument("--shop", action="store_true", help="the shop's rules H1 to H9 too")
+    parser.add_argument(
+        "--contour", action="store_true", help="compare two programs, of any language, by the contours they describe"
+    )
     parser.add_argument("--json", action="store_true", help="machine-readable")
     return parser
 
@@ -168,6 +173,20 @@ def _told(checked: _Checked) -> int:
     if checked.unusable:
         print(f"cutcomp: {checked.unusable}", file=sys.stderr)
     return _status(checked)
+
+
+def _contours(paths: list[Path], asked: Asked) -> int:
+    """Two programs by their contours: 0 if they describe the same, 1 if not."""
+    try:
+        if len(paths) != 2:
+            raise _Unusable("--contour compares two files.")
+        first, second = (_bytes(path) for path in paths)
+    except _Unusable as trouble:
+        print(f"cutcomp: {trouble}", file=sys.stderr)
+        return UNUSABLE
+    same, told = same_contours(first, second, asked)
+    print(*told, sep="\n")
+    return CLEAN if same else FINDINGS
 
 
 def _as_json(answers: Iterator[_Checked], *, single: bool) -> int:

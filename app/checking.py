@@ -8,6 +8,7 @@ from typing import Final
 
 from core.controls import shoprules
 from core.controls.compare import Compared, OtherLanguage, Parting, compare
+from core.controls.contours import ContourPair, contours
 from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
 from core.controls.report import Run
@@ -164,3 +165,44 @@ def lines(one: Answer) -> Iterator[str]:
         place = "" if finding.line is None else f"{finding.line}:{finding.column or 1}"
         yield f"{place:>9}  {finding.severity.value:<7}  {finding.code:<13}  {sentence(finding, one.unit)}"
     yield f"{one.control}: {one.outcome}; {one.count} moves, {one.stretches} compensated stretches, {one.unit.value}."
+
+
+def same_contours(first: bytes, second: bytes, asked: Asked) -> tuple[bool, tuple[str, ...]]:
+    """Whether two programs describe the same contours on the same sides, and what is to be said of each.
+
+    A program in Klartext runs on that control, any other on the one asked for, LinuxCNC where that is not one.
+    """
+    one, other = _read(first, asked), _read(second, asked)
+    pairs = contours(one, other)
+    told = [_pair(pair, one.unit, other.unit) for pair in pairs]
+    odd = len(one.stretches) != len(other.stretches)
+    if odd:
+        told.append(f"The first program has {len(one.stretches)} contours, the second {len(other.stretches)}.")
+    for name, done in (("first", one), ("second", other)):
+        if done.stopped_at is not None:
+            told.append(f"The {name} program stops at line {done.stopped_at}; what follows is not compared.")
+    if not told:
+        told.append("Neither program has a compensated contour.")
+    whole = one.stopped_at is None and other.stopped_at is None
+    return bool(pairs) and whole and not odd and all(pair.same for pair in pairs), tuple(told)
+
+
+def _read(text: bytes, asked: Asked) -> Run:
+    iso = asked.control if asked.control not in ("all", "klartext") else "linuxcnc"
+    done = run(text, "klartext" if reads("klartext", text) else iso, asked.tools, asked.unit)
+    assert not isinstance(done, UnknownControl), done.text
+    return done
+
+
+def _pair(pair: ContourPair, first: Unit, second: Unit) -> str:
+    if pair.same:
+        return f"Contour {pair.number}: the same."
+    ways = ((pair.first, first, "first"), (pair.second, second, "second"))
+    told = [
+        f"line {way.line} of the {name} is {_length(way.distance, unit)} {unit.value} off"
+        for way, unit, name in ways
+        if way
+    ]
+    if not pair.same_side:
+        told.append("the sides or planes differ")
+    return f"Contour {pair.number}: {', '.join(told)}."

@@ -135,3 +135,38 @@ def test_nothing_of_a_file_reaches_the_terminal_raw(
 
 def test_an_empty_folder_is_said(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert output(capsys, tmp_path, "--control", "linuxcnc")[0] == 2
+
+
+KLARTEXT = """BEGIN PGM A MM
+TOOL DEF 1 L+0 R+3
+TOOL CALL 1 Z S1000
+L X-20 Y+0 R0 FMAX
+L X+0 Y+0 RL F100
+L Y+40
+CC X+20 Y+40
+C X+40 Y+40 DR-
+L Y+{end}
+L X+0
+L X-20 R0
+END PGM A MM
+"""
+
+ISO = "G21 F100\nG0 X-20 Y0\nG41 D1\nG1 X0 Y0\nY40\nG2 X40 I20\nG1 Y20\nY0\nX0\nG40\nG1 X-20\nM2\n"
+
+
+@pytest.mark.parametrize(("end", "status"), [("0", 0), ("1", 1)])
+def test_klartext_and_iso_are_compared_by_their_contours(
+    end: str, status: int, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    first, second = tmp_path / "a.h", tmp_path / "b.nc"
+    first.write_text(KLARTEXT.format(end=end))
+    second.write_text(ISO)
+    found, out, _ = output(capsys, first, second, "--control", "linuxcnc", "--contour", "--tool", "1=6")
+    assert found == status, out
+    same = "Contour 1: the same.\n"
+    off = "Contour 1: line 10 of the first is 1.000 MM off, line 8 of the second is 1.000 MM off.\n"
+    assert out == (off if status else same)
+
+
+def test_comparing_contours_needs_two_files(capsys: pytest.CaptureFixture[str]) -> None:
+    assert output(capsys, NC / "threeblock-line.nc", "--control", "linuxcnc", "--contour")[0] == 2
