@@ -41,7 +41,7 @@ class Ask(Page):
 
     def view(self, session: Session, surface: Surface) -> View:
         """The question and its answers."""
-        asked = tuple(plain(f" {part}") for line in self.lines for part in wrap(line, surface.width - 3))
+        asked = tuple(plain(f" {part}") for line in self.lines for part in wrap(line, max(surface.width - 3, 8)))
         answers = tuple(_answer(letter, label) for letter, label, _ in self.options)
         return View(
             header(self.title, plain(""), session, surface.width),

@@ -15,9 +15,9 @@ from core.program.fields import TABLES, Form
 from core.program.model import ArcSegment, BlendSegment, LineSegment, Segment
 
 KINDS: Final[tuple[tuple[str, Form, type[Segment], str], ...]] = (
-    ("l", Form.LINE, LineSegment, "straight, to an end point or by length and angle"),
-    ("a", Form.ARC, ArcSegment, "about a center, or by radius, CW or CCW"),
-    ("b", Form.BLEND, BlendSegment, "a radius tangent to the segments before and after"),
+    ("l", Form.LINE, LineSegment, "to a point, or by length and angle"),
+    ("a", Form.ARC, ArcSegment, "about a center, or by radius"),
+    ("b", Form.BLEND, BlendSegment, "tangent to the segments on both sides"),
 )
 """Letter, form, type and a word about each kind of segment."""
 

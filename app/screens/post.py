@@ -89,6 +89,6 @@ def _against(against: tuple[tuple[int, Finding], ...], unit: Unit, width: int) -
     rows: list[Row] = []
     for block, finding in against:
         where = f"block {block}" + (f", segment {number(finding.segment)}" if finding.segment else "")
-        for line in wrap(f"!! {where}: {sentence(finding, unit)}", width - 2, subsequent_indent="   "):
+        for line in wrap(f"!! {where}: {sentence(finding, unit)}", max(width - 2, 8), subsequent_indent="   "):
             rows.append(plain(f" {line}", Look.ERROR))
     return tuple(rows)

@@ -153,5 +153,5 @@ def typed_spans(editing: Editing, room: int, *, right: bool) -> Row:
 
 
 def _read_only(cell: Cell, place: Place) -> Row:
-    room = place.width - len(cell.label) - 1
+    room = max(place.width - len(cell.label) - 1, 0)
     return (Span(f"({cell.label}{cell.text[:room]:>{room}})", Look.READ_ONLY),)

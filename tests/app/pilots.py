@@ -1,0 +1,42 @@
+"""The App itself under a pilot, with clock and memory frozen and everything calculated before the next picture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import inf
+from pathlib import Path
+
+from textual.pilot import Pilot
+
+from app.application import CutcompApp
+from app.engine import Engine
+from app.files import empty_program, example
+from app.session import Session
+from core.program.model import Program
+from core.program.store import load
+from tests.app.operator import FROZEN
+
+
+def app_on(program: Program | str | None = None) -> CutcompApp:
+    """The App on a program, on an example by its name, or on an empty program."""
+    if isinstance(program, str):
+        return CutcompApp(Session.of(load(example(program)), Path(f"{program}.toml")), FROZEN, Engine(limit=inf))
+    return CutcompApp(Session.of(program or empty_program()), FROZEN, Engine(limit=inf))
+
+
+async def loaded(pilot: Pilot[int]) -> None:
+    """Wait until the numeric library is there and the first verdict stands."""
+    app = pilot.app
+    assert isinstance(app, CutcompApp)
+    for _ in range(500):
+        if app.engine.ready:
+            return
+        await app.workers.wait_for_complete()
+        await pilot.pause(0.02)
+    raise AssertionError("the numeric library did not come")
+
+
+async def typed(pilot: Pilot[int], texts: Iterable[str]) -> None:
+    """Texts, each followed by Enter."""
+    for text in texts:
+        await pilot.press(*text, "enter")

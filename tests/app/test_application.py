@@ -1,0 +1,134 @@
+"""The App under a pilot: keys in, session and picture out."""
+
+from __future__ import annotations
+
+import gc
+
+import pytest
+
+from app.application import CutcompApp
+from app.engine import Known
+from app.screens.frame import Frame, picture
+from app.widgets.rows import Rows, text_of
+from core.program.model import Entry
+from tests.app.operator import FROZEN
+from tests.app.pilots import app_on, loaded, typed
+
+
+def lines(app: CutcompApp) -> list[str]:
+    """What stands on the terminal."""
+    return [text_of(row).rstrip() for row in app.screen.query_one(Rows).rows]
+
+
+def shown(app: CutcompApp, part: str) -> str:
+    return next((line for line in lines(app) if part in line), "")
+
+
+async def test_the_seeds_own_screen_cal_usr_and_f3() -> None:
+    app = app_on("overrun-square")
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        assert "CAL      2" in shown(app, "LOOKAHEAD")
+        await pilot.press(*["tab"] * 11)
+        await typed(pilot, ["4"])
+        assert "USR      4" in shown(app, "LOOKAHEAD")
+        assert app.desk.session.block.lookahead == Entry(4.0)
+        assert shown(app, "DELETED").startswith(" DELETED 2-3  by 1 and 4 at X -0.2500 Y -0.2500")
+        await pilot.press("f3")
+        assert "CAL      2" in shown(app, "LOOKAHEAD")
+
+
+async def test_the_verdict_follows_within_the_same_key_even_while_typing() -> None:
+    app = app_on("pocket")
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        assert "GOUGE none" in shown(app, "UNCUT")
+        await pilot.press(*["tab"] * 11, "1")
+        assert "GOUGE   0.2500" in shown(app, "GOUGE")
+        assert app.desk.session.block.lookahead is None
+        await pilot.press("escape")
+        assert "GOUGE none" in shown(app, "UNCUT")
+
+
+async def test_a_picture_is_a_fresh_drawing_of_the_desk_after_any_keys() -> None:
+    app = app_on("pocket")
+    keys = ["tab", "7", "enter", "f6", "f2", "1", "f8", "pagedown", "right", "f7", "+", "m", "f8", "f8", "f3", "up"]
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        for key in keys:
+            await pilot.press(key)
+            known = app.engine.known(app.shown.found, app.trial)
+            fresh = Known(known.table, known.ready, trial=known.trial)
+            assert app.screen.query_one(Rows).rows == picture(app.desk, fresh, FROZEN, 80, 24)
+
+
+async def test_a_slow_machine_shows_the_form_at_once_and_the_verdict_later() -> None:
+    app = app_on("pocket")
+    app.engine.limit = -1.0
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        await pilot.press(*["tab"] * 11)
+        await typed(pilot, ["1"])
+        assert "USR      1" in shown(app, "LOOKAHEAD")
+        await app.workers.wait_for_complete()
+        await pilot.pause()
+        assert "GOUGE   0.2500" in shown(app, "GOUGE")
+        assert not app.desk.session.stale
+
+
+async def test_nothing_takes_the_focus_and_the_screen_is_never_changed() -> None:
+    app = app_on("pocket")
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        await pilot.press("tab", "tab", "f6", "f8")
+        assert app.focused is None
+        assert len(app.screen_stack) == 1
+        assert isinstance(app.screen, Frame)
+
+
+@pytest.mark.parametrize("size", [(20, 5), (1, 1), (3, 2), (79, 23), (80, 24), (200, 60)])
+async def test_every_size_works_and_loses_nothing(size: tuple[int, int]) -> None:
+    app = app_on("pocket")
+    async with app.run_test(size=size) as pilot:
+        await loaded(pilot)
+        await pilot.press("tab", "9", "enter", "f7", "+", "f8", "f8", "f6", "f8", "enter", "f6", "f8")
+        assert app.desk.session.block.tool == Entry(9.0)
+        assert [len(text_of(row)) for row in app.screen.query_one(Rows).rows] == [size[0]] * size[1]
+
+
+async def test_a_small_terminal_says_so_and_shows_the_field_that_is_typed() -> None:
+    app = app_on("pocket")
+    async with app.run_test(size=(20, 5)) as pilot:
+        await loaded(pilot)
+        await pilot.press("tab", "tab", "tab", "tab", "3", ".", "2")
+        assert lines(app)[0] == "20x5: make it 80x24"
+        assert shown(app, "X ST").split()[-1] == "3.2"
+
+
+async def test_another_size_moves_everything_to_its_place() -> None:
+    app = app_on("pocket")
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        await pilot.resize_terminal(132, 43)
+        await pilot.pause()
+        assert len(lines(app)) == 43
+        assert "F8 EXIT" in shown(app, "F8")
+        await pilot.resize_terminal(80, 24)
+        await pilot.pause()
+        assert len(lines(app)) == 24
+
+
+async def test_leaving_ends_with_status_0() -> None:
+    app = app_on("pocket")
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        await pilot.press("f8", "f8")
+    assert app.return_code == 0
+
+
+async def test_the_collector_works_again_once_the_first_screen_stands() -> None:
+    gc.disable()
+    app = app_on("pocket")
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        assert gc.isenabled()
