@@ -57,13 +57,14 @@ def events(raw: Raw, sign: int) -> Events | None:
 def _pairs(raw: Raw) -> Iterator[tuple[Indices, Indices]]:
     """Pairs of pieces that lie near each other.
 
-    Tangent pieces meet only at their joint, but that a full circle also ends where the other begins.
+    Tangent pieces meet only at their joint, unless together they go once around.
     """
     boxes = tree(piece_boxes(raw.start, raw.end, raw.centre, raw.turns, 2.0 * ON_PATH))
-    whole = raw.start == raw.end
+    radius = np.abs(raw.start - raw.centre)
+    swept = np.where(raw.turns == 0, 0.0, raw.lengths / np.where(raw.turns == 0, 1.0, radius))
     for i, j in near_selves(boxes):
         tangent = (raw.smooth[i] & (raw.following[i] == j)) | (raw.smooth[j] & (raw.following[j] == i))
-        keep = (raw.side[i] | raw.side[j]) & ~(tangent & ~whole[i] & ~whole[j])
+        keep = (raw.side[i] | raw.side[j]) & ~(tangent & (swept[i] + swept[j] < 6.28))
         yield i[keep], j[keep]
 
 

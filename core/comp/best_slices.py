@@ -74,7 +74,9 @@ def sliced(raw: Raw, found: Events) -> Slices:
     begin[at + 1], end[at], first[at + 1], last[at] = stations.along, stations.along, stations.node, stations.node
     dead, turning = _turns(stations, at, _alone(raw, stations), len(begin))
     cut = Slices(np.repeat(pieces, cuts), begin, end, first, last, dead, turning, *_nodes(raw, found))
-    return _welded(cut, *every.of(~raw.side).twins())
+    one, other = every.of(~raw.side).twins()
+    whole = np.flatnonzero(raw.start == raw.end)
+    return _welded(cut, np.concatenate((one, whole)), np.concatenate((other, _end_nodes(raw)[whole])))
 
 
 class _Stations(NamedTuple):
@@ -163,7 +165,7 @@ def _nodes(raw: Raw, found: Events) -> tuple[Planes, Masks, Masks]:
 
 
 def _welded(cut: Slices, one: Indices, other: Indices) -> Slices:
-    """Slices no longer than JOINED dropped, their two nodes made one; so are the nodes `one` and `other`."""
+    """Slices no longer than JOINED dropped, their two nodes made one; so are nodes `one` and `other`."""
     short = cut.end - cut.begin <= JOINED
     if not short.any() and not len(one):
         return cut
