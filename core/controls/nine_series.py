@@ -94,7 +94,10 @@ class NineSeries(NineWords):
         self.quiet += 1
         if self.quiet <= NON_MOTION or self.held is None or self.leaving is not None:
             return
-        text = f"More than {NON_MOTION} blocks without motion: the move ends square and may cut too far."
+        text = (
+            f"More than {NON_MOTION} blocks without motion (an assumed limit, the machine builder sets it): the move "
+            "ends square and may cut too far; take some of them out."
+        )
         self.log.tell(Severity.WARNING, "R5", text, block.line, 1)
         self.release_square()
         self.entering = True

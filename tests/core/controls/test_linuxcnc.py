@@ -66,7 +66,7 @@ def test_a_lathe_tool_s_orientation_shifts_its_moves(orientation: int, tmp_path:
     assert not difference(printed(ours), theirs.moves)
 
 
-MODAL = {
+MODAL: dict[str, str] = {
     "subprograms, repeated": "G20 F9\nM98 P7 L3\nG90\nM98 P8\nM2\nO7\nG91 G1 X1 Y.5\nM99\nO8\nG1 X0\nM98 P7\nM99\n",
     "a local shift replaces the last one": "G20 F9\nG52 X5\nG1 X1\nG52 X-5 Y1\nG1 X1 Y1\nG52 X0 Y0\nG1 X1\nM2\n",
     "a preset origin": "G20 F9\nG1 X1 Y1\nG92 X0 Y5\nG1 X2 Y2\nG92.1\nG1 X0 Y0\nM2\n",
