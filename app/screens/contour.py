@@ -15,6 +15,7 @@ from app.widgets.field import press
 from app.widgets.form import cursor_line, form_rows
 from app.widgets.header import block_line, header, segment_line
 from app.widgets.rows import Row
+from core.finding import Severity
 from core.program.edit import Where, choose, read, type_field
 from core.program.fields import SEGMENT_PROMPT, Field
 from core.program.solved import Value
@@ -144,12 +145,11 @@ class Contour(FormPage):
 
 
 def _trouble(session: Session, one: Field) -> Said | None:
-    """A finding that names this field."""
+    """An error that names this field; warnings stand with the verdict, so that the prompt stays."""
     for finding in session.found.findings:
         here = int(finding.segment or 0) == session.where.segment
-        if finding.field == one.name and here:
-            tone = Tone.ERROR if finding.severity == "error" else Tone.WARNING
-            return Said(sentence(finding, session.program.unit), tone)
+        if finding.field == one.name and here and finding.severity is Severity.ERROR:
+            return Said(sentence(finding, session.program.unit), Tone.ERROR)
     return None
 
 
