@@ -7,6 +7,7 @@ import re
 import numpy as np
 import pytest
 
+from core.controls.lookahead import NO_FIT
 from core.controls.moves import Moves, Plane
 from core.controls.report import Run
 from core.controls.verdicts import judged
@@ -74,12 +75,17 @@ def test_a_shifted_origin_shifts_the_moves(control: str) -> None:
         assert agree(changed(there.moves, (1, 1, 1), (700, -300, 0)), moved.moves), seed
 
 
+def by_its_unit(done: Run) -> bool:
+    """Whether LinuxCNC's rule stops the run that lets an arc grow further in millimetres than in inches."""
+    return done.findings[-1].text == NO_FIT
+
+
 @pytest.mark.parametrize("control", CONTROLS)
 def test_the_same_program_in_inches_gives_the_same_moves_larger(control: str) -> None:
     for seed in SEEDS:
         metric, inch = run(text(seed), control), run(text(seed).replace("G21", "G20"), control)
-        assert metric.stopped_at == inch.stopped_at, seed
-        assert agree(changed(metric.moves, (25.4, 25.4, 25.4)), inch.moves), seed
+        assert metric.stopped_at == inch.stopped_at or by_its_unit(inch), seed
+        assert inch.stopped_at or agree(changed(metric.moves, (25.4, 25.4, 25.4)), inch.moves), seed
 
 
 @pytest.mark.parametrize("control", CONTROLS)
