@@ -98,12 +98,12 @@ def programmed(compensated: Compensated) -> Programmed | Finding:
             continue
         corner = corners.meeting(first, second, 0.0)
         if corner is None:
-            text = "The segments on both sides of the deleted ones do not meet; post the centre path instead."
+            text = "The look-ahead deletes what follows; no control does that by itself. Post the centre path instead."
             return refusal(text, numbers[index])
         elements[index], elements[index + 1] = first._replace(end=corner), second._replace(start=corner)
-    begin, end = _run_of(compensated)
-    elements[0] = elements[0]._replace(start=_surface(elements[0], begin, offset))
-    elements[-1] = elements[-1]._replace(end=_surface(elements[-1], end, offset))
+    first_run, last_run = _run_of(compensated)
+    elements[0] = _held(elements[0], elements[0]._replace(start=_surface(elements[0], first_run, offset)))
+    elements[-1] = _held(elements[-1], elements[-1]._replace(end=_surface(elements[-1], last_run, offset)))
     return Programmed(tuple(map(_again, elements)), tuple(numbers))
 
 
@@ -138,6 +138,12 @@ def _element(piece: Piece) -> Element:
     if isinstance(piece, Arc):
         return arc_element(piece.start, piece.end, piece.centre, int(piece.turn), 0.0, 0.0, 0.0, 0)
     return line_element(piece.start, piece.end, 0.0, 0.0, rapid=False, feed=0.0, line=0)
+
+
+def _held(whole: Element, cut: Element) -> Element:
+    """A full circle stays one where rounding has moved an end."""
+    apart = hypot(cut.start[0] - cut.end[0], cut.start[1] - cut.end[1])
+    return cut._replace(start=cut.end) if whole.turn and whole.start == whole.end and apart < APART / 1000 else cut
 
 
 def _again(element: Element) -> Element:

@@ -86,11 +86,7 @@ STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
         "rosettacnc:nist": IsoStyle("G20", "G21", _NIST, (6, 5), Entry.TANGENT, Radius.REDUCED),
         "rosettacnc:easy": _ROSETTA,
         "rosettacnc:normal": IsoStyle("G20", "G21", _NIST, (6, 5), Entry.OWN, Radius.REDUCED),
-        **{
-            f"nine-series:{kind}{corners}": _NINE_SERIES
-            for kind in ("a", "b")
-            for corners in ("", "-g39", "-g39.1")
-        },
+        **{f"nine-series:{kind}{corners}": _NINE_SERIES for kind in ("a", "b") for corners in ("", "-g39", "-g39.1")},
         "linuxcnc": IsoStyle(
             "G20",
             "G21",

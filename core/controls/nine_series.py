@@ -8,6 +8,7 @@ the least length that the machine builder can set is taken as 0, and so is the l
 
 from __future__ import annotations
 
+from math import radians
 from typing import Final, NamedTuple
 
 from core.controls import generated
@@ -44,6 +45,10 @@ DIALECT: Final = Dialect(
 
 NON_MOTION: Final = 10
 """Blocks without motion in the plane that compensation looks across; the machine builder sets it, this is assumed."""
+
+
+TANGENT: Final = radians(0.05)
+"""Inside corners under this angle whose offsets miss each other are tangent; the control's own limit is not known."""
 
 
 class Before(NamedTuple):
@@ -167,7 +172,7 @@ class NineSeries(NineWords):
             return Joint(end, end)
         if angle < 0.0:
             return generated.outside(first, second, self.offset, self.corners)
-        return self._inside(first, second)
+        return self._inside(first, second, angle)
 
     @property
     def _sign(self) -> int:
@@ -178,10 +183,13 @@ class NineSeries(NineWords):
             text = "The generated blocks of a type B entry are read from figures: an interpretation."
             self.log.tell(Severity.INFO, "TYPE-B", text, first.line, 1)
 
-    def _inside(self, first: Element, second: Element) -> Joint:
+    def _inside(self, first: Element, second: Element, angle: float) -> Joint:
         point = meeting(first, second, self.offset)
         if point is not None:
             return Joint(point, point)
+        if angle < TANGENT:
+            end = square_end(first, self.offset)
+            return Joint(end, end)
         text = "The offset paths do not meet at this inside corner: the compensation vectors cross."
         self._interference("R10", text, second.line)
         return Joint(square_end(first, self.offset), square_start(second, self.offset))

@@ -141,12 +141,13 @@ def write(cuts: Sequence[Ready], style: IsoStyle, frame: Frame, remarks: Sequenc
 
 
 class _Writer:
-    """Writes words in one style; `feed` is the one in force."""
+    """Writes words in one style; `feed`, `height` and `at` are what stands, as text."""
 
     def __init__(self, style: IsoStyle, frame: Frame) -> None:
         self.style = style
         self.frame = frame
         self.feed = ""
+        self.height = ""
         self.at: tuple[str, str] = ("", "")
 
     def program(self, cuts: Sequence[Ready], remarks: Sequence[str]) -> Iterator[Line]:
@@ -171,11 +172,12 @@ class _Writer:
         speed = f"S{from_speed(cut.speed)}"
         same = before is not None and before.tool == cut.tool
         stands = same and before is not None and before.stock == cut.stock
+        if not same and before is not None:
+            yield Line("M5")
         if self.style.radius is Radius.DATA and not stands:
             yield Line(f"T{cut.tool}//{self.length(cut.diameter + 2 * cut.stock)}")
         if not same:
-            if before is not None:
-                yield Line("M5")
+            self.height = ""
             yield self.words(f"T{cut.tool}", "M6")
             if self.style.length:
                 yield self.words("G43", f"H{cut.tool}")
@@ -188,9 +190,9 @@ class _Writer:
         cut, shape = one.cut, one.shape
         own_block = self.style.radius is Radius.DATA
         down = ("G1", *(("G41" if self.left(cut) else "G42",) if own_block else ()))
-        yield self.words("G0", f"Z{self.length(cut.travel)}")
+        yield from self.rapid(cut.travel)
         yield self.words("G0", *self.place(one.start))
-        yield self.words("G0", f"Z{self.length(cut.near)}")
+        yield from self.rapid(cut.near)
         yield self.words(*down, f"Z{self.length(cut.depth)}", *self.feed_word(cut.plunge_feed))
         feeds = [cut.feeds[int(number)] for number in shape.segments]
         words = ("G1",) if own_block else (*self.switch(one), "G1")
@@ -198,7 +200,15 @@ class _Writer:
         for element, feed, segment in zip(shape.elements, feeds, shape.segments, strict=True):
             yield from self.element(element, feed, segment)
         yield self.words("G40", "G1", *self.place(one.out), segment=shape.segments[-1])
-        yield self.words("G0", f"Z{self.length(cut.leave)}")
+        self.height = ""
+        yield from self.rapid(cut.leave)
+
+    def rapid(self, height: float) -> Iterator[Line]:
+        """To a height, where the tool is not there yet."""
+        text = f"Z{self.length(height)}"
+        if text != self.height:
+            self.height = text
+            yield self.words("G0", text)
 
     def left(self, cut: Cut) -> bool:
         """Is the tool on the left?"""

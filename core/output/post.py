@@ -30,10 +30,11 @@ ROUNDING: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
 
 @dataclass(frozen=True, slots=True)
 class Posted:
-    """NC text, and the errors that were overridden to have it."""
+    """NC text, the errors that were overridden to have it, and what is to be said with it."""
 
     text: str
     overridden: tuple[Finding, ...] = ()
+    notes: tuple[Finding, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,16 +12,34 @@ from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
 from core.comp.result import Compensated
+from core.controls.contouring import Cut
 from core.controls.klartext.control import run
+from core.controls.read_back import LEAST
 from core.controls.tools import ToolTable
-from core.controls.write_klartext import AGREES, Cut, write
-from core.finding import Finding
+from core.controls.write_iso import Frame
+from core.controls.write_own import NotWritten, Own, write_own
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.geometry.side import Side
 from core.units import Unit
 
-CUT = Cut("PART", Unit.MM, tool=1, feed=200.0, plunge_feed=100.0, speed=900.0, safe_z=50.0, depths=(-5.0,))
+
+def cut(compensated: Compensated, depth: float = -5.0, feeds: dict[int, float] | None = None, tool: int = 1) -> Cut:
+    """One run at a depth, at 200 mm a minute unless a segment has its own feed."""
+    every = {int(number): 200.0 for number in compensated.contour.numbers} | (feeds or {})
+    size = 2 * compensated.radius
+    return Cut(compensated, tool, size, 0.0, 900.0, every, 100.0, travel=50.0, near=2.0, depth=depth, leave=50.0)
+
+
+def write(compensated: Compensated, unit: Unit = Unit.MM) -> str | NotWritten:
+    """The program of one run, without remarks."""
+    return written([cut(compensated)], unit)
+
+
+def written(cuts: list[Cut], unit: Unit = Unit.MM) -> str | NotWritten:
+    """The program of some runs."""
+    found = write_own(cuts, "klartext", Frame(unit), "PART", lambda _: ())
+    return found.text if isinstance(found, Own) else found
 
 
 def outline(*points: Point) -> Path:
@@ -41,16 +59,16 @@ def made_of(text: str, stretch: int = 0) -> Path:
 def same(text: str, compensated: Compensated) -> bool:
     """Piece by piece the same path, but for entries of no length that rounding makes."""
     path, whole = made_of(text), compensated.whole
-    kept = path.lengths > AGREES
+    kept = path.lengths > LEAST
     assert path.turns[kept].tolist() == whole.turns.tolist()
-    return float(np.abs(path.ends[kept] - whole.ends).max()) < AGREES
+    return float(np.abs(path.ends[kept] - whole.ends).max()) < LEAST
 
 
 SQUARE = outline((30.0, 0.0), (60.0, 0.0), (60.0, 60.0), (0.0, 60.0), (0.0, 0.0), (30.0, 0.0))
 
 
 def test_the_text_of_a_square_from_mid_side() -> None:
-    text = write(compensate(SQUARE, Side.LEFT, 5.0, 4, closed=True, blend=3.0), CUT)
+    text = write(compensate(SQUARE, Side.LEFT, 5.0, 4, closed=True, blend=3.0))
     assert text == "\n".join(
         (
             "0 BEGIN PGM PART MM",
@@ -79,7 +97,7 @@ def test_the_text_of_a_square_from_mid_side() -> None:
 @pytest.mark.parametrize("overlap", [0.0, 4.0])
 def test_a_square_reads_back_on_both_sides(side: Side, blend: float, overlap: float) -> None:
     compensated = compensate(SQUARE, side, 5.0, 4, closed=True, blend=blend, overlap=overlap)
-    text = write(compensated, CUT)
+    text = write(compensated)
     assert isinstance(text, str)
     assert same(text, compensated)
 
@@ -93,12 +111,12 @@ def test_arcs_and_a_full_circle_read_back() -> None:
     ]
     for side in Side:
         compensated = compensate(Path.from_pieces(pieces), side, 5.0, 2, closed=False, blend=2.0)
-        text = write(compensated, CUT)
+        text = write(compensated)
         assert isinstance(text, str)
         assert same(text, compensated)
     circle = Path.from_pieces([Arc((20.0, 0.0), (20.0, 0.0), (0.0, 0.0), Turn.CCW)])
     compensated = compensate(circle, Side.LEFT, 5.0, 3, closed=True, blend=2.0, overlap=4.0)
-    text = write(compensated, CUT)
+    text = write(compensated)
     assert isinstance(text, str)
     assert same(text, compensated)
 
@@ -106,14 +124,14 @@ def test_arcs_and_a_full_circle_read_back() -> None:
 def test_inches_read_back() -> None:
     inch = Path.of(SQUARE.points * 0.8467, SQUARE.centres * 0.8467, SQUARE.turns)
     compensated = compensate(inch, Side.RIGHT, 6.35, 4, closed=True, blend=3.175)
-    text = write(compensated, Cut("P", Unit.IN, 2, 254.0, 127.0, 300.0, 25.4, (-6.35,)))
+    text = written([cut(compensated, -6.35, {number: 254.0 for number in range(1, 7)}, tool=2)], Unit.IN)
     assert isinstance(text, str)
     assert "TOOL DEF 2 L+0 R+0.25\n" in text
     assert "F10\n" in text
     made = run(text.encode(), "", ToolTable())
     (stretch,) = made.stretches
     path = made.moves.part(stretch.first, stretch.last).path()
-    assert float(np.abs(path.points - compensated.whole.points).max()) < AGREES
+    assert float(np.abs(path.points - compensated.whole.points).max()) < LEAST
 
 
 def test_deleted_segments_are_left_out_where_their_neighbours_meet() -> None:
@@ -121,7 +139,7 @@ def test_deleted_segments_are_left_out_where_their_neighbours_meet() -> None:
     chamfer = outline(*((x * 25.4, y * 25.4) for x, y in points))
     compensated = compensate(chamfer, Side.LEFT, 6.35, 2, closed=False)
     assert len(compensated.deleted)
-    text = write(compensated, CUT)
+    text = write(compensated)
     assert isinstance(text, str)
     assert "L X+52.07 Y+0 " in text
     assert same(text, compensated)
@@ -129,7 +147,7 @@ def test_deleted_segments_are_left_out_where_their_neighbours_meet() -> None:
 
 def test_every_pass_goes_along_the_same_path() -> None:
     compensated = compensate(SQUARE, Side.LEFT, 5.0, 4, closed=True, blend=3.0)
-    text = write(compensated, Cut("P", Unit.MM, 1, 200.0, 100.0, 900.0, 50.0, (-2.0, -4.0), feeds={2: 50.0}))
+    text = written([cut(compensated, depth, {2: 50.0}) for depth in (-2.0, -4.0)])
     assert isinstance(text, str)
     assert made_of(text, 0).points.tolist() == made_of(text, 1).points.tolist()
     assert text.count("L X+60 Y+60 F50\n") == 2
@@ -139,9 +157,9 @@ def test_a_path_by_another_rule_is_not_written() -> None:
     points = [(0.0, 0.0), (2.0, 0.0), (2.0, -0.3), (2.3, -0.3), (2.3, 0.0), (5.0, 0.0)]
     notch = outline(*((x * 25.4, y * 25.4) for x, y in points))
     for lookahead in (2, 3):
-        refusal = write(compensate(notch, Side.LEFT, 6.35, lookahead, closed=False), CUT)
-        assert isinstance(refusal, Finding)
-        assert refusal.code == "NOTWRITTEN"
+        refusal = write(compensate(notch, Side.LEFT, 6.35, lookahead, closed=False))
+        assert isinstance(refusal, NotWritten)
+        assert [finding.code for finding in refusal.findings] == ["NOTWRITTEN"]
 
 
 @settings(max_examples=40, deadline=None, derandomize=True)
@@ -155,10 +173,10 @@ def test_what_is_written_is_what_is_run(legs: list[tuple[float, float]], side: S
         x, y = points[-1]
         points.append((round(x + length * cos(heading), 4), round(y + length * sin(heading), 4)))
     compensated = compensate(outline(*points), side, 4.0, 3, closed=False, blend=2.0)
-    text = write(compensated, CUT)
+    text = write(compensated)
     if isinstance(text, str):
         path, whole = made_of(text), compensated.whole
-        assert float(np.hypot(*(path.points[0] - whole.points[0]))) < AGREES
+        assert float(np.hypot(*(path.points[0] - whole.points[0]))) < LEAST
         assert float(path.lengths.sum()) == pytest.approx(float(whole.lengths.sum()), abs=0.01)
     else:
-        assert text.code == "NOTWRITTEN"
+        assert [finding.code for finding in text.findings] == ["NOTWRITTEN"]

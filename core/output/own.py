@@ -1,0 +1,107 @@
+"""The program as a control's own G41 or G42, or RL or RR, program: the contour as typed, the control compensates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from core.controls.contouring import Cut
+from core.controls.iso_style import STYLES, Radius
+from core.controls.write_iso import Frame, offsets
+from core.controls.write_own import NotWritten, write_own
+from core.finding import Finding, Severity
+from core.output.comment import comments
+from core.output.grid import Grid
+from core.output.heights import level_floor
+from core.output.job import Job
+from core.output.post import Posted, Refusal
+from core.output.ready import forbidding
+from core.units import Kind, Unit, from_mm, sentence, show
+
+
+def objections(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ...]:
+    """What forbids posting at all, and what a control's own compensation cannot be told.
+
+    Nothing can be overridden here: the path that is cut is the control's, and nobody has judged it for that.
+    """
+    if not jobs:
+        return (Finding("NO_BLOCK", Severity.ERROR, "There is no block to post."),)
+    found = list(forbidding(jobs, Grid(unit), override=None))
+    for job in jobs:
+        if job.comp == "ON":
+            text = "CUTTER COMP. is ON: the control has nothing to compensate.  Post the centre path."
+            found.append(Finding("NOTWRITTEN", Severity.ERROR, f"Block {job.block}: {text}"))
+        elif not level_floor(job):
+            text = "A segment climbs or falls (Z END), which is not written here.  Post the centre path."
+            found.append(Finding("NOTWRITTEN", Severity.ERROR, f"Block {job.block}: {text}"))
+    return tuple(dict.fromkeys(found))
+
+
+def post_own(jobs: Sequence[Job], cuts: Sequence[Cut], unit: Unit, *, name: str, control: str) -> Posted | Refusal:
+    """The program of a control by its full name, or why there is none; `cuts` are those of the jobs, in order."""
+    against = objections(jobs, unit)
+    if against:
+        return Refusal(against, unit)
+
+    def remarks(notes: Sequence[Finding]) -> Sequence[str]:
+        # a semicolon would end the block even inside a remark, or begin another one
+        told = [text.replace(";", ",") for text in _told(jobs, cuts, unit, name, control, notes)]
+        if control == "klartext":
+            return [line[1:-1] for text in told for line in comments(text)]
+        return [line for text in told for line in comments(text)]
+
+    frame = Frame(unit, jobs[0].work_offset)
+    written = write_own(cuts, control, frame, _short(name), remarks)
+    if isinstance(written, NotWritten):
+        return Refusal(written.findings, unit)
+    return Posted(written.text, notes=(*_beside(jobs, control), *written.notes))
+
+
+def _short(name: str) -> str:
+    """A name every control takes: letters, digits, a dash."""
+    kept = "".join(one if one.isascii() and (one.isalnum() or one in "-_") else "-" for one in name)
+    return kept[:24] or "PART"
+
+
+def _beside(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
+    """What the text of this control cannot say."""
+    if control in ("threeblock", "klartext") and jobs[0].work_offset != 54:
+        text = f"Work offset G{jobs[0].work_offset} cannot be written for {control}; set its origin on the control."
+        return (Finding("WORK_OFFSET", Severity.WARNING, text),)
+    return ()
+
+
+def _told(
+    jobs: Sequence[Job], cuts: Sequence[Cut], unit: Unit, name: str, control: str, notes: Sequence[Finding]
+) -> Iterator[str]:
+    """The sentences of the header."""
+    yield f"PROGRAM {name}"
+    yield f"WRITTEN BY CUTCOMP FOR {control}: THE CONTOUR AS TYPED, THE CONTROL COMPENSATES"
+    yield f"UNITS {'INCH' if unit is Unit.IN else 'MM'}"
+    yield from dict.fromkeys(_tool(cut, unit, control) for cut in cuts)
+    yield from _radii(cuts, unit, control)
+    for job in jobs:
+        depth = f"Z {_length(job.z_start, unit)} TO {_length(job.z_bottom, unit)}"
+        yield f"BLOCK {job.block} MILL CONTOUR CUTTER COMP. {job.comp} {depth}"
+    for note in (*_beside(jobs, control), *notes):
+        where = "" if note.segment is None else f"SEGMENT {note.segment:g}: "
+        yield f"NOTE {note.code} {where}{sentence(note, unit)}"
+
+
+def _tool(cut: Cut, unit: Unit, control: str) -> str:
+    own = "" if control == "klartext" else ": THE CONTROL'S TABLE MUST SAY THE SAME"
+    return f"TOOL {cut.tool} DIAMETER {_length(cut.diameter, unit)}{own}"
+
+
+def _radii(cuts: Sequence[Cut], unit: Unit, control: str) -> Iterator[str]:
+    """The offsets an operator has to enter."""
+    style = STYLES.get(control)
+    if style is None or style.radius is not Radius.OFFSET:
+        return
+    sizes = {(cut.tool, cut.stock): cut.diameter / 2 + cut.stock for cut in cuts}
+    for key, number in offsets(cuts, style).items():
+        stock = f", LEAVES {_length(key[1], unit)}" if key[1] else ""
+        yield f"OFFSET D{number} RADIUS {_length(sizes[key], unit)} OF TOOL {key[0]}{stock}"
+
+
+def _length(value: float, unit: Unit) -> str:
+    return show(from_mm(value, unit), Kind.LENGTH, unit)

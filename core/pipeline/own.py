@@ -1,0 +1,66 @@
+"""A derived program posted for a control that compensates by itself."""
+
+from __future__ import annotations
+
+from core.comp.result import Compensated
+from core.controls.contouring import Cut
+from core.finding import Finding, Severity
+from core.output.job import Job
+from core.output.motion import Pass
+from core.output.own import objections, post_own
+from core.output.passes import passes
+from core.output.post import Posted, Refusal
+from core.pipeline.derived import Derived, DerivedBlock
+from core.pipeline.jobs import jobs
+from core.program.model import PathChoice
+
+
+def post_for(derived: Derived, *, name: str, control: str) -> Posted | Refusal:
+    """The program of a control by its full name, as the registry has it, or why there is none."""
+    unit, every = derived.program.unit, jobs(derived)
+    against = (*objections(every, unit), *_best(derived))
+    if against:
+        return Refusal(against, unit)
+    cuts = [cut for found, job in zip(derived.blocks, every, strict=True) for cut in _cuts(found, job)]
+    return post_own(every, cuts, unit, name=name, control=control)
+
+
+def _best(derived: Derived) -> tuple[Finding, ...]:
+    """The best path is a path of the tool's centre: no control makes it of a contour."""
+    if derived.program.parameters.path is not PathChoice.BEST:
+        return ()
+    text = "PATH is BEST, which no control's own compensation runs.  Post the centre path, or choose PATH CONTROL."
+    return (Finding("NOTWRITTEN", Severity.ERROR, text, field="path"),)
+
+
+def _cuts(found: DerivedBlock, job: Job) -> list[Cut]:
+    feeds = {floor.number: floor.feed or 0.0 for floor in job.floors}
+    return [_cut(one, _run_of(found, job, one), feeds, job) for one in passes(job)]
+
+
+def _run_of(found: DerivedBlock, job: Job, one: Pass) -> Compensated:
+    """The compensated run that a pass goes along."""
+    work = found.work
+    assert work is not None
+    assert work.compensated is not None
+    if one.finishing or (job.finisher is None and one.stock == 0.0):
+        return work.compensated
+    return next(rough.compensated for rough in work.rough if rough.stock == one.stock)
+
+
+def _cut(one: Pass, run: Compensated, feeds: dict[int, float], job: Job) -> Cut:
+    first_feed = next(index for index, motion in enumerate(one.motions) if not motion.rapid)
+    return Cut(
+        compensated=run,
+        tool=one.cutter.number,
+        diameter=one.cutter.diameter,
+        stock=one.stock,
+        speed=one.speed,
+        feeds=feeds,
+        plunge_feed=job.plunge_feed,
+        travel=one.motions[0].z,
+        near=one.motions[first_feed - 1].z,
+        depth=one.motions[first_feed].z,
+        leave=one.motions[-1].z,
+        block=one.block,
+    )
