@@ -1,0 +1,123 @@
+"""The program in a real pseudo-terminal: keys as terminals send them, bytes no terminal should send, idleness."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from app.files import example
+from app.keys import VT100_PLUS
+from tests.terminal import Terminal, running
+
+ROOT = Path(__file__).parents[2]
+ESC = b"\x1b"
+CLOCK = 200
+"""Bytes of a clock that happens to change its minute just then."""
+TITLES = {4: "PROGRAM PARAMETERS", 5: "PART SETUP", 6: "TOOL SETUP", 7: "zoom", 8: "1 block"}
+"""What stands on the screen after a softkey on SEGMENT."""
+
+
+@contextmanager
+def cutcomp(folder: Path, name: str = "overrun-square") -> Iterator[Terminal]:
+    """The program on a copy of an example, its first verdict on the screen."""
+    file = folder / f"{name}.toml"
+    shutil.copy(example(name), file)
+    own = {"HOME": str(folder), "XDG_STATE_HOME": str(folder), "XDG_DATA_HOME": str(folder), "PYTHONPATH": str(ROOT)}
+    arguments = [sys.executable, "-m", "app", str(file)]
+    with running(arguments, environment=own, cwd=str(folder)) as terminal:
+        terminal.until("MILL CONTOUR", longest=30.0)
+        terminal.until("best", longest=30.0)
+        yield terminal
+
+
+def status(terminal: Terminal) -> int:
+    """The exit status of a program that is leaving."""
+    begun = time.monotonic()
+    while time.monotonic() - begun < 20.0:
+        if terminal.read(quiet=0.02, longest=0.02).count == 0:
+            # a terminal whose program is leaving is closed before the program has ended
+            time.sleep(0.01)
+        if (ended := terminal.ended()) is not None:
+            return ended
+    raise AssertionError(f"it did not end:\n{terminal.text}")
+
+
+def function_keys() -> dict[str, tuple[bytes, int]]:
+    """Sequences of F4 to F8 in xterm, the Linux console, PuTTY's VT100+ mode, and as Esc with a digit."""
+    xterm = {4: b"OS", 5: b"[15~", 6: b"[17~", 7: b"[18~", 8: b"[19~"}
+    return {
+        **{f"xterm F{number}": (ESC + code, number) for number, code in xterm.items()},
+        **{f"console F{number}": (ESC + b"[[" + bytes([64 + number]), number) for number in (4, 5)},
+        **{f"VT100+ F{number}": (ESC + b"O" + VT100_PLUS[number - 1].encode(), number) for number in xterm},
+        **{f"Esc {number}": (ESC + str(number).encode(), number) for number in xterm},
+    }
+
+
+def test_every_sequence_of_a_softkey(tmp_path: Path) -> None:
+    with cutcomp(tmp_path) as terminal:
+        for name, (sequence, number) in function_keys().items():
+            terminal.send(sequence)
+            try:
+                terminal.until(TITLES[number], longest=5.0)
+            except AssertionError:
+                pytest.fail(f"{name}:\n{terminal.text}")
+            terminal.send(b"\r" if number == 8 else ESC + b"8")
+            terminal.until("SEGMENT >", longest=5.0)
+
+
+def test_f3_as_xterm_sends_it_and_the_notes_own_screen(tmp_path: Path) -> None:
+    with cutcomp(tmp_path) as terminal:
+        assert "CUTCOMP LOOKAHEAD CAL      2" in terminal.text
+        terminal.send(b"\t" * 11 + b"4\r")
+        terminal.until("CUTCOMP LOOKAHEAD USR      4")
+        terminal.until("DELETED 2-3  by 1 and 4 at X -0.2500 Y -0.2500")
+        terminal.send(ESC + b"OR")
+        terminal.until("CUTCOMP LOOKAHEAD CAL      2")
+
+
+def test_esc_and_a_digit_typed_slowly(tmp_path: Path) -> None:
+    with cutcomp(tmp_path) as terminal:
+        terminal.send(ESC)
+        terminal.until("now 1 to 8 is the softkey")
+        terminal.send(b"6")
+        terminal.until("TOOL SETUP")
+        terminal.until("DIAMETER")
+
+
+@pytest.mark.parametrize("byte", [b"\xb0", b"\xff", b"\xc3(", b"\x80\x81\x82"])
+def test_a_byte_that_is_not_utf_8_ends_nothing(tmp_path: Path, byte: bytes) -> None:
+    with cutcomp(tmp_path) as terminal:
+        terminal.send(b"\t\t\t\t7" + byte)
+        terminal.read(quiet=0.3)
+        assert terminal.ended() is None
+        terminal.send(b"\x7f\x7f\x7f\x7f\x7f8.5\r")
+        terminal.until("8.5000")
+
+
+def test_an_idle_terminal_gets_no_bytes(tmp_path: Path) -> None:
+    with cutcomp(tmp_path) as terminal:
+        terminal.read(quiet=1.0)
+        assert sum(terminal.read(quiet=0.1, longest=0.1).count for _ in range(20)) <= CLOCK
+
+
+def test_ctrl_q_asks_and_leaving_ends_with_status_0(tmp_path: Path) -> None:
+    with cutcomp(tmp_path) as terminal:
+        terminal.send(b"\t9\r\x11")
+        terminal.until("LEAVE")
+        terminal.send(b"l")
+        assert status(terminal) == 0
+
+
+def test_a_file_that_cannot_be_used_is_one_sentence_and_status_2(tmp_path: Path) -> None:
+    (tmp_path / "bad.toml").write_text("format = 1\nunits = 'IN'\nshape = 3\n")
+    arguments = [sys.executable, "-m", "app", str(tmp_path / "bad.toml")]
+    with running(arguments, environment={"PYTHONPATH": str(ROOT), "HOME": str(tmp_path)}) as terminal:
+        assert status(terminal) == 2
+        assert "line 3" in terminal.text
+        assert "shape" in terminal.text
