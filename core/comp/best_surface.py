@@ -98,8 +98,15 @@ def _closed(path: Path) -> Path:
 
 
 def crosses_itself(surface: Surface, *, closed: bool) -> tuple[float, float] | None:
-    """The numbers of two segments that cross, touch or run along each other elsewhere than at their joint; or None."""
+    """The numbers of two segments that cross, touch or run along each other elsewhere than at their joint; or None.
+
+    A full circle among other segments touches its neighbours with both ends.
+    """
     path = surface.path
+    circles = np.flatnonzero((path.turns != 0) & (path.points[1:] == path.points[:-1]).all(axis=1))
+    if len(circles) and len(path) > 1:
+        row = int(circles[0])
+        return float(path.numbers[row]), float(path.numbers[row - 1 if row else 1])
     for i, j in near_selves(surface.walls):
         beside = (j - i == 1) | ((j - i == len(path) - 1) if closed else False)
         i, j = _worth_a_look(path, i, j, beside)
@@ -118,9 +125,8 @@ def _worth_a_look(path: Path, i: Indices, j: Indices, beside: Masks) -> tuple[In
     tangents = (*_tangents(path, a), *_tangents(path, b))
     turned = sum(np.abs(np.angle(one.conj() * two)) for one, two in pairwise(tangents))
     wide = _wide(path, a) | _wide(path, b) | (b - a > 1)
-    straight = (path.turns[a] == 0) & (path.turns[b] == 0)
     keep = np.ones(len(i), np.bool_)
-    keep[rows] = ~straight & (wide | (turned > 3.1))
+    keep[rows] = wide | (turned > 3.1)
     return i[keep], j[keep]
 
 
