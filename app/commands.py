@@ -25,7 +25,8 @@ UNUSABLE: Final = 2
 
 def say(text: str) -> None:
     """A message for the person at the keyboard."""
-    print(f"cutcomp: {text}", file=sys.stderr)
+    plain = "".join(one if one.isprintable() or one == "\n" else "?" for one in text)
+    print(f"cutcomp: {plain}", file=sys.stderr)
 
 
 class Unusable(Exception):

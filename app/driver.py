@@ -1,30 +1,74 @@
-"""The remedy for input that is not UTF-8: one byte of a Latin-1 terminal must not end the program.
+"""The terminal's side of Textual: which terminals the screens can have, and any byte that comes from them.
 
-Textual's driver for terminals decodes strictly and dies of the first wrong byte.  Its module takes the decoder by
-name, so this one puts a decoder there that replaces what it cannot read; a test types such a byte into a
-pseudo-terminal.
+Textual's own driver dies of the first byte that is not UTF-8, and reads for ever from a link that has dropped.
 """
 
 from __future__ import annotations
 
+import os
+import select
+import signal
 import sys
-from codecs import IncrementalDecoder, getincrementaldecoder
-from collections.abc import Callable
-from functools import partial
+from codecs import getincrementaldecoder
+from collections.abc import Mapping
 from typing import Final
 
-LENIENT: Final[Callable[[], IncrementalDecoder]] = partial(getincrementaldecoder("utf-8"), errors="replace")
-"""Makes a decoder of UTF-8 in pieces that puts a replacement character for what is none."""
+from textual._xterm_parser import XTermParser
+from textual.drivers.linux_driver import LinuxDriver
+
+PATIENCE: Final = 0.1
+"""Seconds between two looks whether the program ends."""
+LARGEST_READ: Final = 4096
+UNFIT: Final = ("dumb", "unknown", "")
+"""Values of TERM of what cannot place a cursor."""
 
 
-def be_lenient() -> None:
-    """Let the terminal's driver read any byte."""
-    if sys.platform != "win32":
-        from textual.drivers import linux_driver
+class TerminalDriver(LinuxDriver):
+    """A driver that replaces what it cannot read, and takes the end of its input for a hangup."""
 
-        linux_driver.__dict__["getincrementaldecoder"] = _lenient
+    def run_input_thread(self) -> None:
+        """Read keys until the program ends or the link drops."""
+        parser = XTermParser(self._debug)
+        decode = getincrementaldecoder("utf-8")(errors="replace").decode
+        while not self.exit_event.is_set():
+            if select.select([self.fileno], [], [], PATIENCE)[0]:
+                data = read(self.fileno)
+                if not data:
+                    os.kill(os.getpid(), signal.SIGHUP)
+                    return
+                for message in parser.feed(decode(data)):
+                    self.process_message(message)
+            for message in parser.tick():
+                self.process_message(message)
 
 
-def _lenient(encoding: str) -> Callable[[], IncrementalDecoder]:
-    assert encoding == "utf-8"
-    return LENIENT
+def read(handle: int) -> bytes:
+    """What was typed, nothing at the end of the input or when the link has dropped."""
+    try:
+        return os.read(handle, LARGEST_READ)
+    except OSError:
+        return b""
+
+
+def refusal(environment: Mapping[str, str]) -> str:
+    """Why there can be no screens here, empty where there can."""
+    if not all(stream is not None and stream.isatty() for stream in (sys.__stdin__, sys.__stderr__)):
+        return (
+            "the screens need a terminal, and here is none. Start it in a terminal window, or see the commands "
+            "without a screen: cutcomp --help"
+        )
+    if environment.get("TERM", "") in UNFIT:
+        return (
+            f"the terminal says TERM={environment.get('TERM', '')}, which cannot place a cursor. Set TERM to what it "
+            "is, such as TERM=xterm or TERM=vt100, and start again."
+        )
+    return ""
+
+
+def settle_output() -> bool:
+    """Let no character end the program or spread over several cells; says whether the terminal takes UTF-8."""
+    stream = sys.__stderr__
+    if stream is None or not hasattr(stream, "reconfigure"):
+        return True
+    stream.reconfigure(errors="replace")
+    return stream.encoding.lower().replace("-", "") == "utf8"

@@ -11,11 +11,13 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Final, NamedTuple
 
+from app.guard import UNGUARDED, Guard
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.outline import outline
 from core.program.edit import Edited, Refused, Where
 from core.program.history import History
 from core.program.model import Block, Program, Segment
+from core.program.stamp import Stamp
 
 SEGMENT: Final = "segment"
 """The name of the SEGMENT line, where the cursor walks from segment to segment."""
@@ -56,11 +58,13 @@ class Session:
     where: Where = FIRST
     field: str = SEGMENT
     said: Said | None = None
+    guard: Guard = UNGUARDED
 
     @staticmethod
     def of(program: Program, file: Path | None = None, *, saved: Program | None = None) -> Session:
         """A session that begins with this program, the cursor on SEGMENT of START of block 1."""
-        return Session(History(program), program if saved is None else saved, outline(program), file)
+        history, held = History(program), program if saved is None else saved
+        return Session(history, held, outline(program), file, guard=Guard())
 
     @property
     def program(self) -> Program:
@@ -104,6 +108,8 @@ class Session:
         """An edit taken, or the sentence why it is refused."""
         if isinstance(edited, Refused):
             return self.saying(edited.text, Tone.ERROR)
+        if self.guard.looking:
+            return self.saying(f"{self.guard.looking} Nothing can be changed: SAVE AS makes your own copy.", Tone.ERROR)
         return self._with(self.history.do(edited, label))
 
     def undo(self) -> Session:
@@ -124,9 +130,11 @@ class Session:
         """The cursor moved; a place that does not exist becomes the nearest one that does."""
         return replace(self, where=_nearest(self.program, where), field=field)
 
-    def named(self, file: Path) -> Session:
-        """The session after its program was saved under a name."""
-        return replace(self, file=file, saved=self.program)
+    def named(self, file: Path, stamp: Stamp | None = None, *, linked: bool = False) -> Session:
+        """The session after its program was saved under a name, the file having this stamp now."""
+        guard = self.guard if file == self.file else replace(self.guard, looking="", linked=False)
+        guard = replace(guard, stamp=stamp, linked=guard.linked or linked)
+        return replace(self, file=file, saved=self.program, guard=guard)
 
     def knowing(self, derived: Derived) -> Session:
         """The session with what follows from its program; a result for another program is dropped."""

@@ -88,7 +88,8 @@ class JournalFile:
         """Remove the file after a save; its lines go first into the next one.  False where they are too many."""
         kept = self.length + len(self.unwritten) <= LARGEST_KEPT
         if kept and self.handle is not None:
-            self.unwritten = os.pread(self.handle, self.length, 0) + self.unwritten
+            written = os.pread(self.handle, self.length, 0)
+            kept, self.unwritten = len(written) == self.length, written + self.unwritten
         self.remove()
         return kept
 

@@ -23,11 +23,16 @@ class Stamp:
         return (self.size, self.digest) == (other.size, other.digest)
 
 
+def stamp_of_data(data: bytes, changed: int = 0) -> Stamp:
+    """The stamp of a file with this content."""
+    return Stamp(len(data), changed, blake2b(data, digest_size=16).hexdigest())
+
+
 def stamp_of(path: Path) -> Stamp | None:
     """The file's stamp as it is now, None where there is no file that can be read."""
     try:
         with path.open("rb") as file:
             data = file.read(LARGEST_FILE + 1)
-            return Stamp(len(data), os.fstat(file.fileno()).st_mtime_ns, blake2b(data, digest_size=16).hexdigest())
+            return stamp_of_data(data, os.fstat(file.fileno()).st_mtime_ns)
     except (OSError, ValueError):
         return None

@@ -1,0 +1,29 @@
+"""What a session knows of its file besides the program: who holds it, and what it was when it was read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Final
+
+from core.program.lock import Lock
+from core.program.stamp import Stamp
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Guard:
+    """`stamp` is the file's as it was read or saved last, None where there was none.
+
+    `looking` is empty, or says who has the program open: then nothing can be changed.  `lock` is ours, if there is
+    one.  `linked` says that the operator agreed to write where a link leads.  `origin` tells one opening of a program
+    from another.
+    """
+
+    stamp: Stamp | None = None
+    lock: Lock | None = None
+    looking: str = ""
+    linked: bool = False
+    origin: object = field(default_factory=object)
+
+
+UNGUARDED: Final = Guard()
+"""Of a session that was made without opening anything."""

@@ -1,0 +1,184 @@
+"""Keeping work: after every key what was accepted is on the disk before the next key is read.
+
+Keeping also means: a lock on the program's file while it is open, and the offer of what an earlier program that died
+has left behind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from app import places, recovery, times
+from app.messages import Open, Say
+from app.session import Session, Tone
+from core.program.disk import why
+from core.program.journal import Cursor, Head, Record, edit_records, history_records, moved_record
+from core.program.journal_file import JournalFile
+from core.program.lock import Held, Owner, myself, release, take, taken_by
+from core.program.store import StoreError
+
+if TYPE_CHECKING:
+    from app.desk import Desk
+
+LONGEST: Final = 8_000_000
+"""Bytes of a journal that is not saved for very long; then it is begun anew with the last `STEPS` edits."""
+STEPS: Final = 500
+
+
+@dataclass(slots=True)
+class Keeping:
+    """The journal and the lock of the program on the desk; `known` is the session as it was kept last.
+
+    `moved` says that the next line must tell who works on which file now; `failing` that the last line is not on the
+    disk; `warned` that somebody has taken the program over.
+    """
+
+    me: Owner = field(default_factory=lambda: myself(times.now()))
+    own: Path = field(default_factory=places.own_folder)
+    clock: Callable[[], str] = times.now
+    known: Session | None = None
+    journal: JournalFile | None = None
+    moved: bool = False
+    failing: bool = False
+    warned: bool = False
+
+    def keep(self, desk: Desk) -> Desk:
+        """After a key: put on the disk what it has changed."""
+        session, known = desk.session, self.known
+        if desk.exit:
+            self.leave()
+            return desk
+        if known is None or session.guard.origin is not known.guard.origin:
+            return self.open(desk)
+        if session.history is not known.history:
+            desk = self._record(desk, known)
+        if session.saved is not known.saved or session.file != known.file:
+            desk = self._saved(desk, known)
+        self.known = desk.session
+        return desk
+
+    def open(self, desk: Desk) -> Desk:
+        """Another program is on the desk: lock it, and offer what was left behind of it."""
+        first = self.known is None
+        self.leave()
+        desk = self._locked(desk)
+        session = self.known = desk.session
+        if session.guard.looking:
+            return desk.take(Open(recovery.looking(self, session)))
+        return recovery.offered(self, desk) if first or session.file is not None else desk
+
+    def leave(self) -> None:
+        """The program is saved or given up: nothing of it stays behind."""
+        if self.journal is not None:
+            self.journal.remove()
+        self._let_go()
+
+    def close(self) -> None:
+        """The end, wanted or not: what is not saved stays in the journal."""
+        if self.journal is not None and (self.known is None or not self.known.unsaved):
+            self.journal.remove()
+        elif self.journal is not None:
+            self.journal.close()
+        self._let_go()
+
+    def adopt(self, session: Session, journal: JournalFile | None) -> None:
+        """Go on with a restored session, and with its journal if it could be taken."""
+        self.known, self.journal, self.moved = session, journal, False
+
+    def head(self, session: Session) -> Head:
+        """Whose work it is, and on which file."""
+        return Head(self.me, None if session.file is None else str(session.file), session.guard.stamp)
+
+    def cursor(self, session: Session) -> Cursor:
+        """Where the operator is."""
+        return Cursor(session.where, session.field, self.clock())
+
+    def _let_go(self) -> None:
+        lock = None if self.known is None else self.known.guard.lock
+        if lock is not None:
+            release(lock)
+        self.known, self.journal = None, None
+        self.moved = self.failing = self.warned = False
+
+    def _locked(self, desk: Desk) -> Desk:
+        """The program's file locked; where no lock can be written, nothing can be saved either."""
+        session = desk.session
+        if session.file is None:
+            return desk
+        with suppress(OSError):
+            found = take(session.file, self.me)
+            if isinstance(found, Held):
+                guard = replace(session.guard, lock=None, looking=recovery.holder(found.owner, self.clock()))
+            else:
+                guard = replace(session.guard, lock=found, looking="")
+            return replace(desk, session=replace(session, guard=guard))
+        return desk
+
+    def _record(self, desk: Desk, known: Session) -> Desk:
+        """The edits of one key."""
+        session = desk.session
+        try:
+            self._write(session, known)
+        except (OSError, StoreError) as error:
+            return self._trouble(desk, error)
+        was, self.failing = self.failing, False
+        if was and session.said is None:
+            return desk.take(Say("Work is kept on the disk again."))
+        return self._noticed(desk)
+
+    def _write(self, session: Session, known: Session) -> None:
+        cursor = self.cursor(session)
+        records = edit_records(known.history, session.history, cursor)
+        if self.journal is None:
+            self.journal = JournalFile(self._place(session))
+            self.journal.add(history_records(self.head(session), session.history, cursor))
+        elif records is None or self.journal.length > LONGEST:
+            short = replace(session.history, past=session.history.past[-STEPS:])
+            self.journal.replace(history_records(self.head(session), short, cursor))
+        else:
+            self.journal.add((*self._move(session, cursor), *records))
+        self.moved = False
+
+    def _place(self, session: Session) -> Path:
+        path = places.place(session.file, self.me, self.own)
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        return path
+
+    def _move(self, session: Session, cursor: Cursor) -> tuple[Record, ...]:
+        return (moved_record(self.head(session), cursor),) if self.moved else ()
+
+    def _trouble(self, desk: Desk, error: OSError | StoreError) -> Desk:
+        """Tell once, and again with every edit that has nothing else to say; the work goes on."""
+        told, self.failing = self.failing, True
+        if told and desk.session.said is not None:
+            return desk
+        reason = why(error) if isinstance(error, OSError) else error.text
+        return desk.take(Say(f"A crash would lose this: it is not on the disk, {reason}", Tone.WARNING))
+
+    def _noticed(self, desk: Desk) -> Desk:
+        """Say once that somebody has taken the program over."""
+        lock = desk.session.guard.lock
+        owner = None if lock is None or self.warned else taken_by(lock)
+        if owner is None:
+            return desk
+        self.warned = True
+        who = recovery.holder(owner, self.clock())
+        return desk.take(Say(f"{who} SAVE AS keeps your work.", Tone.WARNING))
+
+    def _saved(self, desk: Desk, known: Session) -> Desk:
+        """After a save there is no journal; after a save under another name there is another lock."""
+        session = desk.session
+        if self.journal is not None and self.journal.put_away():
+            self.journal.path = self._place(session)
+            self.moved = True
+        else:
+            self.journal = None
+        if session.file == known.file:
+            return desk
+        if known.guard.lock is not None:
+            release(known.guard.lock)
+        return self._locked(desk)

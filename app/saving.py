@@ -1,0 +1,128 @@
+"""Before a file is written: what the operator must be asked, so that nobody's work is overwritten unseen."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from app import times
+from app.messages import Close, Open, Post, Save, Say
+from app.screens.ask import Ask
+from app.screens.decide import shortened
+from app.session import Session, Tone
+from core.program.difference import differences
+from core.program.disk import why
+from core.program.lock import taken_by
+from core.program.stamp import stamp_of
+from core.program.store import StoreError, load
+from core.units import printable
+
+if TYPE_CHECKING:
+    from app.desk import Desk
+
+
+def asked(desk: Desk, path: Path, message: Save) -> Desk | None:
+    """The desk with the question that must be answered before `path` is written; None where there is none."""
+    session, own = desk.session, path == desk.session.file
+    if own and session.guard.looking:
+        return desk.take(Say(f"{session.guard.looking} SAVE AS makes a copy of your own.", Tone.ERROR))
+    if leads_elsewhere(path) and not message.linked and not (own and session.guard.linked):
+        return desk.take(Open(_linked(path, message)))
+    if not own:
+        return None if message.overwrite or not there(path) else desk.take(Open(replacing(path, message)))
+    if not message.taken and (question := _taken(session, path, message)):
+        return desk.take(Open(question))
+    return None if message.changed else _changed(desk, path, message)
+
+
+def there(path: Path) -> bool:
+    """Whether the name is in use, be it by a link that leads to nothing."""
+    return path.exists() or path.is_symlink()
+
+
+def leads_elsewhere(path: Path) -> bool:
+    """Whether a name is a link into another folder."""
+    target = Path(os.path.realpath(path))
+    return path.is_symlink() and target.parent != Path(os.path.realpath(path.parent))
+
+
+def replacing(path: Path, message: Save | Post) -> Ask:
+    """Somebody's file stands in the place."""
+    target = f", which leads to {os.path.realpath(path)}" if path.is_symlink() else ""
+    lines = (f"{printable_path(path)}{printable_path(target)} exists already. Its content is replaced.",)
+    return Ask("REPLACE THE FILE?", lines, (("r", "REPLACE", (Close(), message._replace(overwrite=True))),))
+
+
+def _linked(path: Path, message: Save) -> Ask:
+    target = printable_path(os.path.realpath(path))
+    lines = (f"{printable_path(path)} is a link to {target} in another folder.",)
+    again = message._replace(linked=True)
+    return Ask("WRITE IN ANOTHER FOLDER?", lines, (("w", "WRITE THERE", (Close(), again)),))
+
+
+def _taken(session: Session, path: Path, message: Save) -> Ask | None:
+    """Somebody has taken the program over: a copy, or writing all the same."""
+    owner = None if session.guard.lock is None else taken_by(session.guard.lock)
+    if owner is None:
+        return None
+    today = times.now()
+    copy = beside(path, "mine", today)
+    who = f"{printable(owner.user)} on {printable(owner.host)}"
+    lines = (f"{who} has taken {printable(path.name)} over.", f"A copy of yours would be {printable(copy.name)}.")
+    keep = ("k", "KEEP BOTH: SAVE A COPY", (Close(), Save(copy, leave=message.leave)))
+    write = ("w", "WRITE ALL THE SAME", (Close(), message._replace(taken=True)))
+    return Ask("TAKEN OVER", lines, (keep, write))
+
+
+def _changed(desk: Desk, path: Path, message: Save) -> Desk | None:
+    """The file is not as it was read: both versions are kept, whichever gets the name."""
+    stamp = desk.session.guard.stamp
+    now = stamp_of(path)
+    if now is None or (stamp is not None and now.same_content(stamp)):
+        return None
+    today = times.now()
+    lines = (
+        f"{printable(path.name)} was changed by somebody else {times.told(times.of(now.changed), today)}.",
+        *shortened(_theirs(desk.session, path))[:4],
+        "Both versions are kept. Which one gets the name?",
+    )
+    mine = beside(path, "mine", today)
+    theirs = ("t", f"THEIRS (YOURS: {printable(mine.name)})", (Close(), Save(mine, leave=message.leave)))
+    yours = ("y", "YOURS (THEIRS IS COPIED FIRST)", (Close(), message._replace(changed=True)))
+    return desk.take(Open(Ask("CHANGED MEANWHILE", lines, (theirs, yours))))
+
+
+def _theirs(session: Session, path: Path) -> tuple[str, ...]:
+    try:
+        return differences(session.saved, load(path))
+    except StoreError:
+        return ("It is no program any more.",)
+
+
+def put_theirs_aside(path: Path) -> None:
+    """Copy what stands in the file to a name of its own; StoreError if that fails."""
+    aside = beside(path, "theirs", times.now())
+    try:
+        with path.open("rb") as source, aside.open("xb") as target:
+            shutil.copyfileobj(source, target)
+            target.flush()
+            os.fsync(target.fileno())
+    except OSError as error:
+        raise StoreError(f"Nothing is saved: the other version cannot be copied, {why(error)}") from error
+
+
+def beside(path: Path, whose: str, today: str) -> Path:
+    """A free name such as `part.mine-2025-03-04-140509.toml`."""
+    name = f"{path.stem}.{whose}-{times.stamp(today)}"
+    free, number = path.with_name(f"{name}{path.suffix}"), 1
+    while there(free):
+        number += 1
+        free = path.with_name(f"{name}-{number}{path.suffix}")
+    return free
+
+
+def printable_path(path: Path | str) -> str:
+    """A whole path without control characters."""
+    return "".join(one if one.isprintable() else "?" for one in str(path))

@@ -1,0 +1,61 @@
+"""Decide: a question that must be answered before the work goes on; leaving the program answers nothing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Final
+
+from app.messages import Message, Say
+from app.screens.ask import Ask
+from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
+from app.screens.text import paragraph
+from app.session import Said, Session
+from app.widgets.header import header
+from app.widgets.rows import Look, Span, plain
+
+MOST: Final = 6
+"""Differences that are told one by one."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Decide(Ask):
+    """A question without a way around it; `details` stand under the lines."""
+
+    layout: ClassVar[Layout] = Layout.TEXT
+    details: tuple[str, ...] = ()
+
+    def softkeys(self, session: Session) -> Softkeys:
+        """The answers."""
+        return {number: Softkey(label, messages) for number, (_, label, messages) in enumerate(self.options, 1)}
+
+    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """An answer's letter; nothing else closes the question."""
+        if key == "enter":
+            return self.escape(session)
+        return Ask.press(self, key, character, session)
+
+    def escape(self, session: Session) -> Answer | None:
+        """No way around."""
+        asked: tuple[Message, ...] = (Say(f"Press {' or '.join(one[0].upper() for one in self.options)}."),)
+        return Answer(self, asked)
+
+    def view(self, session: Session, surface: Surface) -> View:
+        """The question, what it is about, and the answers."""
+        width = surface.width
+        asked = [row for line in self.lines for row in paragraph(line, width)]
+        told = [row for line in shortened(self.details) for row in paragraph(line, width, Look.LABEL, "  ")]
+        answers = [
+            (Span(f"  {letter.upper():<4}", Look.KEY), Span(label, Look.LABEL)) for letter, label, _ in self.options
+        ]
+        return View(
+            header(self.title, plain(""), session, width),
+            ((), *asked, (), *told, (), *answers),
+            Said("Press the softkey or the letter of an answer."),
+        )
+
+
+def shortened(details: tuple[str, ...]) -> tuple[str, ...]:
+    """The first few, and how many more there are."""
+    if len(details) <= MOST:
+        return details
+    return (*details[:MOST], f"And {len(details) - MOST} more.")
