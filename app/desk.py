@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Final, assert_never
 
-from app import files
+from app import files, guide
 from app.messages import (
     Browse,
     Close,
@@ -94,6 +94,9 @@ class Desk:
 
     def take(self, message: Message) -> Desk:
         """One message carried out."""
+        return guide.after(self, self._taken(message), message)
+
+    def _taken(self, message: Message) -> Desk:
         match message:
             case Edit(outcome, label):
                 return replace(self, session=self.session.apply(outcome, label))

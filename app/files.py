@@ -15,7 +15,7 @@ from app.session import Session, Tone
 from core.program.edit import new_block
 from core.program.model import Entry, Program, Tool
 from core.program.store import StoreError, load, save, write_text
-from core.units import sentence
+from core.units import Unit, sentence
 
 if TYPE_CHECKING:
     from app.desk import Desk
@@ -47,9 +47,9 @@ def _examples() -> Path:
     return Path(str(packaged("app").joinpath("examples")))
 
 
-def empty_program() -> Program:
+def empty_program(unit: Unit = Unit.IN) -> Program:
     """What a new program begins with: one block and an end mill."""
-    program = Program(tools=(Tool(1, diameter=Entry(0.5)),))
+    program = Program(unit, tools=(Tool(1, diameter=Entry(0.5 if unit is Unit.IN else 12.0)),))
     return replace(program, blocks=(new_block(program),))
 
 
@@ -92,11 +92,14 @@ def _load(desk: Desk, message: Load) -> Desk:
         options = (("s", "SAVE FIRST", keep), ("d", "OPEN WITHOUT SAVING", (Close(), open_it)))
         return desk.take(Open(Ask("NOT SAVED", ("The program has changes that are not saved.",), options)))
     if message.path is None:
-        return _fresh(desk, Session.of(empty_program())).take(Say("A new program."))
+        return _fresh(desk, Session.of(empty_program(desk.settings.unit))).take(Say("A new program."))
     try:
         program = load(message.path)
     except StoreError as error:
         return _failed(desk, error)
+    if message.path.parent == _examples():
+        # an example is nobody's to overwrite: it has no file until it is saved under a name
+        return _fresh(desk, Session.of(program)).take(Say(f"Example {message.path.stem}: SAVE gives it a name."))
     return _fresh(desk, Session.of(program, message.path)).take(Say(f"Opened: {message.path}"))
 
 

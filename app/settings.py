@@ -112,7 +112,7 @@ class Keeper:
         if file is not self.file and file is not None and file.exists():
             desk = replace(desk, settings=desk.settings.using(file))
             self.file = file
-        if desk.settings is self.written:
+        if desk.settings == self.written:
             return desk
         return self._write(desk)
 

@@ -8,10 +8,11 @@ from textual import events
 from textual.app import ComposeResult
 from textual.screen import Screen
 
+from app import guide
 from app.desk import Desk
 from app.screens.page import Layout, Surface, View
 from app.screens.plan import NATIVE, Plan, plan
-from app.session import Session
+from app.session import Said, Session
 from app.surroundings import Surroundings
 from app.widgets.prompt import prompt_rows
 from app.widgets.rows import LOOKS, Look, Part, Row, Rows, composed, plain
@@ -76,9 +77,14 @@ def parts(desk: Desk, known: Known, around: Surroundings, width: int, height: in
         "verdict": Part(areas.verdict, _verdict(session, known, view, layout, areas)),
         "drawing": Part(drawn, known.drawing(desk, view.sketch, drawn.width, drawn.height)),
         "softkeys": Part(areas.softkeys, softkey_rows(desk.page.softkeys(desk.session), areas.softkeys.height)),
-        "prompt": Part(areas.prompt, prompt_rows(desk.session.said or view.prompt, areas.prompt.width)),
+        "prompt": Part(areas.prompt, prompt_rows(_prompt(desk, view), areas.prompt.width)),
         "status": Part(areas.status, (status_row(desk.session, around.clock(), around.free(), width),)),
     }
+
+
+def _prompt(desk: Desk, view: View) -> Said:
+    """What was said about the last key, else the guide, else the screen's own prompt."""
+    return desk.session.said or guide.said(desk) or view.prompt
 
 
 def _notice(width: int, height: int) -> tuple[Row, ...]:

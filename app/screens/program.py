@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
-from app.messages import Browse, Edit, Leave, Message, Move, Open, Save, Swap
+from app.messages import Browse, Do, Edit, Leave, Message, Move, Open, Save, Swap
 from app.screens.contour import Contour
+from app.screens.help import HelpPage
 from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View
 from app.screens.parameters import ParametersPage
 from app.screens.post import PostPage
 from app.screens.save import SaveAsPage
 from app.screens.setup import SetupPage
+from app.screens.sheet import SheetPage
 from app.screens.tools import ToolsPage
 from app.session import Said, Session
 from app.widgets.header import header
@@ -21,18 +23,21 @@ from core.pipeline.derived import DerivedBlock
 from core.program.edit import Where, copy_block, delete_block, insert_block, move_block
 from core.program.model import Entry
 
+if TYPE_CHECKING:
+    from app.desk import Desk
+
 PROMPT: Final = "Enter edits the block, up and down go from block to block. Insert, copy, move or delete by softkey."
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ProgramPage(Page):
-    """The blocks; `second` shows the second set of softkeys."""
+    """The blocks; `set` is which set of softkeys is shown."""
 
-    second: bool = False
+    set: int = 0
 
     def softkeys(self, session: Session) -> Softkeys:
-        """Two sets; F7 changes between them."""
-        return _second(self, session) if self.second else _first(self, session)
+        """Three sets; F7 goes round."""
+        return (_first, _second, _third)[self.set](self, session)
 
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
         """Up and down over the blocks, Enter into one."""
@@ -41,6 +46,16 @@ class ProgramPage(Page):
         if there is not None:
             return Answer(self, (Move(Where(min(max(there, 1), last))),))
         return Answer(self, (Open(Contour()),)) if key in ("enter", "right") else None
+
+    def help(self, session: Session) -> tuple[str, ...]:
+        """What a program is made of."""
+        return (
+            "PROGRAM",
+            "A program is a list of blocks; a MILL CONTOUR block is one outline with its tool.",
+            "VERDICT tells of each: clean, uncut (material stays), warning, GOUGE, open (something is still missing).",
+            "F7 MORE shows further softkeys: moving blocks, SAVE AS, PROGRAM PARAMETERS, PART SETUP, TOOL SETUP, then "
+            "the start screen, the setup sheet and the guided first part.",
+        )
 
     def view(self, session: Session, surface: Surface) -> View:
         """One line a block."""
@@ -92,7 +107,7 @@ def _first(page: ProgramPage, session: Session) -> Softkeys:
         4: Softkey("OPEN", (Browse(),)),
         5: Softkey("SAVE", save_messages(session)),
         6: Softkey("POST NC", (Open(PostPage.of(session)),)),
-        7: Softkey("MORE", (Swap(replace(page, second=True)),)),
+        7: Softkey("MORE", (Swap(replace(page, set=1)),)),
         8: Softkey("EXIT", (Leave(),)),
     }
 
@@ -109,9 +124,34 @@ def _second(page: ProgramPage, session: Session) -> Softkeys:
         4: Softkey("PROGRAM PARAMETERS", (Open(ParametersPage()),)),
         5: Softkey("PART SETUP", (Open(SetupPage()),)),
         6: Softkey("TOOL SETUP", (Open(ToolsPage()),)),
-        7: Softkey("MORE", (Swap(replace(page, second=False)),)),
+        7: Softkey("MORE", (Swap(replace(page, set=2)),)),
         8: Softkey("EXIT", (Leave(),)),
     }
+
+
+def _third(page: ProgramPage, session: Session) -> Softkeys:
+    return {
+        1: Softkey("START SCREEN", (Do(shown),)),
+        2: Softkey("SETUP SHEET", (Open(SheetPage.of(session)),)),
+        3: Softkey("KEYS AND HELP", (Open(HelpPage(about=page.help(session))),)),
+        4: Softkey("GUIDED FIRST PART", (Do(guide_on),)),
+        7: Softkey("MORE", (Swap(replace(page, set=0)),)),
+        8: Softkey("EXIT", (Leave(),)),
+    }
+
+
+def shown(desk: Desk) -> Desk:
+    """The start screen on top."""
+    from app import starting
+
+    return starting.shown(desk)
+
+
+def guide_on(desk: Desk) -> Desk:
+    """The guided first part, or its end."""
+    from app import guide
+
+    return guide.turned(desk)
 
 
 def save_messages(session: Session) -> tuple[Message, ...]:

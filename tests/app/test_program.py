@@ -38,7 +38,7 @@ def test_blocks_are_inserted_copied_moved_and_deleted() -> None:
     assert [block.cutter_comp for block in operator.session.program.blocks] == [CutterComp.LEFT, CutterComp.RIGHT]
     operator.press("f3")
     assert operator.session.where.block == 3
-    operator.press("up", "up", "f7", "f2", "f7")
+    operator.press("up", "up", "f7", "f2", "f7", "f7")
     assert [block.cutter_comp for block in operator.session.program.blocks] == [
         CutterComp.RIGHT,
         CutterComp.LEFT,

@@ -1,0 +1,125 @@
+"""How the start screen comes to be: which folder, which lists, and what its keys do to the desk."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from app import files
+from app.messages import Say
+from app.screens.program import ProgramPage
+from app.screens.start import SHOWN, Entry, Group, StartPage
+from app.session import Tone
+from app.settings import Settings
+from core.units import Unit
+
+if TYPE_CHECKING:
+    from app.desk import Desk
+
+
+def opened(desk: Desk, settings: Settings, trouble: str, *, first: bool) -> Desk:
+    """The desk with what stays from one time to the next; `first` puts the start screen below what already asks."""
+    desk = replace(desk, settings=settings, mode=settings.mode or desk.mode)
+    if first:
+        page = _page(settings, first_folder(settings), first=True)
+        desk = replace(desk, pages=(ProgramPage(), page, *desk.pages[2:]))
+    return desk.take(Say(trouble, Tone.WARNING)) if trouble else desk
+
+
+def shown(desk: Desk) -> Desk:
+    """The start screen put on top, in the folder of the program."""
+    file = desk.session.file
+    folder = file.parent if file is not None else first_folder(desk.settings)
+    return replace(desk, pages=(*desk.pages, _page(desk.settings, folder, first=False)))
+
+
+def first_folder(settings: Settings) -> Path:
+    """The folder one is in, if there are programs in it; else the last one used, if it is still there."""
+    here, last = Path.cwd(), Path(settings.folder or os.curdir)
+    if settings.folder and last.is_dir() and not any(not entry.folder for entry in _inside(here)):
+        return last
+    return here
+
+
+def walk(folder: Path) -> Callable[[Desk], Desk]:
+    """What shows another folder."""
+
+    def work(desk: Desk) -> Desk:
+        page = desk.page
+        if not isinstance(page, StartPage):
+            return desk
+        try:
+            entries = _entries(desk.settings, folder)
+        except OSError as error:
+            return desk.take(Say(f"{folder} cannot be shown: {error.strerror or error}.", Tone.ERROR))
+        back = (row for row, entry in enumerate(entries) if entry.group is Group.FOLDER and entry.path == page.folder)
+        there = next((row for row, entry in enumerate(entries) if entry.group is Group.FOLDER), 0)
+        page = replace(page, folder=folder, entries=entries, row=next(back, there), unseen=_files(entries))
+        settings = replace(desk.settings, folder=str(folder)) if str(folder).isprintable() else desk.settings
+        return replace(desk, pages=(*desk.pages[:-1], page), settings=settings)
+
+    return work
+
+
+def other_unit(unit: Unit) -> Callable[[Desk], Desk]:
+    """What makes new programs begin in another unit."""
+
+    def work(desk: Desk) -> Desk:
+        page = desk.page
+        if not isinstance(page, StartPage):
+            return desk
+        settings = replace(desk.settings, unit=unit)
+        desk = replace(desk, settings=settings, pages=(*desk.pages[:-1], replace(page, unit=unit)))
+        return desk.take(Say(f"New programs begin in {unit}."))
+
+    return work
+
+
+def guide(desk: Desk) -> Desk:
+    """What begins the guided first part."""
+    from app.guide import begin
+
+    return begin(desk)
+
+
+def _page(settings: Settings, folder: Path, *, first: bool) -> StartPage:
+    try:
+        entries = _entries(settings, folder)
+    except OSError:
+        folder = Path.home()
+        entries = tuple(_lists(settings, ()))
+    row = next((row for row, entry in enumerate(entries) if not entry.folder), 0)
+    return StartPage(folder, entries, settings.unit, first, row, unseen=_files(entries))
+
+
+def _files(entries: tuple[Entry, ...]) -> tuple[Path, ...]:
+    return tuple(dict.fromkeys(entry.path for entry in entries if not entry.folder))
+
+
+def _entries(settings: Settings, folder: Path) -> tuple[Entry, ...]:
+    """The whole list; OSError when the folder cannot be read."""
+    return tuple(_lists(settings, tuple(_inside(folder))))
+
+
+def _lists(settings: Settings, inside: tuple[Entry, ...]) -> Iterator[Entry]:
+    for name in settings.recent:
+        yield Entry(Group.RECENT, Path(name), Path(name).stem)
+    yield from inside
+    for path in sorted(files.example("pocket").parent.glob("*.toml")):
+        yield Entry(Group.EXAMPLE, path, path.stem)
+
+
+def _inside(folder: Path) -> Iterator[Entry]:
+    """The folder above, the programs and the folders of a folder in order of names."""
+    with os.scandir(folder) as found:
+        inside = sorted(found, key=lambda one: one.name.lower())
+    yield Entry(Group.FOLDER, folder.parent, "..", folder=True)
+    programs = [one for one in inside if one.name.endswith(".toml") and not one.is_dir()]
+    folders = [one for one in inside if not one.name.startswith(".") and one.is_dir()]
+    for one in programs[:SHOWN]:
+        yield Entry(Group.FOLDER, Path(one.path), one.name.removesuffix(".toml"))
+    for one in folders[:SHOWN]:
+        yield Entry(Group.FOLDER, Path(one.path), one.name, folder=True)

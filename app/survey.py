@@ -1,0 +1,73 @@
+"""What the start screen tells of a program file: its date, blocks, tools and verdict; found out behind the screens."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from app.widgets.header import printable
+from app.widgets.rows import Look
+from core.program.model import Entry, Program
+from core.program.store import StoreError, load
+
+if TYPE_CHECKING:
+    from core.pipeline.derived import Derived
+
+GRAVEST: Final = (Look.ERROR, Look.WARNING, Look.DIM, Look.GOOD)
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """One file.  `stamp` is its time and size: while it stays, so does what is known.  `trouble` is a sentence."""
+
+    path: Path
+    stamp: tuple[int, int] = (0, 0)
+    date: str = ""
+    blocks: str = ""
+    tools: str = ""
+    word: str = "..."
+    look: Look = Look.DIM
+    trouble: str = ""
+
+
+def facts_of(path: Path, known: Facts | None = None) -> Facts:
+    """The facts of a file, from the disk; for a thread, since it derives the whole program."""
+    try:
+        status = path.stat()
+    except (OSError, ValueError):
+        return Facts(path, word="gone", trouble="This file is not there any more, or its folder cannot be read.")
+    stamp = (status.st_mtime_ns, status.st_size)
+    if known is not None and known.stamp == stamp:
+        return known
+    date = datetime.fromtimestamp(status.st_mtime).astimezone().strftime("%Y-%m-%d")
+    facts = Facts(path, stamp, date)
+    try:
+        program = load(path)
+    except StoreError as error:
+        return replace(facts, word="unreadable", look=Look.DIM, trouble=printable(str(error)))
+    return _judged(facts, program)
+
+
+def _judged(facts: Facts, program: Program) -> Facts:
+    from core.pipeline.derive import derive
+    from core.pipeline.outline import outline
+
+    word, look = worst(derive(program, outline(program)))
+    return replace(facts, blocks=str(len(program.blocks)), tools=_tools(program), word=word, look=look)
+
+
+def worst(derived: Derived) -> tuple[str, Look]:
+    """The gravest verdict of a program's blocks in one word."""
+    from app.screens.program import verdict_word
+
+    words = [verdict_word(found) for found in derived.blocks] or [("empty", Look.DIM)]
+    return min(words, key=lambda pair: GRAVEST.index(pair[1]))
+
+
+def _tools(program: Program) -> str:
+    """The tools the blocks call, in order."""
+    typed = [one for block in program.blocks for one in (block.tool, block.finish_tool)]
+    called = {one.value for one in typed if isinstance(one, Entry) and one.value > 0.0}
+    return " ".join(f"{number:g}" for number in sorted(called))

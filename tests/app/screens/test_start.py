@@ -1,0 +1,171 @@
+"""The start screen by keys alone: lists, folders, names from the disk, and what is found out behind it."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from app.desk import Desk
+from app.files import empty_program, example
+from app.screens.contour import Contour
+from app.screens.start import StartPage
+from app.session import Session
+from app.settings import Settings
+from app.starting import first_folder, opened
+from app.survey import Facts, facts_of
+from core.program.store import load, save
+from core.units import Unit
+from tests.app.operator import Operator
+
+
+def at_start(settings: Settings | None = None) -> Operator:
+    """An operator who called the program without a file."""
+    return Operator(opened(Desk(Session.of(empty_program())), settings or Settings(), "", first=True))
+
+
+def page(operator: Operator) -> StartPage:
+    assert isinstance(operator.desk.page, StartPage)
+    return operator.desk.page
+
+
+def looked(operator: Operator) -> Operator:
+    """Every file looked at, as it happens behind the screen."""
+    while (path := page(operator).wanted) is not None:
+        known = page(operator).knowing(facts_of(path))
+        operator.desk = replace(operator.desk, pages=(*operator.desk.pages[:-1], known))
+    return operator
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    for name in ("notch", "plate-mm"):
+        save(load(example(name)), tmp_path / f"{name}.toml")
+        os.utime(tmp_path / f"{name}.toml", (1e9, 1e9))
+    (tmp_path / "other.toml").write_text("x = 1")
+    (tmp_path / "sub").mkdir()
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def lines(operator: Operator) -> list[str]:
+    return [line[2:] for line in operator.part("body").splitlines()]
+
+
+@pytest.mark.usefixtures("folder")
+def test_names_dates_blocks_tools_and_verdicts() -> None:
+    operator = at_start()
+    assert any(line.startswith("notch") and line.endswith("...") for line in lines(operator))
+    looked(operator)
+    shown = {line.split()[0]: " ".join(line.split()[1:]) for line in lines(operator)[2:6]}
+    assert shown["notch"] == "2001-09-09 1 1 GOUGE"
+    assert shown["plate-mm"] == "2001-09-09 1 1 2 clean"
+    assert shown["other"].endswith("unreadable")
+
+
+def test_nothing_is_read_from_a_program_before_the_screen_stands(folder: Path) -> None:
+    operator = at_start()
+    assert page(operator).facts == {}
+    assert page(operator).wanted == folder / "notch.toml"
+    assert operator.press("down").desk.page is not None
+    assert page(operator).wanted == folder / "other.toml"
+
+
+@pytest.mark.usefixtures("folder")
+def test_why_a_file_is_no_program_stands_on_the_prompt_line() -> None:
+    operator = looked(at_start()).press("o")
+    assert "other.toml" in operator.said
+    assert operator.said.startswith("! ")
+
+
+def test_enter_opens_and_folders_are_walked(folder: Path) -> None:
+    operator = at_start().press("s")
+    operator.press("enter")
+    assert page(operator).folder == folder / "sub"
+    operator.press("left")
+    assert page(operator).folder == folder
+    assert page(operator).entry is not None
+    assert page(operator).entry.name == "sub"
+    operator.press("home", "down", "enter")
+    assert operator.session.file == folder / "notch.toml"
+    assert isinstance(operator.desk.page, Contour)
+
+
+@pytest.mark.usefixtures("folder")
+def test_an_example_has_no_file_to_overwrite() -> None:
+    operator = at_start().press("f", "enter")
+    assert operator.session.file is None
+    assert operator.session.program == load(example("flange"))
+
+
+def test_recent_programs_stand_first_and_a_lost_one_says_so(folder: Path) -> None:
+    settings = Settings((str(folder / "gone.toml"), str(folder / "notch.toml")))
+    operator = looked(at_start(settings))
+    assert lines(operator)[1].strip() == "ECENT"
+    assert lines(operator)[2].split() == ["gone", "gone"]
+    assert "not there any more" in operator.press("home").said
+
+
+@pytest.mark.usefixtures("folder")
+def test_a_new_program_in_the_unit_that_was_chosen() -> None:
+    operator = at_start().press("f3")
+    assert operator.desk.settings.unit is Unit.MM
+    assert "NEW PROGRAM IN" in operator.part("softkeys")
+    assert operator.press("f2").session.program.unit is Unit.MM
+    assert isinstance(operator.desk.page, Contour)
+
+
+def test_control_characters_in_names_never_reach_the_terminal(folder: Path) -> None:
+    (folder / "a\x1b[2Jb\n.toml").write_text("x = 1")
+    (folder / "d\x07ir").mkdir()
+    operator = looked(at_start())
+    for key in ("home", *["down"] * 12):
+        assert all(line.isprintable() for line in operator.press(key).screen())
+
+
+def test_a_name_that_is_no_unicode_does_not_stop_it(folder: Path) -> None:
+    (folder / os.fsdecode(b"\xff\xfe.toml")).write_text("x = 1")
+    operator = looked(at_start())
+    assert all(line.isprintable() for line in operator.screen())
+
+
+def test_a_folder_that_cannot_be_read_is_a_sentence(folder: Path) -> None:
+    operator = at_start()
+    (folder / "sub").rmdir()
+    operator.press("s", "enter")
+    assert "cannot be shown" in operator.said
+    assert page(operator).folder == folder
+
+
+def test_the_last_folder_where_this_one_has_no_program(folder: Path) -> None:
+    assert first_folder(Settings(folder="/")) == folder
+    os.chdir(folder / "sub")
+    assert first_folder(Settings(folder=str(folder))) == folder
+    assert first_folder(Settings(folder="/not/there")) == folder / "sub"
+
+
+@pytest.mark.usefixtures("folder")
+def test_from_the_program_screen_and_back() -> None:
+    operator = Operator.at().press("f8", "f7", "f7", "f1")
+    assert isinstance(operator.desk.page, StartPage)
+    assert not isinstance(operator.press("f8").desk.page, StartPage)
+    assert not operator.desk.exit
+
+
+@pytest.mark.usefixtures("folder")
+def test_the_first_screens_exit_leaves() -> None:
+    assert at_start().press("escape", "8").desk.exit
+
+
+def test_a_known_file_is_not_derived_again_until_it_changes(folder: Path) -> None:
+    first = facts_of(folder / "notch.toml")
+    assert facts_of(folder / "notch.toml", first) is first
+    save(load(example("pocket")), folder / "notch.toml")
+    assert facts_of(folder / "notch.toml", first).word == "uncut"
+    assert facts_of(folder / "none.toml").word == "gone"
+
+
+def test_facts_of_a_screen_that_is_gone_are_dropped() -> None:
+    assert StartPage().knowing(Facts(Path("a"))).unseen == ()
