@@ -59,7 +59,9 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="a program, or a folder of them")
     parser.add_argument("--control", required=True, metavar="NAME[:VARIANT]|all", help="the control, or all of them")
-    parser.add_argument("--tools", type=Path, metavar="TABLE", help="a tool table as LinuxCNC writes it")
+    parser.add_argument(
+        "--tools", type=Path, metavar="TABLE", help="a tool table as LinuxCNC writes it, in the program's unit"
+    )
     parser.add_argument(
         "--tool",
         action="append",

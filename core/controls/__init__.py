@@ -1,1 +1,21 @@
-"""NC programs as each control reads and compensates them."""
+"""NC programs as each control reads and compensates them.
+
+`registry` runs a program on any control by name; `verdicts` judges the path against the contour it was programmed
+from; `compare` holds all controls side by side and `contours` two programs of any language.
+
+Word-address controls share `words` (lines into blocks), `machine` (the modal machine, by a `dialect`), `runner`
+(subprograms) and a `follower` that makes moves: `lookahead` for LinuxCNC's rules, `chain` for those that join offset
+elements in their own way.  `klartext` reads its own language.  All give the moves, findings and stretches of `report`.
+
+Where a maker's papers are silent, a choice is made and told in a finding as an interpretation, or stands here:
+
+* positions before the first motion are machine zero, and so are work offsets and reference points nobody set;
+* a corner arc, a generated block and a mitre belong to the line of the element behind the corner and have its feed;
+* the 9/Series makes generated blocks of any length, looks across 10 blocks without motion, and inside arcs has no
+  least feed: the machine builder sets all three; its backwards moves are R8 for lines and R10 for arcs;
+* threeblock takes corners under 0.05 degrees as tangent, and T with tool data as calling that tool;
+* inside an arc that is not larger than the tool, threeblock runs about the same centre beyond it: a gouge, told;
+* compensation left on at the end of a threeblock program is an error that is told and stops nothing;
+* the orientation of a lathe tool shifts moves on LinuxCNC; on RosettaCNC they stay those of the nose's centre;
+* expressions and parameters of word-address programs are not worked out: the run ends there and says so.
+"""

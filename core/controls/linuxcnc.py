@@ -87,7 +87,7 @@ class LinuxCnc(LookAhead):
         if "D" in words and SWITCHES.isdisjoint(block.g) and 960 not in block.g:
             text = "D needs G41, G42, G41.1 or G42.1 in its block."
             self.log.stop("N-DALONE", text, block.line, block.column("D"))
-        if not _NEEDING.isdisjoint(words) or block.m or 40 in block.g:
+        if not _OTHERS.isdisjoint(words) or block.m or len(block.g) > 1 or 40 in block.g:
             self._other_words(block)
         if not _CENTRES.isdisjoint(words):
             self._arc_words(block)
@@ -100,6 +100,7 @@ class LinuxCnc(LookAhead):
 
     def _other_words(self, block: Block) -> None:
         """M codes that exist; words that need a code beside them; the tool of an H."""
+        self._alone(block)
         for code in block.m:
             if code not in _KNOWN_M:
                 text = f"M{code / 10:g} is no M code of this control; leave it out."
@@ -118,6 +119,16 @@ class LinuxCnc(LookAhead):
         if "H" in block.words and _lacks(self.machine.tools, block.words["H"]):
             text = "The tool table has no tool of this number; enter it, or write the number of one that is there."
             self.log.stop("TOOL", text, block.line, block.column("H"))
+
+    def _alone(self, block: Block) -> None:
+        """What has to stand alone: calls and numbers of subprograms, one code that takes the axis words."""
+        if 980 in block.m or "O" in block.words:
+            if block.g or len(block.m) > 1 or not _CALL.issuperset(block.words):
+                text = "A call or a number of a subprogram stands alone in its block; write the rest in another."
+                self.log.stop("SUBPROGRAM", text, block.line, block.column("OM"))
+        elif not _TAKES_AXES.isdisjoint(block.g) and any(code <= 30 and code != 40 for code in block.g):
+            text = "Two G codes of this block take its axis words; write them in two blocks."
+            self.log.stop("N-TWOG", text, block.line, block.column("G"))
 
     def _motion(self, block: Block) -> int | None:
         """The motion that a block's words belong to."""
@@ -202,7 +213,9 @@ NEEDED: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
 )
 """Words that a block takes only beside one of these codes."""
 
-_NEEDING: Final = frozenset(NEEDED)
+_OTHERS: Final = frozenset((*NEEDED, "O"))
+_CALL: Final = frozenset("OPLN")
+_TAKES_AXES: Final = frozenset((100, 280, 300, 520, 920))
 _KNOWN_M: Final = frozenset(
     10 * code for code in (*range(10), 19, 30, *range(48, 54), *range(60, 69), *range(70, 74), 98, 99, *range(100, 200))
 )

@@ -1,4 +1,8 @@
-"""Runs random programs on LinuxCNC's own interpreter and here, and prints what agrees: `python -m` this module."""
+"""Runs programs on LinuxCNC's own interpreter and here, and prints what agrees.
+
+`python -m tests.core.controls.compare_rs274 [COUNT]` compares random compensated programs and the distribution's
+samples, with `broken` before the count programs with slips in them, with `speed` the time for 100,000 blocks.
+"""
 
 from __future__ import annotations
 
@@ -7,21 +11,25 @@ import tempfile
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
+from time import perf_counter
 
 from core.controls.registry import UnknownControl, run
 from core.controls.report import Run
 from core.controls.tools import ToolTable
 from core.units import Unit
-from tests.core.controls.programs import RADIUS, program, turned_to_zx
-from tests.core.controls.rs274 import Witnessed, difference, printed, witness
+from tests.core.controls.programs import RADIUS, broken, long, program, turned_to_zx
+from tests.core.controls.rs274 import Witnessed, difference, printed, table_text, witness
+from tests.rs274 import process
 
 DIAMETERS = {1: 2 * RADIUS}
 
 
-def outcome(text: str, folder: Path) -> tuple[str, str]:
+def outcome(
+    text: str, folder: Path, diameters: dict[int, float] = DIAMETERS, unit: Unit = Unit.MM
+) -> tuple[str, str]:  # fmt: skip
     """How a program fares on both: a word for the table, and what differs."""
-    theirs = witness(text, folder, DIAMETERS, Unit.MM)
-    ours = run(text.encode(), "linuxcnc", ToolTable.diameters(DIAMETERS, Unit.MM))
+    theirs = witness(text, folder, diameters, unit)
+    ours = run(text.encode(), "linuxcnc", ToolTable.diameters(diameters, unit))
     assert not isinstance(ours, UnknownControl)
     return _fared(ours, theirs)
 
@@ -70,8 +78,48 @@ def sample_outcome(name: str, folder: Path) -> tuple[str, str]:
     return _fared(ours, theirs)
 
 
+MODAL_TOOLS = {1: 0.5, 2: 0.25}
+
+
+def compare_broken(count: int) -> int:
+    """Programs with slips: who refuses what; every difference is printed."""
+    counts: Counter[str] = Counter()
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in range(count):
+            text = broken(seed)
+            fared, apart = outcome(text, Path(folder), MODAL_TOOLS, Unit.IN)
+            counts[fared.partition(":")[0]] += 1
+            if apart:
+                print(f"{text!r}: {fared}: {apart}")
+    for fared, number in counts.most_common():
+        print(f"{number:6d}  {fared}")
+    return 0
+
+
+def compare_speed(runs: int) -> int:
+    """Seconds for 100,000 blocks under compensation, the best of some runs in turn."""
+    text, ours, theirs = long(100_000), [], []
+    tools = ToolTable.diameters({1: 1.0}, Unit.MM)
+    with tempfile.TemporaryDirectory() as name:
+        program, table = Path(name) / "long.ngc", Path(name) / "tools.tbl"
+        program.write_text(text)
+        table.write_text(table_text({1: 1.0}, Unit.MM))
+        for _ in range(runs):
+            began = perf_counter()
+            process(program, table)
+            theirs.append(perf_counter() - began)
+            began = perf_counter()
+            run(text.encode(), "linuxcnc", tools)
+            ours.append(perf_counter() - began)
+    print(f"rs274 {min(theirs):.2f} s, here {min(ours):.2f} s: {min(ours) / min(theirs):.2f} times as long")
+    return 0
+
+
 def main(arguments: list[str]) -> int:
     """Prints the table, and each program that fares differently."""
+    what = arguments.pop(0) if arguments and not arguments[0].isdecimal() else ""
+    if what:
+        return {"broken": compare_broken, "speed": compare_speed}[what](int(arguments[0]) if arguments else 5)
     counts: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as folder:
         for name, text in programs(int(arguments[0]) if arguments else 400):

@@ -10,6 +10,28 @@ RADIUS = 100.0
 """Cutter radius of the programs, in program units; sizes go with it, so that four decimals are many digits."""
 
 
+MODAL: dict[str, str] = {
+    "subprograms, repeated": "G20 F9\nM98 P7 L3\nG90\nM98 P8\nM2\nO7\nG91 G1 X1 Y.5\nM99\nO8\nG1 X0\nM98 P7\nM99\n",
+    "a local shift replaces the last one": "G20 F9\nG52 X5\nG1 X1\nG52 X-5 Y1\nG1 X1 Y1\nG52 X0 Y0\nG1 X1\nM2\n",
+    "a preset origin": "G20 F9\nG1 X1 Y1\nG92 X0 Y5\nG1 X2 Y2\nG92.1\nG1 X0 Y0\nM2\n",
+    "arcs by radius": "G20 F9\nG1 X1\nG2 X3 R1\nG3 X3 Y2 R-1.5\nG2 X2 Y3 R1\nM2\n",
+    "arcs with absolute centres": "G20 F9\nG90.1\nG1 X1\nG2 X3 Y0 I2 J0\nG3 X3 Y0 I4 J0\nM2\n",
+    "planes": "G20 F9\nG18\nG2 X2 Z0 I1 K0\nG19\nG3 Y1 Z1 J0 K1\nG17\nG2 X4 Y1 I1\nM2\n",
+    "a helix": "G20 F9\nG2 X2 Y0 Z-1 I1\nG3 X2 Y0 Z-2 J1\nM2\n",
+    "incremental moves under compensation": "G20 F9\nG42 D1\nG1 X2\nG91\nX2\nY-2\nG2 X1 Y-1 I1\nG40\nG1 G90 X0\nM2\n",
+    "z moves wait at an inside corner": "G20 F9\nG41 D1\nG1 X2\nX4\nZ-1\nZ0\nY3\nG40\nX0\nM2\n",
+    "compensation of radius 0": "G20 F9\nG41\nG1 X2\nX4\nY3\nG40\nX0\nM2\n",
+    "the program ends under compensation": "G20 F9\nG41 D1\nG1 X2\nX4\nM2\n",
+    "machine coordinates": "G20 F9\nG52 X3\nG1 X1\nG53 G0 X1\nG1 X1\nM2\n",
+    "a rapid corner": "G20 F9\nG42 D1\nG0 X2\nG0 X4\nG0 Y3\nG1 X0\nG40\nX-2\nM2\n",
+    "comments and spaces": "g20 (inch) f 9\ng1 x1 (y2) y 3 ; z4\nm2\n",
+    "blanks inside words": "G 2 0 F 9\nG1 X1 .5 Y- 2\nG4 P. 1\nM 2\n",
+    "a preset cancelled in a block of motion": "G20 F9\nG1 X1\nG92 X0\nG92.1 G1 X5\nM2\n",
+    "a work offset set by the program": "G20 F9\nG55\nG1 X1\nG54\nG1 X1\nM2\n",
+}
+"""Programs in inches for the modal machine, tool 1 of diameter .5 and tool 2 of .25, by what they are about."""
+
+
 @dataclass
 class Writer:
     """A program being written, with the point and direction reached."""
@@ -91,3 +113,36 @@ def turned_to_zx(text: str) -> str:
     """The same program in the plane G18: X is written Z, Y is X, Z is Y, I is K and J is I."""
     words = str.maketrans({"X": "Z", "Y": "X", "Z": "Y", "I": "K", "J": "I"})
     return text.translate(words).replace("G17", "G18")
+
+
+def broken(seed: int) -> str:
+    """One of the modal programs with one or two of its signs or lines out of place."""
+    random = Random(seed)
+    text = random.choice(list(MODAL.values()))
+    for _ in range(random.randint(1, 2)):
+        at = random.randrange(len(text))
+        match random.randrange(5):
+            case 0:
+                text = text[:at] + text[at + 1 :]
+            case 1:
+                text = text[:at] + text[at] + text[at:]
+            case 2:
+                text = text[:at] + text[at + 1 : at + 2] + text[at : at + 1] + text[at + 2 :]
+            case 3:
+                lines = text.split("\n")
+                one, other = random.randrange(len(lines)), random.randrange(len(lines))
+                lines[one], lines[other] = lines[other], lines[one]
+                text = "\n".join(lines)
+            case _:
+                text = text[:at] + random.choice("0123456789GXYZIJRFM.-") + text[at:]
+    return text
+
+
+def long(count: int) -> str:
+    """A program of so many blocks of lines and arcs under compensation, all round a large circle."""
+    radius, lines = 20_000.0, ["G21 G17 G90 F500", "G0 X-10 Y-10", "G41 D1", "G1 X0 Y0"]
+    for index in range(1, count):
+        angle = 2 * pi * index / count
+        point = f"X{radius * sin(angle):.4f} Y{radius * (1 - cos(angle)):.4f}"
+        lines.append(f"G1 {point}" if index % 3 else f"G3 {point} R400")
+    return "\n".join((*lines, "G40", "G1 X0 Y-20", "M2", ""))

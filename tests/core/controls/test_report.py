@@ -1,0 +1,33 @@
+"""Gathering findings."""
+
+from __future__ import annotations
+
+import pytest
+
+from core.controls.report import MOST, AlarmError, Log
+from core.finding import Severity
+
+
+def test_a_rule_is_told_once_for_a_line() -> None:
+    log = Log()
+    for line in (4, 4, 3):
+        log.tell(Severity.WARNING, "A", "Text.", line, 1)
+    assert [finding.line for finding in log.closed()] == [3, 4]
+
+
+def test_a_rule_that_is_broken_everywhere_is_counted() -> None:
+    log = Log()
+    for line in range(1, MOST + 51):
+        log.tell(Severity.WARNING, "A", "Text.", line, 1)
+    told = log.closed()
+    assert len(told) == MOST + 1
+    assert "50 more" in told[-1].text
+
+
+def test_an_alarm_stops_at_its_own_line_or_another() -> None:
+    with pytest.raises(AlarmError) as caught:
+        Log().stop("A", "Text.", 3, 1)
+    assert caught.value.line == 3
+    with pytest.raises(AlarmError) as caught:
+        Log().stop("A", "Text.", 3, 1, stops_at=9)
+    assert (caught.value.line, caught.value.finding.line) == (9, 3)
