@@ -6,7 +6,7 @@ a place on a whole path is the length s travelled since its first point.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from math import tau
 from typing import Any, Final
@@ -14,7 +14,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Path
+from core.geometry.path import EMPTY, Path
 from core.geometry.piece import SLIVER
 from core.tolerance import ARC_RADII, ON_PATH
 
@@ -98,6 +98,18 @@ class Measured:
 
 Given = Measured | Floats | Points
 Formula = Callable[..., NDArray[Any]]
+
+
+def stacked(parts: Sequence[Measured]) -> Measured:
+    """The pieces of several paths as those of one; their rows go on counting."""
+    if len(parts) == 1:
+        return parts[0]
+    counts = np.cumsum([0, *(len(part) for part in parts)])
+    rows = [part.rows + count for part, count in zip(parts, counts.tolist(), strict=False)]
+    names = ("start", "vector", "arm", "turn", "angle", "radius", "length", "slack")
+    empty = measured(EMPTY)
+    columns = {name: np.concatenate([getattr(part, name) for part in (empty, *parts)]) for name in names}
+    return Measured(np.concatenate((empty.rows, *rows)), **columns)
 
 
 def measured(path: Path) -> Measured:

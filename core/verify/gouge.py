@@ -45,8 +45,8 @@ def _deepest(parts: Parts, i: Rows, j: Rows) -> Gouging:
     return Gouging(stretches, parts.middle[best], parts.apart[best], i[pair], j[pair])
 
 
-def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, centre: Path) -> tuple[Gouge, ...]:
-    """The stretches as `Gouge`s, deepest first."""
+def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: Floats) -> tuple[Gouge, ...]:
+    """The stretches as `Gouge`s, deepest first; `numbers` are those of the centre path's pieces."""
     if not len(found.i):
         return ()
     piece, other = pairs.centre.take(found.i), pairs.surface.take(found.j)
@@ -54,9 +54,7 @@ def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, centre: P
     points = at(piece, np.clip((found.place - pairs.centre_stations[found.i]) / length, 0.0, 1.0))
     touched = at(other, foot(other, points))
     told = [
-        Gouge(
-            depth, (p.real, p.imag), (q.real, q.imag), row, centre.numbers.item(row), surface.numbers.item(wall), extent
-        )
+        Gouge(depth, (p.real, p.imag), (q.real, q.imag), row, numbers.item(row), surface.numbers.item(wall), extent)
         for depth, p, q, row, wall, extent in zip(
             (radius - found.apart).tolist(),
             points.tolist(),

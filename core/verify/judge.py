@@ -8,8 +8,8 @@ from math import inf, isfinite, isinf, nan
 
 import numpy as np
 
-from core.geometry.measured import Floats, Measured, boxes, measured
-from core.geometry.path import Path
+from core.geometry.measured import Floats, Measured, boxes, measured, stacked
+from core.geometry.path import EMPTY, Path
 from core.geometry.side import Side
 from core.tolerance import CLOSED, GOUGE, LARGEST
 from core.verify.crossing import Crossings, crossings
@@ -29,6 +29,20 @@ def judge(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
     ARC_RADII give a verdict that is not `judged` and so never clean.
     """
     return judge_all(surface, side, radius, (centre,))[0]
+
+
+def judge_together(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> Verdict:
+    """The verdict on several centre paths that are all cut, such as the loops of one contour.
+
+    A gouge's `path_piece` counts the pieces of all of them, in order.
+    """
+    with np.errstate(all="ignore"):
+        if not all(judgeable(surface, radius, centre) for centre in centres):
+            return _unjudged(radius)
+        if not len(surface) or not centres:
+            return judge(surface, side, radius, EMPTY)
+        moves, numbers = stacked([measured(centre) for centre in centres]), [centre.numbers for centre in centres]
+        return _judged(surface, _ground(surface), side, radius, np.concatenate((*numbers, np.empty(0))), moves)
 
 
 def judge_all(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> tuple[Verdict, ...]:
@@ -80,20 +94,17 @@ def _verdict(surface: Path, ground: _Ground | None, side: Side, radius: float, c
         return _unjudged(radius)
     if ground is None:
         return Verdict(radius, inf, (), (), 0.0, crosses_itself=False)
-    moves = measured(centre)
-    slack = float(ground.walls.slack.max() + moves.slack.max(initial=0.0))
-    if isinf(slack):
-        return _unjudged(radius)
-    return _judged(surface, ground, side, radius, centre, moves, slack)
+    return _judged(surface, ground, side, radius, centre.numbers, measured(centre))
 
 
 def _unjudged(radius: float) -> Verdict:
     return Verdict(radius, nan, (), (), nan, crosses_itself=False, judged=False)
 
 
-def _judged(
-    surface: Path, ground: _Ground, side: Side, radius: float, centre: Path, moves: Measured, slack: float
-) -> Verdict:
+def _judged(surface: Path, ground: _Ground, side: Side, radius: float, numbers: Floats, moves: Measured) -> Verdict:
+    slack = float(ground.walls.slack.max() + moves.slack.max(initial=0.0))
+    if isinf(slack):
+        return _unjudged(radius)
     reach = radius + 10.0 * GOUGE
     pairs = pairs_of(moves, ground.walls, ground.stations, ground.bounds, reach + slack)
     middle = middles(pairs)
@@ -104,7 +115,7 @@ def _judged(
     return Verdict(
         radius=radius,
         clearance=clearance(pairs, near, reach),
-        gouges=gouges(found, pairs, radius, surface, centre),
+        gouges=gouges(found, pairs, radius, surface, numbers),
         uncut=uncut(pairs, radius, surface, closed=ground.closed),
         surface_length=length,
         crosses_itself=len(ground.crossed) > 0,

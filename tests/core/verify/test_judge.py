@@ -11,7 +11,7 @@ from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Turn
 from core.geometry.side import Side
 from core.tolerance import GOUGE
-from core.verify.judge import judge, judge_all
+from core.verify.judge import judge, judge_all, judge_together
 from tests.core.verify.shapes import around, circle, lines, moved, square
 
 R = 0.25
@@ -247,3 +247,35 @@ def test_a_ring_of_ten_thousand_teeth_is_as_right_as_a_small_one() -> None:
     assert max(thickness) - min(thickness) < 1e-5
     assert depth - 0.01 < max(thickness) <= depth + 1e-9
     assert verdict.uncut[0].length == pytest.approx(2 * (half + depth), abs=2e-3)
+
+
+def test_loops_that_are_cut_together_share_one_verdict() -> None:
+    """Two pockets' loops: each leaves the other's wall uncut alone, both together leave nothing."""
+    ring = Path.from_pieces([Arc((0, -1), (0, -1), (0, 0), Turn.CCW)])
+    half = [
+        Path.from_pieces([Arc((0, -0.75), (0, 0.75), (0, 0), Turn.CCW)]),
+        Path.from_pieces([Arc((0, 0.75), (0, -0.75), (0, 0), Turn.CCW)]),
+    ]
+    alone = [judge(ring, Side.LEFT, 0.25, one) for one in half]
+    together = judge_together(ring, Side.LEFT, 0.25, half)
+    assert all(verdict.uncut_length == pytest.approx(pi, abs=1e-6) for verdict in alone)
+    assert together.clean
+    assert together.uncut == ()
+
+
+def test_a_gouge_of_the_second_loop_counts_on() -> None:
+    wall = Path.from_pieces([Line((0, 0), (10, 0))])
+    loops = [Path.from_pieces([Line((0, 1), (4, 1))]), Path.from_pieces([Line((5, 0.5), (9, 0.5))], [7.0])]
+    (gouge,) = judge_together(wall, Side.LEFT, 1.0, loops).gouges
+    assert (gouge.path_piece, gouge.path_number, gouge.depth) == (1, 7.0, pytest.approx(0.5))
+
+
+def test_no_loop_at_all_leaves_everything() -> None:
+    wall = Path.from_pieces([Line((0, 0), (10, 0))])
+    assert judge_together(wall, Side.LEFT, 1.0, ()).uncut_length == pytest.approx(10.0)
+
+
+def test_loops_that_cannot_be_judged_are_never_clean() -> None:
+    wall = Path.from_pieces([Line((0, 0), (10, 0))])
+    lost = Path.from_pieces([Line((0, 1), (nan, 1))])
+    assert not judge_together(wall, Side.LEFT, 1.0, [Path.from_pieces([Line((0, 1), (10, 1))]), lost]).clean
