@@ -19,8 +19,7 @@ from core.controls.tools import ToolTable
 from core.finding import Finding, Severity
 from core.geometry.distance import distance
 from core.geometry.measured import at, measured
-from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Line as Straight
+from core.geometry.path import Path
 from core.units import Unit
 from core.verify.judge import judge
 from core.verify.verdict import Verdict
@@ -176,30 +175,32 @@ def farthest(path: Path, other: Path) -> tuple[float, float]:
 
 def _trouble(made: Path, inner: Path, cut: Cut, meant: Meant, *, moved: bool) -> Finding | None:
     """What the control's path does wrong: leads that cut, and where it is another path, gouges and what is left."""
-    one = cut.compensated
-    run = _evened(made) if moved else _leads(made) if meant.leads else EMPTY
-    verdict = judge(one.contour, one.side, cut.diameter / 2, run)
-    if not verdict.judged:
+    verdicts = [
+        judge(cut.compensated.contour, cut.compensated.side, *one) for one in _runs(made, inner, cut, moved=moved)
+    ]
+    if not all(verdict.judged for verdict in verdicts):
         return refusal("The control's path cannot be judged.")
-    rough = cut.stock > 0.0 and moved
-    sized = (verdict, judge(one.contour, one.side, one.radius, _evened(inner))) if rough else (verdict,)
-    worst = max(sized, key=_depth)
+    if not verdicts:
+        return None
+    worst = max(verdicts, key=_depth)
     if worst.depth > meant.tolerance or (moved and worst.wrong_side):
         text = f"{meant.control} compensates this another way, and its path gouges the part by {{0}}."
         if not moved:
             text = f"The move into the cut or out of it, as {meant.control} needs it, gouges the part by {{0}}."
         segment = worst.gouges[0].surface_number if worst.gouges else None
         return refusal(text, segment, lengths=(worst.depth,))
-    if moved and (short := _left(verdict, meant) - _left(_own_verdict(cut), meant)) > meant.tolerance:
+    if moved and (short := _left(verdicts[0], meant) - _left(_own_verdict(cut), meant)) > meant.tolerance:
         text = f"{meant.control} compensates this another way, and its path leaves {{0}} more of the contour uncut."
-        return refusal(text, verdict.uncut[0].first_number, lengths=(short,))
+        return refusal(text, verdicts[0].uncut[0].first_number, lengths=(short,))
     return None
 
 
-def _leads(made: Path) -> Path:
-    """The move into the block's path and the one out of it, joined by a line that is none of the control's."""
-    ends = (made[0].start, made[0].end), (made[len(made) - 1].start, made[len(made) - 1].end)
-    return Path.from_pieces([Straight(*one) for one in ends])
+def _runs(made: Path, inner: Path, cut: Cut, *, moved: bool) -> list[tuple[float, Path]]:
+    """What is to be judged, with the radius for it: everything of another path, its stock too, or the leads alone."""
+    size = cut.diameter / 2
+    if not moved:
+        return [(size, made.part(0, 1)), (size, made.part(len(made) - 1, len(made)))] if made is not inner else []
+    return [(size, _evened(made)), *([(cut.compensated.radius, _evened(inner))] if cut.stock else [])]
 
 
 def _evened(path: Path) -> Path:

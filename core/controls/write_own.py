@@ -99,11 +99,11 @@ def _led(cut: Cut, style: IsoStyle, offset: int) -> Ready | Finding:
         if style.entry is Entry.OWN and reach <= LONGER:
             continue
         start, out = start_of(first, style, reach * radius), out_of(last, reach * radius)
-        leads = Path.from_pieces([Straight(start, first.at), Straight(last.at, out)])
-        verdict = judge(one.contour, one.side, cut.diameter / 2, leads)
-        if verdict.judged and verdict.depth <= GOUGE:
+        leads = (Path.from_pieces([Straight(*ends)]) for ends in ((start, first.at), (last.at, out)))
+        verdicts = [judge(one.contour, one.side, cut.diameter / 2, lead) for lead in leads]
+        depth = max(verdict.depth for verdict in verdicts)
+        if all(verdict.judged for verdict in verdicts) and depth <= GOUGE:
             return ready(cut, style, reach * radius, offset)
-        depth = verdict.depth
     text = "There is no room for the straight move into the cut and out of it: it gouges by {0}."
     text += " Start elsewhere." if first.blend else " Enter BLEND OFFSET, or start elsewhere."
     return refusal(text, lengths=(depth,))

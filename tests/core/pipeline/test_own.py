@@ -1,0 +1,162 @@
+"""Programs posted for every control: the example parts, and LinuxCNC's own word on what is written for it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from core.controls.registry import NO_TOOLS, names, run
+from core.controls.report import Run
+from core.controls.tools import ToolTable
+from core.geometry.distance import distance
+from core.geometry.measured import at, measured
+from core.geometry.path import Path as Line
+from core.output.post import Posted, Refusal
+from core.pipeline.derive import derive
+from core.pipeline.derived import Derived
+from core.pipeline.own import post_for
+from core.program.model import Block, CutterComp, Entry, Parameters, PathChoice, Program, changed
+from core.program.store import load
+from core.units import Unit, from_mm
+from tests import rs274
+from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, block, program
+
+EXAMPLES = sorted((Path(__file__).parents[3] / "app" / "examples").glob("*.toml"))
+BLENDS = Parameters(blend_offset=Entry(0.125), blend_overlap=Entry(0.125))
+SQUARE = replace(block(MID_SIDE_SQUARE, CutterComp.RIGHT), peck_depth=Entry(0.1))
+
+
+def derived(*blocks: Block, parameters: Parameters = BLENDS) -> Derived:
+    return derive(program(*blocks, parameters=parameters))
+
+
+def posted(found: Derived, control: str) -> Posted:
+    result = post_for(found, name="PART", control=control)
+    assert isinstance(result, Posted), result
+    return result
+
+
+def table(of: Program, text: str) -> ToolTable:
+    """The program's tools, and the offsets its header tells."""
+    told = {tool.number: tool.diameter.value for tool in of.tools if isinstance(tool.diameter, Entry)}
+    for line in text.splitlines():
+        if line.startswith("(OFFSET D"):
+            words = line.split()
+            told[int(words[1][1:])] = 2 * float(words[3].strip(",)"))
+    return ToolTable.diameters(told, of.unit)
+
+
+def apart(one: Line, other: Line) -> float:
+    """How far the ends and middles of a path's pieces are from another path at most."""
+    pieces, onto = measured(one), measured(other)
+    places = np.concatenate([at(pieces, np.full(len(pieces), part)) for part in (0.0, 0.5, 1.0)])
+    return max(float(distance(onto, np.full(len(onto), place)).min()) for place in places)
+
+
+def runs_of(text: str, control: str, tools: ToolTable, unit: Unit) -> list[Line]:
+    """The paths of a program's compensated runs, without the moves into them and out of them."""
+    made = run(text.encode(), control, tools, unit)
+    assert isinstance(made, Run)
+    assert made.stopped_at is None, made.findings
+    paths = [made.moves.part(one.first, one.last).path() for one in made.stretches]
+    return paths if control == "klartext" else [path.part(1, len(path) - 1) for path in paths]
+
+
+@pytest.mark.parametrize("control", names())
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_every_example_reads_back_or_says_why_not(example: Path, control: str) -> None:
+    found = derive(load(example))
+    result = post_for(found, name=example.stem, control=control)
+    if isinstance(result, Refusal):
+        assert example.stem in ("notch", "overrun-square", "pocket")
+        assert all(finding.segment is not None for finding in result.findings)
+        return
+    unit = found.program.unit
+    tools = NO_TOOLS if control in ("klartext", "threeblock") else table(found.program, result.text)
+    wanted = [one.compensated.whole for each in found.blocks for one in each.work.rough]
+    wanted += [each.work.compensated.whole for each in found.blocks]
+    allowed = 0.006 + sum(note.lengths[0] for note in result.notes if note.code == "DIFFERS")
+    for path in runs_of(result.text, control, tools, unit):
+        assert min(max(apart(path, one), apart(one, path)) for one in wanted) <= allowed
+
+
+def test_a_refusal_names_the_rule_the_line_and_the_segment() -> None:
+    inside = derived(block(MID_SIDE_SQUARE, CutterComp.LEFT))
+    result = post_for(inside, name="PART", control="rosettacnc:nist")
+    assert isinstance(result, Refusal)
+    assert result.text.startswith("Segment 2: rosettacnc:nist stops at line")
+    assert "rule C6" in result.text
+
+
+def test_what_the_control_does_otherwise_stands_in_the_header() -> None:
+    result = posted(derived(SQUARE), "nine-series:a")
+    assert [note.code for note in result.notes] == ["DIFFERS"]
+    assert "(NOTE DIFFERS SEGMENT" in result.text
+    assert "0.1036 off" in " ".join(result.text.replace(")\n(", " ").split())
+    assert "(OFFSET D1 RADIUS 0.2500 OF TOOL 1)" in result.text
+
+
+def test_pecks_are_runs_of_their_own() -> None:
+    result = posted(derived(SQUARE), "linuxcnc")
+    assert result.text.count("G42 D1") == 3
+    plunges = [line.split()[1] for line in result.text.splitlines() if line.startswith("G1 Z")]
+    assert plunges == ["Z-0.1", "Z-0.2", "Z-0.25"]
+    assert result.text.count("G0 Z-0.05\n") == 1
+
+
+def test_nothing_is_posted_against_an_error_whatever_is_said() -> None:
+    result = post_for(derived(block(NOTCH, CutterComp.LEFT)), name="PART", control="threeblock")
+    assert isinstance(result, Refusal)
+    assert "GOUGE" in {finding.code for finding in result.findings}
+
+
+def test_on_and_heights_and_best_are_refused() -> None:
+    on = derived(block(MID_SIDE_SQUARE, CutterComp.ON))
+    best = derived(SQUARE, parameters=replace(BLENDS, path=PathChoice.BEST))
+    climbing = replace(SQUARE, segments=(changed(SQUARE.segments[0], {"z_end": Entry(-0.1)}), *SQUARE.segments[1:]))
+    for found, word in ((on, "ON"), (best, "BEST"), (derived(climbing), "Z END")):
+        result = post_for(found, name="PART", control="linuxcnc")
+        assert isinstance(result, Refusal)
+        assert any(word in finding.text for finding in result.findings), result
+
+
+def test_another_work_offset_is_told_where_it_cannot_be_written() -> None:
+    plain = program(SQUARE, parameters=BLENDS)
+    moved = derive(replace(plain, setup=replace(plain.setup, work_offset=Entry(55))))
+    assert "G55" in posted(moved, "linuxcnc").text.split("\n(")[-1]
+    assert [note.code for note in posted(moved, "threeblock").notes] == ["WORK_OFFSET"]
+
+
+def test_a_name_that_no_control_takes_is_changed() -> None:
+    result = post_for(derived(SQUARE), name="Teil 7 ;) ö", control="klartext")
+    assert isinstance(result, Posted)
+    assert result.text.startswith("0 BEGIN PGM Teil-7----- INCH\n")
+    assert result.text.isascii()
+
+
+@pytest.mark.parametrize("example", [path for path in EXAMPLES if path.stem in ("flange", "plate-mm")], ids=str)
+def test_linuxcnc_itself_runs_what_is_written_for_it(example: Path, tmp_path: Path) -> None:
+    found = derive(load(example))
+    result = posted(found, "linuxcnc")
+    unit = found.program.unit
+    scale = 1.0 if unit is Unit.IN else 25.4
+    tools = {tool.number: tool.diameter.value / scale for tool in found.program.tools}
+    witness = rs274.run(result.text, tools, tmp_path)
+    assert witness.accepted, witness.said
+    ours = run(result.text.encode(), "linuxcnc", table(found.program, result.text), unit)
+    assert isinstance(ours, Run)
+    wanted = [[from_mm(value, unit) for value in point] for point in ours.moves.points[1:].tolist()]
+    made = [list(move[1:4]) for move in witness.moves]
+    assert _distinct(made) == pytest.approx(np.array(_distinct(wanted)), abs=1e-4)
+
+
+def _distinct(points: list[list[float]]) -> np.ndarray:
+    """Points without those that are the one before them, and without the first, which nobody knows."""
+    kept = [points[0]]
+    for point in points[1:]:
+        if max(abs(a - b) for a, b in zip(point, kept[-1], strict=True)) > 2e-4:
+            kept.append(point)
+    return np.array(kept[2:])
