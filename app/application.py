@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import gc
+from collections.abc import Callable
+from dataclasses import replace
 from typing import ClassVar, Final
 
 from textual.app import App
@@ -11,8 +13,10 @@ from app.behind import Behind
 from app.desk import Desk
 from app.engine import Engine
 from app.screens.frame import Frame, picture
+from app.screens.start import StartPage
 from app.session import Session
 from app.surroundings import Surroundings, real
+from app.survey import Facts, facts_of
 from app.widgets.rows import Row
 from core.pipeline.derived import Derived
 from core.pipeline.outline import outline
@@ -21,16 +25,26 @@ MINUTE: Final = 60.0
 
 
 class CutcompApp(App[int], inherit_bindings=False):
-    """The screens.  The only place where the session changes hands."""
+    """The screens.  The only place where the session changes hands.
+
+    `keep` puts on the disk what a key has changed, before the next key is read.
+    """
 
     CSS_PATH = "app.tcss"
     TITLE = "cutcomp"
     ENABLE_COMMAND_PALETTE = False
     BINDINGS: ClassVar = []
 
-    def __init__(self, session: Session, around: Surroundings | None = None, engine: Engine | None = None) -> None:
+    def __init__(
+        self,
+        session: Session,
+        around: Surroundings | None = None,
+        engine: Engine | None = None,
+        keep: Callable[[Desk], Desk] = lambda desk: desk,
+    ) -> None:
         super().__init__()
-        self.desk = Desk(session)
+        self.keep = keep
+        self.desk = keep(Desk(session))
         self.trial: Session | None = None
         self.around = around or real()
         self.engine = engine or Engine()
@@ -38,6 +52,7 @@ class CutcompApp(App[int], inherit_bindings=False):
         self._deriving = Behind(self, self._derived)
         self._trying = Behind(self, self._tried)
         self._tabling = Behind(self, self._tabled)
+        self._surveying = Behind(self, self._surveyed)
 
     @property
     def shown(self) -> Session:
@@ -59,12 +74,12 @@ class CutcompApp(App[int], inherit_bindings=False):
 
     def key(self, key: str, character: str | None) -> None:
         """A key was pressed."""
-        self.desk = self.desk.press(key, character)
+        self.desk = self.keep(self.desk.press(key, character))
         self._advance()
 
     def paste(self, text: str) -> None:
         """Text was pasted."""
-        self.desk = self.desk.paste(text)
+        self.desk = self.keep(self.desk.paste(text))
         self._advance()
 
     def refresh_screen(self, width: int = 0, height: int = 0) -> None:
@@ -86,6 +101,7 @@ class CutcompApp(App[int], inherit_bindings=False):
         self._derive()
         self._try()
         self._tabulate()
+        self._survey()
         self.refresh_screen()
 
     def _loaded(self, derived: Derived) -> None:
@@ -143,6 +159,23 @@ class CutcompApp(App[int], inherit_bindings=False):
             self.engine.keep_table(found, program)
         else:
             self._tabling.ask(lambda: self.engine.keep_table(found, program))
+
+    def _survey(self) -> None:
+        """The start screen's files, one after the other, once the numeric library is there."""
+        page = self.desk.page
+        if not isinstance(page, StartPage) or not self.engine.ready or self._surveying.busy:
+            return
+        if (path := page.wanted) is not None:
+            known = page.facts.get(path)
+            self._surveying.ask(lambda: facts_of(path, known))
+
+    def _surveyed(self, facts: Facts) -> None:
+        """What is known of one file; dropped when the start screen is gone."""
+        page = self.desk.page
+        if isinstance(page, StartPage):
+            self.desk = replace(self.desk, pages=(*self.desk.pages[:-1], page.knowing(facts)))
+        self._survey()
+        self.refresh_screen()
 
     def _tabled(self, _: None) -> None:
         self.refresh_screen()

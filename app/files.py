@@ -8,13 +8,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, assert_never
 
 from app.messages import Browse, Close, Leave, Load, Open, Post, Save, Say, Swap
+from app.saving import asked, put_theirs_aside, replacing, there
 from app.screens.ask import Ask
 from app.screens.browse import BrowsePage, listed
 from app.screens.save import SaveAsPage
 from app.session import Session, Tone
 from core.program.edit import new_block
 from core.program.model import Entry, Program, Tool
-from core.program.store import StoreError, load, save, write_text
+from core.program.stamp import stamp_of, stamp_of_data
+from core.program.store import StoreError, dumps, load, write_text
 from core.units import Unit, sentence
 
 if TYPE_CHECKING:
@@ -53,25 +55,33 @@ def empty_program(unit: Unit = Unit.IN) -> Program:
     return replace(program, blocks=(new_block(program),))
 
 
+def opened(path: Path) -> Session:
+    """The session on a program file; StoreError when it is none.
+
+    The stamp is taken first: a file that is written in between is then taken for changed, never for read.
+    """
+    stamp = stamp_of(path)
+    session = Session.of(load(path), path)
+    return replace(session, guard=replace(session.guard, stamp=stamp))
+
+
 def _save(desk: Desk, message: Save) -> Desk:
     session = desk.session
     path = message.path or session.file
     if path is None:
         return desk.take(Open(SaveAsPage.of(session, leave=message.leave)))
-    if path != session.file and path.exists() and not message.overwrite:
-        again = replace(message, overwrite=True)
-        return desk.take(Open(_overwrite(path, (Close(), again))))
+    if (question := asked(desk, path, message)) is not None:
+        return question
     try:
-        save(session.program, path)
+        if message.changed:
+            put_theirs_aside(path)
+        text = dumps(session.program)
+        write_text(path, text)
     except StoreError as error:
         return _failed(desk, error)
-    desk = _without(replace(desk, session=session.named(path)), SaveAsPage)
+    named = session.named(path, stamp_of_data(text.encode()), linked=message.linked)
+    desk = _without(replace(desk, session=named), SaveAsPage)
     return replace(desk, exit=True) if message.leave else desk.take(Say(f"Saved: {path}"))
-
-
-def _overwrite(path: Path, messages: tuple[Close, Save | Post]) -> Ask:
-    lines = (f"{path} exists already. Its content is replaced.",)
-    return Ask("REPLACE THE FILE?", lines, (("r", "REPLACE", messages),))
 
 
 def _browse(desk: Desk, folder: Path | None) -> Desk:
@@ -87,31 +97,30 @@ def _browse(desk: Desk, folder: Path | None) -> Desk:
 def _load(desk: Desk, message: Load) -> Desk:
     session = desk.session
     if session.unsaved and not message.unsaved:
-        open_it = replace(message, unsaved=True)
+        open_it = message._replace(unsaved=True)
         keep = (Close(), Save()) if session.file is not None else (Close(), Open(SaveAsPage.of(session)))
         options = (("s", "SAVE FIRST", keep), ("d", "OPEN WITHOUT SAVING", (Close(), open_it)))
         return desk.take(Open(Ask("NOT SAVED", ("The program has changes that are not saved.",), options)))
     if message.path is None:
-        return _fresh(desk, Session.of(empty_program(desk.settings.unit))).take(Say("A new program."))
+        return fresh(desk, Session.of(empty_program(desk.settings.unit))).take(Say("A new program."))
     try:
-        program = load(message.path)
+        session = opened(message.path)
     except StoreError as error:
         return _failed(desk, error)
     if message.path.parent == _examples():
         # an example is nobody's to overwrite: it has no file until it is saved under a name
-        return _fresh(desk, Session.of(program)).take(Say(f"Example {message.path.stem}: SAVE gives it a name."))
-    return _fresh(desk, Session.of(program, message.path)).take(Say(f"Opened: {message.path}"))
+        return fresh(desk, Session.of(session.program)).take(Say(f"Example {message.path.stem}: SAVE gives it a name."))
+    return fresh(desk, session).take(Say(f"Opened: {message.path}"))
 
 
-def _fresh(desk: Desk, session: Session) -> Desk:
+def fresh(desk: Desk, session: Session) -> Desk:
     """The desk with another program, its list of blocks below the form."""
     return replace(desk, session=session, pages=type(desk)(session).pages)
 
 
 def _post(desk: Desk, message: Post) -> Desk:
-    if message.path.exists() and not message.overwrite:
-        again = replace(message, overwrite=True)
-        return desk.take(Open(_overwrite(message.path, (Close(), again))))
+    if there(message.path) and not message.overwrite:
+        return desk.take(Open(replacing(message.path, message)))
     from app.posting import refusal_or_text
 
     found, text = refusal_or_text(desk.session, message.path.stem, message.override)

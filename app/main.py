@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import gc
 import os
-import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from app.commands import say
 from core.program.store import StoreError, load
 
 if TYPE_CHECKING:
+    from app.application import CutcompApp
     from app.session import Session
 
 UNUSABLE: Final = 2
@@ -21,18 +23,53 @@ def run(path: Path | None, *, example: str | None = None) -> int:
     """Show the screens on a program file, an example or an empty program; returns the exit status."""
     prepare()
     from app import driver, keys
-    from app.application import CutcompApp
 
+    if reason := driver.refusal(os.environ):
+        say(reason)
+        return UNUSABLE
     try:
         session = begin(path, example)
     except StoreError as error:
-        print(f"cutcomp: {error}", file=sys.stderr)
+        say(str(error))
         return UNUSABLE
     keys.teach()
-    driver.be_lenient()
-    app = CutcompApp(session)
-    app.run(mouse=False)
+    return guarded(session, first=path is None and example is None)
+
+
+def guarded(session: Session, *, first: bool = False) -> int:
+    """The App on a session, with its work kept and its end in order; returns the exit status."""
+    from app import driver
+    from app.application import CutcompApp
+    from app.keeping import Keeping
+    from app.safety import Safety
+
+    keeping = Keeping()
+    app = CutcompApp(session, keep=keeping.keep)
+    keep_settings(app, first=first)
+    app.driver_class = driver.TerminalDriver
+    app.ansi_color = driver.few_colours(os.environ)
+    if not driver.settle_output():
+        app.desk = replace(app.desk, mode="ascii")
+    safety = Safety(lambda status: app.exit(status, return_code=status), keeping.close)
+    safety.arm()
+    try:
+        app.run(mouse=False)
+    finally:
+        keeping.close()
+    if safety.status is not None:
+        safety.leave()
     return app.return_code or 0
+
+
+def keep_settings(app: CutcompApp, *, first: bool) -> None:
+    """Take up what stays from one time to the next, and keep it from now on; `first` begins with the start screen."""
+    from app import settings, starting
+
+    file = settings.place()
+    held, trouble = settings.load(file)
+    keeper, keep = settings.Keeper(file, held), app.keep
+    app.keep = lambda desk: keeper.keep(keep(desk))
+    app.desk = keeper.keep(starting.opened(app.desk, held, trouble, first=first))
 
 
 def prepare() -> None:
@@ -56,4 +93,4 @@ def begin(path: Path | None, example: str | None) -> Session:
         return Session.of(files.empty_program())
     if not path.exists() and path.parent.is_dir():
         return Session.of(files.empty_program(), path).saying(f"{path} does not exist yet: saving makes it.")
-    return Session.of(load(path), path)
+    return files.opened(path)
