@@ -144,8 +144,7 @@ def _move(move: Move, unit: Unit) -> dict[str, object]:
     if move.turn:
         cx, cy, cz = (from_mm(value, unit) for value in move.centre)
         told |= {"cx": cx, "cy": cy, "cz": cz, "plane": move.plane.name, "ccw": move.turn > 0}
-    if not move.rapid:
-        told["feed"] = from_mm(move.feed, unit)
+    told["feed"] = None if move.rapid else from_mm(move.feed, unit)
     return told
 
 

@@ -36,6 +36,9 @@ class ThreeBlockWords(Chain):
         if self.machine.incremental and not {"I", "J"}.isdisjoint(block.words):
             text = "Under G91 the centre is taken as counted from the arc's start; that is an interpretation."
             self.log.tell(Severity.INFO, "G91-CENTRE", text, block.line, block.column("IJ"))
+        if "R" in block.words:
+            text = "Nothing is known of arcs with R on this control; write the centre I, J."
+            self.log.tell(Severity.WARNING, "RADIUS", text, block.line, block.column("R"))
         if not self.active:
             return
         if block.m:

@@ -31,6 +31,8 @@ def test_json_is_one_object_in_program_units(capsys: pytest.CaptureFixture[str])
     first, second = told["moves"][0], told["moves"][1]
     assert (first["mode"], first["line"], first["x"], first["y"], first["z"]) == ("rapid", 0, 0, 0, 0)
     assert (second["x"], second["y"]) == pytest.approx((-1, 1))
+    assert set(first) == MOVE_KEYS | {"feed"}
+    assert first["feed"] is None
     arc = next(move for move in told["moves"] if move["type"] == "arc")
     assert set(arc) == MOVE_KEYS | ARC_KEYS | {"feed"}
     assert (arc["cx"], arc["cy"], arc["plane"], arc["ccw"]) == (pytest.approx(1.5), pytest.approx(0), "XY", False)

@@ -72,7 +72,7 @@ class Writer:
         return f"{code} X{self.x:.6f} Y{self.y:.6f}"
 
     def _arc(self) -> str:
-        radius = RADIUS * self.random.choice((0.7, 1.3, 3.0, 8.0)) * self.random.uniform(0.8, 1.2)
+        radius = RADIUS * self.random.choice((0.7, 1.3, 2.0, 3.0, 5.0, 8.0)) * self.random.uniform(0.8, 1.2)
         turn = self.random.choice((-1, 1))
         swept = radians(self.random.choice((20, 60, 90, 170, 250, 360)))
         cx, cy = self.x - turn * radius * sin(self.heading), self.y + turn * radius * cos(self.heading)
@@ -100,7 +100,7 @@ def program(seed: int) -> str:
     if random.random() < 0.1:
         entry = [writer._arc()]
     else:
-        length = RADIUS * random.choice((0.8, 1.5, 3.0))
+        length = RADIUS * random.choice((0.8, 1.5, 1.5, 2.0, 3.0, 3.0, 5.0))
         writer.x += length * cos(writer.heading)
         writer.y += length * sin(writer.heading)
         entry = [f"G1 X{writer.x:.6f} Y{writer.y:.6f}"]

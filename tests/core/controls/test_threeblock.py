@@ -170,3 +170,14 @@ def test_corner_arcs_turn_by_the_corner() -> None:
     path = done.moves.path()
     swept = sum(abs(float(sweep)) for sweep, turn in zip(path.sweeps, path.turns, strict=True) if turn)
     assert swept == pytest.approx(3 * pi / 2)
+
+
+def test_arcs_by_radius_are_run_and_told() -> None:
+    done = ran("G0X0Y0\nG2X2.Y0R1.F10.\n", "threeblock")
+    assert same(shape(done)[1:], [("cw", 2, 0, 1, 0)])
+    assert [finding.column for finding in told(done, "RADIUS")] == [8]
+
+
+def test_g99_between_tangent_moves_is_told_once() -> None:
+    done = sample("threeblock-circle.nc", "threeblock", t1=0.5)
+    assert [finding.line for finding in told(done, "G99")] == [5]
