@@ -67,6 +67,9 @@ def _command_parser(name: str) -> argparse.ArgumentParser:
         parser.add_argument("-o", "--output", type=Path, metavar="OUT", help="write here instead of standard output")
     if name == "post":
         parser.add_argument("--override", metavar="SENTENCE", help="post in spite of a gouge; refusals name the words")
+        parser.add_argument(
+            "--control", metavar="NAME[:VARIANT]", help="as that control's own G41, G42, RL or RR program"
+        )
     return parser
 
 

@@ -113,18 +113,34 @@ def lookahead(options: argparse.Namespace) -> int:
 
 def post(options: argparse.Namespace) -> int:
     """`cutcomp post`: NC text, or the reasons why there is none."""
+    from app.posting import nc_text
     from core.output.post import Posted
-    from core.output.post import post as nc_text
-    from core.pipeline.jobs import jobs
 
+    control = _control(options)
     derived = _derived(options.file)
-    result = nc_text(jobs(derived), derived.program.unit, name=options.file.stem, override=options.override)
+    result = nc_text(derived, options.file.stem, options.override, control)
     _report(derived, None)
     if not isinstance(result, Posted):
         say(f"nothing was posted. {result.text}")
         return FINDINGS
+    for note in result.notes:
+        say(f"{note.severity}: {sentence(note, derived.program.unit)}")
     _deliver(result.text, options.output)
     return _status(derived, None)
+
+
+def _control(options: argparse.Namespace) -> str | None:
+    """The full name of the control that is asked for, None for the path of the tool's centre."""
+    if options.control is None:
+        return None
+    from core.controls.registry import UnknownControl, resolve
+
+    found = resolve(options.control)
+    if isinstance(found, UnknownControl):
+        raise Unusable(f"--control: {found.text}")
+    if options.override is not None:
+        raise Unusable("--override goes with the centre path only: leave out --control.")
+    return found
 
 
 def plot(options: argparse.Namespace) -> int:

@@ -123,7 +123,7 @@ def _post(desk: Desk, message: Post) -> Desk:
         return desk.take(Open(replacing(message.path, message)))
     from app.posting import refusal_or_text
 
-    found, text = refusal_or_text(desk.session, message.path.stem, message.override)
+    found, text = refusal_or_text(desk.session, message.path.stem, message.override, message.control)
     if found is not None:
         return _failed(desk, f"Nothing was written: {sentence(found, desk.session.program.unit)}")
     try:

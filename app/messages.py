@@ -92,11 +92,15 @@ class Load(NamedTuple):
 
 
 class Post(NamedTuple):
-    """Write the NC file; `override` is the sentence the operator typed to post in spite of the findings."""
+    """Write the NC file; `override` is the sentence the operator typed to post in spite of the findings.
+
+    `control` is the full name of the control that is to compensate by itself, None for the path of the tool's centre.
+    """
 
     path: Path
     overwrite: bool = False
     override: str | None = None
+    control: str | None = None
 
 
 class Leave(NamedTuple):

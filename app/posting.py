@@ -4,13 +4,23 @@ from __future__ import annotations
 
 from app.session import Session
 from core.finding import Finding
-from core.output.post import Posted, post
+from core.output.post import Posted, Refusal, post
 from core.pipeline.derive import derive
+from core.pipeline.derived import Derived
 from core.pipeline.jobs import jobs
+from core.pipeline.own import post_for
 
 
-def refusal_or_text(session: Session, name: str, override: str | None) -> tuple[Finding | None, str]:
+def nc_text(derived: Derived, name: str, override: str | None, control: str | None) -> Posted | Refusal:
+    """The path of the tool's centre, or the program of a control that compensates by itself, by its full name."""
+    if control is not None:
+        return post_for(derived, name=name, control=control)
+    return post(jobs(derived), derived.program.unit, name=name, override=override)
+
+
+def refusal_or_text(
+    session: Session, name: str, override: str | None, control: str | None = None
+) -> tuple[Finding | None, str]:
     """The first finding that forbids posting, or the NC text; everything is derived anew, nothing stale is posted."""
-    program = session.program
-    result = post(jobs(derive(program)), program.unit, name=name, override=override)
+    result = nc_text(derive(session.program), name, override, control)
     return (None, result.text) if isinstance(result, Posted) else (result.findings[0], "")

@@ -7,14 +7,14 @@ from pathlib import Path
 from textwrap import wrap
 from typing import ClassVar, Final, Self
 
-from app.messages import Close, Message, Post, Say
+from app.messages import Close, Message, Post, Say, Swap
 from app.screens.entry import EntryPage, entry_row
 from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
 from app.screens.save import with_suffix
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header
-from app.widgets.rows import Look, Row, plain
+from app.widgets.rows import Look, Row, Span, plain
 from app.widgets.words import number
 from core.finding import Finding
 from core.units import Unit, sentence
@@ -25,10 +25,14 @@ OVERRIDE: Final = "POST WITH GOUGE"
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PostPage(EntryPage):
-    """First the file's name in `entry`; then, with `path` known, the sentence that overrides."""
+    """First the file's name in `entry`; then, with `path` known, the sentence that overrides.
+
+    `control` compensates by itself; None posts the path of the tool's centre.
+    """
 
     layout: ClassVar[Layout] = Layout.TEXT
     path: Path | None = None
+    control: str | None = None
 
     @classmethod
     def of(cls, session: Session) -> Self:
@@ -37,12 +41,25 @@ class PostPage(EntryPage):
         return cls(Editing.of(str(name)))
 
     def softkeys(self, session: Session) -> Softkeys:
-        """Post, or not."""
-        return {1: Softkey("POST", self._posted(session).messages), 8: Softkey("CANCEL", (Close(),))}
+        """Post, or not; for whom."""
+        keys = {1: Softkey("POST", self._posted(session).messages), 8: Softkey("CANCEL", (Close(),))}
+        if self.path is None:
+            keys |= {3: Softkey("NEXT CONTROL", self._stepped(1)), 4: Softkey("CONTROL BEFORE", self._stepped(-1))}
+        return keys
 
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
-        """Enter takes the name, or the sentence."""
+        """Enter takes the name, or the sentence; up and down choose the control."""
+        if self.path is None and key in ("up", "down"):
+            return Answer(self, self._stepped(1 if key == "down" else -1))
         return self._posted(session) if key == "enter" else self.typed(key, character)
+
+    def _stepped(self, step: int) -> tuple[Message, ...]:
+        """The next choice of control; their rules need the numeric library, which the start does not wait for."""
+        from core.controls.registry import names
+
+        choices = (None, *names())
+        control = choices[(choices.index(self.control) + step) % len(choices)]
+        return (Swap(replace(self, control=control)),)
 
     def _posted(self, session: Session) -> Answer:
         text = self.entry.text.strip()
@@ -51,9 +68,9 @@ class PostPage(EntryPage):
         if not text:
             return Answer(self, (Say("Type a name for the NC file.", Tone.ERROR),))
         path = with_suffix(Path(text), ".nc")
-        if any(errors(session)):
+        if any(errors(session)) and self.control is None:
             return Answer(replace(self, path=path, entry=Editing("", 0), fresh=False))
-        return Answer(self, (Post(path),))
+        return Answer(self, (Post(path, control=self.control),))
 
     def _overridden(self, text: str) -> tuple[Message, ...]:
         assert self.path is not None
@@ -64,8 +81,8 @@ class PostPage(EntryPage):
     def view(self, session: Session, surface: Surface) -> View:
         """The name, the findings, and where they are errors the sentence."""
         against = errors(session)
-        rows = [entry_row("FILE", self.entry, surface.width, fresh=self.fresh)]
-        said = Said("Type the name of the NC file, Enter posts.")
+        rows = [entry_row("FILE", self.entry, surface.width, fresh=self.fresh), (), *self._chosen()]
+        said = Said("Type the name of the NC file, Enter posts. Up and down choose the control.")
         if self.path is not None:
             rows = [plain(f" FILE {self.path}"), entry_row("SAY", self.entry, surface.width, fresh=False)]
             said = Said(
@@ -76,6 +93,16 @@ class PostPage(EntryPage):
             said = Said("Enter the name of the NC file. The findings stand against posting.", Tone.WARNING)
         body = ((), *rows, (), *_against(against, session.program.unit, surface.width))
         return View(header("POST NC", plain(""), session, surface.width), body, said, 1)
+
+    def _chosen(self) -> tuple[Row, ...]:
+        """The control, and what that means."""
+        name, text = "none", "The path of the tool's centre is posted, without G41 or G42."
+        if self.control is not None:
+            name, text = (
+                self.control,
+                "The contour is posted as typed; this control compensates. It is read back first.",
+            )
+        return (Span(" CONTROL ", Look.HEAD), Span(name, Look.TYPED)), plain(f" {text}", Look.LABEL)
 
 
 def errors(session: Session) -> tuple[tuple[int, Finding], ...]:
