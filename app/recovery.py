@@ -84,9 +84,13 @@ def _told(keeping: Keeping, session: Session, found: Recovered) -> list[str]:
     what = "a program without a name" if session.file is None else printable(session.file.name)
     when = times.told(found.cursor.time, today)
     edits = len(found.history.past)
-    by = "" if (owner.user, owner.host) == (keeping.me.user, keeping.me.host) else f" by {owner.user} on {owner.host}"
+    by = (
+        ""
+        if (owner.user, owner.host) == (keeping.me.user, keeping.me.host)
+        else f" by {printable(owner.user)} on {printable(owner.host)}"
+    )
     lines = [
-        f"Work on {what}{printable(by)} was not saved. The last of it was {when}, "
+        f"Work on {what}{by} was not saved. The last of it was {when}, "
         f"{edits} edit{'s' if edits != 1 else ''} can be undone."
     ]
     stamp, base = session.guard.stamp, found.head.stamp

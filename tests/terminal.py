@@ -9,6 +9,7 @@ import pty
 import select
 import signal
 import struct
+import tempfile
 import termios
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -93,9 +94,22 @@ def running(
     environment: Mapping[str, str] | None = None,
     cwd: str | None = None,
 ) -> Iterator[Terminal]:
-    """Run `arguments` in a pseudo-terminal of this size; it is killed at the end if it has not left by itself."""
-    kept = {name: os.environ[name] for name in PASSED_ON if name in os.environ}
-    values = {**kept, "TERM": "xterm-256color", "LANG": "C.UTF-8", **(environment or {})}
+    """Run `arguments` in a pseudo-terminal of this size; it is killed at the end if it has not left by itself.
+
+    What it keeps in its person's folders is gone afterwards, unless the environment names these folders.
+    """
+    with tempfile.TemporaryDirectory() as folders:
+        kept = {name: os.environ[name] for name in PASSED_ON if name in os.environ}
+        own = {"XDG_STATE_HOME": folders, "XDG_CONFIG_HOME": folders}
+        values = {**kept, "TERM": "xterm-256color", "LANG": "C.UTF-8", **own, **(environment or {})}
+        with _forked(arguments, values, columns, rows, cwd) as terminal:
+            yield terminal
+
+
+@contextlib.contextmanager
+def _forked(
+    arguments: Sequence[str], values: Mapping[str, str], columns: int, rows: int, cwd: str | None
+) -> Iterator[Terminal]:
     pid, fd = pty.fork()
     if pid == 0:
         if cwd is not None:

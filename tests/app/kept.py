@@ -1,0 +1,52 @@
+"""An operator whose work is kept, and who may die at any moment."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.desk import Desk
+from app.files import empty_program, opened
+from app.keeping import Keeping
+from app.session import Session
+from core.pipeline.outline import outline
+from core.program.lock import Owner, myself
+from tests.app.operator import Operator
+
+TIME = "2025-03-04T06:05:00+01:00"
+DEAD = Owner("ann", myself("").host, 2**22 + 17, "", "2025-03-04T06:00:00+01:00")
+"""A process of this host that is dead whenever somebody looks."""
+ELSEWHERE = Owner("bob", "office", 7, "", "2025-03-04T05:00:00+01:00")
+"""A process of another host, which may always be alive."""
+
+
+@dataclass
+class Kept(Operator):
+    """`keeping` is asked after every key, as the App does it."""
+
+    keeping: Keeping
+
+    def press(self, *keys: str) -> Kept:
+        for key in keys:
+            super().press(key)
+            self.desk = self.keeping.keep(self.desk)
+            if self.session.stale:
+                self.desk = self.desk.knowing(outline(self.session.program))
+        return self
+
+    def type(self, *texts: str) -> Kept:
+        for text in texts:
+            self.press(*text, "enter")
+        return self
+
+    def killed(self) -> None:
+        """kill -9: nothing is done any more; only the handle is closed, so that tests can have many."""
+        if self.keeping.journal is not None:
+            self.keeping.journal.close()
+
+
+def started(own: Path, file: Path | None = None, me: Owner = DEAD, clock: str = TIME) -> Kept:
+    """The program started on a file, or on none; `own` is the person's folder."""
+    session = opened(file) if file is not None and file.exists() else Session.of(empty_program(), file)
+    keeping = Keeping(me, own, lambda: clock)
+    return Kept(keeping.keep(Desk(session)), keeping)

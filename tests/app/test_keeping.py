@@ -1,0 +1,335 @@
+"""Nothing that was accepted is lost: killed after any key, the next start offers it back."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from app.files import example
+from app.screens.contour import Contour
+from app.screens.decide import Decide
+from app.session import Session
+from core.program.lock import lock_path
+from core.program.model import Entry
+from core.program.store import dumps, load, save
+from tests.app.kept import DEAD, ELSEWHERE, Kept, started
+
+
+@pytest.fixture
+def own(tmp_path: Path) -> Path:
+    return tmp_path / "own"
+
+
+@pytest.fixture
+def part(tmp_path: Path) -> Path:
+    path = tmp_path / "shop" / "part.toml"
+    path.parent.mkdir()
+    save(load(example("pocket")), path)
+    return path
+
+
+def names(path: Path) -> list[str]:
+    """What lies beside a program."""
+    return sorted(one.name for one in path.parent.iterdir() if one != path)
+
+
+def asked(operator: Kept) -> str:
+    assert isinstance(operator.desk.page, Decide)
+    return " ".join(operator.part("body").split())
+
+
+def equal(one: Session, other: Session) -> bool:
+    return (one.history, one.where, one.field) == (other.history, other.where, other.field)
+
+
+def test_killed_after_any_key_everything_accepted_comes_back(own: Path, part: Path) -> None:
+    """The half-typed field is the only thing that may be gone."""
+    keys = ["tab", "7", "enter", "tab", "tab", "2", ".", "5", "enter", "ctrl+z", "3", "enter", "f6", "f2", "7", "enter"]
+    saved = load(part)
+    for count in range(len(keys) + 1):
+        first = started(own, part).press(*keys[:count])
+        before = first.session
+        first.killed()
+        second = started(own, part)
+        if before.program == saved:
+            assert not isinstance(second.desk.page, Decide)
+        else:
+            assert isinstance(second.desk.page, Decide)
+            second.press("r")
+            assert second.session.history == before.history
+            assert second.session.unsaved
+        second.keeping.leave()
+        assert names(part) == []
+
+
+def test_undo_reaches_back_behind_two_crashes_and_a_save(own: Path, part: Path) -> None:
+    begun = load(part)
+    first = started(own, part).press("tab").type("7").press("ctrl+s", "tab").type("3")
+    first.killed()
+    second = started(own, part).press("r").press("down").type("2.5")
+    second.killed()
+    third = started(own, part).press("r")
+    assert equal(third.session, second.session)
+    while third.session.history.past:
+        third.press("ctrl+z")
+    assert third.session.program == begun
+    while third.session.history.future:
+        third.press("ctrl+y")
+    assert third.session.history.program == second.session.program
+
+
+def test_the_question_says_when_and_what_differs(own: Path, part: Path) -> None:
+    started(own, part).press("tab").type("7").killed()
+    told = asked(started(own, part, clock="2025-03-05T08:00:00+01:00"))
+    assert "Work on part.toml was not saved. The last of it was on 4 Mar 2025 at 06:05, 1 edit can be undone." in told
+    assert "Block 1: TOOL 7, was 1." in told
+
+
+def test_the_question_has_no_way_around(own: Path, part: Path) -> None:
+    started(own, part).press("tab").type("7").killed()
+    again = started(own, part).press("escape", "enter", "f8", "x", "f3", "ctrl+z", "tab", "9", "enter")
+    assert "TOOL 7" in asked(again)
+    assert again.session.program == load(part)
+    assert again.press("ctrl+q").desk.exit
+    assert "TOOL 7" in asked(started(own, part))
+
+
+def test_saving_with_the_question_unanswered_keeps_the_work(own: Path, part: Path) -> None:
+    started(own, part).press("tab").type("7").killed()
+    started(own, part).press("ctrl+s").killed()
+    assert "TOOL 7" in asked(started(own, part))
+
+
+def test_many_differences_are_counted(own: Path, part: Path) -> None:
+    operator = started(own, part)
+    for _ in range(5):
+        operator.press("f8", "f3", "enter")
+    operator.press("f8", "f7", "f4").type(".1", ".2", ".3", ".4", "50", ".6", ".7")
+    operator.killed()
+    assert "more." in asked(started(own, part))
+
+
+def test_discarded_work_is_kept_aside_and_not_offered_again(own: Path, part: Path) -> None:
+    started(own, part).press("tab").type("7").killed()
+    assert "Discarded. A copy is in" in started(own, part).press("d").said
+    again = started(own, part)
+    assert isinstance(again.desk.page, Contour)
+    assert [name for name in names(part) if "discarded" in name] == [".part.toml.cutcomp-journal.discarded-1"]
+
+
+@pytest.mark.parametrize("keys", [["ctrl+s", "ctrl+q"], ["ctrl+q", "s"], ["ctrl+q", "l"], ["ctrl+z", "ctrl+q"]])
+def test_leaving_leaves_nothing_behind(own: Path, part: Path, keys: list[str]) -> None:
+    assert started(own, part).press("tab").type("7").press(*keys).desk.exit
+    assert names(part) == []
+    assert not own.exists() or list(own.iterdir()) == []
+
+
+def test_saved_there_is_no_journal_until_the_next_edit(own: Path, part: Path) -> None:
+    operator = started(own, part).press("tab").type("7").press("ctrl+s")
+    assert names(part) == [lock_path(part).name]
+    operator.press("tab").type("3")
+    assert len(names(part)) == 2
+
+
+def test_killed_between_the_save_and_the_end_of_the_journal_there_is_nothing_to_ask(own: Path, part: Path) -> None:
+    operator = started(own, part).press("tab").type("7")
+    save(operator.session.program, part)
+    operator.killed()
+    assert isinstance(started(own, part).desk.page, Contour)
+    assert names(part) == [lock_path(part).name]
+
+
+def test_a_program_without_a_name_is_offered_at_the_next_start(own: Path) -> None:
+    first = started(own).press("tab").type("7")
+    first.killed()
+    assert isinstance(started(own, me=replace(DEAD, user="x")).press("r").desk.page, Contour)
+    other = started(own)
+    assert "a program without a name" in asked(other)
+    assert other.press("r").session.history == first.session.history
+    other.keeping.leave()
+    assert list(own.iterdir()) == []
+
+
+def test_a_program_without_a_name_moves_beside_the_file_it_gets(own: Path, part: Path) -> None:
+    operator = started(own).press("tab").type("7").press("ctrl+s", "delete", *str(part.parent / "new.toml"), "enter")
+    assert list(own.iterdir()) == []
+    operator.press("tab").type("3").killed()
+    again = started(own, part.parent / "new.toml").press("r")
+    assert again.session.history == operator.session.history
+    assert again.session.history.undo_count == 2
+
+
+def test_a_new_file_that_was_never_saved_is_offered(own: Path, part: Path) -> None:
+    first = started(own, part.with_name("new.toml")).press("tab").type("7")
+    first.killed()
+    again = started(own, part.with_name("new.toml"))
+    assert "Against a new program" in asked(again)
+    assert again.press("r").session.history == first.session.history
+
+
+def test_a_folder_that_cannot_be_written_has_its_journals_elsewhere(
+    own: Path, part: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    first = started(own, part).press("tab").type("7")
+    first.killed()
+    assert names(part) == [lock_path(part).name]
+    assert [one.suffix for one in own.iterdir()] == [".cutcomp-journal"]
+    assert started(own, part).press("r").session.history == first.session.history
+
+
+def test_an_example_leaves_nothing_in_its_folder(own: Path) -> None:
+    folder = example("pocket").parent
+    before = sorted(folder.iterdir())
+    operator = started(own).press("ctrl+o", *str(example("pocket")), "enter", "tab").type("7")
+    assert sorted(folder.iterdir()) == before
+    assert operator.session.file is None
+    assert len(list(own.iterdir())) == 1
+
+
+def test_another_program_opened_leaves_nothing_of_the_first(own: Path, part: Path) -> None:
+    other = part.with_name("other.toml")
+    save(load(example("notch")), other)
+    operator = started(own, part).press("tab").type("7").press("ctrl+o", *str(other), "enter", "d")
+    assert operator.session.file == other
+    assert names(other) == [lock_path(other).name, "part.toml"]
+
+
+def test_a_full_disk_is_told_and_the_work_goes_on(own: Path, part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    operator = started(own, part).press("tab").type("7")
+
+    def full(*_: object) -> int:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "fsync", full)
+        operator.press("up").type("8")
+        assert "A crash would lose this: it is not on the disk, the disk is full." in operator.said
+        operator.press("up").type("9")
+        assert "the disk is full" in operator.said
+        assert operator.block.tool == Entry(9.0)
+    operator.press("up").type("6")
+    assert operator.said.startswith("Work is kept on the disk again.")
+    operator.killed()
+    again = started(own, part).press("r")
+    assert again.session.history == operator.session.history
+
+
+def test_damage_in_the_middle_is_told_and_the_whole_journal_kept(own: Path, part: Path) -> None:
+    first = started(own, part).press("tab").type("7", "", "3")
+    first.killed()
+    journal = part.with_name(".part.toml.cutcomp-journal")
+    data = journal.read_bytes()
+    lines = data.splitlines(keepends=True)
+    journal.write_bytes(b"".join([*lines[:2], b"?" + lines[2][1:], lines[2]]))
+    again = started(own, part)
+    assert "The end of it cannot be read and is kept aside." in asked(again)
+    again.press("r")
+    assert again.block.tool == Entry(7.0)
+    assert any("damaged" in name for name in names(part))
+
+
+def test_a_journal_that_is_none_is_not_offered_and_not_lost(own: Path, part: Path) -> None:
+    journal = part.with_name(".part.toml.cutcomp-journal")
+    journal.write_text("somebody's own")
+    operator = started(own, part)
+    assert isinstance(operator.desk.page, Contour)
+    operator.press("tab").type("7").press("ctrl+s", "ctrl+q")
+    assert [part.with_name(name).read_text() for name in names(part)] == ["somebody's own"]
+
+
+def test_a_file_written_by_another_since_the_crash_is_told_and_kept(own: Path, part: Path) -> None:
+    started(own, part).press("tab").type("7").killed()
+    part.write_text(dumps(load(example("notch"))))
+    operator = started(own, part)
+    assert "The file was written by somebody else since" in asked(operator)
+    operator.press("r", "ctrl+s")
+    assert "CHANGED MEANWHILE" in operator.part("header")
+    assert load(part) == load(example("notch"))
+
+
+def test_the_second_opener_may_look(own: Path, part: Path) -> None:
+    started(own, part, ELSEWHERE)
+    operator = started(own, part, DEAD)
+    assert "bob on office has this program open since 05:00." in asked(operator)
+    operator.press("l", "tab").type("7")
+    assert operator.session.program == load(part)
+    assert "Nothing can be changed" in operator.said
+    assert "SAVE AS makes a copy" in operator.press("escape", "ctrl+s").said
+    operator.press("f8", "f7", "f3", "delete", *str(part.with_name("mine.toml")), "enter", "enter", "tab").type("7")
+    assert operator.session.file == part.with_name("mine.toml")
+    assert operator.session.history.undo_count == 1
+    assert lock_path(part).exists()
+
+
+def test_the_second_opener_may_take_over_with_the_work_of_the_first(own: Path, part: Path) -> None:
+    first = started(own, part, ELSEWHERE).press("tab").type("7")
+    second = started(own, part, DEAD).press("t")
+    assert "Work on part.toml by bob on office was not saved" in asked(second)
+    second.press("r")
+    assert second.session.history == first.session.history
+    first.press("up").type("8")
+    assert "has this program open" in first.said
+    assert "SAVE AS keeps your work." in first.said
+    second.press("ctrl+s")
+    assert load(part).blocks[0].tool == Entry(7.0)
+
+
+def test_the_first_one_notices_before_it_saves(own: Path, part: Path) -> None:
+    first = started(own, part, ELSEWHERE).press("tab").type("7")
+    started(own, part, DEAD).press("t", "d", "tab").type("3").press("ctrl+s")
+    first.press("ctrl+s")
+    assert "TAKEN OVER" in first.part("header")
+    first.press("k")
+    assert load(part).blocks[0].tool == Entry(3.0)
+    mine = first.session.file
+    assert mine is not None
+    assert mine.name.startswith("part.mine-")
+    assert load(mine).blocks[0].tool == Entry(7.0)
+
+
+@pytest.mark.parametrize(("key", "tool", "whose"), [("t", 3.0, "mine"), ("y", 7.0, "theirs")])
+def test_a_file_changed_by_another_is_noticed_and_both_are_kept(
+    own: Path, part: Path, key: str, tool: float, whose: str
+) -> None:
+    operator = started(own, part).press("tab").type("7")
+    theirs = load(part)
+    save(started(own, part.with_name("x.toml")).press("tab").type("3").session.program, part)
+    other = load(part)
+    assert other != theirs
+    operator.press("ctrl+s")
+    assert "was changed by somebody else" in " ".join(operator.part("body").split())
+    operator.press(key)
+    assert load(part).blocks[0].tool == Entry(tool)
+    copies = [name for name in names(part) if whose in name and name.endswith(".toml")]
+    assert len(copies) == 1
+    kept = load(part.with_name(copies[0]))
+    assert {kept.blocks[0].tool, load(part).blocks[0].tool} == {Entry(3.0), Entry(7.0)}
+    assert not operator.session.unsaved
+
+
+def test_written_again_with_the_same_content_is_no_change(own: Path, part: Path) -> None:
+    operator = started(own, part).press("tab").type("7")
+    part.write_bytes(part.read_bytes())
+    assert "Saved" in operator.press("ctrl+s").said
+
+
+def test_a_link_into_another_folder_is_asked_once(own: Path, part: Path) -> None:
+    link = part.parent.parent / "link.toml"
+    link.symlink_to(part)
+    operator = started(own, link).press("tab").type("7").press("ctrl+s")
+    assert "is a link to" in " ".join(operator.part("body").split())
+    assert load(part).blocks[0].tool == Entry(1.0)
+    operator.press("w")
+    assert load(part).blocks[0].tool == Entry(7.0)
+    assert "Saved" in operator.press("tab").type("8").press("ctrl+s").said
+
+
+def test_an_nc_file_is_never_written_through_a_link_unasked(own: Path, part: Path) -> None:
+    (part.parent / "part.nc").symlink_to(part.parent.parent / "elsewhere.nc")
+    operator = started(own, part).press("f8", "f6", "enter")
+    assert "which leads to" in " ".join(operator.part("body").split())
+    assert not (part.parent.parent / "elsewhere.nc").exists()
