@@ -50,6 +50,17 @@ def read(handle: int) -> bytes:
         return b""
 
 
+def few_colours(environment: Mapping[str, str]) -> bool:
+    """Whether the terminal has sixteen colours and no more; its name and COLORTERM are all there is to go by.
+
+    Not so where no colours are wanted: Textual then shows greys, and would make black of the terminal's own colours.
+    """
+    if "NO_COLOR" in environment:
+        return False
+    many = environment.get("COLORTERM", "") in ("truecolor", "24bit")
+    return not many and not any(word in environment.get("TERM", "") for word in ("256color", "direct", "kitty"))
+
+
 def refusal(environment: Mapping[str, str]) -> str:
     """Why there can be no screens here, empty where there can."""
     if not all(stream is not None and stream.isatty() for stream in (sys.__stdin__, sys.__stderr__)):

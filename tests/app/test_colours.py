@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from app.driver import few_colours
 from app.widgets.rows import Rows
 from tests.app.pilots import app_on, loaded
 
-EVERY = {"ansi": (True, False), "ansi, no colour": (True, True), "no colour": (False, True), "full": (False, False)}
+EVERY = {"ansi": (True, False), "no colour": (False, True), "full": (False, False)}
 
 
 @pytest.mark.parametrize("name", EVERY)
@@ -38,3 +39,21 @@ async def test_surface_path_and_gouge_differ_in_sixteen_colours() -> None:
         styles = [app.screen.get_component_rich_style(f"look--{look}") for look in ("surface", "path", "gouge", "lead")]
         assert len({(style.color, style.bold) for style in styles}) == 4
         assert all(style.color is None or style.color.number is None or style.color.number < 16 for style in styles)
+
+
+@pytest.mark.parametrize(
+    ("term", "colorterm", "few"),
+    [
+        ("xterm", "", True),
+        ("linux", "", True),
+        ("vt100", "", True),
+        ("screen", "", True),
+        ("xterm", "truecolor", False),
+        ("xterm-256color", "", False),
+        ("tmux-256color", "", False),
+        ("xterm-kitty", "", False),
+    ],
+)
+def test_which_terminals_have_sixteen_colours(term: str, colorterm: str, few: bool) -> None:
+    assert few_colours({"TERM": term, "COLORTERM": colorterm}) is few
+    assert not few_colours({"TERM": term, "COLORTERM": colorterm, "NO_COLOR": "1"})

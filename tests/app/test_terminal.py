@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -24,13 +24,13 @@ TITLES = {4: "PROGRAM PARAMETERS", 5: "PART SETUP", 6: "TOOL SETUP", 7: "zoom", 
 
 
 @contextmanager
-def cutcomp(folder: Path, name: str = "overrun-square") -> Iterator[Terminal]:
+def cutcomp(folder: Path, name: str = "overrun-square", more: Mapping[str, str] | None = None) -> Iterator[Terminal]:
     """The program on a copy of an example, its first verdict on the screen."""
     file = folder / f"{name}.toml"
     shutil.copy(example(name), file)
     own = {"HOME": str(folder), "XDG_STATE_HOME": str(folder), "XDG_DATA_HOME": str(folder), "PYTHONPATH": str(ROOT)}
     arguments = [sys.executable, "-m", "app", str(file)]
-    with running(arguments, environment=own, cwd=str(folder)) as terminal:
+    with running(arguments, environment={**own, **(more or {})}, cwd=str(folder)) as terminal:
         terminal.until("MILL CONTOUR", longest=30.0)
         terminal.until("best", longest=30.0)
         yield terminal
@@ -104,6 +104,18 @@ def test_an_idle_terminal_gets_no_bytes(tmp_path: Path) -> None:
     with cutcomp(tmp_path) as terminal:
         terminal.read(quiet=1.0)
         assert sum(terminal.read(quiet=0.1, longest=0.1).count for _ in range(20)) <= CLOCK
+
+
+@pytest.mark.parametrize("more", [{"NO_COLOR": "1"}, {"TERM": "xterm"}, {"TERM": "xterm", "NO_COLOR": "1"}], ids=str)
+def test_letters_differ_from_their_ground_and_the_cursor_from_letters(tmp_path: Path, more: dict[str, str]) -> None:
+    with cutcomp(tmp_path, more=more) as terminal:
+        terminal.send(b"\t\t\t\t")
+        terminal.read(quiet=0.5)
+        line = terminal.screen.buffer[6]
+        label, cursor = line[1], line[26]
+        assert (label.data, cursor.data) == ("X", "0")
+        assert all(cell.fg != cell.bg or cell.fg == "default" for cell in (label, cursor))
+        assert (cursor.bg, cursor.reverse) != (label.bg, label.reverse)
 
 
 def test_ctrl_q_asks_and_leaving_ends_with_status_0(tmp_path: Path) -> None:
