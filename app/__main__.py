@@ -11,12 +11,13 @@ import sys
 from importlib.resources import files
 from pathlib import Path
 
+from app import shop
 from app.commands import COMMANDS, UNUSABLE, say
 
 DESCRIPTION = """\
 Type a MILL CONTOUR from the drawing, see what the cutter will do, write the NC file.
 
-  cutcomp [FILE]             the screens, on FILE if it is given
+  cutcomp [FILE]             the screens, on FILE or on the start screen
   cutcomp --example [NAME]   the screens, on an example part
 """
 
@@ -35,6 +36,8 @@ def main(arguments: list[str] | None = None) -> int:
         from app.check import check
 
         return check(given[1:])
+    if given and given[0] in shop.HELP:
+        return shop.shop(given)
     if given and given[0] in COMMANDS:
         options = _command_parser(given[0]).parse_args(given[1:])
         return COMMANDS[given[0]](options)
@@ -46,7 +49,7 @@ def _screen_parser() -> argparse.ArgumentParser:
         "cutcomp",
         description=DESCRIPTION,
         epilog="commands without a screen:\n"
-        + "".join(f"  cutcomp {name:<10} {text}\n" for name, text in COMMAND_HELP.items())
+        + "".join(f"  cutcomp {name:<10} {text}\n" for name, text in (COMMAND_HELP | shop.HELP).items())
         + "  cutcomp check      what controls do with an NC program\n\n`cutcomp COMMAND --help` tells more.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

@@ -24,7 +24,8 @@ def run(path: Path | None, *, example: str | None = None) -> int:
     prepare()
     from app import driver, keys
 
-    if reason := driver.refusal(os.environ):
+    reason = "" if in_browser() else driver.refusal(os.environ)
+    if reason:
         say(reason)
         return UNUSABLE
     try:
@@ -46,8 +47,9 @@ def guarded(session: Session, *, first: bool = False) -> int:
     keeping = Keeping()
     app = CutcompApp(session, keep=keeping.keep)
     keep_settings(app, first=first)
-    app.driver_class = driver.TerminalDriver
-    app.ansi_color = driver.few_colours(os.environ)
+    if not in_browser():
+        app.driver_class = driver.TerminalDriver
+        app.ansi_color = driver.few_colours(os.environ)
     if not driver.settle_output():
         app.desk = replace(app.desk, mode="ascii")
     safety = Safety(lambda status: app.exit(status, return_code=status), keeping.close)
@@ -59,6 +61,11 @@ def guarded(session: Session, *, first: bool = False) -> int:
     if safety.status is not None:
         safety.leave()
     return app.return_code or 0
+
+
+def in_browser() -> bool:
+    """Whether `cutcomp serve` has started this: Textual's own driver then talks to the browser."""
+    return bool(os.environ.get("TEXTUAL_DRIVER"))
 
 
 def keep_settings(app: CutcompApp, *, first: bool) -> None:

@@ -10,8 +10,8 @@ from core.pipeline.sheets import sheet_page, sheet_text
 from core.program.model import Program
 
 
-def sheet_for(program: Program, path: Path) -> str:
+def sheet_for(program: Program, path: Path, *, name: str = "") -> str:
     """The sheet as its file's ending asks: .html a page, anything else text; everything is derived anew."""
     write = sheet_page if path.suffix.lower() in (".html", ".htm") else sheet_text
     day = datetime.now().astimezone().strftime("%Y-%m-%d")
-    return write(derive(program), name=path.stem, day=day)
+    return write(derive(program), name=name or path.stem, day=day)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Final
 
-from app.messages import Close, Edit, Message
+from app.messages import Close, Edit, Message, Open
 from app.screens.forms import FormPage, shown_text
+from app.screens.import_tools import ImportPage
 from app.screens.page import Answer, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
 from app.widgets.field import Editing
@@ -86,7 +87,7 @@ class ToolsPage(FormPage):
         if tool is not None:
             gone = Edit(delete_tool(session.program, tool.number), f"DELETE TOOL {tool.number}")
             keys[1] = Softkey("DELETE TOOL", (gone,))
-        return {**keys, 8: Softkey("EXIT", (Close(),))}
+        return {**keys, 3: Softkey("IMPORT TABLE", (Open(ImportPage.of(session)),)), 8: Softkey("EXIT", (Close(),))}
 
     def softkeyed(self, session: Session, number: int, messages: tuple[Message, ...]) -> Answer:
         """F2 puts the cursor into the new row."""

@@ -1,0 +1,132 @@
+"""The commands of the shop: setup sheets, tool tables, and the screens in a browser."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+from typing import Final
+
+from app.commands import CLEAN, FINDINGS, UNUSABLE, say
+from core.finding import Finding, Severity
+from core.program.model import Entry, Program, Tool
+from core.program.store import StoreError, load, save, write_text
+from core.program.tool_table import Imported, decoded, read_tool_table
+from core.units import Kind, Unit, show
+
+HELP: Final = {
+    "sheet": "the setup sheet, as text or as a page with the drawing",
+    "tools": "list the tool table, or import one of LinuxCNC",
+    "serve": "the screens in a browser on this machine",
+}
+
+
+def shop(given: list[str]) -> int:
+    """Run one of these commands; returns the exit status."""
+    options = _parser(given[0]).parse_args(given[1:])
+    try:
+        return {"sheet": sheet, "tools": tools, "serve": serve}[given[0]](options)
+    except StoreError as error:
+        say(str(error))
+        return UNUSABLE
+
+
+def _parser(name: str) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(f"cutcomp {name}", description=HELP[name])
+    optional = "?" if name == "serve" else None
+    parser.add_argument("file", nargs=optional, type=Path, metavar="FILE", help="a program file (TOML)")
+    match name:
+        case "sheet":
+            parser.add_argument("-o", "--output", type=Path, metavar="OUT", help=".html: a page; anything else: text")
+        case "tools":
+            parser.add_argument("--import", type=Path, metavar="TABLE", dest="table", help="a LinuxCNC tool table")
+            parser.add_argument("--units", type=str.upper, choices=tuple(Unit), help="of the table; else the program's")
+        case _:
+            parser.add_argument("--host", default="127.0.0.1", help="address to serve (this machine's own)")
+            parser.add_argument("--port", type=int, default=8000)
+            parser.add_argument("--allow-network", action="store_true", help="serve an address others can reach")
+    return parser
+
+
+def sheet(options: argparse.Namespace) -> int:
+    """`cutcomp sheet`: the setup sheet; status 1 while it says DO NOT RUN."""
+    from app.sheets import sheet_for
+    from core.output.sheet_text import NOT_READY
+
+    program = load(options.file)
+    text = sheet_for(program, options.output or Path("-"), name=options.file.stem)
+    if options.output is None:
+        sys.stdout.write(text)
+    else:
+        write_text(options.output, text)
+    return FINDINGS if NOT_READY in text else CLEAN
+
+
+def tools(options: argparse.Namespace) -> int:
+    """`cutcomp tools`: the table of a program, after an import that is whole or not at all."""
+    program = load(options.file)
+    if options.table is not None:
+        table = read_table(options.table, Unit(options.units) if options.units else program.unit, program.unit)
+        _tell(options.table, table.findings)
+        if table.errors:
+            say("nothing was imported.")
+            return FINDINGS
+        program = merged(program, table.tools)
+        save(program, options.file)
+    for tool in program.tools:
+        print(told(tool, program.unit))
+    return CLEAN
+
+
+def read_table(path: Path, unit: Unit, program: Unit) -> Imported:
+    """A table's file; StoreError when it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(LARGEST + 1)
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) else "this is no file name"
+        raise StoreError(f"{path} cannot be read: {why}. Check the name.") from error
+    if len(data) > LARGEST:
+        raise StoreError(f"{path} is too large for a tool table.")
+    return read_tool_table(decoded(data), unit, program)
+
+
+LARGEST: Final = 1_000_000
+"""Bytes of the largest tool table."""
+
+
+def _tell(path: Path, findings: Iterable[Finding]) -> None:
+    for one in findings:
+        kind = "" if one.severity is Severity.ERROR else "warning: "
+        say(f"{path}, line {one.line}, column {one.column}: {kind}{one.text}")
+
+
+def merged(program: Program, tools: Iterable[Tool]) -> Program:
+    """The program with these tools in its table, in place of those of the same number."""
+    table = {tool.number: tool for tool in (*program.tools, *tools)}
+    return replace(program, tools=tuple(table[number] for number in sorted(table)))
+
+
+def told(tool: Tool, unit: Unit) -> str:
+    """One line of the table."""
+    size = show(tool.diameter.value, Kind.LENGTH, unit) if isinstance(tool.diameter, Entry) else "no diameter"
+    kind = "".join(sign if sign.isprintable() else "?" for sign in tool.type)
+    return f"T{tool.number:<5} {size:>11} {unit}  {kind}"
+
+
+def serve(options: argparse.Namespace) -> int:
+    """`cutcomp serve`: until Ctrl+C."""
+    from app import web
+
+    if reason := web.refusal(options.host, allow_network=options.allow_network):
+        say(reason)
+        return UNUSABLE
+    say(f"{web.address(options.host, options.port)} in the browser. Ctrl+C ends it. {web.NO_LOGIN}")
+    try:
+        web.serve(options.file, options.host, options.port)
+    except ImportError:
+        say(web.MISSING)
+        return UNUSABLE
+    return CLEAN
