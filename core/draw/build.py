@@ -19,6 +19,7 @@ def contour_scene(
     unit: Unit | None = None,
     sketches: Sequence[Path] = (),
     path: Path = EMPTY,
+    further: Sequence[Path] = (),
     leads: Sequence[Path] = (),
     rough: Sequence[Path] = (),
     deleted: Sequence[Path] = (),
@@ -31,17 +32,17 @@ def contour_scene(
 ) -> Scene:
     """Everything one contour shows, lengths in millimetres.
 
-    `sketches` are segments not determined yet; `leads` the blend moves, the blend-in first; `rough` further centre
-    paths; `deleted` pieces of the contour that the look-ahead erased and `meetings` the points where the erasing
-    pieces meet; `gouges` the spots cut into; `uncut` stretches of the surface; `cutter` (centre, radius); `current`
-    the segment under the cursor; `start` the contour's START.
+    `sketches` are segments not determined yet; `further` the centre path's other loops; `leads` the blend moves,
+    the blend-in first; `rough` further centre paths; `deleted` pieces of the contour that the look-ahead erased and
+    `meetings` the points where the erasing pieces meet; `gouges` the spots cut into; `uncut` stretches of the surface;
+    `cutter` (centre, radius); `current` the segment under the cursor; `start` the contour's START.
     """
     layers = (
         *_layers(sketches, Style.SURFACE, dashed=True),
         *_layers((surface,), Style.SURFACE),
         *_layers(rough, Style.RAPID, dashed=True),
         *_layers(leads, Style.LEAD),
-        *_layers((path,), Style.PATH),
+        *_layers((path, *further), Style.PATH),
         *_layers(uncut, Style.UNCUT),
         *_layers(deleted, Style.DELETED, dashed=True),
         *_layers((current or EMPTY,), Style.CURRENT),

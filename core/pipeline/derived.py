@@ -12,6 +12,7 @@ from core.program.model import Block, Program
 from core.program.solved import SolvedBlock
 
 if TYPE_CHECKING:
+    from core.comp.best import BestPath, Separation
     from core.comp.result import Compensated
     from core.geometry.path import Path
     from core.verify.verdict import Verdict
@@ -35,29 +36,58 @@ class LookAhead:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RoughPass:
-    """One pass before the finish path: its centre path leaves `stock` millimetres on the surface."""
+    """One pass before the finish path: its `loops` leave `stock` millimetres on the surface.
+
+    `compensated` is the control's path, whether posted or not.
+    """
 
     stock: float
     cutter_radius: float
-    centre: Path
+    loops: tuple[Loop, ...]
     compensated: Compensated
     verdict: Verdict
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Loop:
+    """One centre path with its blend moves, cut in one go."""
+
+    path: Path
+    lead_in: Path
+    lead_out: Path
+
+    @property
+    def whole(self) -> Path:
+        """Blend-in, path and blend-out as one path."""
+        from core.geometry.path import joined
+
+        return joined((self.lead_in, self.path, self.lead_out))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Work:
     """What the cutter does in one block, in millimetres.
 
-    `surface` is the determined part of the contour; `centre` the finish path with its blends; `compensated` and
-    `verdict` are None for CUTTER COMP. ON, where the centre runs on the contour itself; `rough` comes before,
-    outermost first.
+    `surface` is the determined part of the contour; `loops` the finish path that is posted, one or, for PATH BEST,
+    one for each loop, and `verdict` what it does.  `compensated` is the control's path, whether posted or not.
+    `compensated` and `verdict` are None for CUTTER COMP. ON, where the centre runs on the contour itself.
+    `rough` comes before, outermost first.  `best` is None where it was not worked out.
     """
 
     surface: Path
-    centre: Path
+    loops: tuple[Loop, ...]
     compensated: Compensated | None
     verdict: Verdict | None
-    rough: tuple[RoughPass, ...]
+    rough: tuple[RoughPass, ...] = ()
+    best: BestPath | None = None
+    separation: Separation | None = None
+
+    @property
+    def centre(self) -> Path:
+        """The first loop with its blends; the empty path if there is none."""
+        from core.geometry.path import EMPTY
+
+        return self.loops[0].whole if self.loops else EMPTY
 
 
 @dataclass(frozen=True, eq=False, slots=True)

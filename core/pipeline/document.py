@@ -37,13 +37,10 @@ def _block(found: DerivedBlock, unit: Unit) -> Document:
 def _block_moves(found: DerivedBlock, unit: Unit) -> Iterator[Document]:
     if found.work is None:
         return
-    one = found.work.compensated
-    if one is None:
-        yield from _moves(found.work.centre, "path", unit)
-        return
-    yield from _moves(one.lead_in, "blend-in", unit)
-    yield from _moves(one.path, "path", unit)
-    yield from _moves(one.lead_out, "blend-out", unit)
+    for loop in found.work.loops:
+        yield from _moves(loop.lead_in, "blend-in", unit)
+        yield from _moves(loop.path, "path", unit)
+        yield from _moves(loop.lead_out, "blend-out", unit)
 
 
 def _moves(path: Path, part: str, unit: Unit) -> Iterator[Document]:

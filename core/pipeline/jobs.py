@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from core.comp.result import Compensated
 from core.geometry.path import EMPTY
 from core.output.job import Cutter, Floor, Job, Run
-from core.pipeline.derive import parameter
+from core.pipeline.cut import parameter
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.fields import default
 from core.program.model import Entry, Program, Typed
@@ -67,17 +66,11 @@ def _floors(solved: SolvedBlock) -> tuple[Floor, ...]:
     return tuple(Floor(one.number, one.z_start, one.z_end, one.feed) for one in known)
 
 
-def _run(one: Compensated, offset: float) -> Run:
-    return Run(one.path, one.lead_in, one.lead_out, offset)
-
-
 def _finish(found: DerivedBlock) -> tuple[Run, ...]:
-    if found.work is None:
-        return ()
-    if found.work.compensated is None:
-        return (Run(found.work.centre),)
-    return (_run(found.work.compensated, 0.0),)
+    loops = () if found.work is None else found.work.loops
+    return tuple(Run(loop.path, loop.lead_in, loop.lead_out) for loop in loops)
 
 
 def _rough(found: DerivedBlock) -> tuple[Run, ...]:
-    return tuple(_run(one.compensated, one.stock) for one in found.work.rough) if found.work else ()
+    rough = () if found.work is None else found.work.rough
+    return tuple(Run(loop.path, loop.lead_in, loop.lead_out, one.stock) for one in rough for loop in one.loops)

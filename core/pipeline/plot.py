@@ -9,7 +9,7 @@ from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Piece, Point
 from core.geometry.stretch import stretch
 from core.output.svg import svg
-from core.pipeline.derived import Derived, DerivedBlock
+from core.pipeline.derived import Derived, DerivedBlock, Loop, Work
 from core.pipeline.table import Row
 from core.units import Unit
 from core.verify.verdict import Verdict
@@ -24,25 +24,41 @@ def svg_of(derived: Derived, *, title: str) -> str:
 def block_scene(found: DerivedBlock, segment: int | None, unit: Unit, row: Row | None = None) -> Scene:
     """The block with the cursor on `segment` (0 is START, None nowhere), or with the path of a row of the table."""
     work, solved = found.work, found.solved
-    one, verdict, centre = (None, None, EMPTY) if work is None else (work.compensated, work.verdict, work.centre)
+    loops, one, verdict = ((), None, None) if work is None else (work.loops, _shown(work), work.verdict)
     if row is not None:
-        one, verdict, centre = row.compensated, row.verdict, row.compensated.path
-    surface = _surface(found)
+        one, verdict = row.compensated, row.verdict
+        loops = (Loop(one.path, one.lead_in, one.lead_out),)
+    surface, first = _surface(found), loops[0] if loops else Loop(EMPTY, EMPTY, EMPTY)
     return contour_scene(
         surface,
         unit=unit,
         sketches=_sketches(found),
-        path=centre if one is None else one.path,
-        leads=() if one is None else (one.lead_in, one.lead_out),
-        rough=() if work is None or row is not None else [rough.centre for rough in work.rough],
+        path=first.path,
+        further=[loop.path for loop in loops[1:]],
+        leads=[lead for loop in loops for lead in (loop.lead_in, loop.lead_out)],
+        rough=() if row is not None else _behind(work),
         deleted=() if one is None else _deleted(one),
         meetings=() if one is None else list(dict.fromkeys(deleted.at for deleted in one.deleted)),
         gouges=() if verdict is None else [gouge.surface_at for gouge in verdict.gouges],
         uncut=() if verdict is None else _uncut(surface, verdict),
-        cutter=_cutter(found, centre if one is None else one.whole, segment),
+        cutter=_cutter(found, first.whole, segment),
         current=_current(found, segment),
         start=solved.segments[0].start if solved.segments else None,
     )
+
+
+def _shown(work: Work) -> Compensated | None:
+    """The control's path where it is the one that is posted: only then have its deletions a meaning."""
+    one = work.compensated
+    return one if one is not None and work.loops and work.loops[0].path is one.path else None
+
+
+def _behind(work: Work | None) -> list[Path]:
+    """The roughing passes, and the control's path where another one is posted."""
+    if work is None:
+        return []
+    rough = [loop.whole for one in work.rough for loop in one.loops]
+    return rough if work.compensated is None or _shown(work) is not None else [*rough, work.compensated.path]
 
 
 def _surface(found: DerivedBlock) -> Path:

@@ -8,7 +8,7 @@ from core.comp.advise import recommended
 from core.comp.compensate import compensate_all
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.comp.result import Compensated
-from core.pipeline.derive import parameter
+from core.pipeline.cut import parameter
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
 from core.verify.judge import judge_all

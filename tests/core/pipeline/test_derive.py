@@ -7,7 +7,7 @@ from core.finding import Severity
 from core.pipeline.derive import derive, stocks
 from core.pipeline.derived import Tag
 from core.pipeline.outline import outline
-from core.program.model import CutterComp, Entry, LineSegment, Parameters, Unread
+from core.program.model import CutterComp, Entry, LineSegment, Parameters, PathChoice, Unread
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE, block, program
 
 IN = 25.4
@@ -109,7 +109,7 @@ def test_profile_comes_in_from_the_largest_offset_and_a_finish_tool_leaves_its_s
     # 0.5 across less 20 percent steps in by 0.4: 1.0, 0.6, 0.2, then the stock of 0.02
     assert [one.stock / IN for one in found.work.rough] == pytest.approx([1.0, 0.6, 0.2, 0.02])
     assert found.radius / IN == pytest.approx(0.125)
-    lowest = [float(one.centre.points[:, 1].min()) / IN for one in found.work.rough]
+    lowest = [float(one.loops[0].path.points[:, 1].min()) / IN for one in found.work.rough]
     assert lowest == pytest.approx([-1.25, -0.85, -0.45, -0.27])
     assert float(found.work.centre.points[:, 1].min()) / IN == pytest.approx(-0.125)
     assert stocks(found, derive(program(typed, parameters=parameters)).program) == tuple(
@@ -137,3 +137,60 @@ def test_a_tool_larger_than_the_part_is_said():
     tiny = ((0, 0), (0.2, 0), (0.2, 0.2), (0, 0.2), (0, 0))
     (found,) = derive(program(block(tiny, CutterComp.RIGHT))).blocks
     assert "TOOL_LARGE" in codes(found)
+
+
+DUMBBELL = (
+    (1, 0),
+    (2, 0),
+    (2, 0.8),
+    (3, 0.8),
+    (3, 0),
+    (5, 0),
+    (5, 2),
+    (3, 2),
+    (3, 1.2),
+    (2, 1.2),
+    (2, 2),
+    (0, 2),
+    (0, 0),
+    (1, 0),
+)
+
+
+def best(points, comp, **more):
+    parameters = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0), path=PathChoice.BEST)
+    return derive(program(block(points, comp, **more), parameters=parameters)).blocks[0]
+
+
+def test_the_best_path_of_a_dumbbell_is_two_loops_judged_together():
+    """Between the two chambers is a passage of 0.4, which the cutter of 0.5 cannot enter."""
+    found = best(DUMBBELL, CutterComp.LEFT)
+    assert len(found.work.loops) == 2
+    assert found.postable
+    assert [float(loop.path.lengths.sum()) / IN for loop in found.work.loops] == pytest.approx([6.0, 6.0], abs=0.2)
+    control = derive(program(block(DUMBBELL, CutterComp.LEFT, lookahead=Entry(1)))).blocks[0]
+    assert len(control.work.loops) == 1
+    assert not control.postable
+
+
+def test_the_form_says_what_the_best_path_cuts_more():
+    """From three on the look-ahead erases most of the over-run square; its true offset runs all round."""
+    (found,) = derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT, lookahead=Entry(4)))).blocks
+    (better,) = [finding for finding in found.findings if finding.code == "BEST_DIFFERS"]
+    assert better.value > 8 * IN
+
+
+def test_where_the_control_path_is_clean_and_complete_the_best_path_is_the_same():
+    control = derive(program(block(MID_SIDE_SQUARE, CutterComp.LEFT))).blocks[0]
+    assert control.work.separation.length == pytest.approx(0.0, abs=1e-9)
+    assert "BEST_DIFFERS" not in codes(control)
+    found = best(MID_SIDE_SQUARE, CutterComp.LEFT)
+    np.testing.assert_allclose(found.work.centre.points, control.work.centre.points, atol=1e-9)
+
+
+def test_the_cutter_that_fits_nowhere_has_no_best_path_and_nothing_is_posted():
+    tiny = ((0.2, 0), (0.4, 0), (0.4, 0.4), (0, 0.4), (0, 0), (0.2, 0))
+    found = best(tiny, CutterComp.LEFT)
+    assert found.work.loops == ()
+    assert "NO_PATH" in [finding.code for finding in found.errors]
+    assert not found.postable

@@ -1,0 +1,84 @@
+"""What is said of a block's paths: errors that forbid posting, warnings, and what a better path would cut."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import inf
+
+from core.finding import Finding, Severity
+from core.geometry.path import Path
+from core.pipeline.derived import Loop, RoughPass, Work
+from core.program.model import PathChoice, Program
+from core.tolerance import GOUGE
+from core.verify.report import findings as verdict_findings
+from core.verify.verdict import Gouge
+
+
+def path_findings(work: Work, program: Program) -> tuple[Finding, ...]:
+    """Everything found about the posted path, its blends, the roughing passes, and the path that is not posted."""
+    assert work.verdict is not None
+    assert work.compensated is not None
+    assert work.best is not None
+    best = program.parameters.path is PathChoice.BEST
+    return (
+        *(work.best.findings if best else work.compensated.findings),
+        *verdict_findings(work.verdict, work.surface),
+        *blend_findings(work.loops, work.verdict.gouges),
+        *rough_findings(work.rough),
+        *(() if best else _better(work)),
+    )
+
+
+def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge]) -> Iterator[Finding]:
+    """A blend arc that gouges is named as such: the remedy is another start or a smaller BLEND OFFSET."""
+    first = 0
+    for loop in loops:
+        begin, end = first + len(loop.lead_in), first + len(loop.lead_in) + len(loop.path)
+        last = end + len(loop.lead_out)
+        for name, low, high in (("in", first, begin), ("out", end, last)):
+            hit = next((gouge for gouge in gouges if low <= gouge.path_piece < high), None)
+            if hit is not None:
+                text = f"The blend-{name} arc gouges {{value}} deep. Start elsewhere or make BLEND OFFSET smaller."
+                yield Finding("BLEND_GOUGES", Severity.ERROR, text, hit.surface_number, None, hit.at, hit.depth)
+        first = last
+
+
+def rough_findings(rough: Sequence[RoughPass]) -> Iterator[Finding]:
+    """The deepest gouge of each roughing pass, and passes for which there is no room."""
+    for one in rough:
+        for hit in one.verdict.gouges[:1]:
+            text = "The roughing pass that leaves {0} gouges {value} deep."
+            where = hit.surface_number, None, hit.at, hit.depth, (one.stock,)
+            yield Finding("ROUGH_GOUGES", Severity.ERROR, text, *where)
+        if not one.loops:
+            text = "The roughing pass that leaves {0} has no room: it is left out."
+            yield Finding("ROUGH_EMPTY", Severity.WARNING, text, lengths=(one.stock,))
+
+
+def _better(work: Work) -> Iterator[Finding]:
+    """How far the control's path is from the best one."""
+    apart = work.separation
+    if apart is None or apart.length <= GOUGE or not apart.stretches:
+        return
+    first = apart.stretches[0]
+    x, y = first.points[0].tolist()
+    text = (
+        "The best path runs {value} that this path does not, from X {x} Y {y} on. PROGRAM PARAMETERS, PATH chooses it."
+    )
+    yield Finding("BEST_DIFFERS", Severity.INFO, text, float(first.numbers[0]), None, (x, y), apart.length)
+
+
+def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
+    """A tool that is larger than the whole contour is mostly a wrong one."""
+    boxes = surface.boxes
+    extent = max((boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0)).tolist(), default=inf)
+    if 2 * radius <= extent:
+        return ()
+    text = "The tool is {value} across, larger than the whole contour ({0}). Check TOOL and TOOL SETUP."
+    return (Finding("TOOL_LARGE", Severity.WARNING, text, field="tool", value=2 * radius, lengths=(extent,)),)
+
+
+def by_weight(found: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """Errors, then warnings, then the rest."""
+    order = list(Severity)
+    return tuple(sorted(found, key=lambda finding: order.index(finding.severity)))
