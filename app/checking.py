@@ -78,6 +78,11 @@ def answer(text: bytes, asked: Asked) -> Answer:
     return _answer(done, results, _foreign(asked.control, text), "", shop=asked.shop)
 
 
+def answered(done: Run, results: tuple[Judged, ...], text: bytes) -> Answer:
+    """The answer of a control that has run a text."""
+    return _answer(done, results, _foreign(done.control, text), "", shop=False)
+
+
 def answer_all(text: bytes, asked: Asked) -> tuple[Answer, ...]:
     """Every control's answer, and where its path leaves that of the first one that runs the program."""
     return tuple(_compared(row, asked) for row in compare(text, asked.tools, asked.unit))

@@ -71,8 +71,17 @@ def write_text(path: str | Path, text: str) -> None:
     StoreError leaves the old file as it was and nothing beside it.
     """
     try:
+        data = text.encode()
+    except ValueError as error:
+        raise StoreError(f"{path} is not saved: {why(error)}") from error
+    write_data(path, data)
+
+
+def write_data(path: str | Path, data: bytes) -> None:
+    """The same with bytes."""
+    try:
         target = Path(os.path.realpath(path))
-        _replace(target, text.encode())
+        _replace(target, data)
     except (OSError, ValueError) as error:
         raise StoreError(f"{path} is not saved: {why(error)}") from error
 

@@ -1,0 +1,129 @@
+"""A program text being edited: its lines as the file has them, and what was changed.
+
+A line keeps its own line end, so that what nobody touched is written back byte by byte.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from typing import Final
+
+LARGEST: Final = 64_000_000
+"""Bytes of a file that is opened."""
+MARKS: Final = ((b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"))
+"""The marks of UTF-16."""
+_LINE: Final = re.compile(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+\Z")
+_END: Final = re.compile(r"(?:\r\n|\n|\r)\Z")
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Change:
+    """Lines from `row` on, from 0, that were put in the place of others."""
+
+    row: int
+    removed: tuple[str, ...]
+    inserted: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Listing:
+    """`lines` with their ends; `origin` is what the file held; `saved` is the last change that the file has."""
+
+    lines: tuple[str, ...] = ()
+    encoding: str = "utf-8"
+    origin: bytes = b""
+    past: tuple[Change, ...] = ()
+    future: tuple[Change, ...] = ()
+    saved: Change | None = None
+
+    @staticmethod
+    def read(data: bytes) -> Listing:
+        """The lines of a file: UTF-16 by its mark, UTF-8, or byte for byte."""
+        for encoding in (*(name for mark, name in MARKS if data.startswith(mark)), "utf-8"):
+            try:
+                text = data.decode(encoding)
+            except UnicodeDecodeError:
+                continue
+            if text.encode(encoding) == data:
+                return Listing(tuple(_LINE.findall(text)), encoding, data)
+        return Listing(tuple(_LINE.findall(data.decode("latin-1"))), "latin-1", data)
+
+    @property
+    def data(self) -> bytes:
+        """The file as it would be written."""
+        return self.origin if not self.unsaved else "".join(self.lines).encode(self.encoding)
+
+    @property
+    def unsaved(self) -> bool:
+        """The file does not hold the lines as they are."""
+        return (self.past[-1] if self.past else None) is not self.saved
+
+    def __len__(self) -> int:
+        return len(self.lines)
+
+    def text(self, row: int) -> str:
+        """A line without its end; none behind the last one."""
+        return _END.sub("", self.lines[row]).removeprefix("\ufeff") if 0 <= row < len(self.lines) else ""
+
+    def takes(self, text: str) -> bool:
+        """Whether the file's encoding can hold a text."""
+        try:
+            text.encode(self.encoding)
+        except UnicodeEncodeError:
+            return False
+        return True
+
+    def changed(self, row: int, text: str) -> Listing:
+        """Another text in a line."""
+        if not self.lines:
+            return self.inserted(0, text)
+        old = self.lines[row]
+        mark = "\ufeff" if old.startswith("\ufeff") else ""
+        return self._do(Change(row, (old,), (mark + text + self._end_of(row),)))
+
+    def inserted(self, row: int, text: str = "") -> Listing:
+        """A new line before a line, or behind the last one."""
+        if row >= len(self.lines) and self.lines and not self._end_of(len(self.lines) - 1):
+            last = len(self.lines) - 1
+            return self._do(Change(last, self.lines[last:], (self.lines[last] + self._usual(), text)))
+        return self._do(Change(row, (), (text + self._usual(),)))
+
+    def deleted(self, row: int) -> Listing:
+        """Without a line."""
+        return self._do(Change(row, (self.lines[row],), ())) if self.lines else self
+
+    def _end_of(self, row: int) -> str:
+        found = _END.search(self.lines[row])
+        return found[0] if found else ""
+
+    def _usual(self) -> str:
+        """The line end of this file."""
+        return (self._end_of(0) if self.lines else "") or "\n"
+
+    def _do(self, change: Change) -> Listing:
+        return replace(_with(self, change), past=(*self.past, change), future=())
+
+    def undone(self) -> Listing:
+        """Without the last change."""
+        if not self.past:
+            return self
+        change = self.past[-1]
+        back = _with(self, Change(change.row, change.inserted, change.removed))
+        return replace(back, past=self.past[:-1], future=(*self.future, change))
+
+    def redone(self) -> Listing:
+        """With the last undone change made again."""
+        if not self.future:
+            return self
+        change = self.future[-1]
+        return replace(_with(self, change), past=(*self.past, change), future=self.future[:-1])
+
+    def written(self, data: bytes) -> Listing:
+        """After the file was written with this content."""
+        return replace(self, origin=data, saved=self.past[-1] if self.past else None)
+
+
+def _with(listing: Listing, change: Change) -> Listing:
+    lines, behind = listing.lines, change.row + len(change.removed)
+    return replace(listing, lines=(*lines[: change.row], *change.inserted, *lines[behind:]))

@@ -1,0 +1,106 @@
+"""An NC program as a control runs it: moves, findings and verdict in one value, and what is drawn of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.controls.moves import Moves, Plane
+from core.controls.registry import UnknownControl, run
+from core.controls.report import Run, Stretch
+from core.controls.tools import ToolTable
+from core.controls.verdicts import Judged, judged
+from core.draw.build import contour_scene, stretch
+from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, joined_scenes
+from core.geometry.path import Path
+from core.geometry.piece import Point
+from core.units import Unit
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Proof:
+    """A run and the verdicts on its compensated stretches."""
+
+    run: Run
+    results: tuple[Judged, ...]
+
+    @property
+    def plane(self) -> Plane:
+        """The plane that is drawn: that of the first compensated stretch, XY without any."""
+        return self.run.stretches[0].plane if self.run.stretches else Plane.XY
+
+
+def prove(text: bytes, control: str, tools: ToolTable, unit: Unit | None = None) -> Proof | UnknownControl:
+    """The program on a control; never raises for any text."""
+    done = run(text, control, tools, unit)
+    return done if isinstance(done, UnknownControl) else Proof(done, judged(done))
+
+
+def ground_of(proof: Proof) -> Scene:
+    """All that does not depend on the cursor: rapids, other moves, surfaces, centre paths, gouges, what is uncut."""
+    moves, plane = proof.run.moves, proof.plane
+    layers = [Layer(path, Style.RAPID, dashed=True) for path in _parts(moves, plane, rapid=True)]
+    layers += [Layer(path, Style.LEAD) for path in _parts(moves, plane, rapid=False)]
+    scenes = [_stretch_scene(result) for result in proof.results if result.stretch.plane is plane]
+    return joined_scenes([Scene(tuple(layers), unit=proof.run.unit), *scenes])
+
+
+def _parts(moves: Moves, plane: Plane, *, rapid: bool) -> Iterator[Path]:
+    """The runs of moves at rapid, or at feed, on the plane."""
+    wanted = np.flatnonzero(moves.rapid[1:] == rapid) + 1
+    if not len(wanted):
+        return
+    for rows in np.split(wanted, np.flatnonzero(np.diff(wanted) > 1) + 1):
+        yield moves.part(int(rows[0]) - 1, int(rows[-1]) + 1).path(plane)
+
+
+def _stretch_scene(result: Judged) -> Scene:
+    verdict, surface = result.verdict, result.surface
+    return contour_scene(
+        surface,
+        path=result.centre,
+        gouges=[gouge.surface_at for gouge in verdict.gouges],
+        uncut=[stretch(surface, one.first_number, one.start, one.last_number, one.end) for one in verdict.uncut],
+    )
+
+
+def scene_of(ground: Scene, proof: Proof, line: int) -> Scene:
+    """The ground with the moves of a line and the cutter where they end, or where the line before left it."""
+    moves, plane = proof.run.moves, proof.plane
+    layers = [Layer(path, Style.CURRENT) for path in _moves_of(moves, plane, line)]
+    at, row = place_of(proof, line)
+    held = _stretch_at(proof, row)
+    circles = () if held is None else (Circle(at, held.radius),)
+    marks = (Mark(at, Style.CUTTER, Symbol.CENTRE),)
+    return Scene((*ground.layers, *layers), circles, (*ground.marks, *marks), ground.unit)
+
+
+def _moves_of(moves: Moves, plane: Plane, line: int) -> Iterator[Path]:
+    rows = np.flatnonzero(moves.lines == line)
+    if not len(rows):
+        return
+    for part in np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1):
+        yield moves.part(max(int(part[0]) - 1, 0), int(part[-1]) + 1).path(plane)
+
+
+def place_of(proof: Proof, line: int) -> tuple[Point, int]:
+    """Where the cutter is after a line, on the plane drawn, and the row of the move that brought it there.
+
+    A line without moves leaves it where the last move of a line above it did.
+    """
+    moves = proof.run.moves
+    rows = np.flatnonzero(moves.lines == line)
+    if not len(rows):
+        above = np.flatnonzero((moves.lines < line) & (moves.lines > 0))
+        rows = above if len(above) else np.array([0])
+    first, second, _ = proof.plane.axes
+    row = int(rows[-1])
+    return (float(moves.points[row, first]), float(moves.points[row, second])), row
+
+
+def _stretch_at(proof: Proof, row: int) -> Stretch | None:
+    """The compensated stretch a move belongs to, the nearest one below it, or the last one."""
+    behind = [one for one in proof.run.stretches if row < one.last]
+    return behind[0] if behind else proof.run.stretches[-1] if proof.run.stretches else None
