@@ -29,7 +29,7 @@ SUFFIXES: Final = frozenset(
 """Files of a folder that are taken for programs."""
 
 
-class _Unusable(Exception):
+class Unusable(Exception):
     """Arguments or a file that cannot be used; the text says why."""
 
 
@@ -39,7 +39,7 @@ def check(arguments: list[str]) -> int:
     try:
         asked = _asked(options)
         paths = list(_programs(options.files))
-    except _Unusable as trouble:
+    except Unusable as trouble:
         print(f"cutcomp: {trouble}", file=sys.stderr)
         return UNUSABLE
     if options.contour:
@@ -83,18 +83,18 @@ def _asked(options: argparse.Namespace) -> Asked:
     if control != "all":
         full = resolve(control)
         if isinstance(full, UnknownControl):
-            raise _Unusable(full.text)
+            raise Unusable(full.text)
         control = full
-    return Asked(control, _tools(options), options.shop, Unit(options.units) if options.units else None)
+    return Asked(control, tools_of(options), options.shop, Unit(options.units) if options.units else None)
 
 
-def _tools(options: argparse.Namespace) -> ToolTable:
+def tools_of(options: argparse.Namespace) -> ToolTable:
     table = ToolTable()
     if options.tools is not None:
         table, findings = read_table(_bytes(options.tools))
         if findings:
             first = findings[0]
-            raise _Unusable(f"{_name(options.tools)}, line {first.line}: {first.text}")
+            raise Unusable(f"{name_of(options.tools)}, line {first.line}: {first.text}")
     return table.with_tools(ToolTable.of(*(_tool(text) for text in options.tool)))
 
 
@@ -106,9 +106,9 @@ def _tool(text: str) -> CutterTool:
     try:
         tool = CutterTool(int(number), float(digits), unit=unit)
     except ValueError:
-        raise _Unusable(f"--tool {shown(text)}: write a number and a diameter, as in 1=.5 or 2=6mm.") from None
+        raise Unusable(f"--tool {shown(text)}: write a number and a diameter, as in 1=.5 or 2=6mm.") from None
     if not abs(tool.diameter) < 1e6 or tool.number < 0:
-        raise _Unusable(f"--tool {shown(text)}: that is no diameter of a tool.")
+        raise Unusable(f"--tool {shown(text)}: that is no diameter of a tool.")
     return tool
 
 
@@ -116,10 +116,10 @@ def _bytes(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except OSError as error:
-        raise _Unusable(f"{_name(path)}: {error.strerror}.") from error
+        raise Unusable(f"{name_of(path)}: {error.strerror}.") from error
 
 
-def _name(path: Path) -> str:
+def name_of(path: Path) -> str:
     """A file's name fit for a terminal."""
     return "".join(one if one.isprintable() else "?" for one in str(path))
 
@@ -132,7 +132,7 @@ def _programs(files: list[Path]) -> Iterator[Path]:
             continue
         found = sorted(one for one in path.rglob("*") if one.suffix.lower() in SUFFIXES and one.is_file())
         if not found:
-            raise _Unusable(f"{_name(path)} is a folder without programs ({' '.join(SUFFIXES)}).")
+            raise Unusable(f"{name_of(path)} is a folder without programs ({' '.join(SUFFIXES)}).")
         yield from found
 
 
@@ -148,7 +148,7 @@ class _Checked:
 def _one(path: Path, asked: Asked) -> _Checked:
     try:
         text = _bytes(path)
-    except _Unusable as trouble:
+    except Unusable as trouble:
         return _Checked(path, unusable=str(trouble))
     found = answer_all(text, asked) if asked.control == "all" else (answer(text, asked),)
     return _Checked(path, found)
@@ -181,9 +181,9 @@ def _contours(paths: list[Path], asked: Asked) -> int:
     """Two programs by their contours: 0 if they describe the same, 1 if not."""
     try:
         if len(paths) != 2:
-            raise _Unusable("--contour compares two files.")
+            raise Unusable("--contour compares two files.")
         first, second = (_bytes(path) for path in paths)
-    except _Unusable as trouble:
+    except Unusable as trouble:
         print(f"cutcomp: {trouble}", file=sys.stderr)
         return UNUSABLE
     same, told = same_contours(first, second, asked)
@@ -230,7 +230,7 @@ def _as_summary(answers: Iterator[_Checked]) -> int:
         status = max(status, found)
         counts[found] += 1
         for one in checked.answers:
-            print(f"{_name(checked.path)}: {one.control}: {one.outcome}")
+            print(f"{name_of(checked.path)}: {one.control}: {one.outcome}")
     print(f"{sum(counts.values())} files: {counts[CLEAN]} clean, {counts[FINDINGS]} with errors, ", end="")
     print(f"{counts[UNUSABLE]} not readable.")
     return status

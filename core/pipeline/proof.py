@@ -12,10 +12,11 @@ from core.controls.registry import UnknownControl, run
 from core.controls.report import Run, Stretch
 from core.controls.tools import ToolTable
 from core.controls.verdicts import Judged, judged
-from core.draw.build import contour_scene, stretch
+from core.draw.build import contour_scene
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, joined_scenes
 from core.geometry.path import Path
 from core.geometry.piece import Point
+from core.geometry.stretch import stretch
 from core.units import Unit
 
 
