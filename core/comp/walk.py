@@ -9,6 +9,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain as one_by_one
 from math import inf
 from typing import Final, cast
 
@@ -21,7 +22,6 @@ from core.geometry.intersect import Indices, planes
 from core.geometry.path import Floats
 from core.tolerance import ON_PATH
 
-_NOBODY: Final = -1
 _GONE: Final = b"\1"
 _STRETCH: Final = 4096
 
@@ -73,28 +73,30 @@ class Walk:
         starts there, everything between is gone.  `agenda` holds pieces whose joint is to be made anew, last first.
         """
         low, high, gone, met = self._low, self._high, self._left.gone, list[int]()
-        piece, start, over = _NOBODY, 0.0, True
+        piece, over = -1, True
         for row, (b, a, at, on, a_ends, b_ends) in enumerate(_rows(self._others)):
             if b != piece:
-                self._settle(piece, b, agenda)
+                if agenda and agenda[-1] <= b:
+                    self._settle(b, agenda)
                 piece, start, over = b, low[b], False
-            if over or gone[a] or on < start - ON_PATH or at < low[a] - ON_PATH or at > high[a] + ON_PATH:
+            if over or gone[a] or on < start - ON_PATH:
                 continue
-            if on <= start + ON_PATH and (a_ends or at >= high[a] - ON_PATH):
+            first, last = low[a], high[a]
+            if at < first - ON_PATH or at > last + ON_PATH or (b_ends and at <= first + ON_PATH):
                 continue
-            if b_ends and at <= low[a] + ON_PATH:
+            if on <= start + ON_PATH and (a_ends or at >= last - ON_PATH):
                 continue
             high[a], low[b], over = at, on, True
             gone[a + 1 : b] = _GONE * (b - a - 1)
             met.append(row)
-        self._settle(piece, len(self._chain), agenda)
+            if high[b] < on - ON_PATH:
+                agenda.append(b + 2)
+        self._settle(len(self._chain), agenda)
         return met
 
-    def _settle(self, piece: int, until: int, agenda: list[int]) -> None:
-        """Join anew what no longer holds behind `piece`, up to the joint of piece `until` with its predecessor."""
+    def _settle(self, until: int, agenda: list[int]) -> None:
+        """Join anew what no longer holds, up to the joint of piece `until` with its predecessor."""
         low, high = self._low, self._high
-        if piece >= 0 and high[piece] < low[piece] - ON_PATH:
-            agenda.append(piece + 2)
         while agenda and agenda[-1] <= until:
             follower = agenda.pop()
             if high[follower - 2] < low[follower - 2] - ON_PATH:
@@ -121,5 +123,7 @@ def _numbers(values: Floats) -> memoryview[float]:
 def _rows(crossings: Crossings) -> Iterator[tuple[int, int, float, float, bool, bool]]:
     """The crossings' b, a, along_a, along_b, a_ends, b_ends one by one, made plain numbers a stretch at a time."""
     columns = crossings.b, crossings.a, crossings.along_a, crossings.along_b, crossings.a_ends, crossings.b_ends
-    for first in range(0, len(crossings), _STRETCH):
-        yield from zip(*(column[first : first + _STRETCH].tolist() for column in columns), strict=True)
+    stretches = (slice(first, first + _STRETCH) for first in range(0, len(crossings), _STRETCH))
+    return one_by_one.from_iterable(
+        zip(*(column[some].tolist() for column in columns), strict=True) for some in stretches
+    )
