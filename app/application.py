@@ -13,6 +13,7 @@ from app.behind import Behind
 from app.desk import Desk
 from app.engine import Engine
 from app.screens.frame import Frame, picture
+from app.screens.page import Question
 from app.screens.start import StartPage
 from app.session import Session
 from app.surroundings import Surroundings, real
@@ -53,6 +54,8 @@ class CutcompApp(App[int], inherit_bindings=False):
         self._trying = Behind(self, self._tried)
         self._tabling = Behind(self, self._tabled)
         self._surveying = Behind(self, self._surveyed)
+        self._asking: Behind[object] = Behind(self, self._answered)
+        self._asked: Question | None = None
 
     @property
     def shown(self) -> Session:
@@ -102,6 +105,7 @@ class CutcompApp(App[int], inherit_bindings=False):
         self._try()
         self._tabulate()
         self._survey()
+        self._ask()
         self.refresh_screen()
 
     def _loaded(self, derived: Derived) -> None:
@@ -175,6 +179,22 @@ class CutcompApp(App[int], inherit_bindings=False):
         if isinstance(page, StartPage):
             self.desk = replace(self.desk, pages=(*self.desk.pages[:-1], page.knowing(facts)))
         self._survey()
+        self.refresh_screen()
+
+    def _ask(self) -> None:
+        """What the page that is seen wants calculated: now while that is fast, else in a thread."""
+        question = self.desk.page.question
+        if question is None or question is self._asked or not self.engine.ready:
+            return
+        self._asked = question
+        if question.small and self.engine.fast("ask"):
+            self.desk = self.desk.told(self.engine.timed("ask", question.answer))
+        else:
+            self._asking.ask(lambda: self.engine.timed("ask", question.answer))
+
+    def _answered(self, answer: object) -> None:
+        """An answer from a thread; pages that ask something else by now drop it."""
+        self.desk = self.desk.told(answer)
         self.refresh_screen()
 
     def _tabled(self, _: None) -> None:

@@ -75,11 +75,16 @@ class Desk:
         if key == "escape":
             return desk._escape(armed=armed)
         if key in EVERYWHERE:
-            return desk._everywhere(key)
+            own = desk.page.everywhere(key, desk.session)
+            return desk._everywhere(key) if own is None else desk._answered(own)
         answer = desk.page.press(key, character, desk.session)
         if answer is None and character == "?":
             return desk._helped()
         return desk if answer is None else desk._answered(answer)
+
+    def told(self, answer: object) -> Desk:
+        """The desk with the answer to a page's question."""
+        return replace(self, pages=tuple(page.hearing(answer) for page in self.pages))
 
     def knowing(self, derived: Derived) -> Desk:
         """The desk with what follows from its program."""

@@ -13,7 +13,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Final, TypeVar
 
 from app.memory import Memory
-from app.screens.page import Sketch
+from app.screens.page import Drawn, Sketch
 from app.widgets.rows import Row
 from app.widgets.verdict import verdict_rows
 from core.pipeline.derived import Derived, DerivedBlock
@@ -45,12 +45,18 @@ class Known:
     trial: Session | None = None
     """The session as it would be with the half-typed number accepted."""
 
-    def drawing(self, desk: Desk, sketch: Sketch, columns: int, rows: int) -> tuple[Row, ...]:
+    def drawing(
+        self, desk: Desk, sketch: Sketch, columns: int, rows: int, drawn: Drawn | None = None
+    ) -> tuple[Row, ...]:
         """The drawing as rows; none before the numeric library is there."""
         if not self.ready or columns < 1 or rows < 1:
             return ()
         from app.widgets.drawing import picture_rows, scene_of
 
+        if drawn is not None:
+            scene = self.memory.recall("page-scene", drawn.about, drawn.scene)
+            own = (scene, sketch, columns, rows, desk.mode)
+            return self.memory.recall("page-picture", own, lambda: picture_rows(*own))
         session = self.trial or desk.session
         found, segment, unit = session.found, session.where.segment, session.program.unit
         if not found.known and (before := self.memory.last("picture", tuple)) is not None:

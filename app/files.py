@@ -101,6 +101,8 @@ def _load(desk: Desk, message: Load) -> Desk:
         keep = (Close(), Save()) if session.file is not None else (Close(), Open(SaveAsPage.of(session)))
         options = (("s", "SAVE FIRST", keep), ("d", "OPEN WITHOUT SAVING", (Close(), open_it)))
         return desk.take(Open(Ask("NOT SAVED", ("The program has changes that are not saved.",), options)))
+    if any(page.unsaved for page in desk.pages):
+        return _failed(desk, "The NC file under proof has changes that are not saved: Ctrl+S on its screen saves them.")
     if message.path is None:
         return fresh(desk, Session.of(empty_program(desk.settings.unit))).take(Say("A new program."))
     try:
@@ -135,8 +137,13 @@ def _post(desk: Desk, message: Post) -> Desk:
 
 
 def _leave(desk: Desk, message: Leave) -> Desk:
-    if message.unsaved or not desk.session.unsaved:
+    listing = any(page.unsaved for page in desk.pages)
+    if message.unsaved or not (desk.session.unsaved or listing):
         return replace(desk, exit=True)
+    if listing:
+        too = " So has the program." if desk.session.unsaved else ""
+        lines = (f"The NC file under proof has changes that are not saved.{too}",)
+        return desk.take(Open(Ask("LEAVE?", lines, (("l", "LEAVE WITHOUT", (Leave(unsaved=True),)),))))
     options = (("s", "SAVE AND LEAVE", (Close(), Save(leave=True))), ("l", "LEAVE WITHOUT", (Leave(unsaved=True),)))
     return desk.take(Open(Ask("LEAVE?", ("The program has changes that are not saved.",), options)))
 

@@ -68,18 +68,22 @@ def parts(desk: Desk, known: Known, around: Surroundings, width: int, height: in
     session = known.trial or desk.session
     layout = desk.page.layout
     areas = plan(width, height, layout)
-    view = desk.page.view(session, Surface(areas.header.width, areas.body.height, known.table))
+    view = desk.page.view(session, _surface(areas, known))
     drawn = areas.drawing
     return {
         "notice": Part(areas.notice, _notice(width, height)),
         "header": Part(areas.header, view.header, SECOND),
         "body": Part(areas.body, view.body, view.focus),
         "verdict": Part(areas.verdict, _verdict(session, known, view, layout, areas)),
-        "drawing": Part(drawn, known.drawing(desk, view.sketch, drawn.width, drawn.height)),
+        "drawing": Part(drawn, known.drawing(desk, view.sketch, drawn.width, drawn.height, view.drawn)),
         "softkeys": Part(areas.softkeys, softkey_rows(desk.page.softkeys(desk.session), areas.softkeys.height)),
         "prompt": Part(areas.prompt, prompt_rows(_prompt(desk, view), areas.prompt.width)),
-        "status": Part(areas.status, (status_row(desk.session, around.clock(), around.free(), width),)),
+        "status": Part(areas.status, (status_row(desk.session, around.clock(), around.free(), width, view.status),)),
     }
+
+
+def _surface(areas: Plan, known: Known) -> Surface:
+    return Surface(areas.header.width, areas.body.height, known.table, areas.body.width, areas.verdict.height)
 
 
 def _prompt(desk: Desk, view: View) -> Said:
@@ -95,6 +99,8 @@ def _verdict(session: Session, known: Known, view: View, layout: Layout, areas: 
     area = areas.verdict
     if area.height == 0:
         return ()
+    if view.told is not None:
+        return view.told[: area.height]
     rows = known.verdict(session, view.sketch.lookahead)
     if layout is not Layout.FORM:
         rows = rows[1:]

@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, Protocol
 
 from app.messages import Message
 from app.session import Said, Session
 from app.widgets.rows import Row
 
 if TYPE_CHECKING:
+    from core.draw.scene import Scene
     from core.pipeline.table import Table
     from core.program.model import Program
 
 
 class Layout(StrEnum):
-    """How a page shares the terminal: fields over a drawing, a table over it, text alone, the drawing alone."""
+    """How a page shares the terminal: fields over a drawing, a table over it, text alone, the drawing alone, a listing
+    beside a drawing over a list of findings."""
 
     FORM = "form"
     TABLE = "table"
     TEXT = "text"
     DRAW = "draw"
+    PROOF = "proof"
 
 
 class Surface(NamedTuple):
@@ -32,6 +35,10 @@ class Surface(NamedTuple):
     body: int = 9
     table: Table | None = None
     """The look-ahead table of the block with the cursor, None while it is not known."""
+    across: int = 59
+    """Width of the body, which may be less than that of the page."""
+    told: int = 4
+    """Rows for the verdict."""
 
 
 class Softkey(NamedTuple):
@@ -61,14 +68,28 @@ WHOLE: Final = Sketch()
 """The block itself, as large as it fits."""
 
 
+class Drawn(NamedTuple):
+    """A drawing of a page's own: `scene` makes it, anew only where `about` is other things than before."""
+
+    about: tuple[object, ...]
+    scene: Callable[[], Scene]
+
+
 class View(NamedTuple):
-    """A page as it stands: rows for each part of the terminal."""
+    """A page as it stands: rows for each part of the terminal.
+
+    A page that is not about the session's block has its own rows for the verdict in `told`, its own drawing, and its
+    own words for the status line: the unit, and what can be undone.
+    """
 
     header: tuple[Row, ...]
     body: tuple[Row, ...]
     prompt: Said
     focus: int = 0
     sketch: Sketch = WHOLE
+    told: tuple[Row, ...] | None = None
+    drawn: Drawn | None = None
+    status: tuple[str, str] | None = None
 
 
 class Answer(NamedTuple):
@@ -76,6 +97,19 @@ class Answer(NamedTuple):
 
     page: Page
     messages: tuple[Message, ...] = ()
+
+
+class Question(Protocol):
+    """Something to be calculated; `small` says that it may be fast."""
+
+    @property
+    def small(self) -> bool:
+        """Whether it may be done before the next picture."""
+        ...
+
+    def answer(self) -> object:
+        """The calculation itself."""
+        ...
 
 
 class Page:
@@ -105,6 +139,24 @@ class Page:
 
     def escape(self, session: Session) -> Answer | None:
         """What Esc takes back; None when there is nothing to take back."""
+        return None
+
+    @property
+    def question(self) -> Question | None:
+        """What has to be calculated for this page and is not known yet."""
+        return None
+
+    def hearing(self, answer: object) -> Page:
+        """The page with an answer; one to a question of other pages changes nothing."""
+        return self
+
+    @property
+    def unsaved(self) -> bool:
+        """The page holds work of its own that no file has."""
+        return False
+
+    def everywhere(self, key: str, session: Session) -> Answer | None:
+        """What undo, redo and save mean here where they are not the program's; None where they are."""
         return None
 
     def preview(self, session: Session) -> Program | None:

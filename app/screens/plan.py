@@ -60,6 +60,8 @@ def _parts(layout: Layout, area: Area) -> dict[str, Area]:
     match layout:
         case Layout.TEXT:
             return {"body": area}
+        case Layout.PROOF:
+            return _listed(area)
         case Layout.DRAW:
             told = min(2, max(area.height - 3, 0))
             above = Area(area.x, area.y, area.width, area.height - told)
@@ -73,6 +75,19 @@ def _parts(layout: Layout, area: Area) -> dict[str, Area]:
                 "verdict": Area(area.x, area.y + body, area.width, told),
                 "drawing": Area(area.x, area.y + body + told, area.width, drawn),
             }
+
+
+def _listed(area: Area) -> dict[str, Area]:
+    """A listing with its findings below; the drawing beside the listing, on a wide terminal beside both."""
+    told = min(max(area.height // 3, 1), area.height)
+    above = area.height - told
+    across = min(LEFT, area.width) if area.width + softkeys.WIDTH >= WIDE else max(area.width * 5 // 9, 1)
+    below = across if area.width + softkeys.WIDTH >= WIDE else area.width
+    return {
+        "body": Area(area.x, area.y, across, above),
+        "verdict": Area(area.x, area.y + above, below, told),
+        "drawing": Area(area.x + across, area.y, area.width - across, area.height if below < area.width else above),
+    }
 
 
 def _beside(parts: dict[str, Area], layout: Layout, left: int, top: int, room: int) -> dict[str, Area]:
