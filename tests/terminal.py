@@ -31,12 +31,13 @@ class Answer:
 
 @dataclass
 class Terminal:
-    """One running program: `pid`, its pseudo-terminal `fd`, and the screen as the emulator sees it."""
+    """One running program: `pid`, its pseudo-terminal `fd`, the emulator's screen, and all bytes `seen`."""
 
     pid: int
     fd: int
     screen: pyte.Screen
     stream: pyte.ByteStream = field(init=False)
+    seen: bytearray = field(default_factory=bytearray)
 
     def __post_init__(self) -> None:
         self.stream = pyte.ByteStream(self.screen)
@@ -58,6 +59,7 @@ class Terminal:
             last = time.perf_counter() - begun
             first = first or last
             count += len(data)
+            self.seen += data
             self.stream.feed(data)
         return Answer(count, first, last)
 
