@@ -96,7 +96,7 @@ class PostPage(EntryPage):
 
     def _chosen(self) -> tuple[Row, ...]:
         """The control, and what that means."""
-        name, text = "none", "The path of the tool's centre is posted, without G41 or G42."
+        name, text = "none", "The tool centre's path, without G41 or G42."
         if self.control is not None:
             name, text = (
                 self.control,
