@@ -124,6 +124,7 @@ def serve(options: argparse.Namespace) -> int:
         say(reason)
         return UNUSABLE
     say(f"{web.address(options.host, options.port)} in the browser. Ctrl+C ends it. {web.NO_LOGIN}")
+    say("Where the browser keeps a function key to itself, Esc and then its digit does the same.")
     try:
         web.serve(options.file, options.host, options.port)
     except ImportError:

@@ -21,6 +21,16 @@ MISSING: Final = "the browser needs one more package: install cutcomp[web], or t
 NO_LOGIN: Final = "There is no login: whoever reaches this address works as you, on your files."
 
 
+FOCUS: Final = """<script>
+const look = setInterval(() => {
+  const typed = document.querySelector("textarea");
+  if (typed) typed.focus();
+  if (typed && document.activeElement === typed) clearInterval(look);
+}, 100);
+</script>"""
+"""Without it the first key needs a click or Tab: the terminal in the page does not take the keys by itself."""
+
+
 def refusal(host: str, *, allow_network: bool) -> str:
     """Why an address is not served, empty for one that is."""
     if allow_network or is_local(host):
@@ -49,6 +59,7 @@ def serve(file: Path | None, host: str, port: int) -> None:
     root = str(Path(__file__).parent.parent)
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"))))
     server = made(command(file), host, port, title="cutcomp", public_url=address(host, port))
+    server.handle_index = _focused(server.handle_index)
     server.handle_websocket = _own_pages_only(server.handle_websocket, host, port)
     server.serve()
 
@@ -67,6 +78,15 @@ def _own_pages_only(handle: Callable[[Any], Awaitable[Any]], host: str, port: in
         return await handle(request)
 
     return guarded
+
+
+def _focused(handle: Callable[[Any], Awaitable[Any]]) -> Callable[[Any], Awaitable[Any]]:
+    async def page(request: Any) -> Any:  # noqa: ANN401  # as above
+        answer = await handle(request)
+        answer.text = answer.text.replace("</body>", f"{FOCUS}</body>")
+        return answer
+
+    return page
 
 
 def welcome(asked: str, origin: str, host: str, port: int) -> bool:

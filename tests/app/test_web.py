@@ -1,0 +1,53 @@
+"""Which addresses are served, and who is let in."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+
+import pytest
+
+from app.__main__ import main
+from app.web import address, command, is_local, refusal, welcome
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "127.8.9.1", "::1", "localhost", "LOCALHOST"])
+def test_this_machines_own_addresses(host: str) -> None:
+    assert is_local(host)
+    assert refusal(host, allow_network=False) == ""
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.168.1.5", "shop-pc", "localhost.example"])
+def test_other_addresses_are_refused_until_allowed(host: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert "no login" in refusal(host, allow_network=False)
+    assert refusal(host, allow_network=True) == ""
+    assert main(["serve", "--host", host]) == 2
+    assert "--allow-network" in capsys.readouterr().err
+
+
+def test_a_files_name_is_one_word_to_the_shell_and_no_option() -> None:
+    words = shlex.split(command(Path("-o; rm $(x) `y`.toml")))
+    assert words[-2] == "--"
+    assert words[-1].endswith("/-o; rm $(x) `y`.toml")
+
+
+@pytest.mark.parametrize(
+    ("asked", "origin", "let_in"),
+    [
+        ("127.0.0.1:8000", "http://127.0.0.1:8000", True),
+        ("localhost:8000", "http://localhost:8000", True),
+        ("127.0.0.1:8000", "http://elsewhere.example", False),
+        ("127.0.0.1:8000", "", False),
+        ("", "", False),
+        ("elsewhere.example:8000", "http://elsewhere.example:8000", False),
+        ("127.0.0.1:9000", "http://127.0.0.1:9000", False),
+        ("127.0.0.1:8000", "null", False),
+    ],
+)
+def test_only_the_served_page_may_connect(asked: str, origin: str, let_in: bool) -> None:
+    assert welcome(asked, origin, "127.0.0.1", 8000) is let_in
+
+
+def test_addresses_as_typed_into_a_browser() -> None:
+    assert address("127.0.0.1", 80) == "http://127.0.0.1:80"
+    assert address("::1", 8000) == "http://[::1]:8000"

@@ -1,0 +1,114 @@
+"""The screens in a browser by keys alone, from the start screen to a posted file: `python -m tests.reports.web [PNG]`.
+
+It needs Chromium (`apt-get install chromium`) and the extra `web`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from tests.reports.browser import browsing, chromium
+
+ROOT = Path(__file__).parents[2]
+
+
+def free_port() -> int:
+    """A port nobody listens on."""
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        port: int = one.getsockname()[1]
+        return port
+
+
+@contextmanager
+def serving(folder: Path, port: int) -> Iterator[None]:
+    """`cutcomp serve` in a folder, with settings of its own."""
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(folder / "config")}
+    environment["XDG_STATE_HOME"] = environment["XDG_DATA_HOME"] = str(folder / "state")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "app", "serve", "--port", str(port)],
+        cwd=folder,
+        env=environment,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        for _ in range(200):
+            with socket.socket() as one:
+                if one.connect_ex(("127.0.0.1", port)) == 0:
+                    break
+            time.sleep(0.05)
+        yield
+    finally:
+        process.terminate()
+        process.wait(10)
+
+
+async def keyed(program: str, port: int, folder: Path, picture: Path | None) -> list[str]:
+    """A plate keyed in by the guide's words; what was seen on the way."""
+    seen = []
+    async with browsing(program, f"http://127.0.0.1:{port}") as browser:
+        await browser.until("GUIDED FIRST")
+        seen.append(f"start screen, {browser.screen.columns}x{browser.screen.lines}")
+        # not F7, which Chromium keeps to itself
+        await asyncio.sleep(1.0)
+        await browser.press("escape", "7")
+        await browser.until("GUIDE  Enter")
+        await browser.press("enter", "enter", "l", "tab", "tab", *"1", "enter", *"0", "enter", *"0", "enter")
+        await browser.press(*"-.25", "enter", "pagedown", "l", *"0", "enter", *"0", "enter", "enter", "enter", "enter")
+        await browser.press(*"10", "enter")
+        for x, y in ("01", "21", "20", "10"):
+            await browser.press("l", x, "enter", y, "enter", "pagedown")
+        await browser.press("escape")
+        await browser.until("GOUGE none")
+        seen.append("plate keyed in, GOUGE none")
+        if picture is not None:
+            await browser.picture(picture)
+        await browser.press("ctrl+s", "delete", *"plate", "enter")
+        await browser.until("Saved")
+        await browser.press("escape", "8", "f6")
+        await browser.until("Nothing stands against posting")
+        await browser.press("enter")
+        await browser.until("Posted")
+        seen.append(f"posted, {len((folder / 'plate.nc').read_text().splitlines())} lines")
+    return seen
+
+
+def foreign_page(port: int) -> int:
+    """The status a connection from somebody else's page gets."""
+    lines = (
+        "GET /ws HTTP/1.1",
+        f"Host: 127.0.0.1:{port}",
+        "Origin: http://elsewhere.example",
+        "Connection: Upgrade",
+        "Upgrade: websocket",
+        "Sec-WebSocket-Version: 13",
+        "Sec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==",
+    )
+    with socket.create_connection(("127.0.0.1", port), 10) as one:
+        one.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
+        return int(one.recv(100).split()[1])
+
+
+def report(picture: Path | None = None) -> list[str]:
+    """Run it all; AssertionError when something is not as it should be."""
+    program = chromium()
+    assert program is not None, "there is no Chromium: apt-get install chromium"
+    with tempfile.TemporaryDirectory() as name:
+        folder, port = Path(name), free_port()
+        with serving(folder, port):
+            assert foreign_page(port) == 403
+            return ["another page's connection is refused (403)", *asyncio.run(keyed(program, port, folder, picture))]
+
+
+if __name__ == "__main__":
+    print("\n".join(report(Path(sys.argv[1]) if sys.argv[1:] else None)))
