@@ -34,7 +34,7 @@ class Unusable(Exception):
 
 
 def _derived(path: Path, block: int | None = None, lookahead: str | None = None) -> Derived:
-    from core.pipeline.derive import derive
+    from core.pipeline.derive import compared, derive
 
     try:
         program = load(path)
@@ -42,7 +42,7 @@ def _derived(path: Path, block: int | None = None, lookahead: str | None = None)
         raise Unusable(str(error)) from error
     if block is not None and not 1 <= block <= len(program.blocks):
         raise Unusable(f"--block {block}: {path} has blocks 1 to {len(program.blocks)}.")
-    return derive(program if lookahead is None else _with_lookahead(program, lookahead))
+    return compared(derive(program if lookahead is None else _with_lookahead(program, lookahead)))
 
 
 def _with_lookahead(program: Program, text: str) -> Program:

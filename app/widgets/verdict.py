@@ -29,9 +29,12 @@ STRIP: Final = 59
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Case:
-    """The path the verdict is about: the block's own, or that of a look-ahead value of the table."""
+    """The path the verdict is about: the block's own, or that of a look-ahead value of the table.
 
-    compensated: Compensated
+    `compensated` is None for the best path, which deletes nothing.
+    """
+
+    compensated: Compensated | None
     verdict: Verdict
 
 
@@ -87,7 +90,7 @@ def _case(found: DerivedBlock, table: Table | None, look: int | None) -> Case | 
     work = found.work
     if work is None or work.compensated is None or work.verdict is None:
         return None
-    return Case(work.compensated, work.verdict)
+    return Case(work.compensated if work.best is None else None, work.verdict)
 
 
 def _sentence(finding: Finding, unit: Unit) -> Row:
@@ -118,10 +121,10 @@ def _gouge(verdict: Verdict, unit: Unit) -> Row:
     return plain(f" GOUGE   {length(deepest.depth, unit)} at {where}", Look.ERROR)
 
 
-def _deleted(compensated: Compensated, unit: Unit) -> Iterator[Row]:
+def _deleted(compensated: Compensated | None, unit: Unit) -> Iterator[Row]:
     """One line for every pair of pieces that erased segments, corner arcs left out."""
     groups: dict[tuple[float, float, float, float], list[float]] = {}
-    for one in compensated.deleted:
+    for one in () if compensated is None else compensated.deleted:
         groups.setdefault((*one.by, *one.at), []).append(one.segment)
     for (first, second, x, y), segments in groups.items():
         if erased := numbers(segments):

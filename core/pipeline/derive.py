@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Final
 
-from core.comp.best import separation
+from core.comp.best import best_path, separation
+from core.finding import Finding
 from core.geometry.path import EMPTY, Path
 from core.pipeline.cut import Cut, parameter
 from core.pipeline.derived import Derived, DerivedBlock, Loop, RoughPass, Work
 from core.pipeline.outline import outline_block
-from core.pipeline.trouble import by_weight, path_findings, size_warning
-from core.program.model import Block, Program
+from core.pipeline.trouble import better_findings, by_weight, path_findings, size_warning
+from core.program.model import Block, PathChoice, Program
 from core.verify.judge import judge_together
 
 MOST_PASSES: Final = 1000
@@ -52,13 +53,30 @@ def _worked(found: DerivedBlock, program: Program, surface: Path) -> DerivedBloc
     assert found.radius is not None
     job = Cut(surface, found.side, found.solved.closed, found.lookahead.value, program)
     control = job.control(found.radius)
-    best = job.best(found.radius)
+    best = job.best(found.radius) if program.parameters.path is PathChoice.BEST else None
     chosen = job.posted(control, found.radius, best)
     verdict = judge_together(surface, found.side, found.radius, [loop.whole for loop in chosen])
-    apart = separation(control.path, best, found.radius)
-    work = Work(surface, chosen, control, verdict, _rough(found, job), best, apart)
-    trouble = (*found.findings, *path_findings(work, program), *size_warning(found.radius, surface))
+    work = Work(surface, chosen, control, verdict, _rough(found, job), best)
+    trouble = (*found.findings, *path_findings(work), *size_warning(found.radius, surface))
     return replace(found, work=work, known=True, findings=by_weight(trouble))
+
+
+def compared(derived: Derived) -> Derived:
+    """The same with the best path beside every control's path: what separates the two is among the findings."""
+    return replace(derived, blocks=tuple(_compared(found) for found in derived.blocks))
+
+
+def _compared(found: DerivedBlock) -> DerivedBlock:
+    return replace(found, findings=(*found.findings, *better(found)))
+
+
+def better(found: DerivedBlock) -> tuple[Finding, ...]:
+    """How far the control's path is from the best one, where the control's path is the one that is posted."""
+    work = found.work
+    if work is None or work.compensated is None or work.best is not None or found.side is None:
+        return ()
+    best = best_path(work.surface, found.side, work.compensated.radius, closed=found.solved.closed)
+    return better_findings(best, separation(work.compensated.path, best, work.compensated.radius))
 
 
 def stocks(found: DerivedBlock, program: Program) -> tuple[float, ...]:

@@ -12,7 +12,7 @@ from core.program.model import Block, Program
 from core.program.solved import SolvedBlock
 
 if TYPE_CHECKING:
-    from core.comp.best import BestPath, Separation
+    from core.comp.best import BestPath
     from core.comp.result import Compensated
     from core.geometry.path import Path
     from core.verify.verdict import Verdict
@@ -71,7 +71,7 @@ class Work:
     `surface` is the determined part of the contour; `loops` the finish path that is posted, one or, for PATH BEST,
     one for each loop, and `verdict` what it does.  `compensated` is the control's path, whether posted or not.
     `compensated` and `verdict` are None for CUTTER COMP. ON, where the centre runs on the contour itself.
-    `rough` comes before, outermost first.  `best` is None where it was not worked out.
+    `rough` comes before, outermost first.  `best` is the best path where PATH is BEST.
     """
 
     surface: Path
@@ -80,7 +80,6 @@ class Work:
     verdict: Verdict | None
     rough: tuple[RoughPass, ...] = ()
     best: BestPath | None = None
-    separation: Separation | None = None
 
     @property
     def centre(self) -> Path:

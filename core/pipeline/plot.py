@@ -49,8 +49,7 @@ def block_scene(found: DerivedBlock, segment: int | None, unit: Unit, row: Row |
 
 def _shown(work: Work) -> Compensated | None:
     """The control's path where it is the one that is posted: only then have its deletions a meaning."""
-    one = work.compensated
-    return one if one is not None and work.loops and work.loops[0].path is one.path else None
+    return work.compensated if work.best is None else None
 
 
 def _behind(work: Work | None) -> list[Path]:

@@ -5,27 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import inf
 
+from core.comp.best import BestPath, Separation
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.pipeline.derived import Loop, RoughPass, Work
-from core.program.model import PathChoice, Program
 from core.tolerance import GOUGE
 from core.verify.report import findings as verdict_findings
 from core.verify.verdict import Gouge
 
 
-def path_findings(work: Work, program: Program) -> tuple[Finding, ...]:
-    """Everything found about the posted path, its blends, the roughing passes, and the path that is not posted."""
+def path_findings(work: Work) -> tuple[Finding, ...]:
+    """Everything found about the posted path, its blends and the roughing passes."""
     assert work.verdict is not None
     assert work.compensated is not None
-    assert work.best is not None
-    best = program.parameters.path is PathChoice.BEST
     return (
-        *(work.best.findings if best else work.compensated.findings),
+        *(work.compensated if work.best is None else work.best).findings,
         *verdict_findings(work.verdict, work.surface),
         *blend_findings(work.loops, work.verdict.gouges),
         *rough_findings(work.rough),
-        *(() if best else _better(work)),
     )
 
 
@@ -55,17 +52,17 @@ def rough_findings(rough: Sequence[RoughPass]) -> Iterator[Finding]:
             yield Finding("ROUGH_EMPTY", Severity.WARNING, text, lengths=(one.stock,))
 
 
-def _better(work: Work) -> Iterator[Finding]:
-    """How far the control's path is from the best one."""
-    apart = work.separation
-    if apart is None or apart.length <= GOUGE or not apart.stretches:
-        return
+def better_findings(best: BestPath, apart: Separation) -> tuple[Finding, ...]:
+    """What the best path would cut that the control's does not, or that there is none."""
+    if not best.loops:
+        text = "The tool fits nowhere beside this contour: there is no best path either."
+        return (Finding("NO_BEST", Severity.INFO, text),)
+    if apart.length <= GOUGE or not apart.stretches:
+        return ()
     first = apart.stretches[0]
     x, y = first.points[0].tolist()
-    text = (
-        "The best path runs {value} that this path does not, from X {x} Y {y} on. PROGRAM PARAMETERS, PATH chooses it."
-    )
-    yield Finding("BEST_DIFFERS", Severity.INFO, text, float(first.numbers[0]), None, (x, y), apart.length)
+    text = "The best path runs {value} that this path does not, from X {x} Y {y} on: PATH on PROGRAM PARAMETERS."
+    return (Finding("BEST_DIFFERS", Severity.INFO, text, float(first.numbers[0]), None, (x, y), apart.length),)
 
 
 def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
