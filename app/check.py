@@ -89,6 +89,7 @@ def _asked(options: argparse.Namespace) -> Asked:
 
 
 def tools_of(options: argparse.Namespace) -> ToolTable:
+    """The tools that --tools and --tool name; Unusable where they cannot be read."""
     table = ToolTable()
     if options.tools is not None:
         table, findings = read_table(_bytes(options.tools))

@@ -6,7 +6,7 @@ Imported with the screens, so nothing here needs the numeric library before a qu
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 from app.listing import Listing
@@ -40,6 +40,10 @@ class Question:
     def small(self) -> bool:
         """Whether the answer may be fast."""
         return len(self.listing) <= SMALL and self.control is not None
+
+    def of(self, listing: Listing) -> Question:
+        """The same asked of another text."""
+        return replace(self, listing=listing)
 
     def answer(self) -> Told:
         """The answer; may take long, for a thread."""

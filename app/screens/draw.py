@@ -35,8 +35,8 @@ class DrawPage(Page):
             1: Softkey("SEGMENT BACK", _walk(session, -1)),
             2: Softkey("SEGMENT ADVANCE", _walk(session, 1)),
             3: Softkey("FINDINGS", (Open(FindingsPage()),)),
-            4: Softkey("ZOOM IN", (Swap(replace(self, sketch=_zoomed(self.sketch, STEP))),)),
-            5: Softkey("ZOOM OUT", (Swap(replace(self, sketch=_zoomed(self.sketch, 1 / STEP))),)),
+            4: Softkey("ZOOM IN", (Swap(replace(self, sketch=zoomed(self.sketch, STEP))),)),
+            5: Softkey("ZOOM OUT", (Swap(replace(self, sketch=zoomed(self.sketch, 1 / STEP))),)),
             6: Softkey("FIT", (Swap(replace(self, sketch=Sketch())),)),
             7: Softkey("CHARACTERS", (NextMode(),)),
             8: Softkey("EXIT", (Close(),)),
@@ -45,11 +45,11 @@ class DrawPage(Page):
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
         """Enlarge, move, walk."""
         if character in ("+", "=", "-"):
-            return self._with(_zoomed(self.sketch, 1 / STEP if character == "-" else STEP))
+            return self._with(zoomed(self.sketch, 1 / STEP if character == "-" else STEP))
         if key in ("0", "home"):
             return self._with(Sketch())
         if key in ARROWS:
-            return self._with(_panned(self.sketch, *ARROWS[key]))
+            return self._with(panned(self.sketch, *ARROWS[key]))
         if key in SEGMENTS:
             return Answer(self, _walk(session, SEGMENTS[key]))
         return Answer(self, (NextMode(),)) if key == "m" else None
@@ -72,13 +72,15 @@ class DrawPage(Page):
         return View(header(block_line(session), number, session, surface.width), (), Said(prompt), 0, self.sketch)
 
 
-def _zoomed(sketch: Sketch, factor: float) -> Sketch:
+def zoomed(sketch: Sketch, factor: float) -> Sketch:
+    """The window enlarged about its middle."""
     zoom = min(max(sketch.zoom * factor, 0.02), 1e4)
     # what stands in the middle stays there: offsets are in parts of a window that shrinks
     return _held(replace(sketch, zoom=zoom), sketch.dx * zoom / sketch.zoom, sketch.dy * zoom / sketch.zoom)
 
 
-def _panned(sketch: Sketch, dx: float, dy: float) -> Sketch:
+def panned(sketch: Sketch, dx: float, dy: float) -> Sketch:
+    """The window moved by parts of it."""
     return _held(sketch, sketch.dx + dx, sketch.dy + dy)
 
 

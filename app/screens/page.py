@@ -150,6 +150,10 @@ class Page:
         """The page with an answer; one to a question of other pages changes nothing."""
         return self
 
+    def pasted(self, text: str, session: Session) -> Answer | None:
+        """What pasted text does where it is not typed; None where it is."""
+        return None
+
     @property
     def unsaved(self) -> bool:
         """The page holds work of its own that no file has."""

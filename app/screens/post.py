@@ -100,7 +100,7 @@ class PostPage(EntryPage):
         if self.control is not None:
             name, text = (
                 self.control,
-                "The contour is posted as typed; this control compensates. It is read back first.",
+                "The contour as typed; this control compensates it.",
             )
         return (Span(" CONTROL ", Look.HEAD), Span(name, Look.TYPED)), plain(f" {text}", Look.LABEL)
 

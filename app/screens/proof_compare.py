@@ -1,0 +1,82 @@
+"""COMPARE CONTROLS: what every control does with the program under proof, one of them taken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar
+
+from app.messages import Close, Do, Message
+from app.proving import Question, Told
+from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, View
+from app.session import Said, Session
+from app.widgets.rows import Look, Row, Span, plain
+
+if TYPE_CHECKING:
+    from app.checking import Answer as Fate
+    from app.desk import Desk
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ComparePage(Page):
+    """A row for each control; `here` is the one under proof, `at` the row with the cursor."""
+
+    layout: ClassVar[Layout] = Layout.TEXT
+    asked: Question
+    here: str = ""
+    rows: tuple[Fate, ...] = ()
+    at: int = 0
+
+    @property
+    def question(self) -> Question | None:
+        """All controls, until they have answered."""
+        return None if self.rows else self.asked
+
+    def hearing(self, answer: object) -> Page:
+        """The table; the cursor on the control under proof."""
+        if not isinstance(answer, Told) or answer.question is not self.asked:
+            return self
+        at = next((index for index, row in enumerate(answer.rows) if row.control == self.here), 0)
+        return replace(self, rows=answer.rows, at=at)
+
+    def softkeys(self, session: Session) -> Softkeys:
+        """Take a control, or go back."""
+        taken = {1: Softkey("TAKE THIS CONTROL", self._taken())} if self.rows else {}
+        return {**taken, 8: Softkey("EXIT", (Close(),))}
+
+    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """Up and down over the controls, Enter takes one."""
+        steps = {"up": -1, "down": 1, "home": -len(self.rows), "end": len(self.rows)}
+        if key in steps:
+            return Answer(replace(self, at=min(max(self.at + steps[key], 0), max(len(self.rows) - 1, 0))))
+        return Answer(self, self._taken()) if key == "enter" and self.rows else None
+
+    def escape(self, session: Session) -> Answer | None:
+        """Back."""
+        return Answer(self, (Close(),))
+
+    def _taken(self) -> tuple[Message, ...]:
+        control = self.rows[self.at].control
+        return (Close(), Do(lambda desk: _tried_on(desk, control)))
+
+    def view(self, session: Session, surface: Surface) -> View:
+        """The table; the parting of the paths stands below the control it belongs to."""
+        title = (plain(" COMPARE CONTROLS", Look.HEAD), plain(f" {'control':<18} what it does", Look.LABEL))
+        if not self.rows:
+            return View(title, ((), plain("   calculating ...", Look.DIM)), Said("Esc goes back."))
+        body = [row for index in range(len(self.rows)) for row in self._row(index)]
+        said = Said("Up and down choose, Enter tries the program on that control. Esc goes back.")
+        return View(title, ((), *body), said, 1 + self.at)
+
+    def _row(self, index: int) -> tuple[Row, ...]:
+        one = self.rows[index]
+        on_it = index == self.at
+        look = Look.ERROR if one.errors else Look.DIM if one.moves is None else Look.GOOD
+        name = Span(f"{one.control:<17}", Look.CURSOR if on_it else Look.TYPED)
+        first: Row = (Span(" > " if on_it else "   ", Look.TAG), name, Span(f" {one.outcome}", look))
+        return (first, plain(f"{'':21}{one.parts}", Look.LABEL)) if one.parts else (first,)
+
+
+def _tried_on(desk: Desk, control: str) -> Desk:
+    from app.screens.proof_tool import proof_page, put
+
+    return put(desk, proof_page(desk).asking(control=control))

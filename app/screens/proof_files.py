@@ -1,0 +1,179 @@
+"""What NC PROOF does with files: open, save under its own name or another, choose one from a folder."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar, Final
+
+from app.listing import LARGEST, Listing
+from app.messages import Close, Do, Message, Open, Say
+from app.screens.ask import Ask
+from app.screens.browse import BrowsePage, Item
+from app.screens.entry import EntryPage, entry_row
+from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
+from app.screens.proof_tool import proof_page, put
+from app.session import Said, Session, Tone
+from app.widgets.field import Editing
+from app.widgets.rows import Look, plain
+from core.program.disk import why
+from core.program.store import StoreError, write_data
+from core.units import printable
+
+if TYPE_CHECKING:
+    from app.desk import Desk
+    from app.screens.proof import ProofPage
+
+SUFFIXES: Final = frozenset(
+    [".nc", ".ngc", ".tap", ".cnc", ".txt", ".iso", ".eia", ".gcode", ".din", ".mpf", ".min", ".h"]
+)
+"""Files of a folder that are shown as NC programs."""
+_PROGRAM: Final = re.compile(rb"^\s*format\s*=", re.MULTILINE)
+
+
+def is_nc(path: Path) -> bool:
+    """Whether an existing file is none of our own programs, which are TOML with a format."""
+    if path.suffix.lower() == ".toml" or not path.is_file():
+        return False
+    try:
+        with path.open("rb") as file:
+            return _PROGRAM.search(file.read(4096)) is None
+    except OSError:
+        return False
+
+
+def read(path: Path) -> Listing:
+    """The text of a file; StoreError says why there is none."""
+    try:
+        if path.is_file() and path.stat().st_size > LARGEST:
+            raise StoreError(f"{printable(str(path))} is too large: more than {LARGEST // 1_000_000} megabytes.")
+        return Listing.read(path.read_bytes())
+    except (OSError, ValueError) as error:
+        raise StoreError(f"{printable(str(path))} is not opened: {why(error)}") from error
+
+
+def opening(path: Path) -> Callable[[Desk], Desk]:
+    """A file put under proof, on top of everything."""
+
+    def work(desk: Desk) -> Desk:
+        from app.screens.proof import ProofPage
+
+        try:
+            page = ProofPage.of(read(path), path)
+        except StoreError as error:
+            return desk.take(Say(str(error), Tone.ERROR))
+        pages = desk.pages[:-1] if isinstance(desk.page, BrowsePage) else desk.pages
+        return replace(desk, pages=(*pages, page)).take(Say(f"Tried on {page.control}: c takes the next control."))
+
+    return work
+
+
+def saving(path: Path | None = None, *, agreed: bool = False) -> Do:
+    """The listing written, under its own name or another; `agreed`: what stands there may be replaced."""
+    return Do(lambda desk: _saved(desk, path, agreed=agreed))
+
+
+def _saved(desk: Desk, path: Path | None, *, agreed: bool) -> Desk:
+    page = proof_page(desk)
+    target = path or page.file
+    if target is None:
+        return desk.take(Open(SaveListing.of(page)))
+    if not agreed and (question := _question(page, target)) is not None:
+        return desk.take(
+            Open(Ask(question[0], (question[1],), (("r", "REPLACE", (Close(), saving(path, agreed=True))),)))
+        )
+    data = page.listing.data
+    try:
+        write_data(target, data)
+    except StoreError as error:
+        return desk.take(Say(str(error), Tone.ERROR))
+    desk = replace(desk, pages=desk.pages[:-1]) if isinstance(desk.page, SaveListing) else desk
+    written = replace(page, asked=page.asked.of(page.listing.written(data)), file=target)
+    told = None if page.told is None or not page.fresh else replace(page.told, question=written.asked)
+    return put(desk, replace(written, told=told)).take(Say(f"Saved: {target}"))
+
+
+def _question(page: ProofPage, target: Path) -> tuple[str, str] | None:
+    """What is to be asked before a file is written, if anything."""
+    name = printable(str(target))
+    if target != page.file:
+        return ("REPLACE THE FILE?", f"{name} exists already. Its content is replaced.") if target.exists() else None
+    try:
+        same = target.read_bytes() == page.listing.origin
+    except OSError:
+        return None
+    return None if same else ("THE FILE HAS CHANGED", f"{name} was written by somebody else since it was opened.")
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SaveListing(EntryPage):
+    """SAVE AS: the name of the NC file."""
+
+    layout: ClassVar[Layout] = Layout.TEXT
+
+    @classmethod
+    def of(cls, page: ProofPage) -> SaveListing:
+        """The page with the name the file has."""
+        return cls(Editing.of("part.nc" if page.file is None else str(page.file)))
+
+    def softkeys(self, session: Session) -> Softkeys:
+        """Save, or not."""
+        return {1: Softkey("SAVE", self._named()), 8: Softkey("CANCEL", (Close(),))}
+
+    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """Enter saves."""
+        return Answer(self, self._named()) if key == "enter" else self.typed(key, character)
+
+    def _named(self) -> tuple[Message, ...]:
+        text = self.entry.text.strip()
+        return (saving(Path(text).expanduser()),) if text else (Say("Type a name for the file.", Tone.ERROR),)
+
+    def view(self, session: Session, surface: Surface) -> View:
+        """The name."""
+        body = ((), entry_row("FILE", self.entry, surface.width, fresh=self.fresh))
+        said = Said("Type the name of the NC file, Enter saves. Left arrow changes the name that stands there.")
+        return View((plain(" SAVE NC FILE AS", Look.HEAD), ()), body, said, 1)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ProofBrowse(BrowsePage):
+    """The NC programs of a folder."""
+
+    def softkeys(self, session: Session) -> Softkeys:
+        """Open, or not."""
+        return {1: Softkey("OPEN", self._opened()), 8: Softkey("CANCEL", (Close(),))}
+
+    def _opened(self) -> tuple[Message, ...]:
+        text = self.entry.text.strip()
+        if not text and not self.items:
+            return ()
+        item = self.items[min(self.row, len(self.items) - 1)] if self.items else None
+        path = self.folder / Path(text).expanduser() if text or item is None else item.path
+        folder = path.is_dir() if text or item is None else item.folder
+        return (Do(browsing(path)),) if folder else (Do(opening(path)),)
+
+
+def browsing(folder: Path | None = None) -> Callable[[Desk], Desk]:
+    """The NC programs of a folder to choose from, of the program's where none is named."""
+
+    def work(desk: Desk) -> Desk:
+        here = folder or (desk.session.file.parent if desk.session.file else Path())
+        try:
+            here = here.expanduser().resolve()
+            page = ProofBrowse(folder=here, items=listed(here))
+        except OSError as error:
+            return desk.take(Say(f"{here} cannot be shown: {why(error)}", Tone.ERROR))
+        pages = desk.pages[:-1] if isinstance(desk.page, ProofBrowse) else desk.pages
+        return replace(desk, pages=(*pages, page))
+
+    return work
+
+
+def listed(folder: Path) -> tuple[Item, ...]:
+    """The folder above, the NC programs and the folders in a folder; OSError if it has none."""
+    inside = sorted(folder.iterdir(), key=lambda path: path.name.lower())
+    folders = [Item(path, path.name, folder=True) for path in inside if not path.name.startswith(".") and path.is_dir()]
+    files = [path for path in inside if path.suffix.lower() in SUFFIXES and path.is_file()]
+    return (Item(folder.parent, "..", folder=True), *(Item(path, path.name, folder=False) for path in files), *folders)

@@ -1,0 +1,179 @@
+"""NC PROOF as rows: the listing round the cursor, the findings round theirs, the header, the prompt."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from app.screens.page import Drawn, Surface, View
+from app.session import Said, Tone
+from app.widgets.form import typed_spans
+from app.widgets.header import printable
+from app.widgets.rows import Look, Row, Span, padded, plain
+from core.finding import Finding, Severity
+from core.units import Unit, sentence
+
+if TYPE_CHECKING:
+    from app.proving import Told
+    from app.screens.proof import ProofPage
+    from core.draw.scene import Scene
+
+PROMPT: Final = (
+    "Enter types in the line, i o x insert and delete, c control, t tool, v compares, n finding. ? tells all."
+)
+TYPING: Final = "Enter takes the line and goes on, Esc leaves it as it was."
+WALKING: Final = "Up and down go from finding to finding, Enter back to the listing."
+LARGE: Final = "+ - zoom, arrows move, 0 fits, n and p go from finding to finding. d or Esc goes back."
+NOTHING: Final = "The program is empty: i begins a line."
+LOOKS: Final = {Severity.ERROR: Look.ERROR, Severity.WARNING: Look.WARNING, Severity.INFO: Look.LABEL}
+TONES: Final = {Severity.ERROR: Tone.ERROR, Severity.WARNING: Tone.WARNING, Severity.INFO: Tone.PLAIN}
+ORDER: Final = tuple(Severity)
+"""The gravest first."""
+MARKS: Final = {Severity.ERROR: "!!", Severity.WARNING: "! ", Severity.INFO: "  "}
+
+
+def view(page: ProofPage, surface: Surface) -> View:
+    """The page on its parts of the terminal."""
+    unit = _unit(page)
+    return View(
+        _header(page, surface.width),
+        () if page.large else _listing(page, surface),
+        _prompt(page, unit),
+        sketch=page.sketch,
+        told=_told(page, surface, unit),
+        drawn=_drawn(page),
+        status=(str(unit) if page.told else "..", _changes(page)),
+    )
+
+
+def _unit(page: ProofPage) -> Unit:
+    answer = page.told.answer if page.told is not None else None
+    return Unit.IN if answer is None else answer.unit
+
+
+def _changes(page: ProofPage) -> str:
+    done, back = len(page.listing.past), len(page.listing.future)
+    return (f"undo {done}" if done else "") + (f"  redo {back}" if back else "")
+
+
+def _header(page: ProofPage, width: int) -> tuple[Row, ...]:
+    """The control and the tools; what comes of it, and the file's name."""
+    tools = "  ".join(f"{one.number}={one.diameter:g}" for one in page.asked.tools.tools.values())
+    first: Row = (Span(" NC PROOF  ", Look.HEAD), Span(page.control, Look.TAG), Span("  tools ", Look.LABEL))
+    first = (*first, Span(tools or "none given", Look.TYPED if tools else Look.LABEL))
+    name = "no name" if page.file is None else printable(page.file.name)
+    name = f" {name[:24]}{'*' if page.unsaved else ''}"
+    return first, (*padded(_outcome(page), max(width - len(name) - 1, 1)), Span(name, Look.DIM))
+
+
+def _outcome(page: ProofPage) -> Row:
+    """What the control does, in a few words."""
+    answer = page.told.answer if page.told is not None else None
+    if answer is None:
+        return plain(" calculating ...", Look.DIM)
+    look = Look.ERROR if answer.errors else Look.GOOD
+    text = f" {answer.outcome}; {answer.count} moves, {answer.stretches} compensated"
+    return (Span(text, look), Span("" if page.fresh else " ...", Look.DIM))
+
+
+def _listing(page: ProofPage, surface: Surface) -> tuple[Row, ...]:
+    """The lines round the cursor, as many as fit."""
+    if not len(page.listing):
+        return (plain(f" {NOTHING}", Look.LABEL),)
+    room = max(surface.body, 1)
+    top = max(0, min(page.row - room // 2, len(page.listing) - room))
+    marks = _marks(page)
+    digits = max(len(str(len(page.listing))), 3)
+    rows = range(top, min(top + room, len(page.listing)))
+    return tuple(_line(page, row, marks, digits, surface.across) for row in rows)
+
+
+def _marks(page: ProofPage) -> dict[int, Severity]:
+    """The gravest finding of each line; none while the answer is to other lines."""
+    found: dict[int, Severity] = {}
+    for finding in page.findings if page.fresh else ():
+        if finding.line is not None:
+            found[finding.line] = min(found.get(finding.line, Severity.INFO), finding.severity, key=ORDER.index)
+    return found
+
+
+def _line(page: ProofPage, row: int, marks: dict[int, Severity], digits: int, width: int) -> Row:
+    on_it = row == page.row
+    severity = marks.get(row + 1)
+    number = Span(f"{row + 1:>{digits}}", Look.LABEL if severity is None else LOOKS[severity])
+    mark = Span(" " if severity is None else MARKS[severity][0], number.look)
+    room = max(width - digits - 3, 1)
+    if on_it and page.editing is not None:
+        return (number, mark, Span(">", Look.TAG), *typed_spans(page.editing, room, right=False))
+    # a tab is a blank here: every sign takes one cell
+    text = page.listing.text(row)[:room].replace("\t", " ")
+    return (number, mark, Span(">" if on_it else " ", Look.TAG), _text(text, room, page, on_it=on_it))
+
+
+def _text(text: str, room: int, page: ProofPage, *, on_it: bool) -> Span:
+    """The cursor's line over the whole width; while the findings have the cursor, only marked."""
+    if not on_it:
+        return Span(text, Look.TYPED)
+    return Span(f"{text:<{room}}", Look.CURSOR if not page.telling else Look.CURRENT)
+
+
+def _told(page: ProofPage, surface: Surface, unit: Unit) -> tuple[Row, ...]:
+    """The findings round the one with the cursor, under a line that counts them."""
+    room = max(surface.told - 1, 1)
+    top = max(0, min(page.at - room // 2, len(page.findings) - room))
+    shown = page.findings[top : top + room]
+    rows = [_finding(page, top + index, one, unit, surface.width) for index, one in enumerate(shown)]
+    return (_count(page), *rows)
+
+
+def _count(page: ProofPage) -> Row:
+    count = len(page.findings)
+    text = f" FINDINGS  {page.at + 1} of {count}" if count else " FINDINGS  none"
+    if page.told is None:
+        text = " FINDINGS"
+    return (Span(text, Look.HEAD), Span("" if page.fresh else "   of the text before the last change", Look.DIM))
+
+
+def _finding(page: ProofPage, index: int, one: Finding, unit: Unit, width: int) -> Row:
+    place = "" if one.line is None else f"{one.line}:{one.column or 1}"
+    look = Look.CURSOR if page.telling and index == page.at else LOOKS[one.severity]
+    text = f"{MARKS[one.severity]} {place:>7} {one.code:<12} {sentence(one, unit)}"
+    mark = "> " if index == page.at else "  "
+    room = max(width - 3, 1)
+    return (Span(mark, Look.TAG), Span(text if len(text) <= room else f"{text[: room - 1]}…", look))
+
+
+def _prompt(page: ProofPage, unit: Unit) -> Said:
+    """What is being done; else what is to be said about the finding or the line with the cursor; else the keys."""
+    if page.editing is not None:
+        return Said(TYPING)
+    if page.telling and page.findings:
+        return _said(page.findings[page.at], unit)
+    here = _here(page)
+    if here is not None:
+        return _said(here, unit)
+    return Said(LARGE if page.large else PROMPT)
+
+
+def _here(page: ProofPage) -> Finding | None:
+    """The gravest finding of the cursor's line, while the answer is to these lines."""
+    found = [one for one in page.findings if one.line == page.row + 1] if page.fresh else []
+    return min(found, key=lambda one: ORDER.index(one.severity), default=None)
+
+
+def _said(one: Finding, unit: Unit) -> Said:
+    return Said(f"{one.code}: {sentence(one, unit)}", TONES[one.severity])
+
+
+def _drawn(page: ProofPage) -> Drawn:
+    """The drawing: the last answer's, with the cutter at the cursor's line."""
+    told, line = page.told, page.row + 1
+    return Drawn((told, line), lambda: _scene(told, line))
+
+
+def _scene(told: Told | None, line: int) -> Scene:
+    from core.draw.scene import Scene
+    from core.pipeline.proof import scene_of
+
+    if told is None or told.proof is None or told.ground is None:
+        return Scene()
+    return scene_of(told.ground, told.proof, line)
