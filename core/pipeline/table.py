@@ -8,6 +8,8 @@ from core.comp.advise import recommended
 from core.comp.compensate import compensate_all
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.comp.result import Compensated
+from core.geometry.path import Path
+from core.geometry.side import Side
 from core.pipeline.cut import parameter
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
@@ -25,8 +27,8 @@ class Row:
 
     @property
     def clean(self) -> bool:
-        """The path gouges nothing."""
-        return self.verdict.clean
+        """There is a path and it gouges nothing."""
+        return len(self.compensated.path) > 0 and self.verdict.clean
 
     @property
     def gouge(self) -> float:
@@ -56,20 +58,44 @@ class Table:
         return self.rows[value - LOWEST]
 
 
-def look_ahead_table(found: DerivedBlock, program: Program) -> Table | None:
-    """The table of a derived block; None for ON and while there is nothing to compensate."""
+@dataclass(frozen=True, eq=False, slots=True)
+class Cut:
+    """A contour and how it is to be cut; lengths in millimetres, `blend` and `overlap` 0 for none."""
+
+    surface: Path
+    side: Side
+    radius: float
+    closed: bool
+    blend: float
+    overlap: float
+
+
+def cut_of(found: DerivedBlock, program: Program) -> Cut | None:
+    """What a derived block cuts; None for ON and while there is nothing to compensate."""
     if found.work is None or found.side is None or found.radius is None:
         return None
-    every = compensate_all(
+    return Cut(
         found.work.surface,
         found.side,
         found.radius,
-        range(LOWEST, HIGHEST + 1),
-        closed=found.solved.closed,
-        blend=parameter(program, "blend_offset"),
-        overlap=parameter(program, "blend_overlap"),
+        found.solved.closed,
+        parameter(program, "blend_offset"),
+        parameter(program, "blend_overlap"),
     )
-    verdicts = judge_all(found.work.surface, found.side, found.radius, [one.whole for one in every])
+
+
+def look_ahead_table(found: DerivedBlock, program: Program) -> Table | None:
+    """The table of a derived block; None for ON and while there is nothing to compensate."""
+    cut = cut_of(found, program)
+    return None if cut is None else table_of(cut)
+
+
+def table_of(cut: Cut) -> Table:
+    """The table of any contour."""
     values = range(LOWEST, HIGHEST + 1)
+    every = compensate_all(
+        cut.surface, cut.side, cut.radius, values, closed=cut.closed, blend=cut.blend, overlap=cut.overlap
+    )
+    verdicts = judge_all(cut.surface, cut.side, cut.radius, [one.whole for one in every])
     rows = [Row(value, one, verdict) for value, one, verdict in zip(values, every, verdicts, strict=True)]
     return Table(tuple(rows), recommended(rows))

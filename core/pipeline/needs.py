@@ -1,0 +1,178 @@
+"""What a contour needs: why the calculated look-ahead is not clean, and what would help where no value is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import ceil
+from typing import Final
+
+from core.comp.result import Deleted
+from core.finding import Finding, Severity
+from core.pipeline.derived import DerivedBlock
+from core.pipeline.remedies import (
+    StartMoved,
+    ToolFits,
+    largest_tool,
+    longest,
+    start_mid_side,
+    started,
+    without_blends,
+)
+from core.pipeline.table import Cut, Row, Table, cut_of, table_of
+from core.program.model import Program
+
+NAMED_AT_MOST: Final = 4
+"""So many places that are too small are named in sentences."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Needs:
+    """Sentences for the operator, and what they say.
+
+    `why` tells why CAL's value is not clean, empty when it is.  The rest is there only when no value is clean:
+    `small` names inside radii and corners the tool does not enter, `tool`, `start` and `blendless` (a look-ahead that
+    is clean without blend moves) are remedies that have been tried and judged clean, None where none was found.  A
+    tool is looked for when no other remedy helps, from the middle of a side where the start is an inside corner.
+    """
+
+    why: tuple[Finding, ...]
+    small: tuple[Finding, ...] = ()
+    tool: ToolFits | None = None
+    start: StartMoved | None = None
+    blendless: int | None = None
+    sentences: tuple[Finding, ...] = ()
+
+
+def needs(found: DerivedBlock, program: Program, table: Table | None = None) -> Needs | None:
+    """What a derived block needs; `table` is its look-ahead table where that is known.  None where there is none."""
+    cut = cut_of(found, program)
+    return None if cut is None else needs_of(cut, found.lookahead.calculated, table or table_of(cut))
+
+
+def needs_of(cut: Cut, calculated: int, table: Table) -> Needs:
+    """What a contour needs whose look-ahead table is known."""
+    why = why_not_clean(table, calculated)
+    if table.recommended is not None:
+        return Needs(why, sentences=why)
+    nearest = min(table.rows, key=lambda row: (row.gouge, row.value))
+    small = _small(nearest, cut.radius)
+    blendless, start = without_blends(cut), start_mid_side(cut)
+    tool, where = (None, "") if start is not None or blendless is not None else _tool(cut, nearest, small)
+    remedies = (*_blends_said(blendless), *_start_said(start), *_tool_said(tool, where)) or (_nothing(),)
+    return Needs(why, small, tool, start, blendless, (*why, *_some(small), *remedies))
+
+
+def _tool(cut: Cut, nearest: Row, small: tuple[Finding, ...]) -> tuple[ToolFits | None, str]:
+    """The largest tool, and where the contour has to be started for it where its own start is an inside corner."""
+    hint = min((one.value for one in small if one.value is not None), default=None)
+    if not any(one.code == "START_INSIDE_CORNER" for one in nearest.compensated.findings):
+        return largest_tool(cut, hint), ""
+    row = longest(cut.surface)[0]
+    found = largest_tool(replace(cut, surface=started(cut.surface, row)), hint)
+    return found, f" when the contour is started in the middle of segment {cut.surface.numbers[row]:g}"
+
+
+def _some(small: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """The first of many places that are too small, and how many there are."""
+    if len(small) <= NAMED_AT_MOST:
+        return small
+    return (*small[:NAMED_AT_MOST], replace(small[0], text=f"There are {len(small)} such places.", segment=None))
+
+
+def why_not_clean(table: Table, calculated: int) -> tuple[Finding, ...]:
+    """Why CAL's value is not clean: where it gouges, and which value would reach what crosses there."""
+    row = table.row(calculated)
+    if row.clean:
+        return ()
+    if not row.verdict.gouges:
+        return (Finding("CAL_NOT_CLEAN", Severity.WARNING, f"CAL {calculated} makes no path that can be cut."),)
+    gouge = row.verdict.gouges[0]
+    where = f"CAL {calculated} gouges segment {gouge.surface_number:g} by {{value}} at X {{x}} Y {{y}}: "
+    text = where + (_beyond(table, row) or _too_far(table, row) or _seam(row) or "no look-ahead reaches what is wrong.")
+    number, at = gouge.surface_number, gouge.surface_at
+    return (Finding("CAL_NOT_CLEAN", Severity.WARNING, text, number, at=at, value=gouge.depth),)
+
+
+def _beyond(table: Table, row: Row) -> str:
+    """The crossing a larger value tests about the deepest gouge, if that value is clean."""
+    number = row.verdict.gouges[0].path_number
+    for later in table.rows:
+        if later.value > row.value and later.clean:
+            hit = _around(later, number)
+            if hit is None:
+                return f"look-ahead {later.value} is clean."
+            apart = ceil(hit.by[1] - hit.by[0])
+            return f"{_crossing(hit)}, {apart} apart, and the look-ahead has to reach {later.value}."
+    return ""
+
+
+def _around(row: Row, number: float) -> Deleted | None:
+    return next((one for one in row.compensated.deleted if one.by[0] <= number <= one.by[1]), None)
+
+
+def _crossing(one: Deleted) -> str:
+    return f"the paths of {_piece(one.by[0])} and {_piece(one.by[1])} cross"
+
+
+def _piece(number: float) -> str:
+    return f"segment {number:g}" if number == int(number) else f"the corner after segment {int(number)}"
+
+
+def _too_far(table: Table, row: Row) -> str:
+    """What the calculated value deletes that a smaller, clean one keeps."""
+    if table.recommended is None or table.recommended > row.value:
+        return ""
+    hit = next(iter(row.compensated.deleted), None)
+    if hit is None:
+        return f"look-ahead {table.recommended} is clean."
+    return f"{_crossing(hit)} and erase what is between; look-ahead {table.recommended} keeps it and is clean."
+
+
+def _seam(row: Row) -> str:
+    if not any(one.code == "START_INSIDE_CORNER" for one in row.compensated.findings):
+        return ""
+    return "the contour starts at an inside corner, and its first and last segments are never tested."
+
+
+def _small(row: Row, radius: float) -> tuple[Finding, ...]:
+    """The inside radii and corners the tool does not enter, where the path gouges least."""
+    told = []
+    for one in row.compensated.findings:
+        if one.code == "VANISHED" and one.segment is not None:
+            text = f"The inside radius {{value}} of segment {one.segment:g} is smaller than the tool's {{0}}."
+            told.append(replace(one, code="TOO_SMALL", text=text, lengths=(radius,)))
+        if one.code == "CORNER_MISSED" and one.segment is not None:
+            text = f"The tool does not fit into the inside corner after segment {int(one.segment)}."
+            told.append(replace(one, code="TOO_SMALL", text=text))
+    return tuple(told)
+
+
+def _blends_said(value: int | None) -> tuple[Finding, ...]:
+    if value is None:
+        return ()
+    return (_remedy("BLENDLESS", f"Without blend moves (BLEND OFFSET 0) look-ahead {value} is clean."),)
+
+
+def _start_said(start: StartMoved | None) -> tuple[Finding, ...]:
+    if start is None:
+        return ()
+    text = (
+        f"Start in the middle of segment {start.segment:g}, at X {{x}} Y {{y}}: look-ahead {start.value} is then clean."
+    )
+    return (replace(_remedy("START_MID_SIDE", text), segment=start.segment, at=start.at),)
+
+
+def _tool_said(tool: ToolFits | None, where: str) -> tuple[Finding, ...]:
+    if tool is None:
+        return ()
+    text = f"A tool of {{value}} diameter fits{where}: look-ahead {tool.value} is then clean."
+    return (replace(_remedy("TOOL_FITS", text), field="tool", value=tool.diameter),)
+
+
+def _nothing() -> Finding:
+    text = "Neither a smaller tool nor another start helps: the contour itself has to be changed."
+    return Finding("NOTHING_HELPS", Severity.WARNING, text)
+
+
+def _remedy(code: str, text: str) -> Finding:
+    return Finding(code, Severity.INFO, text)

@@ -1,0 +1,206 @@
+"""What would help: every remedy is tried again here, and a little more than it allows is shown to fail."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import cos, pi, sin
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.comp.lookahead import calculated
+from core.finding import Severity
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Turn
+from core.geometry.side import Side
+from core.pipeline.derive import derive
+from core.pipeline.needs import NAMED_AT_MOST, Needs, needs, needs_of
+from core.pipeline.remedies import STEP, largest_tool, middle, started
+from core.pipeline.table import Cut, table_of
+from core.program.model import CutterComp
+from core.units import Unit, sentence
+from tests.bench.families import gear
+from tests.core.comp.contours import lines, mixed, shut
+from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OUTSIDE_SQUARE, block, program
+
+SQUARE = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0))
+SLOT = lines((0, 2), (0, 0), (0.4, 0), (0.4, 2))
+STAR = lines(
+    *((r * cos(a), r * sin(a)) for a, r in ((pi / 2 + k * pi / 5, (1.0, 0.4)[k % 2]) for k in range(11))),
+)
+
+
+def cut(contour: Path, side: Side, radius: float = 0.25, *, closed: bool, blend: float = 0.0) -> Cut:
+    return Cut(contour, side, radius, closed, blend, 0.0)
+
+
+def of(asked: Cut) -> Needs:
+    return needs_of(asked, calculated(len(asked.surface), closed=asked.closed), table_of(asked))
+
+
+def codes(found: Needs) -> list[str]:
+    return [one.code for one in found.sentences]
+
+
+def said(found: Needs) -> str:
+    return " ".join(sentence(one, Unit.MM) for one in found.sentences)
+
+
+def test_a_clean_contour_needs_nothing():
+    part = program(block(OUTSIDE_SQUARE, CutterComp.RIGHT))
+    found = needs(derive(part).blocks[0], part)
+    assert found is not None
+    assert not found.sentences
+
+
+def test_without_compensation_nothing_is_known():
+    part = program(block(OUTSIDE_SQUARE, CutterComp.ON))
+    assert needs(derive(part).blocks[0], part) is None
+
+
+def test_the_notch_is_told_what_its_look_ahead_has_to_reach():
+    part = program(block(NOTCH, CutterComp.LEFT))
+    found = needs(derive(part).blocks[0], part)
+    assert found is not None
+    assert codes(found) == ["CAL_NOT_CLEAN"]
+    assert "corner after segment 1 and the corner after segment 4 cross, 3 apart" in said(found)
+    assert "has to reach 3" in said(found)
+    assert found.tool is None
+    assert found.start is None
+
+
+def test_an_inside_square_is_to_be_started_mid_side():
+    asked = cut(SQUARE, Side.LEFT, closed=True)
+    found = of(asked)
+    assert codes(found) == ["CAL_NOT_CLEAN", "START_MID_SIDE"]
+    assert "first and last segments are never tested" in said(found)
+    assert found.start is not None
+    assert (found.start.segment, found.start.at) == (1, (1.0, 0.0))
+    assert table_of(replace(asked, surface=started(SQUARE, 0))).row(found.start.value).clean
+    assert started(SQUARE, 0).points.tolist() == [[float(x), float(y)] for x, y in MID_SIDE_SQUARE]
+
+
+def test_a_chamfer_at_the_seam():
+    chamfered = lines((0.1, 0), (2, 0), (2, 2), (0, 2), (0, 0.1), (0.1, 0))
+    found = of(cut(chamfered, Side.LEFT, closed=True))
+    assert found.start is not None
+    assert found.start.value == 2
+    row = int(found.start.segment) - 1
+    assert table_of(cut(started(chamfered, row), Side.LEFT, closed=True)).row(2).clean
+
+
+def test_the_largest_tool_of_a_slot_is_its_width():
+    asked = cut(SLOT, Side.LEFT, closed=False)
+    found = of(asked)
+    assert found.tool is not None
+    assert found.tool.diameter == pytest.approx(0.4)
+    assert codes(found) == ["CAL_NOT_CLEAN", "TOO_SMALL", "TOOL_FITS"]
+    assert "inside corner after segment 2" in said(found)
+    assert table_of(replace(asked, radius=found.tool.diameter / 2)).row(found.tool.value).clean
+    assert table_of(replace(asked, radius=(found.tool.diameter + STEP) / 2)).recommended is None
+
+
+@pytest.mark.parametrize("width", [0.2005, 0.3999, 0.4999])
+def test_the_largest_tool_is_rounded_down(width):
+    slot = lines((0, 2), (0, 0), (width, 0), (width, 2))
+    found = largest_tool(cut(slot, Side.LEFT, closed=False))
+    assert found is not None
+    assert width - STEP < found.diameter <= width
+    assert round(found.diameter / STEP) * STEP == pytest.approx(found.diameter, abs=1e-12)
+
+
+def test_a_hint_finds_the_same_tool():
+    asked = cut(SLOT, Side.LEFT, closed=False)
+    assert largest_tool(asked, 0.2) == largest_tool(asked, 0.05) == largest_tool(asked)
+
+
+def test_an_inside_radius_smaller_than_the_tool_is_named():
+    """A groove with a round end: no other wall lets the end be left out."""
+    groove = Path.from_pieces(
+        [Line((3, 0), (0.2, 0)), Arc((0.2, 0), (0.2, 0.4), (0.2, 0.2), Turn.CW), Line((0.2, 0.4), (3, 0.4))]
+    )
+    found = of(cut(groove, Side.RIGHT, closed=False))
+    assert [one.segment for one in found.small] == [2]
+    assert found.small[0].value == pytest.approx(0.2)
+    assert "The inside radius 0.200 of segment 2 is smaller than the tool's 0.250." in said(found)
+    assert found.tool is not None
+    assert found.tool.diameter == pytest.approx(0.4, abs=1.5 * STEP)
+
+
+def test_a_hole_smaller_than_the_tool():
+    hole = Path.from_pieces([Arc((1, 0), (1, 0), (0, 0), Turn.CCW)])
+    asked = cut(hole, Side.LEFT, 1.25, closed=True)
+    assert table_of(asked).recommended is None
+    found = of(asked)
+    assert "no path that can be cut" in said(found)
+    assert found.tool is not None
+    assert 2.0 - 2 * STEP <= found.tool.diameter <= 2.0
+
+
+def test_a_star_needs_a_smaller_tool_and_another_start():
+    found = of(cut(STAR, Side.LEFT, closed=True))
+    assert found.start is None
+    assert found.tool is not None
+    assert found.tool.diameter < 0.5
+    assert "when the contour is started in the middle of segment" in said(found)
+    assert of(cut(STAR, Side.LEFT, 0.05, closed=True)).start is not None
+    assert not of(cut(STAR, Side.RIGHT, closed=True)).sentences
+
+
+def test_blend_moves_that_alone_gouge():
+    channel = lines((0, 0), (2, 0), (2, 0.6), (-2, 0.6))
+    found = of(cut(channel, Side.LEFT, closed=False, blend=0.5))
+    assert found.blendless == 1
+    assert "BLEND OFFSET 0" in said(found)
+
+
+def test_where_nothing_helps_it_says_so():
+    """A loop of thirty segments that crosses the way in: no look-ahead reaches so far, and no tool is small enough."""
+    angles = [pi * (-0.5 + 11 / 180 * step) for step in range(31)]
+    loop = [(cos(angle), 1 + sin(angle)) for angle in angles]
+    (x, y), heading = loop[-1], angles[-1] + pi / 2
+    found = of(cut(lines((-3, 0), *loop, (x + cos(heading), y + sin(heading))), Side.LEFT, 0.02, closed=False))
+    assert codes(found)[0] == "CAL_NOT_CLEAN"
+    assert "no look-ahead reaches" in said(found)
+    assert codes(found)[-1] == "NOTHING_HELPS"
+
+
+def test_many_places_are_counted():
+    work = gear(50)
+    found = of(cut(work.contour, work.side, 6.0, closed=True))
+    named = [one for one in found.sentences if one.code == "TOO_SMALL"]
+    assert len(found.small) > NAMED_AT_MOST
+    assert len(named) == NAMED_AT_MOST + 1
+    assert f"There are {len(found.small)} such places." in named[-1].text
+
+
+def test_the_middle_of_an_arc_lies_on_it():
+    assert middle(Arc((1, 0), (-1, 0), (0, 0), Turn.CCW)) == pytest.approx((0, 1))
+    assert middle(Arc((1, 0), (-1, 0), (0, 0), Turn.CW)) == pytest.approx((0, -1))
+    assert middle(Arc((1, 0), (1, 0), (0, 0), Turn.CW)) == pytest.approx((-1, 0))
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(mixed.map(shut), st.integers(0, 30))
+def test_a_contour_started_elsewhere_is_the_same_contour(contour, row):
+    row %= len(contour)
+    other = started(contour, row)
+    assert len(other) == len(contour) + 1
+    assert other.points[0].tolist() == other.points[-1].tolist()
+    assert other.lengths.sum() == pytest.approx(contour.lengths.sum(), rel=1e-9, abs=1e-6)
+
+
+@settings(max_examples=40, deadline=None, derandomize=True)
+@given(mixed, st.sampled_from(Side), st.floats(0.05, 1.0), st.booleans())
+def test_every_remedy_holds(contour, side, radius, closed):
+    asked = cut(shut(contour) if closed else contour, side, radius, closed=closed)
+    found = of(asked)
+    assert all(one.severity is not Severity.ERROR for one in found.sentences)
+    if found.start is not None:
+        row = asked.surface.numbers.tolist().index(found.start.segment)
+        assert table_of(replace(asked, surface=started(asked.surface, row))).row(found.start.value).clean
+    if found.tool is not None:
+        small = replace(asked, radius=found.tool.diameter / 2)
+        moved = [small, *(replace(small, surface=started(small.surface, row)) for row in range(len(contour)))]
+        assert any(table_of(one).row(found.tool.value).clean for one in (moved if closed else moved[:1]))
