@@ -7,6 +7,7 @@ from typing import Self
 
 from app.messages import Edit, Say
 from app.screens.page import Answer, Page
+from app.screens.topics import topic_of
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing, press
 from app.widgets.form import Cell, State
@@ -185,7 +186,7 @@ def cell_of(one: Field, held: Value | str, unit: Unit, column: int, line: int, *
 
 
 def field_help(one: Field) -> tuple[str, ...]:
-    """What may be typed into a field, in sentences."""
+    """What a field means and what may be typed into it, in sentences, then its picture."""
     lines = [one.label, one.prompt]
     if one.choices:
         lines.append(f"Choices: {', '.join(one.choices)}. Space, left and right step; a first letter selects.")
@@ -195,7 +196,8 @@ def field_help(one: Field) -> tuple[str, ...]:
         lines.append(f"From {one.low:g} to {one.high:g}.")
     elif one.above is not None:
         lines.append(f"Above {one.above:g}.")
-    return tuple(lines)
+    topic = topic_of(one)
+    return tuple(lines) if topic is None else (*lines[:2], topic.words, *lines[2:], *topic.picture)
 
 
 _HOW = {

@@ -8,7 +8,7 @@ from typing import Final
 from app.screens.page import Surface
 from app.screens.text import TextPage, paragraph
 from app.session import Session
-from app.widgets.rows import Look, Row, Span
+from app.widgets.rows import Look, Row, Span, plain
 
 KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Enter", "take the field and go on"),
@@ -21,8 +21,9 @@ KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Ctrl+Z, Ctrl+Y", "undo, redo"),
     ("Ctrl+S, Ctrl+O", "save, open"),
     ("Ctrl+Q", "leave the program"),
-    ("F1 to F8", "the softkeys; also Esc, then the digit"),
-    ("?", "this help"),
+    ("F1 to F8", "the softkeys; also Esc, then the digit,"),
+    ("", "or Ctrl+K, then the digit (on any screen)"),
+    ("? or Ctrl+G", "this help (Ctrl+G where text is typed)"),
 )
 """Key and what it does, each short enough for one line."""
 MARKS: Final[tuple[tuple[str, str], ...]] = (
@@ -39,7 +40,7 @@ MARKS: Final[tuple[tuple[str, str], ...]] = (
 
 @dataclass(frozen=True, eq=False, slots=True)
 class HelpPage(TextPage):
-    """Sentences about the field, then the key sheet."""
+    """Sentences about the field, then the key sheet; a line that begins with two blanks is of a picture."""
 
     about: tuple[str, ...] = ()
 
@@ -51,7 +52,8 @@ class HelpPage(TextPage):
         """The field's own help first."""
         told: tuple[Row, ...] = ()
         for index, text in enumerate(self.about):
-            told += paragraph(text, surface.width, Look.PLAIN if index else Look.HEAD)
+            look = Look.PLAIN if index else Look.HEAD
+            told += (plain(text, Look.TYPED),) if text.startswith("  ") else paragraph(text, surface.width, look)
         sheet = (*map(_key, KEYS), (), *map(_key, MARKS))
         return (*told, (), *sheet) if told else sheet
 

@@ -1,0 +1,166 @@
+"""What every field means, beyond its prompt, and a picture where one helps: plain ASCII, for any screen."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Final
+
+from core.program.fields import SOLUTION, TABLES, Field, Form
+
+
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """Sentences about a field, and the lines of its picture."""
+
+    words: str
+    picture: tuple[str, ...] = ()
+
+
+_SIDES: Final = (
+    "    LEFT                 RIGHT",
+    "   ( o ) tool           |",
+    "  ------> travel        ------> travel",
+    "  part surface         ( o ) tool",
+)
+_ANGLE: Final = (
+    "         90",
+    "          |    / line, 45",
+    "          |   /",
+    "  180 ----+---- 0  (+X)",
+    "          |",
+    "        -90 = 270",
+)
+_SWEEP: Final = (
+    "        ___",
+    "      /     \\     CCW, SWEEP 180:",
+    "     |   +   |    from o over the top to x",
+    "     x center o",
+)
+_PECK: Final = (
+    "  ==== Z START ====      0.0",
+    "   |    first pass      -0.1",
+    "   |    second pass     -0.2",
+    "   v    last pass       -0.25  Z BOTTOM",
+)
+_BLEND: Final = (
+    "  ------.    .------   path of the tool",
+    "         \\  /",
+    "          )(           arcs of this radius: in, out",
+    "      o--'  '--o       tool goes down, comes up",
+)
+_AHEAD: Final = (
+    "  __1__     __5__  a tool too large for the notch 2 3 4:",
+    "       |2 4|       looking 1 ahead it goes in and gouges,",
+    "       |_3_|       looking 3 ahead it leaves it out",
+)
+_OVERLAP: Final = (
+    "   start            OVERLAP: on past the start, so that no",
+    "  ---o======>       mark stays where path begins and ends",
+)
+_CORNER: Final = (
+    "  ______          ______",
+    "        |   ->          \\   RADIUS",
+    "        |                |",
+)
+
+_FEED: Final = Topic("The feed holds for the segments behind it until another is typed. CAL shows the one in force.")
+_END_X: Final = Topic("Type what the drawing gives. What is blank is calculated, shown as CAL, and follows every edit.")
+_END_Z: Final = Topic("Blank keeps the height. Another Z makes the tool ramp along the segment, never below Z BOTTOM.")
+_CENTER: Final = Topic(
+    "The point the arc turns about. End and center, or end and RADIUS, or center and SWEEP fix an arc."
+)
+
+TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
+    {
+        (Form.START, "tool"): Topic(
+            "The tool's diameter comes from TOOL SETUP; half of it is how far the path stands off."
+        ),
+        (Form.START, "cutter_comp"): Topic(
+            "ON runs the tool's center on the contour. LEFT and RIGHT keep the tool beside it, seen along the travel. "
+            "PROFILE also clears the material outside in several passes.",
+            _SIDES,
+        ),
+        (Form.START, "finish_tool"): Topic(
+            "0 is none. Else TOOL leaves the finish allowances, and this tool takes them."
+        ),
+        (Form.START, "x_start"): Topic(
+            "START is where segment 1 begins. The middle of a side is a better place than a corner."
+        ),
+        (Form.START, "y_start"): Topic(
+            "START is where segment 1 begins. A contour that ends where it starts is closed."
+        ),
+        (Form.START, "z_start"): Topic("The surface of the raw material. Rapids stay above it by RETRACT CLEARANCE."),
+        (Form.START, "z_bottom"): Topic("The deepest the tool may go, below Z START: usually a negative number."),
+        (Form.START, "plunge_feed"): Topic("The tool goes straight down with it, in the material."),
+        (Form.START, "speed"): Topic("Written as S before the block begins. 0 posts nothing."),
+        (Form.START, "peck_depth"): Topic(
+            "The contour is milled once at each depth; the last pass takes what is left.", _PECK
+        ),
+        (Form.START, "lookahead"): Topic(
+            "How many segments further the path is checked for a segment that the tool cannot reach. CAL is the "
+            "control's own value; one that is too small gouges, one that is too large leaves corners. F4 shows all "
+            "values, F3 goes back to CAL.",
+            _AHEAD,
+        ),
+        (Form.LINE, "x_end"): _END_X,
+        (Form.LINE, "y_end"): _END_X,
+        (Form.LINE, "z_end"): _END_Z,
+        (Form.LINE, "length"): Topic(
+            "Two of X END, Y END, XY LENGTH and XY ANGLE fix a line; the others are calculated."
+        ),
+        (Form.LINE, "angle"): Topic(
+            "The direction of travel, not of the edge: the same edge the other way is 180 more.", _ANGLE
+        ),
+        (Form.LINE, "feed"): _FEED,
+        (Form.LINE, "choice"): Topic(
+            "The drawing shows both, dashed. F1 and F2 pick; nothing is posted until one is picked."
+        ),
+        (Form.ARC, "direction"): Topic("CW turns as the hands of a clock, seen from above."),
+        (Form.ARC, "x_end"): _END_X,
+        (Form.ARC, "y_end"): _END_X,
+        (Form.ARC, "z_end"): _END_Z,
+        (Form.ARC, "x_center"): _CENTER,
+        (Form.ARC, "y_center"): _CENTER,
+        (Form.ARC, "radius"): Topic(
+            "From the center to the contour, not of the tool's path. With both ends, two arcs may fit."
+        ),
+        (Form.ARC, "sweep"): Topic("How far around it goes, in its direction. 360 is the full circle.", _SWEEP),
+        (Form.ARC, "feed"): _FEED,
+        (Form.ARC, "choice"): Topic(
+            "The drawing shows both, dashed. F1 and F2 pick; nothing is posted until one is picked."
+        ),
+        (Form.BLEND, "radius"): Topic("The two segments are shortened to where this arc touches them.", _CORNER),
+        (Form.BLEND, "feed"): _FEED,
+        (Form.TOOL, "number"): Topic("The number a block calls and T and H write. Another number moves the row."),
+        (Form.TOOL, "type"): Topic("Any words; they stand in the NC file's head and on the setup sheet."),
+        (Form.TOOL, "diameter"): Topic("The diameter it cuts. Every path of the tool follows a change at once."),
+        (Form.PARAMETERS, "blend_offset"): Topic(
+            "The tool comes to the contour and leaves it on an arc. 0 goes straight.", _BLEND
+        ),
+        (Form.PARAMETERS, "blend_overlap"): Topic("Only closed contours have it.", _OVERLAP),
+        (Form.PARAMETERS, "finish_xy"): Topic("Only with a FINISH TOOL: what it takes off the sides."),
+        (Form.PARAMETERS, "finish_z"): Topic("Only with a FINISH TOOL: what it takes off the floor."),
+        (Form.PARAMETERS, "pocket_overlap"): Topic("50 moves each PROFILE pass over by half the tool."),
+        (Form.PARAMETERS, "max_offset"): Topic("The material outside the contour. 0 makes one pass along it."),
+        (Form.PARAMETERS, "retract_clearance"): Topic("Above Z START nothing may stand in the way this high."),
+        (Form.PARAMETERS, "peck_clearance"): Topic("From there on down it is PLUNGE FEED."),
+        (Form.PARAMETERS, "path"): Topic(
+            "CONTROL is what the control itself would mill. BEST reaches all the tool can reach."
+        ),
+        (Form.SETUP, "name"): Topic("Any words; signs a control would obey are written as others."),
+        (Form.SETUP, "work_offset"): Topic("Which of the machine's zero points the part is clamped to."),
+        (Form.SETUP, "safe_z"): Topic("Where the tool changes and where it ends. Clamps must stay below it."),
+    }
+)
+"""One for every field there is."""
+
+
+def topic_of(one: Field) -> Topic | None:
+    """The topic of a field."""
+    for form, table in TABLES.items():
+        for known in (*table, SOLUTION):
+            if known == one and (form, one.name) in TOPICS:
+                return TOPICS[form, one.name]
+    return None
