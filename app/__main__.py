@@ -36,6 +36,10 @@ def main(arguments: list[str] | None = None) -> int:
         from app.check import check
 
         return check(given[1:])
+    if given and given[0] == "proof":
+        from app.proof import proof
+
+        return proof(given[1:])
     if given and given[0] in shop.HELP:
         return shop.shop(given)
     if given and given[0] in COMMANDS:
@@ -50,10 +54,14 @@ def _screen_parser() -> argparse.ArgumentParser:
         description=DESCRIPTION,
         epilog="commands without a screen:\n"
         + "".join(f"  cutcomp {name:<10} {text}\n" for name, text in (COMMAND_HELP | shop.HELP).items())
-        + "  cutcomp check      what controls do with an NC program\n\n`cutcomp COMMAND --help` tells more.",
+        + "  cutcomp check      what controls do with an NC program\n\nanother screen:\n"
+        + "  cutcomp proof      an NC program, the path a control makes of it, its findings\n\n"
+        + "`cutcomp COMMAND --help` tells more.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("file", nargs="?", type=Path, metavar="FILE", help="a program file (TOML)")
+    parser.add_argument(
+        "file", nargs="?", type=Path, metavar="FILE", help="a program file (TOML), or an NC file to prove"
+    )
     parser.add_argument("--example", nargs="?", const="pocket", choices=example_names(), help="open an example part")
     return parser
 
@@ -77,8 +85,13 @@ def _command_parser(name: str) -> argparse.ArgumentParser:
 
 
 def _screens(options: argparse.Namespace) -> int:
+    from app.listing import is_nc
     from app.main import run
 
+    if options.file is not None and is_nc(options.file):
+        from app.proof import shown
+
+        return shown(options.file)
     return run(options.file, example=options.example)
 
 

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Final
 
 from app.checking import Answer, Asked, answer, answer_all, lines, same_contours
+from app.listing import SUFFIXES
 from core.controls.registry import UnknownControl, names, resolve
 from core.controls.source import shown
 from core.controls.tools import CutterTool, ToolTable, read_table
@@ -22,11 +23,6 @@ from core.units import Unit
 CLEAN: Final = 0
 FINDINGS: Final = 1
 UNUSABLE: Final = 2
-
-SUFFIXES: Final = frozenset(
-    [".nc", ".ngc", ".tap", ".cnc", ".txt", ".iso", ".eia", ".gcode", ".din", ".mpf", ".min", ".h"]
-)
-"""Files of a folder that are taken for programs."""
 
 
 class Unusable(Exception):

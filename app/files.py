@@ -7,7 +7,8 @@ from importlib.resources import files as packaged
 from pathlib import Path
 from typing import TYPE_CHECKING, assert_never
 
-from app.messages import Browse, Close, Leave, Load, Open, Post, Save, Say, Swap
+from app.listing import is_nc
+from app.messages import Browse, Close, Do, Leave, Load, Open, Post, Save, Say, Swap
 from app.saving import asked, put_theirs_aside, replacing, there
 from app.screens.ask import Ask
 from app.screens.browse import BrowsePage, listed
@@ -96,6 +97,10 @@ def _browse(desk: Desk, folder: Path | None) -> Desk:
 
 def _load(desk: Desk, message: Load) -> Desk:
     session = desk.session
+    if message.path is not None and is_nc(message.path):
+        from app.screens.proof_files import opening
+
+        return desk.take(Do(opening(message.path)))
     if session.unsaved and not message.unsaved:
         open_it = message._replace(unsaved=True)
         keep = (Close(), Save()) if session.file is not None else (Close(), Open(SaveAsPage.of(session)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -13,14 +14,18 @@ from core.program.store import StoreError, load
 
 if TYPE_CHECKING:
     from app.application import CutcompApp
+    from app.screens.page import Page
     from app.session import Session
 
 UNUSABLE: Final = 2
 """Exit status: the file cannot be used."""
 
 
-def run(path: Path | None, *, example: str | None = None) -> int:
-    """Show the screens on a program file, an example or an empty program; returns the exit status."""
+def run(path: Path | None, *, example: str | None = None, page: Callable[[], Page] | None = None) -> int:
+    """Show the screens on a program file, an example or an empty program; returns the exit status.
+
+    `page` makes the only screen where it is another than those of the program.
+    """
     prepare()
     from app import driver, keys
 
@@ -30,14 +35,15 @@ def run(path: Path | None, *, example: str | None = None) -> int:
         return UNUSABLE
     try:
         session = begin(path, example)
+        only = None if page is None else page()
     except StoreError as error:
         say(str(error))
         return UNUSABLE
     keys.teach()
-    return guarded(session, first=path is None and example is None)
+    return guarded(session, first=path is None and example is None and only is None, only=only)
 
 
-def guarded(session: Session, *, first: bool = False) -> int:
+def guarded(session: Session, *, first: bool = False, only: Page | None = None) -> int:
     """The App on a session, with its work kept and its end in order; returns the exit status."""
     from app import driver
     from app.application import CutcompApp
@@ -47,6 +53,8 @@ def guarded(session: Session, *, first: bool = False) -> int:
     keeping = Keeping()
     app = CutcompApp(session, keep=keeping.keep)
     keep_settings(app, first=first)
+    if only is not None:
+        app.desk = replace(app.desk, pages=(only,))
     if not in_browser():
         app.driver_class = driver.TerminalDriver
         app.ansi_color = driver.few_colours(os.environ)

@@ -135,6 +135,7 @@ def _third(page: ProgramPage, session: Session) -> Softkeys:
         2: Softkey("SETUP SHEET", (Open(SheetPage.of(session)),)),
         3: Softkey("KEYS AND HELP", (Open(HelpPage(about=page.help(session))),)),
         4: Softkey("GUIDED FIRST PART", (Do(guide_on),)),
+        5: Softkey("NC PROOF", (Do(proving),)),
         7: Softkey("MORE", (Swap(replace(page, set=0)),)),
         8: Softkey("EXIT", (Leave(),)),
     }
@@ -152,6 +153,13 @@ def guide_on(desk: Desk) -> Desk:
     from app import guide
 
     return guide.turned(desk)
+
+
+def proving(desk: Desk) -> Desk:
+    """The NC files to choose one from."""
+    from app.screens.proof_files import browsing
+
+    return browsing()(desk)
 
 
 def save_messages(session: Session) -> tuple[Message, ...]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar, Final
+from typing import TYPE_CHECKING, ClassVar
 
-from app.listing import LARGEST, Listing
+from app.listing import LARGEST, SUFFIXES, Listing
 from app.messages import Close, Do, Message, Open, Say
 from app.screens.ask import Ask
 from app.screens.browse import BrowsePage, Item
@@ -25,23 +24,6 @@ from core.units import printable
 if TYPE_CHECKING:
     from app.desk import Desk
     from app.screens.proof import ProofPage
-
-SUFFIXES: Final = frozenset(
-    [".nc", ".ngc", ".tap", ".cnc", ".txt", ".iso", ".eia", ".gcode", ".din", ".mpf", ".min", ".h"]
-)
-"""Files of a folder that are shown as NC programs."""
-_PROGRAM: Final = re.compile(rb"^\s*format\s*=", re.MULTILINE)
-
-
-def is_nc(path: Path) -> bool:
-    """Whether an existing file is none of our own programs, which are TOML with a format."""
-    if path.suffix.lower() == ".toml" or not path.is_file():
-        return False
-    try:
-        with path.open("rb") as file:
-            return _PROGRAM.search(file.read(4096)) is None
-    except OSError:
-        return False
 
 
 def read(path: Path) -> Listing:

@@ -1,0 +1,79 @@
+"""`cutcomp proof`: the screen NC PROOF on a file."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from app.commands import UNUSABLE, say
+
+if TYPE_CHECKING:
+    from app.screens.proof import ProofPage
+
+
+def proof(arguments: list[str]) -> int:
+    """Runs the command; returns the exit status."""
+    from app.check import Unusable
+
+    options = _parser().parse_args(arguments)
+    try:
+        return _proof(options)
+    except Unusable as trouble:
+        say(str(trouble))
+        return UNUSABLE
+
+
+def shown(file: Path) -> int:
+    """The screen on a file, on the control it looks like."""
+    from app.main import run
+
+    return run(None, page=lambda: _page(file, ""))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        "cutcomp proof", description="The listing of an NC program, the path a control makes of it, and its findings."
+    )
+    parser.add_argument("file", type=Path, metavar="FILE", help="an NC program")
+    parser.add_argument("--control", metavar="NAME[:VARIANT]", help="the control; the screen changes it by key")
+    parser.add_argument("--tools", type=Path, metavar="TABLE", help="a tool table as LinuxCNC writes it")
+    parser.add_argument(
+        "--tool",
+        action="append",
+        default=[],
+        metavar="N=DIAMETER",
+        help="a tool's diameter in the program's unit, or with mm or in behind it",
+    )
+    parser.add_argument("--units", choices=("IN", "MM"), type=str.upper, help="the unit of a program that names none")
+    return parser
+
+
+def _proof(options: argparse.Namespace) -> int:
+    from app.check import Unusable, tools_of
+    from app.main import run
+    from core.controls.registry import UnknownControl, resolve
+    from core.units import Unit
+
+    control = "" if options.control is None else resolve(options.control)
+    if isinstance(control, UnknownControl):
+        raise Unusable(control.text)
+    tools = tools_of(options)
+    unit = Unit(options.units) if options.units else None
+
+    def page() -> ProofPage:
+        plain = _page(options.file, control)
+        return replace(
+            plain, asked=replace(plain.asked, tools=tools, unit=unit), tool=min(tools.tools, default=plain.tool)
+        )
+
+    return run(None, page=page)
+
+
+def _page(file: Path, control: str) -> ProofPage:
+    """The page on a file; StoreError where it cannot be read."""
+    from app.screens.proof import ProofPage
+    from app.screens.proof_files import read
+
+    return ProofPage.of(read(file), file, control=control, alone=True)
