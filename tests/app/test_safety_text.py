@@ -1,0 +1,143 @@
+"""Text out of files never reaches a terminal or an NC file as control characters, wherever it is shown."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+
+from app.__main__ import main
+from app.desk import Desk
+from app.files import opened
+from core.pipeline.derive import derive
+from core.program.fields import TABLES, Form
+from core.program.model import CutterComp
+from core.program.store import loads, save
+from core.units import Kind
+from tests.app.operator import Operator
+from tests.core.program.parts import line, program
+
+EVIL = "\x1b]0;a\x07\x1b[2J\u009b5n\x7f\r\u202e)(M30%\u2028"
+"""A title, a cleared screen, a question to the terminal, a reversed line, an end of the comment, a new line."""
+
+
+def unread(form: Form, path: str) -> str:
+    """A table of unread texts with every field of a form that takes a number."""
+    names = [one.name for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT)]
+    lines = [f"{name} = {json.dumps(EVIL)}\n" for name in names if name not in ("number", "lookahead")]
+    return f"[{path}.unread]\n{''.join(lines)}"
+
+
+HOSTILE = (
+    'format = 1\nunits = "IN"\n'
+    + unread(Form.PARAMETERS, "parameters")
+    + '[setup]\nname = "A (MSG, B) % \u00d8"\n'
+    + unread(Form.SETUP, "setup")
+    + '[[tool]]\nnumber = 1\ntype = ") (MSG, x) %"\n'
+    + unread(Form.TOOL, "tool")
+    + '[[block]]\nkind = "MILL CONTOUR"\ncutter_comp = "LEFT"\n'
+    + unread(Form.START, "block")
+    + '[[block.segment]]\nkind = "LINE"\n'
+    + unread(Form.LINE, "block.segment")
+    + '[[block.segment]]\nkind = "ARC"\ndirection = "CW"\n'
+    + unread(Form.ARC, "block.segment")
+    + '[[block.segment]]\nkind = "BLEND ARC"\n'
+    + unread(Form.BLEND, "block.segment")
+)
+
+
+@pytest.fixture
+def part(tmp_path: Path) -> Path:
+    path = tmp_path / "a\x1b[2J\u202eb.toml"
+    path.write_text(HOSTILE, encoding="utf-8")
+    return path
+
+
+def harmless(text: str) -> bool:
+    return all(one.isprintable() for one in text.split("\n"))
+
+
+def test_the_hostile_program_is_one() -> None:
+    assert loads(HOSTILE, "hostile").blocks[0].segments
+    assert not harmless(EVIL)
+
+
+PAGES = [
+    [],
+    ["tab", "tab", "tab", "tab"],
+    ["right", "tab", "?"],
+    ["right", "right", "tab"],
+    ["f4"],
+    ["f5"],
+    ["f6"],
+    ["f6", "tab", "tab", "left"],
+    ["f7"],
+    ["f8"],
+    ["f8", "f6", "enter"],
+    ["f8", "f7", "f3"],
+    ["ctrl+s"],
+    ["ctrl+o"],
+    ["tab", "9", "enter", "ctrl+q"],
+    ["tab", "9", "enter", "ctrl+z"],
+    ["tab", "tab", "tab", "9", "enter", "ctrl+z"],
+]
+
+
+@pytest.mark.parametrize("keys", PAGES, ids=" ".join)
+def test_every_screen(part: Path, keys: list[str]) -> None:
+    operator = Operator(Desk(opened(part)))
+    operator.desk = operator.desk.knowing(derive(operator.session.program))
+    operator.press(*keys)
+    for width, height in ((80, 24), (200, 60)):
+        rows = operator.screen(width, height)
+        assert all(row.isprintable() for row in rows), rows
+
+
+COMMANDS = [
+    ["path"],
+    ["path", "--json"],
+    ["lookahead"],
+    ["lookahead", "--json"],
+    ["post"],
+    ["post", "--override", "POST WITH GOUGE"],
+    ["plot"],
+    ["sheet"],
+    ["tools"],
+    ["check", "--control", "all"],
+]
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=" ".join)
+@pytest.mark.parametrize("content", [HOSTILE, HOSTILE + f"\nx = {json.dumps(EVIL)}\n", f'x = "{EVIL}"\n'])
+def test_every_command(part: Path, command: list[str], content: str, capsys: pytest.CaptureFixture[str]) -> None:
+    part.write_text(content, encoding="utf-8")
+    with suppress(SystemExit):
+        main([*command, str(part)])
+    told = capsys.readouterr()
+    assert harmless(told.out), told.out
+    assert harmless(told.err), told.err
+
+
+def test_names_are_comments_in_an_nc_file_and_nothing_else(tmp_path: Path) -> None:
+    """What a name holds cannot end its comment, begin an order, or end the file."""
+    good = Path(tmp_path / "M99 %)(.toml")
+    sides = (line(x_end=x, y_end=y) for x, y in ((30.0, 0.0), (30.0, 30.0), (0.0, 30.0), (0.0, 0.0)))
+    square = program(*sides, start={"cutter_comp": CutterComp.ON})
+    save(square, good)
+    text = good.read_text(encoding="utf-8")
+    good.write_text(
+        text.replace("END MILL", ") G0 Z-9 (MSG, %").replace("[[tool]]", '[setup]\nname = ")M30"\n[[tool]]')
+    )
+    done = subprocess.run([sys.executable, "-m", "app", "post", str(good)], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    for row in done.stdout.splitlines():
+        bare, _, comment = row.partition("(")
+        assert "Z-9" not in bare
+        assert comment.count("(") == 0
+        assert comment.count(")") == (1 if comment else 0)
+        assert "%" not in comment
+    assert done.stdout.count("M30") - done.stdout.count("]M30") == 1
