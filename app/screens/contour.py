@@ -72,7 +72,7 @@ class Contour(FormPage):
         names = [SEGMENT, *(one.name for one in self.fields(session))]
         step = -1 if key in ("up", "shift+tab") else 1
         there = names[(names.index(self.cursor(session)) + step) % len(names)]
-        return replace(self, editing=None).moved(session, there)
+        return self._without_text().moved(session, there)
 
     def _finished(self, session: Session) -> Answer:
         """Enter on the last field of a segment: on to the next one.  On START it goes back to SEGMENT."""
@@ -83,7 +83,7 @@ class Contour(FormPage):
         return Answer(settled.page, (*settled.messages, *beyond))
 
     def _walked(self, session: Session, step: int) -> Answer:
-        settled = self.settle(session) if self.cursor(session) != SEGMENT else Answer(replace(self, editing=None))
+        settled = self.settle(session) if self.cursor(session) != SEGMENT else Answer(self._without_text())
         if any(isinstance(message, Say) for message in settled.messages):
             return settled
         there = contour_keys.advance(session) if step > 0 else contour_keys.back(session)
@@ -95,7 +95,7 @@ class Contour(FormPage):
 
     def _segment_key(self, key: str, character: str | None, session: Session) -> Answer | None:
         """On SEGMENT: digits and Enter go to a segment, the arrows walk."""
-        bare = replace(self, editing=None)
+        bare = self._without_text()
         if key in ("left", "right"):
             return bare._walked(session, WALK[key])
         if key == "enter" and self.editing is not None and self.editing.text:
@@ -110,7 +110,7 @@ class Contour(FormPage):
     def settle(self, session: Session) -> Answer:
         """The half-typed text taken; a half-typed segment number is forgotten."""
         if self.cursor(session) == SEGMENT:
-            return Answer(replace(self, editing=None))
+            return Answer(self._without_text())
         return FormPage.settle(self, session)
 
     def softkeys(self, session: Session) -> Softkeys:

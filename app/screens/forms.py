@@ -24,9 +24,13 @@ BACK = ("shift+tab", "up")
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FormPage(Page):
-    """A page with fields; `editing` is the half-typed text of the field with the cursor."""
+    """A page with fields.
+
+    `editing` is the half-typed text of the field with the cursor, `spelled` the letters typed into a choice so far.
+    """
 
     editing: Editing | None = None
+    spelled: str = ""
 
     def fields(self, session: Session) -> tuple[Field, ...]:
         """The fields the cursor can go to, in order."""
@@ -80,7 +84,7 @@ class FormPage(Page):
     def settle(self, session: Session) -> Answer:
         """The half-typed text taken, the cursor where it is."""
         one, editing = self.field(session), self.editing
-        done = replace(self, editing=None)
+        done = self._without_text()
         if one is None or editing is None or editing.text.strip() == self.text(session, one):
             return Answer(done)
         edit = self.edit(session, one, editing.text)
@@ -103,7 +107,7 @@ class FormPage(Page):
 
     def escape(self, session: Session) -> Answer | None:
         """The half-typed text forgotten: the field shows what it held."""
-        return None if self.editing is None else Answer(replace(self, editing=None))
+        return None if self.editing is None else Answer(self._without_text())
 
     def text(self, session: Session, one: Field) -> str:
         """What a field shows, in full where the form's decimals would lose some of what was typed."""
@@ -120,12 +124,13 @@ class FormPage(Page):
         return self._without_text().moved(session, there)
 
     def _without_text(self) -> Self:
-        return replace(self, editing=None)
+        return replace(self, editing=None, spelled="")
 
     def _choice_key(self, session: Session, one: Field, key: str, character: str | None) -> Answer | None:
         held = str(self.value(session, one.name) or "")
-        chosen = chosen_by(one, held, key, character)
-        return None if chosen is None else self.pick(session, one, chosen)
+        spelled = spelling(one, self.spelled, character)
+        chosen = spelled_choice(one, held, spelled) if spelled else stepped_choice(one, held, key)
+        return None if chosen is None else replace(self, spelled=spelled).pick(session, one, chosen)
 
     def reason(self, session: Session) -> Said | None:
         """Why the field with the cursor cannot be used as it stands."""
@@ -143,18 +148,34 @@ def _unread_sentence(unread: Unread) -> str:
     return f"{unread.text.strip()} cannot be read: {unread.reason}"
 
 
-def chosen_by(one: Field, held: str, key: str, character: str | None) -> str | None:
-    """The choice a key makes: arrows and the space bar step, a letter goes to the next that begins with it."""
+def stepped_choice(one: Field, held: str, key: str) -> str | None:
+    """The choice that an arrow or the space bar goes to."""
     choices = one.choices
     here = choices.index(held) if held in choices else -1
     if key in ("right", "space"):
         return choices[(here + 1) % len(choices)]
     if key == "left":
         return choices[(here - 1) % len(choices)] if here >= 0 else choices[-1]
-    if character is None or not character.isalnum():
-        return None
-    ahead = (*choices[here + 1 :], *choices[: here + 1])
-    return next((choice for choice in ahead if choice.startswith(character.upper())), None)
+    return None
+
+
+def spelling(one: Field, before: str, character: str | None) -> str:
+    """The letters of a choice typed so far, with this one: those that a choice begins with, else this one alone."""
+    if character is None or not character.isprintable():
+        return ""
+    longer, alone = (before + character).upper(), character.upper()
+    for text in (longer, alone):
+        if text.strip() and any(choice.startswith(text) for choice in one.choices):
+            return text
+    return ""
+
+
+def spelled_choice(one: Field, held: str, spelled: str) -> str:
+    """A first letter goes to the next choice that begins with it, more letters to the one that is being spelled."""
+    here = one.choices.index(held) if held in one.choices else -1
+    ahead = (*one.choices[here + 1 :], *one.choices[: here + 1])
+    order = ahead if len(spelled) == 1 else (held, *one.choices)
+    return next(choice for choice in order if choice.startswith(spelled))
 
 
 def shown_text(held: Value | str, one: Field, unit: Unit) -> str:
@@ -189,7 +210,7 @@ def field_help(one: Field) -> tuple[str, ...]:
     """What a field means and what may be typed into it, in sentences, then its picture."""
     lines = [one.label, one.prompt]
     if one.choices:
-        lines.append(f"Choices: {', '.join(one.choices)}. Space, left and right step; a first letter selects.")
+        lines.append(f"Choices: {', '.join(one.choices)}. Space, left and right step; letters spell one.")
     elif one.kind is not Kind.TEXT:
         lines.append(_HOW[one.kind])
     if one.low is not None and one.high is not None:

@@ -65,7 +65,7 @@ class ToolsPage(FormPage):
         place = min(self.row, rows - 1) * len(names) + names.index(self.name)
         step = {"down": len(names), "up": -len(names), "shift+tab": -1}.get(key, 1)
         row, column = divmod((place + step) % (rows * len(names)), len(names))
-        return Answer(replace(self, editing=None, row=row, name=names[column]))
+        return Answer(replace(self, editing=None, spelled="", row=row, name=names[column]))
 
     def settle(self, session: Session) -> Answer:
         """The text taken; the row follows a tool whose new number moves it in the table."""
@@ -73,7 +73,7 @@ class ToolsPage(FormPage):
         for message in settled.messages:
             if isinstance(message, Edit) and isinstance(message.outcome, Program) and self.name == "number":
                 row = _changed_row(session.program, message.outcome)
-                return Answer(replace(self, editing=None, row=row), settled.messages)
+                return Answer(replace(self, editing=None, spelled="", row=row), settled.messages)
         return settled
 
     def preview(self, session: Session) -> Program | None:

@@ -302,3 +302,25 @@ def test_the_pocket_keyed_in_from_the_drawing() -> None:
     assert operator.segments[1] == ArcSegment(
         Direction.CCW, Entry(4.75), Entry(1.0), None, Entry(4.0), Entry(1.0), None, None, None
     )
+
+
+@pytest.mark.parametrize("before", ["space", "left", "escape"])
+@pytest.mark.parametrize("word", ["on", "left", "right", "profile left", "PROFILE RIGHT"])
+def test_a_choice_is_spelled_out(word: str, before: str) -> None:
+    operator = Operator.at().press("enter", "tab", before)
+    operator.press(*("space" if letter == " " else letter for letter in word))
+    assert operator.block.cutter_comp == CutterComp(word.upper())
+
+
+@pytest.mark.parametrize("word", ["cw", "ccw"])
+@pytest.mark.parametrize("first", [(), ("space",)])
+def test_a_direction_is_spelled_out(word: str, first: tuple[str, ...]) -> None:
+    operator = square().press("ctrl+end", "pagedown", "a", *first, *word)
+    segment = operator.block.segments[-1]
+    assert isinstance(segment, ArcSegment)
+    assert segment.direction == Direction(word.upper())
+
+
+def test_letters_are_forgotten_where_the_cursor_goes_elsewhere() -> None:
+    operator = Operator.at().press("enter", "tab", "p", "tab", "shift+tab", "r")
+    assert operator.block.cutter_comp == CutterComp.RIGHT
