@@ -50,9 +50,8 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
 
 def _best(raw: Raw, made: Stitched, surface: Surface, findings: tuple[Finding, ...]) -> BestPath:
     """The loops longer than rounding, and what is to be said of them."""
-    walked = chains(made)
-    long = [np.sum((made.cut.end - made.cut.begin)[rows]) > GOUGE for rows, _ in walked]
-    walked = [chain for chain, enough in zip(walked, long, strict=True) if enough]
+    size = made.cut.end - made.cut.begin
+    walked = [(rows, ring) for rows, ring in chains(made) if size[rows].sum() > GOUGE]
     loops = tuple(loop_of(raw, made.cut, rows, surface.origin) for rows, _ in walked)
     if not loops:
         findings = (*findings, _no_path())

@@ -1,0 +1,123 @@
+"""Laws of the best path: its symmetries, and its agreement with the control's path where that is clean and complete."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import cos, sin
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.comp.best import BestPath, best_path
+from core.comp.compensate import compensate
+from core.geometry.path import Floats, Path
+from core.geometry.side import Side
+from tests.core.comp.best_truth import distance, from_loops, sampled
+from tests.core.comp.contours import lines, loose, shut
+
+sides = st.sampled_from(Side)
+radii = st.floats(0.05, 1.5)
+OTHER = {Side.LEFT: Side.RIGHT, Side.RIGHT: Side.LEFT}
+
+
+def assert_same(one: BestPath, two: BestPath, moved: Callable[[Floats], Floats], tolerance: float) -> None:
+    """The loops of `one`, moved, are those of `two`: as many, as long, and on each other."""
+    assert sorted(one.closed) == sorted(two.closed)
+    first, second = (sorted(loop.lengths.sum() for loop in best.loops) for best in (one, two))
+    assert first == pytest.approx(second, abs=100 * tolerance)
+    for loop in one.loops:
+        assert from_loops(two, moved(sampled(loop))).max() < tolerance
+
+
+def mapped(contour: Path, moved: Callable[[Floats], Floats], *, turn: int) -> Path:
+    return Path.of(moved(contour.points), moved(contour.centres), turn * contour.turns, contour.numbers)
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(loose, sides, radii, st.booleans())
+def test_reversed_on_the_other_side_it_is_the_same(contour, side, radius, closed):
+    contour = shut(contour) if closed else contour
+    back = best_path(contour.reversed(), OTHER[side], radius, closed=closed)
+    assert_same(best_path(contour, side, radius, closed=closed), back, lambda points: points, 1e-7)
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(loose, sides, radii, st.booleans())
+def test_mirrored_on_the_other_side_it_is_mirrored(contour, side, radius, closed):
+    contour = shut(contour) if closed else contour
+    mirror = best_path(mapped(contour, lambda points: points * (1, -1), turn=-1), OTHER[side], radius, closed=closed)
+    assert_same(best_path(contour, side, radius, closed=closed), mirror, lambda points: points * (1, -1), 1e-7)
+
+
+@settings(max_examples=100, deadline=None, derandomize=True)
+@given(loose, sides, radii, st.booleans(), st.floats(0.0, 6.28))
+def test_rotated_it_is_rotated(contour, side, radius, closed, angle):
+    contour = shut(contour) if closed else contour
+    turned = np.array([[cos(angle), sin(angle)], [-sin(angle), cos(angle)]])
+    other = best_path(mapped(contour, lambda points: points @ turned, turn=1), side, radius, closed=closed)
+    assert_same(best_path(contour, side, radius, closed=closed), other, lambda points: points @ turned, 1e-7)
+
+
+@settings(max_examples=100, deadline=None, derandomize=True)
+@given(loose, sides, radii, st.booleans())
+def test_ten_metres_away_it_is_moved(contour, side, radius, closed):
+    contour = shut(contour) if closed else contour
+    far = best_path(mapped(contour, lambda points: points + 1e4, turn=1), side, radius, closed=closed)
+    assert_same(best_path(contour, side, radius, closed=closed), far, lambda points: points + 1e4, 1e-6)
+
+
+@settings(max_examples=100, deadline=None, derandomize=True)
+@given(loose.map(shut), sides, radii, st.integers(1, 10))
+def test_started_elsewhere_it_is_the_same(contour, side, radius, first):
+    first %= len(contour)
+    points = np.concatenate((contour.points[first:], contour.points[1 : first + 1]))
+    order = np.roll(np.arange(len(contour)), -first)
+    other = Path.of(points, contour.centres[order], contour.turns[order])
+    one, two = (best_path(path, side, radius, closed=True) for path in (contour, other))
+    assert_same(one, two, lambda points: points, 1e-7)
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(loose, sides, radii)
+def test_it_lies_on_its_own_pieces_in_the_contours_order_and_direction(contour, side, radius):
+    best = best_path(contour, side, radius, closed=False)
+    for loop in best.loops:
+        own = {number: loop.turns[row] for row, number in enumerate(loop.numbers.tolist()) if number % 1 == 0}
+        assert all(turn == contour.turns[int(number) - 1] for number, turn in own.items())
+        assert (loop.turns[np.mod(loop.numbers, 1) == 0.5] == -side.sign).all()
+    starts = [loop.numbers.min() for loop, ring in zip(best.loops, best.closed, strict=True) if ring]
+    assert starts == sorted(starts)
+
+
+def assert_agrees(contour: Path, side: Side, radius: float, *, closed: bool) -> bool:
+    """Where the control's path is clean, all of it is on the best path; where it is complete they are one curve."""
+    control = compensate(contour, side, radius, 20, closed=closed).path
+    best = best_path(contour, side, radius, closed=closed)
+    if not len(control) or distance(contour, sampled(control)).min() < radius - 1e-7:
+        return False
+    assert from_loops(best, sampled(control)).max() < 1e-6
+    return len(best.loops) == 1 and bool(best.loops[0].lengths.sum() < control.lengths.sum() + 1e-6)
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
+@given(loose, sides, radii)
+def test_a_clean_path_of_the_control_is_on_the_best_path(contour, side, radius):
+    assert_agrees(contour, side, radius, closed=False)
+
+
+AGREEING = {
+    "L": (lines((0, 0), (3, 0), (3, 2)), Side.LEFT, False),
+    "notch": (lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0)), Side.LEFT, False),
+    "small step": (lines((0, 0), (2, 0), (2, 0.1), (4, 0.1), (4, 2)), Side.LEFT, False),
+    "short chamfer": (lines((0, 0), (2, 0), (2.05, 0.05), (2.05, 2), (0, 2)), Side.LEFT, False),
+    "square from mid-side": (lines((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0)), Side.LEFT, True),
+    "chamfer from mid-side": (lines((1, 0), (2, 0), (2, 2), (0, 2), (0, 0.1), (0.1, 0), (1, 0)), Side.LEFT, True),
+}
+
+
+@pytest.mark.parametrize("name", AGREEING)
+def test_where_the_controls_path_is_clean_and_complete_the_two_are_one_curve(name):
+    contour, side, closed = AGREEING[name]
+    assert assert_agrees(contour, side, 0.25, closed=closed)
