@@ -40,20 +40,20 @@ def headings(piece: Piece, shares: Floats) -> Floats:
 
 def away(piece: Piece, points: Floats) -> Floats:
     """Distance (k,) of points from a piece."""
-    ends = np.minimum(np.hypot(*(points - piece.start).T), np.hypot(*(points - piece.end).T))
+    ends: Floats = np.minimum(np.hypot(*(points - piece.start).T), np.hypot(*(points - piece.end).T))
     if isinstance(piece, Line):
         span = np.subtract(piece.end, piece.start)
         share = np.clip((points - piece.start) @ span / max(span @ span, 1e-300), 0.0, 1.0)
-        return np.hypot(*(points - piece.start - share[:, None] * span).T)
+        return np.asarray(np.hypot(*(points - piece.start - share[:, None] * span).T))
     towards, first = points - piece.centre, np.subtract(piece.start, piece.centre)
     angle = np.arctan2(towards[:, 1], towards[:, 0]) - np.arctan2(first[1], first[0])
     inside = np.mod(angle * int(piece.turn), tau) <= abs(piece.sweep)
-    return np.where(inside, np.abs(np.hypot(*towards.T) - piece.radius), ends)
+    return np.asarray(np.where(inside, np.abs(np.hypot(*towards.T) - piece.radius), ends))
 
 
 def distance(path: Path, points: Floats) -> Floats:
     """Least distance (k,) of points from all pieces of a path."""
-    return np.min([away(piece, points) for piece in path], axis=0, initial=np.inf)
+    return np.asarray(np.min([away(piece, points) for piece in path], axis=0, initial=np.inf))
 
 
 def sampled(path: Path) -> Floats:
@@ -63,7 +63,7 @@ def sampled(path: Path) -> Floats:
 
 def from_loops(best: BestPath, points: Floats) -> Floats:
     """Least distance (k,) of points from all loops."""
-    return np.min([np.full(len(points), np.inf), *(distance(loop, points) for loop in best.loops)], axis=0)
+    return np.asarray(np.min([np.full(len(points), np.inf), *(distance(loop, points) for loop in best.loops)], axis=0))
 
 
 def candidates(contour: Path, side: Side, radius: float, *, closed: bool) -> Floats:

@@ -283,9 +283,9 @@ def test_closing_gap_is_bridged():
 
 
 def test_an_arc_of_uneven_radii_is_followed_on_its_mean():
-    pieces = [Line((0.0, 0.0), (4.0, 0.0)), Arc((4.0, 0.0), (4.001, 2.0), (4.0, 1.0), Turn.CCW)]
-    pieces += [Line((4.001, 2.0), (0.0, 2.0)), Line((0.0, 2.0), (0.0, 0.0))]
-    best = best_path(Path.from_pieces(pieces), Side.LEFT, 0.3, closed=True)
+    uneven = Arc((4.0, 0.0), (4.001, 2.0), (4.0, 1.0), Turn.CCW)
+    straight = (Line((0.0, 0.0), (4.0, 0.0)), Line((4.001, 2.0), (0.0, 2.0)), Line((0.0, 2.0), (0.0, 0.0)))
+    best = best_path(Path.from_pieces([straight[0], uneven, *straight[1:]]), Side.LEFT, 0.3, closed=True)
     assert (len(best.loops), best.findings) == (1, ())
     arc = best.loops[0].numbers.tolist().index(2)
     ends = best.loops[0].points[arc : arc + 2] - best.loops[0].centres[arc]
@@ -322,7 +322,8 @@ BAD = {
 def test_bad_input_gives_a_finding_and_no_loops(name, closed):
     contour, radius, code = BAD[name]
     best = best_path(contour, Side.LEFT, radius, closed=closed)
-    assert best.loops == best.closed == ()
+    assert not best.loops
+    assert not best.closed
     assert code in [finding.code for finding in best.findings]
 
 

@@ -28,7 +28,7 @@ def boxes(seed: int, count: int) -> Floats:
 def apart(one: Floats, two: Floats) -> Floats:
     """Distances (n, m) of all boxes from all others."""
     gaps = np.maximum(one[:2, :, None] - two[2:, None], two[:2, None] - one[2:, :, None])
-    return np.hypot(*np.maximum(gaps, 0.0))
+    return np.asarray(np.hypot(*np.maximum(gaps, 0.0)))
 
 
 @settings(max_examples=60, deadline=None, derandomize=True)
