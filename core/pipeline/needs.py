@@ -50,7 +50,9 @@ def needs(found: DerivedBlock, program: Program, table: Table | None = None) -> 
 
 
 def needs_of(cut: Cut, calculated: int, table: Table) -> Needs:
-    """What a contour needs whose look-ahead table is known."""
+    """What a contour needs whose look-ahead table is known; nothing where it could not be offset at all."""
+    if not len(table.rows[0].compensated.raw):
+        return Needs(())
     why = why_not_clean(table, calculated)
     if table.recommended is not None:
         return Needs(why, sentences=why)

@@ -1,0 +1,160 @@
+"""Contours nobody should draw, through engine, judge and best path: no exception, no endless run, no wrong clean."""
+
+from __future__ import annotations
+
+from datetime import timedelta
+from itertools import pairwise
+from math import inf, nan
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.comp.best import best_path
+from core.comp.compensate import compensate, compensate_all
+from core.finding import Severity
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Piece, Point, Turn
+from core.geometry.side import Side
+from core.pipeline.needs import needs_of
+from core.pipeline.table import Cut, table_of
+from core.verify.judge import judge
+from core.verify.verdict import Verdict
+from tests.core.comp.contours import lines
+from tests.core.verify.oracle import least
+
+PATIENCE = timedelta(seconds=10)
+"""What takes longer is taken for endless."""
+
+NEAR = 1e-5
+STEP = 0.02
+
+ODD = [nan, inf, -inf, 1e300, -1e300, 1e16, 1e7, -1e7, 1.0000001e7, 5e-324, 1e-300, 1e-12, 1e-8, 1e-7, 0.00254]
+PLAIN = [0.0, -0.0, 1.0, -1.0, 2.0, 0.5, 0.25, 1.0 + 1e-9, 1.0 - 1e-7]
+
+anything = st.sampled_from(ODD) | st.sampled_from(PLAIN) | st.floats(allow_nan=True)
+mostly_plain = st.sampled_from(PLAIN) | st.sampled_from(PLAIN) | st.sampled_from(PLAIN) | st.sampled_from(ODD)
+radii = st.sampled_from([0.0, -1.0, nan, inf, 1e-300, 1e-9, 1e-7, 0.25, 0.5, 1.0, 1e3, 1e7, 1e300])
+
+
+@st.composite
+def arrays(draw: st.DrawFn, numbers: st.SearchStrategy[float]) -> Path:
+    """Any arrays at all: arcs whose centres have nothing to do with their ends among them."""
+    count = draw(st.integers(0, 7))
+    points = [[draw(numbers), draw(numbers)] for _ in range(count + 1)]
+    centres = [[draw(numbers), draw(numbers)] for _ in range(count)]
+    turns = [draw(st.sampled_from((-1, 0, 0, 1))) for _ in range(count)]
+    return Path.of(np.array(points), np.array(centres), np.array(turns, np.int8))
+
+
+def _everything(contour: Path, side: Side, radius: float, *, closed: bool) -> None:
+    """Nothing raises; what is not judged is not clean; a path that is not there is told."""
+    for done in compensate_all(contour, side, radius, (1, 3, 8, 20), closed=closed, blend=0.1, overlap=0.1):
+        assert np.isfinite(done.whole.points).all()
+        assert len(done.path) or any(one.severity is Severity.ERROR for one in done.findings)
+        verdict = judge(contour, side, radius, done.whole)
+        assert not (verdict.clean and not verdict.judged)
+    best = best_path(contour, side, radius, closed=closed)
+    assert best.loops or any(one.severity is Severity.ERROR for one in best.findings)
+    for loop in best.loops:
+        assert np.isfinite(loop.points).all()
+    if not (np.isfinite(contour.points).all() and np.isfinite(radius)):
+        assert not judge(contour, side, radius, contour).clean
+        assert not best.loops
+
+
+@settings(max_examples=150, deadline=PATIENCE, derandomize=True)
+@given(arrays(anything), st.sampled_from(Side), radii, st.booleans())
+def test_any_numbers_at_all(contour, side, radius, closed):
+    _everything(contour, side, radius, closed=closed)
+
+
+@settings(max_examples=250, deadline=PATIENCE, derandomize=True)
+@given(arrays(mostly_plain), st.sampled_from(Side), radii, st.booleans())
+def test_odd_numbers_among_plain_ones(contour, side, radius, closed):
+    _everything(contour, side, radius, closed=closed)
+
+
+@settings(max_examples=40, deadline=PATIENCE, derandomize=True)
+@given(arrays(mostly_plain), st.sampled_from(Side), radii, st.booleans())
+def test_tables_and_needs_of_odd_contours(contour, side, radius, closed):
+    cut = Cut(contour, side, radius, closed, 0.1, 0.1)
+    table = table_of(cut)
+    needs_of(cut, 3, table)
+    if table.recommended is not None:
+        assert len(table.row(table.recommended).compensated.path)
+
+
+grid = st.tuples(st.integers(0, 3).map(float), st.integers(0, 3).map(float))
+
+
+def _arc(start: Point, end: Point, turn: Turn) -> Piece:
+    """The half circle over a chord, or a full circle beside a point."""
+    if start == end:
+        return Arc(start, start, (start[0] + 1.0, start[1]), turn)
+    return Arc(start, end, ((start[0] + end[0]) / 2.0, (start[1] + end[1]) / 2.0), turn)
+
+
+@st.composite
+def scribbles(draw: st.DrawFn) -> Path:
+    """Lines and arcs over the points of a grid: overlaps, touches, repeats, zero lengths, full circles, crossings."""
+    points = draw(st.lists(grid, min_size=2, max_size=8))
+    pieces: list[Piece] = []
+    for start, end in pairwise(points):
+        turn = draw(st.sampled_from(Turn))
+        pieces.append(Line(start, end) if turn is Turn.NONE else _arc(start, end, turn))
+    if draw(st.booleans()):
+        pieces += [pieces[-1]] if pieces[-1].start == pieces[-1].end else [Line(pieces[-1].end, pieces[-1].start)]
+    return Path.from_pieces(pieces)
+
+
+def _truly_clean(verdict: Verdict, path: Path, contour: Path, radius: float) -> None:
+    if verdict.clean and len(path):
+        assert least(path, contour, STEP) >= radius - NEAR
+
+
+@settings(max_examples=120, deadline=PATIENCE, derandomize=True)
+@given(scribbles(), st.sampled_from(Side), st.sampled_from([0.05, 0.25, 0.5, 0.7, 1.0, 3.0]), st.booleans())
+def test_no_scribble_is_wrongly_clean(contour, side, radius, closed):
+    closed = closed and contour.points[0].tolist() == contour.points[-1].tolist()
+    for done in compensate_all(contour, side, radius, (1, 4, 20), closed=closed):
+        _truly_clean(judge(contour, side, radius, done.path), done.path, contour, radius)
+    for loop in best_path(contour, side, radius, closed=closed).loops:
+        assert least(loop, contour, STEP) >= radius - NEAR
+
+
+@pytest.mark.parametrize("side", Side)
+@pytest.mark.parametrize("radius", [1e-6, 0.25, 1.0, 1e6])
+@pytest.mark.parametrize(
+    "points",
+    [
+        [(0.0, 0.0)] * 5,
+        [(0.0, 0.0), (4.0, 0.0), (4.0, 0.0), (0.0, 0.0), (4.0, 0.0)],
+        [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)] * 3,
+        [(0.0, 0.0), (1e7, 1e7), (1e7, 0.0), (0.0, 1e7), (0.0, 0.0)],
+        [(1e7, 1e7), (1e7 - 1e-6, 1e7), (1e7, 1e7 - 1e-6), (1e7, 1e7)],
+    ],
+)
+def test_contours_on_top_of_themselves(points, radius, side):
+    _everything(lines(*points), side, radius, closed=points[0] == points[-1])
+
+
+def test_a_scribble_of_a_thousand_crossings_ends():
+    random = np.random.default_rng(5)
+    contour = lines(*((float(x), float(y)) for x, y in random.uniform(0, 10, (400, 2))))
+    for done in compensate_all(contour, Side.LEFT, 0.5, (1, 20, 400), closed=False):
+        assert not judge(contour, Side.LEFT, 0.5, done.path).clean
+    for loop in best_path(contour, Side.LEFT, 0.01, closed=False).loops:
+        assert loop.lengths.sum() > 0
+
+
+def test_every_bad_segment_is_named():
+    good = lines((0, 0), (2, 0), (2, 2), (0, 2))
+    for row in range(1, 4):
+        points = good.points.copy()
+        points[row] = (nan, 0.0)
+        (finding,) = compensate(
+            Path.of(points, points[:-1], np.zeros(3, np.int8)), Side.LEFT, 0.25, 2, closed=False
+        ).findings
+        assert (finding.code, finding.segment) == ("NOT_FINITE", row)
