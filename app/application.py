@@ -42,8 +42,11 @@ class CutcompApp(App[int], inherit_bindings=False):
         around: Surroundings | None = None,
         engine: Engine | None = None,
         keep: Callable[[Desk], Desk] = lambda desk: desk,
+        *,
+        few_colours: bool | None = None,
     ) -> None:
-        super().__init__()
+        # known before anything is built: the filter that takes all colours away depends on it
+        super().__init__(ansi_color=few_colours)
         self.keep = keep
         self.desk = keep(Desk(session))
         self.trial: Session | None = None
@@ -53,6 +56,7 @@ class CutcompApp(App[int], inherit_bindings=False):
         self._deriving = Behind(self, self._derived)
         self._trying = Behind(self, self._tried)
         self._tabling = Behind(self, self._tabled)
+        self._needing = Behind(self, self._needed)
         self._surveying = Behind(self, self._surveyed)
         self._asking: Behind[object] = Behind(self, self._answered)
         self._asked: Question | None = None
@@ -104,6 +108,7 @@ class CutcompApp(App[int], inherit_bindings=False):
         self._derive()
         self._try()
         self._tabulate()
+        self._need()
         self._survey()
         self._ask()
         self.refresh_screen()
@@ -131,6 +136,7 @@ class CutcompApp(App[int], inherit_bindings=False):
         """A result from a thread; one for another program than that of now is dropped."""
         self.desk = self.desk.knowing(derived)
         self._tabulate()
+        self._need()
         self.refresh_screen()
 
     def _try(self) -> None:
@@ -163,6 +169,12 @@ class CutcompApp(App[int], inherit_bindings=False):
             self.engine.keep_table(found, program)
         else:
             self._tabling.ask(lambda: self.engine.keep_table(found, program))
+
+    def _need(self) -> None:
+        """What the contour needs where CAL is not clean: why, and what would help."""
+        session = self.desk.session
+        if self.trial is None and self.engine.lacks_needs(session.found):
+            self._needing.ask(lambda: self.engine.keep_needs(session.found, session.program))
 
     def _survey(self) -> None:
         """The start screen's files, one after the other, once the numeric library is there."""
@@ -198,4 +210,8 @@ class CutcompApp(App[int], inherit_bindings=False):
         self.refresh_screen()
 
     def _tabled(self, _: None) -> None:
+        self._need()
+        self.refresh_screen()
+
+    def _needed(self, _: None) -> None:
         self.refresh_screen()

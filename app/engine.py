@@ -7,7 +7,7 @@ needs no library, and a thread fetches the rest.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from time import perf_counter
 from typing import TYPE_CHECKING, Final, TypeVar
@@ -83,6 +83,7 @@ class Engine:
     took: dict[str, float] = field(default_factory=dict)
     table: Table | None = None
     table_of: DerivedBlock | None = None
+    needs_of: DerivedBlock | None = None
 
     def load(self, program: Program) -> Derived:
         """Fetch the numeric library and derive the program; for a thread."""
@@ -119,6 +120,23 @@ class Engine:
 
         self.table = self.timed("table", lambda: look_ahead_table(found, program))
         self.table_of = found
+
+    def lacks_needs(self, found: DerivedBlock) -> bool:
+        """Whether the table of this block is there, its calculated value is not clean, and nobody has said why."""
+        if self.table is None or self.table_of is not found or self.needs_of is found:
+            return False
+        return not self.table.row(found.lookahead.calculated).clean
+
+    def keep_needs(self, found: DerivedBlock, program: Program) -> None:
+        """Say with the table what the block needs; for a thread, since remedies are tried one after the other."""
+        from core.pipeline.needs import needs
+
+        if self.needs_of is found:
+            return
+        table, self.needs_of = self.table, found
+        told = needs(found, program, table)
+        if table is not None and told is not None and self.table is table:
+            self.table = replace(table, notes=(*told.sentences, *table.notes))
 
     def known(self, found: DerivedBlock, trial: Session | None) -> Known:
         """What the screens may show of this block."""

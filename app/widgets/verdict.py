@@ -48,7 +48,9 @@ def verdict_rows(found: DerivedBlock, table: Table | None, unit: Unit, look: int
     errors = [_sentence(one, unit) for one in findings if one.severity is Severity.ERROR]
     rest = [_sentence(one, unit) for one in findings if one.severity is not Severity.ERROR]
     lines = [] if case is None else list(_case_lines(case, unit))
-    return [first, *errors, *lines, *rest]
+    notes = [] if table is None else [_sentence(one, unit) for one in table.notes]
+    gravest = 1 if case is not None and case.verdict.gouges else 0
+    return [first, *lines[:gravest], *errors, *lines[gravest:], *notes, *rest]
 
 
 def _untold(findings: tuple[Finding, ...], case: Case | None) -> list[Finding]:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from core.comp.advise import recommended
 from core.comp.compensate import compensate_all
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.comp.result import Compensated
+from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.side import Side
 from core.pipeline.cut import parameter
+from core.pipeline.derive import better
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
 from core.verify.judge import judge_all
@@ -48,10 +50,11 @@ class Row:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Table:
-    """All rows, and the value the operator is advised to use, if any is clean."""
+    """All rows, the value the operator is advised to use if any is clean, and what else is to be said."""
 
     rows: tuple[Row, ...]
     recommended: int | None
+    notes: tuple[Finding, ...] = ()
 
     def row(self, value: int) -> Row:
         """The row of a look-ahead value."""
@@ -87,7 +90,7 @@ def cut_of(found: DerivedBlock, program: Program) -> Cut | None:
 def look_ahead_table(found: DerivedBlock, program: Program) -> Table | None:
     """The table of a derived block; None for ON and while there is nothing to compensate."""
     cut = cut_of(found, program)
-    return None if cut is None else table_of(cut)
+    return None if cut is None else replace(table_of(cut), notes=better(found))
 
 
 def table_of(cut: Cut) -> Table:
