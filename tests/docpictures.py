@@ -1,0 +1,98 @@
+"""The pictures of core/LOOKAHEAD.md, drawn by the program itself: `python -m tests.docpictures`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+from core.pipeline.derive import derive
+from core.pipeline.plot import svg_of
+from core.program.edit import new_block
+from core.program.model import (
+    CutterComp,
+    Entry,
+    LineSegment,
+    Parameters,
+    PathChoice,
+    Program,
+    Tool,
+)
+
+FOLDER: Final = Path(__file__).parent.parent / "core" / "pictures"
+
+Corner = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A contour from `start` with its tool in inches, a typed look-ahead or CAL, and the path that is posted."""
+
+    name: str
+    title: str
+    start: Corner
+    to: tuple[Corner, ...]
+    comp: CutterComp = CutterComp.LEFT
+    diameter: float = 0.5
+    lookahead: int | None = None
+    path: PathChoice = PathChoice.CONTROL
+
+
+NOTCH: Final = ((2.0, 0.0), (2.0, -0.3), (2.3, -0.3), (2.3, 0.0), (5.0, 0.0))
+SQUARE: Final = ((2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0))
+CHAMFERED: Final = ((2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.1), (0.1, 0.0))
+BONE: Final = (
+    (2.0, 0.0), (2.0, 0.8), (3.0, 0.8), (3.0, 0.0), (5.0, 0.0), (5.0, 2.0), (3.0, 2.0), (3.0, 1.2), (2.0, 1.2),
+    (2.0, 2.0), (0.0, 2.0), (0.0, 0.0), (1.0, 0.0),
+)  # fmt: skip
+
+PICTURES: Final = (
+    Picture("walk-1", "Look-ahead 1: nothing is deleted", (0.0, 0.0), NOTCH, lookahead=1),
+    Picture("walk-3", "Look-ahead 3: the notch is passed over", (0.0, 0.0), NOTCH, lookahead=3),
+    Picture("corner-start", "Started at an inside corner", (0.0, 0.0), SQUARE),
+    Picture("mid-side-start", "Started mid-side", (1.0, 0.0), (*SQUARE, (1.0, 0.0))),
+    Picture("long-way", "CAL 4 erases the longer way round", (0.1, 0.0), CHAMFERED),
+    Picture("bone-control", "CAL 8: the neck is too narrow", (1.0, 0.0), BONE),
+    Picture("bone-best", "The best path: two loops", (1.0, 0.0), BONE, path=PathChoice.BEST),
+    Picture("uncut", "Corners the cutter does not reach", (1.0, 0.0), (*SQUARE, (1.0, 0.0)), diameter=1.2),
+)
+
+
+def program(picture: Picture) -> Program:
+    """The picture's program, as typed, without blend moves."""
+    tools = (Tool(1, diameter=Entry(picture.diameter)),)
+    block = replace(
+        new_block(Program(tools=tools)),
+        tool=Entry(1),
+        cutter_comp=picture.comp,
+        x_start=Entry(picture.start[0]),
+        y_start=Entry(picture.start[1]),
+        z_bottom=Entry(-0.25),
+        lookahead=_lookahead(picture),
+        segments=tuple(LineSegment(x_end=Entry(x), y_end=Entry(y)) for x, y in picture.to),
+    )
+    plain = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0), path=picture.path)
+    return Program(tools=tools, blocks=(block,), parameters=plain)
+
+
+def _lookahead(picture: Picture) -> Entry | None:
+    return None if picture.lookahead is None else Entry(picture.lookahead)
+
+
+def drawn() -> Iterator[tuple[str, str]]:
+    """Every picture's file name and SVG text."""
+    for picture in PICTURES:
+        yield f"{picture.name}.svg", svg_of(derive(program(picture)), title=picture.title)
+
+
+def main() -> None:
+    """Write every picture."""
+    FOLDER.mkdir(exist_ok=True)
+    for name, text in drawn():
+        (FOLDER / name).write_text(text, encoding="utf-8")
+        print(name)
+
+
+if __name__ == "__main__":
+    main()

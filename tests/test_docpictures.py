@@ -1,0 +1,60 @@
+"""The pictures of the documentation show what its text says, and are the ones the program draws."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from core.pipeline.derive import derive
+from core.pipeline.derived import Work
+from tests.docpictures import FOLDER, PICTURES, drawn, program
+
+PAGE = FOLDER.parent / "LOOKAHEAD.md"
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
+
+
+def _work(name: str) -> Work:
+    (picture,) = (one for one in PICTURES if one.name == name)
+    (found,) = derive(program(picture)).blocks
+    assert found.work is not None
+    return found.work
+
+
+@pytest.mark.parametrize(
+    ("name", "clean"),
+    [
+        ("walk-1", False),
+        ("walk-3", True),
+        ("corner-start", False),
+        ("mid-side-start", True),
+        ("long-way", False),
+        ("bone-control", True),
+        ("bone-best", True),
+        ("uncut", True),
+    ],
+)
+def test_the_verdicts_are_those_of_the_text(name, clean):
+    assert _work(name).verdict.clean is clean
+
+
+def test_deletions_and_loops_are_those_of_the_text():
+    assert not len(_work("walk-1").compensated.deleted)
+    assert _work("walk-3").compensated.deleted.segments.tolist() == [2, 3, 4]
+    assert [len(_work(name).loops) for name in ("bone-control", "bone-best")] == [1, 2]
+    assert _work("uncut").verdict.uncut_length > 4 * 25.4
+
+
+def test_every_picture_of_the_page_is_there_and_no_other():
+    linked = set(re.findall(r"\(pictures/([\w-]+\.svg)\)", PAGE.read_text()))
+    assert linked == {file.name for file in FOLDER.iterdir()} == {name for name, _ in drawn()}
+
+
+@pytest.mark.parametrize(("name", "text"), list(drawn()))
+def test_a_picture_is_what_the_program_draws(name, text):
+    """Compared word by word and number by number: last digits may differ between machines."""
+    kept = Path(FOLDER / name).read_text()
+    assert NUMBER.sub("#", kept) == NUMBER.sub("#", text), "python -m tests.docpictures draws it anew"
+    ours, theirs = (list(map(float, NUMBER.findall(one))) for one in (kept, text))
+    assert ours == pytest.approx(theirs, abs=2e-6)
