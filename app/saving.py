@@ -14,7 +14,7 @@ from app.screens.decide import shortened
 from app.session import Session, Tone
 from core.program.difference import differences
 from core.program.disk import why
-from core.program.lock import taken_by
+from core.program.lock import held_by, taken_by
 from core.program.stamp import stamp_of
 from core.program.store import StoreError, load
 from core.units import printable
@@ -51,8 +51,11 @@ def leads_elsewhere(path: Path) -> bool:
 def replacing(path: Path, message: Save | Post) -> Ask:
     """Somebody's file stands in the place."""
     target = f", which leads to {os.path.realpath(path)}" if path.is_symlink() else ""
-    lines = (f"{printable_path(path)}{printable_path(target)} exists already. Its content is replaced.",)
-    return Ask("REPLACE THE FILE?", lines, (("r", "REPLACE", (Close(), message._replace(overwrite=True))),))
+    lines = [f"{printable_path(path)}{printable_path(target)} exists already. Its content is replaced."]
+    owner = held_by(path)
+    if owner is not None:
+        lines.append(f"{printable(owner.user)} on {printable(owner.host)} has it open.")
+    return Ask("REPLACE THE FILE?", tuple(lines), (("r", "REPLACE", (Close(), message._replace(overwrite=True))),))
 
 
 def _linked(path: Path, message: Save) -> Ask:
@@ -71,7 +74,7 @@ def _taken(session: Session, path: Path, message: Save) -> Ask | None:
     copy = beside(path, "mine", today)
     who = f"{printable(owner.user)} on {printable(owner.host)}"
     lines = (f"{who} has taken {printable(path.name)} over.", f"A copy of yours would be {printable(copy.name)}.")
-    keep = ("k", "KEEP BOTH: SAVE A COPY", (Close(), Save(copy, leave=message.leave)))
+    keep = ("k", "KEEP BOTH", (Close(), Save(copy, leave=message.leave)))
     write = ("w", "WRITE ALL THE SAME", (Close(), message._replace(taken=True)))
     return Ask("TAKEN OVER", lines, (keep, write))
 
@@ -83,14 +86,14 @@ def _changed(desk: Desk, path: Path, message: Save) -> Desk | None:
     if now is None or (stamp is not None and now.same_content(stamp)):
         return None
     today = times.now()
+    mine = beside(path, "mine", today)
     lines = (
         f"{printable(path.name)} was changed by somebody else {times.told(times.of(now.changed), today)}.",
-        *shortened(_theirs(desk.session, path))[:4],
-        "Both versions are kept. Which one gets the name?",
+        *shortened(_theirs(desk.session, path))[:2],
+        f"Both are kept. Which gets the name? The other one is copied: yours to {printable_path(mine.name)}.",
     )
-    mine = beside(path, "mine", today)
-    theirs = ("t", f"THEIRS (YOURS: {printable(mine.name)})", (Close(), Save(mine, leave=message.leave)))
-    yours = ("y", "YOURS (THEIRS IS COPIED FIRST)", (Close(), message._replace(changed=True)))
+    theirs = ("t", "THEIRS", (Close(), Save(mine, leave=message.leave)))
+    yours = ("y", "YOURS", (Close(), message._replace(changed=True)))
     return desk.take(Open(Ask("CHANGED MEANWHILE", lines, (theirs, yours))))
 
 

@@ -128,6 +128,12 @@ def taken_by(lock: Lock) -> Owner | None:
     return None if owner == lock.owner else owner
 
 
+def held_by(path: Path) -> Owner | None:
+    """Who has a program file open, without locking it; None for nobody, or for somebody dead."""
+    owner = _owner(lock_path(path))
+    return owner if owner is not None and alive(owner) else None
+
+
 def release(lock: Lock) -> None:
     """Give a lock back, unless somebody has taken it over."""
     if _owner(lock.path) == lock.owner:

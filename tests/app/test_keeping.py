@@ -265,6 +265,13 @@ def test_the_second_opener_may_look(own: Path, part: Path) -> None:
     assert lock_path(part).exists()
 
 
+def test_replacing_a_file_that_somebody_has_open_says_who(own: Path, part: Path) -> None:
+    started(own, part, ELSEWHERE)
+    operator = started(own).press("tab").type("7").press("ctrl+s", "delete", *str(part), "enter")
+    assert "bob on office has it open." in " ".join(operator.part("body").split())
+    assert load(part).blocks[0].tool == Entry(1.0)
+
+
 def test_the_second_opener_may_take_over_with_the_work_of_the_first(own: Path, part: Path) -> None:
     first = started(own, part, ELSEWHERE).press("tab").type("7")
     second = started(own, part, DEAD).press("t")

@@ -16,6 +16,7 @@ from core.program.lock import (
     Lock,
     Owner,
     alive,
+    held_by,
     lock_path,
     myself,
     owner_of,
@@ -47,8 +48,10 @@ def held(part: Path, owner: Owner) -> Lock:
 
 
 def test_the_second_opener_is_told_who_has_it(part: Path) -> None:
+    assert held_by(part) is None
     held(part, ELSEWHERE)
     assert take(part, ME) == Held(ELSEWHERE)
+    assert held_by(part) == ELSEWHERE
 
 
 def test_a_lock_given_back_leaves_nothing(part: Path) -> None:
@@ -70,6 +73,7 @@ def test_the_same_file_by_another_name_is_the_same_lock(part: Path) -> None:
 
 def test_a_dead_process_of_this_host_holds_nothing(part: Path) -> None:
     held(part, replace(ME, pid=DEAD_PID))
+    assert held_by(part) is None
     assert take(part, ME) == Lock(lock_path(part), ME)
 
 
