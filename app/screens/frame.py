@@ -83,7 +83,8 @@ def parts(desk: Desk, known: Known, around: Surroundings, width: int, height: in
 
 
 def _surface(areas: Plan, known: Known) -> Surface:
-    return Surface(areas.header.width, areas.body.height, known.table, areas.body.width, areas.verdict.height)
+    body, told = areas.body, areas.verdict
+    return Surface(areas.header.width, body.height, known.table, body.width, told.height, told.width)
 
 
 def _prompt(desk: Desk, view: View) -> Said:

@@ -39,6 +39,8 @@ class Surface(NamedTuple):
     """Width of the body, which may be less than that of the page."""
     told: int = 4
     """Rows for the verdict."""
+    below: int = 59
+    """Width of the verdict."""
 
 
 class Softkey(NamedTuple):

@@ -64,8 +64,13 @@ class ComparePage(Page):
         if not self.rows:
             return View(title, ((), plain("   calculating ...", Look.DIM)), Said("Esc goes back."))
         body = [row for index in range(len(self.rows)) for row in self._row(index)]
-        said = Said("Up and down choose, Enter tries the program on that control. Esc goes back.")
-        return View(title, ((), *body), said, 1 + self.at)
+        one = self.rows[self.at]
+        parts = f"; {one.parts}" if one.parts else ""
+        return View(title, ((), *body), Said(f"Enter tries {one.control}: {one.outcome}{parts}."), 1 + self._top())
+
+    def _top(self) -> int:
+        """The line of the cursor's row."""
+        return sum(2 if row.parts else 1 for row in self.rows[: self.at])
 
     def _row(self, index: int) -> tuple[Row, ...]:
         one = self.rows[index]
@@ -73,7 +78,7 @@ class ComparePage(Page):
         look = Look.ERROR if one.errors else Look.DIM if one.moves is None else Look.GOOD
         name = Span(f"{one.control:<17}", Look.CURSOR if on_it else Look.TYPED)
         first: Row = (Span(" > " if on_it else "   ", Look.TAG), name, Span(f" {one.outcome}", look))
-        return (first, plain(f"{'':21}{one.parts}", Look.LABEL)) if one.parts else (first,)
+        return (first, plain(f"{'':5}{one.parts}", Look.LABEL)) if one.parts else (first,)
 
 
 def _tried_on(desk: Desk, control: str) -> Desk:

@@ -121,7 +121,7 @@ def _told(page: ProofPage, surface: Surface, unit: Unit) -> tuple[Row, ...]:
     room = max(surface.told - 1, 1)
     top = max(0, min(page.at - room // 2, len(page.findings) - room))
     shown = page.findings[top : top + room]
-    rows = [_finding(page, top + index, one, unit, surface.width) for index, one in enumerate(shown)]
+    rows = [_finding(page, top + index, one, unit, surface.below) for index, one in enumerate(shown)]
     return (_count(page), *rows)
 
 
@@ -136,7 +136,7 @@ def _count(page: ProofPage) -> Row:
 def _finding(page: ProofPage, index: int, one: Finding, unit: Unit, width: int) -> Row:
     place = "" if one.line is None else f"{one.line}:{one.column or 1}"
     look = Look.CURSOR if page.telling and index == page.at else LOOKS[one.severity]
-    text = f"{MARKS[one.severity]} {place:>7} {one.code:<12} {sentence(one, unit)}"
+    text = f"{MARKS[one.severity]} {place:>6} {one.code:<9} {sentence(one, unit)}"
     mark = "> " if index == page.at else "  "
     room = max(width - 3, 1)
     return (Span(mark, Look.TAG), Span(text if len(text) <= room else f"{text[: room - 1]}…", look))

@@ -82,9 +82,9 @@ class ToolSize(EntryPage):
             (),
             entry_row("TOOL", self.entry, surface.width, fresh=self.fresh),
             (),
-            plain(" Number and diameter, as 2=.5 or 2=12.7mm; a negative diameter", Look.LABEL),
-            plain(" as a control takes it for wear. D and offset numbers too.", Look.LABEL),
-            plain(" A size that the program itself gives wins over this one.", Look.LABEL),
+            plain(" Number and diameter, as 2=.5 or 2=12.7mm, or the diameter", Look.LABEL),
+            plain(" alone. Offset numbers too; negative where a control has it.", Look.LABEL),
+            plain(" A size that stands in the program wins over this one.", Look.LABEL),
             (),
             *known[: max(surface.body - 7, 0)],
         )

@@ -1,0 +1,128 @@
+"""Program text being edited: what nobody touched is written back byte by byte."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.listing import Listing, is_nc
+from core.controls.source import lines_of
+
+DATA = (
+    b"",
+    b"G1 X1",
+    b"G1 X1\n",
+    b"G1 X1\r\nG1 X2\rG1 X3\nG1 X4",
+    b"\n\n\n",
+    b"\xef\xbb\xbfG1\n",
+    b"(caf\xe9)\nG1 X1\n",
+    b"(\xc3\xa9)\n",
+    b"\xff\xfeG\x001\x00\n\x00",
+    b"\xfe\xff\x00G\x001\x00\n",
+    b"\xff\xfeodd",
+    bytes(range(256)),
+)
+
+
+@pytest.mark.parametrize("data", DATA)
+def test_what_is_read_is_what_would_be_written(data: bytes) -> None:
+    listing = Listing.read(data)
+    assert listing.data == data
+    assert "".join(listing.lines).encode(listing.encoding) == data
+    assert not listing.unsaved
+
+
+@settings(max_examples=200, derandomize=True)
+@given(st.binary(max_size=60))
+def test_lines_are_those_the_controls_count(data: bytes) -> None:
+    listing = Listing.read(data)
+    if not data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        assert [listing.text(row) for row in range(len(listing))] == lines_of(data)
+
+
+def test_lines_of_utf_16_are_those_the_controls_count() -> None:
+    data = "\ufeffG1 X1\r\nG0".encode("utf-16-le")
+    listing = Listing.read(data)
+    assert [listing.text(row) for row in range(len(listing))] == lines_of(data) == ["G1 X1", "G0"]
+    assert listing.changed(1, "M30").data == "\ufeffG1 X1\r\nM30".encode("utf-16-le")
+
+
+def test_a_changed_line_keeps_its_end_and_its_neighbours() -> None:
+    listing = Listing.read(b"G1 X1\r\nG1 X2\rG1 X3").changed(1, "G0")
+    assert listing.data == b"G1 X1\r\nG0\rG1 X3"
+    assert listing.unsaved
+    assert listing.changed(2, "M30").data == b"G1 X1\r\nG0\rM30"
+
+
+def test_the_mark_of_utf_8_stays_before_a_changed_first_line() -> None:
+    listing = Listing.read(b"\xef\xbb\xbfG1\n")
+    assert listing.text(0) == "G1"
+    assert listing.changed(0, "G0").data == b"\xef\xbb\xbfG0\n"
+
+
+def test_lines_are_inserted_with_the_end_the_file_has() -> None:
+    listing = Listing.read(b"A\r\nB")
+    assert listing.inserted(0, "X").data == b"X\r\nA\r\nB"
+    assert listing.inserted(1, "X").data == b"A\r\nX\r\nB"
+    assert listing.inserted(2, "X").data == b"A\r\nB\r\nX"
+    assert Listing().inserted(0, "X").data == b"X\n"
+
+
+def test_deleting_ends_with_nothing() -> None:
+    listing = Listing.read(b"A\nB\n").deleted(0)
+    assert listing.data == b"B\n"
+    assert listing.deleted(0).deleted(0).data == b""
+
+
+def test_undo_and_redo_go_through_every_state() -> None:
+    states = [Listing.read(b"A\nB\nC\n")]
+    states.append(states[-1].changed(1, "X"))
+    states.append(states[-1].inserted(0, "Y"))
+    states.append(states[-1].deleted(3))
+    back = states[-1]
+    for state in reversed(states[:-1]):
+        back = back.undone()
+        assert back.lines == state.lines
+    assert not back.unsaved
+    assert back.undone() is back
+    for state in states[1:]:
+        back = back.redone()
+        assert back.lines == state.lines
+    assert back.redone() is back
+
+
+def test_saved_is_what_was_written_wherever_undo_goes() -> None:
+    changed = Listing.read(b"A\n").changed(0, "B")
+    saved = changed.written(changed.data)
+    assert not saved.unsaved
+    assert saved.undone().unsaved
+    assert not saved.undone().redone().unsaved
+    assert saved.undone().changed(0, "B").unsaved
+
+
+def test_what_an_encoding_cannot_hold_is_known() -> None:
+    assert not Listing.read(b"(\xe9)\n").takes("\u2192")
+    assert Listing.read(b"G1\n").takes("\u2192")
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "nc"),
+    [
+        ("a.nc", "G1 X1\n", True),
+        ("a.toml", "G1 X1\n", False),
+        ("a.txt", "# mine\nformat = 1\nunits = 'IN'\n", False),
+        ("a", "%\nG0\n", True),
+        ("empty.nc", "", True),
+    ],
+)
+def test_which_files_are_nc_programs(name: str, text: str, nc: bool, tmp_path: Path) -> None:
+    (tmp_path / name).write_text(text)
+    assert is_nc(tmp_path / name) is nc
+
+
+def test_what_is_no_file_is_no_nc_program(tmp_path: Path) -> None:
+    assert not is_nc(tmp_path)
+    assert not is_nc(tmp_path / "none.nc")
