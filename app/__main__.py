@@ -63,6 +63,12 @@ def _screen_parser() -> argparse.ArgumentParser:
         "file", nargs="?", type=Path, metavar="FILE", help="a program file (TOML), or an NC file to prove"
     )
     parser.add_argument("--example", nargs="?", const="pocket", choices=example_names(), help="open an example part")
+    parser.add_argument(
+        "--characters",
+        choices=("braille", "block", "ascii"),
+        default="",
+        help="draw with these; by itself braille, half blocks on the Linux console, ASCII where LANG names no UTF-8",
+    )
     return parser
 
 
@@ -91,8 +97,8 @@ def _screens(options: argparse.Namespace) -> int:
     if options.file is not None and is_nc(options.file):
         from app.proof import shown
 
-        return shown(options.file)
-    return run(options.file, example=options.example)
+        return shown(options.file, options.characters)
+    return run(options.file, example=options.example, characters=options.characters)
 
 
 def example_names() -> tuple[str, ...]:

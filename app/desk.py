@@ -42,12 +42,16 @@ FUNCTION_KEYS: Final = {f"f{number}": number for number in range(1, 9)}
 EVERYWHERE: Final = frozenset({"ctrl+z", "ctrl+y", "ctrl+s", "ctrl+o", "ctrl+q", "ctrl+c", "ctrl+k", "ctrl+g"})
 MODES: Final = ("braille", "block", "ascii")
 """The sets of characters of the drawing, as `core.draw.mode.Mode` names them."""
+ONE_MODE: Final = (
+    "LANG does not name UTF-8, so the drawing is in ASCII. Where the terminal takes UTF-8: cutcomp --characters braille"
+)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Desk:
     """`pages` lie on each other, the last one is seen.  `armed`: Esc was pressed, a digit is a softkey now.
 
+    `modes` are the sets of characters the terminal can draw with, `mode` is the one in use.
     `settings` are what stays from one time to the next; `guided` while the guide sits on the prompt lines.
     `exit` is set when the program is to end.
     """
@@ -56,6 +60,7 @@ class Desk:
     pages: tuple[Page, ...] = (ProgramPage(), Contour())
     armed: bool = False
     mode: str = MODES[0]
+    modes: tuple[str, ...] = MODES
     settings: Settings = field(default_factory=Settings)
     guided: bool = False
     exit: bool = False
@@ -166,7 +171,9 @@ class Desk:
         return desk.take(Say("Esc: now 1 to 8 is the softkey F1 to F8.")) if desk.armed else desk
 
     def _next_mode(self) -> Desk:
-        mode = MODES[(MODES.index(self.mode) + 1) % len(MODES)]
+        if len(self.modes) == 1:
+            return self.take(Say(ONE_MODE))
+        mode = self.modes[(self.modes.index(self.mode) + 1) % len(self.modes)]
         return replace(self, mode=mode, settings=replace(self.settings, mode=mode)).take(
             Say(f"Drawn with {mode} characters.")
         )

@@ -9,27 +9,40 @@ import os
 import select
 import signal
 import sys
-from codecs import getincrementaldecoder
+from codecs import getincrementaldecoder, lookup
 from collections.abc import Mapping
 from typing import Final
 
 from textual._xterm_parser import XTermParser
 from textual.drivers.linux_driver import LinuxDriver
 
+from app.charset import ASCII, UTF_8, charset
+from app.desk import MODES
+
 PATIENCE: Final = 0.1
 """Seconds between two looks whether the program ends."""
 LARGEST_READ: Final = 4096
 UNFIT: Final = ("dumb", "unknown", "")
 """Values of TERM of what cannot place a cursor."""
+PLAIN: Final = ("linux", "vt1", "vt2")
+"""How TERM begins where a control sequence with a $ in it may be shown."""
 
 
 class TerminalDriver(LinuxDriver):
     """A driver that replaces what it cannot read, and takes the end of its input for a hangup."""
 
+    def _request_terminal_sync_mode_support(self) -> None:
+        """Not asked of terminals that would take the end of the question for a letter to show."""
+        if not os.environ.get("TERM", "").startswith(PLAIN):
+            super()._request_terminal_sync_mode_support()
+
+    def _query_in_band_window_resize(self) -> None:
+        """Never asked: the answer would change nothing here, the signal tells the size."""
+
     def run_input_thread(self) -> None:
         """Read keys until the program ends or the link drops."""
         parser = XTermParser(self._debug)
-        decode = getincrementaldecoder("utf-8")(errors="replace").decode
+        decode = getincrementaldecoder(typed_in())(errors="replace").decode
         while not self.exit_event.is_set():
             if select.select([self.fileno], [], [], PATIENCE)[0]:
                 data = read(self.fileno)
@@ -42,6 +55,12 @@ class TerminalDriver(LinuxDriver):
                 self.process_message(message)
 
 
+def typed_in() -> str:
+    """The set of characters that keys arrive in: that of the screen, and UTF-8 where nobody has said."""
+    screen = ASCII if sys.__stderr__ is None else lookup(sys.__stderr__.encoding).name
+    return UTF_8 if screen == ASCII else screen
+
+
 def read(handle: int) -> bytes:
     """What was typed, nothing at the end of the input or when the link has dropped."""
     try:
@@ -51,12 +70,13 @@ def read(handle: int) -> bytes:
 
 
 def few_colours(environment: Mapping[str, str]) -> bool:
-    """Whether the terminal has sixteen colours and no more; its name and COLORTERM are all there is to go by.
+    """Whether the terminal's own sixteen colours are used, or none; its name and COLORTERM are all there is to go by.
 
-    Not so where no colours are wanted: Textual then shows greys, and would make black of the terminal's own colours.
+    Where no colours are wanted, its own ink and paper stay, and bold, underline and reverse video say the rest.
     """
-    if "NO_COLOR" in environment:
-        return False
+    asked = environment.get("TEXTUAL_COLOR_SYSTEM", "auto").lower()
+    if "NO_COLOR" in environment or asked != "auto":
+        return "NO_COLOR" in environment or asked == "standard"
     many = environment.get("COLORTERM", "") in ("truecolor", "24bit")
     return not many and not any(word in environment.get("TERM", "") for word in ("256color", "direct", "kitty"))
 
@@ -76,10 +96,15 @@ def refusal(environment: Mapping[str, str]) -> str:
     return ""
 
 
-def settle_output() -> bool:
-    """Let no character end the program or spread over several cells; says whether the terminal takes UTF-8."""
-    stream = sys.__stderr__
-    if stream is None or not hasattr(stream, "reconfigure"):
-        return True
-    stream.reconfigure(errors="replace")
-    return stream.encoding.lower().replace("-", "") == "utf8"
+def characters(environment: Mapping[str, str], wanted: str = "") -> tuple[str, tuple[str, ...]]:
+    """The set of characters to write, and with what the drawing can be drawn, that to begin with first.
+
+    `wanted` is what the operator asks for and knows better.  The fonts of the Linux console have no braille.
+    """
+    name = UTF_8 if wanted in MODES[:-1] else charset(environment)
+    if name != UTF_8:
+        return name, MODES[-1:]
+    console = environment.get("TERM", "").startswith("linux") and wanted != MODES[0]
+    able = MODES[1:] if console else MODES
+    first = able.index(wanted) if wanted else 0
+    return name, (*able[first:], *able[:first])

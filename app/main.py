@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -21,10 +22,17 @@ UNUSABLE: Final = 2
 """Exit status: the file cannot be used."""
 
 
-def run(path: Path | None, *, example: str | None = None, page: Callable[[], Page] | None = None) -> int:
+def run(
+    path: Path | None,
+    *,
+    example: str | None = None,
+    page: Callable[[], Page] | None = None,
+    characters: str = "",
+) -> int:
     """Show the screens on a program file, an example or an empty program; returns the exit status.
 
-    `page` makes the only screen where it is another than those of the program.
+    `page` makes the only screen where it is another than those of the program, `characters` are those the operator
+    wants the drawing in.
     """
     prepare()
     from app import driver, keys
@@ -40,10 +48,11 @@ def run(path: Path | None, *, example: str | None = None, page: Callable[[], Pag
         say(str(error))
         return UNUSABLE
     keys.teach()
-    return guarded(session, first=path is None and example is None and only is None, only=only)
+    first = path is None and example is None and only is None
+    return guarded(session, first=first, only=only, characters=characters)
 
 
-def guarded(session: Session, *, first: bool = False, only: Page | None = None) -> int:
+def guarded(session: Session, *, first: bool = False, only: Page | None = None, characters: str = "") -> int:
     """The App on a session, with its work kept and its end in order; returns the exit status."""
     from app import driver
     from app.application import CutcompApp
@@ -51,15 +60,13 @@ def guarded(session: Session, *, first: bool = False, only: Page | None = None) 
     from app.safety import Safety
 
     keeping = Keeping()
-    app = CutcompApp(session, keep=keeping.keep)
+    few = not in_browser() and driver.few_colours(os.environ)
+    app = CutcompApp(session, keep=keeping.keep, few_colours=few)
     keep_settings(app, first=first)
     if only is not None:
         app.desk = replace(app.desk, pages=(only,))
     if not in_browser():
-        app.driver_class = driver.TerminalDriver
-        app.ansi_color = driver.few_colours(os.environ)
-    if not driver.settle_output():
-        app.desk = replace(app.desk, mode="ascii")
+        settle_terminal(app, characters)
     safety = Safety(lambda status: app.exit(status, return_code=status), keeping.close)
     safety.arm()
     try:
@@ -69,6 +76,17 @@ def guarded(session: Session, *, first: bool = False, only: Page | None = None) 
     if safety.status is not None:
         safety.leave()
     return app.return_code or 0
+
+
+def settle_terminal(app: CutcompApp, wanted: str) -> None:
+    """Our driver, and the characters that the terminal takes: those of last time if it can have them."""
+    from app import charset, driver
+
+    app.driver_class = driver.TerminalDriver
+    name, modes = driver.characters(os.environ, wanted)
+    charset.settle(sys.__stderr__, name)
+    mode = app.desk.settings.mode
+    app.desk = replace(app.desk, modes=modes, mode=mode if mode in modes and not wanted else modes[0])
 
 
 def in_browser() -> bool:

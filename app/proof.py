@@ -25,11 +25,11 @@ def proof(arguments: list[str]) -> int:
         return UNUSABLE
 
 
-def shown(file: Path) -> int:
+def shown(file: Path, characters: str = "") -> int:
     """The screen on a file, on the control it looks like."""
     from app.main import run
 
-    return run(None, page=lambda: _page(file, ""))
+    return run(None, page=lambda: _page(file, ""), characters=characters)
 
 
 def _parser() -> argparse.ArgumentParser:

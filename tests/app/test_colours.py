@@ -56,4 +56,6 @@ async def test_surface_path_and_gouge_differ_in_sixteen_colours() -> None:
 )
 def test_which_terminals_have_sixteen_colours(term: str, colorterm: str, few: bool) -> None:
     assert few_colours({"TERM": term, "COLORTERM": colorterm}) is few
-    assert not few_colours({"TERM": term, "COLORTERM": colorterm, "NO_COLOR": "1"})
+    assert few_colours({"TERM": term, "COLORTERM": colorterm, "NO_COLOR": "1"})
+    assert few_colours({"TERM": term, "COLORTERM": colorterm, "TEXTUAL_COLOR_SYSTEM": "standard"})
+    assert not few_colours({"TERM": term, "COLORTERM": colorterm, "TEXTUAL_COLOR_SYSTEM": "256"})

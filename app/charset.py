@@ -1,0 +1,66 @@
+"""The terminal's set of characters: named by the locale, and what stands for a character that is not in it.
+
+The program itself cannot ask a terminal what it takes.  Python turns the C locale into UTF-8, so the locale's own name
+is read here; one that names no UTF-8 gets letters that every terminal has.
+"""
+
+from __future__ import annotations
+
+import codecs
+import unicodedata
+from collections.abc import Mapping
+from typing import Final, TextIO
+
+UTF_8: Final = "utf-8"
+ASCII: Final = "ascii"
+LATIN_1: Final = "iso8859-1"
+"""What a locale such as de_DE means by itself."""
+VARIABLES: Final = ("LC_ALL", "LC_CTYPE", "LANG")
+"""The first of these that is not empty names the locale."""
+LOOKALIKES: Final = str.maketrans("│─├┤▀▄█…→↗↑↖←↙↓↘", '|-||"_#~>>^<<<v>')
+ERRORS: Final = "cutcomp.lookalike"
+FIRST_BRAILLE, LAST_BRAILLE = "\u2801", "\u28ff"
+
+
+def charset(environment: Mapping[str, str]) -> str:
+    """Name of the characters the terminal takes, as Python knows it."""
+    name = next((environment[one] for one in VARIABLES if environment.get(one)), "C")
+    if name in ("C", "POSIX"):
+        return ASCII
+    locale = name.partition("@")[0]
+    _, dot, given = locale.rpartition(".")
+    # a name without a point is a language, or, on some systems, the set alone
+    wanted = given if dot or _known(given) else LATIN_1
+    return _known(wanted) or ASCII
+
+
+def _known(name: str) -> str:
+    try:
+        return codecs.lookup(name).name
+    except LookupError:
+        return ""
+
+
+def lookalike(text: str) -> str:
+    """ASCII characters for others, one for one."""
+    return "".join(one if one.isascii() else _letter(one) for one in text.translate(LOOKALIKES))
+
+
+def _letter(character: str) -> str:
+    if FIRST_BRAILLE <= character <= LAST_BRAILLE:
+        return "*"
+    bare = unicodedata.normalize("NFKD", character)[0]
+    return bare if bare.isascii() and bare.isprintable() else "?"
+
+
+def _stand_in(error: UnicodeError) -> tuple[str, int]:
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    return lookalike(error.object[error.start : error.end]), error.end
+
+
+def settle(stream: TextIO | None, name: str) -> None:
+    """Let a stream write this set, and no character end the program or spread over several cells."""
+    codecs.register_error(ERRORS, _stand_in)
+    if stream is not None and hasattr(stream, "reconfigure"):
+        stream.reconfigure(encoding=name, errors=ERRORS)

@@ -1,0 +1,68 @@
+"""The locale's name decides which characters are written; others become one ASCII character each."""
+
+from __future__ import annotations
+
+import io
+from itertools import product
+
+import pytest
+
+from app.charset import charset, lookalike, settle
+from app.driver import characters
+from core.draw.mode import Mode, cells
+
+BRAILLE_FIRST, BLOCK_FIRST = ("braille", "block", "ascii"), ("block", "ascii")
+
+
+@pytest.mark.parametrize(
+    ("environment", "name"),
+    [
+        ({}, "ascii"),
+        ({"LANG": "C"}, "ascii"),
+        ({"LANG": "POSIX"}, "ascii"),
+        ({"LANG": "C.UTF-8"}, "utf-8"),
+        ({"LANG": "de_DE.utf8"}, "utf-8"),
+        ({"LC_CTYPE": "UTF-8"}, "utf-8"),
+        ({"LANG": "de_DE.UTF-8", "LC_ALL": "C"}, "ascii"),
+        ({"LANG": "de_DE.UTF-8", "LC_CTYPE": "de_DE"}, "iso8859-1"),
+        ({"LANG": "de_DE.UTF-8", "LC_ALL": ""}, "utf-8"),
+        ({"LANG": "de_DE.ISO-8859-1"}, "iso8859-1"),
+        ({"LANG": "de_DE.ISO-8859-15@euro"}, "iso8859-15"),
+        ({"LANG": "de_DE@euro"}, "iso8859-1"),
+        ({"LANG": "xx.no-such-set"}, "ascii"),
+    ],
+)
+def test_what_a_locale_says(environment: dict[str, str], name: str) -> None:
+    assert charset(environment) == name
+
+
+@pytest.mark.parametrize(
+    ("environment", "wanted", "found"),
+    [
+        ({"LANG": "C.UTF-8", "TERM": "xterm"}, "", ("utf-8", BRAILLE_FIRST)),
+        ({"LANG": "C.UTF-8", "TERM": "linux"}, "", ("utf-8", BLOCK_FIRST)),
+        ({"LANG": "C.UTF-8", "TERM": "linux"}, "braille", ("utf-8", BRAILLE_FIRST)),
+        ({"LANG": "C", "TERM": "xterm"}, "", ("ascii", ("ascii",))),
+        ({"LANG": "C", "TERM": "xterm"}, "block", ("utf-8", ("block", "ascii", "braille"))),
+        ({"LANG": "C.UTF-8", "TERM": "xterm"}, "ascii", ("utf-8", ("ascii", "braille", "block"))),
+        ({"LANG": "de_DE", "TERM": "xterm"}, "ascii", ("iso8859-1", ("ascii",))),
+    ],
+)
+def test_what_is_drawn_with(environment: dict[str, str], wanted: str, found: tuple[str, tuple[str, ...]]) -> None:
+    assert characters(environment, wanted) == found
+
+
+def test_one_character_for_one() -> None:
+    assert lookalike("│ a… Ünï 中 ⣿ \x9b") == "| a~ Uni ? * ?"
+    drawn = [text for mode in Mode for text in (*cells(mode).table, cells(mode).arrows, cells(mode).bar)]
+    assert all(len(lookalike(text)) == len(text) and lookalike(text).isascii() for text in drawn)
+
+
+@pytest.mark.parametrize(("name", "text"), product(("ascii", "iso8859-1", "utf-8"), ("│⣿Üä…", "\ud800", "中\u0301")))
+def test_nothing_written_ends_the_program(name: str, text: str) -> None:
+    written = io.BytesIO()
+    stream = io.TextIOWrapper(written, encoding="utf-8")
+    settle(stream, name)
+    stream.write(text)
+    stream.flush()
+    assert len(written.getvalue().decode(name)) == len(text)
