@@ -10,6 +10,8 @@ crosses itself, where over-run lead-ins are walls like any other segment; a find
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
 
 from core.comp.best_events import events
@@ -27,6 +29,9 @@ from core.geometry.side import Side
 from core.tolerance import GOUGE
 
 __all__ = ["BestPath", "Separation", "best_path", "separation"]
+
+MOST_LOOPS: Final = 10_000
+"""More loops than any part has: such a scribble is refused."""
 
 
 def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> BestPath:
@@ -52,6 +57,8 @@ def _best(raw: Raw, made: Stitched, surface: Surface, findings: tuple[Finding, .
     """The loops longer than rounding, and what is to be said of them."""
     size = made.cut.end - made.cut.begin
     walked = [(rows, ring) for rows, ring in chains(made) if size[rows].sum() > GOUGE]
+    if len(walked) > MOST_LOOPS:
+        return BestPath((), (), (*findings, _tangled()))
     loops = tuple(loop_of(raw, made.cut, rows, surface.origin) for rows, _ in walked)
     if not loops:
         findings = (*findings, _no_path())

@@ -14,13 +14,16 @@ from typing import Final
 import numpy as np
 
 from core.comp.best_raw import Raw
-from core.comp.best_tree import near_selves, piece_boxes, tree
+from core.comp.best_tree import near, near_selves, piece_boxes, tree
 from core.geometry.intersect import Indices, Meeting, Meetings, Planes, meet, planes
 from core.geometry.path import Floats
 from core.tolerance import JOINED, ON_PATH
 
-MOST_PAIRS: Final = 30_000_000
-"""More pairs of pieces that lie on one another than any part has: such a scribble is refused."""
+MOST_PAIRS: Final = 8_000_000
+"""More pairs of pieces near one another than any part has: such a scribble is refused."""
+
+MOST_EVENTS: Final = 2_000_000
+"""More meetings than any part has, likewise."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -41,12 +44,13 @@ class Events:
 
 def events(raw: Raw, sign: int) -> Events | None:
     """All meetings of side pieces with raw pieces but at their joints; None if there are too many to be a part's."""
-    found, pairs = [], 0
+    found, pairs, count = [], 0, 0
     for i, j in _pairs(raw):
         pairs += len(i)
-        if pairs > MOST_PAIRS:
+        if pairs > MOST_PAIRS or count > MOST_EVENTS:
             return None
         met = meet(raw.path, raw.rows[i], raw.path, raw.rows[j])
+        count += len(met.pair)
         found.append(_events(raw, i, j, met, sign))
         over = np.flatnonzero(met.kinds == Meeting.OVERLAP)
         if len(over):
@@ -55,17 +59,29 @@ def events(raw: Raw, sign: int) -> Events | None:
 
 
 def _pairs(raw: Raw) -> Iterator[tuple[Indices, Indices]]:
-    """Pairs of pieces that lie near each other.
+    """Pairs of side pieces, and of side and outline pieces, that lie near each other.
 
     Tangent pieces meet only at their joint, unless together they go once around.
     """
-    boxes = tree(piece_boxes(raw.start, raw.end, raw.centre, raw.turns, 2.0 * ON_PATH))
     radius = np.abs(raw.start - raw.centre)
     swept = np.where(raw.turns == 0, 0.0, raw.lengths / np.where(raw.turns == 0, 1.0, radius))
-    for i, j in near_selves(boxes):
+    for i, j in _near(raw):
         tangent = (raw.smooth[i] & (raw.following[i] == j)) | (raw.smooth[j] & (raw.following[j] == i))
-        keep = (raw.side[i] | raw.side[j]) & ~(tangent & (swept[i] + swept[j] < 6.28))
+        keep = ~(tangent & (swept[i] + swept[j] < 6.28))
         yield i[keep], j[keep]
+
+
+def _near(raw: Raw) -> Iterator[tuple[Indices, Indices]]:
+    boxes = piece_boxes(raw.start, raw.end, raw.centre, raw.turns, 2.0 * ON_PATH)
+    if raw.side.all():
+        yield from near_selves(tree(boxes))
+        return
+    own, rest = np.flatnonzero(raw.side), np.flatnonzero(~raw.side)
+    mine = tree(boxes[:, own])
+    for i, j in near_selves(mine):
+        yield own[i], own[j]
+    for i, j in near(mine, tree(boxes[:, rest]), 0.0):
+        yield own[i], rest[j]
 
 
 def _all(found: list[Events]) -> Events:

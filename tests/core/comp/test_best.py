@@ -333,3 +333,10 @@ def test_a_scribble_that_lies_on_itself_everywhere_is_told_and_still_true():
     best = assert_true(scribble, Side.LEFT, 0.2, closed=False)
     assert best.findings[0].code == "CROSSES_ITSELF"
     assert len(best.loops) > 100
+
+
+def test_a_scribble_no_part_can_be_is_refused_and_not_worked_on_without_end():
+    points = np.random.default_rng(1).uniform(0, 100, (20_000, 2))
+    best = best_path(Path.of(points, points[:-1], np.zeros(19_999, np.int8)), Side.LEFT, 1.0, closed=False)
+    assert best.loops == ()
+    assert [finding.code for finding in best.findings] == ["CROSSES_ITSELF", "TANGLED"]
