@@ -79,14 +79,35 @@ def test_a_notch_that_only_a_look_ahead_can_cross(tmp_path):
     assert _rules(step, Side.LEFT, tmp_path, lookahead=9) == {Rule.LOOKAHEAD}
 
 
-def test_arcs_no_larger_than_the_cutter_are_refused_there_and_told_here(tmp_path):
+def _rounded(radius: float) -> Path:
+    """Two walls with an arc between them, counter-clockwise."""
+    arc = Arc((300, 0), (300 + radius, radius), (300, radius), Turn.CCW)
+    return Path.from_pieces([Line((0, 0), (300, 0)), arc, Line(arc.end, (300 + radius, 500))])
+
+
+REFUSED_THERE = {
+    "an arc smaller than the tool": (_rounded(90), Side.LEFT, "Tool radius not less", {"VANISHED", "CORNER_MISSED"}),
+    "an arc exactly as small as the tool": (_rounded(100), Side.LEFT, "Tool radius not less", set()),
+    "a tiny arc in millimetres": (_rounded(0.001), Side.RIGHT, "Zero-radius arc", set()),
+    "line, line, line": (lines((0, 500), (0, 0), (150, 0), (150, 500)), Side.LEFT, "concave", {"CORNER_MISSED"}),
+    "the last corner before G40": (lines((0, 0), (500, 0), (500, 50)), Side.LEFT, "concave", {"CORNER_MISSED"}),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED_THERE)
+def test_what_is_refused_there_is_cut_or_told_here(name, tmp_path):
     rs274.require()
-    for radius in (RADIUS, 0.9 * RADIUS):
-        arc = Arc((0, 0), (radius, radius), (0, radius), Turn.CCW)
-        corner = Path.from_pieces([Line((-300, 0), (0, 0)), arc, Line((radius, radius), (radius, 500))])
-        (theirs,) = witnessed([Part("corner", corner, Side.LEFT, closed=False)], tmp_path)
-        assert "Tool radius not less than arc radius" in theirs.refusal
-    assert compensate(corner, Side.LEFT, RADIUS, 1, closed=False).findings[0].code == "VANISHED"
+    contour, side, sentence, told = REFUSED_THERE[name]
+    (theirs,) = witnessed([Part(name, contour, side, closed=False)], tmp_path)
+    assert sentence in theirs.refusal
+    assert {one.code for one in compensate(contour, side, RADIUS, 1, closed=False).findings} <= told
+    assert bool(compensate(contour, side, RADIUS, 1, closed=False).findings) is bool(told)
+
+
+def test_an_arc_a_hair_larger_than_the_tool_and_three_offsets_in_one_point_are_alike(tmp_path):
+    assert not _rules(_rounded(100.001), Side.LEFT, tmp_path)
+    assert not _rules(_rounded(0.02), Side.RIGHT, tmp_path)
+    assert not _rules(lines((0, 500), (0, 0), (200, 0), (200, 500)), Side.LEFT, tmp_path)
 
 
 def test_differences_are_told_by_the_pieces_around_them():
