@@ -97,7 +97,10 @@ def families(sizes: tuple[int, ...], rounds: int) -> dict[tuple[str, int], dict[
 def beside_peers(sizes: tuple[int, ...], rounds: int) -> None:
     """The gear, by us and by the peers; a peer is left out where its chords are too many."""
     print(f"\nthe gear at look-ahead {LOOKAHEAD}, milliseconds; in brackets how many times our control path")
-    print(f"peers offset chords within {peers.CHORD} mm, at most {peers.MOST_CHORDS} of them")
+    print(f"peers offset chords within {peers.CHORD} mm, at most {peers.MOST_CHORDS} of them;")
+    print(
+        f"rs274 runs it at radius {gear(10).accepted}, which it accepts, the others at {gear(10).radius} with deletions"
+    )
     for count in sizes:
         work = gear(count)
         with tempfile.TemporaryDirectory() as folder:
