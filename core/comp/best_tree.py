@@ -61,7 +61,10 @@ def _grouped(low: NDArray[np.float32]) -> NDArray[np.float32]:
     groups = -(-len(low) // FAN)
     padded = np.full((groups * FAN, 4), _NOWHERE, np.float32)
     padded[: len(low)] = low
-    grouped: NDArray[np.float32] = padded.reshape(groups, FAN, 4).min(axis=1)
+    members = padded.reshape(groups, FAN, 4)
+    grouped = members[:, 0].copy()
+    for member in range(1, FAN):
+        np.minimum(grouped, members[:, member], out=grouped)
     return grouped
 
 
@@ -146,21 +149,29 @@ def piece_boxes(start: Planes, end: Planes, centre: Planes, turns: Turns, grow: 
 
     Arcs of more than a quarter turn get the whole circle's box.
     """
-    corner = end.copy()
-    low, high = np.empty((2, len(start))), np.empty((2, len(start)))
+    boxes = np.empty((4, len(start)))
+    for axis, (one, two) in enumerate(((start.real, end.real), (start.imag, end.imag))):
+        np.minimum(one, two, out=boxes[axis])
+        np.maximum(one, two, out=boxes[axis + 2])
     arcs = np.flatnonzero(turns)
-    first, last = start[arcs] - centre[arcs], end[arcs] - centre[arcs]
+    if len(arcs):
+        _widen(boxes, arcs, start[arcs] - centre[arcs], end[arcs] - centre[arcs], centre[arcs], turns[arcs])
+    boxes[:2] -= grow
+    boxes[2:] += grow
+    return boxes
+
+
+def _widen(boxes: Floats, arcs: Indices, first: Planes, last: Planes, centre: Planes, turns: Turns) -> None:
+    """Make the boxes of arcs hold more than their ends."""
     bend = first.conj() * last
-    quarter = (bend.imag * turns[arcs] > 0.0) & (bend.real >= 0.0) & (first != last)
+    quarter = (bend.imag * turns > 0.0) & (bend.real >= 0.0) & (first != last)
     square = first.real * first.real + first.imag * first.imag
     chord = (first + last) / 2.0
     height = np.where(quarter, chord.real * chord.real + chord.imag * chord.imag, 1.0)
-    corner[arcs] = centre[arcs] + chord * (square / height)
-    for axis, (one, two, far) in enumerate(((start.real, end.real, corner.real), (start.imag, end.imag, corner.imag))):
-        low[axis] = np.minimum(np.minimum(one, two), far) - grow
-        high[axis] = np.maximum(np.maximum(one, two), far) + grow
-    wide = arcs[~quarter]
-    radius = np.sqrt(square[~quarter])
-    for axis, middle in enumerate((centre[wide].real, centre[wide].imag)):
-        low[axis, wide], high[axis, wide] = middle - radius - grow, middle + radius + grow
-    return np.concatenate((low, high))
+    corner = centre + chord * (square / height)
+    for axis, far in enumerate((corner.real, corner.imag)):
+        boxes[axis, arcs] = np.minimum(boxes[axis, arcs], far)
+        boxes[axis + 2, arcs] = np.maximum(boxes[axis + 2, arcs], far)
+    wide, radius = arcs[~quarter], np.sqrt(square[~quarter])
+    for axis, middle in enumerate((centre.real[~quarter], centre.imag[~quarter])):
+        boxes[axis, wide], boxes[axis + 2, wide] = middle - radius, middle + radius
