@@ -47,26 +47,57 @@ class Question:
 
     def answer(self) -> Told:
         """The answer; may take long, for a thread."""
-        from app.checking import Asked, answer_all, answered
+        from app.checking import Asked, answer_all
         from core.controls.registry import UnknownControl
-        from core.pipeline.proof import ground_of, prove
+        from core.pipeline.proof import ran
 
         data = self.listing.data
         if self.control is None:
             return Told(self, rows=answer_all(data, Asked("all", self.tools, shop=False, unit=self.unit)))
-        proof = prove(data, self.control, self.tools, self.unit)
+        proof = ran(data, self.control, self.tools, self.unit)
         assert not isinstance(proof, UnknownControl), proof.text
-        return Told(self, answered(proof.run, proof.results, data), proof, ground_of(proof))
+        rest = Rest(self, proof)
+        return rest.answer() if self.small else _told(self, proof, rest)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Rest:
+    """The verdict on a long program, which takes longer than running it."""
+
+    question: Question
+    proof: Proof
+
+    @property
+    def small(self) -> bool:
+        """Never fast."""
+        return False
+
+    def answer(self) -> Told:
+        """The whole answer."""
+        from core.pipeline.proof import judged_fully
+
+        return _told(self.question, judged_fully(self.proof), None)
+
+
+def _told(question: Question, proof: Proof, rest: Rest | None) -> Told:
+    from app.checking import answered
+    from core.pipeline.proof import ground_of
+
+    return Told(question, answered(proof.run, proof.results, question.listing.data), proof, ground_of(proof), rest)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Told:
-    """An answer: in words, as moves, as a drawing; or a row for each control."""
+    """An answer: in words, as moves, as a drawing; or a row for each control.
+
+    `rest` is what is still to be worked out: the verdict of a long program.
+    """
 
     question: Question
     answer: Answer | None = None
     proof: Proof | None = None
     ground: Scene | None = None
+    rest: Rest | None = None
     rows: tuple[Answer, ...] = ()
 
     @property

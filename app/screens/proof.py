@@ -8,7 +8,7 @@ from typing import Final
 
 from app.listing import Listing
 from app.messages import Close, Leave, Message, Open, Say
-from app.proving import Question, Told, guess, tool_in
+from app.proving import Question, Rest, Told, guess, tool_in
 from app.screens.ask import Ask
 from app.screens.page import WHOLE, Answer, Layout, Page, Sketch, Softkeys, Surface, View
 from app.session import Session, Tone
@@ -78,9 +78,9 @@ class ProofPage(Page):
         return () if self.told is None else self.told.findings
 
     @property
-    def question(self) -> Question | None:
-        """What is asked and not known yet."""
-        return None if self.fresh else self.asked
+    def question(self) -> Question | Rest | None:
+        """What is asked and not known yet: everything, or the verdict alone."""
+        return self.asked if self.told is None or not self.fresh else self.told.rest
 
     def hearing(self, answer: object) -> Page:
         """An answer to what is asked now; any other is dropped."""

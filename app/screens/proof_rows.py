@@ -72,6 +72,8 @@ def _outcome(page: ProofPage) -> Row:
         return plain(" calculating ...", Look.DIM)
     look = Look.ERROR if answer.errors else Look.GOOD
     text = f" {answer.outcome}; {answer.count} moves, {answer.stretches} compensated"
+    if page.told is not None and page.told.rest is not None:
+        look, text = Look.WARNING, f" gouges not known yet: being judged ...; {answer.count} moves"
     return (Span(text, look), Span("" if page.fresh else " ...", Look.DIM))
 
 

@@ -58,7 +58,7 @@ class ToolSize(EntryPage):
         """The page with what the table says of the tool."""
         unit, tool = unit_of(page), page.asked.tools.get(page.tool)
         size = "" if tool is None else show(tool.diameter, Kind.LENGTH, unit)
-        return cls(Editing.of(f"{page.tool}={size}"), fresh=tool is not None, number=page.tool, unit=unit,
+        return cls(Editing.of(f"{page.tool}={size}"), fresh=True, number=page.tool, unit=unit,
                    tools=page.asked.tools)  # fmt: skip
 
     def softkeys(self, session: Session) -> Softkeys:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run
@@ -22,7 +23,7 @@ from core.units import Unit
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Proof:
-    """A run and the verdicts on its compensated stretches."""
+    """A run and the verdicts on its compensated stretches; none of them while they are not worked out."""
 
     run: Run
     results: tuple[Judged, ...]
@@ -33,24 +34,39 @@ class Proof:
         return self.run.stretches[0].plane if self.run.stretches else Plane.XY
 
 
+def ran(text: bytes, control: str, tools: ToolTable, unit: Unit | None = None) -> Proof | UnknownControl:
+    """The program on a control, without the verdicts, which take longer than the run."""
+    done = run(text, control, tools, unit)
+    return done if isinstance(done, UnknownControl) else Proof(done, ())
+
+
+def judged_fully(proof: Proof) -> Proof:
+    """The same with its verdicts."""
+    return Proof(proof.run, judged(proof.run))
+
+
 def prove(text: bytes, control: str, tools: ToolTable, unit: Unit | None = None) -> Proof | UnknownControl:
     """The program on a control; never raises for any text."""
-    done = run(text, control, tools, unit)
-    return done if isinstance(done, UnknownControl) else Proof(done, judged(done))
+    found = ran(text, control, tools, unit)
+    return found if isinstance(found, UnknownControl) else judged_fully(found)
 
 
 def ground_of(proof: Proof) -> Scene:
     """All that does not depend on the cursor: rapids, other moves, surfaces, centre paths, gouges, what is uncut."""
     moves, plane = proof.run.moves, proof.plane
-    layers = [Layer(path, Style.RAPID, dashed=True) for path in _parts(moves, plane, rapid=True)]
-    layers += [Layer(path, Style.LEAD) for path in _parts(moves, plane, rapid=False)]
+    feeds = ~moves.rapid
+    for result in proof.results:
+        # these are drawn as centre paths
+        feeds[result.stretch.first + 1 : result.stretch.last] &= result.stretch.plane is not plane
+    layers = [Layer(path, Style.RAPID, dashed=True) for path in _parts(moves, plane, moves.rapid)]
+    layers += [Layer(path, Style.LEAD) for path in _parts(moves, plane, feeds)]
     scenes = [_stretch_scene(result) for result in proof.results if result.stretch.plane is plane]
     return joined_scenes([Scene(tuple(layers), unit=proof.run.unit), *scenes])
 
 
-def _parts(moves: Moves, plane: Plane, *, rapid: bool) -> Iterator[Path]:
-    """The runs of moves at rapid, or at feed, on the plane."""
-    wanted = np.flatnonzero(moves.rapid[1:] == rapid) + 1
+def _parts(moves: Moves, plane: Plane, chosen: NDArray[np.bool_]) -> Iterator[Path]:
+    """The runs of the chosen moves on the plane."""
+    wanted = np.flatnonzero(chosen[1:]) + 1
     if not len(wanted):
         return
     for rows in np.split(wanted, np.flatnonzero(np.diff(wanted) > 1) + 1):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from core.controls.moves import Plane
@@ -59,7 +61,10 @@ def test_the_cutter_has_the_radius_of_its_stretch() -> None:
 def test_surface_centre_path_rapids_and_the_cursors_moves_are_drawn() -> None:
     found = proof()
     ground = ground_of(found)
-    assert {Style.SURFACE, Style.PATH, Style.RAPID, Style.LEAD} <= styles(ground)
+    assert {Style.SURFACE, Style.PATH, Style.RAPID} <= styles(ground)
+    assert Style.LEAD not in styles(ground)
+    assert Style.LEAD in styles(ground_of(proof(b"G20 G90 G1 X1 F5\nM30\n")))
+    assert Style.LEAD in styles(ground_of(replace(found, results=())))
     assert Style.CURRENT not in styles(ground)
     assert Style.CURRENT in styles(scene_of(ground, found, 6))
     assert Style.CURRENT not in styles(scene_of(ground, found, 4))
