@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from time import perf_counter
 
 import pytest
 from hypothesis import given, settings
@@ -142,11 +141,11 @@ def test_what_is_shown_has_no_signs_a_terminal_obeys() -> None:
     assert shown("A" * 100) == "A" * 24 + "..."
 
 
+@pytest.mark.timeout(60)
 @pytest.mark.parametrize("piece", ["X1", "(", "()", "1", " ", ";", ")(", "X"])
-def test_a_line_of_a_megabyte_takes_no_time(piece: str) -> None:
-    before = perf_counter()
+def test_a_line_of_a_megabyte_is_read_to_its_end(piece: str) -> None:
+    """In a quadratic reader it would take hours."""
     said = alarm(piece * (1_000_000 // len(piece)))
-    assert perf_counter() - before < 4.0
     assert said is None or len(said.text) < 200
 
 
