@@ -14,6 +14,7 @@ from app.screens.ask import Ask
 from app.screens.browse import BrowsePage, listed
 from app.screens.save import SaveAsPage
 from app.session import Session, Tone
+from core.finding import Finding
 from core.program.edit import new_block
 from core.program.model import Entry, Program, Tool
 from core.program.stamp import stamp_of, stamp_of_data
@@ -130,15 +131,24 @@ def _post(desk: Desk, message: Post) -> Desk:
         return desk.take(Open(replacing(message.path, message)))
     from app.posting import refusal_or_text
 
-    found, text = refusal_or_text(desk.session, message.path.stem, message.override, message.control)
+    found, text, notes = refusal_or_text(desk.session, message.path.stem, message.override, message.control)
     if found is not None:
-        return _failed(desk, f"Nothing was written: {sentence(found, desk.session.program.unit)}")
+        return _failed(desk, f"Nothing was written: {_placed(found, desk.session.program.unit)}")
     try:
         write_text(message.path, text)
     except StoreError as error:
         return _failed(desk, error)
-    lines = text.count("\n")
-    return desk.take(Close()).take(Say(f"Posted: {message.path}, {lines} lines."))
+    said = f"Posted: {message.path}, {text.count(chr(10))} lines."
+    if not notes:
+        return desk.take(Close()).take(Say(said))
+    told = " ".join(_placed(note, desk.session.program.unit) for note in notes)
+    return desk.take(Close()).take(Say(f"{told} {said}", Tone.WARNING))
+
+
+def _placed(finding: Finding, unit: Unit) -> str:
+    """A finding's sentence behind its segment."""
+    where = "" if finding.segment is None else f"Segment {finding.segment:g}: "
+    return f"{where}{sentence(finding, unit)}"
 
 
 def _leave(desk: Desk, message: Leave) -> Desk:

@@ -20,7 +20,10 @@ def nc_text(derived: Derived, name: str, override: str | None, control: str | No
 
 def refusal_or_text(
     session: Session, name: str, override: str | None, control: str | None = None
-) -> tuple[Finding | None, str]:
-    """The first finding that forbids posting, or the NC text; everything is derived anew, nothing stale is posted."""
+) -> tuple[Finding | None, str, tuple[Finding, ...]]:
+    """The first finding that forbids posting; or the NC text, and what is to be said with it.
+
+    Everything is derived anew, nothing stale is posted.
+    """
     result = nc_text(derive(session.program), name, override, control)
-    return (None, result.text) if isinstance(result, Posted) else (result.findings[0], "")
+    return (None, result.text, result.notes) if isinstance(result, Posted) else (result.findings[0], "", ())
