@@ -51,7 +51,6 @@ class Cut:
     near: float
     depth: float
     leave: float
-    block: int = 1
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -42,7 +42,7 @@ class IsoStyle:
     `inch` and `metric` are its codes for the units, `safe` the codes that stand before anything moves; `{offset}` in
     them is the work offset.  `decimals` of inches and of millimetres.  `absolute`: I and J count from the origin.
     `merged`: lines on one line are written as one.  `comments`: the text may hold remarks.  `length`: G43 H names the
-    tool's length.  `longer`: the entry has to be longer than the radius.
+    tool's length.  `spaced`: words stand apart.
     """
 
     inch: str

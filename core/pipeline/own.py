@@ -62,5 +62,4 @@ def _cut(one: Pass, run: Compensated, feeds: dict[int, float], job: Job) -> Cut:
         near=one.motions[first_feed - 1].z,
         depth=one.motions[first_feed].z,
         leave=one.motions[-1].z,
-        block=one.block,
     )
