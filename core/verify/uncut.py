@@ -14,6 +14,7 @@ from core.tolerance import ON_PATH, STOCK, UNCUT
 from core.verify.farthest import Farthest, farthest
 from core.verify.pairs import Pairs, middle_distances
 from core.verify.reach import Parts, Stretches, joined, union, within
+from core.verify.thin import thin
 from core.verify.verdict import Uncut
 
 FEW: Final = 1500
@@ -120,6 +121,8 @@ def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool) -> tuple[
     """
     total = float(pairs.surface_stations[-1])
     gaps, near = reached(pairs, radius).gaps(total)
+    thick = ~thin(pairs, gaps, near, radius)
+    gaps, near = gaps.keep(thick), near[:, thick]
     if not len(gaps):
         return ()
     far = _farthest(pairs, gaps, near, radius)
