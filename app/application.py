@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable
 from dataclasses import replace
-from typing import ClassVar, Final
+from typing import TYPE_CHECKING, ClassVar, Final
 
 from textual.app import App
 
@@ -14,13 +14,14 @@ from app.desk import Desk
 from app.engine import Engine
 from app.screens.frame import Frame, picture
 from app.screens.page import Question
-from app.screens.start import StartPage
 from app.session import Session
 from app.surroundings import Surroundings, real
-from app.survey import Facts, facts_of
 from app.widgets.rows import Row
 from core.pipeline.derived import Derived
 from core.pipeline.outline import outline
+
+if TYPE_CHECKING:
+    from app.survey import Facts
 
 MINUTE: Final = 60.0
 
@@ -178,8 +179,13 @@ class CutcompApp(App[int], inherit_bindings=False):
 
     def _survey(self) -> None:
         """The start screen's files, one after the other, once the numeric library is there."""
+        if not self.engine.ready or self._surveying.busy:
+            return
+        from app.screens.start import StartPage
+        from app.survey import facts_of
+
         page = self.desk.page
-        if not isinstance(page, StartPage) or not self.engine.ready or self._surveying.busy:
+        if not isinstance(page, StartPage):
             return
         if (path := page.wanted) is not None:
             known = page.facts.get(path)
@@ -187,6 +193,8 @@ class CutcompApp(App[int], inherit_bindings=False):
 
     def _surveyed(self, facts: Facts) -> None:
         """What is known of one file; dropped when the start screen is gone."""
+        from app.screens.start import StartPage
+
         page = self.desk.page
         if isinstance(page, StartPage):
             self.desk = replace(self.desk, pages=(*self.desk.pages[:-1], page.knowing(facts)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import sys
 from collections.abc import Callable
@@ -16,11 +15,25 @@ from core.program.store import StoreError, load
 from core.units import sentence
 
 if TYPE_CHECKING:
+    import argparse
+
     from core.pipeline.derived import Derived, DerivedBlock
 
 CLEAN: Final = 0
 FINDINGS: Final = 1
 UNUSABLE: Final = 2
+
+HELP: Final = {
+    "path": "the centre path of every block",
+    "lookahead": "what becomes of the path at every look-ahead value",
+    "post": "write the NC file",
+    "plot": "draw the program as SVG",
+}
+SHOP_HELP: Final = {
+    "sheet": "the setup sheet, as text or as a page with the drawing",
+    "tools": "list the tool table, or import one of LinuxCNC",
+    "serve": "the screens in a browser on this machine",
+}
 
 
 def say(text: str) -> None:

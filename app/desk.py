@@ -1,7 +1,7 @@
 """The desk: the session with the screens that lie on it, and what a key makes of the two.
 
 Everything between a key and the next picture is here and pure, but for the messages that touch files, which
-`app.files` carries out.
+`app.filing` carries out.
 """
 
 from __future__ import annotations
@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import Final, assert_never
 
-from app import files, guide
 from app.messages import (
     Browse,
     Close,
@@ -28,11 +27,10 @@ from app.messages import (
     Swap,
     Undo,
 )
+from app.screens import doors
 from app.screens.contour import Contour
-from app.screens.help import HelpPage
 from app.screens.page import Answer, Page
 from app.screens.program import ProgramPage
-from app.screens.save import SaveAsPage
 from app.session import Session
 from app.settings import Settings
 from core.pipeline.derived import Derived
@@ -107,7 +105,12 @@ class Desk:
 
     def take(self, message: Message) -> Desk:
         """One message carried out."""
-        return guide.after(self, self._taken(message), message)
+        desk = self._taken(message)
+        if not (self.guided and desk.guided):
+            return desk
+        from app import guide
+
+        return guide.after(self, desk, message)
 
     def _taken(self, message: Message) -> Desk:
         match message:
@@ -128,14 +131,16 @@ class Desk:
             case Do(work):
                 return work(self)
             case Save() | Browse() | Load() | Post() | Leave():
-                return files.carry_out(self, message)
+                from app import filing
+
+                return filing.carry_out(self, message)
             case _:
                 assert_never(message)
 
     def _stacked(self, message: Open | Swap | Close) -> tuple[Page, ...]:
         match message:
             case Open(page):
-                return (*self.pages, page)
+                return (*self.pages, page if isinstance(page, Page) else page())
             case Swap(page):
                 return (*self.pages[:-1], page)
             case Close():
@@ -205,7 +210,7 @@ class Desk:
                 return self.take(Say("F8 goes back, Ctrl+Q leaves the program."))
 
     def _helped(self) -> Desk:
-        return self.take(Open(HelpPage(about=self.page.help(self.session))))
+        return self.take(Open(doors.keys_and_help(self.page.help(self.session))))
 
     def _undo(self) -> Desk:
         """Undo; a half-typed text is what is taken back first."""
@@ -214,5 +219,5 @@ class Desk:
 
     def _save(self) -> Desk:
         if self.session.file is None:
-            return self._settled(Open(SaveAsPage.of(self.session)))
+            return self._settled(Open(doors.save_as(self.session)))
         return self._settled(Save())

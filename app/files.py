@@ -1,53 +1,31 @@
-"""What the program does with files: save, open, post, leave; trouble becomes one sentence on the prompt line."""
+"""The programs one begins with: a file, an example part, an empty program."""
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
-from importlib.resources import files as packaged
 from pathlib import Path
-from typing import TYPE_CHECKING, assert_never
+from typing import Final
 
-from app.listing import is_nc
-from app.messages import Browse, Close, Do, Leave, Load, Open, Post, Save, Say, Swap
-from app.saving import asked, put_theirs_aside, replacing, there
-from app.screens.ask import Ask
-from app.screens.browse import BrowsePage, listed
-from app.screens.save import SaveAsPage
-from app.session import Session, Tone
-from core.finding import Finding
+from app.session import Session
 from core.program.edit import new_block
 from core.program.model import Entry, Program, Tool
-from core.program.stamp import stamp_of, stamp_of_data
-from core.program.store import StoreError, dumps, load, write_text
-from core.units import Unit, sentence
+from core.program.stamp import stamp_of
+from core.program.store import load
+from core.units import Unit
 
-if TYPE_CHECKING:
-    from app.desk import Desk
-
-
-def carry_out(desk: Desk, message: Save | Browse | Load | Post | Leave) -> Desk:
-    """One message that touches files."""
-    match message:
-        case Save():
-            return _save(desk, message)
-        case Browse(folder):
-            return _browse(desk, folder)
-        case Load():
-            return _load(desk, message)
-        case Post():
-            return _post(desk, message)
-        case Leave():
-            return _leave(desk, message)
-        case _:
-            assert_never(message)
+_PROGRAM: Final = re.compile(rb"^\s*format\s*=", re.MULTILINE)
 
 
 def example(name: str) -> Path:
     """The file of an example part."""
-    return _examples() / f"{name}.toml"
+    return examples() / f"{name}.toml"
 
 
-def _examples() -> Path:
+def examples() -> Path:
+    """The folder of the example parts."""
+    from importlib.resources import files as packaged
+
     return Path(str(packaged("app").joinpath("examples")))
 
 
@@ -67,106 +45,12 @@ def opened(path: Path) -> Session:
     return replace(session, guard=replace(session.guard, stamp=stamp))
 
 
-def _save(desk: Desk, message: Save) -> Desk:
-    session = desk.session
-    path = message.path or session.file
-    if path is None:
-        return desk.take(Open(SaveAsPage.of(session, leave=message.leave)))
-    if (question := asked(desk, path, message)) is not None:
-        return question
+def is_nc(path: Path) -> bool:
+    """Whether an existing file is none of our own programs, which are TOML with a format."""
+    if path.suffix.lower() == ".toml" or not path.is_file():
+        return False
     try:
-        if message.changed:
-            put_theirs_aside(path)
-        text = dumps(session.program)
-        write_text(path, text)
-    except StoreError as error:
-        return _failed(desk, error)
-    named = session.named(path, stamp_of_data(text.encode()), linked=message.linked)
-    desk = _without(replace(desk, session=named), SaveAsPage)
-    return replace(desk, exit=True) if message.leave else desk.take(Say(f"Saved: {path}"))
-
-
-def _browse(desk: Desk, folder: Path | None) -> Desk:
-    here = folder or (desk.session.file.parent if desk.session.file else Path())
-    try:
-        here = here.expanduser().resolve()
-        page = BrowsePage(folder=here, examples=_examples(), items=listed(here))
-    except OSError as error:
-        return _failed(desk, f"{here} cannot be shown: {error.strerror or error}.")
-    return desk.take(Swap(page) if isinstance(desk.page, BrowsePage) else Open(page))
-
-
-def _load(desk: Desk, message: Load) -> Desk:
-    session = desk.session
-    if message.path is not None and is_nc(message.path):
-        from app.screens.proof_files import opening
-
-        return desk.take(Do(opening(message.path)))
-    if session.unsaved and not message.unsaved:
-        open_it = message._replace(unsaved=True)
-        keep = (Close(), Save()) if session.file is not None else (Close(), Open(SaveAsPage.of(session)))
-        options = (("s", "SAVE FIRST", keep), ("d", "OPEN WITHOUT SAVING", (Close(), open_it)))
-        return desk.take(Open(Ask("NOT SAVED", ("The program has changes that are not saved.",), options)))
-    if any(page.unsaved for page in desk.pages):
-        return _failed(desk, "The NC file under proof has changes that are not saved: Ctrl+S on its screen saves them.")
-    if message.path is None:
-        return fresh(desk, Session.of(empty_program(desk.settings.unit))).take(Say("A new program."))
-    try:
-        session = opened(message.path)
-    except StoreError as error:
-        return _failed(desk, error)
-    if message.path.parent == _examples():
-        # an example is nobody's to overwrite: it has no file until it is saved under a name
-        return fresh(desk, Session.of(session.program)).take(Say(f"Example {message.path.stem}: SAVE gives it a name."))
-    return fresh(desk, session).take(Say(f"Opened: {message.path}"))
-
-
-def fresh(desk: Desk, session: Session) -> Desk:
-    """The desk with another program, its list of blocks below the form."""
-    return replace(desk, session=session, pages=type(desk)(session).pages)
-
-
-def _post(desk: Desk, message: Post) -> Desk:
-    if there(message.path) and not message.overwrite:
-        return desk.take(Open(replacing(message.path, message)))
-    from app.posting import refusal_or_text
-
-    found, text, notes = refusal_or_text(desk.session, message.path.stem, message.override, message.control)
-    if found is not None:
-        return _failed(desk, f"Nothing was written: {_placed(found, desk.session.program.unit)}")
-    try:
-        write_text(message.path, text)
-    except StoreError as error:
-        return _failed(desk, error)
-    said = f"Posted: {message.path}, {text.count(chr(10))} lines."
-    if not notes:
-        return desk.take(Close()).take(Say(said))
-    told = " ".join(_placed(note, desk.session.program.unit) for note in notes)
-    return desk.take(Close()).take(Say(f"{told} {said}", Tone.WARNING))
-
-
-def _placed(finding: Finding, unit: Unit) -> str:
-    """A finding's sentence behind its segment."""
-    where = "" if finding.segment is None else f"Segment {finding.segment:g}: "
-    return f"{where}{sentence(finding, unit)}"
-
-
-def _leave(desk: Desk, message: Leave) -> Desk:
-    listing = any(page.unsaved for page in desk.pages)
-    if message.unsaved or not (desk.session.unsaved or listing):
-        return replace(desk, exit=True)
-    if listing:
-        too = " So has the program." if desk.session.unsaved else ""
-        lines = (f"The NC file under proof has changes that are not saved.{too}",)
-        return desk.take(Open(Ask("LEAVE?", lines, (("l", "LEAVE WITHOUT", (Leave(unsaved=True),)),))))
-    options = (("s", "SAVE AND LEAVE", (Close(), Save(leave=True))), ("l", "LEAVE WITHOUT", (Leave(unsaved=True),)))
-    return desk.take(Open(Ask("LEAVE?", ("The program has changes that are not saved.",), options)))
-
-
-def _without(desk: Desk, kind: type[SaveAsPage]) -> Desk:
-    """The desk without the dialog that has done its work."""
-    return replace(desk, pages=desk.pages[:-1]) if isinstance(desk.page, kind) else desk
-
-
-def _failed(desk: Desk, error: StoreError | str) -> Desk:
-    return desk.take(Say(str(error), Tone.ERROR))
+        with path.open("rb") as file:
+            return _PROGRAM.search(file.read(4096)) is None
+    except OSError:
+        return False

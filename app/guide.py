@@ -75,9 +75,7 @@ def turned(desk: Desk) -> Desk:
 
 
 def after(before: Desk, desk: Desk, message: Message) -> Desk:
-    """The guide ends with the posted file, and with another program."""
-    if not desk.guided or not before.guided:
-        return desk
+    """The desk, guided before a message and after it: the guide ends with the posted file, and with another program."""
     if isinstance(message, Load) and desk.session.saved is not before.session.saved:
         return replace(desk, guided=False)
     said = desk.session.said
@@ -88,8 +86,8 @@ def after(before: Desk, desk: Desk, message: Message) -> Desk:
 
 
 def said(desk: Desk) -> Said | None:
-    """What the prompt lines say; None where the screen's own words are better."""
-    text = hint(desk) if desk.guided else None
+    """What the prompt lines say while the guide is on; None where the screen's own words are better."""
+    text = hint(desk)
     return None if text is None else Said(f"GUIDE  {text}")
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app import places, recovery, times
+from app import places, times
 from app.messages import Open, Say
 from app.session import Session, Tone
 from core.program.disk import why
@@ -20,6 +20,7 @@ from core.program.journal import Cursor, Head, Record, edit_records, history_rec
 from core.program.journal_file import JournalFile
 from core.program.lock import Held, Owner, myself, release, take, taken_by
 from core.program.store import StoreError
+from core.units import printable
 
 if TYPE_CHECKING:
     from app.desk import Desk
@@ -68,8 +69,18 @@ class Keeping:
         desk = self._locked(desk)
         session = self.known = desk.session
         if session.guard.looking:
+            from app import recovery
+
             return desk.take(Open(recovery.looking(self, session)))
-        return recovery.offered(self, desk) if first or session.file is not None else desk
+        return self._offered(desk) if first or session.file is not None else desk
+
+    def _offered(self, desk: Desk) -> Desk:
+        """The desk with the question on it if work was left behind."""
+        if next(places.left(desk.session.file, self.own), None) is None:
+            return desk
+        from app import recovery
+
+        return recovery.offered(self, desk)
 
     def leave(self) -> None:
         """The program is saved or given up: nothing of it stays behind."""
@@ -112,7 +123,7 @@ class Keeping:
         with suppress(OSError):
             found = take(session.file, self.me)
             if isinstance(found, Held):
-                guard = replace(session.guard, lock=None, looking=recovery.holder(found.owner, self.clock()))
+                guard = replace(session.guard, lock=None, looking=holder(found.owner, self.clock()))
             else:
                 guard = replace(session.guard, lock=found, looking="")
             return replace(desk, session=replace(session, guard=guard))
@@ -166,7 +177,7 @@ class Keeping:
         if owner is None:
             return desk
         self.warned = True
-        who = recovery.holder(owner, self.clock())
+        who = holder(owner, self.clock())
         return desk.take(Say(f"{who} SAVE AS keeps your work.", Tone.WARNING))
 
     def _saved(self, desk: Desk, known: Session) -> Desk:
@@ -182,3 +193,10 @@ class Keeping:
         if known.guard.lock is not None:
             release(known.guard.lock)
         return self._locked(desk)
+
+
+def holder(owner: Owner, today: str) -> str:
+    """Who has a program open, as a sentence."""
+    where = f" on {printable(owner.host)}" if owner.host else ""
+    since = f" since {times.told(owner.since, today).removeprefix('at ')}" if owner.since else ""
+    return f"{printable(owner.user)}{where} has this program open{since}."

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Final
 
 LARGEST: Final = 64_000_000
@@ -18,7 +17,6 @@ SUFFIXES: Final = frozenset(
     [".nc", ".ngc", ".tap", ".cnc", ".txt", ".iso", ".eia", ".gcode", ".din", ".mpf", ".min", ".h"]
 )
 """Files of a folder that are shown as NC programs."""
-_PROGRAM: Final = re.compile(rb"^\s*format\s*=", re.MULTILINE)
 _LINE: Final = re.compile(r"[^\r\n]*(?:\r\n|\n|\r)|[^\r\n]+\Z")
 _END: Final = re.compile(r"(?:\r\n|\n|\r)\Z")
 
@@ -133,14 +131,3 @@ class Listing:
 def _with(listing: Listing, change: Change) -> Listing:
     lines, behind = listing.lines, change.row + len(change.removed)
     return replace(listing, lines=(*lines[: change.row], *change.inserted, *lines[behind:]))
-
-
-def is_nc(path: Path) -> bool:
-    """Whether an existing file is none of our own programs, which are TOML with a format."""
-    if path.suffix.lower() == ".toml" or not path.is_file():
-        return False
-    try:
-        with path.open("rb") as file:
-            return _PROGRAM.search(file.read(4096)) is None
-    except OSError:
-        return False

@@ -96,13 +96,18 @@ def in_browser() -> bool:
 
 def keep_settings(app: CutcompApp, *, first: bool) -> None:
     """Take up what stays from one time to the next, and keep it from now on; `first` begins with the start screen."""
-    from app import settings, starting
+    from app import settings
 
     file = settings.place()
     held, trouble = settings.load(file)
     keeper, keep = settings.Keeper(file, held), app.keep
     app.keep = lambda desk: keeper.keep(keep(desk))
-    app.desk = keeper.keep(starting.opened(app.desk, held, trouble, first=first))
+    desk = settings.taken_up(app.desk, held, trouble)
+    if first:
+        from app import starting
+
+        desk = starting.begun(desk)
+    app.desk = keeper.keep(desk)
 
 
 def prepare() -> None:

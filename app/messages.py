@@ -44,9 +44,9 @@ class Redo(NamedTuple):
 
 
 class Open(NamedTuple):
-    """Put a screen on top of this one."""
+    """Put a screen on top of this one; what makes it is called when it is opened."""
 
-    page: Page
+    page: Page | Callable[[], Page]
 
 
 class Close(NamedTuple):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from hashlib import blake2b
+from contextlib import suppress
 from pathlib import Path
 
 from app import times
@@ -29,18 +29,36 @@ def place(file: Path | None, me: Owner, own: Path) -> Path:
 
 
 def _elsewhere(file: Path, own: Path) -> Path:
+    from hashlib import blake2b
+
     target = os.path.realpath(file)
     digest = blake2b(target.encode("utf-8", "surrogateescape"), digest_size=8).hexdigest()
-    return own / f"{Path(target).name[:100]}-{digest}{SUFFIX}"
+    return own / f"{_begin(target)}{digest}{SUFFIX}"
+
+
+def _begin(target: str) -> str:
+    return f"{Path(target).name[:100]}-"
 
 
 def left(file: Path | None, own: Path) -> Iterator[tuple[Path, Recovered]]:
     """The journals that a program has left behind which died, the last one first."""
-    paths = [journal_path(file), _elsewhere(file, own)] if file is not None else _unnamed(own)
-    for path in paths:
+    for path in _unnamed(own) if file is None else _of(file, own):
         found = read(path)
         if found is not None and (file is not None or not alive(found.head.owner)):
             yield path, found
+
+
+def _of(file: Path, own: Path) -> Iterator[Path]:
+    yield journal_path(file)
+    begin = _begin(os.path.realpath(file))
+    if any(path.name.startswith(begin) for path in _inside(own)):
+        yield _elsewhere(file, own)
+
+
+def _inside(folder: Path) -> list[Path]:
+    with suppress(OSError):
+        return list(folder.iterdir())
+    return []
 
 
 def _unnamed(own: Path) -> list[Path]:

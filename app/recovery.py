@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app import places, times
-from app.files import fresh, opened
+from app.files import opened
+from app.filing import fresh
 from app.messages import Close, Do, Open, Say
 from app.screens.decide import Decide
 from app.session import Session, Tone
@@ -18,20 +19,13 @@ from core.program.difference import differences
 from core.program.disk import why
 from core.program.journal import Recovered, history_records, moved_record
 from core.program.journal_file import JournalFile, set_aside
-from core.program.lock import Owner, alive, take_over
+from core.program.lock import alive, take_over
 from core.program.store import StoreError
 from core.units import printable
 
 if TYPE_CHECKING:
     from app.desk import Desk
     from app.keeping import Keeping
-
-
-def holder(owner: Owner, today: str) -> str:
-    """Who has a program open, as a sentence."""
-    where = f" on {printable(owner.host)}" if owner.host else ""
-    since = f" since {times.told(owner.since, today).removeprefix('at ')}" if owner.since else ""
-    return f"{printable(owner.user)}{where} has this program open{since}."
 
 
 def looking(keeping: Keeping, session: Session) -> Decide:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from app.session import Tone
 from core.program.store import LARGEST_FILE, StoreError, write_text
 from core.units import Unit
 
@@ -95,6 +96,12 @@ def load(path: Path) -> tuple[Settings, str]:
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) else "it is no settings file"
         return Settings(), f"Your settings in {path} cannot be read: {why}. The usual ones hold."
+
+
+def taken_up(desk: Desk, settings: Settings, trouble: str) -> Desk:
+    """The desk with what stays from one time to the next; where it could not be read, the prompt line says so."""
+    desk = replace(desk, settings=settings, mode=settings.mode or desk.mode)
+    return replace(desk, session=desk.session.saying(trouble, Tone.WARNING)) if trouble else desk
 
 
 @dataclass(slots=True)

@@ -9,18 +9,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
-from app.commands import CLEAN, FINDINGS, UNUSABLE, say
+from app.commands import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
 from core.finding import Finding, Severity
 from core.program.model import Entry, Program, Tool
 from core.program.store import StoreError, load, save, write_text
 from core.program.tool_table import Imported, decoded, read_tool_table
 from core.units import Kind, Unit, show
-
-HELP: Final = {
-    "sheet": "the setup sheet, as text or as a page with the drawing",
-    "tools": "list the tool table, or import one of LinuxCNC",
-    "serve": "the screens in a browser on this machine",
-}
 
 
 def shop(given: list[str]) -> int:
@@ -34,7 +28,7 @@ def shop(given: list[str]) -> int:
 
 
 def _parser(name: str) -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(f"cutcomp {name}", description=HELP[name])
+    parser = argparse.ArgumentParser(f"cutcomp {name}", description=SHOP_HELP[name])
     optional = "?" if name == "serve" else None
     parser.add_argument("file", nargs=optional, type=Path, metavar="FILE", help="a program file (TOML)")
     match name:

@@ -20,13 +20,10 @@ if TYPE_CHECKING:
     from app.desk import Desk
 
 
-def opened(desk: Desk, settings: Settings, trouble: str, *, first: bool) -> Desk:
-    """The desk with what stays from one time to the next; `first` puts the start screen below what already asks."""
-    desk = replace(desk, settings=settings, mode=settings.mode or desk.mode)
-    if first:
-        page = _page(settings, first_folder(settings), first=True)
-        desk = replace(desk, pages=(ProgramPage(), page, *desk.pages[2:]))
-    return desk.take(Say(trouble, Tone.WARNING)) if trouble else desk
+def begun(desk: Desk) -> Desk:
+    """The desk with the start screen below what already asks."""
+    page = _page(desk.settings, first_folder(desk.settings), first=True)
+    return replace(desk, pages=(ProgramPage(), page, *desk.pages[2:]))
 
 
 def shown(desk: Desk) -> Desk:

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from app.messages import Close, Edit, Message, Move, Open, Say
-from app.screens.draw import DrawPage
-from app.screens.lookahead import LookaheadTable
-from app.screens.new_segment import NewSegment
+from app.screens import doors
 from app.screens.page import Softkey, Softkeys
-from app.screens.parameters import ParametersPage
-from app.screens.setup import SetupPage
-from app.screens.tools import ToolsPage
 from app.session import SEGMENT, Session, Tone
 from core.program.edit import Where, choose, delete_segment, recalculate_lookahead
 from core.units import Kind, from_mm, show
@@ -20,7 +17,7 @@ def advance(session: Session) -> tuple[Message, ...]:
     where = session.where
     if where.segment < len(session.block.segments):
         return (Move(Where(where.block, where.segment + 1)),)
-    return (Move(where), Open(NewSegment(where.segment + 1)))
+    return (Move(where), Open(partial(doors.new_segment, where.segment + 1)))
 
 
 def back(session: Session) -> tuple[Message, ...]:
@@ -57,14 +54,14 @@ def _recalculating(session: Session) -> dict[int, Softkey]:
 def _segment_keys(session: Session) -> dict[int, Softkey]:
     where = session.where
     deleted = Edit(delete_segment(session.program, where), f"DELETE SEGMENT {where.segment}, block {where.block}")
-    insert: Message = Open(NewSegment(where.segment))
+    insert: Message = Open(partial(doors.new_segment, where.segment))
     if where.segment == 0:
         insert = Say("START comes first: nothing goes before it.", Tone.ERROR)
     return {1: Softkey("DELETE SEGMENT", (deleted,)), 2: Softkey("INSERT SEGMENT BEFORE", (insert,))}
 
 
 def _lookahead_keys(session: Session) -> dict[int, Softkey]:
-    table = Open(LookaheadTable(session.found.lookahead.value))
+    table = Open(partial(doors.lookahead_table, session.found.lookahead.value))
     return {3: Softkey("RECALCULATE LOOKAHEAD", recalculated(session)), 4: Softkey("LOOKAHEAD TABLE", (table,))}
 
 
@@ -95,13 +92,13 @@ def _solution_keys(session: Session) -> dict[int, Softkey]:
 
 def _common() -> dict[int, Softkey]:
     return {
-        4: Softkey("PROGRAM PARAMETERS", (Open(ParametersPage()),)),
-        5: Softkey("PART SETUP", (Open(SetupPage()),)),
-        6: Softkey("TOOL SETUP", (Open(ToolsPage()),)),
+        4: Softkey("PROGRAM PARAMETERS", (Open(doors.parameters),)),
+        5: Softkey("PART SETUP", (Open(doors.setup),)),
+        6: Softkey("TOOL SETUP", (Open(doors.tools),)),
         7: _draw(),
         8: Softkey("EXIT", (Close(),)),
     }
 
 
 def _draw() -> Softkey:
-    return Softkey("DRAW", (Open(DrawPage()),))
+    return Softkey("DRAW", (Open(doors.draw),))

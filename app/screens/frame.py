@@ -8,7 +8,6 @@ from textual import events
 from textual.app import ComposeResult
 from textual.screen import Screen
 
-from app import guide
 from app.desk import Desk
 from app.screens.page import Layout, Surface, View
 from app.screens.plan import NATIVE, Plan, plan
@@ -89,7 +88,15 @@ def _surface(areas: Plan, known: Known) -> Surface:
 
 def _prompt(desk: Desk, view: View) -> Said:
     """What was said about the last key, else the guide, else the screen's own prompt."""
-    return desk.session.said or guide.said(desk) or view.prompt
+    return desk.session.said or _guide(desk) or view.prompt
+
+
+def _guide(desk: Desk) -> Said | None:
+    if not desk.guided:
+        return None
+    from app import guide
+
+    return guide.said(desk)
 
 
 def _notice(width: int, height: int) -> tuple[Row, ...]:

@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Final
 
 from app.messages import Browse, Do, Edit, Leave, Message, Move, Open, Save, Swap
+from app.screens import doors
 from app.screens.contour import Contour
-from app.screens.help import HelpPage
 from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View
-from app.screens.parameters import ParametersPage
-from app.screens.post import PostPage
-from app.screens.save import SaveAsPage
-from app.screens.setup import SetupPage
-from app.screens.sheet import SheetPage
-from app.screens.tools import ToolsPage
 from app.session import Said, Session
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, plain
@@ -106,7 +101,7 @@ def _first(page: ProgramPage, session: Session) -> Softkeys:
         3: Softkey("COPY BLOCK", (Edit(copy_block(program, at), f"COPY BLOCK {at}"), Move(Where(at + 1)))),
         4: Softkey("OPEN", (Browse(),)),
         5: Softkey("SAVE", save_messages(session)),
-        6: Softkey("POST NC", (Open(PostPage.of(session)),)),
+        6: Softkey("POST NC", (Open(partial(doors.post, session)),)),
         7: Softkey("MORE", (Swap(replace(page, set=1)),)),
         8: Softkey("EXIT", (Leave(),)),
     }
@@ -120,10 +115,10 @@ def _second(page: ProgramPage, session: Session) -> Softkeys:
         2: Softkey(
             "MOVE BLOCK DOWN", (Edit(move_block(program, at, down), f"MOVE BLOCK {at} DOWN"), Move(Where(down)))
         ),
-        3: Softkey("SAVE AS", (Open(SaveAsPage.of(session)),)),
-        4: Softkey("PROGRAM PARAMETERS", (Open(ParametersPage()),)),
-        5: Softkey("PART SETUP", (Open(SetupPage()),)),
-        6: Softkey("TOOL SETUP", (Open(ToolsPage()),)),
+        3: Softkey("SAVE AS", (Open(partial(doors.save_as, session)),)),
+        4: Softkey("PROGRAM PARAMETERS", (Open(doors.parameters),)),
+        5: Softkey("PART SETUP", (Open(doors.setup),)),
+        6: Softkey("TOOL SETUP", (Open(doors.tools),)),
         7: Softkey("MORE", (Swap(replace(page, set=2)),)),
         8: Softkey("EXIT", (Leave(),)),
     }
@@ -132,8 +127,8 @@ def _second(page: ProgramPage, session: Session) -> Softkeys:
 def _third(page: ProgramPage, session: Session) -> Softkeys:
     return {
         1: Softkey("START SCREEN", (Do(shown),)),
-        2: Softkey("SETUP SHEET", (Open(SheetPage.of(session)),)),
-        3: Softkey("KEYS AND HELP", (Open(HelpPage(about=page.help(session))),)),
+        2: Softkey("SETUP SHEET", (Open(partial(doors.sheet, session)),)),
+        3: Softkey("KEYS AND HELP", (Open(partial(doors.keys_and_help, page.help(session))),)),
         4: Softkey("GUIDED FIRST PART", (Do(guide_on),)),
         5: Softkey("NC PROOF", (Do(proving),)),
         7: Softkey("MORE", (Swap(replace(page, set=0)),)),
@@ -164,4 +159,4 @@ def proving(desk: Desk) -> Desk:
 
 def save_messages(session: Session) -> tuple[Message, ...]:
     """SAVE: under the program's name, or asking for one."""
-    return (Save(),) if session.file is not None else (Open(SaveAsPage.of(session)),)
+    return (Save(),) if session.file is not None else (Open(partial(doors.save_as, session)),)

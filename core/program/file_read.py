@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from enum import StrEnum
+from functools import partial
 from typing import Any, Final, TypeVar
 
 from core.program.fields import TABLES, Field, Form, check
@@ -59,14 +60,15 @@ class _Table:
     """One table of the file with the way to it."""
 
     file: str
-    lines: Mapping[KeyPath, int]
+    lines: Callable[[], Mapping[KeyPath, int]]
+    """Made for the first fault: a file without one needs no lines."""
     path: KeyPath
     data: Mapping[str, Any]
     unit: Unit
 
     def fault(self, key: str | None, text: str) -> StoreError:
         """An error at a key, or at the table itself."""
-        line = line_of(self.lines, self.path if key is None else (*self.path, key))
+        line = line_of(self.lines(), self.path if key is None else (*self.path, key))
         return StoreError(f"{self.file}, line {line}: {text}")
 
     def only(self, allowed: tuple[str, ...]) -> None:
@@ -138,7 +140,7 @@ Choice = TypeVar("Choice", bound=StrEnum)
 
 def read_program(text: str, file: str) -> Program:
     """The program of a file's text; StoreError names `file`, line and key."""
-    top = _Table(file, key_lines(text), (), _parsed(text, file), Unit.IN)
+    top = _Table(file, partial(key_lines, text), (), _parsed(text, file), Unit.IN)
     top.only(("format", "units", "parameters", "setup", "tool", "block"))
     version = top.data.get("format")
     if isinstance(version, bool) or version != FORMAT:

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.listing import Listing, is_nc
+from app.files import is_nc
+from app.listing import Listing
 from core.controls.source import lines_of
 
 DATA = (

@@ -61,12 +61,11 @@ def test_picture(screen: Callable[[Pilot[int]], Any], snap_compare: Callable[...
 
 
 async def test_verdicts_come_by_themselves_behind_the_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from app.settings import Settings
-    from app.starting import opened
+    from app.starting import begun
 
     monkeypatch.chdir(tmp_path)
     app = app_on()
-    app.desk = opened(app.desk, Settings(), "", first=True)
+    app.desk = begun(app.desk)
     async with app.run_test(size=(80, 24)) as pilot:
         await loaded(pilot)
         for _ in range(100):

@@ -13,8 +13,8 @@ from app.files import empty_program, example
 from app.screens.contour import Contour
 from app.screens.start import StartPage
 from app.session import Session
-from app.settings import Settings
-from app.starting import first_folder, opened
+from app.settings import Settings, taken_up
+from app.starting import begun, first_folder
 from app.survey import Facts, facts_of
 from core.program.store import load, save
 from core.units import Unit
@@ -23,7 +23,7 @@ from tests.app.operator import Operator
 
 def at_start(settings: Settings | None = None) -> Operator:
     """An operator who called the program without a file."""
-    return Operator(opened(Desk(Session.of(empty_program())), settings or Settings(), "", first=True))
+    return Operator(begun(taken_up(Desk(Session.of(empty_program())), settings or Settings(), "")))
 
 
 def page(operator: Operator) -> StartPage:
