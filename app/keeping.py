@@ -16,7 +16,6 @@ from app import places, times
 from app.messages import Open, Say
 from app.session import Session, Tone
 from core.program.disk import why
-from core.program.journal import Cursor, Head, Record, edit_records, history_records, moved_record
 from core.program.journal_file import JournalFile
 from core.program.lock import Held, Owner, myself, release, take, taken_by
 from core.program.store import StoreError
@@ -24,6 +23,7 @@ from core.units import printable
 
 if TYPE_CHECKING:
     from app.desk import Desk
+    from core.program.journal import Cursor, Head, Record
 
 LONGEST: Final = 8_000_000
 """Bytes of a journal that is not saved for very long; then it is begun anew with the last `STEPS` edits."""
@@ -102,10 +102,14 @@ class Keeping:
 
     def head(self, session: Session) -> Head:
         """Whose work it is, and on which file."""
+        from core.program.journal import Head
+
         return Head(self.me, None if session.file is None else str(session.file), session.guard.stamp)
 
     def cursor(self, session: Session) -> Cursor:
         """Where the operator is."""
+        from core.program.journal import Cursor
+
         return Cursor(session.where, session.field, self.clock())
 
     def _let_go(self) -> None:
@@ -142,6 +146,8 @@ class Keeping:
         return self._noticed(desk)
 
     def _write(self, session: Session, known: Session) -> None:
+        from core.program.journal import edit_records, history_records
+
         cursor = self.cursor(session)
         records = edit_records(known.history, session.history, cursor)
         if self.journal is None:
@@ -160,6 +166,8 @@ class Keeping:
         return path
 
     def _move(self, session: Session, cursor: Cursor) -> tuple[Record, ...]:
+        from core.program.journal import moved_record
+
         return (moved_record(self.head(session), cursor),) if self.moved else ()
 
     def _trouble(self, desk: Desk, error: OSError | StoreError) -> Desk:

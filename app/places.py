@@ -6,11 +6,14 @@ import os
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from app import times
-from core.program.journal import Recovered, recovered
 from core.program.journal_file import SUFFIX, journal_path
 from core.program.lock import Owner, alive
+
+if TYPE_CHECKING:
+    from core.program.journal import Recovered
 
 
 def own_folder() -> Path:
@@ -76,6 +79,9 @@ def _changed(path: Path) -> float:
 def read(path: Path) -> Recovered | None:
     """What a journal holds, None where there is none or nothing of it can be read."""
     try:
-        return recovered(path.read_bytes())
+        data = path.read_bytes()
     except OSError:
         return None
+    from core.program.journal import recovered
+
+    return recovered(data)

@@ -7,11 +7,13 @@ from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final, Self
+from typing import TYPE_CHECKING, Final, Self
 
 from core.program.disk import sync_folder, write_all
-from core.program.journal import Record, Recovered, lines
 from core.program.store import write_text
+
+if TYPE_CHECKING:
+    from core.program.journal import Record, Recovered
 
 SUFFIX: Final = ".cutcomp-journal"
 
@@ -45,6 +47,8 @@ class JournalFile:
 
     def add(self, records: Iterable[Record]) -> None:
         """Put lines on the disk, with those that could not be written before; OSError keeps them for the next time."""
+        from core.program.journal import lines
+
         data, self.total = lines(records, self.total)
         self.unwritten += data
         if self.handle is None:
@@ -78,6 +82,8 @@ class JournalFile:
 
     def replace(self, records: Iterable[Record]) -> None:
         """Put a shorter journal in the place of this one, in one step; StoreError leaves the long one."""
+        from core.program.journal import lines
+
         data, total = lines(records)
         write_text(self.path, data.decode())
         self.close()

@@ -30,6 +30,7 @@ LATER = {
     "app.recovery",
     "app.starting",
     "argparse",
+    "core.program.journal",
     "core.program.tool_table",
     "hashlib",
     "importlib.resources",
