@@ -1,4 +1,4 @@
-"""Key sequences that Textual does not know: Esc and a digit for a softkey, and PuTTY's VT100+ function keys.
+"""Key sequences that Textual does not know: Esc and a digit for a softkey, and PuTTY's VT100+ and SCO function keys.
 
 Textual has no public way to add a sequence, so this one module writes into its table; a test types every sequence
 into a pseudo-terminal.
@@ -15,6 +15,10 @@ SOFTKEYS: Final = (Keys.F1, Keys.F2, Keys.F3, Keys.F4, Keys.F5, Keys.F6, Keys.F7
 VT100_PLUS: Final = "PQRSTUVW"
 """PuTTY in VT100+ mode sends ESC O and these letters for F1 to F8; Textual knows the first four."""
 
+SCO: Final = {"N": Keys.F2, "P": Keys.F4, "Q": Keys.F5, "R": Keys.F6, "S": Keys.F7, "T": Keys.F8, "G": Keys.PageDown}
+"""PuTTY in SCO mode sends ESC [ and these letters.  Its F1 begins like a click of the mouse and its F3 is what other
+terminals send when their window is left: these two stay Esc and the digit."""
+
 
 def teach() -> None:
     """Add the sequences."""
@@ -22,3 +26,5 @@ def teach() -> None:
     for number, (key, letter) in enumerate(zip(SOFTKEYS, VT100_PLUS, strict=True), 1):
         table[f"\x1b{number}"] = (key,)
         table[f"\x1bO{letter}"] = (key,)
+    for letter, key in SCO.items():
+        table[f"\x1b[{letter}"] = (key,)

@@ -72,6 +72,11 @@ class Terminal:
             self.read(quiet=0.02, longest=0.02)
         return time.perf_counter() - begun
 
+    def resize(self, columns: int, rows: int) -> None:
+        """Give the terminal another size; the program is told by the system."""
+        self.screen.resize(rows, columns)
+        fcntl.ioctl(self.fd, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
+
     def send(self, keys: bytes) -> None:
         """Type these bytes."""
         os.write(self.fd, keys)

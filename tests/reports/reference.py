@@ -1,0 +1,77 @@
+"""The App without a terminal and without threads: what must stand on the screen after every key."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from textual.keys import _character_to_key
+
+from app.application import CutcompApp
+from app.desk import Desk
+from app.engine import Engine
+from app.session import Session
+from app.widgets.rows import Row, text_of
+from tests.app.operator import FROZEN
+
+
+class Reference(CutcompApp):
+    """The same App: what it would do in threads is done at once, nothing is painted, nobody leaves."""
+
+    def __init__(self, session: Session, keep: Callable[[Desk], Desk] = lambda desk: desk) -> None:
+        super().__init__(session, FROZEN, Engine(), keep)
+        self.left = False
+        program = session.program
+        self._loading.ask(lambda: self.engine.load(program))
+
+    def run_worker(self, work: Any, *_: Any, **__: Any) -> Any:
+        return work()
+
+    def call_from_thread(self, callback: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
+        return callback(*arguments, **named)
+
+    def refresh_screen(self, width: int = 0, height: int = 0) -> None:
+        del width, height
+
+    def exit(self, *_: Any, **__: Any) -> None:
+        self.left = True
+
+    def press(self, *keys: str) -> Reference:
+        """Keys by name, or single characters."""
+        for key in keys:
+            self.key(name_of(key), character_of(key))
+        return self
+
+    def rows(self, width: int = 80, height: int = 24) -> tuple[Row, ...]:
+        """The screen with its looks."""
+        return self.picture(width, height)
+
+    def lines(self, width: int = 80, height: int = 24) -> list[str]:
+        """The screen's text."""
+        return [text_of(row) for row in self.rows(width, height)]
+
+    def fresh(self, width: int = 80, height: int = 24) -> list[str]:
+        """The screen's text as one who remembers nothing but the desk draws it."""
+        other = Reference(self.desk.session)
+        other.desk = self.desk
+        other.key_less()
+        return other.lines(width, height)
+
+    def key_less(self) -> None:
+        """Everything calculated that the desk asks for, without a key."""
+        self._advance()
+
+
+def name_of(key: str) -> str:
+    """A key's name as Textual has it."""
+    return key if len(key) > 1 or key.isalnum() else _character_to_key(key)
+
+
+def character_of(key: str) -> str | None:
+    """The character a key types, None for a key that types none."""
+    return " " if key == "space" else key if len(key) == 1 else None
+
+
+def keys_of(*texts: str | Iterable[str]) -> tuple[str, ...]:
+    """Names stay whole, lists are spread: keys_of("tab", [*"1.5"], "enter")."""
+    return tuple(key for text in texts for key in ((text,) if isinstance(text, str) else text))
