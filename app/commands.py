@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from collections.abc import Callable
 from dataclasses import replace
@@ -17,6 +18,7 @@ from core.units import sentence
 if TYPE_CHECKING:
     import argparse
 
+    from core.output.post import Refusal
     from core.pipeline.derived import Derived, DerivedBlock
 
 CLEAN: Final = 0
@@ -134,12 +136,24 @@ def post(options: argparse.Namespace) -> int:
     result = nc_text(derived, options.file.stem, options.override, control)
     _report(derived, None)
     if not isinstance(result, Posted):
-        say(f"nothing was posted. {result.text}")
+        say(f"nothing was posted. {result.text}{_words(result, options)}")
         return FINDINGS
+    if options.override is not None and not result.overridden:
+        say("--override was not needed: nothing stood against posting.")
     for note in result.notes:
         say(f"{note.severity}: {sentence(note, derived.program.unit)}")
     _deliver(result.text, options.output)
     return _status(derived, None)
+
+
+def _words(result: Refusal, options: argparse.Namespace) -> str:
+    """The words that would have it posted all the same, where words can."""
+    from core.output.ready import OVERRIDABLE, OVERRIDE
+
+    if options.control is not None or not all(one.code in OVERRIDABLE for one in result.findings):
+        return ""
+    wrong = "" if options.override is None else f" {options.override!r} are not the words."
+    return f"{wrong} To post in spite of it: --override '{OVERRIDE}'"
 
 
 def _control(options: argparse.Namespace) -> str | None:
@@ -167,13 +181,21 @@ def plot(options: argparse.Namespace) -> int:
 
 
 def _deliver(text: str, output: Path | None) -> None:
-    from core.program.store import write_text
+    from core.program.store import write_output
 
     if output is None:
-        sys.stdout.write(text)
+        try:
+            sys.stdout.write(text)
+            sys.stdout.flush()
+        except BrokenPipeError:
+            raise
+        except OSError as error:
+            # what is still buffered could not be written at the end either
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            raise Unusable(f"standard output cannot be written: {error.strerror}.") from error
         return
     try:
-        write_text(output, text)
+        write_output(output, text)
     except StoreError as error:
         raise Unusable(str(error)) from error
 

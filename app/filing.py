@@ -15,7 +15,7 @@ from app.screens.save import SaveAsPage
 from app.session import Session, Tone
 from core.finding import Finding
 from core.program.stamp import stamp_of_data
-from core.program.store import StoreError, dumps, write_text
+from core.program.store import StoreError, dumps, write_output, write_text
 from core.units import Unit, sentence
 
 if TYPE_CHECKING:
@@ -107,7 +107,7 @@ def _post(desk: Desk, message: Post) -> Desk:
     if found is not None:
         return _failed(desk, f"Nothing was written: {_placed(found, desk.session.program.unit)}")
     try:
-        write_text(message.path, text)
+        write_output(message.path, text)
     except StoreError as error:
         return _failed(desk, error)
     said = f"Posted: {message.path}, {text.count(chr(10))} lines."

@@ -12,7 +12,7 @@ from typing import Final
 from app.commands import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
 from core.finding import Finding, Severity
 from core.program.model import Entry, Program, Tool
-from core.program.store import StoreError, load, save, write_text
+from core.program.store import StoreError, load, save, write_output
 from core.program.tool_table import Imported, decoded, read_tool_table
 from core.units import Kind, Unit, show
 
@@ -54,7 +54,7 @@ def sheet(options: argparse.Namespace) -> int:
     if options.output is None:
         sys.stdout.write(text)
     else:
-        write_text(options.output, text)
+        write_output(options.output, text)
     return FINDINGS if NOT_READY in text else CLEAN
 
 

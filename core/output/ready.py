@@ -66,9 +66,11 @@ def _tools(job: Job) -> Iterator[_Check]:
 def _depths(job: Job) -> Iterator[_Check]:
     stock = job.finish_z if job.finish_tool else 0.0
     deep = job.z_start - job.z_bottom
+    high = max((max(floor.z_start, floor.z_end) for floor in job.floors), default=job.z_start)
     low = min((min(floor.z_start, floor.z_end) for floor in job.floors), default=job.z_bottom)
     yield deep < 0.0, "DEPTH", "Z BOTTOM lies above Z START.", "z_bottom"
     yield low < job.z_bottom - JOINED, "Z_END", "A Z END lies below Z BOTTOM.  No pass goes so deep.", "z_end"
+    yield high > job.z_start + JOINED, "Z_END", "A Z END lies above Z START.  Rapid moves would run into it.", "z_end"
     yield stock >= deep > 0.0, "FINISH_Z", "FINISH Z leaves nothing for the roughing tool to cut.", "finish_z"
     yield job.retract_clearance <= 0.0, "CLEARANCE", "RETRACT CLEARANCE must be above 0.", "retract_clearance"
     yield job.peck_clearance < 0.0, "CLEARANCE", "PECK CLEARANCE must not be below 0.", "peck_clearance"

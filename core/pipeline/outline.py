@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from core.comp.lookahead import HIGHEST, LOWEST, calculated
 from core.finding import Finding, Severity
 from core.geometry.side import Side
@@ -9,6 +11,7 @@ from core.pipeline.derived import Derived, DerivedBlock, LookAhead, Tag
 from core.program.assist import solve_block
 from core.program.model import Block, CutterComp, Entry, Program
 from core.program.solved import SolvedBlock
+from core.tolerance import JOINED
 
 _SIDES = {
     CutterComp.ON: None,
@@ -40,7 +43,7 @@ def outline_block(number: int, block: Block, program: Program) -> DerivedBlock:
         radius=None if diameter is None else diameter / 2,
         work=None,
         known=False,
-        findings=(*solved.every_finding, *_usr_warning(lookahead, _SIDES[block.cutter_comp])),
+        findings=(*solved.every_finding, *_heights(solved), *_usr_warning(lookahead, _SIDES[block.cutter_comp])),
     )
 
 
@@ -55,9 +58,28 @@ def look_ahead(block: Block, solved: SolvedBlock) -> LookAhead:
             return LookAhead(value, Tag.CAL, value)
 
 
+def _heights(solved: SolvedBlock) -> Iterator[Finding]:
+    """Typed Z ENDs that are not between Z START and Z BOTTOM: no pass goes deeper, and rapid moves run above."""
+    if solved.z_start is None or solved.z_bottom is None:
+        return
+    for one in solved.segments:
+        if not isinstance(one.values.get("z_end"), Entry):
+            continue
+        if one.z_end > solved.z_start + JOINED:
+            text = "Z END {value} lies above Z START {0}: rapid moves would run into it. Enter Z END between Z START "
+            yield _height(one.number, text + "and Z BOTTOM.", one.z_end, solved.z_start)
+        elif one.z_end < solved.z_bottom - JOINED:
+            text = "Z END {value} lies below Z BOTTOM {0}: no pass goes so deep. Enter Z END between Z START "
+            yield _height(one.number, text + "and Z BOTTOM.", one.z_end, solved.z_bottom)
+
+
+def _height(number: int, text: str, height: float, limit: float) -> Finding:
+    return Finding("Z_END", Severity.ERROR, text, float(number), "z_end", value=height, lengths=(limit,))
+
+
 def _usr_warning(lookahead: LookAhead, side: Side | None) -> tuple[Finding, ...]:
     if side is None or lookahead.tag is Tag.CAL:
         return ()
     text = f"CUTCOMP LOOKAHEAD {lookahead.value} was typed; the calculated value is {lookahead.calculated}."
-    text += " F3 goes back to it."
+    text += " RECALCULATE LOOKAHEAD goes back to it."
     return (Finding("USR_LOOKAHEAD", Severity.WARNING, text, field="lookahead"),)

@@ -4,24 +4,35 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from core.program.fields import PARAMETERS, SETUP, START, TABLES, TOOL, Field, form_of
+from core.program.fields import PARAMETERS, SETUP, START, TABLES, TOOL, Field, default, form_of
 from core.program.model import Block, Entry, Part, Program, changed
 from core.units import Kind, Unit, convert
 
 
 def converted(program: Program, unit: Unit) -> Program:
-    """The program with all its lengths and feeds in `unit`; blanks stay blank and take that unit's defaults."""
+    """The program with all its lengths and feeds in `unit`.
+
+    A blank parameter stood for the old unit's usual value, which is another one in the new unit: it is written out, so
+    that the same part is cut.
+    """
     if program.unit is unit:
         return program
     old = program.unit
     return replace(
         program,
         unit=unit,
-        parameters=_each(program.parameters, PARAMETERS, old, unit),
-        setup=_each(program.setup, SETUP, old, unit),
+        parameters=_each(_pinned(program.parameters, PARAMETERS, old), PARAMETERS, old, unit),
+        setup=_each(_pinned(program.setup, SETUP, old), SETUP, old, unit),
         tools=tuple(_each(tool, TOOL, old, unit) for tool in program.tools),
         blocks=tuple(_block(block, old, unit) for block in program.blocks),
     )
+
+
+def _pinned(part: Part, table: tuple[Field, ...], unit: Unit) -> Part:
+    """A copy whose blank lengths hold the unit's usual values, but for those that are 0 in every unit."""
+    blank = (one.name for one in table if one.kind is Kind.LENGTH and getattr(part, one.name) is None)
+    usual = ((name, default(name, unit)) for name in blank)
+    return changed(part, {name: Entry(value) for name, value in usual if value})
 
 
 def _block(block: Block, old: Unit, new: Unit) -> Block:

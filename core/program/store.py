@@ -18,7 +18,7 @@ from core.program.file_read import StoreError, read_program
 from core.program.file_write import written
 from core.program.model import Program
 
-__all__ = ["LARGEST_FILE", "StoreError", "dumps", "load", "loads", "save", "write_text"]
+__all__ = ["LARGEST_FILE", "StoreError", "dumps", "load", "loads", "save", "write_output", "write_text"]
 
 LARGEST_FILE: Final = 4_000_000
 """Bytes of the largest program file: about twenty thousand segments."""
@@ -83,6 +83,23 @@ def write_data(path: str | Path, data: bytes) -> None:
         _replace(target, data)
     except (OSError, ValueError) as error:
         raise StoreError(f"{path} is not saved: {why(error)}") from error
+
+
+def write_output(path: Path, text: str) -> None:
+    """Write what is made of a program, such as NC text or a drawing; StoreError rather than over a program."""
+    if _is_program(path):
+        raise StoreError(f"{path} is a program, which would be lost: nothing is written. Name another file.")
+    write_text(path, text)
+
+
+def _is_program(path: Path) -> bool:
+    if path.suffix.lower() == ".toml":
+        return True
+    try:
+        with path.open("rb") as file:
+            return file.readline(80).startswith(b"format =")
+    except OSError:
+        return False
 
 
 def _replace(target: Path, data: bytes) -> None:

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import os
 
-for name in [name for name in os.environ if name.startswith("TEXTUAL_") or name in ("NO_COLOR", "FORCE_COLOR")]:
-    del os.environ[name]
+KEPT = "TEXTUAL_SNAPSHOT_"
+"""The snapshot plugin's own, set before this is read when the tests are named by their top folder."""
+
+for name in list(os.environ):
+    if (name.startswith("TEXTUAL_") and not name.startswith(KEPT)) or name in ("NO_COLOR", "FORCE_COLOR"):
+        del os.environ[name]
 os.environ["COLUMNS"], os.environ["LINES"] = "80", "24"

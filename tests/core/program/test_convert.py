@@ -52,14 +52,20 @@ def test_segments(form):
 @pytest.mark.parametrize(("name", "kind"), numbers(Form.PARAMETERS))
 def test_parameters(name, kind):
     part = converted(Program(Unit.IN, changed(Parameters(), {name: Entry(2.0)})), Unit.MM)
-    assert part.parameters == changed(Parameters(), {name: expected(kind)})
+    usual = {
+        "blend_offset": Entry(3.175),
+        "blend_overlap": Entry(3.175),
+        "retract_clearance": Entry(2.54),
+        "peck_clearance": Entry(1.27),
+    }
+    assert part.parameters == changed(Parameters(), usual | {name: expected(kind)})
     assert len(numbers(Form.PARAMETERS)) == len(PARAMETERS) - 1
 
 
 @pytest.mark.parametrize(("name", "kind"), numbers(Form.SETUP))
 def test_setup(name, kind):
     part = converted(Program(Unit.IN, setup=changed(PartSetup("A"), {name: Entry(2.0)})), Unit.MM)
-    assert part.setup == changed(PartSetup("A"), {name: expected(kind)})
+    assert part.setup == changed(PartSetup("A"), {"safe_z": Entry(25.4)} | {name: expected(kind)})
     assert len(numbers(Form.SETUP)) == len(SETUP) - 1
 
 

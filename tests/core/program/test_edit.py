@@ -252,9 +252,13 @@ def test_set_unit_converts_lengths_and_feeds_and_nothing_else():
         arc("CW", radius=12.7, sweep=90.0),
         blend(3.175),
     )
-    assert metric.parameters == replace(given.parameters, max_offset=Entry(25.4))
+    assert metric.parameters.max_offset == Entry(25.4)
+    assert metric.parameters.blend_offset == Entry(3.175), "the inch program's usual value, not the metric one's 3.0"
+    assert metric.parameters.finish_xy is None
     assert metric.tools == (Tool(1, "END MILL", Entry(12.7)),)
-    assert edit.set_unit(metric, Unit.IN) == given
+    back = edit.set_unit(metric, Unit.IN)
+    assert (back.blocks, back.tools) == (given.blocks, given.tools)
+    assert back.parameters.blend_offset == Entry(0.125)
 
 
 def test_set_unit_keeps_what_could_not_be_read():

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from core.program import store
 from core.program.edit import set_unit
 from core.program.model import Entry, Program, Unread
-from core.program.store import StoreError, dumps, load, loads, save
+from core.program.store import StoreError, dumps, load, loads, save, write_output
 from core.units import Unit
 from tests.core.program.parts import arc, blend, line, program, programs
 
@@ -331,3 +331,16 @@ def test_what_could_be_read_can_be_read_in_the_other_unit_too(value, unit):
     other = Unit.IN if unit is Unit.MM else Unit.MM
     turned = set_unit(part, other)
     assert loads(dumps(turned), "x") == turned
+
+
+def test_output_is_never_written_over_a_program(tmp_path):
+    part, other, fresh = tmp_path / "part.toml", tmp_path / "renamed", tmp_path / "part.nc"
+    save(Program(), part)
+    other.write_bytes(part.read_bytes())
+    for target in (part, other, tmp_path / "new.toml"):
+        with pytest.raises(StoreError, match="Name another file"):
+            write_output(target, "M2")
+    assert part.read_bytes() == other.read_bytes()
+    assert load(part) == Program()
+    write_output(fresh, "M2")
+    assert fresh.read_text() == "M2"
