@@ -69,7 +69,12 @@ class Desk:
         return self.pages[-1]
 
     def press(self, key: str, character: str | None = None) -> Desk:
-        """What a key makes of everything."""
+        """What a key makes of everything; pages that got covered are as they will be seen again."""
+        desk = self._pressed(key, character)
+        below = tuple(page.covered() for page in desk.pages[:-1])
+        return replace(desk, pages=(*below, desk.page)) if len(desk.pages) != len(self.pages) else desk
+
+    def _pressed(self, key: str, character: str | None) -> Desk:
         armed, desk = self.armed, replace(self, session=self.session.quiet(), armed=False)
         if armed and key in "12345678":
             return desk._softkey(int(key))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from textwrap import wrap
 
 from app.messages import Close, Message
-from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View
+from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View, unseen
 from app.session import Said, Session
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, plain
@@ -38,6 +38,10 @@ class Ask(Page):
     def escape(self, session: Session) -> Answer | None:
         """No answer."""
         return Answer(self, (Close(),))
+
+    def everywhere(self, key: str, session: Session) -> Answer | None:
+        """The program behind is not to change unseen."""
+        return unseen(self, key)
 
     def view(self, session: Session, surface: Surface) -> View:
         """The question and its answers."""

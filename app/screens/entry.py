@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from app.messages import Close
-from app.screens.page import Answer, Page
+from app.screens.page import Answer, Page, unseen
 from app.session import Session
 from app.widgets.field import Editing, press, window
 from app.widgets.form import typed_spans
@@ -27,6 +27,10 @@ class EntryPage(Page):
     def escape(self, session: Session) -> Answer | None:
         """Nothing is done."""
         return Answer(self, (Close(),))
+
+    def everywhere(self, key: str, session: Session) -> Answer | None:
+        """The program behind is not to change unseen."""
+        return unseen(self, key)
 
 
 def entry_row(label: str, entry: Editing, width: int, *, fresh: bool) -> Row:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from app.messages import Close, Edit, Message, Move
-from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View
+from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View, unseen
 from app.session import Said, Session
 from app.widgets.header import block_line, header, segment_line
 from app.widgets.rows import Look, Row, Span
@@ -43,6 +43,10 @@ class NewSegment(Page):
     def escape(self, session: Session) -> Answer | None:
         """Nothing is added."""
         return Answer(self, (Close(),))
+
+    def everywhere(self, key: str, session: Session) -> Answer | None:
+        """The program behind is not to change unseen."""
+        return unseen(self, key)
 
     def _added(self, session: Session, index: int) -> tuple[Message, ...]:
         _, form, kind, _ = KINDS[index]

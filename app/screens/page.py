@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, Protocol
 
-from app.messages import Message
+from app.messages import Message, Say
 from app.session import Said, Session
 from app.widgets.rows import Row
 
@@ -165,6 +165,10 @@ class Page:
         """What undo, redo and save mean here where they are not the program's; None where they are."""
         return None
 
+    def covered(self) -> Page:
+        """The page once another one lies on it: what it is when it is seen again."""
+        return self
+
     def preview(self, session: Session) -> Program | None:
         """The program as it would be if the half-typed text were accepted; None when there is none to accept."""
         return None
@@ -172,3 +176,10 @@ class Page:
     def help(self, session: Session) -> tuple[str, ...]:
         """Sentences about what has the cursor."""
         return ()
+
+
+def unseen(page: Page, key: str) -> Answer | None:
+    """Undo and redo in a dialog, which hides what they would change: only told."""
+    if key not in ("ctrl+z", "ctrl+y"):
+        return None
+    return Answer(page, (Say("Esc leaves this question first, then Ctrl+Z and Ctrl+Y act on the program."),))

@@ -53,6 +53,10 @@ class PostPage(EntryPage):
             return Answer(self, self._stepped(1 if key == "down" else -1))
         return self._posted(session) if key == "enter" else self.typed(key, character)
 
+    def softkeyed(self, session: Session, number: int, messages: tuple[Message, ...]) -> Answer:
+        """POST is Enter."""
+        return self._posted(session) if number == 1 else Answer(self, messages)
+
     def _stepped(self, step: int) -> tuple[Message, ...]:
         """The next choice of control; their rules need the numeric library, which the start does not wait for."""
         from core.controls.registry import names
@@ -64,7 +68,7 @@ class PostPage(EntryPage):
     def _posted(self, session: Session) -> Answer:
         text = self.entry.text.strip()
         if self.path is not None:
-            return Answer(self, self._overridden(text))
+            return Answer(replace(self, fresh=True), self._overridden(text))
         if not text:
             return Answer(self, (Say("Type a name for the NC file.", Tone.ERROR),))
         path = with_suffix(Path(text), ".nc")
@@ -84,7 +88,10 @@ class PostPage(EntryPage):
         rows = [entry_row("FILE", self.entry, surface.width, fresh=self.fresh), (), *self._chosen()]
         said = Said("Type the name of the NC file, Enter posts. Up and down choose the control.")
         if self.path is not None:
-            rows = [plain(f" FILE {self.path}"), entry_row("SAY", self.entry, surface.width, fresh=False)]
+            rows = [
+                plain(f" FILE {self.path}"),
+                entry_row("SAY", self.entry, surface.width, fresh=self.fresh and self.entry.text != ""),
+            ]
             said = Said(
                 f"Posting is refused. To post in spite of it, type {OVERRIDE} and Enter; the file will say so.",
                 Tone.ERROR,

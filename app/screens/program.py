@@ -34,6 +34,10 @@ class ProgramPage(Page):
         """Three sets; F7 goes round."""
         return (_first, _second, _third)[self.set](self, session)
 
+    def covered(self) -> ProgramPage:
+        """Whoever comes back finds the first set."""
+        return replace(self, set=0)
+
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
         """Up and down over the blocks, Enter into one."""
         at, last = session.where.block, len(session.program.blocks)

@@ -1,0 +1,60 @@
+"""Dialogs: what is typed into them, and what they keep away from the program behind them."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.screens.new_segment import NewSegment
+from app.screens.post import PostPage
+from core.program.model import Entry
+from tests.app.operator import Operator
+
+
+def refused() -> Operator:
+    """The dialog of POST NC, a wrong sentence behind it."""
+    operator = Operator.at().press("tab").type("1").press("f8", "f6", "enter").type("POST ANYWAY")
+    assert "Nothing was written" in operator.said
+    return operator
+
+
+def sentence(operator: Operator) -> str:
+    line = next(line for line in operator.part("body").splitlines() if line.startswith(" SAY"))
+    return line.removeprefix(" SAY").strip()
+
+
+def test_typing_replaces_a_wrong_sentence() -> None:
+    assert sentence(refused().press(*"POST")) == "POST"
+
+
+@pytest.mark.parametrize("key", ["delete", "backspace"])
+def test_delete_and_backspace_empty_a_wrong_sentence(key: str) -> None:
+    assert sentence(refused().press(key)) == ""
+
+
+def test_the_softkey_post_asks_for_the_sentence_as_enter_does() -> None:
+    operator = Operator.at().press("f8", "f6", "f1")
+    assert isinstance(operator.desk.page, PostPage)
+    assert operator.desk.page.path is not None
+
+
+@pytest.mark.parametrize("keys", [("f8", "f6"), ("ctrl+s",), ("ctrl+q",), ("pagedown",)])
+def test_undo_and_redo_in_a_dialog_leave_the_program_alone(keys: tuple[str, ...]) -> None:
+    operator = Operator.at().press("tab", "down", "down", "down").type("2.5").press("ctrl+home", *keys)
+    page = operator.desk.page
+    operator.press("ctrl+z", "ctrl+y", "ctrl+z")
+    assert operator.block.x_start == Entry(2.5)
+    assert operator.desk.page is page
+    assert "Esc leaves this question first" in operator.said
+
+
+def test_the_new_page_closes_before_undo_acts() -> None:
+    operator = Operator.at().press("tab", "down", "down", "down").type("2.5").press("ctrl+home", "pagedown")
+    assert isinstance(operator.desk.page, NewSegment)
+    assert operator.press("escape", "ctrl+z").block.x_start is None
+
+
+@pytest.mark.parametrize("keys", [("f3", "escape"), ("f7", "f3", "escape"), ("enter", "f8")])
+def test_the_first_softkeys_stand_whenever_the_list_is_seen_again(keys: tuple[str, ...]) -> None:
+    operator = Operator.at().press("f8", "f7")
+    assert "DELETE BLOCK" not in operator.part("softkeys")
+    assert "DELETE BLOCK" in operator.press(*keys).part("softkeys")
