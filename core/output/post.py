@@ -85,8 +85,8 @@ def _header(jobs: Sequence[Job], unit: Unit, name: str, waived: tuple[Finding, .
 
 
 def _sentence(finding: Finding, unit: Unit) -> str:
-    segment = "" if finding.segment is None else f"Segment {finding.segment:g}: "
-    return f"{segment}{sentence(finding, unit)}"
+    where = "" if finding.segment is None else f"Segment {finding.segment:g}: " if finding.segment else "START: "
+    return f"{where}{sentence(finding, unit)}"
 
 
 def _cutters(jobs: Sequence[Job]) -> dict[Cutter, str]:

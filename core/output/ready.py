@@ -23,18 +23,30 @@ OVERRIDABLE: Final = frozenset(
 )
 """Findings on a path that is whole and known; whatever is unread, missing or undetermined can never be overridden."""
 
+LISTED: Final = 6
+"""Segments named in one sentence."""
+
 MOST_PASSES: Final = 2000
 """More depths than this are a slip of the finger in PECK DEPTH."""
 
 
 def forbidding(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> tuple[Finding, ...]:
     """The errors that stand against posting, each named once; those the operator overrode are left out."""
-    found = [finding for job in jobs for finding in (*job.errors, *_objections(job, grid))]
+    found = [finding for job in jobs for finding in (*job.errors, *_new(_objections(job, grid), job))]
     if len({job.work_offset for job in jobs}) > 1:
         found.append(Finding("WORK_OFFSET", Severity.ERROR, "The blocks name different work offsets."))
     if override == OVERRIDE:
         found = [finding for finding in found if finding.code not in OVERRIDABLE]
     return tuple(dict.fromkeys(found))
+
+
+def _new(objections: Iterable[Finding], job: Job) -> Iterator[Finding]:
+    """Objections that no error of the job tells already: those about a field that has none, and a path that is due."""
+    told = {finding.field for finding in job.errors}
+    for one in objections:
+        due = one.code == "NO_PATH" and any(finding.code not in OVERRIDABLE for finding in job.errors)
+        if not due and (one.field is None or one.field not in told):
+            yield one
 
 
 def overridden(jobs: Iterable[Job]) -> tuple[Finding, ...]:
@@ -111,8 +123,14 @@ def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
     wild = not all(_sane(run) for run in (*job.finish, *job.rough))
     yield wild, "COORDINATE", "A point of the path is none a machine could reach.", None
     yield _still(job.plunge_feed, grid), "PLUNGE_FEED", "PLUNGE FEED must be above 0.", "plunge_feed"
-    for number in sorted(_unfed(job, grid)):
-        yield True, "FEED", f"Segment {number} has no FEED above 0.", "feed"
+    unfed = sorted(_unfed(job, grid))
+    listed = ", ".join(map(str, unfed[:LISTED])) + (" ..." if len(unfed) > LISTED else "")
+    yield (
+        bool(unfed),
+        "FEED",
+        f"There is no FEED above 0 on {'segment' if len(unfed) == 1 else 'segments'} {listed}.",
+        "feed",
+    )
 
 
 def _sane(run: Run) -> bool:

@@ -9,6 +9,7 @@ from core.pipeline.derived import Derived, DerivedBlock
 from core.program.fields import default
 from core.program.model import Entry, Program, Typed
 from core.program.solved import SolvedBlock
+from core.program.tools import find
 from core.units import to_mm
 
 
@@ -24,8 +25,8 @@ def job(found: DerivedBlock, program: Program) -> Job:
     return Job(
         block=found.number,
         comp=str(found.block.cutter_comp),
-        cutter=_cutter(found.block.tool, solved.tool_diameter, solved.tool_type),
-        finisher=_cutter(found.block.finish_tool, solved.finish_diameter, "") if finish_tool else None,
+        cutter=_cutter(found.block.tool, solved.tool_diameter, program),
+        finisher=_cutter(found.block.finish_tool, solved.finish_diameter, program) if finish_tool else None,
         surface=found.work.surface if found.work else EMPTY,
         floors=_floors(solved),
         finish=_finish(found),
@@ -50,8 +51,11 @@ def _whole(typed: Typed) -> int:
     return int(typed.value) if isinstance(typed, Entry) else 0
 
 
-def _cutter(number: Typed, diameter: float | None, kind: str) -> Cutter | None:
-    return None if diameter is None or not isinstance(number, Entry) else Cutter(int(number.value), diameter, kind)
+def _cutter(number: Typed, diameter: float | None, program: Program) -> Cutter | None:
+    if diameter is None or not isinstance(number, Entry):
+        return None
+    tool = find(program, number.value)
+    return Cutter(int(number.value), diameter, "" if tool is None else tool.type)
 
 
 def _setup(program: Program, name: str) -> float:
