@@ -158,7 +158,7 @@ class Desk:
         desk = replace(self, pages=(*self.pages[:-1], answer.page))
         for message in answer.messages:
             desk = desk.take(message)
-            if isinstance(message, Edit) and isinstance(message.outcome, Refused):
+            if isinstance(message, Edit) and (isinstance(message.outcome, Refused) or desk.session.guard.looking):
                 break
         return desk
 

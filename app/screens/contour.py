@@ -8,7 +8,7 @@ from typing import Final
 from app.messages import Edit, Move, Say
 from app.screens import contour_keys
 from app.screens.contour_cells import cells_at, fields_at, form_at, value_at
-from app.screens.forms import FormPage
+from app.screens.forms import FormPage, prompt_of
 from app.screens.page import Answer, Softkeys, Surface, View
 from app.session import SEGMENT, Said, Session, Tone
 from app.widgets.field import press
@@ -22,6 +22,7 @@ from core.program.solved import Value
 from core.units import sentence
 
 WALK: Final = {"pageup": -1, "pagedown": 1, "left": -1, "right": 1}
+FIRST_SEGMENT: Final = "Use ENTER to edit START, then right arrow or Page Down for the first segment."
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -63,7 +64,7 @@ class Contour(FormPage):
             return self._gone(session, Where(session.where.block, there))
         if self.cursor(session) == SEGMENT:
             return self._segment_key(key, character, session)
-        if key == "enter" and session.where.segment and self.cursor(session) == self.fields(session)[-1].name:
+        if key == "enter" and self.cursor(session) == self.fields(session)[-1].name and _leads_on(session):
             return self._finished(session)
         return FormPage.press(self, key, character, session)
 
@@ -75,7 +76,7 @@ class Contour(FormPage):
         return self._without_text().moved(session, there)
 
     def _finished(self, session: Session) -> Answer:
-        """Enter on the last field of a segment: on to the next one.  On START it goes back to SEGMENT."""
+        """Enter on the last field of a segment: on to the next one.  On START only while there is none yet."""
         settled = self.settle(session)
         if any(isinstance(message, Say) for message in settled.messages):
             return settled
@@ -102,7 +103,7 @@ class Contour(FormPage):
             return Answer(bare, contour_keys.jump(session, self.editing.text))
         if key in ("enter", "tab", "down", "up", "shift+tab"):
             return bare._beyond(session, key)
-        if key == "backspace" or (character is not None and character.isdigit()):
+        if key == "backspace" or (character is not None and character.isprintable() and character not in "? "):
             editing = press(self.editing, "", key, character)
             return Answer(replace(self, editing=editing if editing and editing.text else None))
         return None
@@ -136,8 +137,8 @@ class Contour(FormPage):
     def _prompt(self, session: Session) -> Said:
         one = self.field(session)
         if one is None:
-            return Said(SEGMENT_PROMPT)
-        return self.reason(session) or _trouble(session, one) or Said(one.prompt)
+            return Said(SEGMENT_PROMPT if session.block.segments else FIRST_SEGMENT)
+        return self.reason(session) or _trouble(session, one) or Said(prompt_of(one))
 
     def help(self, session: Session) -> tuple[str, ...]:
         """The field's help, or that of SEGMENT."""
@@ -151,6 +152,11 @@ def _trouble(session: Session, one: Field) -> Said | None:
         if finding.field == one.name and here and finding.severity is Severity.ERROR:
             return Said(sentence(finding, session.program.unit), Tone.ERROR)
     return None
+
+
+def _leads_on(session: Session) -> bool:
+    """Enter on the last field goes to the next segment; behind START only where that is the first one to be made."""
+    return session.where.segment > 0 or not session.block.segments
 
 
 def _label(one: Field, where: Where) -> str:

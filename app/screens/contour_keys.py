@@ -30,6 +30,8 @@ def back(session: Session) -> tuple[Message, ...]:
 
 def jump(session: Session, digits: str) -> tuple[Message, ...]:
     """To the segment of that number."""
+    if not (digits.isascii() and digits.isdigit()):
+        return (Say(f"{digits} is no segment number: type digits only, such as 3, then Enter.", Tone.ERROR),)
     number, last = int(digits), len(session.block.segments)
     if number <= last:
         return (Move(Where(session.where.block, number)),)
@@ -57,7 +59,8 @@ def _segment_keys(session: Session) -> dict[int, Softkey]:
     insert: Message = Open(partial(doors.new_segment, where.segment))
     if where.segment == 0:
         insert = Say("START comes first: nothing goes before it.", Tone.ERROR)
-    return {1: Softkey("DELETE SEGMENT", (deleted,)), 2: Softkey("INSERT SEGMENT BEFORE", (insert,))}
+    told = Say(f"Deleted segment {where.segment}. Ctrl+Z brings it back.")
+    return {1: Softkey("DELETE SEGMENT", (deleted, told)), 2: Softkey("INSERT SEGMENT BEFORE", (insert,))}
 
 
 def _lookahead_keys(session: Session) -> dict[int, Softkey]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import ClassVar, Final
 
 from app.messages import Close, Message, Move, NextMode, Open, Say, Swap
+from app.screens.contour_cells import form_at
 from app.screens.findings import FindingsPage
 from app.screens.page import Answer, Layout, Page, Sketch, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
@@ -63,8 +64,8 @@ class DrawPage(Page):
 
     def view(self, session: Session, surface: Surface) -> View:
         """The drawing; the two prompt lines name its keys."""
-        title = "START" if session.segment is None else "SEGMENT"
-        title = f"{title}   zoom {self.sketch.zoom:.2g}" if self.sketch.zoom != 1.0 else title
+        form = form_at(session)
+        title = f"{form}   zoom {self.sketch.zoom:.2g}" if self.sketch.zoom != 1.0 else str(form)
         number = segment_line(str(session.where.segment), title, cursor=False)
         prompt = (
             "+ - zoom, arrows move, 0 fits. n and p walk over the segments. m changes the characters. Esc goes back."

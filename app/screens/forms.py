@@ -13,7 +13,7 @@ from app.widgets.field import Editing, press
 from app.widgets.form import Cell, State
 from core.pipeline.derived import Tag
 from core.program.edit import Refused, read
-from core.program.fields import Field
+from core.program.fields import SOLUTION, Field
 from core.program.model import Entry, Program, Unread
 from core.program.solved import Solved, Value
 from core.units import Kind, Unit, show
@@ -142,6 +142,15 @@ class FormPage(Page):
         """The prompt of the field, its range, and the keys that change it."""
         one = self.field(session)
         return () if one is None else field_help(one)
+
+
+def prompt_of(one: Field) -> str:
+    """The field's prompt; a choice names its choices and how they are picked."""
+    if one.kind is not Kind.CHOICE:
+        return one.prompt
+    if one == SOLUTION:
+        return f"{one.prompt} Space steps, F1 and F2 pick."
+    return f"{one.prompt} Space steps, letters spell: {', '.join(one.choices)}."
 
 
 def _unread_sentence(unread: Unread) -> str:

@@ -7,7 +7,7 @@ from typing import Final
 
 from app.messages import Close, Edit, Open
 from app.screens.ask import Ask
-from app.screens.forms import FormPage, cell_of
+from app.screens.forms import FormPage, cell_of, prompt_of
 from app.screens.page import Answer, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
 from app.widgets.form import Cell, State, cursor_line, form_rows
@@ -69,6 +69,10 @@ class ParametersPage(FormPage):
         ask = Ask("UNITS", (question,), (("c", f"CONVERT TO {choice}", (Close(), edit)),))
         return Answer(self, (Open(ask),))
 
+    def escape(self, session: Session) -> Answer | None:
+        """The half-typed text forgotten, else back."""
+        return FormPage.escape(self, session) or Answer(self, (Close(),))
+
     def softkeys(self, session: Session) -> Softkeys:
         """Only the way back."""
         return {8: Softkey("EXIT", (Close(),))}
@@ -100,4 +104,4 @@ class ParametersPage(FormPage):
 
 def _prompt(one: Field, unit: Unit) -> str:
     usual = default(one.name, unit)
-    return one.prompt if usual is None else f"{one.prompt} Blank is {show(usual, one.kind, unit)}."
+    return prompt_of(one) if usual is None else f"{one.prompt} Blank is {show(usual, one.kind, unit)}."

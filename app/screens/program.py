@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Final
 
-from app.messages import Browse, Do, Edit, Leave, Message, Move, Open, Save, Swap
+from app.messages import Browse, Do, Edit, Leave, Message, Move, Open, Save, Say, Swap
 from app.screens import doors
 from app.screens.contour import Contour
 from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View
@@ -16,7 +16,7 @@ from app.widgets.rows import Look, Row, Span, plain
 from core.finding import Severity
 from core.pipeline.derived import DerivedBlock
 from core.program.edit import Where, copy_block, delete_block, insert_block, move_block
-from core.program.model import Entry
+from core.program.model import Entry, Program
 
 if TYPE_CHECKING:
     from app.desk import Desk
@@ -99,8 +99,9 @@ def verdict_word(found: DerivedBlock) -> tuple[str, Look]:
 def _first(page: ProgramPage, session: Session) -> Softkeys:
     at, program = session.where.block, session.program
     behind = Edit(insert_block(program, at + 1), f"INSERT BLOCK {at + 1}")
+    told = Say(f"Deleted block {at}. Ctrl+Z brings it back.")
     return {
-        1: Softkey("DELETE BLOCK", (Edit(delete_block(program, at), f"DELETE BLOCK {at}"),)),
+        1: Softkey("DELETE BLOCK", (Edit(delete_block(program, at), f"DELETE BLOCK {at}"), told)),
         2: Softkey("INSERT BLOCK BEHIND", (behind, Move(Where(at + 1)), Open(Contour()))),
         3: Softkey("COPY BLOCK", (Edit(copy_block(program, at), f"COPY BLOCK {at}"), Move(Where(at + 1)))),
         4: Softkey("OPEN", (Browse(),)),
@@ -112,13 +113,10 @@ def _first(page: ProgramPage, session: Session) -> Softkeys:
 
 
 def _second(page: ProgramPage, session: Session) -> Softkeys:
-    at, program, last = session.where.block, session.program, len(session.program.blocks)
-    up, down = max(at - 1, 1), min(at + 1, last)
+    at, program = session.where.block, session.program
     return {
-        1: Softkey("MOVE BLOCK UP", (Edit(move_block(program, at, up), f"MOVE BLOCK {at} UP"), Move(Where(up)))),
-        2: Softkey(
-            "MOVE BLOCK DOWN", (Edit(move_block(program, at, down), f"MOVE BLOCK {at} DOWN"), Move(Where(down)))
-        ),
+        1: Softkey("MOVE BLOCK UP", _moved(program, at, at - 1, "UP")),
+        2: Softkey("MOVE BLOCK DOWN", _moved(program, at, at + 1, "DOWN")),
         3: Softkey("SAVE AS", (Open(partial(doors.save_as, session)),)),
         4: Softkey("PROGRAM PARAMETERS", (Open(doors.parameters),)),
         5: Softkey("PART SETUP", (Open(doors.setup),)),
@@ -126,6 +124,12 @@ def _second(page: ProgramPage, session: Session) -> Softkeys:
         7: Softkey("MORE", (Swap(replace(page, set=2)),)),
         8: Softkey("EXIT", (Leave(),)),
     }
+
+
+def _moved(program: Program, at: int, to: int, way: str) -> tuple[Message, ...]:
+    if not 1 <= to <= len(program.blocks):
+        return (Say(f"Block {at} is the {'first' if to < 1 else 'last'} one: it cannot move {way.lower()}."),)
+    return (Edit(move_block(program, at, to), f"MOVE BLOCK {at} {way}"), Move(Where(to)))
 
 
 def _third(page: ProgramPage, session: Session) -> Softkeys:

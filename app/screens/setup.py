@@ -45,6 +45,10 @@ class SetupPage(FormPage):
         value = text.strip() if one.kind is Kind.TEXT else read(text, one, session.program.unit)
         return Edit(set_setup(session.program, one.name, value), one.label)
 
+    def escape(self, session: Session) -> Answer | None:
+        """The half-typed text forgotten, else back."""
+        return FormPage.escape(self, session) or Answer(self, (Close(),))
+
     def softkeys(self, session: Session) -> Softkeys:
         """Only the way back."""
         return {8: Softkey("EXIT", (Close(),))}

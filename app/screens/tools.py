@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Final
 
-from app.messages import Close, Edit, Message, Open
+from app.messages import Close, Edit, Message, Open, Say
 from app.screens.forms import FormPage, shown_text
 from app.screens.import_tools import ImportPage
 from app.screens.page import Answer, Softkey, Softkeys, Surface, View
@@ -80,13 +80,17 @@ class ToolsPage(FormPage):
         """A diameter is tried out; another number would move the row that is being typed in."""
         return FormPage.preview(self, session) if self.name == "diameter" else None
 
+    def escape(self, session: Session) -> Answer | None:
+        """The half-typed text forgotten, else back."""
+        return FormPage.escape(self, session) or Answer(self, (Close(),))
+
     def softkeys(self, session: Session) -> Softkeys:
         """Rows out and in."""
         tool = self.tool(session)
         keys = {2: Softkey("ADD TOOL", (Edit(set_tool(session.program, _next(session.program)), "ADD TOOL"),))}
         if tool is not None:
             gone = Edit(delete_tool(session.program, tool.number), f"DELETE TOOL {tool.number}")
-            keys[1] = Softkey("DELETE TOOL", (gone,))
+            keys[1] = Softkey("DELETE TOOL", (gone, Say(f"Deleted tool {tool.number}. Ctrl+Z brings it back.")))
         return {**keys, 3: Softkey("IMPORT TABLE", (Open(ImportPage.of(session)),)), 8: Softkey("EXIT", (Close(),))}
 
     def softkeyed(self, session: Session, number: int, messages: tuple[Message, ...]) -> Answer:

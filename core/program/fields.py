@@ -96,7 +96,7 @@ START: Final = (
         "cutter_comp",
         "CUTTER COMP.",
         Kind.CHOICE,
-        "Select the side of the contour on which the tool runs, as seen along the travel.",
+        "Select the side of the contour the tool runs on, seen along travel.",
         choices=tuple(comp.value for comp in CutterComp),
     ),
     _count("finish_tool", "FINISH TOOL", "Enter the number of the tool for the finish pass, or 0 for none.", 0, 9999),

@@ -68,5 +68,5 @@ def _depths(known: dict[str, float]) -> tuple[Finding, ...]:
 def _empty(block: Block) -> tuple[Finding, ...]:
     if block.segments:
         return ()
-    text = "The contour has no segment yet: add a LINE or an ARC after START."
+    text = "The contour has no segment yet: right arrow or Page Down on SEGMENT adds a LINE or an ARC."
     return (Finding("NO_SEGMENTS", Severity.ERROR, text, 0),)

@@ -1,0 +1,79 @@
+"""What an operator is told and led to: choices, the first segment, deletions, the way back."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.screens.contour import Contour
+from app.screens.new_segment import NewSegment
+from app.screens.program import ProgramPage
+from app.session import SEGMENT
+from core.program.edit import Where
+from tests.app.operator import Operator
+from tests.app.test_contour import square
+
+
+def test_a_choice_names_its_choices() -> None:
+    said = Operator.at().press("tab", "tab").said
+    assert said.endswith("Space steps, letters spell: ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT.")
+    assert Operator.at().press("f4").said.endswith("Space steps, letters spell: IN, MM.")
+
+
+def test_the_path_parameter_names_its_choices() -> None:
+    assert Operator.at().press("f4", "up").said.endswith("Space steps, letters spell: CONTROL, BEST.")
+
+
+def test_enter_on_the_last_field_of_start_leads_to_the_first_segment() -> None:
+    operator = Operator.at().press("tab", "up", "up")
+    assert operator.session.field == "peck_depth"
+    assert isinstance(operator.press("enter").desk.page, NewSegment)
+
+
+def test_enter_on_the_last_field_of_start_goes_round_where_there_are_segments() -> None:
+    operator = square().press("up", "enter")
+    assert operator.session.field == SEGMENT
+    assert isinstance(operator.desk.page, Contour)
+
+
+def test_segment_says_how_the_first_segment_is_made() -> None:
+    assert "right arrow or Page Down for the first segment" in Operator.at().said
+
+
+@pytest.mark.parametrize("text", ["-1", "abc", "1.5", "²"])
+def test_what_is_no_segment_number_is_told_and_opens_nothing(text: str) -> None:
+    operator = square().type(text)
+    assert operator.session.where == Where(1, 0)
+    assert operator.session.field == SEGMENT
+    assert f"{text} is no segment number" in operator.said
+
+
+def test_deleting_says_how_to_get_it_back() -> None:
+    operator = square().press("ctrl+end", "f1")
+    assert "Deleted segment 4. Ctrl+Z brings it back." in operator.said
+    assert "Deleted tool 1. Ctrl+Z brings it back." in operator.press("ctrl+home", "f6", "f1").said
+    operator.press("escape", "f8", "f3", "f1")
+    assert operator.said == "Deleted block 2. Ctrl+Z brings it back."
+
+
+def test_a_refused_deletion_says_nothing_of_the_kind() -> None:
+    assert "Deleted" not in square().press("f1").said
+    assert "Deleted" not in square().press("f8", "f1").said
+
+
+def test_a_block_at_the_end_of_the_list_stays_and_says_so() -> None:
+    operator = square().press("f8", "f7", "f1")
+    assert operator.said == "Block 1 is the first one: it cannot move up."
+    assert operator.press("f2").said == "Block 1 is the last one: it cannot move down."
+
+
+@pytest.mark.parametrize("softkey", ["f4", "f5", "f6"])
+def test_escape_first_forgets_the_text_then_leaves(softkey: str) -> None:
+    operator = Operator.at().press("f8", "f7", softkey)
+    field = ("down",) if softkey == "f4" else ()
+    operator.press(*field, "7", "escape")
+    assert not isinstance(operator.desk.page, ProgramPage)
+    assert isinstance(operator.press("escape").desk.page, ProgramPage)
+
+
+def test_the_drawing_names_the_kind_of_the_segment() -> None:
+    assert "SEGMENT     3   LINE" in square().press("3", "enter", "f7").part("header")
