@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from core.geometry.path import EMPTY
 from core.output.job import Cutter, Floor, Job, Run
 from core.pipeline.cut import parameter
@@ -10,7 +12,7 @@ from core.program.fields import default
 from core.program.model import Entry, Program, Typed
 from core.program.solved import SolvedBlock
 from core.program.tools import find
-from core.units import to_mm
+from core.units import Kind, Unit, from_mm, show, to_mm
 
 
 def jobs(derived: Derived) -> tuple[Job, ...]:
@@ -44,7 +46,23 @@ def job(found: DerivedBlock, program: Program) -> Job:
         work_offset=int(_setup(program, "work_offset")),
         lookahead="" if found.side is None else tag,
         findings=found.findings,
+        notes=tuple(_notes(found, program.unit)),
     )
+
+
+def _notes(found: DerivedBlock, unit: Unit) -> Iterator[str]:
+    """What whoever runs the file should know of the part: segments that are not cut, and surface that stays."""
+    work = found.work
+    if work is None or work.compensated is None or work.verdict is None:
+        return
+    if work.best is not None:
+        yield "PATH BEST: THE TRUE OFFSET, NOT THE CONTROL'S"
+    elif len(work.compensated.deleted):
+        numbers = dict.fromkeys(work.compensated.deleted.segments.tolist())
+        yield "DELETED BY THE LOOK-AHEAD: SEGMENT " + " ".join(f"{number:g}" for number in numbers)
+    if work.verdict.uncut:
+        left, whole = (from_mm(length, unit) for length in (work.verdict.uncut_length, work.verdict.surface_length))
+        yield f"UNCUT {show(left, Kind.LENGTH, unit)} OF {show(whole, Kind.LENGTH, unit)}"
 
 
 def _whole(typed: Typed) -> int:

@@ -102,3 +102,9 @@ def test_a_drawing_of_a_block_that_is_not_determined_yet():
     (found,) = derive(part).blocks
     assert block_scene(found, 0, Unit.IN).layers == ()
     assert svg_of(derive(part), title="empty").startswith("<")
+
+
+def test_the_posted_header_tells_what_is_deleted_and_what_stays():
+    (job,) = jobs(derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3)))))
+    assert job.notes[0] == "DELETED BY THE LOOK-AHEAD: SEGMENT 2 3 4"
+    assert job.notes[1].startswith("UNCUT 0.9")
