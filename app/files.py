@@ -45,12 +45,15 @@ def opened(path: Path) -> Session:
     return replace(session, guard=replace(session.guard, stamp=stamp))
 
 
-def is_nc(path: Path) -> bool:
-    """Whether an existing file is none of our own programs, which are TOML with a format."""
-    if path.suffix.lower() == ".toml" or not path.is_file():
-        return False
+def is_program(path: Path) -> bool:
+    """Whether a file may be one of our own programs; one that cannot be read may be."""
     try:
         with path.open("rb") as file:
-            return _PROGRAM.search(file.read(4096)) is None
+            return _PROGRAM.search(file.read(4096)) is not None
     except OSError:
-        return False
+        return True
+
+
+def is_nc(path: Path) -> bool:
+    """Whether an existing file is none of our own programs, which are TOML with a format."""
+    return path.suffix.lower() != ".toml" and path.is_file() and not is_program(path)

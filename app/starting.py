@@ -52,8 +52,9 @@ def walk(folder: Path) -> Callable[[Desk], Desk]:
             entries = _entries(desk.settings, folder)
         except OSError as error:
             return desk.take(Say(f"{folder} cannot be shown: {error.strerror or error}.", Tone.ERROR))
-        back = (row for row, entry in enumerate(entries) if entry.group is Group.FOLDER and entry.path == page.folder)
-        there = next((row for row, entry in enumerate(entries) if entry.group is Group.FOLDER), 0)
+        inside = [row for row, entry in enumerate(entries) if entry.group is Group.FOLDER]
+        back = (row for row in inside[1:] if entries[row].path == page.folder)
+        there = next((row for row in inside if not entries[row].folder), inside[0])
         page = replace(page, folder=folder, entries=entries, row=next(back, there), unseen=_files(entries))
         settings = replace(desk.settings, folder=str(folder)) if str(folder).isprintable() else desk.settings
         return replace(desk, pages=(*desk.pages[:-1], page), settings=settings)
@@ -116,7 +117,7 @@ def _inside(folder: Path) -> Iterator[Entry]:
     yield Entry(Group.FOLDER, folder.parent, "..", folder=True)
     programs = [one for one in inside if one.name.endswith(".toml") and not one.is_dir()]
     folders = [one for one in inside if not one.name.startswith(".") and one.is_dir()]
-    for one in programs[:SHOWN]:
+    for one in [one for one in programs[:SHOWN] if files.is_program(Path(one.path))]:
         yield Entry(Group.FOLDER, Path(one.path), one.name.removesuffix(".toml"))
     for one in folders[:SHOWN]:
         yield Entry(Group.FOLDER, Path(one.path), one.name, folder=True)

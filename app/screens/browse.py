@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar
 
+from app.files import is_program
 from app.messages import Browse, Close, Load, Message
 from app.screens.entry import EntryPage, entry_row
 from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
@@ -83,9 +84,13 @@ def _item(item: Item, *, on_it: bool) -> Row:
     return (Span(" > " if on_it else "   ", Look.TAG), Span(text, Look.CURSOR if on_it else Look.TYPED))
 
 
+def _is_program(path: Path) -> bool:
+    return path.suffix == ".toml" and path.is_file() and is_program(path)
+
+
 def listed(folder: Path) -> tuple[Item, ...]:
     """The folder above, the programs and the folders in a folder, each in order of names; OSError if it has none."""
     inside = sorted(folder.iterdir(), key=lambda path: path.name.lower())
     folders = [Item(path, path.name, folder=True) for path in inside if not path.name.startswith(".") and path.is_dir()]
-    programs = [Item(path, path.name, folder=False) for path in inside if path.suffix == ".toml" and path.is_file()]
+    programs = [Item(path, path.name, folder=False) for path in inside if _is_program(path)]
     return (Item(folder.parent, "..", folder=True), *programs, *folders)

@@ -141,11 +141,14 @@ Choice = TypeVar("Choice", bound=StrEnum)
 def read_program(text: str, file: str) -> Program:
     """The program of a file's text; StoreError names `file`, line and key."""
     top = _Table(file, partial(key_lines, text), (), _parsed(text, file), Unit.IN)
+    if "format" not in top.data:
+        raise top.fault(
+            "format", f"format is missing, so this is no cutcomp program: those begin with format = {FORMAT}."
+        )
     top.only(("format", "units", "parameters", "setup", "tool", "block"))
     version = top.data.get("format")
     if isinstance(version, bool) or version != FORMAT:
-        what = "is missing" if version is None else f"cannot be {printable(str(version))}"
-        raise top.fault("format", f"format {what}: this program reads format = {FORMAT}.")
+        raise top.fault("format", f"format cannot be {printable(str(version))}: this program reads format = {FORMAT}.")
     top = _Table(file, top.lines, (), top.data, top.chosen("units", Unit))
     return Program(
         top.unit,

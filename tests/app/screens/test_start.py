@@ -10,8 +10,9 @@ import pytest
 
 from app.desk import Desk
 from app.files import empty_program, example
+from app.screens.browse import listed
 from app.screens.contour import Contour
-from app.screens.start import StartPage
+from app.screens.start import Entry, Group, StartPage
 from app.session import Session
 from app.settings import Settings, taken_up
 from app.starting import begun, first_folder
@@ -44,7 +45,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for name in ("notch", "plate-mm"):
         save(load(example(name)), tmp_path / f"{name}.toml")
         os.utime(tmp_path / f"{name}.toml", (1e9, 1e9))
-    (tmp_path / "other.toml").write_text("x = 1")
+    (tmp_path / "other.toml").write_text("format = 1\nx = 1")
     (tmp_path / "sub").mkdir()
     monkeypatch.chdir(tmp_path)
     return tmp_path
@@ -169,3 +170,41 @@ def test_a_known_file_is_not_derived_again_until_it_changes(folder: Path) -> Non
 
 def test_facts_of_a_screen_that_is_gone_are_dropped() -> None:
     assert StartPage().knowing(Facts(Path("a"))).unseen == ()
+
+
+def test_toml_files_that_are_no_programs_are_not_listed(folder: Path) -> None:
+    (folder / "pyproject.toml").write_text("[project]\nname = 'x'\n")
+    assert "pyproject" not in {entry.name for entry in page(at_start()).entries}
+    assert "pyproject.toml" not in {item.name for item in listed(folder)}
+    assert "notch.toml" in {item.name for item in listed(folder)}
+
+
+def test_opening_one_says_what_it_is_and_advises_nothing(folder: Path) -> None:
+    (folder / "pyproject.toml").write_text("[project]\nname = 'x'\n")
+    operator = at_start().press("f4").type("pyproject.toml")
+    said = operator.session.said
+    assert said is not None
+    assert "no cutcomp program" in said.text
+    assert "remove" not in said.text
+
+
+def test_the_cursor_starts_on_a_program(folder: Path) -> None:
+    assert page(at_start()).entry == Entry(Group.FOLDER, folder / "notch.toml", "notch")
+    assert page(at_start().press("s", "enter", "left", "home")).row == 0
+
+
+def test_without_programs_here_the_cursor_starts_on_the_first_example(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "pyproject.toml").write_text("[project]\n")
+    monkeypatch.chdir(tmp_path)
+    entry = page(at_start()).entry
+    assert entry is not None
+    assert entry.group is Group.EXAMPLE
+
+
+def test_walking_into_a_folder_goes_to_its_first_program(folder: Path) -> None:
+    save(load(example("notch")), folder / "sub" / "part.toml")
+    entry = page(at_start().press("s", "enter")).entry
+    assert entry is not None
+    assert entry.name == "part"
