@@ -117,14 +117,14 @@ class Session:
         label = self.history.undo_label
         if label is None:
             return self.saying("There is nothing to undo.")
-        return self._with(self.history.undo()).saying(f"Undone: {label}. Ctrl+Y brings it back.")
+        return self._back(self.history.undo()).saying(f"Undone: {label}. Ctrl+Y brings it back.")
 
     def redo(self) -> Session:
         """One undone edit made again, saying which."""
         label = self.history.redo_label
         if label is None:
             return self.saying("There is nothing to redo.")
-        return self._with(self.history.redo()).saying(f"Done again: {label}.")
+        return self._back(self.history.redo()).saying(f"Done again: {label}.")
 
     def at(self, where: Where, field: str = SEGMENT) -> Session:
         """The cursor moved; a place that does not exist becomes the nearest one that does."""
@@ -143,6 +143,14 @@ class Session:
     def trying(self, derived: Derived) -> Session:
         """The session as it would be with another program; for showing only."""
         return replace(self, history=replace(self.history, program=derived.program), derived=derived)
+
+    def _back(self, history: History) -> Session:
+        """The history with the cursor on what it changed."""
+        from app.changes import changed
+
+        place = changed(self.program, history.program)
+        there = self._with(history)
+        return there if place is None else there.at(place[0], place[1] or SEGMENT)
 
     def _with(self, history: History) -> Session:
         where = _nearest(history.program, self.where)
