@@ -29,7 +29,7 @@ from app.messages import (
 )
 from app.screens import doors
 from app.screens.contour import Contour
-from app.screens.page import Answer, Page
+from app.screens.page import Answer, Layout, Page
 from app.screens.program import ProgramPage
 from app.session import Session
 from app.settings import Settings
@@ -37,7 +37,9 @@ from core.pipeline.derived import Derived
 from core.program.edit import Refused
 
 FUNCTION_KEYS: Final = {f"f{number}": number for number in range(1, 9)}
-EVERYWHERE: Final = frozenset({"ctrl+z", "ctrl+y", "ctrl+s", "ctrl+o", "ctrl+q", "ctrl+c", "ctrl+k", "ctrl+g"})
+EVERYWHERE: Final = frozenset(
+    {"ctrl+z", "ctrl+y", "ctrl+s", "ctrl+o", "ctrl+q", "ctrl+c", "ctrl+k", "ctrl+g", "ctrl+f"}
+)
 MODES: Final = ("braille", "block", "ascii")
 """The sets of characters of the drawing, as `core.draw.mode.Mode` names them."""
 ONE_MODE: Final = (
@@ -209,10 +211,18 @@ class Desk:
                 return self._settled(Leave())
             case "ctrl+k":
                 return replace(self, armed=True).take(Say("Now 1 to 8 is the softkey F1 to F8."))
+            case "ctrl+f":
+                return self._findings()
             case "ctrl+g":
                 return self._helped()
             case _:
                 return self.take(Say("F8 goes back, Ctrl+Q leaves the program."))
+
+    def _findings(self) -> Desk:
+        """FINDINGS on top, where the screen is about a block."""
+        if self.page.layout in (Layout.FORM, Layout.TABLE, Layout.DRAW):
+            return self._settled(Open(doors.findings))
+        return self.take(Say("Ctrl+F shows the findings of a block: from its form."))
 
     def _helped(self) -> Desk:
         return self.take(Open(doors.keys_and_help(self.page.help(self.session))))

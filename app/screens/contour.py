@@ -15,7 +15,8 @@ from app.widgets.field import press
 from app.widgets.form import cursor_line, form_rows
 from app.widgets.header import block_line, header, segment_line
 from app.widgets.rows import Row
-from core.finding import Severity
+from app.widgets.verdict import NOT_YET
+from core.finding import Finding, Severity
 from core.program.edit import Where, choose, read, type_field
 from core.program.fields import SEGMENT_PROMPT, Field
 from core.program.solved import Value
@@ -147,11 +148,16 @@ class Contour(FormPage):
 
 def _trouble(session: Session, one: Field) -> Said | None:
     """An error that names this field; warnings stand with the verdict, so that the prompt stays."""
-    for finding in session.found.findings:
+    for finding in session.found.findings if session.block.segments else _unmissed(session):
         here = int(finding.segment or 0) == session.where.segment
         if finding.field == one.name and here and finding.severity is Severity.ERROR:
             return Said(sentence(finding, session.program.unit), Tone.ERROR)
     return None
+
+
+def _unmissed(session: Session) -> list[Finding]:
+    """What is to be said of a START without segments: not yet that it is incomplete."""
+    return [one for one in session.found.findings if one.code not in NOT_YET]
 
 
 def _leads_on(session: Session) -> bool:

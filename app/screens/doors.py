@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from app.screens.draw import DrawPage
+    from app.screens.findings import FindingsPage
     from app.screens.help import HelpPage
     from app.screens.lookahead import LookaheadTable
     from app.screens.new_segment import NewSegment
@@ -23,6 +24,13 @@ def draw() -> DrawPage:
     from app.screens.draw import DrawPage
 
     return DrawPage()
+
+
+def findings() -> FindingsPage:
+    """FINDINGS."""
+    from app.screens.findings import FindingsPage
+
+    return FindingsPage()
 
 
 def keys_and_help(about: tuple[str, ...]) -> HelpPage:

@@ -8,7 +8,7 @@ from app.screens.page import Surface
 from app.screens.text import TextPage, paragraph
 from app.session import Session
 from app.widgets.rows import Row, plain, text_of
-from app.widgets.verdict import verdict_rows
+from app.widgets.verdict import deepest_gouge, verdict_rows
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -22,6 +22,7 @@ class FindingsPage(TextPage):
     def lines(self, session: Session, surface: Surface) -> tuple[Row, ...]:
         """The strip, then every finding."""
         rows = verdict_rows(session.found, surface.table, session.program.unit, None)
+        rows[2:2] = deepest_gouge(session.found, session.program.unit)
         told = [one for row in rows[1:] for one in _wrapped(row, surface.width)]
         return (rows[0], (), *(told or [plain(" Nothing to report.")]))
 

@@ -18,6 +18,7 @@ KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Del, Backspace", "empty the field; Enter makes it blank"),
     ("Page Up, Down", "segment before, next or new segment"),
     ("Ctrl+Home, End", "START, the last segment"),
+    ("Ctrl+F", "every finding of the block in full"),
     ("Ctrl+Z, Ctrl+Y", "undo, redo"),
     ("Ctrl+S, Ctrl+O", "save, open"),
     ("Ctrl+Q", "leave the program"),

@@ -180,6 +180,8 @@ class Page:
 
 def unseen(page: Page, key: str) -> Answer | None:
     """Undo and redo in a dialog, which hides what they would change: only told."""
+    if key == "ctrl+f":
+        return Answer(page, (Say("Esc leaves this question first, then Ctrl+F shows the findings."),))
     if key not in ("ctrl+z", "ctrl+y"):
         return None
     return Answer(page, (Say("Esc leaves this question first, then Ctrl+Z and Ctrl+Y act on the program."),))

@@ -15,7 +15,7 @@ from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, plain
-from app.widgets.words import number
+from app.widgets.words import length, number, numbers
 from core.finding import Finding
 from core.units import Unit, sentence
 
@@ -98,7 +98,8 @@ class PostPage(EntryPage):
             )
         elif against:
             said = Said("Enter the name of the NC file. The findings stand against posting.", Tone.WARNING)
-        body = ((), *rows, (), *_against(against, session.program.unit, surface.width))
+        told = _against(against, session.program.unit, surface.width)
+        body = ((), *rows, (), *_unsaved(session), *_left(session), *told)
         return View(header("POST NC", plain(""), session, surface.width), body, said, 1)
 
     def _chosen(self) -> tuple[Row, ...]:
@@ -115,6 +116,24 @@ class PostPage(EntryPage):
 def errors(session: Session) -> tuple[tuple[int, Finding], ...]:
     """Block and finding of everything that stands against posting."""
     return tuple((found.number, finding) for found in session.derived.blocks for finding in found.errors)
+
+
+def _unsaved(session: Session) -> tuple[Row, ...]:
+    return (plain(" The program is not saved: Esc, then Ctrl+S.", Look.WARNING),) if session.unsaved else ()
+
+
+def _left(session: Session) -> tuple[Row, ...]:
+    """One line on what the cutters leave uncut, one on the segments they delete."""
+    unit, uncut, deleted = session.program.unit, list[str](), list[str]()
+    for found in session.derived.blocks:
+        work, where = found.work, f"block {found.number}"
+        if work is not None and work.verdict is not None and work.verdict.uncut:
+            uncut.append(f"{where} {length(work.verdict.uncut_length, unit)}")
+        if work is not None and work.compensated is not None and work.best is None:
+            erased = numbers(work.compensated.deleted.segments.tolist())
+            deleted += [f"{where} segments {erased}"] if erased else []
+    told = (("UNCUT", uncut), ("DELETED", deleted))
+    return tuple(plain(f" {word:<8}{', '.join(texts)}", Look.WARNING) for word, texts in told if texts)
 
 
 def _against(against: tuple[tuple[int, Finding], ...], unit: Unit, width: int) -> tuple[Row, ...]:

@@ -27,6 +27,12 @@ STRIP: Final = 59
 """Cells of the strip: it stands above the form's drawing."""
 
 
+NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
+"""Errors that only say that a block is still to be typed."""
+READ_ON: Final = ": Ctrl+F"
+"""The key that shows every finding in full, behind how many more there are."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Case:
     """The path the verdict is about: the block's own, or that of a look-ahead value of the table.
@@ -41,7 +47,9 @@ class Case:
 def verdict_rows(found: DerivedBlock, table: Table | None, unit: Unit, look: int | None) -> list[Row]:
     """All lines of the verdict; `look` is a look-ahead value to judge instead of the one in force."""
     case = _case(found, table, look)
-    first = _strip(found, table)
+    first = _strip(found, table, unit)
+    if hint := _beginning(found):
+        return [first, plain(f" {hint}", Look.LABEL)]
     if look is not None and case is not None:
         return [first, *_case_lines(case, unit)]
     findings = _untold(found.findings, case)
@@ -51,6 +59,18 @@ def verdict_rows(found: DerivedBlock, table: Table | None, unit: Unit, look: int
     notes = [] if table is None else [_sentence(one, unit) for one in table.notes]
     gravest = 1 if case is not None and case.verdict.gouges else 0
     return [first, *lines[:gravest], *errors, *lines[gravest:], *notes, *rest]
+
+
+def _beginning(found: DerivedBlock) -> str:
+    """What to do in a block without segments; a text that cannot be read is an error even there."""
+    begun = bool(found.block.segments) or any(one.code not in NOT_YET for one in found.errors)
+    return "" if begun else "Type START, then right arrow for the first segment."
+
+
+def deepest_gouge(found: DerivedBlock, unit: Unit) -> list[Row]:
+    """The deepest gouge's finding in full, which the verdict's own line tells in short."""
+    told = _untold(found.findings, _case(found, None, None))
+    return [_sentence(one, unit) for one in found.findings if one not in told]
 
 
 def _untold(findings: tuple[Finding, ...], case: Case | None) -> list[Finding]:
@@ -67,7 +87,7 @@ def fitted(rows: list[Row], height: int, width: int) -> tuple[Row, ...]:
             return tuple(wrapped)
     kept = [_cut(row, width) for row in rows[: max(height, 0)]]
     if kept and len(rows) > height:
-        more = f" +{len(rows) - height} more"
+        more = f" +{len(rows) - height} more{READ_ON}"
         kept[-1] = (*padded(_cut(kept[-1], width - len(more) - 1), width - len(more) - 1), Span(more, Look.LABEL))
     return tuple(kept)
 
@@ -134,7 +154,7 @@ def _deleted(compensated: Compensated | None, unit: Unit) -> Iterator[Row]:
             yield (Span(" DELETED ", Look.LABEL), Span(f"{erased}  {by}", Look.WARNING))
 
 
-def _strip(found: DerivedBlock, table: Table | None) -> Row:
+def _strip(found: DerivedBlock, table: Table | None, unit: Unit) -> Row:
     if found.side is None:
         return plain(" CUTTER COMP. ON: the tool's centre runs on the contour.", Look.LABEL)
     if table is None:
@@ -145,6 +165,8 @@ def _strip(found: DerivedBlock, table: Table | None) -> Row:
         spans.append(_run(first, last, mark, here=first == here == last))
     advice = _advice(table, here)
     left = STRIP - sum(len(span.text) for span in spans)
+    if (price := _price(table, here, unit)) and left >= len(advice) + len(price) + 4:
+        advice = f"{advice} {price}"
     if left < len(advice) + 2:
         spans = _shortened(spans, STRIP - len(advice) - 6)
     return (*spans, Span(f"   {advice}", Look.LABEL))
@@ -177,6 +199,18 @@ def _advice(table: Table, here: int) -> str:
     if table.recommended is None:
         return "none is clean"
     return "this is best" if table.recommended == here else f"best {table.recommended}"
+
+
+def _price(table: Table, here: int, unit: Unit) -> str:
+    """What the recommended value costs: surface it leaves beyond that of the one in force, segments it deletes."""
+    if table.recommended is None or table.recommended == here:
+        return ""
+    best, held = table.row(table.recommended), table.row(here)
+    left = length(best.uncut, unit)
+    if best.uncut > held.uncut and left != length(held.uncut, unit):
+        return f"(uncut {left})"
+    erased = numbers(best.deleted)
+    return f"(deletes {erased})" if erased else ""
 
 
 def _shortened(spans: list[Span], room: int) -> list[Span]:

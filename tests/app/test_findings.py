@@ -1,0 +1,87 @@
+"""What is told of a block: calm while it is begun, all of it by one key, what is left before it is posted."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.desk import Desk
+from app.files import example
+from app.screens.contour import Contour
+from app.screens.findings import FindingsPage
+from app.session import Session
+from app.widgets.rows import plain, text_of
+from app.widgets.verdict import fitted, verdict_rows
+from core.pipeline.derive import derive
+from core.pipeline.outline import outline
+from core.pipeline.table import look_ahead_table
+from core.program.store import load
+from tests.app.operator import Operator
+
+
+def derived(name: str) -> Operator:
+    """An example with everything that follows from it."""
+    program = load(example(name))
+    session = Session.of(program).knowing(derive(program, outline(program)))
+    return Operator(Desk(session))
+
+
+def verdict(operator: Operator) -> list[str]:
+    found, program = operator.session.found, operator.session.program
+    table = look_ahead_table(found, program)
+    return [text_of(row) for row in verdict_rows(found, table, program.unit, None)]
+
+
+def test_a_block_without_segments_begins_with_a_hint() -> None:
+    operator = Operator.at()
+    assert verdict(operator)[1:] == [" Type START, then right arrow for the first segment."]
+    assert "!!" not in "\n".join(operator.press("tab", "down", "down", "down").screen())
+    assert "!! block 1" in operator.press("f8", "f6").part("body")
+
+
+def test_what_cannot_be_read_is_an_error_even_there() -> None:
+    operator = Operator.at().press("tab", "down", "down", "down").type("1..5")
+    assert any("!!" in line for line in verdict(operator))
+
+
+@pytest.mark.parametrize("keys", [(), ("tab",), ("f4",), ("f5",), ("f6",), ("f8",)])
+def test_one_key_shows_the_findings_from_every_form(keys: tuple[str, ...]) -> None:
+    operator = derived("notch").press(*keys, "ctrl+f")
+    assert isinstance(operator.desk.page, FindingsPage)
+    assert not isinstance(operator.press("escape").desk.page, FindingsPage)
+
+
+def test_that_key_opens_it_once_and_not_behind_a_dialog() -> None:
+    assert isinstance(derived("notch").press("ctrl+f", "ctrl+f", "escape").desk.page, Contour)
+    assert "Esc leaves this question" in derived("notch").press("f8", "f6", "ctrl+f").said
+
+
+def test_how_many_more_names_the_key() -> None:
+    rows = fitted([plain(f" line {one}") for one in range(5)], 3, 59)
+    assert text_of(rows[-1]).endswith(" +2 more: Ctrl+F")
+
+
+def test_the_strip_tells_what_the_best_value_costs() -> None:
+    assert verdict(derived("overrun-square"))[0].endswith("best 3 (uncut 8.5000)")
+    assert verdict(derived("pocket"))[0].endswith("best 2 (deletes 9)")
+    assert verdict(derived("flange"))[0].endswith("best 1")
+
+
+def test_every_gouge_is_told_in_full() -> None:
+    operator = derived("overrun-square")
+    operator.press("ctrl+f")
+    work = operator.session.found.work
+    assert work is not None
+    assert work.verdict is not None
+    body = operator.part("body", 132, 60)
+    assert len(work.verdict.gouges) == 2
+    assert body.count("gouges segment") == 2
+
+
+def test_the_dialog_says_what_is_left_and_what_is_not_saved() -> None:
+    operator = derived("overrun-square").press("f8", "f6")
+    assert "not saved" not in operator.part("body")
+    told = derived("pocket").press("f8", "f6").part("body")
+    assert " UNCUT   block 1 1.9367" in told
+    assert " DELETED block 1 segments 9" in told
+    edited = Operator.at().press("tab").type("2").press("f8", "f6")
+    assert "The program is not saved: Esc, then Ctrl+S." in edited.part("body")
