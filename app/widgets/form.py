@@ -126,7 +126,8 @@ def _room(cell: Cell, place: Place, tag: int, editing: Editing | None) -> int:
     least = min(max(len(cell.text), 1), NUMBER, place.width - tag)
     if editing is not None:
         beside = max(beside, min(wanted, place.width - tag - 6))
-    return max(least, min(max(wanted, len(cell.text)), beside))
+    # on a terminal of a few cells there may be no room at all
+    return max(least, min(max(wanted, len(cell.text)), beside), 1)
 
 
 def _value(cell: Cell, room: int, editing: Editing | None, *, on_it: bool) -> Row:

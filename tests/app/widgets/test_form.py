@@ -62,3 +62,9 @@ def test_read_only_values_stand_in_brackets() -> None:
 
 def test_a_text_that_is_too_long_ends_in_an_ellipsis() -> None:
     assert line(Cell("x", "X END", "?" * 50, 0, 0, State.UNREAD, "ERR")).endswith("?…")
+
+
+@pytest.mark.parametrize("width", range(1, 12))
+def test_a_text_can_be_typed_where_there_is_no_room_for_it(width: int) -> None:
+    cell = Cell("radius", "RADIUS", "1.0000", 0, 0, State.TYPED, "CAL")
+    assert form_rows([cell], "radius", Editing.of("1.25"), width)
