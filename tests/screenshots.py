@@ -10,7 +10,7 @@ from tests.picture import save_picture
 from tests.terminal import running
 
 FOLDER = Path(__file__).parent.parent / "screenshots"
-DOWN, RIGHT, PAGE_DOWN, F4, F7 = b"\x1b[B", b"\x1b[C", b"\x1b[6~", b"\x1b4", b"\x1b7"
+F7 = b"\x1b7"
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Shot:
     environment: dict[str, str] = field(default_factory=dict)
 
 
-TO_LOOKAHEAD = (DOWN, *(b"\t",) * 9)
+TO_LOOKAHEAD = b"\t" * 11
 
 SHOTS = (
     Shot("start", "pocket"),
@@ -34,6 +34,14 @@ SHOTS = (
     Shot("draw", "pocket", (b"8\r", F7)),
     Shot("lookahead-table", "notch", (b"L",)),
     Shot("no-colour", "pocket", environment={"NO_COLOR": "1"}),
+    Shot(
+        "sixteen-colours",
+        "overrun-square",
+        (TO_LOOKAHEAD, b"4\r", b"\t" * 10, b"2..5\r"),
+        environment={"TERM": "xterm"},
+    ),
+    Shot("ascii", "notch", (b"2\r",), environment={"TERM": "vt100", "LC_ALL": "C"}),
+    Shot("widest", "pocket", (b"3\r\t",), size=(200, 60)),
 )
 
 
