@@ -28,7 +28,12 @@ FIRST_SEGMENT: Final = "Use ENTER to edit START, then right arrow or Page Down f
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Contour(FormPage):
-    """A block's form; the cursor is the session's own."""
+    """A block's form; the cursor is the session's own.
+
+    `added`: the segment was made by the last key.  An Enter that was meant for that key is not one for the field.
+    """
+
+    added: bool = False
 
     def fields(self, session: Session) -> tuple[Field, ...]:
         """The fields of START or of the segment."""
@@ -57,6 +62,21 @@ class Contour(FormPage):
         return Answer(self, (Edit(outcome, _label(one, session.where)),))
 
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """The first key behind a new segment, then any key."""
+        if not self.added:
+            return self._pressed(key, character, session)
+        if key == "enter" and (one := self.field(session)) is not None:
+            return Answer(replace(self, added=False), (Say(f"{one.label} is next: type it, or Enter again goes on."),))
+        return replace(self, added=False)._pressed(key, character, session)
+
+    def settle(self, session: Session) -> Answer:
+        """The half-typed text taken; a half-typed segment number is forgotten."""
+        page = replace(self, added=False)
+        if self.cursor(session) == SEGMENT:
+            return Answer(page._without_text())
+        return FormPage.settle(page, session)
+
+    def _pressed(self, key: str, character: str | None, session: Session) -> Answer | None:
         """Walking from segment to segment, then what the field under the cursor does."""
         if key in ("pageup", "pagedown"):
             return self._walked(session, WALK[key])
@@ -108,12 +128,6 @@ class Contour(FormPage):
             editing = press(self.editing, "", key, character)
             return Answer(replace(self, editing=editing if editing and editing.text else None))
         return None
-
-    def settle(self, session: Session) -> Answer:
-        """The half-typed text taken; a half-typed segment number is forgotten."""
-        if self.cursor(session) == SEGMENT:
-            return Answer(self._without_text())
-        return FormPage.settle(self, session)
 
     def softkeys(self, session: Session) -> Softkeys:
         """The softkeys of the field with the cursor."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
-from app.messages import Close, Edit, Message, Move
+from app.messages import Close, Edit, Message, Move, Swap
+from app.screens.contour import Contour
 from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View, unseen
 from app.session import Said, Session
 from app.widgets.header import block_line, header, segment_line
@@ -37,7 +38,8 @@ class NewSegment(Page):
         """The letters L, A, B choose; left goes back."""
         letters = [letter for letter, _, _, _ in KINDS]
         if character is not None and character.lower() in letters:
-            return Answer(self, self._added(session, letters.index(character.lower())))
+            added = self._added(session, letters.index(character.lower()))
+            return Answer(self, added if len(added) == 1 else (*added, Swap(Contour(added=True))))
         return Answer(self, (Close(),)) if key in ("left", "pageup", "backspace") else None
 
     def escape(self, session: Session) -> Answer | None:

@@ -284,7 +284,7 @@ def pocket() -> Operator:
             if text == "ccw":
                 operator.press("right", "enter")
             elif text == "cw":
-                operator.press("enter")
+                operator.press("enter", "enter")
             else:
                 operator.type(text)
         operator.press("pagedown")

@@ -38,7 +38,7 @@ def known(operator: Operator) -> Operator:
 
 def obey(operator: Operator) -> None:
     """Press what the guide says, and nothing else."""
-    operator.press("ctrl+f")
+    operator.press("ctrl+t")
     text = operator.said.removeprefix("GUIDE ").strip()
     if typed := re.search(r": type (\S+), then Enter", text):
         operator.press(*typed[1], "enter")

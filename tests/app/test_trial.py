@@ -77,3 +77,20 @@ def test_escape_first_forgets_the_text_then_leaves(softkey: str) -> None:
 
 def test_the_drawing_names_the_kind_of_the_segment() -> None:
     assert "SEGMENT     3   LINE" in square().press("3", "enter", "f7").part("header")
+
+
+@pytest.mark.parametrize(("letter", "field"), [("l", "x_end"), ("a", "direction"), ("b", "radius")])
+def test_an_enter_directly_behind_the_letter_skips_no_field(letter: str, field: str) -> None:
+    operator = square().press("3", "enter", "pageup", "right", "ctrl+end", "right", letter, "enter")
+    assert operator.session.field == field
+    assert "Enter again goes on" in operator.said
+    assert operator.press("enter").session.field != field
+
+
+def test_an_enter_behind_something_typed_goes_on() -> None:
+    operator = square().press("ctrl+end", "right", "l").type("2")
+    assert operator.session.field == "y_end"
+
+
+def test_enter_counts_after_any_other_key() -> None:
+    assert square().press("ctrl+end", "right", "l", "tab", "enter").session.field == "z_end"
