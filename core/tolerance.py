@@ -7,11 +7,14 @@ from typing import Final
 JOINED: Final = 1e-7
 """Are two points one point?  Offset ends this near are tangent: nothing is put between them."""
 
-CLOSED: Final = 0.00254
+ROUNDING: Final = 1e-7
+"""How much more than a limit may a difference of typed numbers be?  0.0001 in is the last digit of a form."""
+
+CLOSED: Final = 0.00254 + ROUNDING
 """Is a programmed contour closed?  Its last end is this near to START (0.0001 in)."""
 
-ARC_RADII: Final = 0.00254
-"""May an arc's radii at its start and its end differ so much?  Beyond it the arc is refused."""
+ARC_RADII: Final = 0.00254 + ROUNDING
+"""May an arc's radii at its start and its end differ so much (0.0001 in)?  Beyond it the arc is refused."""
 
 ON_PATH: Final = 1e-9
 """Does a computed point lie on a piece?  Slack at a piece's two ends, and for a touch between pieces."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import atan2, cos, hypot, sin, sqrt, tau
 
 from core.geometry.piece import SLIVER, Arc, Point, Turn
-from core.tolerance import ARC_RADII, ON_PATH
+from core.tolerance import ARC_RADII, JOINED, ON_PATH
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,13 +141,13 @@ def swept(start: Point, end: Point, centre: Point, turn: Turn) -> float:
 def settled(start: Point, end: Point, centre: Point, turn: Turn) -> Arc:
     """The exact arc nearest to ends and a centre that agree within `ARC_RADII`.
 
-    Ends that near are one point: a full circle.  Otherwise the centre moves onto the bisector of the ends; where
+    Ends that are one point make a full circle.  Otherwise the centre moves onto the bisector of the ends; where
     that would take it farther than `ARC_RADII`, on a chord short against the radius, the end moves onto the circle.
     """
     radius = hypot(start[0] - centre[0], start[1] - centre[1])
     out = hypot(end[0] - centre[0], end[1] - centre[1])
     chord = hypot(end[0] - start[0], end[1] - start[1])
-    if chord <= ARC_RADII:
+    if chord <= JOINED:
         return Arc(start, start, centre, turn)
     if abs(out - radius) <= ON_PATH:
         return Arc(start, end, centre, turn)

@@ -11,7 +11,7 @@ back to the plunge point, rapid down to the last depth there plus the peck clear
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import atan2, ceil, cos, sin
 
@@ -71,9 +71,20 @@ def _stages(job: Job) -> Iterator[_Stage]:
     rough_levels = levels(job.z_start, job.z_bottom + stock, job.peck_depth)
     yield _Stage(job.cutter, rough_runs(job), rough_levels, stock, finishing=False)
     if job.finisher is not None:
-        pecks = job.peck_depth if job.finisher.diameter < job.cutter.diameter else 0.0
+        pecks = job.peck_depth if job.finisher.diameter < job.cutter.diameter or meets_solid(job) else 0.0
         fine = levels(job.z_start, job.z_bottom, pecks)
         yield _Stage(job.finisher, job.finish, fine, 0.0, finishing=True)
+
+
+def meets_solid(job: Job) -> frozenset[int]:
+    """Segments that the finish tool cuts and no roughing run has been along: it finds solid material there."""
+    if job.finisher is None:
+        return frozenset()
+    return _segments(job.finish) - _segments(job.rough[-1:])
+
+
+def _segments(runs: Sequence[Run]) -> frozenset[int]:
+    return frozenset(int(number) for run in runs for number in run.path.numbers.tolist() if number == int(number))
 
 
 def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:

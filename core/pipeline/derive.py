@@ -8,8 +8,11 @@ from typing import Final
 from core.comp.best import best_path, separation
 from core.finding import Finding
 from core.geometry.path import EMPTY, Path
+from core.output.grid import Grid
+from core.output.ready import forbidding
 from core.pipeline.cut import Cut, parameter
 from core.pipeline.derived import Derived, DerivedBlock, Loop, RoughPass, Work
+from core.pipeline.jobs import job
 from core.pipeline.outline import outline_block
 from core.pipeline.trouble import better_findings, by_weight, path_findings, size_warning
 from core.program.model import Block, PathChoice, Program
@@ -49,16 +52,24 @@ def _former(number: int, block: Block, program: Program, before: Derived | None)
 
 def _worked(found: DerivedBlock, program: Program, surface: Path) -> DerivedBlock:
     if found.side is None:
-        return replace(found, work=Work(surface, (Loop(surface, EMPTY, EMPTY),), None, None), known=True)
+        bare = Work(surface, (Loop(surface, EMPTY, EMPTY),), None, None)
+        return _checked(replace(found, work=bare, known=True), program)
     assert found.radius is not None
-    job = Cut(surface, found.side, found.solved.closed, found.lookahead.value, program)
-    control = job.control(found.radius)
-    best = job.best(found.radius) if program.parameters.path is PathChoice.BEST else None
-    chosen = job.posted(control, found.radius, best)
+    cut = Cut(surface, found.side, found.solved.closed, found.lookahead.value, program)
+    control = cut.control(found.radius)
+    best = cut.best(found.radius) if program.parameters.path is PathChoice.BEST else None
+    chosen = cut.posted(control, found.radius, best)
     verdict = judge_together(surface, found.side, found.radius, [loop.whole for loop in chosen])
-    work = Work(surface, chosen, control, verdict, _rough(found, job), best)
+    work = Work(surface, chosen, control, verdict, _rough(found, cut), best)
     trouble = (*found.findings, *path_findings(work), *size_warning(found.radius, surface))
-    return replace(found, work=work, known=True, findings=by_weight(trouble))
+    return _checked(replace(found, work=work, known=True, findings=by_weight(trouble)), program)
+
+
+def _checked(found: DerivedBlock, program: Program) -> DerivedBlock:
+    """With what forbids posting though every path is right, such as a SPEED of 0."""
+    against = forbidding([job(found, program)], Grid(program.unit), override=None)
+    new = (one for one in against if one not in found.findings)
+    return replace(found, findings=by_weight((*found.findings, *new)))
 
 
 def compared(derived: Derived) -> Derived:
@@ -98,14 +109,14 @@ def stocks(found: DerivedBlock, program: Program) -> tuple[float, ...]:
     return (*widths, least) if finishing else tuple(widths)
 
 
-def _rough(found: DerivedBlock, job: Cut) -> tuple[RoughPass, ...]:
+def _rough(found: DerivedBlock, cut: Cut) -> tuple[RoughPass, ...]:
     if found.solved.tool_diameter is None:
         return ()
     cutter = found.solved.tool_diameter / 2
     passes = []
-    for stock in stocks(found, job.program):
-        control = job.control(cutter + stock)
-        loops = job.posted(control, cutter + stock)
-        verdict = judge_together(job.surface, job.side, cutter, [loop.whole for loop in loops])
+    for stock in stocks(found, cut.program):
+        control = cut.control(cutter + stock)
+        loops = cut.posted(control, cutter + stock)
+        verdict = judge_together(cut.surface, cut.side, cutter, [loop.whole for loop in loops])
         passes.append(RoughPass(stock, cutter, loops, control, verdict))
     return tuple(passes)

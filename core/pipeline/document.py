@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import isfinite
 from typing import Any
 
 from core.finding import Finding
@@ -28,10 +29,19 @@ def _block(found: DerivedBlock, unit: Unit) -> Document:
         "lookahead": {"value": found.lookahead.value, "tag": str(found.lookahead.tag)},
         "radius": None if found.radius is None else from_mm(found.radius, unit),
         "comp": str(found.block.cutter_comp),
+        "clearance": _clearance(found, unit),
         "moves": list(_block_moves(found, unit)),
         "deleted": _deleted(found, unit),
         "findings": [finding_document(finding, unit) for finding in found.findings],
     }
+
+
+def _clearance(found: DerivedBlock, unit: Unit) -> float | None:
+    """The smallest distance from the centre path to the surface, blends included; None where there is none."""
+    verdict = None if found.work is None else found.work.verdict
+    if verdict is None or not isfinite(verdict.clearance):
+        return None
+    return from_mm(verdict.clearance, unit)
 
 
 def _block_moves(found: DerivedBlock, unit: Unit) -> Iterator[Document]:
@@ -58,7 +68,7 @@ def _moves(path: Path, part: str, unit: Unit) -> Iterator[Document]:
 
 
 def _deleted(found: DerivedBlock, unit: Unit) -> list[Document]:
-    if found.work is None or found.work.compensated is None:
+    if found.work is None or found.work.compensated is None or found.work.best is not None:
         return []
     return [
         {

@@ -49,7 +49,7 @@ def outline_block(number: int, block: Block, program: Program) -> DerivedBlock:
 
 def look_ahead(block: Block, solved: SolvedBlock) -> LookAhead:
     """The look-ahead in force: the operator's value, or the calculated one."""
-    empty = sum(1 for segment in solved.segments[: solved.determined] if segment.piece is None)
+    empty = sum(any(one.code == "ZERO_LENGTH" for one in segment.findings) for segment in solved.segments)
     value = calculated(len(solved.segments) - empty, closed=solved.closed)
     match block.lookahead:
         case Entry(typed) if LOWEST <= typed <= HIGHEST:

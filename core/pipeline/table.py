@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from core.comp.advise import recommended
@@ -12,7 +13,7 @@ from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.side import Side
 from core.pipeline.cut import parameter
-from core.pipeline.derive import better
+from core.pipeline.derive import better, stocks
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
 from core.verify.judge import judge_all
@@ -26,16 +27,17 @@ class Row:
     value: int
     compensated: Compensated
     verdict: Verdict
+    rough: tuple[Verdict, ...] = ()
 
     @property
     def clean(self) -> bool:
-        """There is a path and it gouges nothing."""
-        return len(self.compensated.path) > 0 and self.verdict.clean
+        """There is a path, and neither it nor a roughing pass gouges anything."""
+        return len(self.compensated.path) > 0 and self.verdict.clean and all(one.clean for one in self.rough)
 
     @property
     def gouge(self) -> float:
-        """Depth of its deepest gouge, 0 for none."""
-        return self.verdict.depth
+        """Depth of the deepest gouge, roughing passes included, 0 for none."""
+        return max(one.depth for one in (self.verdict, *self.rough))
 
     @property
     def uncut(self) -> float:
@@ -63,7 +65,10 @@ class Table:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Cut:
-    """A contour and how it is to be cut; lengths in millimetres, `blend` and `overlap` 0 for none."""
+    """A contour and how it is to be cut; lengths in millimetres, `blend` and `overlap` 0 for none.
+
+    `stocks` are what the roughing passes leave, cut by a tool of radius `rougher`, of `radius` without a finish tool.
+    """
 
     surface: Path
     side: Side
@@ -71,6 +76,8 @@ class Cut:
     closed: bool
     blend: float
     overlap: float
+    stocks: tuple[float, ...] = ()
+    rougher: float | None = None
 
 
 def cut_of(found: DerivedBlock, program: Program) -> Cut | None:
@@ -84,6 +91,8 @@ def cut_of(found: DerivedBlock, program: Program) -> Cut | None:
         found.solved.closed,
         parameter(program, "blend_offset"),
         parameter(program, "blend_overlap"),
+        () if found.solved.tool_diameter is None else stocks(found, program),
+        None if found.solved.finish_diameter is None else (found.solved.tool_diameter or 0.0) / 2,
     )
 
 
@@ -94,11 +103,20 @@ def look_ahead_table(found: DerivedBlock, program: Program) -> Table | None:
 
 
 def table_of(cut: Cut) -> Table:
-    """The table of any contour."""
+    """The table of any contour: a value's fate is that of its finish path and of the roughing passes before it."""
+    values = range(LOWEST, HIGHEST + 1)
+    every, verdicts = _all(cut, cut.radius, cut.radius)
+    rougher = cut.radius if cut.rougher is None else cut.rougher
+    passes = [_all(cut, rougher + stock, rougher)[1] for stock in cut.stocks]
+    rough = list(zip(*passes, strict=True)) or [()] * len(values)
+    rows = [Row(*row) for row in zip(values, every, verdicts, rough, strict=True)]
+    return Table(tuple(rows), recommended(rows))
+
+
+def _all(cut: Cut, radius: float, cutter: float) -> tuple[Sequence[Compensated], Sequence[Verdict]]:
+    """The path at `radius` of every value, and what a cutter of radius `cutter` does on it."""
     values = range(LOWEST, HIGHEST + 1)
     every = compensate_all(
-        cut.surface, cut.side, cut.radius, values, closed=cut.closed, blend=cut.blend, overlap=cut.overlap
+        cut.surface, cut.side, radius, values, closed=cut.closed, blend=cut.blend, overlap=cut.overlap
     )
-    verdicts = judge_all(cut.surface, cut.side, cut.radius, [one.whole for one in every])
-    rows = [Row(value, one, verdict) for value, one, verdict in zip(values, every, verdicts, strict=True)]
-    return Table(tuple(rows), recommended(rows))
+    return every, judge_all(cut.surface, cut.side, cutter, [one.whole for one in every])

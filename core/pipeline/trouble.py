@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import inf
 
 from core.comp.best import BestPath, Separation
+from core.comp.result import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.pipeline.derived import Loop, RoughPass, Work
@@ -22,7 +24,7 @@ def path_findings(work: Work) -> tuple[Finding, ...]:
         *(work.compensated if work.best is None else work.best).findings,
         *verdict_findings(work.verdict, work.surface),
         *blend_findings(work.loops, work.verdict.gouges),
-        *rough_findings(work.rough),
+        *rough_findings(work.rough, work.compensated if work.best is None else None),
     )
 
 
@@ -40,16 +42,36 @@ def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge]) -> Iterator[F
         first = last
 
 
-def rough_findings(rough: Sequence[RoughPass]) -> Iterator[Finding]:
-    """The deepest gouge of each roughing pass, and passes for which there is no room."""
+def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> Iterator[Finding]:
+    """What is wrong with each roughing pass: gouges, no room, pieces bridged, and what it deletes that is finished."""
     for one in rough:
-        for hit in one.verdict.gouges[:1]:
-            text = "The roughing pass that leaves {0} gouges {value} deep."
-            where = hit.surface_number, None, hit.at, hit.depth, (one.stock,)
-            yield Finding("ROUGH_GOUGES", Severity.ERROR, text, *where)
-        if not one.loops:
-            text = "The roughing pass that leaves {0} has no room: it is left out."
-            yield Finding("ROUGH_EMPTY", Severity.WARNING, text, lengths=(one.stock,))
+        yield from _rough_errors(one)
+        for bridged in one.compensated.findings:
+            if bridged.code in ("VANISHED", "CORNER_MISSED"):
+                text = f"The roughing pass that leaves {{0}} does not keep its stock here. {bridged.text}"
+                yield replace(bridged, code="ROUGH_STOCK", text=text, lengths=(one.stock,))
+        gone = _deleted(one.compensated) - (set() if finish is None else _deleted(finish))
+        if gone and finish is not None:
+            listed = " ".join(f"{number:g}" for number in sorted(gone))
+            text = f"The roughing pass that leaves {{0}} deletes segment {listed}: the next one meets solid there."
+            yield Finding("ROUGH_DELETES", Severity.WARNING, text, min(gone), lengths=(one.stock,))
+
+
+def _rough_errors(one: RoughPass) -> Iterator[Finding]:
+    for hit in one.verdict.gouges[:1]:
+        text = "The roughing pass that leaves {0} gouges {value} deep."
+        where = hit.surface_number, None, hit.at, hit.depth, (one.stock,)
+        yield Finding("ROUGH_GOUGES", Severity.ERROR, text, *where)
+    if one.verdict.wrong_side or not one.verdict.judged:
+        text = "The roughing pass that leaves {0} runs on the part's side of the contour, or cannot be judged."
+        yield Finding("ROUGH_GOUGES", Severity.ERROR, text, lengths=(one.stock,))
+    if not one.loops:
+        text = "The roughing pass that leaves {0} has no room: it is left out."
+        yield Finding("ROUGH_EMPTY", Severity.WARNING, text, lengths=(one.stock,))
+
+
+def _deleted(one: Compensated) -> set[float]:
+    return set(one.deleted.segments.tolist())
 
 
 def better_findings(best: BestPath, apart: Separation) -> tuple[Finding, ...]:

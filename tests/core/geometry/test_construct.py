@@ -156,10 +156,16 @@ def test_settled_moves_the_centre_onto_the_bisector():
     assert (arc.start, arc.end) == ((0.0, 0.0), (2.0, 0.0))
 
 
-def test_settled_closes_a_circle_that_ends_almost_at_its_start():
-    arc = construct.settled((1.0, 0.0), (1.0, 0.002), (0.0, 0.0), Turn.CCW)
+def test_settled_closes_a_circle_that_ends_at_its_start():
+    arc = construct.settled((1.0, 0.0), (1.0, 1e-9), (0.0, 0.0), Turn.CCW)
     assert arc == Arc((1.0, 0.0), (1.0, 0.0), (0.0, 0.0), Turn.CCW)
     assert arc.sweep == tau
+
+
+def test_settled_leaves_a_tiny_arc_tiny():
+    """Two microns of a circle are no full circle."""
+    arc = construct.settled((1.0, 0.0), (1.0, 0.002), (0.0, 0.0), Turn.CCW)
+    assert arc.sweep == pytest.approx(0.002, abs=1e-5)
 
 
 def test_settled_moves_the_end_where_the_centre_would_go_far():

@@ -8,7 +8,7 @@ from core.pipeline.derive import better, compared, derive, stocks
 from core.pipeline.derived import Tag
 from core.pipeline.outline import outline
 from core.program.edit import set_unit
-from core.program.model import CutterComp, Entry, LineSegment, Parameters, PathChoice, Unread
+from core.program.model import CutterComp, Entry, LineSegment, Parameters, PathChoice, Unread, changed
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE, block, program
 
@@ -207,7 +207,7 @@ def test_the_same_part_is_cut_in_the_other_unit():
 @pytest.mark.parametrize(("height", "limit"), [(0.1, "Z START"), (-0.3, "Z BOTTOM")])
 def test_a_z_end_outside_the_block_is_an_error_of_its_segment(height, limit):
     typed = block(MID_SIDE_SQUARE, CutterComp.LEFT)
-    steep = replace(typed.segments[1], z_end=Entry(height))
+    steep = changed(typed.segments[1], {"z_end": Entry(height)})
     (found,) = derive(program(replace(typed, segments=(typed.segments[0], steep, *typed.segments[2:])))).blocks
     (wrong,) = [finding for finding in found.errors if finding.code == "Z_END"]
     assert (wrong.segment, wrong.field) == (2.0, "z_end")

@@ -1,7 +1,15 @@
+from dataclasses import replace
+
+import pytest
+
 from core.comp.advise import recommended
+from core.output.passes import meets_solid
 from core.pipeline.derive import derive
+from core.pipeline.jobs import job
 from core.pipeline.table import look_ahead_table
-from core.program.model import CutterComp
+from core.program.edit import set_unit
+from core.program.model import CutterComp, Entry, Parameters, Tool
+from core.units import Unit
 from tests.core.pipeline.parts import NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE, block, program
 
 
@@ -41,3 +49,42 @@ def test_the_recommended_value_is_clean_then_leaves_least_then_is_smallest():
     assert recommended(fates) == 3
     assert recommended(fates[:1]) is None
     assert recommended([]) is None
+
+
+SLOT = ((0, 0), (40, 0), (40, -5), (52, -5), (52, 0), (90, 0))
+
+
+def test_a_value_is_clean_only_if_its_roughing_passes_are():
+    """The cutter of 8 fits into the slot of 12; the pass that leaves 8 does not, and needs a look-ahead of 3."""
+    tools = (Tool(1, diameter=Entry(8.0)),)
+    parameters = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0), max_offset=Entry(8.0))
+    part = replace(program(block(SLOT, CutterComp.PROFILE_LEFT), parameters=parameters), unit=Unit.MM, tools=tools)
+    (found,) = derive(part).blocks
+    table = look_ahead_table(found, part)
+    assert [row.clean for row in table.rows[:3]] == [False, False, True]
+    assert table.recommended == 3
+    assert table.row(1).gouge == pytest.approx(4.0, abs=0.5)
+
+
+def test_segments_that_only_roughing_deletes_are_told():
+    tools = (Tool(1, diameter=Entry(8.0)), Tool(2, diameter=Entry(8.0)))
+    parameters = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0), finish_xy=Entry(3.0))
+    typed = block(SLOT, CutterComp.LEFT, finish_tool=Entry(2), lookahead=Entry(3))
+    part = replace(program(typed, parameters=parameters), unit=Unit.MM, tools=tools)
+    (found,) = derive(part).blocks
+    (told,) = [finding for finding in found.findings if finding.code == "ROUGH_DELETES"]
+    assert "2 3 4" in told.text
+    assert meets_solid(job(found, part)) == {2, 3, 4}
+
+
+@pytest.mark.parametrize("start", [0.0, 1.0, 2.0, 3.0, 5.0, 10.0])
+@pytest.mark.parametrize("unit", list(Unit))
+def test_a_gap_of_the_forms_last_digit_is_closed_wherever_it_is(start, unit):
+    points = ((start, 0), (start + 2, 0), (start + 2, 2), (start, 2), (start - 1, 1), (start + 0.0001, 0))
+    part = set_unit(program(block(points, CutterComp.LEFT)), unit)
+    assert derive(part).blocks[0].solved.closed
+
+
+def test_what_forbids_posting_is_a_finding_of_the_block():
+    part = program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3), speed=Entry(0)))
+    assert [finding.code for finding in derive(part).blocks[0].errors] == ["SPEED"]
