@@ -31,7 +31,7 @@ from app.screens import doors
 from app.screens.contour import Contour
 from app.screens.page import Answer, Layout, Page
 from app.screens.program import ProgramPage
-from app.session import Session
+from app.session import Session, Tone
 from app.settings import Settings
 from core.pipeline.derived import Derived
 from core.program.edit import Refused
@@ -42,6 +42,8 @@ EVERYWHERE: Final = frozenset(
 )
 MODES: Final = ("braille", "block", "ascii")
 """The sets of characters of the drawing, as `core.draw.mode.Mode` names them."""
+LONGEST_NAME: Final = 40
+"""Characters of a name in a sentence that has to say more."""
 ONE_MODE: Final = (
     "LANG does not name UTF-8, so the drawing is in ASCII. Where the terminal takes UTF-8: cutcomp --characters braille"
 )
@@ -135,14 +137,22 @@ class Desk:
                 return replace(self, pages=self._stacked(message))
             case NextMode():
                 return self._next_mode()
-            case Do(work):
-                return work(self)
-            case Save() | Browse() | Load() | Post() | Leave():
-                from app import filing
-
-                return filing.carry_out(self, message)
+            case Do() | Save() | Browse() | Load() | Post() | Leave():
+                return self._touching_files(message)
             case _:
                 assert_never(message)
+
+    def _touching_files(self, message: Do | Save | Browse | Load | Post | Leave) -> Desk:
+        """What may touch files; a name or a disk that does not oblige becomes a sentence."""
+        from app import filing
+        from core.program.disk import why
+
+        try:
+            return message.work(self) if isinstance(message, Do) else filing.carry_out(self, message)
+        except OSError as error:
+            name = str(error.filename or "That")
+            name = name if len(name) <= LONGEST_NAME else f"{name[:LONGEST_NAME]}..."
+            return self.take(Say(f"{name} cannot be used: {why(error)}", Tone.ERROR))
 
     def _stacked(self, message: Open | Swap | Close) -> tuple[Page, ...]:
         match message:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from app import times
 from app.messages import Close, Open, Post, Save, Say
+from app.naming import is_folder
 from app.screens.ask import Ask
 from app.screens.decide import shortened
 from app.session import Session, Tone
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 def asked(desk: Desk, path: Path, message: Save) -> Desk | None:
     """The desk with the question that must be answered before `path` is written; None where there is none."""
+    if is_folder(path):
+        return desk.take(Say(f"{printable_path(path)} is a folder. Type the name of a file in it.", Tone.ERROR))
     session, own = desk.session, path == desk.session.file
     if own and session.guard.looking:
         return desk.take(Say(f"{session.guard.looking} SAVE AS makes a copy of your own.", Tone.ERROR))

@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from app.files import is_program
 from app.messages import Browse, Close, Load, Message
+from app.naming import typed
 from app.screens.entry import EntryPage, entry_row
 from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
@@ -55,7 +56,7 @@ class BrowsePage(EntryPage):
     def _opened(self) -> tuple[Message, ...]:
         text = self.entry.text.strip()
         if text:
-            path = self.folder / Path(text).expanduser()
+            path = self.folder / typed(text)
             return (Browse(path),) if text.endswith("/") else (Load(path),)
         if not self.items:
             return ()

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 from app.messages import Close, Do, Edit, Open, Say
+from app.naming import typed
 from app.screens.ask import Ask
 from app.screens.entry import EntryPage, entry_row
 from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
@@ -104,7 +104,7 @@ def importing(name: str, unit: Unit) -> Callable[[Desk], Desk]:
 
         program = desk.session.program
         try:
-            table = read_table(Path(name.strip()).expanduser(), unit, program.unit)
+            table = read_table(typed(name), unit, program.unit)
         except StoreError as error:
             return desk.take(Say(str(error), Tone.ERROR))
         if table.errors:

@@ -8,9 +8,9 @@ from textwrap import wrap
 from typing import ClassVar, Final, Self
 
 from app.messages import Close, Message, Post, Say, Swap
+from app.naming import typed, with_suffix
 from app.screens.entry import EntryPage, entry_row
 from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
-from app.screens.save import with_suffix
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header
@@ -71,7 +71,7 @@ class PostPage(EntryPage):
             return Answer(replace(self, fresh=True), self._overridden(text))
         if not text:
             return Answer(self, (Say("Type a name for the NC file.", Tone.ERROR),))
-        path = with_suffix(Path(text), ".nc")
+        path = with_suffix(typed(text), ".nc")
         if any(errors(session)) and self.control is None:
             return Answer(replace(self, path=path, entry=Editing("", 0), fresh=False))
         return Answer(self, (Post(path, control=self.control),))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from app.listing import LARGEST, SUFFIXES, Listing
 from app.messages import Close, Do, Message, Open, Say
+from app.naming import is_folder, typed
 from app.screens.ask import Ask
 from app.screens.browse import BrowsePage, Item
 from app.screens.entry import EntryPage, entry_row
@@ -110,7 +111,7 @@ class SaveListing(EntryPage):
 
     def _named(self) -> tuple[Message, ...]:
         text = self.entry.text.strip()
-        return (saving(Path(text).expanduser()),) if text else (Say("Type a name for the file.", Tone.ERROR),)
+        return (saving(typed(text)),) if text else (Say("Type a name for the file.", Tone.ERROR),)
 
     def view(self, session: Session, surface: Surface) -> View:
         """The name."""
@@ -132,8 +133,8 @@ class ProofBrowse(BrowsePage):
         if not text and not self.items:
             return ()
         item = self.items[min(self.row, len(self.items) - 1)] if self.items else None
-        path = self.folder / Path(text).expanduser() if text or item is None else item.path
-        folder = path.is_dir() if text or item is None else item.folder
+        path = self.folder / typed(text) if text or item is None else item.path
+        folder = is_folder(path) if text or item is None else item.folder
         return (Do(browsing(path)),) if folder else (Do(opening(path)),)
 
 

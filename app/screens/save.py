@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Self
 
 from app.messages import Close, Message, Save, Say
+from app.naming import typed, with_suffix
 from app.screens.entry import EntryPage, entry_row
 from app.screens.page import Answer, Softkey, Softkeys, Surface, View
 from app.session import Said, Session, Tone
@@ -39,7 +40,7 @@ class SaveAsPage(EntryPage):
         text = self.entry.text.strip()
         if not text:
             return (Say("Type a name for the file.", Tone.ERROR),)
-        return (Save(with_suffix(Path(text), ".toml"), leave=self.leave),)
+        return (Save(with_suffix(typed(text), ".toml"), leave=self.leave),)
 
     def view(self, session: Session, surface: Surface) -> View:
         """The name."""
@@ -54,9 +55,3 @@ class SaveAsPage(EntryPage):
             Said("Type the name of the file, Enter saves. Left arrow changes the name that stands there."),
             1,
         )
-
-
-def with_suffix(path: Path, suffix: str) -> Path:
-    """The path with the home folder filled in, and with a suffix if it has none and is no folder."""
-    path = path.expanduser()
-    return path if path.suffix or path.is_dir() else path.with_suffix(suffix)

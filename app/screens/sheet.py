@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final, Self
 
 from app.messages import Close, Do, Message, Open, Say
+from app.naming import typed, with_suffix
 from app.screens.ask import Ask
 from app.screens.entry import EntryPage, entry_row
 from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
-from app.screens.save import with_suffix
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header, printable
@@ -55,7 +55,7 @@ class SheetPage(EntryPage):
     def _written(self, text: str) -> tuple[Message, ...]:
         if not text.strip():
             return (Say("Type a name for the sheet.", Tone.ERROR),)
-        return (Do(writing(with_suffix(Path(text.strip()), ".html"))),)
+        return (Do(writing(with_suffix(typed(text), ".html"))),)
 
     def view(self, session: Session, surface: Surface) -> View:
         """The name and what the sheet holds."""

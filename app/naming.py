@@ -1,0 +1,27 @@
+"""Names of files as an operator types them; one that cannot be a name makes a sentence where it is used, never here."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+def typed(text: str) -> Path:
+    """The path of a typed name, the home folder filled in; a ~ that is nobody's home stays as it is."""
+    path = Path(text.strip())
+    try:
+        return path.expanduser()
+    except RuntimeError:
+        return path
+
+
+def is_folder(path: Path) -> bool:
+    """Whether there is such a folder; no for a name that no file can have."""
+    try:
+        return path.is_dir()
+    except OSError:
+        return False
+
+
+def with_suffix(path: Path, suffix: str) -> Path:
+    """The path with a suffix if it has none and is no folder."""
+    return path if path.suffix or is_folder(path) else path.with_suffix(suffix)

@@ -1,0 +1,55 @@
+"""Names that no file can have are told in a sentence, on every screen that takes a name."""
+
+from __future__ import annotations
+
+from itertools import product
+from pathlib import Path
+
+import pytest
+
+from app.naming import is_folder, typed, with_suffix
+from tests.app.operator import Operator
+
+LONG = "中" * 100
+SCREENS = {
+    "save as": ("f8", "ctrl+s"),
+    "post": ("f8", "f6"),
+    "sheet": ("f8", "f7", "f7", "f2"),
+    "open": ("ctrl+o",),
+    "tool table": ("f6", "f3"),
+}
+
+
+def test_a_home_that_is_nobodys_stays_as_it_is_typed() -> None:
+    assert typed(" ~ ") == Path.home()
+    assert typed("~nobody_at_all/x") == Path("~nobody_at_all/x")
+
+
+def test_a_suffix_where_there_is_none() -> None:
+    assert with_suffix(Path("part"), ".nc") == Path("part.nc")
+    assert with_suffix(Path("part.tap"), ".nc") == Path("part.tap")
+    assert with_suffix(Path("/"), ".nc") == Path("/")
+    assert with_suffix(Path(LONG), ".nc") == Path(f"{LONG}.nc")
+    assert not is_folder(Path(LONG))
+
+
+@pytest.mark.parametrize(
+    ("screen", "text"), product(SCREENS, (LONG, "a" * 199, "~nobody_at_all", "~", "/", "..", "a.toml/b"))
+)
+def test_a_name_that_cannot_be_one_ends_nothing(
+    screen: str, text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("HOME", str(tmp_path))
+    (tmp_path / "a.toml").write_text("")
+    operator = Operator.at().press(*SCREENS[screen], *text)
+    operator.screen()
+    operator.press("enter")
+    assert operator.screen()
+
+
+def test_what_is_wrong_with_a_name_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert "the name is too long" in Operator.at().press("f8", "ctrl+s", *LONG, "enter").said
+    assert "is a folder" in Operator.at().press("f8", "ctrl+s", "/", "enter").said
+    assert "no such file" in Operator.at().press("f8", "ctrl+s", *"~nobody_at_all/x", "enter").said
