@@ -24,6 +24,7 @@ class Shot:
     environment: dict[str, str] = field(default_factory=dict)
 
 
+DOWN, F4 = b"\x1b[B", b"\x1b4"
 TO_LOOKAHEAD = b"\t" * 11
 
 SHOTS = (
@@ -32,7 +33,7 @@ SHOTS = (
     Shot("segment", "pocket", (b"8\r",)),
     Shot("gouge", "overrun-square"),
     Shot("draw", "pocket", (b"8\r", F7)),
-    Shot("lookahead-table", "notch", (b"L",)),
+    Shot("lookahead-table", "notch", (TO_LOOKAHEAD, F4, DOWN)),
     Shot("no-colour", "pocket", environment={"NO_COLOR": "1"}),
     Shot(
         "sixteen-colours",
