@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 def asked(desk: Desk, path: Path, message: Save) -> Desk | None:
     """The desk with the question that must be answered before `path` is written; None where there is none."""
     if is_folder(path):
-        return desk.take(Say(f"{printable_path(path)} is a folder. Type the name of a file in it.", Tone.ERROR))
+        return desk.take(Say(f"{printable_path(path)} is not saved: this is a folder. Type a file's name.", Tone.ERROR))
     session, own = desk.session, path == desk.session.file
     if own and session.guard.looking:
         return desk.take(Say(f"{session.guard.looking} SAVE AS makes a copy of your own.", Tone.ERROR))

@@ -51,5 +51,5 @@ def test_a_name_that_cannot_be_one_ends_nothing(
 def test_what_is_wrong_with_a_name_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     assert "the name is too long" in Operator.at().press("f8", "ctrl+s", *LONG, "enter").said
-    assert "is a folder" in Operator.at().press("f8", "ctrl+s", "/", "enter").said
+    assert "this is a folder" in Operator.at().press("f8", "ctrl+s", "/", "enter").said
     assert "no such file" in Operator.at().press("f8", "ctrl+s", *"~nobody_at_all/x", "enter").said
