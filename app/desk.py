@@ -130,9 +130,9 @@ class Desk:
             case Say(text, tone):
                 return replace(self, session=self.session.saying(text, tone))
             case Undo():
-                return replace(self, session=self.session.undo())
+                return self._turned(self.session.undo())
             case Redo():
-                return replace(self, session=self.session.redo())
+                return self._turned(self.session.redo())
             case Open() | Swap() | Close():
                 return replace(self, pages=self._stacked(message))
             case NextMode():
@@ -141,6 +141,12 @@ class Desk:
                 return self._touching_files(message)
             case _:
                 assert_never(message)
+
+    def _turned(self, session: Session) -> Desk:
+        """After undo or redo, which may have moved the cursor: half-typed texts are gone, also those of screens below."""
+        if session.history is self.session.history:
+            return replace(self, session=session)
+        return replace(self, session=session, pages=tuple(page.forgetting() for page in self.pages))
 
     def _touching_files(self, message: Do | Save | Browse | Load | Post | Leave) -> Desk:
         """What may touch files; a name or a disk that does not oblige becomes a sentence."""

@@ -109,6 +109,10 @@ class FormPage(Page):
         """The half-typed text forgotten: the field shows what it held."""
         return None if self.editing is None else Answer(self._without_text())
 
+    def forgetting(self) -> Self:
+        """A number typed into one field never becomes that of another."""
+        return self._without_text()
+
     def text(self, session: Session, one: Field) -> str:
         """What a field shows, in full where the form's decimals would lose some of what was typed."""
         held = self.value(session, one.name)

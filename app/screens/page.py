@@ -169,6 +169,10 @@ class Page:
         """The page once another one lies on it: what it is when it is seen again."""
         return self
 
+    def forgetting(self) -> Page:
+        """The page without a half-typed text: its field may be another one now."""
+        return self
+
     def preview(self, session: Session) -> Program | None:
         """The program as it would be if the half-typed text were accepted; None when there is none to accept."""
         return None

@@ -29,7 +29,7 @@ from core.program.model import (
     Unread,
     changed,
 )
-from core.units import Unit, Unreadable, parse, printable
+from core.units import Kind, Unit, Unreadable, parse, printable
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,7 @@ def choose(program: Program, where: Where, name: str, value: str | int | None) -
     form = Form.START if where.segment == 0 else form_of(block.segments[where.segment - 1])
     one = field(form, name)
     if str(value) not in one.choices and not (value is None and name == "choice"):
-        return Refused(f"{one.label} takes {', '.join(one.choices)}.")
+        return _takes(one)
     picked = _PICKED[name](value)
     if where.segment == 0:
         return _with_block(program, where, changed(block, {name: picked}))
@@ -252,8 +252,14 @@ def _last(thing: str, count: int) -> str:
 
 def _misfit(one: Field, typed: Typed) -> Refused | None:
     """Why a field does not take what was typed."""
+    if one.kind is Kind.CHOICE:
+        return _takes(one)
     text = check(one, typed.value) if isinstance(typed, Entry) else None
     return None if text is None else Refused(text)
+
+
+def _takes(one: Field) -> Refused:
+    return Refused(f"{one.label} takes {', '.join(one.choices)}.")
 
 
 def _lookahead_misfit(block: Block, name: str, typed: Typed) -> Refused | None:
