@@ -143,7 +143,7 @@ class Desk:
                 assert_never(message)
 
     def _turned(self, session: Session) -> Desk:
-        """After undo or redo, which may have moved the cursor: half-typed texts are gone, also those of screens below."""
+        """After undo or redo, which may have moved the cursor: half-typed texts are gone, on all screens."""
         if session.history is self.session.history:
             return replace(self, session=session)
         return replace(self, session=session, pages=tuple(page.forgetting() for page in self.pages))
