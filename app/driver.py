@@ -18,6 +18,7 @@ from textual.drivers.linux_driver import LinuxDriver
 
 from app.charset import ASCII, UTF_8, charset
 from app.desk import MODES
+from app.slim import slim
 
 PATIENCE: Final = 0.1
 """Seconds between two looks whether the program ends."""
@@ -30,6 +31,10 @@ PLAIN: Final = ("linux", "vt1", "vt2")
 
 class TerminalDriver(LinuxDriver):
     """A driver that replaces what it cannot read, and takes the end of its input for a hangup."""
+
+    def write(self, data: str) -> None:
+        """A picture on its way to the terminal, in as few bytes as show it."""
+        super().write(slim(data))
 
     def _request_terminal_sync_mode_support(self) -> None:
         """Not asked of terminals that would take the end of the question for a letter to show."""

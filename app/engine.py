@@ -23,6 +23,7 @@ from core.program.model import Program
 if TYPE_CHECKING:
     from app.desk import Desk
     from app.session import Session
+    from core.finding import Finding
     from core.pipeline.table import Table
 
 NUMERIC: Final = ("core.pipeline.derive", "core.pipeline.table", "app.widgets.drawing")
@@ -83,7 +84,10 @@ class Engine:
     took: dict[str, float] = field(default_factory=dict)
     table: Table | None = None
     table_of: DerivedBlock | None = None
+    needs: tuple[Finding, ...] = ()
     needs_of: DerivedBlock | None = None
+    told: tuple[Table, Table] | None = None
+    """The table as it was made, and with what its block needs."""
 
     def load(self, program: Program) -> Derived:
         """Fetch the numeric library and derive the program; for a thread."""
@@ -118,7 +122,12 @@ class Engine:
         """Make and keep the look-ahead table of a block."""
         from core.pipeline.table import look_ahead_table
 
-        self.table = self.timed("table", lambda: look_ahead_table(found, program))
+        if self.table_of is found:
+            return
+        table = self.timed("table", lambda: look_ahead_table(found, program))
+        # never a new table beside another block, not for a moment: the screens look in from another thread
+        self.table_of = None
+        self.table = table
         self.table_of = found
 
     def lacks_needs(self, found: DerivedBlock) -> bool:
@@ -133,11 +142,22 @@ class Engine:
 
         if self.needs_of is found:
             return
-        table, self.needs_of = self.table, found
-        told = needs(found, program, table)
-        if table is not None and told is not None and self.table is table:
-            self.table = replace(table, notes=(*told.sentences, *table.notes))
+        told = needs(found, program, self.table if self.table_of is found else None)
+        self.needs_of = None
+        self.needs = () if told is None else told.sentences
+        self.needs_of = found
 
     def known(self, found: DerivedBlock, trial: Session | None) -> Known:
         """What the screens may show of this block."""
-        return Known(self.table if self.table_of is found else None, self.ready, self.memory, trial)
+        return Known(self._table(found), self.ready, self.memory, trial)
+
+    def _table(self, found: DerivedBlock) -> Table | None:
+        """The table of a block, with what the block needs before its other notes once that is known."""
+        table = self.table
+        if table is None or self.table_of is not found:
+            return None
+        if self.needs_of is not found or not self.needs:
+            return table
+        if self.told is None or self.told[0] is not table:
+            self.told = (table, replace(table, notes=(*self.needs, *table.notes)))
+        return self.told[1]

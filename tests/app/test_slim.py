@@ -1,0 +1,89 @@
+"""Fewer bytes, the same cells: whatever is written, a terminal shows what it showed before."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pyte
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from app.slim import PLAIN, change, read, slim
+
+STYLES = ("1", "3", "4", "7", "31", "92", "45", "103", "38;5;188;48;5;16", "1;38;2;1;2;3;48;2;4;5;6", "39;49", "0", "")
+TEXTS = ("X", " ", "   ", "word", "│ ", "1.5 ", "é", "\r\n")
+OTHERS = (
+    "\x1b[2;3H",
+    "\x1b[?2026h",
+    "\x1b[?2026l",
+    "\x1b[?25l",
+    "\x1b[?2026$p",
+    "\x1b]22;default\x07",
+    "\x1b[2J",
+    "\x1b7",
+)
+
+
+def shown(data: str) -> list[tuple[Any, ...]]:
+    """Every cell as it is seen: of a blank, only what a blank shows."""
+    screen = pyte.Screen(20, 6)
+    pyte.Stream(screen).feed(data)
+    cells = [screen.buffer[y][x] for y in range(6) for x in range(20)]
+    return [_seen(cell) for cell in cells]
+
+
+def _seen(cell: Any) -> tuple[Any, ...]:
+    if cell.data == " " and not cell.reverse and not cell.underscore and not cell.strikethrough:
+        return (" ", cell.bg)
+    return tuple(cell)
+
+
+def painted(pieces: list[tuple[str, str, str]]) -> str:
+    """As Textual writes: a sequence, then a style, a text, and a reset."""
+    return "".join(f"{other}\x1b[{style}m{text}\x1b[0m" for other, style, text in pieces)
+
+
+@given(
+    st.lists(
+        st.tuples(st.sampled_from(("", "", *OTHERS)), st.sampled_from(STYLES), st.sampled_from(TEXTS)), max_size=12
+    )
+)
+def test_the_same_cells_in_no_more_bytes(pieces: list[tuple[str, str, str]]) -> None:
+    data = painted(pieces)
+    assert shown(slim(data)) == shown(data)
+    assert len(slim(data)) <= len(data)
+
+
+@given(st.text(alphabet="\x1b[]0123456789;?$hmHJ \r\naX│\x07\x9b"))
+def test_nothing_but_styles_is_ever_left_out(data: str) -> None:
+    def bare(text: str) -> str:
+        from app.slim import TOKEN
+
+        return TOKEN.sub(lambda one: "" if one[0].endswith("m") and one[0].startswith("\x1b[") else one[0], text)
+
+    assert bare(slim(data)) == bare(data)
+
+
+@pytest.mark.parametrize(
+    ("data", "sent"),
+    [
+        ("\x1b[31mA\x1b[0m\x1b[31mB\x1b[0m", "\x1b[31mAB\x1b[0m"),
+        ("\x1b[31mA\x1b[0m\x1b[32m  \x1b[0m\x1b[31mB\x1b[0m", "\x1b[31mA  B\x1b[0m"),
+        ("\x1b[31;44mA\x1b[0m\x1b[32;44mB\x1b[0m", "\x1b[31;44mA\x1b[32mB\x1b[0m"),
+        ("\x1b[1;31mA\x1b[0m\x1b[31mB\x1b[0m", "\x1b[1;31mA\x1b[0;31mB\x1b[0m"),
+        ("\x1b[31mA\x1b[0m\x1b[7m \x1b[0m", "\x1b[31mA\x1b[7;39m \x1b[0m"),
+        ("\x1b[31mA\x1b[0m", "\x1b[31mA\x1b[0m"),
+        ("plain", "plain"),
+    ],
+)
+def test_what_is_sent(data: str, sent: str) -> None:
+    assert slim(data) == sent
+
+
+def test_styles_are_read_and_told_apart() -> None:
+    one = read("1;38;2;1;2;3;48;5;4")
+    assert one == (frozenset({"1"}), "38;2;1;2;3", "48;5;4")
+    assert change(PLAIN, one) == "\x1b[1;38;2;1;2;3;48;5;4m"
+    assert change(one, one) == ""
+    assert change(one, PLAIN) == "\x1b[0m"

@@ -1,0 +1,223 @@
+"""The program over a link that is slow, is cut, or leads through others: `python -m tests.reports.link`.
+
+A relay between two pseudo-terminals delays every byte and lets no more through than a line of so many baud.  Told is
+how many bytes each key costs and when the finished screen stands, compared cell by cell with what must stand there;
+then the same screen after a resize, after the program was stopped and continued, and in a tmux that was left and
+entered again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import signal
+import statistics
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from app.session import Session
+from core.program.store import load, save
+from tests.bench.keys import gear
+from tests.reports.matrix import Lost, Seat, Tally
+from tests.reports.reference import Reference
+from tests.reports.relay import LOCAL, Line, relayed
+from tests.reports.terminals import Colours, Kind, sent
+from tests.terminal import running
+
+ROOT: Final = Path(__file__).parents[2]
+SIZE: Final = (80, 24)
+QUIET: Final = 1.0
+"""Seconds without a byte after which a screen counts as finished on a slow line."""
+LINES: Final = {
+    "here": LOCAL,
+    "300 ms": Line(delay=0.15),
+    "9600 baud": Line(baud=9600),
+    "9600 baud, 300 ms": Line(delay=0.15, baud=9600),
+}
+KEYS: Final = {
+    "a digit in a field": ("tab", "1", "2", ".", "5", "backspace"),
+    "Tab to the next field": ("tab",) * 6,
+    "a segment on": ("pagedown",) * 4,
+    "another screen": ("f6", "f8", "f5", "f8"),
+}
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What one key cost: bytes, and seconds until the last of them had arrived."""
+
+    count: int
+    seconds: float
+
+
+def timed(seat: Seat, key: str) -> Cost:
+    """A key pressed, the line listened to until nothing comes any more, the screen compared."""
+    before = len(seat.terminal.seen)
+    begun = time.perf_counter()
+    seat.terminal.send(sent(key))
+    seat.reference.press(key)
+    answer = seat.terminal.read(quiet=QUIET, longest=60.0)
+    took = answer.last if answer.count else time.perf_counter() - begun
+    seat.compare(key)
+    return Cost(len(seat.terminal.seen) - before, took)
+
+
+def copied(program: Path) -> Path:
+    """The program in a folder of its own: work that is cut off in one run is not offered in the next."""
+    folder = Path(tempfile.mkdtemp(dir=program.parent))
+    return Path(shutil.copy(program, folder))
+
+
+@contextmanager
+def begun(line: Line, program: Path, tally: Tally) -> Iterator[tuple[Seat, Cost]]:
+    """The program at the end of a line, and what its first finished screen cost."""
+    program = copied(program)
+    arguments = [sys.executable, "-m", "app", str(program)]
+    kind = Kind("xterm-256color", Colours.MANY, "UTF-8")
+    with running(arguments, environment={**kind.environment, "PYTHONPATH": str(ROOT)}) as inner:
+        with relayed(inner, line) as terminal:
+            reference = Reference(Session.of(load(program), program))
+            seat = Seat(kind, terminal, reference, SIZE, (), tally)
+            start = time.perf_counter()
+            terminal.until("MILL CONTOUR", longest=60.0)
+            terminal.read(quiet=QUIET + 0.5, longest=60.0)
+            seat.compare("the start")
+            yield seat, Cost(len(terminal.seen), time.perf_counter() - start - QUIET - 0.5)
+
+
+def over(line: Line, program: Path, tally: Tally) -> Iterator[str]:
+    """The table's lines for one line."""
+    with begun(line, program, tally) as (seat, first):
+        yield row("first screen", [first])
+        for name, keys in KEYS.items():
+            yield row(name, [timed(seat, key) for key in keys])
+
+
+def row(name: str, costs: list[Cost]) -> str:
+    """Bytes and milliseconds, the median and the worst."""
+    counts, times = [cost.count for cost in costs], [1000 * cost.seconds for cost in costs]
+    return (
+        f"  {name:<24}{statistics.median(counts):8.0f} bytes, most {max(counts):6}"
+        f"{statistics.median(times):9.0f} ms, most {max(times):7.0f}"
+    )
+
+
+def idle(program: Path, seconds: float) -> int:
+    """Bytes that come while nobody presses a key."""
+    with begun(LOCAL, program, Tally()) as (seat, _):
+        seat.terminal.read(quiet=1.0)
+        before = len(seat.terminal.seen)
+        last = time.monotonic() + seconds
+        while time.monotonic() < last:
+            seat.terminal.read(quiet=0.2, longest=0.2)
+        return len(seat.terminal.seen) - before
+
+
+def resized(program: Path, tally: Tally) -> None:
+    """Smaller, larger and back, while keys come."""
+    with begun(LOCAL, program, tally) as (seat, _):
+        for size in ((132, 43), (40, 12), (200, 60), (20, 5), SIZE):
+            seat.size = size
+            seat.terminal.resize(*size)
+            seat.press("pagedown")
+
+
+def stopped(program: Path, tally: Tally) -> None:
+    """Stopped as by a shell's job control; what others write meanwhile is gone after it goes on."""
+    program = copied(program)
+    with running([sys.executable, "-m", "app", str(program)], environment={"PYTHONPATH": str(ROOT)}) as terminal:
+        seat = Seat(Kind("xterm-256color", Colours.MANY, "UTF-8"), terminal, fresh(program), SIZE, (), tally)
+        seat.compare("the start")
+        seat.press("tab")
+        os.kill(terminal.pid, signal.SIGTSTP)
+        os.waitpid(terminal.pid, os.WUNTRACED)
+        terminal.read(quiet=0.2)
+        if b"\x1b[?1049l" not in terminal.seen:
+            seat.wrong("the shell's screen does not come back when the program is stopped")
+        terminal.stream.feed(b"\x1b[0m\x1b[2J\x1b[H$ ls\r\npart.nc  part.toml\r\n$ fg\r\n")
+        os.kill(terminal.pid, signal.SIGCONT)
+        seat.compare("going on")
+        seat.press("tab")
+
+
+def fresh(program: Path) -> Reference:
+    """What must be seen of a program that was just opened."""
+    return Reference(Session.of(load(program), program))
+
+
+def reattached(program: Path, tally: Tally) -> None:
+    """In a tmux that is left in the middle of an edit and entered again from a terminal of another size."""
+    with tempfile.TemporaryDirectory() as folder:
+        tmux = ["tmux", "-S", f"{folder}/socket", "-f", "/dev/null"]
+        start = [*tmux, "set", "-g", "status", "off", ";", "new", sys.executable, "-m", "app", str(program)]
+        environment = {"PYTHONPATH": str(ROOT)}
+        program = copied(program)
+        reference = fresh(program)
+        try:
+            with running(start, environment=environment) as terminal:
+                seat = Seat(Kind("xterm-256color", Colours.MANY, "UTF-8"), terminal, reference, SIZE, (), tally)
+                seat.compare("the start in tmux")
+                for key in ("tab", "4"):
+                    seat.press(key)
+                terminal.send(b"\x02d")
+                terminal.until("detached")
+            with running([*tmux, "attach"], columns=132, rows=43, environment=environment) as terminal:
+                seat.terminal, seat.size = terminal, (132, 43)
+                seat.compare("entering again")
+                seat.press("enter")
+        finally:
+            os.spawnvp(os.P_WAIT, "tmux", [*tmux, "kill-server"])
+
+
+RECOVERIES: Final = {
+    "after a resize": resized,
+    "after SIGTSTP, SIGCONT": stopped,
+    "after a reattached tmux": reattached,
+}
+
+
+def recovered(name: str, program: Path) -> str:
+    """One line: whether the screen is right again."""
+    if name.endswith("tmux") and shutil.which("tmux") is None:
+        return f"{name:<26} no tmux here"
+    tally = Tally()
+    with suppress(Lost):
+        RECOVERIES[name](program, tally)
+    wrong = f" {tally.wrong[0]}" if tally.wrong else ""
+    return f"{name:<26} {tally.screens} screens compared, wrong {len(tally.wrong)}{wrong}"
+
+
+def report(segments: int, idleness: float) -> Iterator[str]:
+    """The whole table."""
+    with tempfile.TemporaryDirectory() as folder:
+        program = Path(folder) / "gear.toml"
+        save(gear(segments), program)
+        yield f"{segments} segments, {SIZE[0]}x{SIZE[1]}, 256 colours"
+        yield f"idle                       {idle(program, idleness)} bytes in {idleness:.0f} s"
+        tally = Tally()
+        for name, line in LINES.items():
+            yield name
+            yield from over(line, program, tally)
+        yield from (recovered(name, program) for name in RECOVERIES)
+        yield f"failures {len(tally.wrong)}"
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--segments", type=int, default=200)
+    parser.add_argument("--idle", type=float, default=20.0, help="seconds without a key")
+    options = parser.parse_args()
+    for text in report(options.segments, options.idle):
+        print(text, flush=True)
+
+
+if __name__ == "__main__":
+    main()
