@@ -81,15 +81,15 @@ def begun(line: Line, program: Path, tally: Tally) -> Iterator[tuple[Seat, Cost]
     program = copied(program)
     arguments = [sys.executable, "-m", "app", str(program)]
     kind = Kind("xterm-256color", Colours.MANY, "UTF-8")
-    with running(arguments, environment={**kind.environment, "PYTHONPATH": str(ROOT)}) as inner:
-        with relayed(inner, line) as terminal:
-            reference = Reference(Session.of(load(program), program))
-            seat = Seat(kind, terminal, reference, SIZE, (), tally)
-            start = time.perf_counter()
-            terminal.until("MILL CONTOUR", longest=60.0)
-            terminal.read(quiet=QUIET + 0.5, longest=60.0)
-            seat.compare("the start")
-            yield seat, Cost(len(terminal.seen), time.perf_counter() - start - QUIET - 0.5)
+    environment = {**kind.environment, "PYTHONPATH": str(ROOT)}
+    with running(arguments, environment=environment) as inner, relayed(inner, line) as terminal:
+        reference = Reference(Session.of(load(program), program))
+        seat = Seat(kind, terminal, reference, SIZE, (), tally)
+        start = time.perf_counter()
+        terminal.until("MILL CONTOUR", longest=60.0)
+        terminal.read(quiet=QUIET + 0.5, longest=60.0)
+        seat.compare("the start")
+        yield seat, Cost(len(terminal.seen), time.perf_counter() - start - QUIET - 0.5)
 
 
 def over(line: Line, program: Path, tally: Tally) -> Iterator[str]:
