@@ -15,7 +15,7 @@ from typing import Final, NamedTuple
 NUMBER: Final = r"[+-]?(?:Q[LR]?\d+|\d+[.,]?\d*|[.,]\d+)"
 """A number with a point or a comma, or a Q parameter; either with a sign or without."""
 
-_NAMES: Final = r"FMAX|FAUTO|R[LR](?=[FM]|\s|$)|[A-PR-Z]+"
+_NAMES: Final = r"F[ \t]*(?:MAX|AUTO)|R[LR](?=[FM]|\s|$)|[A-PR-Z]+"
 WORD: Final = re.compile(rf"({_NAMES})[ \t]*({NUMBER}|[+-])?|([^ \t])", re.ASCII)
 """A word: letters with a number, a bare sign or nothing behind them; or a sign that is no word."""
 
@@ -85,9 +85,14 @@ def _block(number: int, code: str) -> Block:
 def place(block: Block, name: str) -> Place:
     """Where the word `name` stands in the block; the block's head if it is not among its words."""
     for found in WORD.finditer(block.body):
-        if name in (found[1], found[3], (found[1] or "") + (found[2] or "")):
+        if name in (together(found[1] or ""), found[3], (found[1] or "") + (found[2] or "")):
             return Place(block.line, block.column + found.start())
     return head_place(block)
+
+
+def together(name: str) -> str:
+    """A word's name without blanks inside it: F MAX is FMAX."""
+    return "".join(name.split())
 
 
 def head_place(block: Block) -> Place:

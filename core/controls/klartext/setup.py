@@ -24,6 +24,15 @@ _NEUTRAL: Final = {
 }
 """Cycles that turn, mirror, scale or tilt, and what stands behind them where they do none of it."""
 
+_BEYOND: Final = (
+    (re.compile(r"CALL\s*PGM|PGM\s*CALL", re.ASCII), "runs another file, which is not read here; copy its blocks in."),
+    (re.compile(r"F(?:L|LT|C|CT|POL|SELECT)\b", re.ASCII), "is free contour programming (FK), which is not worked out"
+     " here; write L, C, CR or CT with end points."),
+    (re.compile(r"FN\b|IF\b", re.ASCII), "is a function that is not worked out here; FN 0 to 13 with numbers are."),
+    (re.compile(r"PLANE\b|TRANS\b", re.ASCII), "turns, mirrors or tilts, which is not worked out here."),
+)  # fmt: skip
+"""Blocks that the control knows and that are not followed here, and what is to be said of them."""
+
 _PLANES: Final = {"Z": Plane.XY, "X": Plane.YZ, "Y": Plane.ZX}
 _AXES: Final = frozenset(_PLANES)
 _DEF: Final = frozenset(("L", "R", "R2", "DL", "DR", "DR2"))
@@ -72,8 +81,10 @@ def unknown(state: State, block: Block) -> None:
     """A block that is not understood, or not worked out here: the program stops."""
     if block.head == TOO_LONG:
         state.stop("WORD", f"This line has more than {LONGEST} signs; no control takes it.", block)
-    text = f"{shown(block.head + block.body)} is not understood or not worked out here; write L, C, CR, APPR or DEP."
-    state.stop("WORD", text, block)
+    whole = block.head + block.body
+    why = next((why for pattern, why in _BEYOND if pattern.match(whole)), "")
+    text = "is not understood here; write L, C, CR, CT, APPR or DEP."
+    state.stop("WORD", f"{shown(whole)} {why or text}", block)
 
 
 def tool(state: State, block: Block) -> None:
@@ -143,12 +154,14 @@ def cycle(state: State, block: Block) -> None:
     number = int(found[2][:6]) if found and found[2] else 0
     rest = block._replace(body=" " * found.end() + block.body[found.end() :]) if found else block
     if found is None or found[1] == "CALL" or not number:
-        text = "Cycles are not worked out here; their moves are not shown."
+        text = "Cycles are not worked out here: their moves are not known, so the run ends before them."
         state.stop("WORD", text, block)
     elif number == 7:
         if found[3] not in (None, "0"):
             shift(state, rest)
-    elif number in _NEUTRAL and (found[3] == "0" or _NEUTRAL[number].fullmatch(rest.body)):
+    elif number in _NEUTRAL and found[3] == "0":
+        return  # only the cycle's name; what it does stands behind it
+    elif number in _NEUTRAL and _NEUTRAL[number].fullmatch(rest.body):
         text = f"Cycle {number} is passed over: here it turns nothing, mirrors nothing and scales nothing."
         state.tell(Severity.INFO, "IGNORED", text, block)
     elif number == 247 and len(state.centre.record.tape) == 1 and state.waiting is None:
