@@ -7,15 +7,17 @@ held back until the next one is known.  A contour's first point and its last are
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import hypot, pi, tau
+from math import hypot, tau
 from typing import Final, NoReturn
 
 from core.controls import corners
 from core.controls.corners import Element
 from core.controls.klartext import leads
+from core.controls.klartext.ahead import Run, Unreached, path_ahead
 from core.controls.klartext.leads import Form
 from core.controls.klartext.record import Record
 from core.controls.klartext.steps import Corner, Role, Speed, Step
+from core.controls.klartext.trims import advance, ending, is_inside, remaining
 from core.controls.report import Log
 from core.finding import Severity
 from core.geometry.piece import Point
@@ -23,6 +25,10 @@ from core.tolerance import JOINED
 
 NO_CONTOUR: Final = "No contour element follows the start of compensation; write the contour before its end."
 DEPTH_FIRST: Final = "At this outside corner the tool axis is taken to move before the arc about the corner."
+NOT_AHEAD: Final = (
+    "Under M120 only moves in the working plane without M97 and M98 are worked out here; end it with LA0."
+)
+LEFT_OUT: Final = "M120 leaves this block out: the tool of radius {0} does not reach it."
 INSIDE_CIRCLE: Final = "Here stands PS or PN inside the circle of radius {0} of the lead; move it out or shorten R."
 
 
@@ -32,6 +38,7 @@ class Centre:
 
     `held` is the contour element whose end is not known yet, `begin` the point at which its offset starts;
     `entry` a start of compensation that waits for its first element; `depths` tool-axis moves that wait with either.
+    `ahead` are the elements that M120 looks over, `stands` where the path is on the first one's offset already.
     """
 
     log: Log
@@ -40,6 +47,8 @@ class Centre:
     begin: Point = (0.0, 0.0)
     entry: Step | None = None
     depths: list[Step] = field(default_factory=list)
+    ahead: list[Step] = field(default_factory=list)
+    stands: Point | None = None
 
     def push(self, step: Step) -> None:
         """The next step; raises the alarm where the control would stop."""
@@ -48,9 +57,13 @@ class Centre:
                 self._contour(step)
             case Role.FREE:
                 if self.entry:  # an approach without compensation
-                    self._arrive(self.entry, step.element)
+                    self._arrive(
+                        self.entry, corners.square_start(step.element, self.entry.offset), step.element.leaving
+                    )
                     self.record.close()
                 self.record.plain(step, step.element.end)
+            case Role.DEPTH if self.ahead:
+                self._not_ahead(step)
             case Role.DEPTH if self.held or self.entry:
                 self.depths.append(step)
             case Role.DEPTH:
@@ -63,9 +76,9 @@ class Centre:
 
     def finish(self) -> None:
         """The program ends: the last element ends square to the contour, compensated or not."""
+        self._run_out()
         if self.entry:
             self._no_contour(self.entry)
-        self._run_out()
         self.record.close()
 
     def give_up(self) -> None:
@@ -73,17 +86,17 @@ class Centre:
         self.record.close()
 
     def _enter(self, step: Step) -> None:
+        self._run_out()  # an approach under compensation connects two contours
         if self.entry:
             self._no_contour(self.entry)
-        self._run_out()  # an approach under compensation connects two contours
         self.record.close()
         self.entry = step
         self.record.open(step)
 
     def _leave(self, step: Step) -> None:
+        self._run_out()
         if self.entry:
             self._no_contour(self.entry)
-        self._run_out()
         if step.lead is None:
             self.record.plain(step, step.element.end)
         else:
@@ -94,16 +107,14 @@ class Centre:
     def _no_contour(self, entry: Step) -> NoReturn:
         self.log.stop("HE7", NO_CONTOUR, entry.element.line, entry.element.column)
 
-    def _arrive(self, entry: Step, first: Element) -> Point:
-        """Run the entry to the point square to the first element's start; that point."""
-        goal = corners.square_start(first, entry.offset)
+    def _arrive(self, entry: Step, goal: Point, way: Point) -> None:
+        """Run the entry to the point square to the first element's start, where that sets off in direction `way`."""
         if entry.lead is None:
             self.record.plain(entry, goal)
         else:
-            self._approach(entry, entry.lead, goal, first.leaving)
+            self._approach(entry, entry.lead, goal, way)
         self.entry = None
         self._sink_waiting()
-        return goal
 
     def _approach(self, step: Step, lead: leads.Lead, goal: Point, way: Point) -> None:
         x, y, height = self.record.at(step)
@@ -142,16 +153,66 @@ class Centre:
 
     def _contour(self, step: Step) -> None:
         element = step.element
+        if self.ahead and step.ahead != self.ahead[-1].ahead:
+            self._run_ahead(goes_on=True)
+        if step.ahead:
+            self._gather(step)
+            return
         if element.turn and corners.offset_radius(element, step.offset) <= JOINED:
             why = "the tool of radius {0} cannot run inside this arc of radius {1}"
             self._too_large(element, why, abs(step.offset), element.radius)
+        begin = corners.square_start(element, step.offset)
         if self.entry:
-            begin = self._arrive(self.entry, element)
+            self._arrive(self.entry, begin, element.leaving)
         elif self.held:
             begin = self._corner(self.held, step)
-        else:
-            begin = corners.square_start(element, step.offset)
         self.held, self.begin = step, begin
+
+    def _gather(self, step: Step) -> None:
+        """An element under M120: its path is known once the last one is."""
+        if step.corner is not Corner.PLAIN or step.element.low != step.element.high:
+            self._not_ahead(step)
+        if self.depths and not self.entry:
+            self._not_ahead(self.depths[0])
+        if self.held and not self.ahead:
+            self.ahead.append(self.held)
+            self.stands, self.held = self.begin, None
+        self.ahead.append(step)
+
+    def _not_ahead(self, step: Step) -> NoReturn:
+        self.log.stop("WORD", NOT_AHEAD, step.element.line, step.element.column)
+
+    def _run_ahead(self, *, goes_on: bool) -> None:
+        """Run along the elements gathered under M120; `goes_on`: the last one waits for a corner with the next."""
+        steps, stands = self.ahead, self.stands
+        self.ahead, self.stands = [], None
+        if not steps:
+            return
+        found = path_ahead([step.element for step in steps], steps[0].offset, steps[-1].ahead, stands)
+        if isinstance(found, Unreached):
+            self._too_large(steps[found.row].element, found.text, abs(steps[0].offset))
+        if self.entry:
+            self._arrive(self.entry, found.start, found.way)
+        for one in found.left_out:
+            element = steps[one].element
+            self.log.tell(
+                Severity.WARNING, "M120", LEFT_OUT, element.line, element.column, lengths=(abs(steps[0].offset),)
+            )
+        runs, behind = (found.runs[:-1], found.runs[-2:-1]) if goes_on else (found.runs, ())
+        for run in runs:
+            self._run(steps[run.row], run)
+        for step in steps[:-1] if goes_on else steps:
+            self.record.remember(step)
+        if goes_on:
+            self.held, self.begin = steps[-1], behind[0].end if behind else found.start
+
+    def _run(self, step: Step, run: Run) -> None:
+        """A piece of the path computed ahead."""
+        height = step.element.high
+        if run.turn:
+            self.record.arc(run.end, height, run.centre, run.turn, step, None if run.corner else _arc_feed(step))
+        else:
+            self.record.line(run.end, height, step)
 
     def _corner(self, before: Step, after: Step) -> Point:
         """Finish the held element at its corner with the next; the point at which that one's offset starts."""
@@ -199,6 +260,7 @@ class Centre:
         self._sink_waiting()
 
     def _run_out(self) -> None:
+        self._run_ahead(goes_on=False)
         if self.held:
             self._finish(self.held, corners.square_end(self.held.element, self.held.offset))
 
@@ -211,36 +273,6 @@ class Centre:
     def _too_large(self, element: Element, why: str, *lengths: float) -> NoReturn:
         text = f"Tool radius too large: {why}; take a smaller tool or open the contour."
         self.log.stop("HE3", text, element.line, element.column, lengths=lengths)
-
-
-def is_inside(first: Element, second: Element, offset: float) -> bool:
-    """Does the path turn towards the tool?  An exact reversal does not, whatever sign its half turn has."""
-    (ax, ay), (bx, by) = first.arriving, second.leaving
-    back = hypot(ax + bx, ay + by) <= corners.WHOLE
-    return not back and corners.turning(first, second) * offset > 0.0
-
-
-def ending(element: Element) -> Element:
-    """The element as it is at its end: an arc's radius there may differ a little from that at its start."""
-    return element._replace(start=element.end) if element.turn else element
-
-
-def advance(element: Element, start: Point, end: Point) -> float:
-    """Millimetres along an element from one point of its offset to another, negative backwards, at most half an arc."""
-    if not element.turn:
-        way = element.leaving
-        return (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1]
-    angle = corners.sweep(start, end, element.centre, element.turn)
-    return (angle - tau if angle > pi else angle) * hypot(start[0] - element.centre[0], start[1] - element.centre[1])
-
-
-def remaining(element: Element, begin: Point, end: Point, offset: float) -> float:
-    """Millimetres left of an element's offset between the points its corners trim it to; negative if they cross."""
-    if not element.turn:
-        return advance(element, begin, end)
-    whole = corners.element_sweep(element) * corners.offset_radius(element, offset)
-    first, last = corners.square_start(element, offset), corners.square_end(element, offset)
-    return whole - advance(element, first, begin) - advance(element, end, last)
 
 
 def _arc_feed(step: Step) -> float:

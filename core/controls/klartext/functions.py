@@ -12,6 +12,11 @@ from core.controls.klartext.steps import Corner, Speed
 from core.controls.source import shown
 from core.finding import Severity
 
+FARTHEST: Final = 99
+"""Blocks that M120 can look ahead."""
+
+AHEAD: Final = "M120 is taken to leave out what lies between two crossings of the path within so many blocks."
+
 _SPEEDS: Final[Mapping[int, Speed]] = MappingProxyType({109: Speed.EDGE, 110: Speed.INSIDE, 111: Speed.CENTRE})
 _CORNERS: Final[Mapping[int, Corner]] = MappingProxyType({97: Corner.M97, 98: Corner.M98})
 _SILENT: Final = frozenset((0, 1, 3, 4, 5, 6, 7, 8, 9, 13, 14))
@@ -23,7 +28,6 @@ _DIFFERENT: Final[Mapping[int, str]] = MappingProxyType(
         90: "the control rounds corners that run without compensation",
         103: "the control lowers the feed of plunging moves",
         112: "the control rounds corners within a tolerance",
-        120: "the control computes the path ahead and leaves out what the tool cannot reach, where this run stops",
         124: "the control leaves out points of short lines",
         136: "the control takes F in millimetres a revolution",
     }
@@ -34,7 +38,9 @@ def functions(state: State, block: Block, words: Words) -> Corner:
     """Take up the block's M words; how the corner at its end is made."""
     corner = Corner.PLAIN
     for name in words:
-        if name[0] == "M" and name not in _BELONGS:
+        if name == "M120":
+            _look_ahead(state, block, words)
+        elif name[0] == "M" and name not in _BELONGS:
             corner = _function(state, block, name, corner)
     for name, owner in _BELONGS.items():
         if name in words and owner not in words:
@@ -60,6 +66,19 @@ def _function(state: State, block: Block, name: str, corner: Corner) -> Corner:
     elif code not in _SILENT:
         state.tell(Severity.INFO, "M", f"{shown(name)} is taken to move nothing.", block, name)
     return corner
+
+
+def _look_ahead(state: State, block: Block, words: Words) -> None:
+    """M120 LA n from this block on until R0; without LA, or with LA0, off."""
+    depth = state.number(block, words, "LA") if "LA" in words else 0.0
+    if not 0.0 <= depth <= FARTHEST or depth != int(depth):
+        state.stop("NUMBER", f"LA is a whole number of blocks up to {FARTHEST}.", block, "LA")
+    if depth and not state.side:
+        text = "M120 has no effect here: it looks ahead under RL or RR only; write it into that block."
+        state.tell(Severity.WARNING, "M", text, block, "M120")
+    elif depth:
+        state.tell(Severity.INFO, "INTERPRETED", AHEAD, block, "M120")
+    state.ahead = int(depth) if state.side else 0
 
 
 def only_functions(state: State, block: Block) -> None:

@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import Final, NoReturn
 
 from core.controls.corners import Element
-from core.controls.klartext.blocks import WORD, Block, head_place, place
+from core.controls.klartext.blocks import WORD, Block, head_place, place, together
 from core.controls.klartext.centre import Centre
 from core.controls.klartext.formula import NoValue, evaluate
 from core.controls.klartext.rounding import NoRoom, chamfer, rounding
@@ -58,9 +58,10 @@ class Blend:
 class State:
     """What a program has set so far.
 
-    `side` is what the last RL (+1), RR (-1) or R0 (0) said, `applied` what the tool's path has taken up since, and
-    `offset` the signed radius it runs at.  `last` is the contour element just programmed, None where there is none
-    to be tangent to.  `waiting` is that element as a step, until it is known whether RND or CHF follows it.
+    `side` is what the last RL (+1), RR (-1) or R0 (0) said, `applied` what the tool's path has taken up since,
+    `offset` the signed radius it runs at, and `ahead` the blocks that M120 looks ahead.  `last` is the contour element
+    just programmed, None where there is none to be tangent to.  `waiting` is that element as a step, until it is known
+    whether RND or CHF follows it.
     """
 
     log: Log
@@ -90,6 +91,7 @@ class State:
     side: int = 0
     applied: int = 0
     offset: float = 0.0
+    ahead: int = 0
     last: Element | None = None
     waiting: Step | None = None
     blend: Blend | None = None
@@ -107,7 +109,8 @@ class State:
     def words(self, block: Block, allowed: frozenset[str], pattern: Pattern[str] = WORD) -> Words:
         """The block's words, all of them allowed and none twice; M words are told apart by their numbers."""
         found: Words = {}
-        for name, number, junk in pattern.findall(block.body):
+        for written, number, junk in pattern.findall(block.body):
+            name = together(written)
             if name == "R" and number == "0":
                 name, number = "R0", ""
             if name not in allowed:
@@ -204,6 +207,8 @@ class State:
 
     def push(self, step: Step) -> None:
         """Hand a step on; a contour element waits for a rounding or chamfer behind it."""
+        if self.ahead and step.role is Role.CONTOUR:
+            step = step._replace(ahead=self.ahead)
         if step.role is not Role.CONTOUR and step.role is not Role.FREE:
             self.flush()
             self.centre.push(step)
@@ -270,4 +275,4 @@ class State:
 
     def release(self) -> None:
         """Compensation is off."""
-        self.applied, self.offset = 0, 0.0
+        self.applied, self.offset, self.ahead = 0, 0.0, 0

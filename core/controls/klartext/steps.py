@@ -54,6 +54,7 @@ class Step(NamedTuple):
     `element` is what is programmed, from the programmed point before it.  Approaches and departures have a `lead`;
     their `hand` is the side of the word RL (+1), RR (-1) or R0 (0), turned over by a negative radius; `before` is
     rapid and feed of the block before.  A departure's element is straight, `leaving` the contour's last direction.
+    `ahead` is the LA of M120, 0 without.
     """
 
     role: Role
@@ -65,3 +66,4 @@ class Step(NamedTuple):
     lead: Lead | None = None
     hand: int = 0
     before: tuple[bool, float] = (False, 0.0)
+    ahead: int = 0

@@ -7,7 +7,7 @@ from math import sqrt
 import pytest
 
 from core.controls.corners import arc_element
-from core.controls.klartext.centre import remaining
+from core.controls.klartext.trims import remaining
 from tests.core.controls.klartext.program import clean, codes, flat, points, runs
 
 NEAR = pytest.approx

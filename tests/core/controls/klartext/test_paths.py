@@ -35,6 +35,11 @@ def test_fauto_is_the_feed_of_the_tool_call() -> None:
     assert made.moves[1].feed == 250
 
 
+def test_blanks_inside_fmax_and_fauto() -> None:
+    made = clean("TOOL CALL 1 Z F250", START, "L X+1 F AUTO", "L X+2 F MAX", "L X+3 F 90")
+    assert [(move.rapid, move.feed) for move in made.moves][1:] == [(False, 250), (True, 250), (False, 90)]
+
+
 def test_arc_about_the_pole_both_ways() -> None:
     assert told("CC X+10 Y+0", "C X+10 Y+10 DR-") == [(10, 10, 10, 0, -1)]
     assert told("CC X+10 Y+0", "C X+10 Y+10 DR+") == [(10, 10, 10, 0, 1)]

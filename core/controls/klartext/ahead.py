@@ -1,0 +1,118 @@
+"""M120 LA: the centre path computed some blocks ahead, which leaves out what the tool cannot reach.
+
+What is said of M120 is that the control looks for undercuts and for crossings of the path with itself in the blocks
+ahead, and does not machine what lies between.  That is the look-ahead rule of a MILL CONTOUR block, which is used here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from core.comp.compensate import compensate
+from core.comp.result import Compensated
+from core.controls import corners
+from core.controls.corners import Element
+from core.geometry.path import Path
+from core.geometry.piece import Point
+from core.geometry.side import Side
+from core.tolerance import JOINED
+
+
+class Run(NamedTuple):
+    """A piece of the centre path: the element it belongs to, its end, and as an arc its centre and turn."""
+
+    row: int
+    corner: bool
+    end: Point
+    centre: Point
+    turn: int
+
+
+@dataclass(frozen=True, slots=True)
+class Ahead:
+    """The centre path along some elements: where and in which direction it starts, its pieces, what it leaves out."""
+
+    start: Point
+    way: Point
+    runs: tuple[Run, ...]
+    left_out: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Unreached:
+    """The element at which the control would still stop, and why; `{0}` is the tool's radius."""
+
+    row: int
+    text: str
+
+
+def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Point | None) -> Ahead | Unreached:
+    """The centre path along elements that join, looked at `depth` blocks ahead, tool radius `offset` to the left.
+
+    `begin`: where the path stands already, on the first element's offset; None for square to its start.
+    """
+    side = Side.LEFT if offset > 0.0 else Side.RIGHT
+    found = compensate(_contour(elements), side, abs(offset), depth, closed=False)
+    if not len(found.path):
+        return Unreached(0, "the tool of radius {0} reaches nothing of this contour")
+    if bool(found.bridged.any()):
+        at = int(found.path.numbers[found.bridged][0])
+        return Unreached(at, "within the blocks of LA the tool of radius {0} finds no way past this block")
+    return _checked(found, elements, offset, begin)
+
+
+def _contour(elements: Sequence[Element]) -> Path:
+    """The elements numbered from 0."""
+    points = np.array([elements[0].start, *(one.end for one in elements)])
+    turns = np.array([one.turn for one in elements], np.int8)
+    return Path.of(
+        points, np.array([one.centre for one in elements]), turns, np.arange(len(elements), dtype=np.float64)
+    )
+
+
+def _checked(found: Compensated, elements: Sequence[Element], offset: float, begin: Point | None) -> Ahead | Unreached:
+    """The path, where its first and last piece are of the first and last element."""
+    path, last = found.path, len(elements) - 1
+    runs = tuple(_runs(path))
+    if runs[0].row != 0 or runs[0].corner:
+        return Unreached(0, "the tool of radius {0} reaches nothing of this block, the first one that M120 looks at")
+    if not _near(runs[-1].end, corners.square_end(elements[-1], offset)) or runs[-1].row != last:
+        return Unreached(
+            last, "the tool of radius {0} does not reach the end of this block, the last one before M120 ends"
+        )
+    start, way = _point(path.points[0]), _point(path.start_directions[0])
+    if begin is not None and not _near(begin, start):
+        if _behind(elements[0], start, begin, runs[0].end):
+            return Unreached(0, "between its neighbours nothing is left of this block for the tool of radius {0}")
+        start = begin
+    return Ahead(start, way, runs, tuple(int(one) for one in found.deleted.segments.tolist() if one == int(one)))
+
+
+def _runs(path: Path) -> Iterator[Run]:
+    numbers, turns = path.numbers.tolist(), path.turns.tolist()
+    for number, turn, end, centre in zip(numbers, turns, path.ends, path.centres, strict=True):
+        yield Run(int(number), number != int(number), _point(end), _point(centre), turn)
+
+
+def _point(row: np.ndarray[tuple[int], np.dtype[np.float64]]) -> Point:
+    x, y = row.tolist()
+    return x, y
+
+
+def _near(one: Point, other: Point) -> bool:
+    return abs(one[0] - other[0]) <= JOINED and abs(one[1] - other[1]) <= JOINED
+
+
+def _behind(element: Element, start: Point, begin: Point, end: Point) -> bool:
+    """Does an element's offset, trimmed to `begin`, lie behind the end it is trimmed to?"""
+    if not element.turn:
+        (wx, wy), dx, dy = element.leaving, end[0] - begin[0], end[1] - begin[1]
+        return dx * wx + dy * wy < -JOINED
+    centre, turn = element.centre, element.turn
+    trimmed = corners.sweep(start, begin, centre, turn)
+    return trimmed > pi or trimmed > corners.sweep(start, end, centre, turn) + corners.WHOLE
