@@ -1,7 +1,8 @@
 """Findings: how every stage reports trouble, as values and never as exceptions.
 
 A finding's text is a sentence for the operator.  Lengths in it stand as `{value}`, `{x}`, `{y}` or
-`{0}`, `{1}` ... (the rest of `lengths`), filled in program units by `core.units.sentence`.
+`{0}`, `{1}` ... (the rest of `lengths`), filled in program units by `core.units.sentence`.  `{0~1}` is length 0
+with as many decimals as tell it from length 1.
 """
 
 from __future__ import annotations

@@ -55,6 +55,16 @@ MM_PER: Final[Mapping[Unit, Fraction]] = MappingProxyType({Unit.IN: Fraction(127
 """Millimetres in one unit, exactly."""
 
 
+KEPT: Final[Mapping[Unit, int]] = MappingProxyType({Unit.IN: 10, Unit.MM: 8})
+"""Decimals that a conversion keeps: more than a drawing has."""
+
+MOST_DECIMALS: Final = 20
+"""A conversion that needs more decimals keeps all that there are."""
+
+CLOSER: Final = 6
+"""More decimals than a form's that a sentence shows at most of two lengths that are nearly equal."""
+
+
 def to_mm(value: float, unit: Unit) -> float:
     """Millimetres (a minute) of a length (a feed) in program units."""
     return value * 25.4 if unit is Unit.IN else value
@@ -76,14 +86,24 @@ def from_radians(value: float) -> float:
 
 
 def convert(value: float, old: Unit, new: Unit) -> float:
-    """A typed length or feed in another unit, rounded so that going there and back gives the same number.
+    """A typed length or feed in another unit, such that there and back gives any number of 14 digits again.
 
-    Inches keep ten decimals and millimetres eight: 3 mm is 0.1181102362 in, and that is 3 mm again.
+    Inches keep ten decimals and millimetres eight: 3 mm is 0.1181102362 in, and that is 3 mm again.  Where these do not
+    lead back, as those of 1/3 in, there are as many more as do.
     """
     if old is new:
         return value
     exact = Fraction(value) * MM_PER[old] / MM_PER[new]
-    return float(round(exact, 10 if new is Unit.IN else 8))
+    found = (float(round(exact, places)) for places in range(KEPT[new], MOST_DECIMALS))
+    return next((one for one in found if _leads_back(one, value, old, new)), float(exact))
+
+
+def _leads_back(found: float, value: float, old: Unit, new: Unit) -> bool:
+    """Whether converting `found` back gives `value`: with the decimals that are kept if these will do."""
+    factor = MM_PER[new] / MM_PER[old]
+    kept = float(round(Fraction(found) * factor, KEPT[old]))
+    will_do = float(round(Fraction(kept) / factor, KEPT[new])) == found
+    return value == (kept if will_do else float(Fraction(found) * factor))
 
 
 def show(value: float, kind: Kind, unit: Unit) -> str:
@@ -124,10 +144,26 @@ def sentence(finding: Finding, unit: Unit) -> str:
         known["x"], known["y"] = finding.at
 
     def fill(place: re.Match[str]) -> str:
-        length = known.get(place[1])
-        return place[0] if length is None else show(from_mm(length, unit), Kind.LENGTH, unit)
+        length, other = known.get(place[1]), known.get(place[2] or "")
+        if length is None or (place[2] and other is None):
+            return place[0]
+        here = from_mm(length, unit)
+        return show(here, Kind.LENGTH, unit) if other is None else _told_from(here, from_mm(other, unit), unit)
 
-    return re.sub(r"\{(\w+)\}", fill, finding.text)
+    return re.sub(r"\{(\w+)(?:~(\w+))?\}", fill, finding.text)
+
+
+def _told_from(value: float, other: float, unit: Unit) -> str:
+    """A length with a form's decimals, or as many more as tell how far it is from another."""
+    if not (isfinite(value) and isfinite(other)):
+        return show(value, Kind.LENGTH, unit)
+    apart, fewest = abs(value - other), _decimals(Kind.LENGTH, unit)
+    enough = (
+        places
+        for places in range(fewest, fewest + CLOSER)
+        if abs(abs(round(value, places) - round(other, places)) - apart) <= apart / 10.0
+    )
+    return f"{value:.{next(enough, fewest + CLOSER)}f}"
 
 
 def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:

@@ -13,7 +13,7 @@ from app.widgets.field import Editing, press
 from app.widgets.form import Cell, State
 from core.pipeline.derived import Tag
 from core.program.edit import Refused, read
-from core.program.fields import SOLUTION, Field
+from core.program.fields import SOLUTION, Field, range_of
 from core.program.model import Entry, Program, Unread
 from core.program.solved import Solved, Value
 from core.units import Kind, Unit, show
@@ -145,7 +145,7 @@ class FormPage(Page):
     def help(self, session: Session) -> tuple[str, ...]:
         """The prompt of the field, its range, and the keys that change it."""
         one = self.field(session)
-        return () if one is None else field_help(one)
+        return () if one is None else field_help(one, session.program.unit)
 
 
 def prompt_of(one: Field) -> str:
@@ -219,17 +219,15 @@ def cell_of(one: Field, held: Value | str, unit: Unit, column: int, line: int, *
             return Cell(one.name, one.label, text, column, line, State.TYPED, "", choice)
 
 
-def field_help(one: Field) -> tuple[str, ...]:
+def field_help(one: Field, unit: Unit) -> tuple[str, ...]:
     """What a field means and what may be typed into it, in sentences, then its picture."""
     lines = [one.label, one.prompt]
     if one.choices:
         lines.append(f"Choices: {', '.join(one.choices)}. Space, left and right step; letters spell one.")
     elif one.kind is not Kind.TEXT:
         lines.append(_HOW[one.kind])
-    if one.low is not None and one.high is not None:
-        lines.append(f"From {one.low:g} to {one.high:g}.")
-    elif one.above is not None:
-        lines.append(f"Above {one.above:g}.")
+    if taken := range_of(one, unit):
+        lines.append(f"{taken[0].upper()}{taken[1:]}.")
     topic = topic_of(one)
     return tuple(lines) if topic is None else (*lines[:2], topic.words, *lines[2:], *topic.picture)
 

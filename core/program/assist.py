@@ -15,7 +15,7 @@ from typing import assert_never
 from core.finding import Finding, Severity
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.program import solve_arc, solve_line
-from core.program.fields import Form
+from core.program.fields import FARTHEST, Form
 from core.program.model import ArcSegment, BlendSegment, Block, LineSegment, Program, Segment
 from core.program.reading import Reading, carry, fill, fill_angle, read
 from core.program.solution import Known, Outcome, Task, solve
@@ -178,7 +178,7 @@ def _solved(task: Task, reading: Reading, start: Point | None, choice: int | Non
     if not pieces:
         return _unsolved(task, outcome, reading, start)
     piece = pieces[choice or 0] if len(pieces) > 1 else pieces[0]
-    if _too_far(piece):
+    if max(map(abs, piece.end)) > FARTHEST or _too_far(piece):
         text = "This segment leads farther than any machine goes: check its numbers."
         return _Shape(findings=(Finding("OUT_OF_RANGE", Severity.ERROR, text, field=task.shape[0]),))
     _calculate(reading, piece, unit)

@@ -13,7 +13,7 @@ def converted(program: Program, unit: Unit) -> Program:
     """The program with all its lengths and feeds in `unit`.
 
     A blank parameter stood for the old unit's usual value, which is another one in the new unit: it is written out, so
-    that the same part is cut.
+    that the same part is cut.  One that comes to the new unit's usual value becomes a blank again.
     """
     if program.unit is unit:
         return program
@@ -21,11 +21,18 @@ def converted(program: Program, unit: Unit) -> Program:
     return replace(
         program,
         unit=unit,
-        parameters=_each(_pinned(program.parameters, PARAMETERS, old), PARAMETERS, old, unit),
-        setup=_each(_pinned(program.setup, SETUP, old), SETUP, old, unit),
+        parameters=_usual(program.parameters, PARAMETERS, old, unit),
+        setup=_usual(program.setup, SETUP, old, unit),
         tools=tuple(_each(tool, TOOL, old, unit) for tool in program.tools),
         blocks=tuple(_block(block, old, unit) for block in program.blocks),
     )
+
+
+def _usual(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Part:
+    """A copy converted, its blanks written out first and its usual values blank again."""
+    there = _each(_pinned(part, table, old), table, old, new)
+    usual = ((one.name, default(one.name, new)) for one in table if one.kind is Kind.LENGTH)
+    return changed(there, {name: None for name, value in usual if value and getattr(there, name) == Entry(value)})
 
 
 def _pinned(part: Part, table: tuple[Field, ...], unit: Unit) -> Part:

@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import Any, Final
 
 from core.program.convert import converted
-from core.program.fields import Field, Form, check, field, form_of
+from core.program.fields import Field, Form, check, field, form_of, range_of
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -64,11 +64,11 @@ def type_field(program: Program, where: Where, name: str, typed: Typed) -> Edite
         return refusal
     block = program.blocks[where.block - 1]
     if where.segment == 0:
-        if refusal := _misfit(field(Form.START, name), typed) or _lookahead_misfit(block, name, typed):
+        if refusal := _misfit(field(Form.START, name), typed, program.unit) or _lookahead_misfit(block, name, typed):
             return refusal
         return _with_block(program, where, changed(block, {name: typed}))
     segment = block.segments[where.segment - 1]
-    if refusal := _misfit(field(form_of(segment), name), typed):
+    if refusal := _misfit(field(form_of(segment), name), typed, program.unit):
         return refusal
     return _with_segment(program, where, _typed_into(segment, name, typed))
 
@@ -187,8 +187,8 @@ def delete_block(program: Program, at: int) -> Edited:
 
 def set_tool(program: Program, tool: Tool) -> Edited:
     """Put a line into the tool table, in place of the one of that number; the table stays in order of numbers."""
-    fits = _misfit(field(Form.TOOL, "number"), Entry(tool.number))
-    if refusal := fits or _misfit(field(Form.TOOL, "diameter"), tool.diameter):
+    fits = _misfit(field(Form.TOOL, "number"), Entry(tool.number), program.unit)
+    if refusal := fits or _misfit(field(Form.TOOL, "diameter"), tool.diameter, program.unit):
         return refusal
     others = (other for other in program.tools if other.number != tool.number)
     return replace(program, tools=tuple(sorted((*others, tool), key=lambda one: one.number)))
@@ -204,7 +204,7 @@ def delete_tool(program: Program, number: int) -> Edited:
 
 def set_parameter(program: Program, name: str, typed: Typed) -> Edited:
     """Put what was typed, or a blank for the default, into a field of PROGRAM PARAMETERS."""
-    if refusal := _misfit(field(Form.PARAMETERS, name), typed):
+    if refusal := _misfit(field(Form.PARAMETERS, name), typed, program.unit):
         return refusal
     return replace(program, parameters=changed(program.parameters, {name: typed}))
 
@@ -220,7 +220,7 @@ def set_setup(program: Program, name: str, value: str | Typed) -> Edited:
     if isinstance(value, str):
         if not value.isprintable():
             return Refused(f"{one.label} takes letters and signs on one line.")
-    elif refusal := _misfit(one, value):
+    elif refusal := _misfit(one, value, program.unit):
         return refusal
     return replace(program, setup=changed(program.setup, {name: value}))
 
@@ -250,11 +250,11 @@ def _last(thing: str, count: int) -> str:
     return f"the last {thing} is {count}." if count else f"no {thing} is typed yet."
 
 
-def _misfit(one: Field, typed: Typed) -> Refused | None:
+def _misfit(one: Field, typed: Typed, unit: Unit) -> Refused | None:
     """Why a field does not take what was typed."""
     if one.kind is Kind.CHOICE:
         return _takes(one)
-    text = check(one, typed.value) if isinstance(typed, Entry) else None
+    text = check(one, typed.value, unit) if isinstance(typed, Entry) else None
     return None if text is None else Refused(text)
 
 
@@ -267,7 +267,7 @@ def _lookahead_misfit(block: Block, name: str, typed: Typed) -> Refused | None:
         return None
     one = field(Form.START, "lookahead")
     again = "" if typed is None else f" {printable(typed.text)} cannot be read."
-    return Refused(f"{check(one, 0)}{again} Press F3 to go back to CAL.")
+    return Refused(f"{one.label} must be a whole number {range_of(one, Unit.MM)}.{again} Press F3 to go back to CAL.")
 
 
 def _typed_into(segment: Segment, name: str, typed: Typed) -> Segment:

@@ -22,12 +22,15 @@ from core.program.model import (
     PathChoice,
     Segment,
 )
-from core.units import Kind, Unit
+from core.units import Kind, Unit, from_mm
 
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """One field: `low` and `high` bound what may be typed (program units, inclusive), None is open."""
+    """One field: `low` and `high` bound what may be typed (inclusive), None is open.
+
+    Lengths and feeds are bounded in millimetres, so that a field takes the same part in both units.
+    """
 
     name: str
     label: str
@@ -52,8 +55,11 @@ class Form(StrEnum):
     SETUP = "PART SETUP"
 
 
-FARTHEST: Final = 1e5
-"""Largest coordinate, length, feed and speed that may be typed, in program units."""
+FARTHEST: Final = 254000.0
+"""Largest coordinate and length in millimetres, and feed in millimetres a minute: 10000 in, beyond any machine."""
+
+FASTEST: Final = 100000
+"""Largest SPEED in revolutions a minute."""
 
 SEGMENT_PROMPT: Final = (
     "Enter a segment number, use ENTER to edit segment, or use left arrow (back), right arrow (advance), or softkey."
@@ -105,7 +111,7 @@ START: Final = (
     _place("z_start", "Z START", "Enter the Z coordinate of the top of the material."),
     _place("z_bottom", "Z BOTTOM", "Enter the Z coordinate of the bottom of the cut."),
     _feed("plunge_feed", "PLUNGE FEED", "Enter the feed with which the tool goes down."),
-    _count("speed", "SPEED (RPM)", "Enter the spindle speed in revolutions per minute.", 0, FARTHEST),
+    _count("speed", "SPEED (RPM)", "Enter the spindle speed in revolutions per minute.", 1, FASTEST),
     _allowance("peck_depth", "PECK DEPTH", "Enter the depth of one pass, or 0 for the full depth in one pass."),
     _count("lookahead", "CUTCOMP LOOKAHEAD", LOOKAHEAD_PROMPT, 1, 20),
 )
@@ -231,22 +237,30 @@ def field(form: Form, name: str) -> Field:
     return _BY_NAME[form, name]
 
 
-def check(one: Field, value: float) -> str | None:
-    """The sentence that refuses a value a field does not take, None for one it takes."""
+def check(one: Field, value: float, unit: Unit) -> str | None:
+    """The sentence that refuses a value, in program units, that a field does not take, None for one it takes."""
     whole = one.kind is Kind.COUNT
+    low, high = bounds(one, unit)
     fits = isfinite(value) and (not whole or value == int(value))
-    fits = fits and (one.low is None or value >= one.low) and (one.high is None or value <= one.high)
+    fits = fits and (low is None or value >= low) and (high is None or value <= high)
     if fits and (one.above is None or value > one.above):
         return None
-    return f"{one.label} must be {'a whole number ' if whole else ''}{_range(one)}."
+    return f"{one.label} must be {'a whole number ' if whole else ''}{range_of(one, unit) or 'a finite number'}."
 
 
-def _range(one: Field) -> str:
+def bounds(one: Field, unit: Unit) -> tuple[float | None, float | None]:
+    """The least and the largest value a field takes, in program units."""
+    measure = one.kind in (Kind.LENGTH, Kind.FEED)
+    low, high = (None if bound is None else from_mm(bound, unit) if measure else bound for bound in (one.low, one.high))
+    return low, high
+
+
+def range_of(one: Field, unit: Unit) -> str:
+    """What a field takes, such as `from 1 to 20`; empty where everything goes."""
+    low, high = bounds(one, unit)
     if one.above is not None:
-        return f"above {one.above:g}" + ("" if one.high is None else f", at most {_plain(one.high)}")
-    if one.low is not None and one.high is not None:
-        return f"from {_plain(one.low)} to {_plain(one.high)}"
-    return "a finite number"
+        return f"above {one.above:g}" + ("" if high is None else f", at most {_plain(high)}")
+    return "" if low is None or high is None else f"from {_plain(low)} to {_plain(high)}"
 
 
 def _plain(bound: float) -> str:

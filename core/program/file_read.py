@@ -227,7 +227,7 @@ def _tool(table: _Table) -> Tool:
     typed = _numbers(table, Form.TOOL)
     number = typed.get("number")
     one = TABLES[Form.TOOL][0]
-    if not isinstance(number, Entry) or check(one, number.value):
+    if not isinstance(number, Entry) or check(one, number.value, table.unit):
         raise table.fault(
             "number", f"number {'is missing' if number is None else 'is no tool number'}: write 1 to 9999."
         )
@@ -240,7 +240,7 @@ def _block(table: _Table) -> Block:
         raise table.fault("kind", f'kind must be "{KIND}".')
     typed = _numbers(table, Form.START)
     lookahead = typed.get("lookahead")
-    if isinstance(lookahead, Entry) and (trouble := check(TABLES[Form.START][-1], lookahead.value)):
+    if isinstance(lookahead, Entry) and (trouble := check(TABLES[Form.START][-1], lookahead.value, table.unit)):
         raise table.fault("lookahead", f"lookahead is {lookahead.value:g}: {trouble}")
     segments = tuple(_segment(segment) for segment in table.array("segment"))
     return Block(**typed, cutter_comp=table.chosen("cutter_comp", CutterComp), segments=segments)

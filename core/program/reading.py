@@ -32,7 +32,7 @@ def read(form: Form, part: Block | Segment, unit: Unit, number: int) -> Reading:
         typed = values[name] = getattr(part, name)
         if typed is None:
             continue
-        fault = _fault(one, typed, number)
+        fault = _fault(one, typed, number, unit)
         if fault is None:
             known[name] = typed.value * factor
         else:
@@ -40,11 +40,11 @@ def read(form: Form, part: Block | Segment, unit: Unit, number: int) -> Reading:
     return Reading(values, known, tuple(findings))
 
 
-def _fault(one: Field, typed: Entry | Unread, number: int) -> Finding | None:
+def _fault(one: Field, typed: Entry | Unread, number: int, unit: Unit) -> Finding | None:
     if isinstance(typed, Unread):
         text = f"{one.label}: {printable(typed.text)} cannot be read. {typed.reason}"
         return Finding("UNREADABLE", Severity.ERROR, text, number, one.name)
-    text = check(one, typed.value) or ""
+    text = check(one, typed.value, unit) or ""
     return Finding("OUT_OF_RANGE", Severity.ERROR, text, number, one.name) if text else None
 
 

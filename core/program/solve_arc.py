@@ -56,7 +56,7 @@ def _end_and_center(turn: Turn, start: Point, known: Known) -> Answer:
         return radius
     out = hypot(end[0] - center[0], end[1] - center[1])
     if abs(out - radius) > ARC_RADII:
-        text = "The arc's radius is {0} at its start and {1} at its end: correct the end or the center."
+        text = "The arc's radius is {0~1} at its start and {1~0} at its end: correct the end or the center."
         return wrong("RADII_DIFFER", text, "x_center", radius, out)
     return (construct.settled(start, end, center, turn),)
 
@@ -163,7 +163,7 @@ def _disagrees(piece: Piece, name: str, value: float) -> Finding | None:
     found = _measure(piece, name)
     if abs(found - value) <= ARC_RADII:
         return None
-    return wrong("CONTRADICTION", f"{_LABELS[name]} is {{0}}, but {{1}}", name, value, found)
+    return wrong("CONTRADICTION", f"{_LABELS[name]} is {{0~1}}, but {{1~0}}", name, value, found)
 
 
 def _measure(arc: Arc, name: str) -> float:

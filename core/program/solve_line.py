@@ -85,7 +85,7 @@ def _disagrees(piece: Piece, name: str, value: float) -> Finding | None:
     found = piece.length if name == "length" else piece.end[_END.index(name)]
     if abs(found - value) <= ARC_RADII:
         return None
-    return wrong("CONTRADICTION", f"{TASK.label(name)} is {{0}}, but {{1}}", name, value, found)
+    return wrong("CONTRADICTION", f"{TASK.label(name)} is {{0~1}}, but {{1~0}}", name, value, found)
 
 
 TASK = Task(

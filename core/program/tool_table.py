@@ -137,12 +137,12 @@ def _word_trouble(letter: str, value: float, words: Mapping[str, float]) -> str 
 def _objections(one: Listed, unit: Unit, program: Unit) -> Iterator[Finding]:
     """What the shop's own table cannot take, though a control may."""
     number, _, size = TOOL
-    if (trouble := check(number, one.number)) is not None:
+    if (trouble := check(number, one.number, program)) is not None:
         yield one.finding(Severity.ERROR, "T", trouble)
     value = one.words.get("D", 0.0)
     if value == 0.0:
         yield one.finding(Severity.WARNING, "D", f"Tool {one.number} has no diameter: it stays blank.")
-    elif (trouble := check(size, convert(value, unit, program))) is not None:
+    elif (trouble := check(size, convert(value, unit, program), program)) is not None:
         yield one.finding(Severity.ERROR, "D", trouble)
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import inf, nan, pi
+from fractions import Fraction
+from math import inf, isclose, nan, pi
 
 import pytest
 from hypothesis import given, settings
@@ -151,6 +152,32 @@ def test_convert_there_and_back(digits, unit):
     assert convert(convert(value, unit, other), other, unit) == value
 
 
+@pytest.mark.parametrize("text", ["1/3", "5/7", "1/512", "25.4/3", "9999.87654321", ".0000001234567"])
+@pytest.mark.parametrize("unit", Unit)
+def test_whatever_is_typed_goes_there_and_back(text, unit):
+    value, other = parse(text, Kind.LENGTH, unit), MM if unit is IN else IN
+    assert isinstance(value, float)
+    there = convert(value, unit, other)
+    assert convert(there, other, unit) == value
+    assert abs(to_mm(there, other) - to_mm(value, unit)) < 1e-8
+
+
+@settings(derandomize=True, max_examples=500)
+@given(st.integers(-(10**14), 10**14), st.integers(1, 14), st.sampled_from(Unit))
+def test_every_decimal_of_fourteen_digits_goes_there_and_back(digits, places, unit):
+    value, other = float(Fraction(digits, 10**places) % 10_000), MM if unit is IN else IN
+    assert convert(convert(value, unit, other), other, unit) == value
+
+
+@settings(derandomize=True, max_examples=300)
+@given(st.floats(-10_000.0, 10_000.0), st.sampled_from(Unit))
+def test_any_number_comes_back_as_near_as_doubles_are(value, unit):
+    other = MM if unit is IN else IN
+    there = convert(value, unit, other)
+    assert abs(to_mm(there, other) - to_mm(value, unit)) <= 5e-9
+    assert isclose(convert(there, other, unit), value, rel_tol=1e-14, abs_tol=1e-300)
+
+
 def finding(text: str, **places: object) -> Finding:
     return Finding("X", Severity.ERROR, text, **places)  # type: ignore[arg-type]  # places are the test's own
 
@@ -159,6 +186,22 @@ def test_sentence_fills_lengths_in_program_units():
     one = finding("Deep {value} at X {x} Y {y}, {0} of {1}.", at=(25.4, -0.00001), value=6.35, lengths=(2.54, 50.8))
     assert sentence(one, IN) == "Deep 0.2500 at X 1.0000 Y 0.0000, 0.1000 of 2.0000."
     assert sentence(one, MM) == "Deep 6.350 at X 25.400 Y 0.000, 2.540 of 50.800."
+
+
+@pytest.mark.parametrize(
+    ("lengths", "words"),
+    [
+        ((19.05, 31.75), "0.7500 and 1.2500"),
+        ((25.40127, 25.404826), "1.00005 and 1.00019"),
+        ((25.4, 25.4025401), "1.0000 and 1.0001"),
+        ((3810000.0, 3810000.00254), "150000.0000 and 150000.0001"),
+        ((25.4, 25.4), "1.0000 and 1.0000"),
+        ((25.4, 25.4000001), "1.000000000 and 1.000000004"),
+        ((inf, 1.0), "inf and 0.0394"),
+    ],
+)
+def test_two_lengths_that_are_nearly_equal_are_told_apart(lengths, words):
+    assert sentence(finding("{0~1} and {1~0}", lengths=lengths), IN) == words
 
 
 def test_sentence_leaves_braces_it_does_not_know():

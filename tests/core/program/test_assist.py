@@ -176,7 +176,7 @@ def test_a_number_out_of_its_range_is_not_used():
     block = solved(program(line(length=-1.0, angle=0.0)))
     (finding,) = block.every_finding
     assert (finding.code, finding.segment, finding.field) == ("OUT_OF_RANGE", 1, "length")
-    assert finding.text == "XY LENGTH must be above 0, at most 100000."
+    assert finding.text == "XY LENGTH must be above 0, at most 254000."
     assert block.segments[0].piece is None
 
 
@@ -231,10 +231,10 @@ def test_no_numpy_is_loaded():
 
 
 def test_a_segment_that_leads_too_far_is_refused():
-    far = [line(length=1e5, angle=0.0) for _ in range(5)]
+    far = [line(length=4e3, angle=0.0) for _ in range(5)]
     block = solved(program(*far, unit=Unit.IN))
-    assert codes(block) == [("OUT_OF_RANGE", 4)]
-    assert block.determined == 3
+    assert codes(block) == [("OUT_OF_RANGE", 3)]
+    assert block.determined == 2
     flat = solved(program(arc("CW", x_end=1e4, y_end=0.0, sweep=1e-4)))
     assert codes(flat) == [("OUT_OF_RANGE", 1)]
 

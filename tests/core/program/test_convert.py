@@ -74,6 +74,22 @@ def test_tools():
     assert part.tools == (Tool(2, "BALL MILL", Entry(50.8)), Tool(3))
 
 
+def test_what_the_blanks_stood_for_is_blank_again_on_the_way_back():
+    part = Program(Unit.IN, changed(Parameters(), {"blend_offset": Entry(0.25)}))
+    there = converted(part, Unit.MM)
+    assert there.parameters.blend_overlap == Entry(3.175)
+    assert there.setup.safe_z == Entry(25.4)
+    assert converted(there, Unit.IN) == part
+    assert converted(converted(Program(Unit.MM), Unit.IN), Unit.MM) == Program(Unit.MM)
+
+
+def test_a_typed_zero_stays_typed():
+    part = Program(Unit.IN, changed(Parameters(), {"blend_offset": Entry(0.0), "finish_xy": Entry(0.0)}))
+    there = converted(part, Unit.MM).parameters
+    assert (there.blend_offset, there.finish_xy) == (Entry(0.0), Entry(0.0))
+    assert converted(converted(part, Unit.MM), Unit.IN) == part
+
+
 def test_the_same_unit_is_the_same_program():
     part = Program(Unit.MM)
     assert converted(part, Unit.MM) is part

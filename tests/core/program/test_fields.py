@@ -93,11 +93,11 @@ def test_form_of():
         (Form.START, "lookahead", 21.0, "CUTCOMP LOOKAHEAD must be a whole number from 1 to 20."),
         (Form.START, "lookahead", 2.5, "CUTCOMP LOOKAHEAD must be a whole number from 1 to 20."),
         (Form.START, "tool", 0.0, "TOOL must be a whole number from 1 to 9999."),
-        (Form.START, "peck_depth", -0.1, "PECK DEPTH must be from 0 to 100000."),
-        (Form.START, "plunge_feed", 0.0, "PLUNGE FEED must be above 0, at most 100000."),
-        (Form.START, "x_start", float("nan"), "X START must be from -100000 to 100000."),
-        (Form.START, "x_start", float("inf"), "X START must be from -100000 to 100000."),
-        (Form.TOOL, "diameter", -0.5, "TOOL DIAMETER must be above 0, at most 100000."),
+        (Form.START, "peck_depth", -0.1, "PECK DEPTH must be from 0 to 10000."),
+        (Form.START, "plunge_feed", 0.0, "PLUNGE FEED must be above 0, at most 10000."),
+        (Form.START, "x_start", float("nan"), "X START must be from -10000 to 10000."),
+        (Form.START, "x_start", float("inf"), "X START must be from -10000 to 10000."),
+        (Form.TOOL, "diameter", -0.5, "TOOL DIAMETER must be above 0, at most 10000."),
         (Form.ARC, "sweep", 360.001, "SWEEP ANGLE must be above 0, at most 360."),
         (Form.LINE, "angle", 361.0, "XY ANGLE must be from -360 to 360."),
         (Form.SETUP, "work_offset", 60.0, "WORK OFFSET must be a whole number from 54 to 59."),
@@ -105,7 +105,7 @@ def test_form_of():
     ],
 )
 def test_check_refuses(form, name, value, text):
-    assert check(field(form, name), value) == text
+    assert check(field(form, name), value, Unit.IN) == text
 
 
 @pytest.mark.parametrize(
@@ -115,13 +115,13 @@ def test_check_refuses(form, name, value, text):
         (Form.START, "lookahead", 20.0),
         (Form.START, "finish_tool", 0.0),
         (Form.START, "peck_depth", 0.0),
-        (Form.START, "x_start", -1e5),
+        (Form.START, "x_start", -1e4),
         (Form.ARC, "sweep", 360.0),
         (Form.ARC, "radius", 1e-9),
     ],
 )
 def test_check_takes(form, name, value):
-    assert check(field(form, name), value) is None
+    assert check(field(form, name), value, Unit.IN) is None
 
 
 def test_defaults():
@@ -134,10 +134,27 @@ def test_defaults():
     assert default("x_start", Unit.IN) is None
 
 
+def test_a_field_takes_the_same_part_in_both_units():
+    place, feed = field(Form.START, "x_start"), field(Form.LINE, "feed")
+    assert check(place, 10000.0, Unit.IN) is None
+    assert check(place, 254000.0, Unit.MM) is None
+    assert check(place, 10000.1, Unit.IN) == "X START must be from -10000 to 10000."
+    assert check(place, 254000.1, Unit.MM) == "X START must be from -254000 to 254000."
+    assert check(feed, 254000.1, Unit.MM) == "FEED must be above 0, at most 254000."
+    angle = field(Form.LINE, "angle")
+    assert check(angle, 360.0, Unit.IN) == check(angle, 360.0, Unit.MM) is None
+
+
+def test_a_standing_spindle_is_refused_where_it_is_typed():
+    speed = field(Form.START, "speed")
+    assert check(speed, 0.0, Unit.MM) == "SPEED (RPM) must be a whole number from 1 to 100000."
+    assert check(speed, 1.0, Unit.MM) is None
+
+
 @pytest.mark.parametrize("unit", Unit)
 def test_every_number_on_the_parameter_screens_has_a_default_it_would_take(unit):
     for one in (*fields.PARAMETERS, *fields.SETUP):
         if one.kind not in (Kind.CHOICE, Kind.TEXT):
             value = default(one.name, unit)
             assert value is not None
-            assert check(one, value) is None
+            assert check(one, value, unit) is None

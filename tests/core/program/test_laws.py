@@ -203,7 +203,7 @@ def test_calculated_numbers_are_ones_the_fields_would_take(part):
     for typed, found in zip(part.blocks[0].segments, solved(part).segments, strict=True):
         for name, one in found.values.items():
             if isinstance(one, Solved):
-                assert check(field(form_of(typed), name), one.value) is None
+                assert check(field(form_of(typed), name), one.value, part.unit) is None
 
 
 @laws

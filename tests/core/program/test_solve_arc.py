@@ -128,6 +128,11 @@ def test_radii_that_differ_are_refused_with_both():
     assert found.end is None
 
 
+def test_radii_that_differ_at_the_limit_are_shown_with_the_digits_that_differ():
+    found = solved(arc("CCW", x_end=0.0, y_end=5.00264, x_center=0.0, y_center=0.0), 5.0, 0.0)
+    assert text(found).split(": ")[1] == "The arc's radius is 5.0000 at its start and 5.0026 at its end"
+
+
 def test_radii_that_differ_by_rounding_give_an_exact_arc():
     found = solved(arc("CCW", x_end=0.0, y_end=5.0025, x_center=0.0, y_center=0.0), 5.0, 0.0)
     assert found.findings == ()
