@@ -1,0 +1,54 @@
+"""Nearest: where a centre path comes nearest to the surface, for whoever asks after the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.geometry.distance import foot
+from core.geometry.measured import at, boxes, measured, stacked
+from core.geometry.path import Path
+from core.geometry.piece import Point
+from core.tolerance import GOUGE
+from core.verify.judge import judgeable
+from core.verify.pairs import approaches, middles, pairs_of
+
+
+@dataclass(frozen=True, slots=True)
+class Nearest:
+    """The least distance from path to surface, millimetres, and the first place along the path that is so near.
+
+    `at` is the centre there, `surface_at` the surface point, `surface_number` the contour's segment.
+    """
+
+    distance: float
+    at: Point
+    surface_at: Point
+    surface_number: float
+
+
+def nearest(surface: Path, centres: Sequence[Path], clearance: float) -> Nearest | None:
+    """Where these paths, all cut, come as near to the surface as `clearance`, their verdict's; None if nowhere.
+
+    Places that differ by no more than GOUGE are as near as each other.
+    """
+    with np.errstate(all="ignore"):
+        if not (len(surface) and centres and all(judgeable(surface, clearance, centre) for centre in centres)):
+            return None
+        walls, moves = measured(surface), stacked([measured(centre) for centre in centres])
+        slack = 2.0 * float(walls.slack.max() + moves.slack.max(initial=0.0))
+        pairs = pairs_of(moves, walls, walls.stations, boxes(walls), clearance + slack + 2.0 * GOUGE)
+        near = approaches(pairs, middles(pairs), clearance + slack + 2.0 * GOUGE)
+        k, pair = np.nonzero(near.apart <= clearance + GOUGE)
+        if not len(pair):
+            return None
+        stations = pairs.centre_stations[near.i[pair]] + near.places[k, pair] * moves.length[near.i[pair]]
+        first = int(np.argmin(stations))
+        row = pair[first : first + 1]
+        place = at(moves.take(near.i[row]), near.places[k[first : first + 1], row])
+        wall = walls.take(near.j[row])
+        touched, centre = at(wall, foot(wall, place)).item(), place.item()
+    number = surface.numbers[near.j[row]].item()
+    return Nearest(clearance, (centre.real, centre.imag), (touched.real, touched.imag), number)
