@@ -15,22 +15,86 @@ from core.geometry.measured import Flags, Floats, Points, Rows
 FAN: Final = 4
 """Boxes in a group."""
 
+RUN: Final = 8
+"""Consecutive boxes that are compared with RUN others at once."""
+
 AT_ONCE: Final = 65_536
 """Pairs that are compared at once, without a tree."""
+
+RUNS_AT_ONCE: Final = 1_000
+"""Pairs of runs whose members are compared at once: few enough to stay in a processor's cache."""
 
 
 def near_pairs(first: Floats, second: Floats, reach: float) -> tuple[Rows, Rows]:
     """Indices (i, j), in rising order of i, of all boxes no farther apart than `reach`."""
+    if first.shape[1] * second.shape[1] <= AT_ONCE:
+        i, j = np.nonzero(_near(first[:, :, None], second[:, None, :], reach))
+        keep = _within(first[:, i], second[:, j], reach)
+        return i[keep], j[keep]
+    one, two = _runs(first), _runs(second)
+    return _members(first, second, *_near_groups(_bounds(one), _bounds(two), reach), reach)
+
+
+def near_pairs_within(bounds: Floats, reach: float) -> tuple[Rows, Rows]:
+    """Indices i < j, in rising order of i, of all boxes no farther apart than `reach` that do not follow each other."""
+    if bounds.shape[1] ** 2 <= AT_ONCE:
+        i, j = near_pairs(bounds, bounds, reach)
+    else:
+        runs = _bounds(_runs(bounds))
+        one, two = _near_groups(runs, runs, reach)
+        ahead = two >= one
+        i, j = _members(bounds, bounds, one[ahead], two[ahead], reach)
+    keep = j > i + 1
+    return i[keep], j[keep]
+
+
+def _near_groups(first: Floats, second: Floats, reach: float) -> tuple[Rows, Rows]:
+    """Pairs of boxes no farther apart than `reach`, by trees over both, in no order."""
     one, two = _level_trees(first, second)
     i, j = np.nonzero(_near(one[0][:, :, None], two[0][:, None, :], reach))
     for low, high in zip(one[1:], two[1:], strict=True):
         i, j = _children(i, j, low.shape[1], high.shape[1])
         keep = _near(low[:, i], high[:, j], reach)
         i, j = i[keep], j[keep]
-    keep = _apart(first[:, i], second[:, j]) <= reach
-    i, j = i[keep], j[keep]
-    if len(one) == 1:
-        return i, j
+    keep = _within(first[:, i], second[:, j], reach)
+    return i[keep], j[keep]
+
+
+def _runs(boxes: Floats) -> Floats:
+    """(4, RUN, m) boxes in runs of RUN, box k of run r at [:, k, r]; the last run is filled up with boxes nowhere."""
+    count = boxes.shape[1]
+    whole = np.empty((4, -(-count // RUN) * RUN))
+    whole[:, :count] = boxes
+    whole[:2, count:], whole[2:, count:] = np.inf, -np.inf
+    return np.ascontiguousarray(whole.reshape(4, -1, RUN).transpose(0, 2, 1))
+
+
+def _bounds(runs: Floats) -> Floats:
+    """(4, m) the box around each run."""
+    return np.vstack((runs[:2].min(axis=1), runs[2:].max(axis=1)))
+
+
+def _members(first: Floats, second: Floats, one: Rows, two: Rows, reach: float) -> tuple[Rows, Rows]:
+    """Pairs of boxes in paired runs no farther apart than `reach`, in rising order of i."""
+    order = np.argsort(one, kind="stable")
+    one, two = one[order], two[order]
+    a, b = _runs(first), _runs(second)
+    a[:2] -= reach
+    a[2:] += reach
+    found = [np.zeros((2, 0), np.intp)]
+    for start in range(0, len(one), RUNS_AT_ONCE):
+        left, right = one[start : start + RUNS_AT_ONCE], two[start : start + RUNS_AT_ONCE]
+        low, high = a.take(left, axis=2)[:, :, None], b.take(right, axis=2)[:, None]
+        near = low[0] <= high[2]
+        near &= high[0] <= low[2]
+        near &= low[1] <= high[3]
+        near &= high[1] <= low[3]
+        where = np.flatnonzero(near.reshape(RUN * RUN, -1).T)
+        pair, member = where // (RUN * RUN), where & (RUN * RUN - 1)
+        i, j = RUN * left[pair] + member // RUN, RUN * right[pair] + (member & (RUN - 1))
+        keep = _within(first[:, i], second[:, j], reach)
+        found.append(np.stack((i[keep], j[keep])))
+    i, j = np.concatenate(found, axis=1)
     order = np.argsort(i, kind="stable")
     return i[order], j[order]
 
@@ -123,6 +187,15 @@ def _apart(a: Floats, b: Floats) -> Floats:
     x, y = np.maximum(a[0] - b[2], b[0] - a[2]), np.maximum(a[1] - b[3], b[1] - a[3])
     gap: Floats = np.hypot(np.maximum(x, 0.0), np.maximum(y, 0.0))
     return gap
+
+
+def _within(a: Floats, b: Floats, reach: float) -> Flags:
+    """Boxes no farther apart than `reach`."""
+    x, y = np.maximum(a[0] - b[2], b[0] - a[2]), np.maximum(a[1] - b[3], b[1] - a[3])
+    np.maximum(x, 0.0, out=x)
+    np.maximum(y, 0.0, out=y)
+    within: Flags = x * x + y * y <= reach * reach
+    return within
 
 
 def _span(a: Floats, b: Floats) -> Floats:

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.boxes import near_pairs
+from core.geometry.boxes import near_pairs_within
 from core.geometry.distance import between, distance, foot, nearest_places
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction
 from core.tolerance import JOINED
@@ -30,16 +30,11 @@ class Crossings:
 
 def crossings(surface: Measured, stations: Floats, bounds: Floats, *, closed: bool) -> Crossings:
     """Where pieces that are not neighbours come within JOINED of each other, and neighbours away from their joint."""
-    i, j = near_pairs(bounds, bounds, JOINED)
-    later = j > i
-    i, j = i[later], j[later]
+    i, j = _candidates(surface, bounds, closed=closed)
+    if not len(i):
+        return Crossings(np.zeros((0, 2)), np.zeros(0, np.complex128))
     following = j == i + 1
     around = (i == 0) & (j == len(surface) - 1) if closed else np.zeros(len(i), np.bool_)
-    joint = following | around
-    keep = np.flatnonzero(~joint | _may_meet_again(surface, i, j, following))
-    if not len(keep):
-        return Crossings(np.zeros((0, 2)), np.zeros(0, np.complex128))
-    i, j, following, around = i[keep], j[keep], following[keep], around[keep]
     one, other = surface.take(i), surface.take(j)
     places = np.vstack((nearest_places(one, other), np.full(len(one), 0.5)))
     points = at(one, places)
@@ -51,6 +46,28 @@ def crossings(surface: Measured, stations: Floats, bounds: Floats, *, closed: bo
     second = stations[j[pair]] + on_other * other.length[pair]
     order = np.argsort(first, kind="stable")
     return Crossings(np.stack((first, second), axis=1)[order], points[k, pair][order])
+
+
+def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Rows, Rows]:
+    """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbours that come back."""
+    i, j = near_pairs_within(bounds, JOINED)
+    first = np.flatnonzero(_overlapping(bounds))
+    if closed and len(surface) > 2:
+        others = (i > 0) | (j < len(surface) - 1)
+        i, j, first = i[others], j[others], np.append(first, -1)
+    if len(first):
+        rows = np.stack((first % len(surface), first + 1))
+        ends = np.sort(rows, axis=0)
+        again = _may_meet_again(surface, ends[0], ends[1], rows[0] < rows[1])
+        i, j = np.concatenate((i, ends[0][again])), np.concatenate((j, ends[1][again]))
+    return i, j
+
+
+def _overlapping(bounds: Floats) -> Flags:
+    """(n - 1,) boxes that share more with the next one than the surroundings of a joint, where neighbours are one."""
+    shared = np.minimum(bounds[2:, 1:], bounds[2:, :-1]) - np.maximum(bounds[:2, 1:], bounds[:2, :-1])
+    wide: Flags = (shared > 5.0 * JOINED).any(axis=0)
+    return wide
 
 
 def _may_meet_again(surface: Measured, i: Rows, j: Rows, following: Flags) -> Flags:
