@@ -11,6 +11,7 @@ from enum import Enum, auto
 from types import MappingProxyType
 from typing import Final
 
+from core.controls.parameters import Kept
 from core.controls.words import PLAIN, Syntax
 from core.units import Unit
 
@@ -104,7 +105,8 @@ class Dialect:
     `loads_at_t`: the T word itself puts the tool in force; otherwise M6 does.  `table_needed`: a tool that is not in
     the table cannot be selected.  `unit_first`: the F of a block counts in the unit the block sets.
     `percent_ends`: a second line of % ends the program.  `end_needed`: M2, M30 or that line must stand at the end.
-    `group_rule`: the rule's id for two G codes of one group.
+    `group_rule`: the rule's id for two G codes of one group.  `parameters`: how it keeps those of a program, None where
+    nothing is known of them.
     """
 
     name: str
@@ -122,6 +124,7 @@ class Dialect:
     percent_ends: bool = False
     end_needed: bool = False
     group_rule: str = "GROUP"
+    parameters: Kept | None = None
 
     def starting(self, unit: Unit | None) -> Dialect:
         """The same in a machine that starts in another unit, the control's usual one for None."""

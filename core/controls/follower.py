@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from core.controls.corners import Element
-from core.controls.moves import Plane, Tape, flat, solid
+from core.controls.moves import Plane, Point3, Tape, flat, solid
 from core.controls.report import Log, Stretch
 from core.controls.words import Block
 from core.geometry.piece import Point
@@ -104,6 +104,10 @@ class Follower:
     def here(self) -> Point:
         """Where the axes stand, in the plane."""
         return flat(self.tape.last, self.plane)[:2]
+
+    def place(self, programmed: Point3) -> Point3:
+        """Where the axes stand as a program can read it, millimetres; without compensation the programmed point."""
+        return programmed
 
     def open_span(self, side: Side, radius: float, element: Element) -> None:
         """Compensated moves begin with this element; whatever is on the tape is before them."""

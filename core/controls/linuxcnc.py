@@ -15,6 +15,7 @@ from typing import Final
 from core.controls.dialect import Arcs, Dialect, Do, codes
 from core.controls.lookahead import LookAhead
 from core.controls.moves import Plane
+from core.controls.parameters import Kept
 from core.controls.report import Log, Run
 from core.controls.runner import execute
 from core.controls.tools import ToolTable
@@ -56,6 +57,7 @@ DIALECT: Final = Dialect(
     percent_ends=True,
     end_needed=True,
     group_rule="N-TWOG",
+    parameters=Kept.NGC,
 )
 
 REFUSED: Final = {
@@ -209,6 +211,7 @@ NEEDED: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
         "P": frozenset(("G20", "G30", "G40", "G100", "G640", "M190", "M980", *_CYCLES, *_SWITCHED, *_USER_M)),
         "Q": frozenset(("G100", "G640", "M190", "M610", "M660", "M670", "M680", *_CYCLES, *_USER_M)),
         "H": frozenset(("G430", "G432", "G760")),
+        "E": frozenset(("G700", "G760", "M660", "M670", "M680")),
     }
 )
 """Words that a block takes only beside one of these codes."""

@@ -14,7 +14,7 @@ from typing import Final, NamedTuple
 
 from core.controls.corners import Element, meetings, offset_radius, square_end, square_start, sweep, turning
 from core.controls.follower import Follower
-from core.controls.moves import Plane
+from core.controls.moves import Plane, Point3, flat, solid
 from core.controls.report import Log
 from core.controls.words import Block
 from core.geometry.piece import Point
@@ -100,6 +100,13 @@ class LookAhead(Follower):
 
     def _nosed(self, point: Point) -> Point:
         return (point[0] + self.nose[0], point[1] + self.nose[1]) if self.active else point
+
+    def place(self, programmed: Point3) -> Point3:
+        """Under compensation where the held move would end, were it not changed by the next one."""
+        if not self.active or not self.queue:
+            return programmed
+        first, second = self.queue[-1].end
+        return solid(first, second, flat(programmed, self.plane)[2], self.plane)
 
     def travel(self, element: Element) -> None:
         """One element: alone, as entry, or against what is held."""

@@ -16,6 +16,7 @@ from core.controls.dialect import Dialect, Do, codes
 from core.controls.follower import Follower
 from core.controls.lookahead import LookAhead, Rules
 from core.controls.moves import Plane
+from core.controls.parameters import Kept
 from core.controls.report import Log, Run
 from core.controls.runner import execute
 from core.controls.tools import ToolTable
@@ -40,6 +41,7 @@ DIALECT: Final = Dialect(
         ("once", Do.DATA, (100,)),
     ),
     Unit.MM,
+    parameters=Kept.MACRO_B,
 )
 
 TANGENT: Final = 0.01

@@ -13,6 +13,8 @@ from enum import Enum, auto
 from types import MappingProxyType
 from typing import Final
 
+from core.controls.macro import GAP, Squeezed, worked_out
+from core.controls.parameters import Parameters
 from core.controls.report import Log
 from core.controls.source import shown
 from core.finding import Severity
@@ -28,8 +30,11 @@ _CODES: Final[Mapping[str, int]] = MappingProxyType(
 )
 """Codes in tenths as they are mostly written."""
 
+_BRANCH: Final = re.compile(
+    r"[ \t]*+(?:N[ \t]*+[0-9]++)?[ \t]*+(IF|WHILE|GOTO|DO|END(?:IF|WHILE)?|THEN|ELSE)(?=[ \t]*+(?:[\[0-9#]|$))"
+)
+_EXPRESSION: Final = re.compile(r"[#\[]|[-+][ \t]*+[-+]")
 _NESTED: Final = re.compile(r"^[^;(]*+\([^()]*+\(")
-_MARK: Final = "\x01"
 _MOTIONS: Final = frozenset((0, 10, 20, 30))
 _PLACES: Final = frozenset("NXYZIJKR")
 
@@ -80,7 +85,7 @@ class Block:
     positions, an arc's centre, and one of G0 to G3 at most.
     """
 
-    __slots__ = ("data", "g", "line", "m", "moves_only", "start", "text", "words")
+    __slots__ = ("columns", "data", "g", "line", "m", "moves_only", "start", "text", "words")
 
     def __init__(self, line: int, text: str, start: int = 0) -> None:
         self.line = line
@@ -91,6 +96,7 @@ class Block:
         self.m: list[int] = []
         self.data: ToolData | None = None
         self.moves_only = False
+        self.columns: tuple[int, ...] = ()
 
     def column(self, letters: str, code: int | None = None) -> int:
         """Where the first word of one of these letters stands, from 1; of codes the one of `code` tenths."""
@@ -113,6 +119,10 @@ class Block:
         return next((number for one, number, _ in self._placed() if one == letter), "")
 
     def _placed(self) -> Iterator[tuple[str, str, int]]:
+        if self.columns:
+            pairs = _PAIR.findall(self.text)
+            yield from ((letter, number, at) for (letter, number), at in zip(pairs, self.columns, strict=True))
+            return
         for found in _PAIR.finditer(_bare(_capitals(self.text))):
             yield found[1], found[2], self.start + found.start() + 1
 
@@ -141,14 +151,19 @@ def whole(value: float) -> int | None:
 PLAIN: Final = Syntax()
 
 
-def read_line(text: str, line: int, log: Log, syntax: Syntax = PLAIN) -> list[Block]:
-    """The blocks of one line, none of an empty one; what cannot be read stops the run with its column."""
+def read_line(
+    text: str, line: int, log: Log, syntax: Syntax = PLAIN, values: Parameters | None = None
+) -> list[Block]:  # fmt: skip
+    """The blocks of one line, none of an empty one; what cannot be read stops the run with its column.
+
+    With `values` parameters and expressions are worked out and set.
+    """
     upper = _capitals(text)
     if _CLEAN.fullmatch(upper):
         return [_filled(Block(line, text), upper, log)] if _PAIR.search(upper) else []
     if syntax.semicolon is Semicolon.END and ";" in upper:
         return list(_pieces(text, line, log, syntax))
-    return _closer(Block(line, text), _bare(upper), log, syntax)
+    return _closer(Block(line, text), _bare(upper), log, syntax, values)
 
 
 def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
@@ -166,7 +181,9 @@ def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
         start += len(part) + 1
 
 
-def _closer(block: Block, bare: str, log: Log, syntax: Syntax) -> list[Block]:
+def _closer(
+    block: Block, bare: str, log: Log, syntax: Syntax, values: Parameters | None = None
+) -> list[Block]:  # fmt: skip
     """The block of a line that has signs besides words: tool data, block skip, the percent sign."""
     if syntax.slash is Slash.DATA and (data := _DATA.search(bare)):
         block.data = _tool_data(data)
@@ -178,6 +195,9 @@ def _closer(block: Block, bare: str, log: Log, syntax: Syntax) -> list[Block]:
         bare = bare.replace("/", " ", 1)
     if not bare.strip() or bare.strip() == "%":
         return [block] if block.data else []
+    _no_branch(block, bare, log)
+    if values is not None and _EXPRESSION.search(bare):
+        return _worked_out(block, log, values)
     if _CLEAN.fullmatch(bare) is None:
         squeezed = "" if syntax.blanks else _squeezed(block, log)
         if not squeezed or _CLEAN.fullmatch(squeezed) is None:
@@ -186,13 +206,31 @@ def _closer(block: Block, bare: str, log: Log, syntax: Syntax) -> list[Block]:
     return [_filled(block, bare, log)]
 
 
+def _no_branch(block: Block, bare: str, log: Log) -> None:
+    found = _BRANCH.match(bare)
+    if found:
+        text = f"{found[1]} is a branch or a loop, which is not followed here; write the blocks out as they run."
+        log.stop("BRANCH", text, block.line, block.start + found.start(1) + 1)
+
+
+def _worked_out(block: Block, log: Log, values: Parameters) -> list[Block]:
+    """The block of a line with parameters or expressions; none of one that only sets them."""
+    marked = _bare(_capitals(block.text), GAP)
+    skip = len(marked) - len(marked.lstrip()) + 1 if marked.lstrip().startswith("/") else 0
+    done = worked_out(Squeezed.of(marked[skip:], block.start + skip), block.line, values, log)
+    if not done.columns:
+        return []
+    block.text, block.columns = done
+    return [_filled(block, block.text, log)]
+
+
 def _squeezed(block: Block, log: Log) -> str:
     """The block without its blanks; only a comment still parts words."""
     nested = _NESTED.search(block.text)
     if nested:
         text = "A comment begins inside a comment; close the first one."
         log.stop("COMMENT", text, block.line, block.start + nested.end())
-    return "".join(_bare(_capitals(block.text), _MARK).split()).replace(_MARK, " ")
+    return "".join(_bare(_capitals(block.text), GAP).split()).replace(GAP, " ")
 
 
 def _tool_data(found: re.Match[str]) -> ToolData:

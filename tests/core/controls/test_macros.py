@@ -1,0 +1,147 @@
+"""Parameters, expressions and O-words: as LinuxCNC's interpreter works them out, and what RosettaCNC has of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.controls.expressions import Reader
+from core.controls.parameters import FaultError, Kept, Parameters
+from core.finding import Severity
+from core.units import Unit
+from tests.core.controls.compare_rs274 import outcome
+from tests.core.controls.hand import lines_and_ends, ran, same, shape, told
+from tests.core.controls.macro_programs import REFUSED, SAME, generated, whole
+from tests.rs274 import WITNESS
+
+needs_witness = pytest.mark.skipif(WITNESS is None, reason="LinuxCNC's rs274 is not installed")
+
+DIAMETERS = {1: 0.5, 2: 0.25}
+
+
+@needs_witness
+@pytest.mark.parametrize("name", SAME)
+def test_the_interpreter_itself_makes_the_same_moves(name: str, tmp_path: Path) -> None:
+    assert outcome(whole(SAME[name]), tmp_path, DIAMETERS, Unit.IN) == ("same moves", "")
+
+
+@needs_witness
+@pytest.mark.parametrize("name", REFUSED)
+def test_the_interpreter_itself_refuses(name: str, tmp_path: Path) -> None:
+    fared, apart = outcome(whole(REFUSED[name][0]), tmp_path, DIAMETERS, Unit.IN)
+    assert fared.startswith("both refuse")
+    assert not apart
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_a_refusal_names_its_place(name: str) -> None:
+    body, line, column = REFUSED[name]
+    done = ran(whole(body), "linuxcnc", t1=0.5)
+    found = [finding for finding in done.findings if finding.severity is Severity.ERROR]
+    assert [(one.line, one.column) for one in found] == [(line, column)]
+    assert done.stopped_at == line
+    assert found[0].text.isprintable()
+
+
+@needs_witness
+def test_generated_contours_fare_as_with_the_interpreter_itself(tmp_path: Path) -> None:
+    fared = [outcome(generated(seed), tmp_path, DIAMETERS, Unit.IN) for seed in range(60)]
+    assert not [one for one in fared if not one[0].startswith(("same moves", "both refuse"))]
+    assert sum(one[0] == "same moves" for one in fared) >= 20
+
+
+def test_a_number_nobody_set_is_0_and_told() -> None:
+    done = ran("G20 F9\nG1 X[#100 + 1]\nM2\n", "linuxcnc")
+    assert lines_and_ends(done) == [(1.0, 0.0)]
+    assert [(one.severity, one.line, one.column) for one in told(done, "PARAMETER")] == [(Severity.WARNING, 2, 6)]
+
+
+def test_an_argument_nobody_gave_is_0_in_the_subprogram() -> None:
+    done = ran("G20 F9\no1 sub\nG1 X1 Y#2\no1 endsub\no1 call [1]\nM2\n", "linuxcnc")
+    assert not told(done, "PARAMETER")
+
+
+def test_moves_of_a_subprogram_have_its_lines() -> None:
+    done = ran("G20 F9\no1 sub\nG1 X#1\no1 endsub\no1 call [1]\no1 call [2]\nM2\n", "linuxcnc")
+    assert lines_and_ends(done, 3) == [(1.0, 0.0), (2.0, 0.0)]
+
+
+def test_columns_of_words_that_are_worked_out() -> None:
+    done = ran("G20 F9\n#1=2\nG1 X[#1 + 1] X#1\nM2\n", "linuxcnc")
+    assert [(one.line, one.column) for one in told(done, "TWICE")] == [(3, 14)]
+
+
+def test_what_the_control_keeps_is_not_guessed() -> None:
+    for value in ("#5161", "#5221", "#<_rpm>", "#<_hal[pin]>"):
+        done = ran(f"G20 F9\nG1 X{value}\nM2\n", "linuxcnc")
+        assert [(one.line, one.column) for one in told(done, "BEYOND")] == [(2, 5)], value
+    assert told(ran("G20 F9\n#5221=1\nM2\n", "linuxcnc"), "BEYOND")
+
+
+def test_an_endless_loop_is_given_up() -> None:
+    assert told(ran("G20 F9\no1 while [1]\no1 endwhile\nM2\n", "linuxcnc"), "LIMIT")
+
+
+@pytest.mark.parametrize("piece", ["[", "#", "-", "SIN[", "[1+", "#[", "1+", "##1"])
+def test_what_lies_deep_is_refused_or_read(piece: str) -> None:
+    done = ran(f"G20 F9\nG1 X{piece * 20000}\nM2\n", "linuxcnc")
+    assert done.stopped_at == 2
+
+
+def test_rosettacnc_works_its_variables_out() -> None:
+    text = "G21 F100\n#500=10 #1=2\nG1 X[#500 * #1] Y-#1\nG1 X[#500 & 3]\nM30\n"
+    done = ran(text, "rosettacnc")
+    assert same(shape(done), [("line", 20, -2), ("line", 2, -2)])
+
+
+def test_rosettacnc_gives_subprograms_by_m98_the_same_variables() -> None:
+    done = ran("G21 F100\n#1=3\nM98 P7\nG1 X#1\nM30\nO7\n#1=5\nM99\n", "rosettacnc")
+    assert lines_and_ends(done) == [(5.0, 0.0)]
+
+
+@pytest.mark.parametrize(
+    ("word", "code"),
+    [("#0", "PARAMETER"), ("#500", "PARAMETER"), ("#100", "PARAMETER"), ("#5001", "BEYOND"), ("#6000", "BEYOND")],
+)
+def test_rosettacnc_does_not_guess_what_is_empty_or_the_control_s(word: str, code: str) -> None:
+    done = ran(f"G21 F100\nG1 X{word}\n", "rosettacnc")
+    assert [(one.line, one.column) for one in told(done, code)] == [(2, 5)]
+    assert done.stopped_at == 2
+
+
+@pytest.mark.parametrize("number", [0, 5000, 6001])
+def test_rosettacnc_sets_its_own_variables_only(number: int) -> None:
+    assert told(ran(f"G21 F100\n#{number}=1\n", "rosettacnc"), "PARAMETER")
+
+
+@pytest.mark.parametrize(
+    "line", ["IF [#1 EQ 2] GOTO 5", "WHILE [#1 LT 3] DO 1", "GOTO 7", "END 1", "N5 IF[#1 GT 2]THEN#2=1", "DO1"]
+)
+@pytest.mark.parametrize("control", ["rosettacnc", "nine-series", "threeblock"])
+def test_branches_of_other_controls_stop_with_their_name(control: str, line: str) -> None:
+    done = ran(f"G20 G1 F9 X1.\n{line}\nX2.\n", control)
+    assert [one.line for one in told(done, "BRANCH")] == [2]
+    assert done.stopped_at == 2
+
+
+@pytest.mark.parametrize("control", ["nine-series", "threeblock"])
+def test_controls_of_which_nothing_is_known_stop_at_an_expression(control: str) -> None:
+    done = ran("G20 G1 F9 X1.\nX[1+1]\n", control)
+    assert [(one.line, one.column) for one in told(done, "MACRO")] == [(2, 1)]
+
+
+@given(st.text(alphabet="#[]<>-+*/.0123456789ABSINATMODGTEQ=_", max_size=40))
+@settings(max_examples=500, derandomize=True)
+def test_any_expression_is_a_number_or_a_fault(text: str) -> None:
+    reader = Reader(text, Parameters(Kept.MACRO_B))
+    fault: FaultError | None = None
+    value = 0.0
+    try:
+        value = reader.value()
+    except FaultError as caught:
+        fault = caught
+    assert abs(value) < float("inf")
+    assert fault is None or (0 <= fault.at <= len(text) and fault.text.isprintable())
