@@ -8,7 +8,6 @@ import os
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Final
@@ -18,6 +17,7 @@ from app.listing import SUFFIXES
 from core.controls.registry import UnknownControl, names, resolve
 from core.controls.source import shown
 from core.controls.tools import CutterTool, ToolTable, read_table
+from core.records import dataclass
 from core.units import Unit
 
 CLEAN: Final = 0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Final
 
 from core.controls import shoprules
@@ -15,6 +14,7 @@ from core.controls.report import Run
 from core.controls.tools import ToolTable
 from core.controls.verdicts import Judged, depth, findings, judged
 from core.finding import Finding, Severity
+from core.records import dataclass
 from core.units import Kind, Unit, from_mm, sentence, show
 
 NOT_FOLLOWED: Final = ("MACRO", "LIMIT", "BEYOND")

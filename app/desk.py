@@ -6,7 +6,7 @@ Everything between a key and the next picture is here and pure, but for the mess
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Final, assert_never
 
 from app.messages import (
@@ -35,6 +35,7 @@ from app.session import Session, Tone
 from app.settings import Settings
 from core.pipeline.derived import Derived
 from core.program.edit import Refused
+from core.records import dataclass, field
 
 FUNCTION_KEYS: Final = {f"f{number}": number for number in range(1, 9)}
 EVERYWHERE: Final = frozenset(

@@ -7,7 +7,7 @@ needs no library, and a thread fetches the rest.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from importlib import import_module
 from time import perf_counter
 from typing import TYPE_CHECKING, Final, TypeVar
@@ -19,6 +19,7 @@ from app.widgets.verdict import verdict_rows
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.outline import outline
 from core.program.model import Program
+from core.records import dataclass, field
 
 if TYPE_CHECKING:
     from app.desk import Desk

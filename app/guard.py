@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Final
 
 from core.program.lock import Lock
 from core.program.stamp import Stamp
+from core.records import dataclass, field
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -19,6 +19,7 @@ from core.program.disk import why
 from core.program.journal_file import JournalFile
 from core.program.lock import Held, Owner, myself, release, take, taken_by
 from core.program.store import StoreError
+from core.records import dataclass, field
 from core.units import printable
 
 if TYPE_CHECKING:

@@ -14,11 +14,12 @@ import sys
 import termios
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field
 from threading import Thread
 from time import sleep
 from types import FrameType
 from typing import Any, Final
+
+from core.records import dataclass, field
 
 SIGNALS: Final = (signal.SIGHUP, signal.SIGTERM, signal.SIGINT)
 GRACE: Final = 2.0

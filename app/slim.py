@@ -7,8 +7,9 @@ it changes, and blanks are sent in whatever ink there is: no one sees the ink of
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
 from typing import Final, NamedTuple
+
+from core.records import dataclass, field
 
 TOKEN: Final = re.compile(
     r"\x1b\[([0-9;]*)m"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -11,6 +11,7 @@ from app.widgets.header import printable
 from app.widgets.rows import Look
 from core.program.model import Entry, Program
 from core.program.store import StoreError, load
+from core.records import dataclass
 
 if TYPE_CHECKING:
     from core.pipeline.derived import Derived

@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import Final
+
+from core.records import dataclass
 
 LONGEST: Final = 60
 """Characters a field reads; more is a slip of the hand."""

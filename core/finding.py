@@ -7,8 +7,9 @@ with as many decimals as tell it from length 1.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
+
+from core.records import dataclass
 
 
 class Severity(StrEnum):

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import Enum, StrEnum, auto
 from fractions import Fraction
 from math import degrees, isfinite, radians
@@ -16,6 +15,7 @@ from typing import Final, assert_never
 
 from core.arithmetic import NotASumError, total
 from core.finding import Finding
+from core.records import dataclass
 from core.tolerance import LARGEST
 
 QUOTED: Final = 24

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import ClassVar, Final
 
 from app.messages import Message, Say
@@ -12,6 +11,7 @@ from app.screens.text import paragraph
 from app.session import Said, Session
 from app.widgets.header import header
 from app.widgets.rows import Look, Span, plain
+from core.records import dataclass
 
 MOST: Final = 6
 """Differences that are told one by one."""

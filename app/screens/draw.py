@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import ClassVar, Final
 
 from app.messages import Close, Message, Move, NextMode, Open, Say, Swap
@@ -12,6 +12,7 @@ from app.screens.page import Answer, Layout, Page, Sketch, Softkey, Softkeys, Su
 from app.session import Said, Session
 from app.widgets.header import block_line, header, segment_line
 from core.program.edit import Where
+from core.records import dataclass, field
 
 STEP: Final = 1.25
 """One key press enlarges or shrinks by this factor."""

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from app.screens.page import Surface
 from app.screens.text import TextPage, paragraph
 from app.session import Session
 from app.widgets.rows import Row, plain, text_of
 from app.widgets.verdict import deepest_gouge, verdict_rows
+from core.records import dataclass
 
 
 @dataclass(frozen=True, eq=False, slots=True)

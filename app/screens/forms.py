@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Self
 
 from app.messages import Edit, Say
@@ -16,6 +16,7 @@ from core.program.edit import Refused, read
 from core.program.fields import SOLUTION, Field, range_of
 from core.program.model import Entry, Program, Unread
 from core.program.solved import Solved, Value
+from core.records import dataclass
 from core.units import Kind, Unit, show
 
 FORWARD = ("enter", "tab", "down")

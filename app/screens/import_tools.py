@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from app.messages import Close, Do, Edit, Open, Say
@@ -19,6 +19,7 @@ from app.widgets.rows import Look, Row, plain
 from core.finding import Finding, Severity
 from core.program.model import Program, Tool
 from core.program.store import StoreError
+from core.records import dataclass
 from core.units import Unit
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from textwrap import wrap
 from typing import ClassVar, Final, Self
@@ -17,6 +17,7 @@ from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, plain
 from app.widgets.words import length, number, numbers
 from core.finding import Finding
+from core.records import dataclass
 from core.units import Unit, sentence
 
 OVERRIDE: Final = "POST WITH GOUGE"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
@@ -15,6 +15,7 @@ from app.session import Session, Tone
 from app.widgets.field import LONGEST, Editing, press
 from core.controls.tools import ToolTable
 from core.finding import Finding
+from core.records import dataclass, field
 
 STEPS: Final = {"up": -1, "down": 1, "pageup": -10, "pagedown": 10}
 ENDS: Final = {"home": 0, "ctrl+home": 0, "end": 10**9, "ctrl+end": 10**9}

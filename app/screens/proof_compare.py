@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
 from app.messages import Close, Do, Message
@@ -10,6 +10,7 @@ from app.proving import Question, Told
 from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
 from app.widgets.rows import Look, Row, Span, plain
+from core.records import dataclass
 
 if TYPE_CHECKING:
     from app.checking import Answer as Fate

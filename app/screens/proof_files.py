@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
@@ -20,6 +20,7 @@ from app.widgets.field import Editing
 from app.widgets.rows import Look, plain
 from core.program.disk import why
 from core.program.store import StoreError, write_data
+from core.records import dataclass
 from core.units import printable
 
 if TYPE_CHECKING:

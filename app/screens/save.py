@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
@@ -14,6 +13,7 @@ from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header
 from app.widgets.rows import Look, plain
+from core.records import dataclass
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final, Self
 
@@ -17,6 +17,7 @@ from app.widgets.field import Editing
 from app.widgets.header import header, printable
 from app.widgets.rows import Look, plain
 from core.program.store import StoreError, write_text
+from core.records import dataclass
 
 if TYPE_CHECKING:
     from app.desk import Desk

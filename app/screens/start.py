@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from types import MappingProxyType
@@ -15,6 +15,7 @@ from app.session import Said, Session, Tone
 from app.survey import Facts
 from app.widgets.header import printable
 from app.widgets.rows import Look, Row, Span, plain
+from core.records import dataclass, field
 from core.units import Unit
 
 PROMPT: Final = (

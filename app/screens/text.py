@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from textwrap import wrap
 from typing import ClassVar
 
@@ -11,6 +11,7 @@ from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, V
 from app.session import Said, Session
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, plain
+from core.records import dataclass
 
 SCREENFUL = 16
 

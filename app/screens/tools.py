@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 from app.messages import Close, Edit, Message, Open, Say
@@ -18,6 +18,7 @@ from core.program.edit import Edited, Refused, delete_tool, read, set_tool
 from core.program.fields import TOOL, Field
 from core.program.model import Entry, Program, Tool, Unread
 from core.program.solved import Value
+from core.records import dataclass
 from core.units import Unit
 
 COLUMNS: Final = {"number": (3, 6), "type": (12, 24), "diameter": (38, 12)}

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
+
+from core.records import dataclass
 
 LONGEST: Final = 200
 """Characters a field takes; more is a key that got stuck."""

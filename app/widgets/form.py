@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 from typing import Final
 
 from app.widgets.field import Editing, window
 from app.widgets.rows import Look, Row, Span, padded
+from core.records import dataclass
 
 WIDTH: Final = 59
 """Cells from the left edge to the softkeys' frame."""

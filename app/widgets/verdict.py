@@ -6,7 +6,6 @@ The strip on its first line tells every look-ahead value's fate; below it stand 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from textwrap import wrap
 from typing import TYPE_CHECKING, Final
 
@@ -14,6 +13,7 @@ from app.widgets.rows import Look, Row, Span, padded, plain, text_of
 from app.widgets.words import length, number, numbers, place
 from core.finding import Finding, Severity
 from core.pipeline.derived import DerivedBlock
+from core.records import dataclass
 from core.units import Unit, sentence
 
 if TYPE_CHECKING:

@@ -6,10 +6,10 @@ Millimetres and radians, angles counter-clockwise from +X.  `axis` 0 is X and 1 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import atan2, cos, hypot, sin, sqrt, tau
 
 from core.geometry.piece import SLIVER, Arc, Point, Turn
+from core.records import dataclass
 from core.tolerance import ARC_RADII, JOINED, ON_PATH
 
 

@@ -6,11 +6,11 @@ for an arc travelled counter-clockwise, on the right for a clockwise one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import Enum, auto
 from math import acos, atan2, cos, hypot, inf, sin, sqrt, tan, tau
 
 from core.geometry.piece import SLIVER, Arc, Line, Piece, Point, Turn
+from core.records import dataclass
 from core.tolerance import JOINED, ON_PATH
 
 

@@ -6,10 +6,11 @@ be solved and painted before it is loaded; whole paths are `core.geometry.path.P
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import IntEnum
 from math import atan2, hypot, tau
 from typing import Final
+
+from core.records import dataclass
 
 Point = tuple[float, float]
 

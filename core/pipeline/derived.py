@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
@@ -10,6 +9,7 @@ from core.finding import Finding, Severity
 from core.geometry.side import Side
 from core.program.model import Block, Program
 from core.program.solved import SolvedBlock
+from core.records import dataclass
 
 if TYPE_CHECKING:
     from core.comp.best import BestPath

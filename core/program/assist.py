@@ -8,7 +8,7 @@ solutions fit, the order is documented in `solve_line` and `solve_arc`, and the 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import hypot
 from typing import assert_never
 
@@ -22,6 +22,7 @@ from core.program.solution import Known, Outcome, Task, solve
 from core.program.solve_blend import Blends, blended
 from core.program.solve_start import Start, solve_start
 from core.program.solved import SolvedBlock, SolvedSegment
+from core.records import dataclass
 from core.tolerance import CLOSED, JOINED, LARGEST
 from core.units import Unit
 

@@ -7,7 +7,7 @@ A refused edit changes nothing.  Numbers a field does not take are refused, text
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, Final
 
@@ -29,6 +29,7 @@ from core.program.model import (
     Unread,
     changed,
 )
+from core.records import dataclass
 from core.units import Kind, Unit, Unreadable, parse, printable
 
 

@@ -7,7 +7,6 @@ One table for the form, the reader of files, and the messages, so that a field h
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from enum import StrEnum
 from math import isfinite
 from types import MappingProxyType
@@ -22,6 +21,7 @@ from core.program.model import (
     PathChoice,
     Segment,
 )
+from core.records import dataclass
 from core.units import Kind, Unit, from_mm
 
 

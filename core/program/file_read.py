@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from difflib import get_close_matches
 from enum import StrEnum
 from functools import partial
@@ -34,6 +33,7 @@ from core.program.model import (
     Typed,
     Unread,
 )
+from core.records import dataclass
 from core.tolerance import LARGEST
 from core.units import Kind, Unit, Unreadable, parse, printable, to_mm
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from core.program.model import Program
+from core.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

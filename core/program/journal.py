@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, replace
 from itertools import pairwise
 from typing import Any, Final
 from zlib import crc32
@@ -20,6 +20,7 @@ from core.program.history import History, Step
 from core.program.lock import Owner, owner_of
 from core.program.model import Program
 from core.program.stamp import Stamp
+from core.records import dataclass, field
 
 FORMAT: Final = 1
 """The format of journals that is read and written."""

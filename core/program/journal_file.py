@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Self
 
 from core.program.disk import sync_folder, write_all
 from core.program.store import write_text
+from core.records import dataclass
 
 if TYPE_CHECKING:
     from core.program.journal import Record, Recovered

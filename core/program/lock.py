@@ -10,13 +10,14 @@ from __future__ import annotations
 import json
 import os
 from contextlib import suppress
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from getpass import getuser
 from pathlib import Path
 from socket import gethostname
 from typing import Final
 
 from core.program.disk import sync_folder, write_all
+from core.records import dataclass
 
 SUFFIX: Final = ".cutcomp-lock"
 

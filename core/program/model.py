@@ -7,10 +7,11 @@ the blanks.  A blank is None, text that could not be read stays as `Unread`.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from enum import StrEnum
 from typing import Any, TypeVar
 
+from core.records import dataclass, field
 from core.units import Unit
 
 

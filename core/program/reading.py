@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
 
@@ -11,6 +10,7 @@ from core.finding import Finding, Severity
 from core.program.fields import TABLES, Field, Form, check
 from core.program.model import Block, Entry, Segment, Unread
 from core.program.solved import Solved, Value
+from core.records import dataclass
 from core.units import Kind, Unit, from_mm, from_radians, printable, to_mm, to_radians
 
 

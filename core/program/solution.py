@@ -7,12 +7,13 @@ order of its table.  Fields typed beyond it must agree, and choose where the rul
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from core.finding import Finding, Severity
 from core.geometry.construct import One, Two
 from core.geometry.piece import Line, Piece, Point
 from core.program.fields import Form, field
+from core.records import dataclass
 
 Known = Mapping[str, float]
 """What is typed, by field name: millimetres, radians."""

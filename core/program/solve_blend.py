@@ -6,13 +6,13 @@ In order of the segments; a neighbour that one blend has shortened is blended fu
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import assert_never
 
 from core.finding import Finding, Severity
 from core.geometry.fillet import Fillet, NoFillet, Reason, fillet
 from core.geometry.piece import Piece
 from core.program.model import BlendSegment, Segment
+from core.records import dataclass, field
 
 
 @dataclass(slots=True)

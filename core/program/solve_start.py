@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from core.finding import Finding, Severity
 from core.geometry.piece import Point
 from core.program.fields import Form, field
@@ -11,6 +9,7 @@ from core.program.model import Block, CutterComp, Program
 from core.program.reading import Reading, read
 from core.program.solved import Solved, Value
 from core.program.tools import Called, called
+from core.records import dataclass
 
 NEEDED = ("tool", "x_start", "y_start", "z_start", "z_bottom", "plunge_feed", "speed")
 """The fields of START that must be typed."""

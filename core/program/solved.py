@@ -7,11 +7,11 @@ it into something typed.  Needs no numpy.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Piece, Point
 from core.program.model import Entry, Unread
+from core.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

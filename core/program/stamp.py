@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from pathlib import Path
 from zlib import adler32, crc32
 
 from core.program.store import LARGEST_FILE
+from core.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

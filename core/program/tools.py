@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isfinite
 from typing import assert_never
 
 from core.finding import Finding, Severity
 from core.program.model import Entry, Program, Tool, Typed, Unread
+from core.records import dataclass
 from core.units import Unit, printable, to_mm
 
 

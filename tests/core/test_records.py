@@ -1,0 +1,151 @@
+import dataclasses
+from dataclasses import FrozenInstanceError, fields, replace
+from typing import Any, ClassVar
+
+import pytest
+
+from core import records
+
+LONG = ("number", "text", "rest", "more")
+
+
+def made(decorator: Any) -> tuple[Any, ...]:
+    @decorator(frozen=True, slots=True)
+    class Part:
+        """A part."""
+
+        kind: ClassVar[str] = "part"
+        number: float
+        text: str = "none"
+        rest: tuple[int, ...] = ()
+        more: list[int] = dataclasses.field(default_factory=list)
+
+        def doubled(self: Any) -> Any:
+            return replace(self, number=2 * self.number)
+
+    @decorator(frozen=True, eq=False, slots=True)
+    class Larger(Part):
+        """One field more."""
+
+        last: int = 7
+
+    @decorator(slots=True)
+    class Loose:
+        """Not frozen."""
+
+        value: int = 0
+
+    @decorator(frozen=True, slots=True)
+    class Empty:
+        """No fields."""
+
+    @decorator(frozen=True, slots=True)
+    class One:
+        """One field."""
+
+        value: float
+
+    return Part, Larger, Loose, Empty, One
+
+
+def standard(*, frozen=False, eq=True, slots=True):
+    return dataclasses.dataclass(frozen=frozen, eq=eq, slots=slots)
+
+
+OURS, THEIRS = made(records.slotted), made(standard)
+
+
+@pytest.mark.parametrize("classes", [OURS, THEIRS], ids=["ours", "the standard library's"])
+class TestAsTheStandardLibrary:
+    def test_values_by_place_by_name_and_by_default(self, classes):
+        part, larger, *_ = classes
+        one = part(1.5, rest=(1,))
+        assert [getattr(one, name) for name in LONG] == [1.5, "none", (1,), []]
+        assert part(1.0).more is not part(1.0).more
+        assert larger(1.0, last=8).last == 8
+        assert larger(1.0).last == 7
+        with pytest.raises(TypeError, match="number"):
+            part()
+        with pytest.raises(TypeError, match="wrong"):
+            part(1.0, wrong=2)
+
+    def test_frozen(self, classes):
+        part, _, loose, *_ = classes
+        one = part(1.0)
+        with pytest.raises(FrozenInstanceError):
+            one.number = 2.0
+        with pytest.raises(FrozenInstanceError):
+            del one.number
+        free = loose(1)
+        free.value = 2
+        assert free == loose(2)
+        with pytest.raises(AttributeError):
+            free.other = 3
+
+    def test_equality_and_hash(self, classes):
+        part, _, loose, empty, one = classes
+        assert part(1.0, more=[1]) == part(1.0, more=[1])
+        assert part(1.0) != part(1.0, "other")
+        assert one(1.0) != part(1.0)
+        assert one(1.0) == one(1.0)
+        assert hash(one(1.0)) == hash(one(1.0))
+        not_a_number = one(float("nan"))
+        assert not_a_number == one(not_a_number.value)
+        assert empty() == empty()
+        assert hash(empty()) == hash(empty())
+        with pytest.raises(TypeError, match="unhashable"):
+            hash(loose(1))
+        with pytest.raises(TypeError, match="unhashable"):
+            hash(part(1.0))
+
+    def test_tools_of_the_standard_library(self, classes):
+        part, larger, *_ = classes
+        assert part(1.0).doubled() == part(2.0)
+        assert [one.name for one in fields(larger)] == [*LONG, "last"]
+        assert dataclasses.asdict(part(1.0)) == {"number": 1.0, "text": "none", "rest": (), "more": []}
+        assert repr(part(1.0)).endswith("Part(number=1.0, text='none', rest=(), more=[])")
+        assert part.kind == "part"
+        match part(3.0, "three"):
+            case part(number, text):
+                assert (number, text) == (3.0, "three")
+
+
+def test_without_equality_of_its_own_a_class_keeps_the_one_it_inherits():
+    for _, larger, *_ in (OURS, THEIRS):
+        assert larger(1.0, last=1) == larger(1.0, last=2)
+
+
+def test_nothing_is_compiled_before_the_first_instance():
+    part = made(records.slotted)[0]
+    before = part.__init__
+    part(1.0)
+    assert part.__init__ is not before
+
+
+def test_own_methods_stay():
+    @records.dataclass(frozen=True, slots=True)
+    class Own:
+        """Knows what it looks like."""
+
+        value: int
+
+        def __repr__(self):
+            return "own"
+
+        def __eq__(self, other: object) -> bool:
+            return True
+
+    assert repr(Own(1)) == "own"
+    assert Own(1) == Own(2)
+
+
+def test_what_is_not_done_is_refused():
+    with pytest.raises(TypeError, match="Late needs"):
+
+        @records.slotted(slots=True)
+        class Late:
+            """Does something afterwards."""
+
+            value: int
+
+            def __post_init__(self) -> None: ...
