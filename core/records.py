@@ -42,6 +42,7 @@ def _methods(cls: type, *, frozen: bool, eq: bool) -> dict[str, Any]:
     methods: dict[str, Any] = {"__init__": _compiling(cls), "__repr__": _representation}
     if frozen:
         methods |= {"__setattr__": _refuse, "__delattr__": _refuse}
+        methods |= {"__getstate__": _state, "__setstate__": _restored}
     if eq:
         values = _values(tuple(one.name for one in dataclasses.fields(cls)))
         methods |= {"__eq__": _equality(values), "__hash__": _hash(values) if frozen else None}
@@ -109,6 +110,16 @@ def _representation(self: object) -> str:
 def _refuse(self: object, name: str, *_: object) -> NoReturn:
     message = f"{type(self).__name__} is frozen: {name} stays as it is"
     raise FrozenInstanceError(message)
+
+
+def _state(self: object) -> list[object]:
+    """What is pickled: the values in the order of the fields."""
+    return [getattr(self, one.name) for one in dataclasses.fields(self)]  # type: ignore[arg-type]
+
+
+def _restored(self: object, state: list[object]) -> None:
+    for one, value in zip(dataclasses.fields(self), state, strict=True):  # type: ignore[arg-type]
+        object.__setattr__(self, one.name, value)
 
 
 if TYPE_CHECKING:

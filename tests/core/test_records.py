@@ -1,10 +1,13 @@
+import copy
 import dataclasses
+import pickle
 from dataclasses import FrozenInstanceError, fields, replace
 from typing import Any, ClassVar
 
 import pytest
 
 from core import records
+from core.finding import Finding, Severity
 
 LONG = ("number", "text", "rest", "more")
 
@@ -137,6 +140,12 @@ def test_own_methods_stay():
 
     assert repr(Own(1)) == "own"
     assert Own(1) == Own(2)
+
+
+def test_a_frozen_one_goes_to_another_process_and_back():
+    finding = Finding("A", Severity.ERROR, "text", lengths=(1.0,))
+    assert pickle.loads(pickle.dumps(finding)) == finding
+    assert copy.copy(finding) == copy.deepcopy(finding) == finding
 
 
 def test_what_is_not_done_is_refused():
