@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import Final
 
 from core.controls import shoprules
-from core.controls.compare import Compared, OtherLanguage, Parting, compare
-from core.controls.contours import ContourPair, contours
+from core.controls.compare import Compared, OtherLanguage, compare
+from core.controls.contours import ContourPair, Parting, contours
 from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
 from core.controls.report import Run
@@ -90,9 +90,18 @@ def answer_all(text: bytes, asked: Asked) -> tuple[Answer, ...]:
 
 def _compared(row: Compared | OtherLanguage, asked: Asked) -> Answer:
     if isinstance(row, OtherLanguage):
-        return Answer(row.control, Unit.MM, None, (), None, "reads another language")
+        text = f"It is written in another language, and is not compared by its contour: {row.why}."
+        told = (Finding("LANGUAGE", Severity.INFO, text, line=1, column=1),)
+        return Answer(
+            row.control, Unit.MM, None, told, None, "reads another language", parts=f"not compared: {row.why}"
+        )
     parts = _parting(row.parts, row.run.unit) if row.parts else ""
-    return _answer(row.run, row.results, (), parts, shop=asked.shop)
+    if not row.by:
+        return _answer(row.run, row.results, (), parts, shop=asked.shop)
+    text = f"It is written in another language: compared by the contour as {row.by} reads it, with straight leads."
+    told = (Finding("LANGUAGE", Severity.INFO, text, line=1, column=1),)
+    parts = f"by the contour{'; ' if parts else ''}{parts}"
+    return _answer(row.run, row.results, told, parts, shop=asked.shop)
 
 
 def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
@@ -116,7 +125,8 @@ def _by_line(told: tuple[Finding, ...]) -> tuple[Finding, ...]:
 
 def _outcome(done: Run, results: tuple[Judged, ...]) -> str:
     cut, line = depth(results)
-    gouges = f"gouges by {_length(cut, done.unit)} at line {line}" if cut else ""
+    place = f"at line {line}" if line else "in a lead"
+    gouges = f"gouges by {_length(cut, done.unit)} {place}" if cut else ""
     if done.stopped_at is not None:
         rule = next((one.code for one in reversed(done.findings) if one.severity is Severity.ERROR), "")
         stops = "cannot be followed behind" if rule in NOT_FOLLOWED else "alarms at"

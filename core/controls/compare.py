@@ -7,29 +7,30 @@ from typing import Final
 
 import numpy as np
 
+from core.controls.contours import Parting, apart
 from core.controls.moves import Moves
-from core.controls.registry import UnknownControl, compared, reads, run
-from core.controls.report import Run
+from core.controls.registry import UnknownControl, compared, programmed, reads, run
+from core.controls.report import Run, Stretch
 from core.controls.tools import ToolTable
+from core.controls.traced import Untold
+from core.controls.translate import run_by_contour
 from core.controls.verdicts import Judged, depth, judged
+from core.geometry.path import EMPTY, Path
 from core.units import Unit
 
 APART: Final = 0.0005
 """Millimetres from which on two paths are told to part."""
 
-
-@dataclass(frozen=True, slots=True)
-class Parting:
-    """Where two paths part: the first line, the line at which they are farthest apart, and how far in millimetres."""
-
-    line: int
-    farthest: int
-    distance: float
+LEAST: Final = 0.001
+"""The same where one of them is written anew, or two of its last digits where that is more."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Compared:
-    """A control's run of the program; `parts` tells where it leaves the path of the first control that runs it."""
+    """A control's run of the program; `parts` tells where it leaves the path of the first control that runs it.
+
+    `by` names the control whose contour was translated where this one does not read the program's language.
+    """
 
     control: str
     run: Run
@@ -37,17 +38,23 @@ class Compared:
     gouge: float
     gouge_line: int | None
     parts: Parting | None
+    by: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class OtherLanguage:
-    """A control that does not read the program's language."""
+    """A control that does not read the program's language, and why it is not compared by the contour either."""
 
     control: str
+    why: str = ""
 
 
 def compare(text: bytes, tools: ToolTable, unit: Unit | None = None) -> tuple[Compared | OtherLanguage, ...]:
-    """The program on every control, in the registry's order; `unit` where it names none, inches if none is given."""
+    """The program on every control, in the registry's order; `unit` where it names none, inches if none is given.
+
+    A control of another language gets the contour as the first control that runs the program to its end reads it, or
+    as one that stops for the tool's radius would with a thinner tool.
+    """
     first: Run | None = None
     rows: list[Compared | OtherLanguage] = []
     for control in compared():
@@ -57,13 +64,52 @@ def compare(text: bytes, tools: ToolTable, unit: Unit | None = None) -> tuple[Co
         done = run(text, control, tools, unit or Unit.IN)
         if isinstance(done, UnknownControl):
             continue
-        results = judged(done)
-        cut, line = depth(results)
         parts = None if first is None else parting(first.moves, done.moves)
-        rows.append(Compared(control, done, results, cut, line, parts))
+        rows.append(_row(done, parts))
         if first is None and done.stopped_at is None:
             first = done
-    return tuple(rows)
+    whole = first or next(filter(None, (programmed(text, row.control, tools) for row in rows)), None)
+    return tuple(
+        _by_contour(row.control, whole, paths=first is not None) if isinstance(row, OtherLanguage) else row
+        for row in rows
+    )
+
+
+def _row(done: Run, parts: Parting | None, *, by: str = "") -> Compared:
+    results = judged(done)
+    return Compared(done.control, done, results, *depth(results), parts, by)
+
+
+def _by_contour(control: str, first: Run | None, *, paths: bool) -> Compared | OtherLanguage:
+    """The contours of the first run on a control of another language; `paths`: where the paths part too."""
+    if first is None:
+        return OtherLanguage(control, "no control that reads the program runs it to its end")
+    made = run_by_contour(first, control)
+    if isinstance(made, Untold):
+        return OtherLanguage(control, made.text)
+    done, digit = made
+    parts = _centres_part(first, done, max(LEAST, 2 * digit)) if paths else None
+    return _row(done, parts, by=first.control)
+
+
+def _centres_part(first: Run, other: Run, tolerance: float) -> Parting | None:
+    """Where the paths along the contours of two runs part, leads left out; the other one may have stopped early."""
+    for one, two in zip(first.stretches, other.stretches, strict=False):
+        lines = set(two.programmed.lines.tolist())
+        ours, theirs = _along(first, one, lines), _along(other, two, lines)
+        found = apart(theirs, ours, tolerance)
+        if found is None and other.stopped_at is None:
+            found = apart(ours, theirs, tolerance)
+        if found is not None:
+            return found
+    return None
+
+
+def _along(done: Run, stretch: Stretch, lines: set[int]) -> Path:
+    """A stretch's path from the first to the last piece that belongs to a line of the contour."""
+    path = done.moves.part(stretch.first, stretch.last).path(stretch.plane)
+    rows = [row for row, line in enumerate(path.numbers.tolist()) if line and int(line) in lines]
+    return path.part(rows[0], rows[-1] + 1) if rows else EMPTY
 
 
 def parting(one: Moves, other: Moves) -> Parting | None:

@@ -26,21 +26,21 @@ APART: Final = 0.001
 
 
 class Line(NamedTuple):
-    """A line of a program being written, and the segment it cuts."""
+    """A line of a program being written, the segment it cuts, and whether it only leads to that or away from it."""
 
     text: str
     segment: float | None = None
+    lead: bool = False
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Cut:
-    """One run along a contour at one depth: millimetres, millimetres a minute, revolutions a minute.
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class Terms:
+    """How a run along a contour at one depth is made: millimetres, millimetres a minute, revolutions a minute.
 
     The run is compensated for the tool's `diameter` and the `stock` it leaves.  `feeds` are those of the segments by
     number.  The way there is at the height `travel`, rapid ends at `near`, feed goes on to `depth`, and up to `leave`.
     """
 
-    compensated: Compensated
     tool: int
     diameter: float
     stock: float
@@ -51,6 +51,13 @@ class Cut:
     near: float
     depth: float
     leave: float
+
+
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class Cut(Terms):
+    """A run and the compensated contour it goes along."""
+
+    compensated: Compensated
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -22,6 +22,15 @@ MOST_PAIRS: Final = 20_000_000
 
 
 @dataclass(frozen=True, slots=True)
+class Parting:
+    """Where two paths part: the first line, the line at which they are farthest apart, and how far in millimetres."""
+
+    line: int
+    farthest: int
+    distance: float
+
+
+@dataclass(frozen=True, slots=True)
 class ContourParting:
     """How far one contour is from another at most, and at which line of its program; `sides` and planes may differ."""
 
@@ -63,19 +72,26 @@ def _contour(stretch: Stretch) -> Path:
 
 def _parting(path: Path, other: Path) -> ContourParting | None:
     """The place of a path that is farthest from the other one, None where they are one."""
+    found = apart(path, other, APART)
+    return None if found is None else ContourParting(found.farthest, found.distance)
+
+
+def apart(path: Path, other: Path, tolerance: float) -> Parting | None:
+    """Where a path is further than `tolerance` from another one, by its lines; None if nowhere."""
     if not len(path):
         return None
     if not len(other):
-        return ContourParting(int(path.numbers[0]), float("inf"))
+        line = int(path.numbers[0])
+        return Parting(line, line, float("inf"))
     places, rows = _places(path)
     step = max(1, len(places) * len(other) // MOST_PAIRS)
     places, rows = places[::step], rows[::step]
     pieces = measured(other)
     least = np.array([float(np.min(distance(pieces, np.full(len(other), place)))) for place in places])
-    worst = int(np.argmax(least))
-    if least[worst] <= APART:
+    first, worst = int(np.argmax(least > tolerance)), int(np.argmax(least))
+    if least[worst] <= tolerance:
         return None
-    return ContourParting(int(path.numbers[rows[worst]]), float(least[worst]))
+    return Parting(int(path.numbers[rows[first]]), int(path.numbers[rows[worst]]), float(least[worst]))
 
 
 def _places(path: Path) -> tuple[NDArray[np.complex128], NDArray[np.intp]]:

@@ -100,3 +100,14 @@ def run(text: bytes, control: str, tools: ToolTable = NO_TOOLS, unit: Unit | Non
         return full
     name, _, variant = full.partition(":")
     return CONTROLS[name].control(text, variant, tools, unit)
+
+
+def programmed(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -> Run | None:
+    """The run of a text that alarms, with next to no radius, so that its stretches tell the whole contour.
+
+    None where a control has no such run, or where even that stops.
+    """
+    if control != "klartext":
+        return None
+    made = klartext.programmed(text, tools)
+    return made if made.stopped_at is None else None

@@ -80,23 +80,28 @@ def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
 
 
 def depth(results: tuple[Judged, ...]) -> tuple[float, int | None]:
-    """The deepest gouge of a run in millimetres with its line; 0 and None if there is none."""
+    """The deepest gouge of a run in millimetres with its line; 0 and None if there is none, None for a line unknown."""
     gouges = [gouge for result in results for gouge in result.verdict.gouges]
     deepest = max(gouges, key=lambda gouge: gouge.depth, default=None)
-    return (deepest.depth, int(deepest.path_number)) if deepest else (0.0, None)
+    return (deepest.depth, _line(deepest.path_number)) if deepest else (0.0, None)
+
+
+def _line(number: float) -> int | None:
+    """The program's line that a piece of a path has as its number; 0 is a move that stands in no line."""
+    return int(number) or None
 
 
 def _cuts(result: Judged) -> list[Finding]:
     verdict = result.verdict
     if not verdict.judged:
-        line = int(result.centre.numbers[0]) if len(result.centre) else None
+        line = _line(result.centre.numbers[0]) if len(result.centre) else None
         return [Finding("UNJUDGED", Severity.ERROR, "This path cannot be judged: its numbers are none.", line=line)]
     found = [_gouge(gouge) for gouge in verdict.gouges[:MOST_GOUGES]]
     left = len(verdict.gouges) - len(found)
     if left:
         found.append(Finding("GOUGE", Severity.ERROR, f"There are {left} more gouges, none of them deeper."))
     if verdict.wrong_side:
-        line = int(result.centre.numbers[verdict.wrong_side[0]])
+        line = _line(result.centre.numbers[verdict.wrong_side[0]])
         text = "The cutter runs on the wrong side of the contour here."
         if 2 * len(verdict.wrong_side) > len(result.centre):
             text = "The cutter runs on the wrong side of the contour; exchange G41 and G42, or RL and RR."
@@ -112,7 +117,7 @@ def _leads(result: Judged) -> list[Finding]:
     found = [Finding("LEADS", Severity.INFO, text, line=result.leads[0])]
     for gouge in result.lead_gouges[:1]:
         text = f"The cutter cuts {{value}} into line {int(gouge.surface_number)}; if that is no lead, it is a gouge."
-        line = int(gouge.path_number)
+        line = _line(gouge.path_number)
         found.append(Finding("LEAD-GOUGE", Severity.INFO, text, at=gouge.surface_at, value=gouge.depth, line=line))
     return found
 
@@ -120,7 +125,7 @@ def _leads(result: Judged) -> list[Finding]:
 def _gouge(gouge: Gouge) -> Finding:
     much = "{value}" if gouge.depth > FINE else "less than a thousandth of a millimetre"
     text = f"The cutter gouges the surface of line {int(gouge.surface_number)} by {much} at X {{x}} Y {{y}}."
-    line = int(gouge.path_number)
+    line = _line(gouge.path_number)
     return Finding("GOUGE", Severity.ERROR, text, at=gouge.surface_at, value=gouge.depth, line=line)
 
 

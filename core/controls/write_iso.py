@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import hypot
 from typing import Final
 
-from core.controls.contouring import Cut, End, Line, Programmed, begin, finish, number_text, programmed
+from core.controls.contouring import Cut, End, Line, Programmed, Terms, begin, finish, number_text, programmed
 from core.controls.corners import Element, arc_element, beyond, line_element
 from core.controls.iso_style import Entry, IsoStyle, Radius
 from core.controls.tools import CutterTool, ToolTable
@@ -32,9 +32,10 @@ ROUNDING: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Ready:
-    """A cut with what is run of it: elements, leads included, and the points it is entered from and left to."""
+    """A run with what is run of it: elements, leads included, and the points it is entered from and left to."""
 
-    cut: Cut
+    cut: Terms
+    side: Side
     shape: Programmed
     start: Point
     to: Point
@@ -71,8 +72,9 @@ def ready(cut: Cut, style: IsoStyle, reach: float, offset: int) -> Ready | Findi
     if isinstance(shape, Finding):
         return shape
     first, last = begin(cut.compensated), finish(cut.compensated)
-    shape = _led(_merged(shape) if style.merged else shape, cut, first, last)
-    return Ready(cut, shape, start_of(first, style, reach), first.corner, out_of(last, reach), offset)
+    shape = _led(merged(shape) if style.merged else shape, cut, first, last)
+    start, out = start_of(first, style, reach), out_of(last, reach)
+    return Ready(cut, cut.compensated.side, shape, start, first.corner, out, offset)
 
 
 def _led(shape: Programmed, cut: Cut, first: End, last: End) -> Programmed:
@@ -88,7 +90,7 @@ def _led(shape: Programmed, cut: Cut, first: End, last: End) -> Programmed:
     return Programmed((into, *elements, off), (segments[0], *segments, segments[-1]))
 
 
-def _merged(shape: Programmed) -> Programmed:
+def merged(shape: Programmed) -> Programmed:
     """Lines that go on in one line made one, with the first one's segment."""
     elements, segments = [shape.elements[0]], [shape.segments[0]]
     for element, segment in zip(shape.elements[1:], shape.segments[1:], strict=True):
@@ -108,7 +110,7 @@ def _goes_on(first: Element, second: Element) -> bool:
     return ax * bx + ay * by > 0.0 and abs(ax * by - ay * bx) * length <= ON_LINE
 
 
-def offsets(cuts: Sequence[Cut], style: IsoStyle) -> dict[tuple[int, float], int]:
+def offsets(cuts: Sequence[Terms], style: IsoStyle) -> dict[tuple[int, float], int]:
     """The number under which a control finds the radius of a tool that leaves a stock."""
     found: dict[tuple[int, float], int] = {}
     spare = SPARE
@@ -121,7 +123,7 @@ def offsets(cuts: Sequence[Cut], style: IsoStyle) -> dict[tuple[int, float], int
     return found
 
 
-def tools_of(cuts: Sequence[Cut], style: IsoStyle) -> ToolTable:
+def tools_of(cuts: Sequence[Terms], style: IsoStyle) -> ToolTable:
     """The tool or offset table the program counts on, in millimetres; of a control that is told, nothing."""
     if style.radius is Radius.DATA:
         return ToolTable()
@@ -159,7 +161,7 @@ class _Writer:
             yield Line(safe.format(unit=unit, offset=offset, rounding=ROUNDING[self.frame.unit]))
         if self.frame.corners:
             yield Line(self.frame.corners)
-        before: Cut | None = None
+        before: Terms | None = None
         for one in cuts:
             yield from self.tool(one.cut, before)
             yield from self.cut(one)
@@ -167,7 +169,7 @@ class _Writer:
         yield Line("M5")
         yield Line("M30")
 
-    def tool(self, cut: Cut, before: Cut | None) -> Iterator[Line]:
+    def tool(self, cut: Terms, before: Terms | None) -> Iterator[Line]:
         """The change of tool, of its data, of the speed."""
         speed = f"S{from_speed(cut.speed)}"
         same = before is not None and before.tool == cut.tool
@@ -189,17 +191,18 @@ class _Writer:
         """One run: down beside the part, in, along, out, up."""
         cut, shape = one.cut, one.shape
         own_block = self.style.radius is Radius.DATA
-        down = ("G1", *(("G41" if self.left(cut) else "G42",) if own_block else ()))
+        down = ("G1", *((self.code(one),) if own_block else ()))
         yield from self.rapid(cut.travel)
         yield self.words("G0", *self.place(one.start))
         yield from self.rapid(cut.near)
         yield self.words(*down, f"Z{self.length(cut.depth)}", *self.feed_word(cut.plunge_feed))
         feeds = [cut.feeds[int(number)] for number in shape.segments]
         words = ("G1",) if own_block else (*self.switch(one), "G1")
-        yield self.words(*words, *self.place(one.to), *self.feed_word(feeds[0]), segment=shape.segments[0])
+        into = self.words(*words, *self.place(one.to), *self.feed_word(feeds[0]), segment=shape.segments[0])
+        yield into._replace(lead=True)
         for element, feed, segment in zip(shape.elements, feeds, shape.segments, strict=True):
             yield from self.element(element, feed, segment)
-        yield self.words("G40", "G1", *self.place(one.out), segment=shape.segments[-1])
+        yield self.words("G40", "G1", *self.place(one.out), segment=shape.segments[-1])._replace(lead=True)
         self.height = ""
         yield from self.rapid(cut.leave)
 
@@ -210,13 +213,13 @@ class _Writer:
             self.height = text
             yield self.words("G0", text)
 
-    def left(self, cut: Cut) -> bool:
-        """Is the tool on the left?"""
-        return cut.compensated.side is Side.LEFT
+    def code(self, one: Ready) -> str:
+        """G41 with the tool on the left."""
+        return "G41" if one.side is Side.LEFT else "G42"
 
     def switch(self, one: Ready) -> tuple[str, ...]:
         """What turns compensation on in the block of the entry."""
-        code, cut = "G41" if self.left(one.cut) else "G42", one.cut
+        code, cut = self.code(one), one.cut
         if cut.stock and self.style.radius is Radius.DIAMETER:
             return f"{code}.1", f"D{self.length(cut.diameter + 2 * cut.stock)}"
         if cut.stock and self.style.radius is Radius.REDUCED:

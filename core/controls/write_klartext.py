@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import hypot
 from typing import Final
 
-from core.controls.contouring import Cut, Line, Programmed, blend_of, programmed
+from core.controls.contouring import Cut, Line, Programmed, Terms, blend_of, programmed
 from core.controls.corners import Element
+from core.controls.write_iso import Ready
 from core.finding import Finding
 from core.geometry.piece import Point
 from core.geometry.side import Side
@@ -35,19 +37,52 @@ def write(cuts: Sequence[Cut], name: str, unit: Unit, remarks: Sequence[str] = (
     return tuple(Line(f"{number} {line.text}", line.segment) for number, line in enumerate(lines))
 
 
+def write_led(runs: Sequence[Ready], unit: Unit) -> tuple[Line, ...]:
+    """The lines of a program that comes to each contour square to it and leaves it so, with APPR LN and DEP LN."""
+    return tuple(_Writer(unit).led_program(runs))
+
+
 @dataclass(frozen=True, slots=True)
 class _Writer:
     """Writes blocks in a unit."""
 
     unit: Unit
 
+    def led_program(self, runs: Sequence[Ready]) -> Iterator[Line]:
+        """The same frame about runs with straight leads."""
+        frame = f"PGM CONTOUR {'INCH' if self.unit is Unit.IN else 'MM'}"
+        yield Line(f"BEGIN {frame}")
+        yield from self.tools([one.cut for one in runs])
+        before: Terms | None = None
+        for one in runs:
+            yield from self.tool(one.cut, before)
+            yield from self.led(one)
+            before = one.cut
+        yield Line("M30")
+        yield Line(f"END {frame}")
+
+    def led(self, one: Ready) -> Iterator[Line]:
+        """One run: down away from the contour, square to it, along, square away, up."""
+        cut, shape = one.cut, one.shape
+        (x, y), (cx, cy) = one.start, one.to
+        length = self.length(hypot(x - cx, y - cy) - cut.diameter / 2)
+        feeds = [cut.feeds[int(number)] for number in shape.segments]
+        word = "RL" if one.side is Side.LEFT else "RR"
+        yield Line(f"L {self.place(one.start)} R0 FMAX")
+        yield Line(f"L Z{self.length(cut.depth)} R0 F{self.feed(cut.plunge_feed)}")
+        into = f"APPR LN {self.place(one.to)} LEN{length} {word} F{self.feed(feeds[0])}"
+        yield Line(into, shape.segments[0], lead=True)
+        for element, feed, segment in zip(shape.elements, feeds, shape.segments, strict=True):
+            yield from self.element(element, feed, segment)
+        yield Line(f"DEP LN LEN{length}", shape.segments[-1], lead=True)
+        yield Line(f"L Z{self.length(cut.leave)} R0 FMAX")
+
     def program(self, cuts: Sequence[_Shaped], name: str, remarks: Sequence[str]) -> Iterator[Line]:
         """Everything from BEGIN PGM to END PGM; remarks behind a semicolon."""
         frame = f"PGM {name} {'INCH' if self.unit is Unit.IN else 'MM'}"
         yield Line(f"BEGIN {frame}")
         yield from (Line(f"; {remark}") for remark in remarks)
-        for number, diameter in {cut.tool: cut.diameter for cut, _ in cuts}.items():
-            yield Line(f"TOOL DEF {number} L+0 R{self.length(diameter / 2)}")
+        yield from self.tools([cut for cut, _ in cuts])
         before: Cut | None = None
         for cut, shape in cuts:
             yield from self.tool(cut, before)
@@ -56,7 +91,12 @@ class _Writer:
         yield Line("M30")
         yield Line(f"END {frame}")
 
-    def tool(self, cut: Cut, before: Cut | None) -> Iterator[Line]:
+    def tools(self, cuts: Sequence[Terms]) -> Iterator[Line]:
+        """TOOL DEF of every tool."""
+        for number, diameter in {cut.tool: cut.diameter for cut in cuts}.items():
+            yield Line(f"TOOL DEF {number} L+0 R{self.length(diameter / 2)}")
+
+    def tool(self, cut: Terms, before: Terms | None) -> Iterator[Line]:
         """TOOL CALL where the tool, its speed or what it leaves changes; then up."""
         if before is None or (before.tool, before.stock, before.speed) != (cut.tool, cut.stock, cut.speed):
             stock = f" DR{self.length(cut.stock)}" if cut.stock else ""

@@ -63,11 +63,12 @@ def _klartext(cuts: Sequence[Cut], frame: Frame, name: str, remarks: Remarks) ->
 
 def _iso(cuts: Sequence[Cut], control: str, frame: Frame, remarks: Remarks) -> Own | NotWritten:
     style = STYLES[control]
-    found = [_led(cut, style, offsets(cuts, style)[cut.tool, cut.stock]) for cut in _shared(cuts)]
+    shared = _shared(cuts)
+    found = [_led(cut, style, offsets(cuts, style)[cut.tool, cut.stock]) for cut in shared]
     against = tuple(dict.fromkeys(one for one in found if isinstance(one, Finding)))
     if against:
         return NotWritten(against)
-    by_run = {id(one.cut.compensated): one for one in found if isinstance(one, Ready)}
+    by_run = {id(cut.compensated): one for cut, one in zip(shared, found, strict=True) if isinstance(one, Ready)}
     every = [replace(by_run[id(cut.compensated)], cut=cut) for cut in cuts]
     frame = replace(frame, corners=_corners(control))
 

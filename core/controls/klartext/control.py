@@ -9,6 +9,7 @@ from typing import Final
 from core.controls.klartext import circles, flow, functions, leading, motion, setup
 from core.controls.klartext.blocks import Block, blocks
 from core.controls.klartext.centre import Centre
+from core.controls.klartext.record import Record
 from core.controls.klartext.state import State
 from core.controls.report import AlarmError, Log, Run
 from core.controls.source import lines_of
@@ -53,15 +54,28 @@ HEADS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
 )
 
 
+THIN: Final = 1e-7
+"""Share of the tool's radius with which no contour is too narrow."""
+
+
 def run(text: bytes, variant: str, tools: ToolTable) -> Run:  # noqa: ARG001  (the one variant is the empty one)
     """A program in Klartext with these tools; never raises for any text.
 
     Tools of the table count before TOOL DEF of the same number.
     """
+    return _ran(text, tools, 1.0)
+
+
+def programmed(text: bytes, tools: ToolTable) -> Run:
+    """The same with a tool of next to no radius: its stretches tell the contour where the tool itself does not fit."""
+    return _ran(text, tools, THIN)
+
+
+def _ran(text: bytes, tools: ToolTable, share: float) -> Run:
     log = Log()
-    centre = Centre(log)
+    centre = Centre(log, Record(share=share))
     read = tuple(blocks(lines_of(text)))
-    state = State(log, centre, tools, read, flow.labels_of(read))
+    state = State(log, centre, tools, read, flow.labels_of(read), share=share)
     stopped = None
     try:
         _run(state)

@@ -13,7 +13,10 @@ from core.geometry.side import Side
 
 @dataclass(slots=True)
 class Record:
-    """Centre moves on `tape`; `stretches` of them made under compensation, the open one's surface on `programmed`."""
+    """Centre moves on `tape`; `stretches` of them made under compensation, the open one's surface on `programmed`.
+
+    `share` is the share of the tool's radius that is run with.
+    """
 
     tape: Tape = field(default_factory=Tape)
     stretches: list[Stretch] = field(default_factory=list)
@@ -22,6 +25,7 @@ class Record:
     first: int = 0
     leaving: int = 0
     led_out: bool = False
+    share: float = 1.0
 
     def at(self, step: Step) -> Point3:
         """Where the centre stands, in the coordinates of the step's plane."""
@@ -80,5 +84,7 @@ class Record:
         side = Side.LEFT if entry.offset > 0.0 else Side.RIGHT
         moves, last = programmed.moves(), len(self.tape.rows)
         leads = (entry.role is Role.APPROACH, self.led_out)
-        stretch = Stretch(side, abs(entry.offset), entry.plane, moves, 1, self.leaving, self.first, last, *leads)
+        stretch = Stretch(
+            side, abs(entry.offset) / self.share, entry.plane, moves, 1, self.leaving, self.first, last, *leads
+        )
         self.stretches.append(stretch)

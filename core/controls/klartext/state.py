@@ -61,7 +61,7 @@ class State:
     `side` is what the last RL (+1), RR (-1) or R0 (0) said, `applied` what the tool's path has taken up since,
     `offset` the signed radius it runs at, and `ahead` the blocks that M120 looks ahead.  `last` is the contour element
     just programmed, None where there is none to be tangent to.  `waiting` is that element as a step, until it is known
-    whether RND or CHF follows it.
+    whether RND or CHF follows it.  `share` is the share of the tool's radius that is run with.
     """
 
     log: Log
@@ -95,6 +95,7 @@ class State:
     last: Element | None = None
     waiting: Step | None = None
     blend: Blend | None = None
+    share: float = 1.0
 
     def stop(self, code: str, text: str, block: Block, name: str = "", *lengths: float) -> NoReturn:
         """The control stops at a word of the block, or at its head."""
@@ -271,7 +272,7 @@ class State:
             self.tell(Severity.WARNING, "TOOL", text, block, "", self.radius)
         elif not self.radius:
             self.tell(Severity.WARNING, "TOOL", "The tool radius is 0: the centre runs on the contour.", block)
-        self.applied, self.offset = self.side, self.side * self.radius
+        self.applied, self.offset = self.side, self.side * self.radius * self.share
 
     def release(self) -> None:
         """Compensation is off."""

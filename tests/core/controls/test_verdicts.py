@@ -46,7 +46,9 @@ def test_a_notch_too_narrow_gouges_here_and_alarms_there() -> None:
     assert isinstance(strict, Compared)
     assert lenient.run.stopped_at is not None
     assert strict.run.stopped_at == 8
-    assert isinstance(rows["klartext"], OtherLanguage)
+    other = rows["klartext"]
+    assert isinstance(other, OtherLanguage)
+    assert other.why == "no control that reads the program runs it to its end"
 
 
 def test_two_paths_part_at_the_entry() -> None:

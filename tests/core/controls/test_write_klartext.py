@@ -28,7 +28,10 @@ def cut(compensated: Compensated, depth: float = -5.0, feeds: dict[int, float] |
     """One run at a depth, at 200 mm a minute unless a segment has its own feed."""
     every = {int(number): 200.0 for number in compensated.contour.numbers} | (feeds or {})
     size = 2 * compensated.radius
-    return Cut(compensated, tool, size, 0.0, 900.0, every, 100.0, travel=50.0, near=2.0, depth=depth, leave=50.0)
+    return Cut(
+        compensated=compensated, tool=tool, diameter=size, stock=0.0, speed=900.0, feeds=every, plunge_feed=100.0,
+        travel=50.0, near=2.0, depth=depth, leave=50.0,
+    )  # fmt: skip
 
 
 def write(compensated: Compensated, unit: Unit = Unit.MM) -> str | NotWritten:

@@ -48,7 +48,10 @@ def cut(one: Compensated, *, tool: int = 1, stock: float = 0.0, depth: float = -
     feeds = {int(number): 10.0 * INCH for number in one.contour.numbers}
     size = 2 * (one.radius - stock * INCH)
     up, near = 1.0 * INCH, 0.1 * INCH
-    return Cut(one, tool, size, stock * INCH, 300.0, feeds, 20.0 * INCH, up, near, depth * INCH, up)
+    return Cut(
+        compensated=one, tool=tool, diameter=size, stock=stock * INCH, speed=300.0, feeds=feeds,
+        plunge_feed=20.0 * INCH, travel=up, near=near, depth=depth * INCH, leave=up,
+    )  # fmt: skip
 
 
 def write(control: str, *cuts: Cut) -> Own | NotWritten:
