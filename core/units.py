@@ -16,7 +16,7 @@ from typing import Final, assert_never
 from core.arithmetic import NotASumError, total
 from core.finding import Finding
 from core.records import dataclass
-from core.tolerance import LARGEST
+from core.tolerance import LARGEST, ROUNDING
 
 QUOTED: Final = 24
 """Characters of somebody's text that a message repeats."""
@@ -148,7 +148,9 @@ def sentence(finding: Finding, unit: Unit) -> str:
         if length is None or (place[2] and other is None):
             return place[0]
         here = from_mm(length, unit)
-        return show(here, Kind.LENGTH, unit) if other is None else _told_from(here, from_mm(other, unit), unit)
+        if other is None or abs(length - other) <= ROUNDING:
+            return show(here, Kind.LENGTH, unit)
+        return _told_from(here, from_mm(other, unit), unit)
 
     return re.sub(r"\{(\w+)(?:~(\w+))?\}", fill, finding.text)
 

@@ -6,7 +6,7 @@ from app.screens.page import Surface
 from app.screens.text import TextPage, paragraph
 from app.session import Session
 from app.widgets.rows import Row, plain, text_of
-from app.widgets.verdict import deepest_gouge, verdict_rows
+from app.widgets.verdict import deepest_gouge, nearest_place, verdict_rows
 from core.records import dataclass
 
 
@@ -20,8 +20,11 @@ class FindingsPage(TextPage):
 
     def lines(self, session: Session, surface: Surface) -> tuple[Row, ...]:
         """The strip, then every finding."""
-        rows = verdict_rows(session.found, surface.table, session.program.unit, None)
-        rows[2:2] = deepest_gouge(session.found, session.program.unit)
+        found, unit = session.found, session.program.unit
+        rows = verdict_rows(found, surface.table, unit, None)
+        rows[2:2] = deepest_gouge(found, unit)
+        uncut = next((place for place, row in enumerate(rows) if text_of(row).startswith(" UNCUT")), 0)
+        rows[uncut + 1 : uncut + 1] = nearest_place(found, unit)
         told = [one for row in rows[1:] for one in _wrapped(row, surface.width)]
         return (rows[0], (), *(told or [plain(" Nothing to report.")]))
 

@@ -6,6 +6,7 @@ The strip on its first line tells every look-ahead value's fate; below it stand 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import isfinite
 from textwrap import wrap
 from typing import TYPE_CHECKING, Final
 
@@ -73,6 +74,19 @@ def deepest_gouge(found: DerivedBlock, unit: Unit) -> list[Row]:
     return [_sentence(one, unit) for one in found.findings if one not in told]
 
 
+def nearest_place(found: DerivedBlock, unit: Unit) -> list[Row]:
+    """The least distance in full, with its place; nothing before the block is worked out."""
+    if not found.known or found.work is None:
+        return []
+    from core.pipeline.trouble import nearest_finding
+
+    one = nearest_finding(found)
+    if one is None:
+        return []
+    look = Look.ERROR if found.work.verdict is not None and found.work.verdict.gouges else Look.TYPED
+    return [(Span(" NEAREST ", Look.LABEL), Span(sentence(one, unit), look))]
+
+
 def _untold(findings: tuple[Finding, ...], case: Case | None) -> list[Finding]:
     """The findings but for the deepest gouge, which the verdict's own line tells."""
     deepest = next((one for one in findings if one.code == "GOUGE"), None) if case is not None else None
@@ -88,7 +102,8 @@ def fitted(rows: list[Row], height: int, width: int) -> tuple[Row, ...]:
     kept = [_cut(row, width) for row in rows[: max(height, 0)]]
     if kept and len(rows) > height:
         more = f" +{len(rows) - height} more{READ_ON}"
-        kept[-1] = (*padded(_cut(kept[-1], width - len(more) - 1), width - len(more) - 1), Span(more, Look.LABEL))
+        last = _paired(rows[len(kept) - 1], width - len(more) - 1)
+        kept[-1] = (*padded(_cut(last, width - len(more) - 1), width - len(more) - 1), Span(more, Look.LABEL))
     return tuple(kept)
 
 
@@ -97,6 +112,13 @@ def _wrapped(row: Row, width: int) -> list[Row]:
     if len(text) < width:
         return [row]
     return [plain(f" {line}", row[-1].look) for line in wrap(text, max(width - 2, 8), subsequent_indent="    ")]
+
+
+def _paired(row: Row, width: int) -> Row:
+    """The row without the last of several labels and their values where these do not fit."""
+    while len(row) > 2 and len(text_of(row)) >= width:
+        row = row[:-2]
+    return row
 
 
 def _cut(row: Row, width: int) -> Row:
@@ -132,8 +154,18 @@ def _case_lines(case: Case, unit: Unit) -> Iterator[Row]:
     if not verdict.gouges:
         clean = verdict.clean
         word = Span("none" if clean else "wrong side", Look.GOOD if clean else Look.ERROR)
-        row = (*row, Span("   GOUGE ", Look.LABEL), word)
-    yield row
+        row = (*row, Span("  GOUGE ", Look.LABEL), word)
+    yield (*row, *_nearest(verdict, unit, STRIP - len(text_of(row))))
+
+
+def _nearest(verdict: Verdict, unit: Unit, room: int) -> Row:
+    """The least distance from the path to the surface, where there is room for it."""
+    if not isfinite(verdict.clearance):
+        return ()
+    text = length(verdict.clearance, unit)
+    label = "  NEAREST "
+    look = Look.ERROR if verdict.gouges else Look.TYPED
+    return (Span(label, Look.LABEL), Span(text, look)) if len(label) + len(text) < room else ()
 
 
 def _gouge(verdict: Verdict, unit: Unit) -> Row:

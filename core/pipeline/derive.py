@@ -10,7 +10,7 @@ from core.finding import Finding
 from core.geometry.path import EMPTY, Path
 from core.output.grid import Grid
 from core.output.ready import forbidding
-from core.pipeline.cut import Cut, parameter
+from core.pipeline.compensation import Compensation, parameter
 from core.pipeline.derived import Derived, DerivedBlock, Loop, RoughPass, Work
 from core.pipeline.jobs import job
 from core.pipeline.outline import outline_block
@@ -55,12 +55,12 @@ def _worked(found: DerivedBlock, program: Program, surface: Path) -> DerivedBloc
         bare = Work(surface, (Loop(surface, EMPTY, EMPTY),), None, None)
         return _checked(replace(found, work=bare, known=True), program)
     assert found.radius is not None
-    cut = Cut(surface, found.side, found.solved.closed, found.lookahead.value, program)
-    control = cut.control(found.radius)
-    best = cut.best(found.radius) if program.parameters.path is PathChoice.BEST else None
-    chosen = cut.posted(control, found.radius, best)
+    how = Compensation(surface, found.side, found.solved.closed, found.lookahead.value, program)
+    control = how.control(found.radius)
+    best = how.best(found.radius) if program.parameters.path is PathChoice.BEST else None
+    chosen = how.posted(control, found.radius, best)
     verdict = judge_together(surface, found.side, found.radius, [loop.whole for loop in chosen])
-    work = Work(surface, chosen, control, verdict, _rough(found, cut), best)
+    work = Work(surface, chosen, control, verdict, _rough(found, how), best)
     trouble = (*found.findings, *path_findings(work), *size_warning(found.radius, surface))
     return _checked(replace(found, work=work, known=True, findings=by_weight(trouble)), program)
 
@@ -109,14 +109,14 @@ def stocks(found: DerivedBlock, program: Program) -> tuple[float, ...]:
     return (*widths, least) if finishing else tuple(widths)
 
 
-def _rough(found: DerivedBlock, cut: Cut) -> tuple[RoughPass, ...]:
+def _rough(found: DerivedBlock, how: Compensation) -> tuple[RoughPass, ...]:
     if found.solved.tool_diameter is None:
         return ()
     cutter = found.solved.tool_diameter / 2
     passes = []
-    for stock in stocks(found, cut.program):
-        control = cut.control(cutter + stock)
-        loops = cut.posted(control, cutter + stock)
-        verdict = judge_together(cut.surface, cut.side, cutter, [loop.whole for loop in loops])
-        passes.append(RoughPass(stock, cutter, loops, control, verdict))
+    for stock in stocks(found, how.program):
+        control = how.control(cutter + stock)
+        loops = how.posted(control, cutter + stock)
+        verdict = judge_together(how.surface, how.side, cutter + stock, [loop.whole for loop in loops])
+        passes.append(RoughPass(stock, loops, control, verdict))
     return tuple(passes)

@@ -38,11 +38,11 @@ class LookAhead:
 class RoughPass:
     """One pass before the finish path: its `loops` leave `stock` millimetres on the surface.
 
-    `compensated` is the control's path, whether posted or not.
+    `compensated` is the control's path, whether posted or not.  `verdict` is that of a cutter larger by the stock: what
+    it gouges deeper than the stock is cut into the part, the rest is stock that is not left.
     """
 
     stock: float
-    cutter_radius: float
     loops: tuple[Loop, ...]
     compensated: Compensated
     verdict: Verdict

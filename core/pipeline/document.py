@@ -10,6 +10,7 @@ from core.finding import Finding
 from core.geometry.path import Path
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.table import Table
+from core.pipeline.trouble import nearest_of
 from core.units import Unit, from_mm, sentence
 
 Document = dict[str, Any]
@@ -30,6 +31,7 @@ def _block(found: DerivedBlock, unit: Unit) -> Document:
         "radius": None if found.radius is None else from_mm(found.radius, unit),
         "comp": str(found.block.cutter_comp),
         "clearance": _clearance(found, unit),
+        "clearance_at": _clearance_at(found, unit),
         "moves": list(_block_moves(found, unit)),
         "deleted": _deleted(found, unit),
         "findings": [finding_document(finding, unit) for finding in found.findings],
@@ -42,6 +44,15 @@ def _clearance(found: DerivedBlock, unit: Unit) -> float | None:
     if verdict is None or not isfinite(verdict.clearance):
         return None
     return from_mm(verdict.clearance, unit)
+
+
+def _clearance_at(found: DerivedBlock, unit: Unit) -> Document | None:
+    """The place of the smallest distance: the contour's segment and the point on it."""
+    place = nearest_of(found)
+    if place is None:
+        return None
+    x, y = place.surface_at
+    return {"segment": plain(place.surface_number), "x": from_mm(x, unit), "y": from_mm(y, unit)}
 
 
 def _block_moves(found: DerivedBlock, unit: Unit) -> Iterator[Document]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from core.geometry.path import EMPTY
 from core.output.job import Cutter, Floor, Job, Run
-from core.pipeline.cut import parameter
+from core.pipeline.compensation import parameter
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.fields import default
 from core.program.model import Entry, Program, Typed

@@ -7,13 +7,15 @@ from collections.abc import Iterator
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.document import path_document, plain
 from core.pipeline.table import Row, Table
+from core.pipeline.trouble import nearest_of
 from core.units import Kind, Unit, from_mm, show
 
 
 def path_listing(derived: Derived, number: int | None = None) -> Iterator[str]:
     """Every move of the centre path, a line each, under a heading for its block."""
     unit = derived.program.unit
-    for block in path_document(derived, number)["blocks"]:
+    chosen = derived.blocks if number is None else (derived.block(number),)
+    for found, block in zip(chosen, path_document(derived, number)["blocks"], strict=True):
         kind = "closed" if block["closed"] else "open"
         value = f"{block['lookahead']['tag']} {block['lookahead']['value']}"
         yield f"BLOCK {block['block']}  CUTTER COMP. {block['comp']}  {kind}  LOOKAHEAD {value}  {unit}"
@@ -22,6 +24,25 @@ def path_listing(derived: Derived, number: int | None = None) -> Iterator[str]:
         for one in block["deleted"]:
             x, y = _length(one["x"], unit), _length(one["y"], unit)
             yield f"  DELETED {one['segment']} by {one['by'][0]} and {one['by'][1]} at X {x} Y {y}"
+        yield from verdict_listing(found, unit)
+
+
+def verdict_listing(found: DerivedBlock, unit: Unit) -> Iterator[str]:
+    """What the cutter does to the surface: the least distance and its place, and every stretch that is not reached."""
+    place = nearest_of(found)
+    if place is not None and found.radius is not None:
+        x, y = (_length(from_mm(value, unit), unit) for value in place.surface_at)
+        distance, radius = (_length(from_mm(value, unit), unit) for value in (place.distance, found.radius))
+        yield f"  NEAREST {distance}  TOOL RADIUS {radius}  at X {x} Y {y} on segment {place.surface_number:g}"
+    verdict = None if found.work is None else found.work.verdict
+    if verdict is None or not verdict.judged:
+        return
+    left, whole = (_length(from_mm(value, unit), unit) for value in (verdict.uncut_length, verdict.surface_length))
+    yield f"  UNCUT {left} of {whole}"
+    for one in verdict.uncut:
+        (x0, y0), (x1, y1) = ([_length(from_mm(value, unit), unit) for value in at] for at in (one.start, one.end))
+        told = f"from X {x0} Y {y0} on segment {one.first_number:g} to X {x1} Y {y1} on segment {one.last_number:g}"
+        yield f"    {_length(from_mm(one.length, unit), unit)} {told}"
 
 
 def _length(value: float, unit: Unit) -> str:

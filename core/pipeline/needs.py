@@ -18,7 +18,7 @@ from core.pipeline.remedies import (
     started,
     without_blends,
 )
-from core.pipeline.table import Cut, Row, Table, cut_of, table_of
+from core.pipeline.table import Row, Table, Trial, table_of, trial_of
 from core.program.model import Program
 
 NAMED_AT_MOST: Final = 4
@@ -45,11 +45,11 @@ class Needs:
 
 def needs(found: DerivedBlock, program: Program, table: Table | None = None) -> Needs | None:
     """What a derived block needs; `table` is its look-ahead table where that is known.  None where there is none."""
-    cut = cut_of(found, program)
-    return None if cut is None else needs_of(cut, found.lookahead.calculated, table or table_of(cut))
+    trial = trial_of(found, program)
+    return None if trial is None else needs_of(trial, found.lookahead.calculated, table or table_of(trial))
 
 
-def needs_of(cut: Cut, calculated: int, table: Table) -> Needs:
+def needs_of(trial: Trial, calculated: int, table: Table) -> Needs:
     """What a contour needs whose look-ahead table is known; nothing where it could not be offset at all."""
     if not len(table.rows[0].compensated.raw):
         return Needs(())
@@ -57,21 +57,21 @@ def needs_of(cut: Cut, calculated: int, table: Table) -> Needs:
     if table.recommended is not None:
         return Needs(why, sentences=why)
     nearest = min(table.rows, key=lambda row: (row.gouge, row.value))
-    small = _small(nearest, cut.radius)
-    blendless, start = without_blends(cut), start_mid_side(cut)
-    tool, where = (None, "") if start is not None or blendless is not None else _tool(cut, nearest, small)
+    small = _small(nearest, trial.radius)
+    blendless, start = without_blends(trial), start_mid_side(trial)
+    tool, where = (None, "") if start is not None or blendless is not None else _tool(trial, nearest, small)
     remedies = (*_blends_said(blendless), *_start_said(start), *_tool_said(tool, where)) or (_nothing(),)
     return Needs(why, small, tool, start, blendless, (*why, *_some(small), *remedies))
 
 
-def _tool(cut: Cut, nearest: Row, small: tuple[Finding, ...]) -> tuple[ToolFits | None, str]:
+def _tool(trial: Trial, nearest: Row, small: tuple[Finding, ...]) -> tuple[ToolFits | None, str]:
     """The largest tool, and where the contour has to be started for it where its own start is an inside corner."""
     hint = min((one.value for one in small if one.value is not None), default=None)
     if not any(one.code == "START_INSIDE_CORNER" for one in nearest.compensated.findings):
-        return largest_tool(cut, hint), ""
-    row = longest(cut.surface)[0]
-    found = largest_tool(replace(cut, surface=started(cut.surface, row)), hint)
-    return found, f" when the contour is started in the middle of segment {cut.surface.numbers[row]:g}"
+        return largest_tool(trial, hint), ""
+    row = longest(trial.surface)[0]
+    found = largest_tool(replace(trial, surface=started(trial.surface, row)), hint)
+    return found, f" when the contour is started in the middle of segment {trial.surface.numbers[row]:g}"
 
 
 def _some(small: tuple[Finding, ...]) -> tuple[Finding, ...]:

@@ -14,7 +14,7 @@ import numpy as np
 from core.comp.compensate import compensate_all
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Point
-from core.pipeline.table import Cut, table_of
+from core.pipeline.table import Trial, table_of
 from core.verify.judge import judge
 
 STEP: Final = 0.001
@@ -44,32 +44,32 @@ class StartMoved:
     value: int
 
 
-def largest_tool(cut: Cut, hint: float | None = None) -> ToolFits | None:
+def largest_tool(trial: Trial, hint: float | None = None) -> ToolFits | None:
     """The largest clean diameter below the cutter's, a multiple of STEP, rounded down; by halving what is left.
 
     `hint` is a radius that may be the limit, such as that of the smallest inside arc: it is tried first.
     """
-    known, fails = 0, _steps(2.0 * cut.radius)
+    known, fails = 0, _steps(2.0 * trial.radius)
     tries = [_steps(2.0 * hint), _steps(2.0 * hint) + 1] if hint is not None else []
     while fails - known > 1:
         size = tries.pop(0) if tries else (known + fails) // 2
         if known < size < fails:
-            known, fails = (size, fails) if _clean(_with_tool(cut, size)) else (known, size)
-    value = table_of(_with_tool(cut, known)).recommended if known else None
+            known, fails = (size, fails) if _clean(_with_tool(trial, size)) else (known, size)
+    value = table_of(_with_tool(trial, known)).recommended if known else None
     return None if value is None else ToolFits(known * STEP, value)
 
 
-def _with_tool(cut: Cut, size: int) -> Cut:
-    return replace(cut, radius=size * STEP / 2.0)
+def _with_tool(trial: Trial, size: int) -> Trial:
+    return replace(trial, radius=size * STEP / 2.0)
 
 
-def _clean(cut: Cut) -> bool:
+def _clean(trial: Trial) -> bool:
     """Whether a value of the usual ones is clean."""
     every = compensate_all(
-        cut.surface, cut.side, cut.radius, USUAL, closed=cut.closed, blend=cut.blend, overlap=cut.overlap
+        trial.surface, trial.side, trial.radius, USUAL, closed=trial.closed, blend=trial.blend, overlap=trial.overlap
     )
     wholes = {id(one.path): one.whole for one in every if len(one.path)}
-    return any(judge(cut.surface, cut.side, cut.radius, whole).clean for whole in wholes.values())
+    return any(judge(trial.surface, trial.side, trial.radius, whole).clean for whole in wholes.values())
 
 
 def _steps(diameter: float) -> int:
@@ -77,12 +77,12 @@ def _steps(diameter: float) -> int:
     return int(diameter / STEP + 1e-6)
 
 
-def start_mid_side(cut: Cut) -> StartMoved | None:
+def start_mid_side(trial: Trial) -> StartMoved | None:
     """The longest side of a closed contour whose middle is a clean start."""
-    for row in longest(cut.surface)[:MOST_STARTS] if cut.closed else ():
-        value = table_of(replace(cut, surface=started(cut.surface, row))).recommended
+    for row in longest(trial.surface)[:MOST_STARTS] if trial.closed else ():
+        value = table_of(replace(trial, surface=started(trial.surface, row))).recommended
         if value is not None:
-            return StartMoved(float(cut.surface.numbers[row]), middle(cut.surface[row]), value)
+            return StartMoved(float(trial.surface.numbers[row]), middle(trial.surface[row]), value)
     return None
 
 
@@ -92,9 +92,9 @@ def longest(contour: Path) -> list[int]:
     return rows
 
 
-def without_blends(cut: Cut) -> int | None:
+def without_blends(trial: Trial) -> int | None:
     """The value that is clean when the blend moves are left out."""
-    return table_of(replace(cut, blend=0.0, overlap=0.0)).recommended if cut.blend > 0.0 else None
+    return table_of(replace(trial, blend=0.0, overlap=0.0)).recommended if trial.blend > 0.0 else None
 
 
 def middle(piece: Piece) -> Point:

@@ -12,7 +12,7 @@ from core.comp.result import Compensated
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.side import Side
-from core.pipeline.cut import parameter
+from core.pipeline.compensation import parameter
 from core.pipeline.derive import better, stocks
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
@@ -64,7 +64,7 @@ class Table:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Cut:
+class Trial:
     """A contour and how it is to be cut; lengths in millimetres, `blend` and `overlap` 0 for none.
 
     `stocks` are what the roughing passes leave, cut by a tool of radius `rougher`, of `radius` without a finish tool.
@@ -80,11 +80,11 @@ class Cut:
     rougher: float | None = None
 
 
-def cut_of(found: DerivedBlock, program: Program) -> Cut | None:
+def trial_of(found: DerivedBlock, program: Program) -> Trial | None:
     """What a derived block cuts; None for ON and while there is nothing to compensate."""
     if found.work is None or found.side is None or found.radius is None:
         return None
-    return Cut(
+    return Trial(
         found.work.surface,
         found.side,
         found.radius,
@@ -98,25 +98,25 @@ def cut_of(found: DerivedBlock, program: Program) -> Cut | None:
 
 def look_ahead_table(found: DerivedBlock, program: Program) -> Table | None:
     """The table of a derived block; None for ON and while there is nothing to compensate."""
-    cut = cut_of(found, program)
-    return None if cut is None else replace(table_of(cut), notes=better(found))
+    trial = trial_of(found, program)
+    return None if trial is None else replace(table_of(trial), notes=better(found))
 
 
-def table_of(cut: Cut) -> Table:
+def table_of(trial: Trial) -> Table:
     """The table of any contour: a value's fate is that of its finish path and of the roughing passes before it."""
     values = range(LOWEST, HIGHEST + 1)
-    every, verdicts = _all(cut, cut.radius, cut.radius)
-    rougher = cut.radius if cut.rougher is None else cut.rougher
-    passes = [_all(cut, rougher + stock, rougher)[1] for stock in cut.stocks]
+    every, verdicts = _all(trial, trial.radius, trial.radius)
+    rougher = trial.radius if trial.rougher is None else trial.rougher
+    passes = [_all(trial, rougher + stock, rougher)[1] for stock in trial.stocks]
     rough = list(zip(*passes, strict=True)) or [()] * len(values)
     rows = [Row(*row) for row in zip(values, every, verdicts, rough, strict=True)]
     return Table(tuple(rows), recommended(rows))
 
 
-def _all(cut: Cut, radius: float, cutter: float) -> tuple[Sequence[Compensated], Sequence[Verdict]]:
+def _all(trial: Trial, radius: float, cutter: float) -> tuple[Sequence[Compensated], Sequence[Verdict]]:
     """The path at `radius` of every value, and what a cutter of radius `cutter` does on it."""
     values = range(LOWEST, HIGHEST + 1)
     every = compensate_all(
-        cut.surface, cut.side, radius, values, closed=cut.closed, blend=cut.blend, overlap=cut.overlap
+        trial.surface, trial.side, radius, values, closed=trial.closed, blend=trial.blend, overlap=trial.overlap
     )
-    return every, judge_all(cut.surface, cut.side, cutter, [one.whole for one in every])
+    return every, judge_all(trial.surface, trial.side, cutter, [one.whole for one in every])

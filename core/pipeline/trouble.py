@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from math import inf
 
 from core.comp.best import BestPath, Separation
 from core.comp.result import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path
-from core.pipeline.derived import Loop, RoughPass, Work
+from core.pipeline.derived import DerivedBlock, Loop, RoughPass, Work
 from core.tolerance import GOUGE
+from core.verify.nearest import Nearest, nearest
 from core.verify.report import findings as verdict_findings
 from core.verify.verdict import Gouge
 
@@ -43,13 +43,9 @@ def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge]) -> Iterator[F
 
 
 def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> Iterator[Finding]:
-    """What is wrong with each roughing pass: gouges, no room, pieces bridged, and what it deletes that is finished."""
+    """What is wrong with each roughing pass: gouges, stock that is not left, no room, what it deletes of the finish."""
     for one in rough:
         yield from _rough_errors(one)
-        for bridged in one.compensated.findings:
-            if bridged.code in ("VANISHED", "CORNER_MISSED"):
-                text = f"The roughing pass that leaves {{0}} does not keep its stock here. {bridged.text}"
-                yield replace(bridged, code="ROUGH_STOCK", text=text, lengths=(one.stock,))
         gone = _deleted(one.compensated) - (set() if finish is None else _deleted(finish))
         if gone and finish is not None:
             listed = " ".join(f"{number:g}" for number in sorted(gone))
@@ -59,9 +55,14 @@ def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> It
 
 def _rough_errors(one: RoughPass) -> Iterator[Finding]:
     for hit in one.verdict.gouges[:1]:
-        text = "The roughing pass that leaves {0} gouges {value} deep."
-        where = hit.surface_number, None, hit.at, hit.depth, (one.stock,)
-        yield Finding("ROUGH_GOUGES", Severity.ERROR, text, *where)
+        left = one.stock - hit.depth
+        where = hit.surface_number, None, hit.surface_at, abs(left), (one.stock,)
+        if left < -GOUGE:
+            text = "The roughing pass that leaves {0} gouges {value} deep at X {x} Y {y}."
+            yield Finding("ROUGH_GOUGES", Severity.ERROR, text, *where)
+        else:
+            text = "The roughing pass that leaves {0~value} leaves only {value~0} at X {x} Y {y}."
+            yield Finding("ROUGH_STOCK", Severity.WARNING, text, *where)
     if one.verdict.wrong_side or not one.verdict.judged:
         text = "The roughing pass that leaves {0} runs on the part's side of the contour, or cannot be judged."
         yield Finding("ROUGH_GOUGES", Severity.ERROR, text, lengths=(one.stock,))
@@ -72,6 +73,24 @@ def _rough_errors(one: RoughPass) -> Iterator[Finding]:
 
 def _deleted(one: Compensated) -> set[float]:
     return set(one.deleted.segments.tolist())
+
+
+def nearest_of(found: DerivedBlock) -> Nearest | None:
+    """Where the posted path comes nearest to the surface."""
+    work = found.work
+    if work is None or work.verdict is None:
+        return None
+    return nearest(work.surface, [loop.whole for loop in work.loops], work.verdict.clearance)
+
+
+def nearest_finding(found: DerivedBlock) -> Finding | None:
+    """The least distance from the centre path to the surface against the tool's radius, and where; None for none."""
+    place = nearest_of(found)
+    if place is None or found.radius is None:
+        return None
+    text = f"{{value~0}} at X {{x}} Y {{y}} on segment {place.surface_number:g}; the tool's radius is {{0~value}}."
+    where = place.surface_number, None, place.surface_at, place.distance, (found.radius,)
+    return Finding("NEAREST", Severity.INFO, text, *where)
 
 
 def better_findings(best: BestPath, apart: Separation) -> tuple[Finding, ...]:

@@ -11,7 +11,7 @@ from core.geometry.distance import foot
 from core.geometry.measured import at, boxes, measured, stacked
 from core.geometry.path import Path
 from core.geometry.piece import Point
-from core.tolerance import GOUGE
+from core.tolerance import GOUGE, ON_PATH
 from core.verify.judge import judgeable
 from core.verify.pairs import approaches, middles, pairs_of
 
@@ -45,7 +45,7 @@ def nearest(surface: Path, centres: Sequence[Path], clearance: float) -> Nearest
         if not len(pair):
             return None
         stations = pairs.centre_stations[near.i[pair]] + near.places[k, pair] * moves.length[near.i[pair]]
-        first = int(np.argmin(stations))
+        first = int(np.lexsort((near.j[pair], np.round(stations / ON_PATH)))[0])
         row = pair[first : first + 1]
         place = at(moves.take(near.i[row]), near.places[k[first : first + 1], row])
         wall = walls.take(near.j[row])

@@ -9,7 +9,7 @@ from app.files import example
 from app.screens.contour import Contour
 from app.screens.findings import FindingsPage
 from app.session import Session
-from app.widgets.rows import plain, text_of
+from app.widgets.rows import Span, plain, text_of
 from app.widgets.verdict import fitted, verdict_rows
 from core.pipeline.derive import derive
 from core.pipeline.outline import outline
@@ -85,3 +85,25 @@ def test_the_dialog_says_what_is_left_and_what_is_not_saved() -> None:
     assert " DELETED block 1 segments 9" in told
     edited = Operator.at().press("tab").type("2").press("f8", "f6")
     assert "The program is not saved: Esc, then Ctrl+S." in edited.part("body")
+
+
+def test_how_near_the_path_comes_stands_beside_the_radius() -> None:
+    operator = derived("notch")
+    assert " UNCUT   0.0000 of 5.6000  NEAREST 0.0000" in verdict(operator)
+    told = "\n".join(operator.press("ctrl+f").screen())
+    assert "NEAREST 0.0000 at X 2.3000 Y -0.0500 on segment 4; the" in told
+    assert "tool's radius is 0.2500." in told
+    assert " UNCUT   0.0000 of 13.1416  GOUGE none  NEAREST 0.2500" in verdict(derived("flange"))
+
+
+def test_a_value_that_does_not_fit_goes_with_its_label() -> None:
+    row = (
+        Span(" UNCUT   "),
+        Span("1.0000 of 9.0000"),
+        Span("  GOUGE "),
+        Span("none"),
+        Span("  NEAREST "),
+        Span("0.2500"),
+    )
+    shown = fitted([row, plain(" more"), plain(" still more")], 1, 59)
+    assert text_of(shown[0]).split() == ["UNCUT", "1.0000", "of", "9.0000", "GOUGE", "none", "+2", "more:", "Ctrl+F"]

@@ -18,7 +18,7 @@ from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.geometry.side import Side
 from core.pipeline.needs import needs_of
-from core.pipeline.table import Cut, table_of
+from core.pipeline.table import Trial, table_of
 from core.verify.judge import judge
 from core.verify.verdict import Verdict
 from tests.core.comp.contours import lines
@@ -79,9 +79,9 @@ def test_odd_numbers_among_plain_ones(contour, side, radius, closed):
 @settings(max_examples=40, deadline=PATIENCE, derandomize=True)
 @given(arrays(mostly_plain), st.sampled_from(Side), radii, st.booleans())
 def test_tables_and_needs_of_odd_contours(contour, side, radius, closed):
-    cut = Cut(contour, side, radius, closed, 0.1, 0.1)
-    table = table_of(cut)
-    needs_of(cut, 3, table)
+    trial = Trial(contour, side, radius, closed, 0.1, 0.1)
+    table = table_of(trial)
+    needs_of(trial, 3, table)
     if table.recommended is not None:
         assert len(table.row(table.recommended).compensated.path)
 

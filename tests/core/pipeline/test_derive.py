@@ -9,7 +9,7 @@ from core.pipeline.derived import Tag
 from core.pipeline.outline import outline
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Entry, LineSegment, Parameters, PathChoice, Unread, changed
-from core.units import Unit
+from core.units import Unit, sentence
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE, block, program
 
 IN = 25.4
@@ -126,6 +126,37 @@ def test_a_gouging_roughing_pass_is_an_error_of_its_own():
     (found,) = derive(program(typed)).blocks
     assert found.work.verdict.clean
     assert [finding.code for finding in found.errors] == ["ROUGH_GOUGES"]
+
+
+def test_a_roughing_pass_that_keeps_its_distance_says_nothing():
+    parameters = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0), finish_xy=Entry(0.02))
+    typed = block(MID_SIDE_SQUARE, CutterComp.LEFT, finish_tool=Entry(2))
+    (found,) = derive(program(typed, parameters=parameters)).blocks
+    (rough,) = found.work.rough
+    assert rough.verdict.clearance / IN == pytest.approx(0.27)
+    assert not [code for code in codes(found) if code.startswith("ROUGH")]
+
+
+def test_a_roughing_pass_that_does_not_leave_its_stock_is_told_by_what_it_leaves():
+    """The start in an inside corner lets the first pass run into the last wall's stock, yet not into the part."""
+    parameters = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0), finish_xy=Entry(0.3))
+    step = ((0.28, 0), (2, 0), (2, 2), (0, 2), (0, 0.5))
+    typed = block(step, CutterComp.LEFT, finish_tool=Entry(2))
+    (found,) = derive(program(typed, parameters=parameters)).blocks
+    (told,) = [finding for finding in found.findings if finding.code == "ROUGH_STOCK"]
+    assert told.severity is Severity.WARNING
+    assert told.segment == 4
+    assert told.value / IN == pytest.approx(0.03)
+    assert sentence(told, Unit.IN).startswith("The roughing pass that leaves 0.3000 leaves only 0.0300 at X 0.0000")
+    assert found.work.verdict.clean
+
+
+def test_stock_is_judged_on_the_path_that_is_posted():
+    """The best path has room for its stock wherever it runs, whatever the control's path would do."""
+    parameters = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0), finish_xy=Entry(0.3), path=PathChoice.BEST)
+    step = ((0.28, 0), (2, 0), (2, 2), (0, 2), (0, 0.5))
+    (found,) = derive(program(block(step, CutterComp.LEFT, finish_tool=Entry(2)), parameters=parameters)).blocks
+    assert not [code for code in codes(found) if code == "ROUGH_STOCK"]
 
 
 def test_a_blend_arc_that_gouges_is_named():

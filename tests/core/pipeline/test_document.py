@@ -6,7 +6,7 @@ import pytest
 from core.pipeline.derive import derive
 from core.pipeline.document import path_document, table_document
 from core.pipeline.jobs import jobs
-from core.pipeline.listing import path_listing, table_listing
+from core.pipeline.listing import path_listing, table_listing, verdict_listing
 from core.pipeline.plot import block_scene, svg_of
 from core.pipeline.table import look_ahead_table
 from core.program.model import CutterComp, Entry, Parameters
@@ -83,8 +83,26 @@ def test_the_listing_names_every_move():
     derived = derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3))))
     lines = list(path_listing(derived))
     assert lines[0] == "BLOCK 1  CUTTER COMP. LEFT  open  LOOKAHEAD USR 3  IN"
-    assert len(lines) == 1 + 4 + 3
+    assert len(lines) == 1 + 4 + 3 + 3
     assert "about X       2.0000 Y       0.0000" in lines[2]
+    assert lines[8] == "  NEAREST 0.2500  TOOL RADIUS 0.2500  at X 0.0000 Y 0.0000 on segment 1"
+    assert lines[9] == "  UNCUT 0.9000 of 5.6000"
+    assert lines[10] == "    0.9000 from X 2.0000 Y 0.0000 on segment 2 to X 2.3000 Y 0.0000 on segment 4"
+
+
+def test_the_listing_of_a_gouge_tells_how_near_the_path_comes():
+    (found,) = derive(program(block(NOTCH, CutterComp.LEFT))).blocks
+    nearest, *uncut = verdict_listing(found, Unit.IN)
+    assert nearest == "  NEAREST 0.0000  TOOL RADIUS 0.2500  at X 2.3000 Y -0.0500 on segment 4"
+    assert uncut == ["  UNCUT 0.0000 of 5.6000"]
+
+
+def test_the_document_tells_the_least_distance_and_its_place():
+    derived = derive(program(block(NOTCH, CutterComp.LEFT), block(NOTCH, CutterComp.ON)))
+    gouging, on = path_document(derived)["blocks"]
+    assert gouging["clearance"] == pytest.approx(0.0, abs=1e-9)
+    assert gouging["clearance_at"] == {"segment": 4, "x": pytest.approx(2.3), "y": pytest.approx(-0.05)}
+    assert (on["clearance"], on["clearance_at"]) == (None, None)
 
 
 def test_a_job_carries_what_is_posted():

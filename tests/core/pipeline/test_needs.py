@@ -17,7 +17,7 @@ from core.geometry.side import Side
 from core.pipeline.derive import derive
 from core.pipeline.needs import NAMED_AT_MOST, Needs, needs, needs_of
 from core.pipeline.remedies import STEP, largest_tool, middle, started
-from core.pipeline.table import Cut, table_of
+from core.pipeline.table import Trial, table_of
 from core.program.model import CutterComp
 from core.units import Unit, sentence
 from tests.bench.families import gear
@@ -31,11 +31,11 @@ STAR = lines(
 )
 
 
-def cut(contour: Path, side: Side, radius: float = 0.25, *, closed: bool, blend: float = 0.0) -> Cut:
-    return Cut(contour, side, radius, closed, blend, 0.0)
+def trial(contour: Path, side: Side, radius: float = 0.25, *, closed: bool, blend: float = 0.0) -> Trial:
+    return Trial(contour, side, radius, closed, blend, 0.0)
 
 
-def of(asked: Cut) -> Needs:
+def of(asked: Trial) -> Needs:
     return needs_of(asked, calculated(len(asked.surface), closed=asked.closed), table_of(asked))
 
 
@@ -71,7 +71,7 @@ def test_the_notch_is_told_what_its_look_ahead_has_to_reach():
 
 
 def test_an_inside_square_is_to_be_started_mid_side():
-    asked = cut(SQUARE, Side.LEFT, closed=True)
+    asked = trial(SQUARE, Side.LEFT, closed=True)
     found = of(asked)
     assert codes(found) == ["CAL_NOT_CLEAN", "START_MID_SIDE"]
     assert "first and last segments are never tested" in said(found)
@@ -83,15 +83,15 @@ def test_an_inside_square_is_to_be_started_mid_side():
 
 def test_a_chamfer_at_the_seam():
     chamfered = lines((0.1, 0), (2, 0), (2, 2), (0, 2), (0, 0.1), (0.1, 0))
-    found = of(cut(chamfered, Side.LEFT, closed=True))
+    found = of(trial(chamfered, Side.LEFT, closed=True))
     assert found.start is not None
     assert found.start.value == 2
     row = int(found.start.segment) - 1
-    assert table_of(cut(started(chamfered, row), Side.LEFT, closed=True)).row(2).clean
+    assert table_of(trial(started(chamfered, row), Side.LEFT, closed=True)).row(2).clean
 
 
 def test_the_largest_tool_of_a_slot_is_its_width():
-    asked = cut(SLOT, Side.LEFT, closed=False)
+    asked = trial(SLOT, Side.LEFT, closed=False)
     found = of(asked)
     assert found.tool is not None
     assert found.tool.diameter == pytest.approx(0.4)
@@ -104,14 +104,14 @@ def test_the_largest_tool_of_a_slot_is_its_width():
 @pytest.mark.parametrize("width", [0.2005, 0.3999, 0.4999])
 def test_the_largest_tool_is_rounded_down(width):
     slot = lines((0, 2), (0, 0), (width, 0), (width, 2))
-    found = largest_tool(cut(slot, Side.LEFT, closed=False))
+    found = largest_tool(trial(slot, Side.LEFT, closed=False))
     assert found is not None
     assert width - STEP < found.diameter <= width
     assert round(found.diameter / STEP) * STEP == pytest.approx(found.diameter, abs=1e-12)
 
 
 def test_a_hint_finds_the_same_tool():
-    asked = cut(SLOT, Side.LEFT, closed=False)
+    asked = trial(SLOT, Side.LEFT, closed=False)
     assert largest_tool(asked, 0.2) == largest_tool(asked, 0.05) == largest_tool(asked)
 
 
@@ -120,7 +120,7 @@ def test_an_inside_radius_smaller_than_the_tool_is_named():
     groove = Path.from_pieces(
         [Line((3, 0), (0.2, 0)), Arc((0.2, 0), (0.2, 0.4), (0.2, 0.2), Turn.CW), Line((0.2, 0.4), (3, 0.4))]
     )
-    found = of(cut(groove, Side.RIGHT, closed=False))
+    found = of(trial(groove, Side.RIGHT, closed=False))
     assert [one.segment for one in found.small] == [2]
     assert found.small[0].value == pytest.approx(0.2)
     assert "The inside radius 0.200 of segment 2 is smaller than the tool's 0.250." in said(found)
@@ -130,7 +130,7 @@ def test_an_inside_radius_smaller_than_the_tool_is_named():
 
 def test_a_hole_smaller_than_the_tool():
     hole = Path.from_pieces([Arc((1, 0), (1, 0), (0, 0), Turn.CCW)])
-    asked = cut(hole, Side.LEFT, 1.25, closed=True)
+    asked = trial(hole, Side.LEFT, 1.25, closed=True)
     assert table_of(asked).recommended is None
     found = of(asked)
     assert "no path that can be cut" in said(found)
@@ -139,18 +139,18 @@ def test_a_hole_smaller_than_the_tool():
 
 
 def test_a_star_needs_a_smaller_tool_and_another_start():
-    found = of(cut(STAR, Side.LEFT, closed=True))
+    found = of(trial(STAR, Side.LEFT, closed=True))
     assert found.start is None
     assert found.tool is not None
     assert found.tool.diameter < 0.5
     assert "when the contour is started in the middle of segment" in said(found)
-    assert of(cut(STAR, Side.LEFT, 0.05, closed=True)).start is not None
-    assert not of(cut(STAR, Side.RIGHT, closed=True)).sentences
+    assert of(trial(STAR, Side.LEFT, 0.05, closed=True)).start is not None
+    assert not of(trial(STAR, Side.RIGHT, closed=True)).sentences
 
 
 def test_blend_moves_that_alone_gouge():
     channel = lines((0, 0), (2, 0), (2, 0.6), (-2, 0.6))
-    found = of(cut(channel, Side.LEFT, closed=False, blend=0.5))
+    found = of(trial(channel, Side.LEFT, closed=False, blend=0.5))
     assert found.blendless == 1
     assert "BLEND OFFSET 0" in said(found)
 
@@ -160,7 +160,7 @@ def test_where_nothing_helps_it_says_so():
     angles = [pi * (-0.5 + 11 / 180 * step) for step in range(31)]
     loop = [(cos(angle), 1 + sin(angle)) for angle in angles]
     (x, y), heading = loop[-1], angles[-1] + pi / 2
-    found = of(cut(lines((-3, 0), *loop, (x + cos(heading), y + sin(heading))), Side.LEFT, 0.02, closed=False))
+    found = of(trial(lines((-3, 0), *loop, (x + cos(heading), y + sin(heading))), Side.LEFT, 0.02, closed=False))
     assert codes(found)[0] == "CAL_NOT_CLEAN"
     assert "no look-ahead reaches" in said(found)
     assert codes(found)[-1] == "NOTHING_HELPS"
@@ -168,7 +168,7 @@ def test_where_nothing_helps_it_says_so():
 
 def test_many_places_are_counted():
     work = gear(50)
-    found = of(cut(work.contour, work.side, 6.0, closed=True))
+    found = of(trial(work.contour, work.side, 6.0, closed=True))
     named = [one for one in found.sentences if one.code == "TOO_SMALL"]
     assert len(found.small) > NAMED_AT_MOST
     assert len(named) == NAMED_AT_MOST + 1
@@ -194,7 +194,7 @@ def test_a_contour_started_elsewhere_is_the_same_contour(contour, row):
 @settings(max_examples=40, deadline=None, derandomize=True)
 @given(mixed, st.sampled_from(Side), st.floats(0.05, 1.0), st.booleans())
 def test_every_remedy_holds(contour, side, radius, closed):
-    asked = cut(shut(contour) if closed else contour, side, radius, closed=closed)
+    asked = trial(shut(contour) if closed else contour, side, radius, closed=closed)
     found = of(asked)
     assert all(one.severity is not Severity.ERROR for one in found.sentences)
     if found.start is not None:

@@ -87,4 +87,4 @@ def test_a_gap_of_the_forms_last_digit_is_closed_wherever_it_is(start, unit):
 
 def test_what_forbids_posting_is_a_finding_of_the_block():
     part = program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3), speed=Entry(0)))
-    assert [finding.code for finding in derive(part).blocks[0].errors] == ["SPEED"]
+    assert [finding.code for finding in derive(part).blocks[0].errors] == ["OUT_OF_RANGE"]

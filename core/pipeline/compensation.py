@@ -1,4 +1,4 @@
-"""Cut: one contour and how it is compensated, whatever the radius."""
+"""Compensation: one contour and how it is compensated, whatever the radius."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def parameter(program: Program, name: str) -> float:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Cut:
+class Compensation:
     """A surface, the side on which it is cut, and the look-ahead in force; radii in millimetres."""
 
     surface: Path
