@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 MINUTE: Final = 60.0
 
 
-class CutcompApp(App[int], inherit_bindings=False):
+class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
     """The screens.  The only place where the session changes hands.
 
     `keep` puts on the disk what a key has changed, before the next key is read.

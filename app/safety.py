@@ -16,7 +16,6 @@ from collections.abc import Callable
 from contextlib import suppress
 from threading import Thread
 from time import sleep
-from types import FrameType
 from typing import Any, Final
 
 from core.records import dataclass, field
@@ -43,10 +42,10 @@ class Safety:
     def arm(self) -> None:
         """From now on signals end the program in order."""
         for number in SIGNALS:
-            signal.signal(number, self._signalled)
+            # not the method itself: whoever asks for the handler has it spelled out, with all that hangs on it
+            signal.signal(number, lambda number, _: self._signalled(number))
 
-    def _signalled(self, number: int, frame: FrameType | None) -> None:
-        del frame
+    def _signalled(self, number: int) -> None:
         if self.status is not None:
             return
         self.status = 128 + number

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from textual import events
 from textual.app import ComposeResult
@@ -13,8 +13,9 @@ from app.screens.page import Layout, Surface, View
 from app.screens.plan import NATIVE, Plan, plan
 from app.session import Said, Session
 from app.surroundings import Surroundings
+from app.widgets.painted import Rows
 from app.widgets.prompt import prompt_rows
-from app.widgets.rows import LOOKS, Look, Part, Row, Rows, composed, plain
+from app.widgets.rows import Look, Part, Row, composed, plain
 from app.widgets.softkeys import softkey_rows
 from app.widgets.status import status_row
 from app.widgets.verdict import fitted
@@ -27,10 +28,9 @@ SECOND = 1
 """Where a header does not fit, its second line counts."""
 
 
-class Frame(Screen[None], inherit_bindings=False):
+class Frame(Screen[None], inherit_bindings=False, inherit_css=False):
     """One widget over the whole terminal.  Nothing takes the focus: keys go to the App, the cursor is the session's."""
 
-    COMPONENT_CLASSES: ClassVar[set[str]] = set(LOOKS)
     app: CutcompApp
 
     def compose(self) -> ComposeResult:

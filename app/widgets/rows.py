@@ -1,7 +1,7 @@
-"""Rows: lines of styled text, and the one widget that paints them.
+"""Rows: lines of styled text.
 
 A *span* is a text and its look, a *row* a tuple of spans.  What a screen shows is calculated as rows by pure
-functions; the widget compares them with what stands on the terminal and repaints only the cells that differ.
+functions; `app.widgets.painted` puts them on the terminal.
 Every character of a row takes one cell: others are replaced before they get here.
 """
 
@@ -11,14 +11,10 @@ from enum import StrEnum
 from typing import Final, NamedTuple
 
 from rich.cells import cell_len
-from rich.segment import Segment
-from textual.geometry import Region
-from textual.strip import Strip
-from textual.widget import Widget
 
 
 class Look(StrEnum):
-    """The role of a piece of text; `app.tcss` gives each role its colours and its style."""
+    """The role of a piece of text; `app.widgets.looks` gives each role its colours."""
 
     PLAIN = "plain"
     LABEL = "label"
@@ -58,8 +54,6 @@ class Span(NamedTuple):
 
 
 Row = tuple[Span, ...]
-LOOKS: Final = frozenset(f"look--{look}" for look in Look)
-"""The component classes of a screen that shows rows."""
 
 
 def plain(text: str, look: Look = Look.PLAIN) -> Row:
@@ -149,32 +143,3 @@ def _line(parts: list[Part], y: int, width: int) -> Row:
 def _row(part: Part, line: int) -> Row:
     top = max(0, min(part.focus, len(part.rows) - 1) - part.area.height + 1)
     return part.rows[top + line] if top + line < len(part.rows) else ()
-
-
-class Rows(Widget):
-    """Shows rows from its top on."""
-
-    def __init__(self, rows: tuple[Row, ...] = ()) -> None:
-        super().__init__()
-        self.rows = rows
-
-    def show(self, rows: tuple[Row, ...]) -> None:
-        """Put these rows on the screen; cells that stay the same are not painted again."""
-        old, self.rows = self.rows, rows
-        if len(old) != len(rows):
-            self.refresh()
-            return
-        regions = [
-            Region(difference[0], number, difference[1], 1)
-            for number, (before, after) in enumerate(zip(old, rows, strict=True))
-            if (difference := changed(before, after)) is not None
-        ]
-        if regions:
-            self.refresh(*regions)
-
-    def render_line(self, y: int) -> Strip:
-        """One line of the terminal, as Textual asks for it."""
-        row, width = self.rows[y] if y < len(self.rows) else (), self.size.width
-        look = self.screen.get_component_rich_style
-        segments = [Segment(span.text, look(f"look--{span.look}")) for span in row]
-        return Strip(segments).adjust_cell_length(width, self.rich_style).crop(0, width)

@@ -9,7 +9,8 @@ import pytest
 from app.application import CutcompApp
 from app.engine import Known
 from app.screens.frame import Frame, picture
-from app.widgets.rows import Rows, text_of
+from app.widgets.painted import Rows
+from app.widgets.rows import text_of
 from core.program.model import Entry
 from tests.app.operator import FROZEN
 from tests.app.pilots import app_on, loaded, typed
