@@ -17,12 +17,13 @@ import numpy as np
 from core.comp.best_events import events
 from core.comp.best_fate import clear_slices
 from core.comp.best_loops import loop_of
-from core.comp.best_raw import Raw, raw_of
+from core.comp.best_raw import Raw, untrimmed
 from core.comp.best_result import BestPath
 from core.comp.best_separation import Separation, separation
 from core.comp.best_slices import sliced
 from core.comp.best_stitch import Stitched, chains, stitch
 from core.comp.best_surface import Surface, crosses_itself, surface_of
+from core.comp.best_trim import trimmed
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.side import Side
@@ -45,7 +46,9 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
         return BestPath((), (), surface.findings)
     crossing = crosses_itself(surface, closed=closed)
     findings = surface.findings if crossing is None else (*surface.findings, _crossing(crossing))
-    raw = raw_of(surface.path, side, radius, closed=closed, crossing=crossing is not None)
+    chain = untrimmed(surface.path, side, radius, closed=closed, crossing=crossing is not None)
+    raw = trimmed(chain, side.sign, radius)
+    del chain
     found = events(raw, side.sign)
     if found is None:
         return BestPath((), (), (*findings, _tangled()))
@@ -55,8 +58,7 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
 
 def _best(raw: Raw, made: Stitched, surface: Surface, findings: tuple[Finding, ...]) -> BestPath:
     """The loops longer than rounding, and what is to be said of them."""
-    size = made.cut.end - made.cut.begin
-    walked = [(rows, ring) for rows, ring in chains(made) if size[rows].sum() > GOUGE]
+    walked = [(rows, ring) for rows, ring in chains(made) if made.cut.size[rows].sum() > GOUGE]
     if len(walked) > MOST_LOOPS:
         return BestPath((), (), (*findings, _tangled()))
     loops = tuple(loop_of(raw, made.cut, rows, surface.origin) for rows, _ in walked)
@@ -85,7 +87,7 @@ def _crossing(numbers: tuple[float, float]) -> Finding:
 
 
 def _broken(raw: Raw, made: Stitched, row: int, surface: Surface) -> Finding:
-    x, y = (raw.end[made.cut.piece[row]].item().real, raw.end[made.cut.piece[row]].item().imag)
-    at = (x + float(surface.origin[0]), y + float(surface.origin[1]))
-    number = float(raw.path.numbers[raw.rows[made.cut.piece[row]]])
+    place = complex(made.cut.points[made.cut.last[row]])
+    at = (place.real + float(surface.origin[0]), place.imag + float(surface.origin[1]))
+    number = float(raw.numbers[made.cut.until[row]])
     return Finding("BEST_BROKEN", Severity.WARNING, "The best path does not close near X {x} Y {y}.", number, at=at)

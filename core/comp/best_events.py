@@ -15,7 +15,7 @@ import numpy as np
 
 from core.comp.best_raw import Raw
 from core.comp.best_tree import near, near_selves, piece_boxes, tree
-from core.geometry.intersect import Indices, Meeting, Meetings, Planes, meet, planes
+from core.geometry.intersect import Indices, Masks, Meeting, Meetings, Planes, meet_pieces, planes
 from core.geometry.path import Floats
 from core.tolerance import JOINED, ON_PATH
 
@@ -24,6 +24,12 @@ MOST_PAIRS: Final = 8_000_000
 
 MOST_EVENTS: Final = 2_000_000
 """More meetings than any part has, likewise."""
+
+_ONCE_AROUND: Final = 6.28
+"""Radians, a little less than a full turn."""
+
+_NOT_WHOLE: Final = 6.0
+"""Radians; an arc that turns through less ends well away from its start."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -49,7 +55,7 @@ def events(raw: Raw, sign: int) -> Events | None:
         pairs += len(i)
         if pairs > MOST_PAIRS or count > MOST_EVENTS:
             return None
-        met = meet(raw.path, raw.rows[i], raw.path, raw.rows[j])
+        met = meet_pieces(raw.pieces, i, raw.pieces, j)
         count += len(met.pair)
         found.append(_events(raw, i, j, met, sign))
         over = np.flatnonzero(met.kinds == Meeting.OVERLAP)
@@ -59,29 +65,33 @@ def events(raw: Raw, sign: int) -> Events | None:
 
 
 def _pairs(raw: Raw) -> Iterator[tuple[Indices, Indices]]:
-    """Pairs of side pieces, and of side and outline pieces, that lie near each other.
+    """Pairs of side pieces, and of side and outline pieces, that lie near each other and may meet off their joint.
 
-    Tangent pieces meet only at their joint, unless together they go once around.
+    Pieces joined smoothly meet only at their joint, unless together they go once around one way.
     """
-    radius = np.abs(raw.start - raw.centre)
-    swept = np.where(raw.turns == 0, 0.0, raw.lengths / np.where(raw.turns == 0, 1.0, radius))
-    for i, j in _near(raw):
-        tangent = (raw.smooth[i] & (raw.following[i] == j)) | (raw.smooth[j] & (raw.following[j] == i))
-        keep = ~(tangent & (swept[i] + swept[j] < 6.28))
+    boxes = piece_boxes(*raw.pieces, 2.0 * ON_PATH)
+    own, rest = np.flatnonzero(raw.side), np.flatnonzero(~raw.side)
+    mine, first = tree(boxes[:, own]), int(own[0]) if len(own) else 0
+    parted = _parted(raw)
+    for i, j in near_selves(mine, (parted & (raw.following == np.arange(1, len(raw) + 1)))[own]):
+        i, j = i + first, j + first
+        keep = ~(parted[j] & (raw.following[j] == i))
+        yield i[keep], j[keep]
+    for i, j in near(mine, tree(boxes[:, rest]), 0.0):
+        i, j = i + first, rest[j]
+        keep = ~((parted[i] & (raw.following[i] == j)) | (parted[j] & (raw.following[j] == i)))
         yield i[keep], j[keep]
 
 
-def _near(raw: Raw) -> Iterator[tuple[Indices, Indices]]:
-    boxes = piece_boxes(raw.start, raw.end, raw.centre, raw.turns, 2.0 * ON_PATH)
-    if raw.side.all():
-        yield from near_selves(tree(boxes))
-        return
-    own, rest = np.flatnonzero(raw.side), np.flatnonzero(~raw.side)
-    mine = tree(boxes[:, own])
-    for i, j in near_selves(mine):
-        yield own[i], own[j]
-    for i, j in near(mine, tree(boxes[:, rest]), 0.0):
-        yield own[i], rest[j]
+def _parted(raw: Raw) -> Masks:
+    """(m,) which pieces meet the one that follows nowhere but at their joint."""
+    arm = np.abs(raw.start - raw.centre)
+    swept = np.where(raw.turns == 0, 0.0, raw.lengths / np.where(raw.turns == 0, 1.0, arm))
+    behind = raw.following
+    parted = swept + swept[behind] < _ONCE_AROUND
+    parted |= (raw.turns * raw.turns[behind] <= 0) & (np.maximum(swept, swept[behind]) < _NOT_WHOLE)
+    parted &= raw.smooth
+    return parted
 
 
 def _all(found: list[Events]) -> Events:

@@ -12,12 +12,17 @@ from core.geometry.path import Floats, Path
 
 def loop_of(raw: Raw, cut: Slices, rows: Indices, origin: Floats) -> Path:
     """The path along slices `rows` in this order, moved by `origin`; slices of one piece are one piece again."""
-    piece, first, last = cut.piece[rows], cut.first[rows], cut.last[rows]
-    fresh = np.ones(len(rows), np.bool_)
-    fresh[1:] = (piece[1:] != piece[:-1]) | (first[1:] != last[:-1])
-    piece = piece[fresh]
-    points = cut.points[np.append(first[fresh], last[-1])]
+    first, until = cut.piece[rows], cut.until[rows]
+    counts = until - first + 1
+    begins = np.cumsum(counts) - counts
+    piece = np.arange(int(counts.sum())) + np.repeat(first - begins, counts)
+    points = np.append(raw.start[piece], cut.points[cut.last[rows[-1]]])
+    points[begins] = cut.points[cut.first[rows]]
+    again = (first[1:] == until[:-1]) & (cut.first[rows[1:]] == cut.last[rows[:-1]])
+    if again.any():
+        fresh = np.ones(len(points), np.bool_)
+        fresh[begins[1:][again]] = False
+        piece, points = piece[fresh[:-1]], points[fresh]
     turns = raw.turns[piece]
     centres = np.where(turns == 0, points[:-1], raw.centre[piece])
-    numbers = raw.path.numbers[raw.rows[piece]]
-    return Path.of(coordinates(points) + origin, coordinates(centres) + origin, turns, numbers)
+    return Path.of(coordinates(points) + origin, coordinates(centres) + origin, turns, raw.numbers[piece])

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from math import tau
 
 import numpy as np
-from numpy.typing import NDArray
 
+from core.comp.best_winding import winds
 from core.comp.offset import Chain, Part, offset
-from core.geometry.intersect import Indices, Masks, Planes, planes
+from core.geometry.intersect import Indices, Masks, Pieces, Planes, planes
 from core.geometry.path import Floats, Path, Turns, joined
 from core.geometry.piece import SLIVER
 from core.geometry.side import Side
@@ -23,43 +23,77 @@ from core.tolerance import JOINED
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Raw:
-    """m raw pieces, side pieces and outline pieces in order of travel.
+    """m raw pieces in order of travel; the side pieces follow each other without a gap.
 
-    `rows` (m,) are their rows in `path`; `start`, `end`, `centre` (m,) complex; `turns` (m,); `lengths` (m,) mm.
-    `following` (m,) is the piece whose start is this one's end, -1 where none is; `smooth` (m,) marks those joined
-    smoothly, nothing vanished between.  `side` (m,) marks the side pieces, which belong to the surface's `segment`
-    (m,), from 0, or to the corner behind it.
+    `start`, `end`, `centre` (m,) complex; `turns` (m,); `numbers` (m,) programmed; `lengths` (m,) mm.  `following`
+    (m,) is the piece whose start is this one's end, -1 where none is; `smooth` (m,) marks those joined so that nothing
+    vanished between.  `side` (m,) marks the side pieces, which belong to the surface's `segment` (m,), from 0, or to
+    the corner behind it.  `blunt_start`, `blunt_end` (m,) mark pieces cut off inside a wall there.
     """
 
-    path: Path
-    rows: Indices
     start: Planes
     end: Planes
     centre: Planes
     turns: Turns
+    numbers: Floats
     lengths: Floats
-    following: NDArray[np.intp]
+    following: Indices
     smooth: Masks
     side: Masks
     segment: Indices
+    blunt_start: Masks
+    blunt_end: Masks
 
     def __len__(self) -> int:
-        return len(self.rows)
+        return len(self.turns)
+
+    @property
+    def pieces(self) -> Pieces:
+        """All pieces, without a copy."""
+        return Pieces(self.start, self.end, self.centre, self.turns)
 
 
-def raw_of(surface: Path, side: Side, radius: float, *, closed: bool, crossing: bool) -> Raw:
+@dataclass(frozen=True, eq=False, slots=True)
+class Untrimmed:
+    """The raw chain before its inside corners are cut, and the surface's `joints`: those of row k are k and k + 1.
+
+    `order` (m,) is each piece's next in its ring, -1 at an open end; `inside` (m,) marks an inside corner between
+    them, `corner` (m,) the corner arcs.
+    """
+
+    raw: Raw
+    order: Indices
+    inside: Masks
+    corner: Masks
+    joints: Planes
+
+
+def untrimmed(surface: Path, side: Side, radius: float, *, closed: bool, crossing: bool) -> Untrimmed:
     """The raw chain of a surface; of a closed one that crosses itself also the outline of its other side.
 
-    An open contour is taken there and back, as a closed one without width: the way back is its other side.
+    An open contour that winds or crosses itself is taken there and back, as a closed one without width: the way back
+    is its other side.  Of another open contour the half circles about its ends are all the outline that can cut.
     """
-    if not closed:
-        chain = _around(joined((surface, surface.reversed())), side, radius)
-        return _raw(chain, int(np.searchsorted(chain.places, 2 * len(surface) - 1)), ring=len(chain))
+    if closed:
+        return _closed(surface, side, radius, crossing=crossing)
+    if crossing or winds(surface, radius):
+        both = joined((surface, surface.reversed()))
+        chain = _around(both, side, radius)
+        return _untrimmed(chain, 2 * len(surface) - 1, planes(both.points), rings=(len(chain),))
+    whole = joined((surface.part(0, 1).reversed(), surface, surface.part(len(surface) - 1, len(surface)).reversed()))
+    chain = _without_cusps(offset(whole, side, radius), whole, side)
+    chain = Chain(chain.raw, chain.parts, chain.places - np.int32(2))
+    return _untrimmed(chain, 2 * len(surface) - 1, planes(surface.points), rings=())
+
+
+def _closed(surface: Path, side: Side, radius: float, *, crossing: bool) -> Untrimmed:
     chain = _around(surface, side, radius)
-    count = len(chain)
+    joints = planes(surface.points)
     if not crossing:
-        return _raw(chain, count, ring=count)
-    return _raw(_both(chain, _around(surface.reversed(), side, radius)), count, ring=count)
+        return _untrimmed(chain, 2 * len(surface), joints, rings=(len(chain),))
+    back = _around(surface.reversed(), side, radius)
+    chain, ring = _both(chain, back, 2 * len(joints)), len(chain)
+    return _untrimmed(chain, 2 * len(surface), np.concatenate((joints, joints[::-1])), rings=(ring, len(chain)))
 
 
 def _around(surface: Path, side: Side, radius: float) -> Chain:
@@ -107,53 +141,64 @@ def _curvature(path: Path, rows: Indices) -> Floats:
     return curvature
 
 
-def _both(one: Chain, two: Chain) -> Chain:
-    """Two chains as one, a bridge between them."""
+def _both(one: Chain, two: Chain, places: int) -> Chain:
+    """Two chains as one, a bridge between them; the second one's places begin at `places`."""
     points = np.concatenate((one.raw.points, two.raw.points))
-    between = one.raw.points[-1:]
     path = Path.of(
         points,
-        np.concatenate((one.raw.centres, between, two.raw.centres)),
+        np.concatenate((one.raw.centres, one.raw.points[-1:], two.raw.centres)),
         np.concatenate((one.raw.turns, np.zeros(1, np.int8), two.raw.turns)),
         np.concatenate((one.raw.numbers, np.zeros(1), two.raw.numbers)),
     )
     bridge = np.full(1, Part.BRIDGE.value, np.uint8)
     parts = np.concatenate((one.parts, bridge, two.parts))
-    return Chain(path, parts, np.concatenate((one.places, one.places[-1:] + 1, two.places)))
+    return Chain(path, parts, np.concatenate((one.places, one.places[-1:] + 1, two.places + np.int32(places))))
 
 
-def _raw(chain: Chain, outline: int, *, ring: int) -> Raw:
+def _untrimmed(chain: Chain, sides: int, joints: Planes, *, rings: tuple[int, ...]) -> Untrimmed:
     """The pieces of a chain that have a geometry of their own, joined over provisional bridges of no length.
 
-    Pieces from row `outline` on are outline pieces; at row `ring` a second ring begins, joined in itself.
+    Side pieces have places 0 ... `sides` - 1.  Before each of the rows `rings` a ring ends, whose last piece is joined
+    to its first; the row at its end, if there are more, is none of either ring.
     """
     path = chain.raw
     rows = np.flatnonzero(chain.parts <= Part.CORNER.value)
     points = planes(path.points)
     start, end, turns = points[rows], points[rows + 1], path.turns[rows]
     centre = planes(path.centres)[rows]
-    following = np.concatenate([np.roll(part, -1) for part in np.split(np.arange(len(rows)), [_before(rows, ring)])])
-    following[np.abs(start[following] - end) > JOINED] = -1
-    onward = rows + 1
-    onward[rows == ring - 1], onward[rows == len(chain) - 1] = 0, ring + 1 if ring < len(chain) else 0
-    length = lengths(start, end, centre, turns)
-    return Raw(
-        path,
-        rows,
+    onward, order = _onward(rows, len(chain), rings)
+    gapless = (order >= 0) & (np.abs(start[order] - end) <= JOINED)
+    bridged = (order >= 0) & ~gapless & (chain.parts[onward[rows]] == Part.BRIDGE.value)
+    raw = Raw(
         start,
         end,
         centre,
         turns,
-        length,
-        following,
-        (following >= 0) & (rows[following] == onward),
-        rows < outline,
+        path.numbers[rows],
+        lengths(start, end, centre, turns),
+        np.where(gapless, order, -1),
+        gapless & (rows[order] == onward[rows]),
+        (chain.places[rows] >= 0) & (chain.places[rows] < sides),
         chain.places[rows].astype(np.intp) // 2,
+        np.zeros(len(rows), np.bool_),
+        np.zeros(len(rows), np.bool_),
     )
+    inside = bridged & (rows[order] == onward[onward[rows]])
+    return Untrimmed(raw, order, inside, chain.parts[rows] == Part.CORNER.value, joints)
 
 
-def _before(rows: Indices, row: int) -> int:
-    return int(np.searchsorted(rows, row))
+def _onward(rows: Indices, count: int, rings: tuple[int, ...]) -> tuple[Indices, Indices]:
+    """The row behind each of `count` rows, round each ring; and of the rows `rows` the next one of them, or -1."""
+    onward = np.minimum(np.arange(1, count + 1), count - 1)
+    order = np.arange(1, len(rows) + 1)
+    order[-1:] = -1
+    first = 0
+    for last in rings:
+        onward[last - 1] = first
+        low, high = np.searchsorted(rows, (first, last)).tolist()
+        order[low:high][-1:] = low
+        first = last + 1
+    return onward, order
 
 
 def lengths(start: Planes, end: Planes, centre: Planes, turns: Turns) -> Floats:

@@ -1,18 +1,19 @@
 """Slices: the side pieces cut at every event, and which of them the cutter can run along.
 
 Whether the cutter is clear of the part changes only at events, and at a crossing the slice before it and the one behind
-it that turns to the cutter's side are clear or not together.  Nodes are the points where slices begin and end; points
-within JOINED of each other on a piece are one node.
+it that turns to the cutter's side are clear or not together.  So a slice runs from one event to the next, over as many
+pieces as are joined smoothly.  Nodes are the points where slices begin and end; points within JOINED of each other on
+a piece are one node.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from core.comp.best_events import Events
+from core.comp.best_events import Events, places
 from core.comp.best_raw import Raw
 from core.geometry.intersect import Indices, Masks, Planes
 from core.geometry.path import Floats
@@ -21,22 +22,23 @@ from core.tolerance import CROWDED, JOINED
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Slices:
-    """s slices in order of travel: of `piece` (s,), from `begin` to `end` mm along it, from node `first` to `last`.
+    """s slices in order of travel: from `begin` mm along `piece` to `end` mm along `until` (s,), `size` mm long.
 
-    `dead` (s,) marks slices that turn the wrong way at one of their ends; `turning` (s,) is the slice on another piece
-    that a slice at its end turns to at a crossing, -1 if none.  `points` are the nodes' places; `met` and `outer` mark
-    the nodes where pieces meet otherwise than at a joint, and those where the outline takes part.
+    They run from node `first` to node `last` (s,).  `dead` (s,) marks slices that turn the wrong way at one of their
+    ends or are blunt there; `turning` (s,) is the slice that a slice at its end turns to at a crossing, -1 if none.
+    `points` are the nodes' places; `outer` marks the nodes where the outline takes part.
     """
 
     piece: Indices
+    until: Indices
     begin: Floats
     end: Floats
+    size: Floats
     first: Indices
     last: Indices
     dead: Masks
     turning: Indices
     points: Planes
-    met: Masks
     outer: Masks
 
     def __len__(self) -> int:
@@ -46,37 +48,21 @@ class Slices:
         """Some slices, with all nodes."""
         place = np.full(len(self) + 1, -1)
         place[rows] = np.arange(len(rows))
-        return Slices(
-            self.piece[rows],
-            self.begin[rows],
-            self.end[rows],
-            self.first[rows],
-            self.last[rows],
-            self.dead[rows],
-            place[self.turning[rows]],
-            self.points,
-            self.met,
-            self.outer,
-        )
+        names = ("piece", "until", "begin", "end", "size", "first", "last", "dead")
+        some = {name: getattr(self, name)[rows] for name in names}
+        return Slices(**some, turning=place[self.turning[rows]], points=self.points, outer=self.outer)
 
 
-def sliced(raw: Raw, found: Events) -> Slices:
-    """The side pieces cut at all events."""
-    every = _stations(raw, found)
-    stations = every.of(raw.side)
-    pieces = np.flatnonzero(raw.side)
-    cuts = np.bincount(stations.piece, minlength=len(raw))[pieces] + 1
-    slot = np.zeros(len(raw), np.intp)
-    slot[pieces] = np.cumsum(cuts) - cuts
-    at = slot[stations.piece] + np.arange(len(stations.piece)) - np.searchsorted(stations.piece, stations.piece)
-    begin, end = np.zeros(int(cuts.sum())), np.repeat(raw.lengths[pieces], cuts)
-    first, last = np.repeat(pieces, cuts), np.repeat(_end_nodes(raw)[pieces], cuts)
-    begin[at + 1], end[at], first[at + 1], last[at] = stations.along, stations.along, stations.node, stations.node
-    dead, turning = _turns(stations, at, _alone(raw, stations), len(begin))
-    cut = Slices(np.repeat(pieces, cuts), begin, end, first, last, dead, turning, *_nodes(raw, found))
-    one, other = every.of(~raw.side).twins()
-    whole = np.flatnonzero(raw.start == raw.end)
-    return _welded(cut, np.concatenate((one, whole)), np.concatenate((other, _end_nodes(raw)[whole])))
+class _Strands(NamedTuple):
+    """Side pieces joined smoothly one behind the other: the first and the last of each, and their nodes.
+
+    A strand that another one follows ends at that one's first node.  `nodes` is how many nodes the strands have.
+    """
+
+    heads: Indices
+    tails: Indices
+    ends: Indices
+    nodes: int
 
 
 class _Stations(NamedTuple):
@@ -102,14 +88,55 @@ class _Stations(NamedTuple):
         return self.node[:-1][same], self.node[1:][same]
 
 
-def _stations(raw: Raw, found: Events) -> _Stations:
+def sliced(raw: Raw, found: Events) -> Slices:
+    """The side pieces cut at all events."""
+    strands = _strands(raw)
+    every = _stations(raw, found, strands.nodes)
+    stations = every.of(raw.side)
+    head = np.arange(len(strands.heads)) + np.searchsorted(stations.piece, strands.heads)
+    at = np.arange(len(stations.piece)) + np.searchsorted(strands.heads, stations.piece, side="right")
+    count = len(head) + len(at)
+    piece, begin, first = np.empty(count, np.intp), np.zeros(count), np.empty(count, np.intp)
+    piece[head], first[head] = strands.heads, np.arange(len(head))
+    piece[at], begin[at], first[at] = stations.piece, stations.along, stations.node
+    tail = np.append(head[1:], count)[: len(head)] - 1
+    until, end, last = np.roll(piece, -1), np.roll(begin, -1), np.roll(first, -1)
+    until[tail], end[tail], last[tail] = strands.tails, raw.lengths[strands.tails], strands.ends
+    dead, turning = _turns(stations, at - 1, _alone(raw, stations), count)
+    dead[head] |= raw.blunt_start[strands.heads]
+    dead[tail] |= raw.blunt_end[strands.tails]
+    size = _sizes(raw, piece, begin, until, end)
+    points, outer = _nodes(raw, found, strands)
+    cut = Slices(piece, until, begin, end, size, first, last, dead, turning, points, outer)
+    one, other = every.of(~raw.side).twins()
+    whole = np.flatnonzero(raw.start[strands.heads] == raw.end[strands.tails])
+    return _welded(cut, np.concatenate((one, whole)), np.concatenate((other, strands.ends[whole])))
+
+
+def _strands(raw: Raw) -> _Strands:
+    """The strands of a raw chain; full circles are strands of their own."""
+    pieces = np.flatnonzero(raw.side)
+    onward = raw.smooth & (raw.following == np.arange(1, len(raw) + 1)) & (raw.start != raw.end)
+    onward[:-1] &= raw.start[1:] != raw.end[1:]
+    begins = np.ones(len(pieces), np.bool_)
+    begins[1:] = ~onward[pieces[:-1]]
+    heads = pieces[begins]
+    tails = pieces[np.append(begins[1:], True)[: len(pieces)]]
+    count = len(heads)
+    behind = raw.following[tails]
+    joined = (behind >= 0) & raw.side[behind]
+    ends = np.where(joined, np.searchsorted(heads, behind), np.arange(count) + count)
+    return _Strands(heads, tails, ends, 2 * count)
+
+
+def _stations(raw: Raw, found: Events, nodes: int) -> _Stations:
     piece = np.concatenate((found.one, found.other))
     along = np.concatenate((found.along_one, found.along_other))
     event = np.tile(np.arange(len(found.one)), 2)
     turn = np.concatenate((found.turn, -found.turn))
     order = _sorted(piece, along)
     piece, event = piece[order], event[order]
-    return _Stations(piece, np.clip(along[order], 0.0, raw.lengths[piece]), event, 2 * len(raw) + event, turn[order])
+    return _Stations(piece, np.clip(along[order], 0.0, raw.lengths[piece]), event, nodes + event, turn[order])
 
 
 def _sorted(piece: Indices, along: Floats) -> Indices:
@@ -117,6 +144,13 @@ def _sorted(piece: Indices, along: Floats) -> Indices:
     rank = np.empty(len(along), np.int64)
     rank[np.argsort(along)] = np.arange(len(along))
     return np.argsort(piece * len(along) + rank)
+
+
+def _sizes(raw: Raw, piece: Indices, begin: Floats, until: Indices, end: Floats) -> Floats:
+    """(s,) lengths of slices, by differences on one piece where they can be."""
+    travelled = np.cumsum(raw.lengths) - raw.lengths
+    size: Floats = np.where(piece == until, end - begin, (travelled[until] + end) - (travelled[piece] + begin))
+    return size
 
 
 def _alone(raw: Raw, stations: _Stations) -> Masks:
@@ -145,38 +179,30 @@ def _turns(stations: _Stations, at: Indices, alone: Masks, count: int) -> tuple[
     return dead, turning
 
 
-def _end_nodes(raw: Raw) -> Indices:
-    """The node of each piece's end: the start of the piece that follows, or one of its own."""
-    own = np.arange(len(raw)) + len(raw)
-    return np.where(raw.following >= 0, raw.following, own)
-
-
-def _nodes(raw: Raw, found: Events) -> tuple[Planes, Masks, Masks]:
-    """All nodes before welding: the starts and the ends of the pieces, then the events."""
-    count, most = len(raw), len(found.one)
-    points = np.concatenate((raw.start, raw.end, found.points))
-    met = np.arange(2 * count + most) >= 2 * count
-    met[_end_nodes(raw)[~raw.smooth]] = True
-    outer = np.zeros(len(met), np.bool_)
-    outer[_end_nodes(raw)[~raw.side]] = True
-    outer[np.flatnonzero(~raw.side)] = True
+def _nodes(raw: Raw, found: Events, strands: _Strands) -> tuple[Planes, Masks]:
+    """All nodes before welding: the strands' starts and ends, then the events; and where the outline takes part."""
+    count = len(strands.heads)
+    points = np.concatenate((raw.start[strands.heads], raw.end[strands.tails], found.points))
+    outer = np.zeros(len(points), np.bool_)
+    behind = raw.following[strands.tails]
+    outer[count : 2 * count] = (behind >= 0) & ~raw.side[behind]
+    before = np.zeros(len(raw), np.bool_)
+    before[raw.following[~raw.side & (raw.following >= 0)]] = True
+    outer[:count] = before[strands.heads]
     outer[2 * count :] = ~(raw.side[found.one] & raw.side[found.other])
-    return points, met, outer
+    return points, outer
 
 
 def _welded(cut: Slices, one: Indices, other: Indices) -> Slices:
     """Slices no longer than JOINED dropped, their two nodes made one; so are nodes `one` and `other`."""
-    short = cut.end - cut.begin <= JOINED
+    short = cut.size <= JOINED
     if not short.any() and not len(one):
         return cut
     one, other = np.concatenate((one, cut.first[short])), np.concatenate((other, cut.last[short]))
     same = merged(len(cut.points), one, other)
-    met, outer = cut.met.copy(), cut.outer.copy()
-    met[same[cut.met]] = True
+    outer = cut.outer.copy()
     outer[same[cut.outer]] = True
-    joined = Slices(
-        cut.piece, cut.begin, cut.end, same[cut.first], same[cut.last], cut.dead, cut.turning, cut.points, met, outer
-    )
+    joined = replace(cut, first=same[cut.first], last=same[cut.last], outer=outer)
     return joined.take(np.flatnonzero(~short))
 
 
@@ -193,3 +219,17 @@ def merged(count: int, one: Indices, other: Indices) -> Indices:
         same = same[same]
         if np.array_equal(same, before):
             return same
+
+
+def middles(raw: Raw, cut: Slices, rows: Indices) -> tuple[Planes, Indices]:
+    """The points half way along slices, and the pieces they lie on."""
+    piece, along = cut.piece[rows], (cut.begin[rows] + cut.end[rows]) / 2.0
+    several = np.flatnonzero(piece != cut.until[rows])
+    if len(several):
+        some = rows[several]
+        travelled = np.cumsum(raw.lengths)
+        half = travelled[piece[several]] - raw.lengths[piece[several]] + cut.begin[some] + cut.size[some] / 2.0
+        inner = np.clip(np.searchsorted(travelled, half), piece[several], cut.until[some])
+        piece[several] = inner
+        along[several] = np.clip(half - travelled[inner] + raw.lengths[inner], 0.0, raw.lengths[inner])
+    return places(raw, piece, along), piece

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.comp.best_events import directions
-from core.comp.best_fate import middles
 from core.comp.best_raw import Raw
-from core.comp.best_slices import Slices
+from core.comp.best_slices import Slices, middles
 from core.geometry.intersect import Indices, Masks
 from core.tolerance import GOUGE, WHISKER
 
@@ -49,7 +48,7 @@ def _without_doubles(raw: Raw, cut: Slices) -> Slices:
     order = crowded[np.lexsort((cut.last[crowded], cut.first[crowded]))]
     one, two = order[:-1], order[1:]
     same = (cut.first[one] == cut.first[two]) & (cut.last[one] == cut.last[two])
-    same &= np.abs(middles(raw, cut, one) - middles(raw, cut, two)) <= GOUGE
+    same &= np.abs(middles(raw, cut, one)[0] - middles(raw, cut, two)[0]) <= GOUGE
     if not same.any():
         return cut
     keep = np.ones(len(cut), np.bool_)
@@ -64,7 +63,7 @@ def _without_whiskers(cut: Slices) -> Slices:
         begins, ends = np.zeros(size, np.bool_), np.zeros(size, np.bool_)
         begins[cut.first], ends[cut.last] = True, True
         nowhere = ~(begins[cut.last] | cut.outer[cut.last]) | ~(ends[cut.first] | cut.outer[cut.first])
-        nowhere &= cut.end - cut.begin < WHISKER
+        nowhere &= cut.size < WHISKER
         if not nowhere.any():
             break
         cut = cut.take(np.flatnonzero(~nowhere))
@@ -98,7 +97,7 @@ def _by_turn(raw: Raw, cut: Slices, following: Indices, sign: int, ends: Indices
     """At crowded nodes, the slice that turns most to the cutter's side first."""
     pairs = np.array([(end, begin) for end, some in zip(ends.tolist(), begins, strict=True) for begin in some.tolist()])
     nodes = cut.points[cut.last[pairs[:, 0]]]
-    before = directions(raw, cut.piece[pairs[:, 0]], nodes)
+    before = directions(raw, cut.until[pairs[:, 0]], nodes)
     behind = directions(raw, cut.piece[pairs[:, 1]], nodes)
     turns = sign * np.angle(before.conj() * behind)
     free, taken = set(pairs[:, 0].tolist()), set(pairs[:, 1].tolist())

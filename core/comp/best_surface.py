@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
+from math import tau
+from typing import Final
 
 import numpy as np
 
@@ -13,6 +14,12 @@ from core.finding import Finding
 from core.geometry.intersect import Indices, Masks, Meeting, Planes, coordinates, meet, planes
 from core.geometry.path import EMPTY, Floats, Path
 from core.tolerance import JOINED, ON_PATH
+
+_UNDER_HALF: Final = 3.1
+"""Radians, safely under half a turn."""
+
+_NOT_WHOLE: Final = 6.0
+"""Radians; an arc that turns through less ends well away from its start."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -107,9 +114,11 @@ def crosses_itself(surface: Surface, *, closed: bool) -> tuple[float, float] | N
     if len(circles) and len(path) > 1:
         row = int(circles[0])
         return float(path.numbers[row]), float(path.numbers[row - 1 if row else 1])
-    for i, j in near_selves(surface.walls):
-        beside = (j - i == 1) | ((j - i == len(path) - 1) if closed else False)
-        i, j = _worth_a_look(path, i, j, beside)
+    parted = _parted(path)
+    for i, j in near_selves(surface.walls, parted):
+        if closed and parted[-1]:
+            keep = j - i < len(path) - 1
+            i, j = i[keep], j[keep]
         met = meet(path, i, path, j)
         hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], planes(met.points))]
         hit = np.concatenate((hit, np.flatnonzero(met.kinds == Meeting.OVERLAP)))
@@ -118,32 +127,49 @@ def crosses_itself(surface: Surface, *, closed: bool) -> tuple[float, float] | N
     return None
 
 
-def _worth_a_look(path: Path, i: Indices, j: Indices, beside: Masks) -> tuple[Indices, Indices]:
-    """All pairs but neighbours that together turn through less than half a turn: those cannot meet again."""
-    rows = np.flatnonzero(beside)
-    a, b = i[rows], j[rows]
-    tangents = (*_tangents(path, a), *_tangents(path, b))
-    turned = sum(np.abs(np.angle(one.conj() * two)) for one, two in pairwise(tangents))
-    wide = _wide(path, a) | _wide(path, b) | (b - a > 1)
-    keep = np.ones(len(i), np.bool_)
-    keep[rows] = wide | (turned > 3.1)
-    return i[keep], j[keep]
+def _parted(path: Path) -> Masks:
+    """(n,) which pieces meet the next one, the last one the first, nowhere but at their joint.
+
+    It is so where the two together turn through less than half a turn.
+    """
+    first, last = tangents(path)
+    turned = np.abs(np.angle(last.conj() * np.roll(first, -1)))
+    arcs = np.flatnonzero(path.turns)
+    if len(arcs):
+        own = np.zeros(len(path))
+        own[arcs] = np.mod(np.angle(first[arcs].conj() * last[arcs]) * path.turns[arcs], tau)
+        own[arcs[first[arcs] == last[arcs]]] = tau
+        tangent = _tangent(path, own, turned)
+        turned += own + np.roll(own, -1)
+        turned[tangent] = 0.0
+    parted: Masks = turned <= _UNDER_HALF
+    return parted
 
 
-def _tangents(path: Path, rows: Indices) -> tuple[Planes, Planes]:
-    """Directions of travel at the starts and at the ends of pieces, not of unit length."""
-    start, end = planes(path.points)[rows], planes(path.points)[rows + 1]
-    centre, turns = planes(path.centres)[rows], path.turns[rows]
-    first = np.where(turns == 0, end - start, 1j * turns * (start - centre))
-    return first, np.where(turns == 0, end - start, 1j * turns * (end - centre))
+def _tangent(path: Path, own: Floats, joint: Floats) -> Masks:
+    """Which arcs go on so smoothly in one of the other turn that their circles meet nowhere but at the joint.
+
+    The chord between the two points where circles meet is no longer than the smaller diameter times the angle there.
+    """
+    radii = np.abs(planes(path.points)[:-1] - planes(path.centres))
+    joined: Masks = 2.0 * np.minimum(radii, np.roll(radii, -1)) * joint <= JOINED
+    joined &= path.turns * np.roll(path.turns, -1) < 0
+    joined &= np.maximum(own, np.roll(own, -1)) < _NOT_WHOLE
+    return joined
 
 
-def _wide(path: Path, rows: Indices) -> Masks:
-    """Which pieces are arcs of half a turn or more; rounding must not make a full circle a dot."""
-    first, last = _tangents(path, rows)
-    turned = (first.conj() * last).imag * path.turns[rows]
-    wide: Masks = (path.turns[rows] != 0) & ((turned <= 0.0) | (first == last))
-    return wide
+def tangents(path: Path) -> tuple[Planes, Planes]:
+    """(n,) directions of travel at the starts and at the ends of all pieces, not of unit length."""
+    points, centres = planes(path.points), planes(path.centres)
+    chord = points[1:] - points[:-1]
+    arcs = np.flatnonzero(path.turns)
+    if not len(arcs):
+        return chord, chord
+    first, last = chord.copy(), chord
+    across = 1j * path.turns[arcs]
+    first[arcs] = across * (points[arcs] - centres[arcs])
+    last[arcs] = across * (points[arcs + 1] - centres[arcs])
+    return first, last
 
 
 def _at_joint(path: Path, i: Indices, j: Indices, at: Planes) -> Masks:

@@ -3,7 +3,7 @@
 Pieces that follow each other lie beside each other, so groups of consecutive boxes make a good tree without sorting.
 A box is kept as (x0, y0, -x1, -y1) in single precision, rounded outwards, and once more as (x1, y1, -x0, -y0): sixteen
 bytes each that are gathered as one number.  Two boxes meet where no part of the one's first form is above the other's
-second.
+second.  Boxes of one tree that follow each other closely are held against each other row by row, without gathering.
 """
 
 from __future__ import annotations
@@ -21,8 +21,20 @@ from core.geometry.path import Floats, Turns
 FAN: Final = 4
 """Boxes in a group."""
 
+NEARBY: Final = FAN * FAN
+"""Boxes of groups whose neighbours are held against each other without the tree."""
+
+WINDOW: Final = 2 * NEARBY - 1
+"""The farthest that boxes of one group or of two groups beside each other are apart in their order."""
+
+STRETCH: Final = 8192
+"""Boxes held at a time against those behind them."""
+
 AT_ONCE: Final = 1 << 16
 """Pairs of boxes held against each other at once: few enough to stay in the processor's cache."""
+
+_ROUNDED: Final = 2.0**-22
+"""By this share of the largest coordinate boxes grow, four times what rounding to single precision can take off."""
 
 _NOWHERE: Final = 1e18
 """Least coordinates of a box that is near nothing, and whose square a single float still holds."""
@@ -32,24 +44,34 @@ Packed = NDArray[np.complex128]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Tree:
-    """Boxes in groups of groups, from the coarsest to the `count` boxes themselves, in their two packed forms."""
+    """Boxes in groups of groups, from the coarsest to the `count` boxes themselves, in their two packed forms.
+
+    `boxes` (4, count) are the boxes: least x, least y, largest x, largest y.
+    """
 
     low: tuple[Packed, ...]
     high: tuple[Packed, ...]
-    count: int
+    boxes: NDArray[np.float32]
+
+    @property
+    def count(self) -> int:
+        """The number of boxes."""
+        return int(self.boxes.shape[1])
 
 
 def tree(boxes: Floats) -> Tree:
     """The tree over boxes (4, n): least x, least y, largest x, largest y."""
-    count = boxes.shape[1]
-    low = np.empty((count, 4), np.float32)
-    low[:, 0], low[:, 1], low[:, 2], low[:, 3] = boxes[0], boxes[1], -boxes[2], -boxes[3]
-    np.nextafter(low, np.float32(-np.inf), out=low)
+    single = boxes.astype(np.float32)
+    slack = np.float32(np.abs(single).max(initial=0.0) * _ROUNDED)
+    single[:2] -= slack
+    single[2:] += slack
+    low = np.empty((boxes.shape[1], 4), np.float32)
+    low[:, 0], low[:, 1], low[:, 2], low[:, 3] = single[0], single[1], -single[2], -single[3]
     levels = [low]
     while len(levels[-1]) > FAN:
         levels.append(_grouped(levels[-1]))
     levels.reverse()
-    return Tree(tuple(map(_packed, levels)), tuple(_packed(-level[:, (2, 3, 0, 1)]) for level in levels), count)
+    return Tree(tuple(map(_packed, levels)), tuple(_packed(-level[:, (2, 3, 0, 1)]) for level in levels), single)
 
 
 def _packed(rows: NDArray[np.float32]) -> Packed:
@@ -73,9 +95,37 @@ def near(one: Tree, two: Tree, reach: float) -> Iterator[tuple[Indices, Indices]
     return _descend(one, two, reach, selves=False)
 
 
-def near_selves(boxes: Tree) -> Iterator[tuple[Indices, Indices]]:
-    """All pairs (i, j), i < j, of boxes of one tree that meet, in batches."""
-    return _descend(boxes, boxes, 0.0, selves=True)
+def near_selves(boxes: Tree, known: Masks | None = None) -> Iterator[tuple[Indices, Indices]]:
+    """All pairs (i, j), i < j, of boxes of one tree that meet, in batches.
+
+    `known` (n,) marks boxes i whose pair with i + 1 is not wanted.
+    """
+    for first in range(0, boxes.count, STRETCH):
+        yield _following(boxes.boxes, first, min(first + STRETCH, boxes.count), known)
+    yield from _descend(boxes, boxes, 0.0, selves=True)
+
+
+def _following(boxes: NDArray[np.float32], first: int, last: int, known: Masks | None) -> tuple[Indices, Indices]:
+    """The pairs of boxes first ... last - 1 with those up to WINDOW behind them."""
+    count = last - first
+    behind = np.full((4, count + WINDOW), _NOWHERE, np.float32)
+    some = boxes[:, first : last + WINDOW]
+    behind[:, : some.shape[1]] = some
+    meeting = _shifted(behind[0], count) <= boxes[2, first:last]
+    meeting &= _shifted(behind[1], count) <= boxes[3, first:last]
+    meeting &= _shifted(behind[2], count) >= boxes[0, first:last]
+    meeting &= _shifted(behind[3], count) >= boxes[1, first:last]
+    if known is not None:
+        meeting[0] &= ~known[first:last]
+    apart, i = np.divmod(np.flatnonzero(meeting), count)
+    i += first
+    near = (apart < NEARBY) | ((i + apart + 1) // NEARBY - i // NEARBY <= 1)
+    return i[near], (i + apart + 1)[near]
+
+
+def _shifted(values: NDArray[np.float32], count: int) -> NDArray[np.float32]:
+    """(WINDOW, count) view of values (count + WINDOW,): row k is shifted by k + 1."""
+    return np.ndarray((WINDOW, count), np.float32, values, values.itemsize, (values.itemsize, values.itemsize))
 
 
 def _descend(one: Tree, two: Tree, reach: float, *, selves: bool) -> Iterator[tuple[Indices, Indices]]:
@@ -92,7 +142,8 @@ def _descend(one: Tree, two: Tree, reach: float, *, selves: bool) -> Iterator[tu
         last = depth == len(first) - 1
         keep = _meet(first[depth][i], second[depth][j], reach)
         if selves:
-            keep &= (i < j) if last else (i <= j)
+            keep &= i <= j
+            keep &= _apart_enough(i, j, len(first) - 1 - depth)
         i, j = i[keep], j[keep]
         if last:
             yield i, j
@@ -100,6 +151,12 @@ def _descend(one: Tree, two: Tree, reach: float, *, selves: bool) -> Iterator[tu
         for begin in range(0, len(i), AT_ONCE // (FAN * FAN)):
             some = slice(begin, begin + AT_ONCE // (FAN * FAN))
             stack.append((depth + 1, *_members(i[some], j[some], first, second, depth)))
+
+
+def _apart_enough(i: Indices, j: Indices, above: int) -> Masks:
+    """Which groups, so many levels above the boxes, may hold boxes of NEARBY groups that are not beside each other."""
+    apart: Masks = ((j + 1) * FAN**above - 1) // NEARBY - (i * FAN**above) // NEARBY > 1
+    return apart
 
 
 def _as_deep(levels: tuple[Packed, ...], deep: int) -> tuple[Packed, ...]:

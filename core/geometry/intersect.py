@@ -53,8 +53,8 @@ class Meetings:
     points: Floats
 
 
-class _Pieces(NamedTuple):
-    """k pieces of one kind: ends and centres as complex numbers."""
+class Pieces(NamedTuple):
+    """k pieces that need not join: ends and centres as complex numbers, turns as in `Path`."""
 
     start: Planes
     end: Planes
@@ -89,6 +89,17 @@ def coordinates(points: Planes) -> Floats:
 
 
 def meet(one: Path, a: Indices, other: Path, b: Indices) -> Meetings:
+    """How pieces a (k,) of `one` meet pieces b (k,) of `other`, pair by pair; `meet_pieces` says by which rules."""
+    return meet_pieces(pieces_of(one), a, pieces_of(other), b)
+
+
+def pieces_of(path: Path) -> Pieces:
+    """The pieces of a path, without a copy."""
+    points = planes(path.points)
+    return Pieces(points[:-1], points[1:], planes(path.centres), path.turns)
+
+
+def meet_pieces(one: Pieces, a: Indices, other: Pieces, b: Indices) -> Meetings:
     """How pieces a (k,) of `one` meet pieces b (k,) of `other`, pair by pair.
 
     A point counts when it lies on both pieces within ON_PATH.  Lines are parallel when they part by no more
@@ -96,24 +107,19 @@ def meet(one: Path, a: Indices, other: Path, b: Indices) -> Meetings:
     and lines within ON_PATH of tangency touch.
     """
     kinds = np.zeros(len(a), np.int8)
-    combination = (one.turns[a] != 0) + 2 * (other.turns[b] != 0)
+    combination = (one.turn[a] != 0) + 2 * (other.turn[b] != 0)
     parts = []
     for which, solve in enumerate((_lines, _arc_line, _line_arc, _arcs)):
         rows = np.flatnonzero(combination == which)
         if len(rows):
-            kinds[rows], found = solve(_gather(one, a[rows]), _gather(other, b[rows]))
+            kinds[rows], found = solve(_taken(one, a[rows]), _taken(other, b[rows]))
             parts.append(found._replace(pair=rows[found.pair]))
     found = _joined(parts)
     return Meetings(kinds, *found[:5], coordinates(found.point))
 
 
-def _gather(path: Path, rows: Indices) -> _Pieces:
-    points = planes(path.points)
-    return _Pieces(points[rows], points[rows + 1], planes(path.centres)[rows], path.turns[rows])
-
-
-def _taken(pieces: _Pieces, rows: Indices) -> _Pieces:
-    return _Pieces._make(column[rows] for column in pieces)
+def _taken(pieces: Pieces, rows: Indices) -> Pieces:
+    return Pieces._make(column[rows] for column in pieces)
 
 
 def _joined(parts: list[_Points]) -> _Points:
@@ -135,7 +141,7 @@ def _kinds(count: int, pair: Indices, touching: Masks) -> NDArray[np.int8]:
     return kinds
 
 
-def _lines(a: _Pieces, b: _Pieces) -> _Solved:
+def _lines(a: Pieces, b: Pieces) -> _Solved:
     """Line with line: a.start + s (a.end - a.start) = b.start + t (b.end - b.start) by cross products."""
     span_a, span_b, between = a.end - a.start, b.end - b.start, b.start - a.start
     length_a, length_b = np.abs(span_a), np.abs(span_b)
@@ -155,7 +161,7 @@ def _lines(a: _Pieces, b: _Pieces) -> _Solved:
     return kinds, found
 
 
-def _parallel(a: _Pieces, b: _Pieces) -> _Solved:
+def _parallel(a: Pieces, b: Pieces) -> _Solved:
     """Parallel lines: those in one line overlap, or touch end to end."""
     span, other = a.end - a.start, b.end - b.start
     length = np.abs(span)
@@ -172,7 +178,7 @@ def _parallel(a: _Pieces, b: _Pieces) -> _Solved:
     return kinds, _Points(touch, along_a, along_b, *rests, (a.start + low * unit)[touch])
 
 
-def _line_arc(line: _Pieces, arc: _Pieces) -> _Solved:
+def _line_arc(line: Pieces, arc: Pieces) -> _Solved:
     """Line with arc: half the chord on either side of the foot of the arc's centre."""
     span, radius = line.end - line.start, np.abs(arc.start - arc.centre)
     length = np.abs(span)
@@ -190,12 +196,12 @@ def _line_arc(line: _Pieces, arc: _Pieces) -> _Solved:
     return _kinds(len(room), found.pair, np.abs(room) <= ON_PATH), found
 
 
-def _arc_line(arc: _Pieces, line: _Pieces) -> _Solved:
+def _arc_line(arc: Pieces, line: Pieces) -> _Solved:
     kinds, (pair, along, run, left, rest, points) = _line_arc(line, arc)
     return kinds, _as_travelled(_Points(pair, run, along, rest, left, points))
 
 
-def _arcs(a: _Pieces, b: _Pieces) -> _Solved:
+def _arcs(a: Pieces, b: Pieces) -> _Solved:
     """Arc with arc: half the common chord by Heron's formula, which keeps its digits near tangency."""
     between, big, small = b.centre - a.centre, np.abs(a.start - a.centre), np.abs(b.start - b.centre)
     apart, total, differ = np.abs(between), big + small, big - small
@@ -229,24 +235,24 @@ def _half_chords(half: Floats, room: Floats) -> tuple[Indices, Floats]:
     return pair, signed
 
 
-def _overlap(a: _Pieces, b: _Pieces) -> Masks:
+def _overlap(a: Pieces, b: Pieces) -> Masks:
     """Do arcs of one circle share more than their ends?"""
     return _inside(a, _middle(b)) | _inside(b, _middle(a)) | _inside(a, b.start) | _inside(a, b.end)
 
 
-def _middle(arc: _Pieces) -> Planes:
+def _middle(arc: Pieces) -> Planes:
     """The point half way along each arc."""
     middle: Planes = arc.centre + (arc.start - arc.centre) * np.exp(1j * _sweep(arc) / 2.0 * arc.turn)
     return middle
 
 
-def _inside(arc: _Pieces, point: Planes) -> Masks:
+def _inside(arc: Pieces, point: Planes) -> Masks:
     """Does a point of the arc's circle lie on the arc, off its ends?"""
     run, rest = _along_arc(point, arc, np.abs(arc.start - arc.centre))
     return (run > ON_PATH) & (rest > ON_PATH)
 
 
-def _sweep(arc: _Pieces) -> Floats:
+def _sweep(arc: Pieces) -> Floats:
     """Angle travelled, 0 ... a full turn: equal ends are the full circle, rounding past the start is nothing."""
     swept = _turned(arc, arc.end)
     swept[swept > tau - SLIVER] = 0.0
@@ -254,7 +260,7 @@ def _sweep(arc: _Pieces) -> Floats:
     return swept
 
 
-def _turned(arc: _Pieces, point: Planes) -> Floats:
+def _turned(arc: Pieces, point: Planes) -> Floats:
     """The angle from the arc's start to a point, in the arc's direction, 0 ... a full turn."""
     across = (arc.start - arc.centre).conj() * (point - arc.centre)
     angle = np.arctan2(across.imag, across.real) * arc.turn
@@ -262,7 +268,7 @@ def _turned(arc: _Pieces, point: Planes) -> Floats:
     return turned
 
 
-def _along_arc(point: Planes, arc: _Pieces, radius: Floats) -> tuple[Floats, Floats]:
+def _along_arc(point: Planes, arc: Pieces, radius: Floats) -> tuple[Floats, Floats]:
     """Distance on each arc from its start to a point of its circle, and from there to its end.
 
     A point off the arc is on the nearer end's side: the one distance is below 0 before the start, the other behind

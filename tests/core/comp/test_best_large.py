@@ -1,0 +1,51 @@
+"""The best path where the cutter is far larger than the segments, and where a contour's end turns into itself."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core.comp.best import best_path
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Turn
+from core.geometry.side import Side
+from tests.core.comp.best_truth import assert_true, distance
+from tests.core.comp.contours import lines
+
+
+def test_a_cutter_hundreds_of_segments_wide_goes_over_teeth_and_steps():
+    """Each tip's circle crosses hundreds of others: only the arcs between neighbouring tips are left, and no loop is
+    refused as tangled."""
+    step = np.arange(2001)
+    tips = [(0.1 * x, 0.3 * (x % 2)) for x in step.tolist()]
+    best = best_path(lines(*tips), Side.LEFT, 20.0, closed=False)
+    assert [len(loop) for loop in best.loops] == [1002]
+    assert not best.findings
+    assert distance(lines(*tips[900:1100]), best.loops[0].points[450:550]).min() > 20.0 - 1e-7
+
+
+def hook(sweep: float) -> Path:
+    """A line, an arc of radius 2 to the left and a line back by which the open contour's end comes inside."""
+    centre = 2j
+    end = centre - 2j * np.exp(1j * sweep)
+    away = end + 1.2 * np.exp(1j * (sweep + 1.2))
+    points = [(-4.0, 0.0), (0.0, 0.0), (end.real, end.imag), (away.real, away.imag)]
+    return Path.from_pieces(
+        [Line(points[0], points[1]), Arc(points[1], points[2], (0.0, 2.0), Turn.CCW), Line(points[2], points[3])]
+    )
+
+
+@pytest.mark.parametrize("side", Side)
+@pytest.mark.parametrize("sweep", [2.5, 3.2, 4.0, 4.8, 5.4])
+@pytest.mark.parametrize("radius", [0.05, 0.3, 0.6, 0.9])
+def test_an_open_contour_whose_end_turns_into_itself_is_cut_by_its_other_side_too(side, sweep, radius):
+    assert_true(hook(sweep), side, radius, closed=False)
+
+
+def test_s_curves_of_half_circles_are_no_crossing():
+    points = np.stack((2.0 * np.arange(9.0), np.zeros(9)), axis=1)
+    waves = Path.of(points, points[:-1] + np.array((1.0, 0.0)), np.where(np.arange(8) % 2, 1, -1).astype(np.int8))
+    for side in Side:
+        best = assert_true(waves, side, 0.25, closed=False)
+        assert not best.findings
+        assert [len(loop) for loop in best.loops] == [8]
