@@ -53,7 +53,7 @@ def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Row
     i, j = near_pairs_within(bounds, JOINED)
     first = np.flatnonzero(_overlapping(bounds))
     if closed and len(surface) > 2:
-        others = (i > 0) | (j < len(surface) - 1)
+        others: Flags = (i > 0) | (j < len(surface) - 1)
         i, j, first = i[others], j[others], np.append(first, -1)
     if len(first):
         rows = np.stack((first % len(surface), first + 1))
@@ -66,7 +66,7 @@ def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Row
 def _overlapping(bounds: Floats) -> Flags:
     """(n - 1,) boxes that share more with the next one than the surroundings of a joint, where neighbours are one."""
     shared = np.minimum(bounds[2:, 1:], bounds[2:, :-1]) - np.maximum(bounds[:2, 1:], bounds[:2, :-1])
-    wide: Flags = (shared > 5.0 * JOINED).any(axis=0)
+    wide: Flags = np.any(shared > 5.0 * JOINED, axis=0)
     return wide
 
 

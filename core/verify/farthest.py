@@ -15,7 +15,7 @@ import numpy as np
 
 from core.geometry.distance import between, distance, farthest_places
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, boxes, place
-from core.tolerance import STOCK
+from core.tolerance import GOUGE
 from core.verify.reach import Stretches, nearest
 
 FINE: Final = 1e-8
@@ -83,7 +83,7 @@ def farthest(walked: Measured, stretches: Stretches, other: Measured, near: Rows
     `near` (2, k) are the pieces of `other` nearest to the stretches' ends, -1 where unknown; where they are known the
     distance is at most `ends`.
     """
-    search = _Search(walked, walked.stations, other, boxes(other), STOCK + 2.0 * float(walked.slack.max(initial=0.0)))
+    search = _Search(walked, walked.stations, other, boxes(other), GOUGE + 2.0 * float(walked.slack.max(initial=0.0)))
     spans, best = _begin(search, stretches, near, ends)
     for turn in range(ROUNDS):
         bound, crossing = _bounds(search, spans)

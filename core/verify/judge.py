@@ -17,7 +17,7 @@ from core.verify.gouge import gouges, gouging
 from core.verify.pairs import approaches, clearance, middles, pairs_of
 from core.verify.sides import sided, wrong_side
 from core.verify.uncut import uncut
-from core.verify.verdict import Verdict
+from core.verify.verdict import NOTHING, Verdict
 
 
 def judge(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
@@ -93,12 +93,12 @@ def _verdict(surface: Path, ground: _Ground | None, side: Side, radius: float, c
     if not judgeable(surface, radius, centre):
         return _unjudged(radius)
     if ground is None:
-        return Verdict(radius, inf, (), (), 0.0, crosses_itself=False)
+        return Verdict(radius, inf, (), NOTHING, 0.0, crosses_itself=False)
     return _judged(surface, ground, side, radius, centre.numbers, measured(centre))
 
 
 def _unjudged(radius: float) -> Verdict:
-    return Verdict(radius, nan, (), (), nan, crosses_itself=False, judged=False)
+    return Verdict(radius, nan, (), NOTHING, nan, crosses_itself=False, judged=False)
 
 
 def _judged(surface: Path, ground: _Ground, side: Side, radius: float, numbers: Floats, moves: Measured) -> Verdict:
@@ -106,9 +106,8 @@ def _judged(surface: Path, ground: _Ground, side: Side, radius: float, numbers: 
     if isinf(slack):
         return _unjudged(radius)
     reach = radius + 10.0 * GOUGE
-    pairs = pairs_of(moves, ground.walls, ground.stations, ground.bounds, reach + slack)
-    middle = middles(pairs)
-    near = approaches(pairs, middle, radius - GOUGE)
+    pairs = pairs_of(moves, ground.walls, ground.stations, ground.bounds, radius, reach + slack)
+    near = approaches(pairs, radius - GOUGE)
     found = gouging(pairs, near)
     length = float(ground.stations[-1])
     sides = sided(side, ground.crossed, length, closed=ground.closed)
@@ -119,7 +118,7 @@ def _judged(surface: Path, ground: _Ground, side: Side, radius: float, numbers: 
         uncut=uncut(pairs, radius, surface, closed=ground.closed),
         surface_length=length,
         crosses_itself=len(ground.crossed) > 0,
-        wrong_side=wrong_side(pairs, middle, found, sides, reach),
+        wrong_side=wrong_side(pairs, middles(pairs), found, sides, reach),
         crossing_at=_first(ground.crossed),
     )
 

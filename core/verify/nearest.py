@@ -13,7 +13,7 @@ from core.geometry.path import Path
 from core.geometry.piece import Point
 from core.tolerance import GOUGE, ON_PATH
 from core.verify.judge import judgeable
-from core.verify.pairs import approaches, middles, pairs_of
+from core.verify.pairs import approaches, pairs_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,12 +39,12 @@ def nearest(surface: Path, centres: Sequence[Path], clearance: float) -> Nearest
             return None
         walls, moves = measured(surface), stacked([measured(centre) for centre in centres])
         slack = 2.0 * float(walls.slack.max() + moves.slack.max(initial=0.0))
-        pairs = pairs_of(moves, walls, walls.stations, boxes(walls), clearance + slack + 2.0 * GOUGE)
-        near = approaches(pairs, middles(pairs), clearance + slack + 2.0 * GOUGE)
+        reach = clearance + slack + 2.0 * GOUGE
+        near = approaches(pairs_of(moves, walls, walls.stations, boxes(walls), clearance, reach), reach)
         k, pair = np.nonzero(near.apart <= clearance + GOUGE)
         if not len(pair):
             return None
-        stations = pairs.centre_stations[near.i[pair]] + near.places[k, pair] * moves.length[near.i[pair]]
+        stations = moves.stations[near.i[pair]] + near.places[k, pair] * moves.length[near.i[pair]]
         first = int(np.lexsort((near.j[pair], np.round(stations / ON_PATH)))[0])
         row = pair[first : first + 1]
         place = at(moves.take(near.i[row]), near.places[k[first : first + 1], row])

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from core.geometry.boxes import closest_pairs, near_pairs
 from core.geometry.distance import between, distance, nearest_places
 from core.geometry.measured import Floats, Measured, Rows, at, blocks, boxes
-from core.tolerance import GOUGE
+from core.tolerance import UNCUT
+from core.verify.touch import Touches, touches
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pairs:
     """Pieces `i` of the centre path and `j` of the surface, in rising order of i, and what is measured of both paths.
 
-    Every pair whose pieces come within the reach it was made for is there; pairs farther apart may be.
-    `centre_stations` and `surface_stations` are the lengths travelled at the pieces' starts and at the end.
+    Every pair whose pieces come within the reach it was made for is there, and no other.  `touch` is what is measured
+    of the pairs, `grant` (m,) what rounding and the uneven radii of arcs leave open for each.  `centre_stations` and
+    `surface_stations` are the lengths travelled at the pieces' starts and at the end.
     """
 
     centre: Measured
@@ -28,18 +30,33 @@ class Pairs:
     surface_boxes: Floats
     i: Rows
     j: Rows
-
-    @property
-    def slack(self) -> Floats:
-        """(m,) what the uneven radii of arcs leave open for each pair."""
-        return self.centre.slack[self.i] + self.surface.slack[self.j]
+    grant: Floats
+    touch: Touches
 
 
-def pairs_of(centre: Measured, surface: Measured, stations: Floats, bounds: Floats, reach: float) -> Pairs:
-    """All pairs within `reach`, by their bounding boxes; `stations` and `bounds` are the surface's."""
+def pairs_of(
+    centre: Measured, surface: Measured, stations: Floats, bounds: Floats, radius: float, reach: float
+) -> Pairs:
+    """All pairs within `reach`; `stations` and `bounds` are the surface's.  Touches are those within `radius`."""
     around = boxes(centre)
     i, j = near_pairs(around, bounds, reach)
-    return Pairs(centre, surface, centre.stations, stations, around, bounds, i, j)
+    grant = UNCUT + rounding(surface) + _slack(centre, i) + _slack(surface, j)
+    touch = touches(centre, i, surface, j, radius, grant)
+    near = np.flatnonzero(touch.apart <= reach)
+    if len(near) < len(i):
+        i, j, grant, touch = i[near], j[near], grant[near], touch.take(near)
+    return Pairs(centre, surface, centre.stations, stations, around, bounds, i, j, grant, touch)
+
+
+def rounding(surface: Measured) -> float:
+    """Four units in the last place of the largest coordinate or radius."""
+    largest = max(np.abs(surface.start.real).max(), np.abs(surface.start.imag).max(), surface.radius.max())
+    return 4.0 * float(np.spacing(largest))
+
+
+def _slack(pieces: Measured, rows: Rows) -> Floats:
+    """(m,) what the uneven radii of these pieces leave open."""
+    return pieces.slack[rows] if pieces.slack.any() else np.zeros(len(rows))
 
 
 def middles(pairs: Pairs) -> Floats:
@@ -72,14 +89,11 @@ class Approaches:
     limit: Floats
 
 
-def approaches(pairs: Pairs, middle: Floats, limit: float) -> Approaches:
-    """All pairs nearer than `limit` less their slack; `middle` as of `middles`.
-
-    A piece is nowhere nearer than its middle less half its length.
-    """
-    reach = max(limit, float(middle.min(initial=np.inf)) + GOUGE)
-    chosen = np.flatnonzero(middle - pairs.centre.length[pairs.i] / 2.0 < reach)
-    return _measure(pairs, pairs.i[chosen], pairs.j[chosen], limit)
+def approaches(pairs: Pairs, limit: float) -> Approaches:
+    """All pairs nearer than `limit` less the slack of both."""
+    deep = np.flatnonzero(pairs.touch.apart < limit)
+    near = _measure(pairs, pairs.i[deep], pairs.j[deep], limit)
+    return replace(near, least=float(pairs.touch.apart.min(initial=np.inf)))
 
 
 def _measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:

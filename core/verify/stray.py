@@ -6,7 +6,7 @@ piece travelled backwards, is a mistake worth seeing.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import isinf
 from typing import Final
 
@@ -61,37 +61,25 @@ def stray(surface: Path, radius: float, centre: Path) -> Stray:
         slack = float(walls.slack.max() + moves.slack.max())
         if isinf(slack):
             return Stray((), ())
-        pairs = pairs_of(moves, walls, walls.stations, boxes(walls), radius + 10.0 * GOUGE + slack)
-        return Stray(_away(pairs, radius, centre), _backwards(pairs, radius))
+        reach = radius + 10.0 * GOUGE + slack
+        pairs = pairs_of(moves, walls, walls.stations, boxes(walls), radius, reach)
+        turned = pairs_of(walls, moves, moves.stations, boxes(moves), radius, reach)
+        return Stray(_away(turned, radius, centre), _backwards(pairs, radius))
 
 
 def _away(pairs: Pairs, radius: float, centre: Path) -> tuple[Away, ...]:
     """The path is to the surface what the surface is to the path: what it does not reach it is away from."""
-    told = uncut(_exchanged(pairs), radius, centre, closed=False)
+    told = uncut(pairs, radius, centre, closed=False)
     return tuple(
         Away(one.first_number, one.last_number, one.start, one.end, one.length, one.thickness, one.thickest)
         for one in told
     )
 
 
-def _exchanged(pairs: Pairs) -> Pairs:
-    return replace(
-        pairs,
-        centre=pairs.surface,
-        surface=pairs.centre,
-        centre_stations=pairs.surface_stations,
-        surface_stations=pairs.centre_stations,
-        centre_boxes=pairs.surface_boxes,
-        surface_boxes=pairs.centre_boxes,
-        i=pairs.j,
-        j=pairs.i,
-    )
-
-
 def _backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     """Rows of pieces that touch a wall in their middle or a wall's, all of them against its direction."""
     moves, walls = pairs.centre.take(pairs.i), pairs.surface.take(pairs.j)
-    limit = 2.0 * GOUGE + pairs.slack
+    limit = 2.0 * GOUGE + pairs.grant
     way = np.concatenate((_way(moves, walls, radius, limit), _way(walls, moves, radius, limit)))
     row = np.tile(pairs.i, 2)
     with_it, against = np.unique(row[way > 0]), np.unique(row[way < 0])

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any, Final, overload
+
+import numpy as np
+from numpy.typing import NDArray
 
 from core.geometry.piece import Point
 
@@ -40,6 +45,76 @@ class Uncut:
     thickest: Point
 
 
+class UncutStretches(Sequence[Uncut]):
+    """k stretches in the contour's order, held as columns (k,): there may be as many as a contour has corners."""
+
+    __slots__ = ("columns", "length", "thickness")
+
+    def __init__(self, *columns: NDArray[Any]) -> None:
+        """Columns in the order of the fields of `Uncut`; points are complex numbers."""
+        self.columns = columns
+        self.length: NDArray[np.float64] = columns[4]
+        self.thickness: NDArray[np.float64] = columns[5]
+
+    def __len__(self) -> int:
+        return len(self.length)
+
+    @overload
+    def __getitem__(self, index: int) -> Uncut: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Uncut, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> Uncut | tuple[Uncut, ...]:
+        if isinstance(index, slice):
+            return tuple(self[row] for row in range(*index.indices(len(self))))
+        return _uncut(*(column[range(len(self))[index]].item() for column in self.columns))
+
+    def __iter__(self) -> Iterator[Uncut]:
+        return (_uncut(*row) for row in zip(*(column.tolist() for column in self.columns), strict=True))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sequence) and tuple(self) == tuple(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def keep(self, chosen: NDArray[np.bool_]) -> UncutStretches:
+        """The stretches for which `chosen` (k,) is True."""
+        return self if chosen.all() else UncutStretches(*(column[chosen] for column in self.columns))
+
+    def over_start(self) -> UncutStretches:
+        """A closed contour's first and last stretch as the one they are, standing last."""
+        one, other = self[0], self[-1]
+        thicker = max(other, one, key=lambda stretch: stretch.thickness)
+        both = (
+            other.first_number,
+            one.last_number,
+            complex(*other.start),
+            complex(*one.end),
+            other.length + one.length,
+            thicker.thickness,
+            complex(*thicker.thickest),
+        )
+        columns = zip(self.columns, both, strict=True)
+        return UncutStretches(*(np.append(column[1:-1], value) for column, value in columns))
+
+
+def _uncut(
+    first: float, last: float, start: complex, end: complex, length: float, thickness: float, thickest: complex
+) -> Uncut:
+    return Uncut(first, last, _point(start), _point(end), length, thickness, _point(thickest))
+
+
+def _point(place: complex) -> Point:
+    return place.real, place.imag
+
+
+NOTHING: Final = UncutStretches(
+    *(np.zeros(0, kind) for kind in (float, float, complex, complex, float, float, complex))
+)
+"""No stretches."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Verdict:
     """What one centre path does to one surface.
@@ -54,7 +129,7 @@ class Verdict:
     radius: float
     clearance: float
     gouges: tuple[Gouge, ...]
-    uncut: tuple[Uncut, ...]
+    uncut: UncutStretches
     surface_length: float
     crosses_itself: bool
     wrong_side: tuple[int, ...] = ()
@@ -74,4 +149,4 @@ class Verdict:
     @property
     def uncut_length(self) -> float:
         """Length of surface that is not reached."""
-        return sum(stretch.length for stretch in self.uncut)
+        return float(self.uncut.length.sum())

@@ -172,7 +172,8 @@ def test_without_a_path_everything_is_uncut() -> None:
 def test_without_a_surface_there_is_nothing_to_judge() -> None:
     verdict = judge(EMPTY, Side.LEFT, R, MID_SIDE_PATH)
     assert verdict.clearance == inf
-    assert (verdict.uncut, verdict.gouges) == ((), ())
+    assert verdict.uncut == ()
+    assert verdict.gouges == ()
 
 
 @pytest.mark.parametrize("bad", [nan, inf, -inf, 1e300, 1e8])

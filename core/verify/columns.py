@@ -1,0 +1,162 @@
+"""Columns: pieces as plain columns of numbers, and the least distance of many pairs of them without trigonometry.
+
+A line needs its start and vector; an arc also its centre, its radius, the direction of its middle and the cosine of
+half its angle: a direction lies within the arc when it is no farther from the middle's than that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import tau
+from typing import Final
+
+import numpy as np
+
+from core.geometry.measured import Flags, Floats, Measured, Rows
+
+SHORT: Final = 1e-3
+"""Chords shorter than this part of the radius do not say where an arc's middle is to the last digit."""
+
+WHOLE: Final = 1e-12
+"""Radians short of a full turn at which every direction counts as within the arc."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Columns:
+    """n pieces: start, vector and squared length of the chord; of arcs the centre, the radius, the middle's direction
+    and the cosine of half the angle (-2 for a full circle)."""
+
+    x: Floats
+    y: Floats
+    along: Floats
+    up: Floats
+    square: Floats
+    centre_x: Floats
+    centre_y: Floats
+    radius: Floats
+    middle_x: Floats
+    middle_y: Floats
+    cosine: Floats
+
+    def take(self, rows: Rows, *, arcs: bool) -> Columns:
+        """The pieces of these indices; where no `arcs` are asked for, those columns are left as they are."""
+        bent = tuple(
+            column.take(rows) if arcs else column
+            for column in (self.centre_x, self.centre_y, self.radius, self.middle_x, self.middle_y, self.cosine)
+        )
+        straight = (column.take(rows) for column in (self.x, self.y, self.along, self.up, self.square))
+        return Columns(*straight, *bent)
+
+
+def columns(pieces: Measured) -> Columns:
+    """The columns of these pieces; a line's arc columns mean nothing."""
+    x, y = pieces.start.real.copy(), pieces.start.imag.copy()
+    along, up = pieces.vector.real.copy(), pieces.vector.imag.copy()
+    square = along * along + up * up
+    square[square == 0.0] = 1.0
+    if not pieces.turn.any():
+        none = np.zeros(0)
+        return Columns(x, y, along, up, square, none, none, none, none, none, none)
+    size = np.sqrt(square)
+    size[size == 0.0] = 1.0
+    middle_x, middle_y = pieces.turn * up / size, -pieces.turn * along / size
+    short = np.flatnonzero((size < SHORT * pieces.radius) & (pieces.turn != 0.0))
+    if len(short):
+        arc = pieces.take(short)
+        middle = arc.arm / np.where(arc.radius == 0.0, 1.0, arc.radius) * np.exp(0.5j * arc.turn * arc.angle)
+        middle_x[short], middle_y[short] = middle.real, middle.imag
+    cosine = np.cos(0.5 * pieces.angle)
+    cosine[pieces.angle > tau - WHOLE] = -2.0
+    centre_x, centre_y = x - pieces.arm.real, y - pieces.arm.imag
+    return Columns(x, y, along, up, square, centre_x, centre_y, pieces.radius, middle_x, middle_y, cosine)
+
+
+def to_line(x: Floats, y: Floats, line: Columns) -> tuple[Floats, Floats]:
+    """Squared distances of points from their lines, and the fractions of the lines they are nearest to."""
+    x, y = x - line.x, y - line.y
+    t = x * line.along
+    t += y * line.up
+    t /= line.square
+    np.maximum(t, 0.0, out=t)
+    np.minimum(t, 1.0, out=t)
+    x -= t * line.along
+    y -= t * line.up
+    x *= x
+    y *= y
+    x += y
+    return x, t
+
+
+def inside(x: Floats, y: Floats, arc: Columns) -> tuple[Flags, Floats]:
+    """Which directions from the centres lie within the arcs, and how long they are."""
+    size = np.sqrt(x * x + y * y)
+    within: Flags = x * arc.middle_x + y * arc.middle_y >= arc.cosine * size
+    return within, size
+
+
+def to_arc(x: Floats, y: Floats, arc: Columns) -> Floats:
+    """Distances of points from their arcs."""
+    within, size = inside(x - arc.centre_x, y - arc.centre_y, arc)
+    x, y = x - arc.x, y - arc.y
+    first = x * x + y * y
+    x -= arc.along
+    y -= arc.up
+    ends = np.sqrt(np.minimum(first, x * x + y * y))
+    apart: Floats = np.where(within, np.abs(size - arc.radius), ends)
+    return apart
+
+
+def line_to_arc(line: Columns, arc: Columns) -> tuple[Floats, Floats]:
+    """Distances of pairs where the line passes the arc between all ends, 0 where they cross, and the line's fractions.
+
+    Infinite where the foot of the centre is on neither.
+    """
+    x, y = arc.centre_x - line.x, arc.centre_y - line.y
+    t = (x * line.along + y * line.up) / line.square
+    off_x, off_y = t * line.along - x, t * line.up - y
+    within, height = inside(off_x, off_y, arc)
+    apart = np.where(within & (t >= 0.0) & (t <= 1.0), np.abs(height - arc.radius), np.inf)
+    cut = np.flatnonzero(height < arc.radius)
+    if len(cut):
+        arc_, along, up = _cut(arc, cut), line.along[cut], line.up[cut]
+        half = np.sqrt((arc_.radius - height[cut]) * (arc_.radius + height[cut]) / line.square[cut])
+        for step in (-half, half):
+            met, _ = inside(off_x[cut] + step * along, off_y[cut] + step * up, arc_)
+            met &= (t[cut] + step >= 0.0) & (t[cut] + step <= 1.0)
+            apart[cut[met]] = 0.0
+    return apart, t
+
+
+def arc_to_arc(one: Columns, other: Columns) -> Floats:
+    """Distances of pairs of arcs on the line through their centres, 0 where they cross, infinite where neither is."""
+    x, y = other.centre_x - one.centre_x, other.centre_y - one.centre_y
+    size = np.sqrt(x * x + y * y)
+    seen_one, seen_other = x * one.middle_x + y * one.middle_y, x * other.middle_x + y * other.middle_y
+    ahead_one, behind_one = seen_one >= one.cosine * size, -seen_one >= one.cosine * size
+    ahead_other, behind_other = seen_other >= other.cosine * size, -seen_other >= other.cosine * size
+    apart = np.full(len(x), np.inf)
+    for within, gap in (
+        (ahead_one & behind_other, size - other.radius - one.radius),
+        (ahead_one & ahead_other, size + other.radius - one.radius),
+        (behind_one & behind_other, size - other.radius + one.radius),
+    ):
+        np.minimum(apart, np.where(within, np.abs(gap), np.inf), out=apart)
+    cut = np.flatnonzero((size > np.abs(one.radius - other.radius)) & (size < one.radius + other.radius))
+    if len(cut):
+        apart[cut[_arcs_cross(_cut(one, cut), _cut(other, cut), x[cut], y[cut], size[cut])]] = 0.0
+    return apart
+
+
+def _arcs_cross(one: Columns, other: Columns, x: Floats, y: Floats, size: Floats) -> Flags:
+    """Whether arcs of crossing circles cross; (x, y) leads from centre to centre, `size` long."""
+    share = (size * size + (one.radius - other.radius) * (one.radius + other.radius)) / (2.0 * size * size)
+    height = np.sqrt(np.maximum((one.radius / size) ** 2 - share * share, 0.0))
+    crossed = np.zeros(len(x), np.bool_)
+    for off in (height, -height):
+        at_x, at_y = share * x - off * y, share * y + off * x
+        crossed |= inside(at_x, at_y, one)[0] & inside(at_x - x, at_y - y, other)[0]
+    return crossed
+
+
+def _cut(pieces: Columns, rows: Rows) -> Columns:
+    return pieces.take(rows, arcs=True)

@@ -1,0 +1,128 @@
+"""Gaps: how far the stretches of surface that no point of the path reaches are from the path.
+
+Nearly every gap is what the cutter leaves in an inside corner, where it stands still at one point while the surface
+goes in and out again: nothing in it is farther from the path than from that point.  The bound is the distance when
+nothing else of the path is nearer to the place where it is met; every other gap is left to `farthest`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from core.geometry.boxes import near_pairs
+from core.geometry.distance import distance
+from core.geometry.measured import Flags, Floats, Points, Rows, at, place, travelled
+from core.tolerance import ON_PATH
+from core.verify.farthest import FINE, Farthest, farthest
+from core.verify.pairs import Pairs
+from core.verify.reach import Stretches
+
+WIDE: Final = 4.0
+"""Gaps farther from the path than so many radii are few, and left to `farthest`."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Bound:
+    """(k,) for each gap an end of a path's piece, the place farthest from it along the surface, and how far it is."""
+
+    corner: Points
+    place: Floats
+    apart: Floats
+
+    def keep(self, chosen: Flags) -> Bound:
+        """Those for which `chosen` (k,) is True."""
+        return Bound(self.corner[chosen], self.place[chosen], self.apart[chosen])
+
+
+def bounds(pairs: Pairs, gaps: Stretches, near: Rows) -> Bound:
+    """What no place of each gap is farther from the path than; `near` (2, k) are the pieces at its ends."""
+    parts = _parts(pairs, gaps)
+    corner = _corner(pairs, near, parts)
+    apart = np.abs(parts.points - corner[parts.owner])
+    _to_arcs(pairs, parts, corner, apart)
+    most = np.maximum.reduceat(apart, parts.begins)
+    where = np.flatnonzero(apart == most[parts.owner])
+    first = where[np.flatnonzero(np.diff(parts.owner[where], prepend=-1))]
+    return Bound(corner, parts.s[first], most)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Parts:
+    """What of each gap, `owner`, lies on one surface piece `j`, in order: its first place, and the gap's last place
+    as one more; `begins` counts where each gap's begin."""
+
+    owner: Rows
+    j: Rows
+    s: Floats
+    points: Points
+    begins: Rows
+
+
+def _parts(pairs: Pairs, gaps: Stretches) -> _Parts:
+    stations = pairs.surface_stations
+    low, one = place(pairs.surface, stations, gaps.first + ON_PATH)
+    high, other = place(pairs.surface, stations, gaps.last - ON_PATH)
+    high = np.maximum(low, high)
+    counts = high - low + 2
+    ends = np.cumsum(counts)
+    begins = ends - counts
+    owner = np.repeat(np.arange(len(low)), counts)
+    j = np.arange(len(owner)) - (begins - low)[owner]
+    j[ends - 1] = high
+    s, points = stations[j], pairs.surface.start[j]
+    for rows, index, t, place_ in ((begins, low, one, gaps.first), (ends - 1, high, other, gaps.last)):
+        s[rows], points[rows] = place_, at(pairs.surface.take(index), t)
+    return _Parts(owner, j, s, points, begins)
+
+
+def _corner(pairs: Pairs, near: Rows, parts: _Parts) -> Points:
+    """(k,) of the ends of the pieces at each gap's ends the one nearest to that of these which is farther from it."""
+    known = np.where(near < 0, near[::-1], near)
+    ends = np.concatenate((pairs.centre.start[known], pairs.centre.end[known]))
+    first, last = parts.points[parts.begins], parts.points[np.append(parts.begins[1:], len(parts.s)) - 1]
+    apart = np.maximum(np.abs(ends - first), np.abs(ends - last))
+    best: Points = ends[np.argmin(apart, axis=0), np.arange(ends.shape[1])]
+    return best
+
+
+def _to_arcs(pairs: Pairs, parts: _Parts, corner: Points, apart: Floats) -> None:
+    """Parts on arcs that have their farthest place within them: it replaces the first one."""
+    rows = np.flatnonzero(pairs.surface.turn[parts.j[:-1]] * (parts.owner[1:] == parts.owner[:-1]))
+    if not len(rows):
+        return
+    arc, p = pairs.surface.take(parts.j[rows]), corner[parts.owner[rows]]
+    s = pairs.surface_stations[parts.j[rows]] + travelled(arc, arc.centre - p) * arc.radius
+    inner = (s > parts.s[rows]) & (s < parts.s[rows + 1])
+    parts.s[rows[inner]] = s[inner]
+    apart[rows[inner]] = (np.abs(arc.centre - p) + arc.radius)[inner]
+
+
+def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: float) -> Farthest:
+    """The largest distance from the path, within FINE, on each gap."""
+    proved = _proved(pairs, bound, radius)
+    rest = np.flatnonzero(~proved)
+    if not len(rest):
+        return Farthest(bound.place, bound.apart)
+    known = np.zeros(len(gaps), np.bool_)
+    known[rest] = True
+    grant = float(pairs.grant.max(initial=0.0))
+    far = farthest(pairs.surface, gaps.keep(known), pairs.centre, near[:, rest], radius + grant)
+    where, apart = bound.place.copy(), bound.apart.copy()
+    where[rest], apart[rest] = far.place, far.apart
+    return Farthest(where, apart)
+
+
+def _proved(pairs: Pairs, bound: Bound, radius: float) -> Flags:
+    """Gaps whose bound is the distance of its place from the path."""
+    proved = bound.apart <= WIDE * radius
+    rows = np.flatnonzero(proved)
+    index, t = place(pairs.surface, pairs.surface_stations, bound.place[rows])
+    points, apart = at(pairs.surface.take(index), t), bound.apart[rows]
+    around = np.stack((points.real - apart, points.imag - apart, points.real + apart, points.imag + apart))
+    k, i = near_pairs(around, pairs.centre_boxes, 0.0)
+    nearer = distance(pairs.centre.take(i), points[k]) < apart[k] - FINE
+    proved[rows[k[nearer]]] = False
+    return proved

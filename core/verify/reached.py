@@ -1,0 +1,85 @@
+"""Reached: the stretches of a surface that are within the radius of a centre path, and the gaps between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.geometry.distance import band_places, feet
+from core.geometry.measured import Floats, Rows
+from core.tolerance import STOCK
+from core.verify.pairs import Pairs
+from core.verify.reach import Parts, Stretches, joined, within
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Reached:
+    """Stretches of surface that are reached, and the pieces of the centre path that reach their two ends."""
+
+    stretches: Stretches
+    begin: Rows
+    end: Rows
+
+    def gaps(self, total: float) -> tuple[Stretches, Rows]:
+        """What is not reached and longer than STOCK, and (2, k) the centre pieces at its ends, -1 at the contour's."""
+        before, behind = np.concatenate(([-1], self.end)), np.concatenate((self.begin, [-1]))
+        gaps = Stretches(np.append(0.0, self.stretches.last), np.append(self.stretches.first, total))
+        wide = gaps.last - gaps.first > STOCK
+        return gaps.keep(wide), np.stack((before, behind))[:, wide]
+
+
+def reached(pairs: Pairs, radius: float) -> Reached:
+    """The stretches of surface within the radius of the centre path.
+
+    What is granted for rounding and for uneven arcs decides whether a place is reached; where a stretch ends is then
+    settled with the radius alone.
+    """
+    touch = pairs.touch
+    sure = np.flatnonzero(~touch.unsure & (touch.first <= touch.last))
+    start, length = pairs.surface_stations[pairs.j[sure]], pairs.surface.length[pairs.j[sure]]
+    first, last = start + touch.first[sure] * length, start + touch.last[sure] * length
+    parts = Parts(first, last, first, first, sure)
+    unsure = np.flatnonzero(touch.unsure)
+    if len(unsure):
+        more = within(pairs.surface, pairs.j[unsure], pairs.centre, pairs.i[unsure], radius + pairs.grant[unsure])
+        parts = joined((parts, replace(more, pair=unsure[more.pair])))
+    return _settled(pairs, parts, radius)
+
+
+def _settled(pairs: Pairs, parts: Parts, radius: float) -> Reached:
+    """Parts as stretches; their ends drawn in to where an unsure pair reaches them with the radius alone."""
+    order = np.argsort(parts.first, kind="stable")
+    first, last = parts.first[order], parts.last[order]
+    furthest = np.maximum.accumulate(last)
+    begins = np.ones(len(first), np.bool_)
+    begins[1:] = first[1:] > furthest[:-1]
+    begin = np.flatnonzero(begins)
+    if not len(begin):
+        return Reached(Stretches(first, last), order, order)
+    holder = np.maximum.accumulate(np.where(last == furthest, np.arange(len(last)), 0))
+    end = holder[np.append(begin[1:], len(first)) - 1]
+    pair = parts.pair[order[np.concatenate((begin, end))]]
+    ends = np.concatenate((first[begin], last[end]))
+    loose = np.flatnonzero(pairs.touch.unsure[pair])
+    if len(loose):
+        inward = np.repeat((1.0, -1.0), len(begin))
+        ends[loose] = _draw_in(pairs, pair[loose], ends[loose], inward[loose], radius)
+    low, high = ends[: len(begin)], ends[len(begin) :]
+    i = pairs.i[pair]
+    return Reached(Stretches(low, np.maximum(low, high)), i[: len(begin)], i[len(begin) :])
+
+
+def _draw_in(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: float) -> Floats:
+    """Ends moved `inward` (+1 or -1 along the surface) to where the distance is the radius, or least.
+
+    What is granted moves an end by as much as sqrt(2 r grant) where the reach ends in a circle about the end of a
+    move beside the wall; the foot of that end is where it stops when the wall is exactly a radius away.
+    """
+    i, j, grant = pairs.i[pair], pairs.j[pair], pairs.grant[pair]
+    piece, other = pairs.surface.take(j), pairs.centre.take(i)
+    places = np.concatenate((band_places(piece, other, np.full(len(pair), radius)), feet(piece, other)))
+    moved = (pairs.surface_stations[j] + places * piece.length - ends) * inward
+    widest = 2.0 * np.sqrt(2.0 * (radius + grant) * grant)
+    least = np.where((moved > 0.0) & (moved < widest), moved, np.inf).min(axis=0)
+    return ends + inward * np.where(np.isinf(least), 0.0, least)

@@ -1,0 +1,110 @@
+"""What a gap's bound proves agrees with the search for the farthest place; what is thinner than STOCK is left out."""
+
+from __future__ import annotations
+
+from math import cos, hypot, pi, sin, tan, tau
+
+import numpy as np
+import pytest
+
+from core.comp.compensate import compensate
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Turn
+from core.geometry.side import Side
+from core.tolerance import STOCK
+from core.verify import gaps
+from core.verify.judge import judge
+from core.verify.verdict import UncutStretches
+from tests.core.verify.corpus import Chain
+from tests.core.verify.shapes import circle, lines
+
+RADIUS = 0.25
+
+
+def polygon(count: int, size: float = 10.0) -> Path:
+    """A circle drawn by `count` lines, from the middle of one of them."""
+    corners = [(size * cos(tau * row / count), size * sin(tau * row / count)) for row in range(count)]
+    (x0, y0), (x1, y1) = corners[-1], corners[0]
+    middle = ((x0 + x1) / 2, (y0 + y1) / 2)
+    return lines(middle, *corners, middle)
+
+
+def inside(surface: Path) -> Path:
+    return compensate(surface, Side.LEFT, RADIUS, 1, closed=True).path
+
+
+def uncut(surface: Path, centre: Path, radius: float = RADIUS) -> UncutStretches:
+    return judge(surface, Side.LEFT, radius, centre).uncut
+
+
+def thickness(count: int) -> float:
+    """What a cutter leaves in the corners of a polygon."""
+    return RADIUS * (hypot(1.0, tan(tau / count / 2.0)) - 1.0)
+
+
+def test_what_curves_of_fine_lines_leave_is_not_worth_a_word() -> None:
+    assert thickness(400) < STOCK < thickness(80)
+    for count in (400, 4000):
+        assert uncut(polygon(count), inside(polygon(count))) == ()
+
+
+def test_corners_worth_a_word_are_told_to_the_last_digit() -> None:
+    found = uncut(polygon(80), inside(polygon(80)))
+    assert [one.thickness for one in found] == pytest.approx([thickness(80)] * 80, abs=1e-12)
+
+
+def test_a_stretch_is_told_from_stock_on() -> None:
+    wall = lines((0, 0), (10, 0))
+    assert uncut(wall, lines((0, 1 + 0.9 * STOCK), (10, 1 + 0.9 * STOCK)), 1.0) == ()
+    (told,) = uncut(wall, lines((0, 1 + 1.1 * STOCK), (10, 1 + 1.1 * STOCK)), 1.0)
+    assert told.thickness == pytest.approx(1.1 * STOCK, abs=1e-9)
+
+
+def test_a_thin_end_belongs_to_the_stretch_over_start() -> None:
+    """A closed contour's first and last stretch are one: the thin half of it counts with the thick one."""
+    surface = lines((0, 0), (4, 0), (4, 4), (0, 4), (0, 0))
+    path = lines((1.0, 1.0), (3.0, 1.0), (3.0, 3.0), (1.0, 3.0), (1.0, 1.0))
+    shifted = lines((0, 0.02), (0, 0), (4, 0), (4, 4), (0, 4), (0, 0.02))
+    one, other = (judge(contour, Side.LEFT, 1.0, path).uncut for contour in (surface, shifted))
+    assert max(one.length) == pytest.approx(2.0)
+    assert sorted(one.length) == pytest.approx(sorted(other.length))
+
+
+def odd_outlines() -> list[tuple[Path, Path]]:
+    """Surfaces and paths whose gaps are met on lines, on arcs, across many pieces, far from all of the path."""
+    bulge = Arc((1, 0), (2, 0), (1.5, 0), Turn.CW)
+    bay = Arc((1, 0), (2, 0), (1.5, 0), Turn.CCW)
+    bowl = Path.from_pieces([Line((0, 0), (4, 0)), Arc((4, 0), (0, 0), (2, 0), Turn.CCW)])
+    angles = np.linspace(0.0, pi, 40)
+    comb = [(0.1 * k, 0.3 * (k % 2) - 0.2 * sin(t)) for k, t in enumerate(angles.tolist())]
+    return [
+        (Path.from_pieces([Line((0, 0), (1, 0)), bulge, Line((2, 0), (3, 0))]), lines((0, RADIUS), (0.9, RADIUS))),
+        (
+            Path.from_pieces([Line((0, 0), (1, 0)), bay, Line((2, 0), (3, 0))]),
+            lines((0, RADIUS), (1.5, RADIUS), (3, RADIUS)),
+        ),
+        (bowl, circle((2.0, 0.9), 0.6)),
+        (bowl, Path.from_pieces([Arc((2.3, 0.9), (1.7, 0.9), (2.0, 0.9), Turn.CCW)])),
+        (lines(*comb), lines((0, 0.6), (2, 0.4), (4, 0.6))),
+        (lines((0, 0), (10, 0)), lines((1, RADIUS), (2, RADIUS), (3, 5), (4, RADIUS))),
+        (Chain(((0, 0), (3, 0), (3, 3)), (0.3, -0.2)).path(), lines((0, 1), (1, 1), (2, 2))),
+    ]
+
+
+@pytest.mark.parametrize(("surface", "centre"), odd_outlines())
+def test_the_bound_proves_what_the_search_finds(surface: Path, centre: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    short = uncut(surface, centre)
+    monkeypatch.setattr(gaps, "_proved", lambda _pairs, bound, _radius: np.zeros(len(bound.apart), np.bool_))
+    searched = uncut(surface, centre)
+    assert len(short) == len(searched) > 0
+    for one, other in zip(short, searched, strict=True):
+        assert one.thickness == pytest.approx(other.thickness, abs=2e-8)
+        assert (one.start, one.end, one.length) == (other.start, other.end, other.length)
+
+
+def test_a_corner_is_proved_without_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    def searched(*_: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr(gaps, "farthest", searched)
+    assert len(uncut(polygon(80), inside(polygon(80)))) == 80
