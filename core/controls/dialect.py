@@ -34,6 +34,8 @@ class Do(Enum):
     MACHINE = auto()
     DWELL = auto()
     RATE = auto()
+    SPINDLE = auto()
+    RETRACT = auto()
     MODE = auto()
     DATA = auto()
     BEYOND = auto()
@@ -106,7 +108,8 @@ class Dialect:
     the table cannot be selected.  `unit_first`: the F of a block counts in the unit the block sets.
     `percent_ends`: a second line of % ends the program.  `end_needed`: M2, M30 or that line must stand at the end.
     `group_rule`: the rule's id for two G codes of one group.  `parameters`: how it keeps those of a program, None where
-    nothing is known of them.
+    nothing is known of them.  `cycles`: its drilling cycles are known; `cycle_rule` the rule that keeps them from
+    compensation; `returns_to_r`: G99 is in force at the start.
     """
 
     name: str
@@ -125,6 +128,9 @@ class Dialect:
     end_needed: bool = False
     group_rule: str = "GROUP"
     parameters: Kept | None = None
+    cycles: bool = True
+    cycle_rule: str = "CYCLE"
+    returns_to_r: bool = False
 
     def starting(self, unit: Unit | None) -> Dialect:
         """The same in a machine that starts in another unit, the control's usual one for None."""

@@ -38,8 +38,8 @@ DIALECT: Final = Dialect(
         ("system", Do.SYSTEM, (591, 592, 593)),
         ("length", Do.MODE, (431, 432)),
         ("path", Do.MODE, (610, 611, 640)),
-        ("spindle", Do.MODE, (960, 970)),
-        ("retract", Do.MODE, (980, 990)),
+        ("spindle", Do.SPINDLE, (960, 970)),
+        ("retract", Do.RETRACT, (980, 990)),
         ("lathe", Do.MODE, (80,)),
         ("once", Do.SHIFT, (520,)),
         ("once", Do.MACHINE, (530,)),
@@ -58,6 +58,8 @@ DIALECT: Final = Dialect(
     end_needed=True,
     group_rule="N-TWOG",
     parameters=Kept.NGC,
+    cycle_rule="N-CYCLE",
+    returns_to_r=True,
 )
 
 REFUSED: Final = {
@@ -203,12 +205,12 @@ class LinuxCnc(LookAhead):
 
 _USER_M: Final = tuple(f"M{code}" for code in range(1000, 2000, 10))
 _SWITCHED: Final = tuple(f"M{code}" for code in (500, 510, 520, 530, 620, 630, 640, 650, 660))
-_CYCLES: Final = tuple(f"G{code}" for code in (730, 740, *range(810, 900, 10)))
+_CYCLES: Final = tuple(f"G{code}" for code in (730, *range(810, 900, 10)))
 
 NEEDED: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
     {
         "L": frozenset(("G100", "G410", "G411", "G420", "G421", "M660", "M980", *_CYCLES)),
-        "P": frozenset(("G20", "G30", "G40", "G100", "G640", "M190", "M980", *_CYCLES, *_SWITCHED, *_USER_M)),
+        "P": frozenset(("G20", "G30", "G40", "G100", "G640", "M190", "M980", "G740", *_CYCLES, *_SWITCHED, *_USER_M)),
         "Q": frozenset(("G100", "G640", "M190", "M610", "M660", "M670", "M680", *_CYCLES, *_USER_M)),
         "H": frozenset(("G430", "G432", "G760")),
         "E": frozenset(("G700", "G760", "M660", "M670", "M680")),

@@ -5,17 +5,18 @@ All positions are millimetres from the machine's zero as the program shifts it; 
 
 from __future__ import annotations
 
-from math import hypot
+from math import dist, hypot
 from typing import Final
 
-from core.controls import origin
+from core.controls import cycles, origin, tooling
 from core.controls.arcs import NoArc, about, given_centre, through
-from core.controls.corners import arc_element, line_element
+from core.controls.corners import arc_element, element_sweep, line_element
 from core.controls.dialect import Code, Dialect, Do
 from core.controls.follower import Follower
 from core.controls.moves import Plane, Point3, flat
+from core.controls.rates import PER_MINUTE, Rates
 from core.controls.report import Log
-from core.controls.tools import CutterTool, ToolTable
+from core.controls.tools import ToolTable
 from core.controls.words import Block, whole
 from core.finding import Severity
 from core.geometry.piece import Point
@@ -56,6 +57,8 @@ class Machine:
         self.incremental = False
         self.absolute_centres = dialect.arcs.absolute
         self.feed = 0.0
+        self.rates = Rates()
+        self.cycles = cycles.Cycles(to_r=dialect.returns_to_r)
         self.tool = 0
         self.next_tool = 0
         self.ended = False
@@ -66,7 +69,7 @@ class Machine:
             self.follower.watch(block)
         if block.moves_only:
             if block.g:
-                self.mode = block.g[0]
+                self.mode, self.cycles.code = block.g[0], None
             self._motion(block)
             return
         once = self._codes(block)
@@ -80,9 +83,13 @@ class Machine:
     def _codes(self, block: Block) -> Code | None:
         """Everything of a block but its motion; the code that takes the block's axis words for itself, if any."""
         codes = self._grouped(block)
+        for code in codes:
+            if code.do is Do.RATE:
+                self.rates.set(code.value, self)
         if not self.dialect.unit_first and "F" in block.words:
             self.feed = block.words["F"] * self.scale
-        self._take_tool(block)
+        self.rates.take(block)
+        tooling.take(self, block)
         self._warn_unused(block)
         once = None
         for code in codes:
@@ -112,7 +119,9 @@ class Machine:
 
     def _set(self, code: Code, block: Block) -> None:
         match code.do:
-            case Do.MOTION | Do.CYCLE:
+            case Do.MOTION:
+                self.mode, self.cycles.code = code.value, None
+            case Do.CYCLE:
                 self.mode = code.value
             case Do.PLANE:
                 self.plane = self.follower.plane = _PLANES[code.value]
@@ -138,8 +147,10 @@ class Machine:
                 self.log.stop("BEYOND", text, block.line, block.column("G", code.value))
             case Do.OWN:
                 self.follower.own(code.value, block)
-            case Do.RATE:
-                self._set_rate(code.value, block)
+            case Do.SPINDLE:
+                self.rates.set_speed(code.value)
+            case Do.RETRACT:
+                self.cycles.to_r = code.value == 990
             case _:
                 pass
 
@@ -148,33 +159,6 @@ class Machine:
             self.follower.finish(block)
         else:
             self.follower.begin(Side.LEFT if code // 10 == 41 else Side.RIGHT, block)
-
-    def _set_rate(self, code: int, block: Block) -> None:
-        if code != 940:
-            text = "This feed is not in length a minute; the feeds of the moves are the words as written."
-            self.log.tell(Severity.WARNING, "FEED", text, block.line, block.column("G", code))
-
-    def _take_tool(self, block: Block) -> None:
-        data = block.data
-        if data is not None:
-            old = self.tools.get(data.number) or CutterTool(data.number, 0.0)
-            diameter = old.diameter if data.diameter is None else data.diameter
-            unit = old.unit if data.diameter is None else self.unit
-            tool = CutterTool(data.number, diameter, old.length if data.length is None else data.length, 0, unit)
-            self.tools = self.tools.with_tools(ToolTable.of(tool))
-        if data is not None or "T" in block.words:
-            self._select(data.number if data else self.whole_word(block, "T"), block)
-        if 60 in block.m:
-            self.tool = self.next_tool
-
-    def _select(self, number: int, block: Block) -> None:
-        self.follower.tool_called(number, block)
-        if number and self.dialect.table_needed and self.tools.get(number) is None:
-            text = f"The tool table has no tool {number}; enter it, or write the number of one that is there."
-            self.log.stop("TOOL", text, block.line, block.column("T"))
-        self.next_tool = number
-        if self.dialect.loads_at_t:
-            self.tool = number
 
     def _warn_unused(self, block: Block) -> None:
         for letter in _UNUSED:
@@ -225,13 +209,15 @@ class Machine:
             text = "Axis words without a motion in force; write G0, G1, G2 or G3."
             self.log.stop("MOTION", text, block.line, block.column("XYZ"))
         else:
-            self._cycle(block)
+            cycles.drill(self, block)
 
     def straight(self, block: Block, end: Point3) -> None:
         """A straight move of a block."""
-        rapid = self.mode == 0
-        if not rapid and not self.feed:
-            self._no_feed(block)
+        rapid, feed = self.mode == 0, self.feed
+        if not rapid and self.rates.mode != PER_MINUTE:
+            feed = self.rates.feed(self, block, dist(self.position, end))
+        elif not rapid and not feed:
+            self.no_feed(block)
         if self.moved_in is None:
             self._first_motion(block)
         if self.plane is Plane.XY:
@@ -242,7 +228,7 @@ class Machine:
             third, fourth, high = flat(end, self.plane)
             start, stop = (first, second), (third, fourth)
         self.position = end
-        self.follower.travel(line_element(start, stop, low, high, rapid, self.feed, block.line))
+        self.follower.travel(line_element(start, stop, low, high, rapid, feed, block.line))
 
     def _first_motion(self, block: Block) -> None:
         self.moved_in = self.unit
@@ -252,8 +238,8 @@ class Machine:
             self.log.tell(Severity.INFO, "UNIT", text, block.line, block.column("XYZ"))
 
     def _arc(self, block: Block, turn: int) -> None:
-        if not self.feed:
-            self._no_feed(block)
+        if not self.feed and self.rates.mode == PER_MINUTE:
+            self.no_feed(block)
         if self.moved_in is None:
             self._first_motion(block)
         end = self.target(block.words)
@@ -267,7 +253,11 @@ class Machine:
             column = block.column("R" if "R" in block.words else "IJK")
             self.log.stop("ARC", centre.text, block.line, column, lengths=centre.lengths)
         self.position = end
-        self.follower.travel(arc_element(start, stop, centre, turn, low, high, self.feed, block.line))
+        element = arc_element(start, stop, centre, turn, low, high, self.feed, block.line)
+        if self.rates.mode != PER_MINUTE:
+            length = hypot(element_sweep(element) * element.radius, high - low)
+            element = element._replace(feed=self.rates.feed(self, block, length))
+        self.follower.travel(element)
 
     def _centre(self, block: Block, start: Point, end: Point, turn: int) -> Point | NoArc:
         absolute = self.absolute_centres and not (self.incremental and self.dialect.arcs.absolute)
@@ -279,19 +269,12 @@ class Machine:
             centre if isinstance(centre, NoArc) else about(start, end, centre, self.dialect.arcs, self.unit) or centre
         )
 
-    def _no_feed(self, block: Block) -> None:
+    def no_feed(self, block: Block) -> None:
+        """A move at feed without a feed."""
         text = "There is no feed; write F before the first move at feed."
         if self.dialect.feed_needed:
             self.log.stop("FEED", text, block.line, block.column("XYZIJ"))
         self.log.tell(Severity.WARNING, "FEED", text, block.line, block.column("XYZIJ"))
-
-    def _cycle(self, block: Block) -> None:
-        text = "Only the positions of a drilling cycle are followed, its depth is not."
-        self.log.tell(Severity.WARNING, "CYCLE", text, block.line, 1)
-        x, y, _ = self.target(block.words)
-        mode, self.mode = self.mode, 0
-        self.straight(block, (x, y, self.position[2]))
-        self.mode = mode
 
 
 _MOVES: Final = frozenset((0, 10, 20, 30))

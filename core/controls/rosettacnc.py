@@ -32,8 +32,8 @@ DIALECT: Final = Dialect(
         ("compensation", Do.SIDE, (411, 421)),
         ("system", Do.SYSTEM, (591, 592, 593)),
         ("path", Do.MODE, (610, 640)),
-        ("spindle", Do.MODE, (960, 970)),
-        ("retract", Do.MODE, (980, 990)),
+        ("spindle", Do.SPINDLE, (960, 970)),
+        ("retract", Do.RETRACT, (980, 990)),
         ("scaling", Do.MODE, (500,)),
         ("rotation", Do.MODE, (690,)),
         ("once", Do.SHIFT, (520,)),
@@ -42,6 +42,7 @@ DIALECT: Final = Dialect(
     ),
     Unit.MM,
     parameters=Kept.MACRO_B,
+    cycle_rule="C8",
 )
 
 TANGENT: Final = 0.01

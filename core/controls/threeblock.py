@@ -45,6 +45,7 @@ DIALECT: Final = Dialect(
     syntax=Syntax(Semicolon.END, Slash.DATA),
     loads_at_t=True,
     subprograms=False,
+    cycles=False,
 )
 
 TANGENT: Final = radians(0.05)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from core.controls.moves import Moves, Plane
@@ -16,12 +16,13 @@ _CALL = re.compile(r"^\s*\d+\s+\S+\s+(\w+)\(([^)]*)\)")
 
 @dataclass(frozen=True)
 class Printed:
-    """One move as printed: line or arc, its end (x, y, z) and of an arc the centre in its plane and the turn."""
+    """One move as printed: line or arc, its end (x, y, z), of an arc centre and turn; the feed in mm a minute."""
 
     end: tuple[float, float, float]
     rapid: bool
     centre: tuple[float, float] | None = None
     turn: int = 0
+    feed: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -54,13 +55,38 @@ def run_witness(text: Path, table: Path) -> Witnessed:
     return Witnessed(tuple(_moves(printed)), said[0] if said else "")
 
 
+@dataclass
+class _Feeds:
+    """What the interpreter has said of feeds: the rate in millimetres, whether it is one a turn, the turns a minute."""
+
+    scale: float = 1.0
+    rate: float = 0.0
+    by_turn: bool = False
+    speed: float = 0.0
+
+    def hear(self, name: str, numbers: str) -> None:
+        if name == "SET_FEED_RATE":
+            self.rate = float(numbers) * self.scale
+        elif name == "USE_LENGTH_UNITS":
+            self.scale = 1.0 if numbers == "CANON_UNITS_MM" else 25.4
+        elif name == "SET_FEED_MODE":
+            self.by_turn = numbers.split(",")[1].strip() == "1"
+        elif name == "SET_SPINDLE_SPEED":
+            self.speed = float(numbers.split(",")[1])
+
+    @property
+    def feed(self) -> float:
+        return self.rate * self.speed if self.by_turn else self.rate
+
+
 def _moves(lines: list[str]):
-    plane, origin = Plane.XY, (0.0, 0.0, 0.0)
+    plane, origin, feeds = Plane.XY, (0.0, 0.0, 0.0), _Feeds()
     for line in lines:
         found = _CALL.match(line)
         if found is None:
             continue
         name, numbers = found[1], found[2]
+        feeds.hear(name, numbers)
         if name == "SELECT_PLANE":
             plane = {"CANON_PLANE_XY": Plane.XY, "CANON_PLANE_XZ": Plane.ZX, "CANON_PLANE_YZ": Plane.YZ}[numbers]
         elif name == "SET_G92_OFFSET":
@@ -68,9 +94,12 @@ def _moves(lines: list[str]):
             origin = (x, y, z)
         elif name in ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED"):
             x, y, z = (float(number) for number in numbers.split(",")[:3])
-            yield Printed((x + origin[0], y + origin[1], z + origin[2]), name == "STRAIGHT_TRAVERSE")
+            rapid = name == "STRAIGHT_TRAVERSE"
+            end = (x + origin[0], y + origin[1], z + origin[2])
+            yield Printed(end, rapid, feed=0.0 if rapid else feeds.feed)
         elif name == "ARC_FEED":
-            yield _arc([float(number) for number in numbers.split(",")], plane, origin)
+            arc = _arc([float(number) for number in numbers.split(",")], plane, origin)
+            yield replace(arc, feed=feeds.feed)
 
 
 def _arc(numbers: list[float], plane: Plane, origin: tuple[float, float, float]) -> Printed:
@@ -91,11 +120,11 @@ def _printed(moves: Moves, unit: Unit):
     for move in moves.part(1, len(moves)) if len(moves) > 1 else ():
         x, y, z = (from_mm(value, unit) for value in move.point)
         if not move.turn:
-            yield Printed((x, y, z), move.rapid)
+            yield Printed((x, y, z), move.rapid, feed=0.0 if move.rapid else move.feed)
             continue
         first, second, _ = move.plane.axes
         centre = (from_mm(move.centre[first], unit), from_mm(move.centre[second], unit))
-        yield Printed((x, y, z), False, centre, move.turn)
+        yield Printed((x, y, z), False, centre, move.turn, move.feed)
 
 
 def difference(ours: tuple[Printed, ...], theirs: tuple[Printed, ...]) -> str:
@@ -104,7 +133,8 @@ def difference(ours: tuple[Printed, ...], theirs: tuple[Printed, ...]) -> str:
         pairs = [*zip(one.end, other.end, strict=True), *zip(one.centre or (), other.centre or (), strict=False)]
         apart = max(abs(first - second) for first, second in pairs)
         same_kind = one.turn == other.turn and one.rapid == other.rapid
-        if not same_kind or apart > 1.2e-4:
+        fed_alike = abs(one.feed - other.feed) <= 2e-3 + 1e-3 * abs(other.feed)
+        if not same_kind or apart > 1.2e-4 or not fed_alike:
             return f"move {index}: {one} against {other}"
     if len(ours) != len(theirs):
         return f"{len(ours)} moves against {len(theirs)}"
