@@ -44,12 +44,12 @@ class Listing:
     saved: Change | None = None
 
     @staticmethod
-    def read(data: bytes) -> Listing:
-        """The lines of a file: UTF-16 by its mark, UTF-8, or byte for byte."""
-        for encoding in (*(name for mark, name in MARKS if data.startswith(mark)), "utf-8"):
+    def read(data: bytes, known: str = "") -> Listing:
+        """The lines of a file in an encoding that is known, else UTF-16 by its mark, UTF-8, or byte for byte."""
+        for encoding in (known,) if known else (*(name for mark, name in MARKS if data.startswith(mark)), "utf-8"):
             try:
                 text = data.decode(encoding)
-            except UnicodeDecodeError:
+            except (UnicodeDecodeError, LookupError):
                 continue
             if text.encode(encoding) == data:
                 return Listing(tuple(_LINE.findall(text)), encoding, data)
@@ -124,6 +124,20 @@ class Listing:
             return self
         change = self.future[-1]
         return replace(_with(self, change), past=(*self.past, change), future=self.future[:-1])
+
+    @property
+    def first(self) -> Listing:
+        """The lines as they were before every change that can be undone."""
+        listing = self
+        while listing.past:
+            listing = listing.undone()
+        return replace(listing, future=())
+
+    def done(self, change: Change) -> Listing:
+        """A change made as the next one; ValueError where the lines are not those that it takes out."""
+        if self.lines[change.row : change.row + len(change.removed)] != change.removed or change.row < 0:
+            raise ValueError("another text")
+        return self._do(change)
 
     def written(self, data: bytes) -> Listing:
         """After the file was written with this content."""

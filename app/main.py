@@ -15,6 +15,8 @@ from core.program.store import StoreError, load
 
 if TYPE_CHECKING:
     from app.application import CutcompApp
+    from app.keeping import Keeping
+    from app.nc_keeping import NcKeeping
     from app.screens.page import Page
     from app.session import Session
 
@@ -57,25 +59,34 @@ def guarded(session: Session, *, first: bool = False, only: Page | None = None, 
     from app import driver
     from app.application import CutcompApp
     from app.keeping import Keeping
+    from app.nc_keeping import NcKeeping
     from app.safety import Safety
 
-    keeping = Keeping()
+    keeping, nc_keeping = Keeping(), NcKeeping()
     few = not in_browser() and driver.few_colours(os.environ)
-    app = CutcompApp(session, keep=keeping.keep, few_colours=few)
+    app = CutcompApp(session, keep=lambda desk: nc_keeping.keep(keeping.keep(desk)), few_colours=few)
     keep_settings(app, first=first)
     if only is not None:
-        app.desk = replace(app.desk, pages=(only,))
+        app.desk = nc_keeping.keep(replace(app.desk, pages=(only,)))
     if not in_browser():
         settle_terminal(app, characters)
-    safety = Safety(lambda status: app.exit(status, return_code=status), keeping.close)
+    safety = Safety(lambda status: app.exit(status, return_code=status), lambda: closed(keeping, nc_keeping))
     safety.arm()
     try:
         app.run(mouse=False)
     finally:
-        keeping.close()
+        closed(keeping, nc_keeping)
     if safety.status is not None:
         safety.leave()
     return app.return_code or 0
+
+
+def closed(keeping: Keeping, nc_keeping: NcKeeping) -> None:
+    """The end of the journals and locks."""
+    try:
+        keeping.close()
+    finally:
+        nc_keeping.close()
 
 
 def settle_terminal(app: CutcompApp, wanted: str) -> None:

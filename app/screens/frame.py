@@ -69,6 +69,7 @@ def parts(desk: Desk, known: Known, around: Surroundings, width: int, height: in
     areas = plan(width, height, layout)
     view = desk.page.view(session, _surface(areas, known))
     drawn = areas.drawing
+    status = next((page.status for page in reversed(desk.pages) if page.status is not None), None)
     return {
         "notice": Part(areas.notice, _notice(width, height)),
         "header": Part(areas.header, view.header, SECOND),
@@ -77,7 +78,7 @@ def parts(desk: Desk, known: Known, around: Surroundings, width: int, height: in
         "drawing": Part(drawn, known.drawing(desk, view.sketch, drawn.width, drawn.height, view.drawn)),
         "softkeys": Part(areas.softkeys, softkey_rows(desk.page.softkeys(desk.session), areas.softkeys.height)),
         "prompt": Part(areas.prompt, prompt_rows(_prompt(desk, view), areas.prompt.width)),
-        "status": Part(areas.status, (status_row(desk.session, around.clock(), around.free(), width, view.status),)),
+        "status": Part(areas.status, (status_row(desk.session, around.clock(), around.free(), width, status),)),
     }
 
 

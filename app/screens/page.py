@@ -80,8 +80,7 @@ class Drawn(NamedTuple):
 class View(NamedTuple):
     """A page as it stands: rows for each part of the terminal.
 
-    A page that is not about the session's block has its own rows for the verdict in `told`, its own drawing, and its
-    own words for the status line: the unit, and what can be undone.
+    A page that is not about the session's block has its own rows for the verdict in `told`, and its own drawing.
     """
 
     header: tuple[Row, ...]
@@ -91,7 +90,6 @@ class View(NamedTuple):
     sketch: Sketch = WHOLE
     told: tuple[Row, ...] | None = None
     drawn: Drawn | None = None
-    status: tuple[str, str] | None = None
 
 
 class Answer(NamedTuple):
@@ -118,6 +116,16 @@ class Page:
     """A screen: frozen, its own state is no more than a half-typed text, a cursor, a window."""
 
     layout: ClassVar[Layout] = Layout.FORM
+
+    @property
+    def opening(self) -> object | None:
+        """What tells one opening of a text file from another, for a page whose text is kept in a journal of its own."""
+        return None
+
+    @property
+    def status(self) -> tuple[str, str] | None:
+        """Words for the status line that stand for pages on top too: the unit, and what can be undone."""
+        return None
 
     def view(self, session: Session, surface: Surface) -> View:
         """What stands on the terminal."""

@@ -12,13 +12,16 @@ from app.proving import Question, Rest, Told, guess, tool_in
 from app.screens.ask import Ask
 from app.screens.page import WHOLE, Answer, Layout, Page, Sketch, Softkeys, Surface, View
 from app.session import Session, Tone
-from app.widgets.field import LONGEST, Editing, press
+from app.widgets.field import Editing, press
 from core.controls.tools import ToolTable
 from core.finding import Finding
+from core.program.lock import Lock
 from core.records import dataclass, field
 
 STEPS: Final = {"up": -1, "down": 1, "pageup": -10, "pagedown": 10}
 ENDS: Final = {"home": 0, "ctrl+home": 0, "end": 10**9, "ctrl+end": 10**9}
+LONGEST: Final = 1_000_000
+"""Characters of a line up to which more can be typed into it."""
 OWN_KEYS: Final = {"ctrl+z": "u", "ctrl+y": "r", "ctrl+s": "s"}
 """Keys that mean the program on other pages, and the letters that mean the same for the listing here."""
 
@@ -31,6 +34,7 @@ class ProofPage(Page):
     with the cursor, from 0; `at` the finding with it, and `telling` whether the arrows walk over the findings.
     `editing` is the line being typed.  `tool` is the number that < and > change.  `alone`: nothing lies below, leaving
     the page leaves the program.  `large`: the drawing has the whole terminal.  `second`: the other set of softkeys.
+    `looking` is empty, or says who has the file open: its text cannot be changed then.  `lock` is ours, or None.
     """
 
     asked: Question
@@ -45,6 +49,9 @@ class ProofPage(Page):
     alone: bool = False
     large: bool = False
     second: bool = False
+    looking: str = ""
+    lock: Lock | None = None
+    opening: object = field(default_factory=object)
 
     @staticmethod
     def of(listing: Listing, file: Path | None = None, *, control: str = "", alone: bool = False) -> ProofPage:
@@ -166,12 +173,14 @@ class ProofPage(Page):
 
     def edited(self) -> Answer:
         """The line under the cursor being typed."""
-        text = self.listing.text(self.row)
-        if len(text) > LONGEST or not text.isprintable():
-            why = f"longer than {LONGEST} signs" if len(text) > LONGEST else "not plain text"
-            text = f"This line is {why}: it can be deleted or replaced here, not changed."
-            return Answer(self, (Say(text, Tone.WARNING),))
-        return Answer(replace(self, editing=Editing.of(text), telling=False))
+        if self.looking:
+            return self.refused()
+        editing = Editing.of(self.listing.text(self.row), LONGEST)
+        return Answer(replace(self, editing=editing, telling=False))
+
+    def refused(self) -> Answer:
+        """No change: the file is only looked at."""
+        return Answer(self, (Say(f"{self.looking} S saves a copy under another name.", Tone.WARNING),))
 
     def accepted(self) -> Answer:
         """The typed line taken into the listing, or the reason why the file cannot hold it."""
@@ -218,6 +227,13 @@ class ProofPage(Page):
         from app.screens.proof_rows import view
 
         return view(self, surface)
+
+    @property
+    def status(self) -> tuple[str, str]:
+        """The program's unit, and what can be undone."""
+        from app.screens.proof_rows import status
+
+        return status(self)
 
     def help(self, session: Session) -> tuple[str, ...]:
         """Every key of the page."""

@@ -64,6 +64,8 @@ def _saved(desk: Desk, path: Path | None, *, agreed: bool) -> Desk:
     target = path or page.file
     if target is None:
         return desk.take(Open(SaveListing.of(page)))
+    if page.looking and target == page.file:
+        return desk.take(Say(f"{page.looking} S saves a copy under another name.", Tone.ERROR))
     if not agreed and (question := _question(page, target)) is not None:
         return desk.take(
             Open(Ask(question[0], (question[1],), (("r", "REPLACE", (Close(), saving(path, agreed=True))),)))
@@ -74,7 +76,7 @@ def _saved(desk: Desk, path: Path | None, *, agreed: bool) -> Desk:
     except StoreError as error:
         return desk.take(Say(str(error), Tone.ERROR))
     desk = replace(desk, pages=desk.pages[:-1]) if isinstance(desk.page, SaveListing) else desk
-    written = replace(page, asked=page.asked.of(page.listing.written(data)), file=target)
+    written = replace(page, asked=page.asked.of(page.listing.written(data)), file=target, looking="")
     told = None if page.told is None or not page.fresh else replace(page.told, question=written.asked)
     return put(desk, replace(written, told=told)).take(Say(f"Saved: {target}"))
 

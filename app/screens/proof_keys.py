@@ -45,6 +45,10 @@ LETTERS: Final = ("xictvn", "urCgsS")
 """What F1 to F6 do, as letters, in both sets."""
 
 
+CHANGING: Final = "ioxur"
+"""Letters that change the text."""
+
+
 def softkeys(page: ProofPage) -> Softkeys:
     """The labels of the set that is shown; what they do is worked out when one is pressed."""
     return {number: Softkey(label) for number, label in enumerate(SECOND if page.second else FIRST, 1)}
@@ -68,13 +72,15 @@ def pressed(page: ProofPage, key: str, character: str | None) -> Answer | None:
     if key in ("tab", "shift+tab"):
         return _over_findings(page)
     if key == "delete":
-        return deleted(page)
+        return _lettered(page, "x")
     if character in ("+", "=", "-"):
         return Answer(replace(page, sketch=zoomed(page.sketch, 1 / STEP if character == "-" else STEP)))
     return _lettered(page, character or "")
 
 
 def _lettered(page: ProofPage, letter: str) -> Answer | None:
+    if page.looking and letter and letter in CHANGING:
+        return page.refused()
     match letter:
         case "i" | "o":
             return inserted(page, 0 if letter == "i" else 1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 from app.screens.page import Drawn, Surface, View
@@ -21,7 +22,6 @@ PROMPT: Final = (
     "Enter types in the line, i o x insert and delete, c control, t tool, v compares, n finding. ? tells all."
 )
 TYPING: Final = "Enter takes the line and goes on, Esc leaves it as it was."
-WALKING: Final = "Up and down go from finding to finding, Enter back to the listing."
 LARGE: Final = "+ - zoom, arrows move, 0 fits, n and p go from finding to finding. d or Esc goes back."
 NOTHING: Final = "The program is empty: i begins a line."
 LOOKS: Final = {Severity.ERROR: Look.ERROR, Severity.WARNING: Look.WARNING, Severity.INFO: Look.LABEL}
@@ -41,8 +41,12 @@ def view(page: ProofPage, surface: Surface) -> View:
         sketch=page.sketch,
         told=_told(page, surface, unit),
         drawn=_drawn(page),
-        status=(str(unit) if page.told else "..", _changes(page)),
     )
+
+
+def status(page: ProofPage) -> tuple[str, str]:
+    """The program's unit as far as it is known, and what can be undone and redone."""
+    return (str(_unit(page)) if page.told else "..", _changes(page))
 
 
 def _unit(page: ProofPage) -> Unit:
@@ -105,10 +109,15 @@ def _line(page: ProofPage, row: int, marks: dict[int, Severity], digits: int, wi
     mark = Span(" " if severity is None else MARKS[severity][0], number.look)
     room = max(width - digits - 3, 1)
     if on_it and page.editing is not None:
-        return (number, mark, Span(">", Look.TAG), *typed_spans(page.editing, room, right=False))
-    # a tab is a blank here: every sign takes one cell
-    text = page.listing.text(row)[:room].replace("\t", " ")
+        shown = replace(page.editing, text=_shown(page.editing.text))
+        return (number, mark, Span(">", Look.TAG), *typed_spans(shown, room, right=False))
+    text = _shown(page.listing.text(row)[:room])
     return (number, mark, Span(">" if on_it else " ", Look.TAG), _text(text, room, page, on_it=on_it))
+
+
+def _shown(text: str) -> str:
+    """A tab is a blank here: every sign takes one cell."""
+    return text.replace("\t", " ")
 
 
 def _text(text: str, room: int, page: ProofPage, *, on_it: bool) -> Span:

@@ -85,9 +85,10 @@ class ToolSize(EntryPage):
             (),
             plain(" Number and diameter, as 2=.5 or 2=12.7mm, or the diameter", Look.LABEL),
             plain(" alone. Offset numbers too; negative where a control has it.", Look.LABEL),
-            plain(" A size that stands in the program wins over this one.", Look.LABEL),
+            plain(" It counts before TOOL DEF of Klartext; any other size that", Look.LABEL),
+            plain(" stands in the program counts before this one.", Look.LABEL),
             (),
-            *known[: max(surface.body - 7, 0)],
+            *known[: max(surface.body - 8, 0)],
         )
         title = (plain(" TOOL DIAMETER", Look.HEAD), plain(f" in {self.unit}", Look.LABEL))
         return View(title, body, Said("Type the tool's diameter, Enter takes it; the verdict follows."), 1)

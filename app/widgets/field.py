@@ -13,26 +13,27 @@ LONGEST: Final = 200
 
 @dataclass(frozen=True, slots=True)
 class Editing:
-    """The text typed so far; the caret stands before character `caret`."""
+    """The text typed so far; the caret stands before character `caret`.  It takes no more than `most` characters."""
 
     text: str
     caret: int
+    most: int = LONGEST
 
     @staticmethod
-    def of(text: str) -> Editing:
+    def of(text: str, most: int = LONGEST) -> Editing:
         """This text, with the caret behind it."""
-        return Editing(text, len(text))
+        return Editing(text, len(text), most)
 
     def insert(self, characters: str) -> Editing:
         """Characters put in at the caret; control characters are left out."""
         clean = "".join(character for character in characters if character.isprintable())
         text = self.text[: self.caret] + clean + self.text[self.caret :]
-        return self if len(text) > LONGEST else Editing(text, self.caret + len(clean))
+        return self if len(text) > self.most else replace(self, text=text, caret=self.caret + len(clean))
 
     def backspace(self) -> Editing:
         """The character before the caret taken away."""
         before = max(self.caret - 1, 0)
-        return Editing(self.text[:before] + self.text[self.caret :], before)
+        return replace(self, text=self.text[:before] + self.text[self.caret :], caret=before)
 
     def delete(self) -> Editing:
         """The character at the caret taken away."""

@@ -114,18 +114,26 @@ def lines(records: Iterable[Record], total: int = 0) -> tuple[bytes, int]:
     return b"".join(written), total
 
 
+def whole_lines(data: bytes) -> Iterator[tuple[bytes, int, int]]:
+    """The JSON of each line up to the first that is not what was written, with the length and the sum up to its end."""
+    length, total = 0, 0
+    for line in data.splitlines(keepends=True):
+        total = crc32(line[9:-1], total)
+        if not line.endswith(b"\n") or line[:9] != b"%08x " % total:
+            return
+        length += len(line)
+        yield line[9:], length, total
+
+
 def recovered(data: bytes) -> Recovered | None:
     """What a journal holds; None where not even its first line can be read."""
     replay, length, total = _Replay(), 0, 0
-    for line in data.splitlines(keepends=True):
-        following = crc32(line[9:-1], total)
-        if not line.endswith(b"\n") or line[:9] != b"%08x " % following:
-            break
+    for line, behind, following in whole_lines(data):
         try:
-            replay.take(json.loads(line[9:]))
+            replay.take(json.loads(line))
         except (Damaged, ValueError, RecursionError):
             break
-        length, total = length + len(line), following
+        length, total = behind, following
     if replay.head is None or replay.cursor is None:
         return None
     history = History(replay.program, tuple(replay.past), tuple(replay.future))
