@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from app.widgets.words import segment
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.program.model import Entry, Program
 from core.program.store import StoreError, load
@@ -92,7 +93,8 @@ def _status(derived: Derived, number: int | None) -> int:
 def _report(derived: Derived, number: int | None) -> None:
     for found in _chosen(derived, number):
         for finding in found.findings:
-            say(f"block {found.number}: {finding.severity}: {sentence(finding, derived.program.unit)}")
+            where = f", {segment(finding.segment)}" if finding.segment else ""
+            say(f"block {found.number}{where}: {finding.severity}: {sentence(finding, derived.program.unit)}")
 
 
 def path(options: argparse.Namespace) -> int:

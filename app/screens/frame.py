@@ -113,5 +113,4 @@ def _verdict(session: Session, known: Known, view: View, layout: Layout, areas: 
     rows = known.verdict(session, view.sketch.lookahead)
     if layout is not Layout.FORM:
         rows = rows[1:]
-    # the form's last line of four stays blank above the drawing
-    return fitted(rows, area.height - (area.height == 4), area.width)
+    return fitted(rows, area.height, area.width)

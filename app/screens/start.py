@@ -80,11 +80,11 @@ class StartPage(Page):
         """Open, new, a path, the guide."""
         from app.starting import guide, other_unit, walk
 
-        other = Unit.MM if self.unit is Unit.IN else Unit.IN
+        other, name = (Unit.MM, "MM") if self.unit is Unit.IN else (Unit.IN, "INCH")
         return {
             1: Softkey("OPEN", self._chosen()),
-            2: Softkey(f"NEW PROGRAM IN {self.unit}", (Load(None),)),
-            3: Softkey(f"NEW PROGRAMS IN {other}", (Do(other_unit(other)),)),
+            2: Softkey(f"NEW PROGRAM ({self.unit})", (Load(None),)),
+            3: Softkey(f"{name} FOR NEW PROGRAMS", (Do(other_unit(other)),)),
             4: Softkey("OPEN A PATH", (Browse(self.folder),)),
             5: Softkey("FOLDER ABOVE", (Do(walk(self.folder.parent)),)),
             7: Softkey("GUIDED FIRST PART", (Do(guide),)),

@@ -11,7 +11,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING, Final
 
 from app.widgets.rows import Look, Row, Span, padded, plain, text_of
-from app.widgets.words import length, number, numbers, place
+from app.widgets.words import length, number, numbers, place, segment
 from core.finding import Finding, Severity
 from core.pipeline.derived import DerivedBlock
 from core.records import dataclass
@@ -94,17 +94,27 @@ def _untold(findings: tuple[Finding, ...], case: Case | None) -> list[Finding]:
 
 
 def fitted(rows: list[Row], height: int, width: int) -> tuple[Row, ...]:
-    """The rows wrapped to the width where all of that fits; else the first ones, the last saying how many more."""
-    if len(rows) <= height:
-        wrapped = [line for row in rows for line in _wrapped(row, width)]
-        if len(wrapped) <= height:
-            return tuple(wrapped)
-    kept = [_cut(row, width) for row in rows[: max(height, 0)]]
-    if kept and len(rows) > height:
-        more = f" +{len(rows) - height} more{READ_ON}"
-        last = _paired(rows[len(kept) - 1], width - len(more) - 1)
-        kept[-1] = (*padded(_cut(last, width - len(more) - 1), width - len(more) - 1), Span(more, Look.LABEL))
-    return tuple(kept)
+    """The rows wrapped to the width as far as they fit, the last line saying how many more there are."""
+    wrapped = [_wrapped(row, width) for row in rows]
+    lines: list[Row] = []
+    for told, block in enumerate(wrapped, 1):
+        room, left = height - len(lines), len(rows) - told
+        if len(block) > room or (left and len(block) == room):
+            return (*lines, *_last(block, room, width, left))
+        lines += block
+    return tuple(lines)
+
+
+def _last(block: list[Row], room: int, width: int, left: int) -> list[Row]:
+    """What fits of a row's lines, and behind them how many rows are left."""
+    if room <= 0:
+        return []
+    *whole, last = block[:room]
+    if len(block) > room:
+        last = (*last, Span(" …", last[-1].look))
+    more = f" +{left} more{READ_ON}" if left else ""
+    space = width - len(more) - bool(more)
+    return [*whole, (*padded(_cut(_paired(last, space), space), space), Span(more, Look.LABEL))]
 
 
 def _wrapped(row: Row, width: int) -> list[Row]:
@@ -140,7 +150,7 @@ def _case(found: DerivedBlock, table: Table | None, look: int | None) -> Case | 
 def _sentence(finding: Finding, unit: Unit) -> Row:
     look = Look.ERROR if finding.severity is Severity.ERROR else Look.WARNING
     mark = "!!" if finding.severity is Severity.ERROR else "! "
-    where = "" if not finding.segment else f"segment {number(finding.segment)}: "
+    where = "" if not finding.segment else f"{segment(finding.segment)}: "
     return plain(f" {mark} {where}{sentence(finding, unit)}", look)
 
 

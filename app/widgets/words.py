@@ -22,6 +22,11 @@ def number(segment: float) -> str:
     return f"{segment:g}"
 
 
+def segment(number: float) -> str:
+    """A segment by its number; the corner arc behind segment 3, which is 3.5, stands between two segments."""
+    return f"segment {number:g}" if number == int(number) else f"corner {int(number)}-{int(number) + 1}"
+
+
 def numbers(segments: Iterable[float]) -> str:
     """Programmed segment numbers with neighbours joined: 2-4 7.  Corner arcs are left out."""
     whole = sorted({int(segment) for segment in segments if segment == int(segment)})

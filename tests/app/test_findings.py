@@ -107,3 +107,30 @@ def test_a_value_that_does_not_fit_goes_with_its_label() -> None:
     )
     shown = fitted([row, plain(" more"), plain(" still more")], 1, 59)
     assert text_of(shown[0]).split() == ["UNCUT", "1.0000", "of", "9.0000", "GOUGE", "none", "+2", "more:", "Ctrl+F"]
+
+
+LONG = " ".join(["word"] * 20)
+
+
+def test_a_long_finding_takes_the_lines_that_are_free() -> None:
+    rows = [plain(" strip"), plain(f" {LONG}"), plain(" UNCUT")]
+    told = [text_of(row) for row in fitted(rows, 4, 59)]
+    assert [line.strip() for line in told] == ["strip", "word " * 10 + "word", "word " * 8 + "word", "UNCUT"]
+    cut = [text_of(row) for row in fitted(rows, 3, 59)]
+    assert cut[1] == told[1]
+    assert cut[2].startswith("     word")
+    assert cut[2].endswith(" +1 more: Ctrl+F")
+
+
+def test_a_row_that_is_cut_short_says_so() -> None:
+    rows = [plain(" strip"), plain(f" {LONG}")]
+    assert text_of(fitted(rows, 2, 59)[1]).rstrip().endswith("…")
+    assert "…" in text_of(fitted([*rows, plain(" more")], 2, 59)[1])
+    assert fitted(rows, 0, 59) == ()
+    assert fitted([], 3, 59) == ()
+
+
+def test_what_is_missing_is_told_in_full_on_the_form() -> None:
+    operator = Operator.at().press("enter").type("1").press("l").type("", "0", "0", "0", "0", "-1")
+    told = " ".join(operator.press("pagedown", "a").part("verdict").split())
+    assert "enter the end and the center, the end and RADIUS, or the center and SWEEP ANGLE." in told

@@ -113,7 +113,8 @@ def test_recent_programs_stand_first_and_a_lost_one_says_so(folder: Path) -> Non
 def test_a_new_program_in_the_unit_that_was_chosen() -> None:
     operator = at_start().press("f3")
     assert operator.desk.settings.unit is Unit.MM
-    assert "NEW PROGRAM IN" in operator.part("softkeys")
+    assert operator.part("softkeys").split("F2 ")[1].split()[:4] == ["NEW", "PROGRAM", "│", "(MM)"]
+    assert "INCH FOR NEW" in operator.part("softkeys")
     assert operator.press("f2").session.program.unit is Unit.MM
     assert isinstance(operator.desk.page, Contour)
 

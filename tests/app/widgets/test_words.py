@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.widgets.words import length, number, numbers, place
+from app.widgets.words import length, number, numbers, place, segment
 from core.units import Unit
 
 
@@ -21,3 +21,8 @@ def test_lengths_come_in_program_units() -> None:
     assert length(12.7, Unit.MM) == "12.700"
     assert place((25.4, -12.7), Unit.IN) == "X 1.0000 Y -0.5000"
     assert number(3.5) == "3.5"
+
+
+def test_a_corner_stands_between_two_segments() -> None:
+    assert segment(3.0) == "segment 3"
+    assert segment(3.5) == "corner 3-4"
