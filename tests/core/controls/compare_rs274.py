@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import sys
 import tempfile
+import tracemalloc
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from time import perf_counter
+from resource import RUSAGE_CHILDREN, RUSAGE_SELF, getrusage
+from statistics import median
 
 from core.controls.registry import UnknownControl, run
 from core.controls.report import Run
@@ -97,7 +99,7 @@ def compare_broken(count: int) -> int:
 
 
 def compare_speed(runs: int) -> int:
-    """Seconds for 100,000 blocks under compensation, the best of some runs in turn."""
+    """Processor seconds for 100,000 blocks under compensation, the median of some runs in turn; and memory."""
     text, ours, theirs = long(100_000), [], []
     tools = ToolTable.diameters({1: 1.0}, Unit.MM)
     with tempfile.TemporaryDirectory() as name:
@@ -105,14 +107,30 @@ def compare_speed(runs: int) -> int:
         program.write_text(text)
         table.write_text(table_text({1: 1.0}, Unit.MM))
         for _ in range(runs):
-            began = perf_counter()
-            process(program, table)
-            theirs.append(perf_counter() - began)
-            began = perf_counter()
-            run(text.encode(), "linuxcnc", tools)
-            ours.append(perf_counter() - began)
-    print(f"rs274 {min(theirs):.2f} s, here {min(ours):.2f} s: {min(ours) / min(theirs):.2f} times as long")
+            theirs.append(_spent(RUSAGE_CHILDREN, lambda: process(program, table)))
+            ours.append(_spent(RUSAGE_SELF, lambda: run(text.encode(), "linuxcnc", tools)))
+    one, other = median(theirs), median(ours)
+    print(f"rs274 {one:.2f} s, here {other:.2f} s: {other / one:.2f} times as long")
+    for count in (50_000, 100_000, 200_000):
+        print(f"{count:7d} blocks: {_most_memory(long(count).encode(), tools) / 1e6:.0f} MB")
     return 0
+
+
+def _spent(who: int, work: Callable[[], object]) -> float:
+    """Processor seconds that some work takes, the system's part included."""
+    before = getrusage(who)
+    work()
+    after = getrusage(who)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def _most_memory(text: bytes, tools: ToolTable) -> int:
+    """Bytes that a run needs at most besides its text."""
+    tracemalloc.start()
+    run(text, "linuxcnc", tools)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    return most
 
 
 def main(arguments: list[str]) -> int:
