@@ -7,11 +7,16 @@ its centre at E + B n; it comes from E + B n - B t (the plunge point), or leaves
 from __future__ import annotations
 
 from cmath import rect
+from math import inf
+from typing import Final
 
 from core.geometry.path import EMPTY, Path, joined
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.geometry.side import Side
-from core.tolerance import JOINED
+from core.tolerance import CLOSED, JOINED
+
+_AT_ITS_START: Final = 2.0 * CLOSED
+"""So far apart may the ends of a closed contour's path be, millimetres: a gap in the contour also turns a segment."""
 
 
 def blend_in(path: Path, side: Side, blend: float) -> Path:
@@ -41,8 +46,13 @@ def blend_out(path: Path, side: Side, blend: float, overlap: float, *, closed: b
 
 
 def past_start(path: Path, overlap: float) -> Path:
-    """The path's first `overlap` millimetres, at most one lap, if it ends where it starts; else nothing."""
-    if not len(path) or overlap <= JOINED or abs(_gap(path)) > JOINED:
+    """The path's first `overlap` millimetres, at most one lap, if it ends where it starts; else nothing.
+
+    A contour counts as closed though its ends are a little apart: so does the path, and the overlap then begins with
+    the straight move to its start.
+    """
+    gap = abs(_gap(path)) if len(path) else inf
+    if overlap <= JOINED or gap > _AT_ITS_START:
         return EMPTY
     pieces, left = [], overlap
     for piece in path:
@@ -50,7 +60,10 @@ def past_start(path: Path, overlap: float) -> Path:
             break
         pieces.append(piece if piece.length <= left + JOINED else _beginning(piece, left))
         left -= piece.length
-    return Path.from_pieces([_from(path[-1].end, pieces[0]), *pieces[1:]], path.numbers[: len(pieces)].tolist())
+    numbers = path.numbers[: len(pieces)].tolist()
+    if gap > JOINED:
+        return Path.from_pieces([Line(path[-1].end, path[0].start), *pieces], [numbers[0], *numbers])
+    return Path.from_pieces([_from(path[-1].end, pieces[0]), *pieces[1:]], numbers)
 
 
 def _gap(path: Path) -> complex:

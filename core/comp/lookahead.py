@@ -1,12 +1,8 @@
-"""The control's look-ahead: whether a contour is closed, the calculated value (CAL), the range of a typed one (USR)."""
+"""The control's look-ahead: the calculated value (CAL) and the range of a typed one (USR)."""
 
 from __future__ import annotations
 
-from math import hypot
 from typing import Final
-
-from core.geometry.piece import Point
-from core.tolerance import CLOSED
 
 LOWEST: Final = 1
 """The smallest look-ahead an operator may type."""
@@ -15,11 +11,6 @@ HIGHEST: Final = 20
 """The largest look-ahead an operator may type."""
 
 _LARGEST_CALCULATED: Final = 8
-
-
-def is_closed(start: Point, end: Point) -> bool:
-    """Is the programmed contour closed: does its last end lie on START, within 0.0001 in?  Points in millimetres."""
-    return hypot(end[0] - start[0], end[1] - start[1]) <= CLOSED
 
 
 def calculated(count: int, *, closed: bool) -> int:

@@ -36,7 +36,6 @@ class Compared:
     run: Run
     results: tuple[Judged, ...]
     gouge: float
-    gouge_line: int | None
     parts: Parting | None
     by: str = ""
 
@@ -77,7 +76,7 @@ def compare(text: bytes, tools: ToolTable, unit: Unit | None = None) -> tuple[Co
 
 def _row(done: Run, parts: Parting | None, *, by: str = "") -> Compared:
     results = judged(done)
-    return Compared(done.control, done, results, *depth(results), parts, by)
+    return Compared(done.control, done, results, depth(results)[0], parts, by)
 
 
 def _by_contour(control: str, first: Run | None, *, paths: bool) -> Compared | OtherLanguage:

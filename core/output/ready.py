@@ -18,9 +18,7 @@ from core.tolerance import JOINED, LARGEST
 OVERRIDE: Final = "POST WITH GOUGE"
 """What an operator must say, word for word, to have a path posted that the verdict is against."""
 
-OVERRIDABLE: Final = frozenset(
-    {"GOUGE", "BLEND_GOUGES", "ROUGH_GOUGES", "WRONG_SIDE", "START_INSIDE_CORNER", "BRIDGED"}
-)
+OVERRIDABLE: Final = frozenset({"GOUGE", "BLEND_GOUGES", "ROUGH_GOUGES", "WRONG_SIDE"})
 """Findings on a path that is whole and known; whatever is unread, missing or undetermined can never be overridden."""
 
 LISTED: Final = 6

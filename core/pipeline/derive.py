@@ -14,6 +14,7 @@ from core.pipeline.compensation import Compensation, parameter
 from core.pipeline.derived import Derived, DerivedBlock, Loop, RoughPass, Work
 from core.pipeline.jobs import job
 from core.pipeline.outline import outline_block
+from core.pipeline.steps import step_findings
 from core.pipeline.trouble import better_findings, by_weight, path_findings, size_warning
 from core.program.model import Block, PathChoice, Program
 from core.verify.judge import judge_together
@@ -66,10 +67,11 @@ def _worked(found: DerivedBlock, program: Program, surface: Path) -> DerivedBloc
 
 
 def _checked(found: DerivedBlock, program: Program) -> DerivedBlock:
-    """With what forbids posting though every path is right, such as a SPEED of 0."""
-    against = forbidding([job(found, program)], Grid(program.unit), override=None)
+    """With what forbids posting though every path is right, such as a SPEED of 0, and the steps in Z."""
+    due = job(found, program)
+    against = forbidding([due], Grid(program.unit), override=None)
     new = (one for one in against if one not in found.findings)
-    return replace(found, findings=by_weight((*found.findings, *new)))
+    return replace(found, findings=by_weight((*found.findings, *new, *step_findings(due))))
 
 
 def compared(derived: Derived) -> Derived:

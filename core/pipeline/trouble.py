@@ -23,13 +23,16 @@ def path_findings(work: Work) -> tuple[Finding, ...]:
     return (
         *(work.compensated if work.best is None else work.best).findings,
         *verdict_findings(work.verdict, work.surface),
-        *blend_findings(work.loops, work.verdict.gouges),
+        *blend_findings(work.loops, work.verdict.gouges, work.verdict.wrong_side),
         *rough_findings(work.rough, work.compensated if work.best is None else None),
     )
 
 
-def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge]) -> Iterator[Finding]:
-    """A blend arc that gouges is named as such: the remedy is another start or a smaller BLEND OFFSET."""
+def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge], wrong_side: Sequence[int]) -> Iterator[Finding]:
+    """A blend arc that gouges or leads through a wall is named: the remedy is another start or a smaller BLEND OFFSET.
+
+    `wrong_side` are moves that run on the part's side, counted as the verdict counts them.
+    """
     first = 0
     for loop in loops:
         begin, end = first + len(loop.lead_in), first + len(loop.lead_in) + len(loop.path)
@@ -39,7 +42,17 @@ def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge]) -> Iterator[F
             if hit is not None:
                 text = f"The blend-{name} arc gouges {{value}} deep. Start elsewhere or make BLEND OFFSET smaller."
                 yield Finding("BLEND_GOUGES", Severity.ERROR, text, hit.surface_number, None, hit.at, hit.depth)
+            if any(low <= piece < high for piece in wrong_side):
+                yield _leaves(loop, name)
         first = last
+
+
+def _leaves(loop: Loop, name: str) -> Finding:
+    """The blend arc whose free end lies beyond a wall."""
+    lead, row, verb = (loop.lead_in, 0, "begins") if name == "in" else (loop.lead_out, -1, "ends")
+    x, y = lead.points[row].tolist()
+    text = f"The blend-{name} arc {verb} beyond a wall, at X {{x}} Y {{y}}: make BLEND OFFSET smaller."
+    return Finding("BLEND_LEAVES", Severity.WARNING, text, float(lead.numbers[row]), None, (x, y))
 
 
 def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> Iterator[Finding]:

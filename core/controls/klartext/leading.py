@@ -17,7 +17,6 @@ from core.controls.moves import solid
 from core.finding import Severity
 
 _FORM: Final = re.compile(r"[ \t]*(P?)(LT|LN|CT|LCT)(?![A-Z])", re.ASCII)
-_SIZES: Final = frozenset(("LEN", "CCA", "R"))
 _NEEDED: Final = {Form.LT: ("LEN",), Form.LN: ("LEN",), Form.CT: ("CCA", "R"), Form.LCT: ("R",)}
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import cos, pi, sin
 
 import pytest
 from hypothesis import given, settings
@@ -106,3 +106,25 @@ def test_whole_is_blend_in_path_and_blend_out():
     done = compensate(MID_SIDE, Side.LEFT, 0.25, 4, closed=True, blend=0.1, overlap=0.5)
     assert done.whole.numbers.tolist() == [1, 1, 2, 3, 4, 5, 1, 1]
     assert (abs(done.whole.ends[:-1] - done.whole.starts[1:]) == 0).all()
+
+
+@pytest.mark.parametrize("gap", [1e-6, 1e-4, 0.0025])
+@pytest.mark.parametrize("turned", [0.0, 0.8])
+def test_overlap_of_a_contour_that_counts_as_closed_though_its_ends_are_a_little_apart(gap, turned):
+    last = (1 - gap * cos(turned), gap * sin(turned))
+    nearly = lines((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), last)
+    done = compensate(nearly, Side.LEFT, 0.25, 4, closed=True, blend=0.1, overlap=0.5)
+    step, along, out = done.lead_out
+    assert step.start == done.path[-1].end
+    assert gap / 2 < step.length < 2 * gap
+    assert along == Line((1, 0.25), (1.5, 0.25))
+    assert _near(out.end, (1.6, 0.35))
+    assert done.lead_out.numbers.tolist() == [1, 1, 1]
+
+
+def test_overlap_over_a_gap_begins_an_arc_on_its_own_circle():
+    ring = Path.from_pieces([Arc((2, 0), (-2, 0), (0, 0), Turn.CCW), Arc((-2, 0), (2, -0.001), (0, -0.0005), Turn.CCW)])
+    done = compensate(ring, Side.LEFT, 0.25, 4, closed=True, overlap=1.0)
+    assert [type(piece) for piece in done.lead_out] == [Line, Arc]
+    assert done.lead_out[1].start == done.path[0].start
+    assert done.lead_out[1].radius == pytest.approx(1.75, abs=1e-12)

@@ -1,4 +1,4 @@
-"""The calculated look-ahead and what makes a contour closed."""
+"""The calculated look-ahead."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from core.comp.lookahead import HIGHEST, LOWEST, calculated, is_closed
+from core.comp.lookahead import HIGHEST, LOWEST, calculated
 
 OPEN = [2, 2, 2, 2, 2, 3, 4, 5, 6, 7, 8, 8]
 CLOSED = [3, 3, 3, 3, 4, 5, 6, 7, 8, 8, 8, 8]
@@ -29,11 +29,6 @@ def test_long_contours_stay_at_eight():
 
 def test_range_of_a_typed_value():
     assert (LOWEST, HIGHEST) == (1, 20)
-
-
-@pytest.mark.parametrize(("end", "closed"), [((1, 2), True), ((1.00254, 2), True), ((1.0026, 2), False)])
-def test_closed_within_a_ten_thousandth_of_an_inch(end, closed):
-    assert is_closed((1, 2), end) is closed
 
 
 def test_needs_no_numpy():
