@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from app.survey import Facts
 
 MINUTE: Final = 60.0
+AGAIN: Final = "ctrl+l"
+"""The key that paints everything again, as in every program of a terminal."""
 
 
 class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
@@ -82,6 +84,9 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
 
     def key(self, key: str, character: str | None) -> None:
         """A key was pressed."""
+        if key == AGAIN:
+            self.paint_again()
+            return
         self.desk = self.keep(self.desk.press(key, character))
         self._advance()
 
@@ -89,6 +94,15 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         """Text was pasted."""
         self.desk = self.keep(self.desk.paste(text))
         self._advance()
+
+    def paint_again(self) -> None:
+        """All of the terminal, whatever others have written on it."""
+        from app.driver import TerminalDriver
+
+        if isinstance(self._driver, TerminalDriver):
+            self._driver.anew()
+        else:
+            self.refresh()
 
     def refresh_screen(self, width: int = 0, height: int = 0) -> None:
         """Paint what changed, on a terminal of this size if one is given."""

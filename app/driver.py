@@ -11,30 +11,81 @@ import signal
 import sys
 from codecs import getincrementaldecoder, lookup
 from collections.abc import Mapping
-from typing import Final
+from types import FrameType
+from typing import TYPE_CHECKING, Any, Final
 
+from textual import events
 from textual._xterm_parser import XTermParser
 from textual.drivers.linux_driver import LinuxDriver
 
 from app.charset import ASCII, UTF_8, charset
 from app.desk import MODES
-from app.slim import slim
+from app.shown import Shown
+
+if TYPE_CHECKING:
+    from textual.app import App
 
 PATIENCE: Final = 0.1
 """Seconds between two looks whether the program ends."""
 LARGEST_READ: Final = 4096
 UNFIT: Final = ("dumb", "unknown", "")
 """Values of TERM of what cannot place a cursor."""
+ERASING: Final = ("xterm", "putty", "linux", "rxvt", "alacritty", "kitty", "foot", "wezterm", "konsole", "vte", "gnome")
+"""How TERM begins where erased cells take the colour in force; others erase in their own."""
 PLAIN: Final = ("linux", "vt1", "vt2")
 """How TERM begins where a control sequence with a $ in it may be shown."""
 
 
 class TerminalDriver(LinuxDriver):
-    """A driver that replaces what it cannot read, and takes the end of its input for a hangup."""
+    """A driver that replaces what it cannot read, and takes the end of its input for a hangup.
+
+    It sends what differs from what the terminal shows, and all of it when that may have been written over.
+    """
+
+    def __init__(
+        self, app: App[Any], *, debug: bool = False, mouse: bool = True, size: tuple[int, int] | None = None
+    ) -> None:
+        super().__init__(app, debug=debug, mouse=mouse, size=size)
+        self.shown = Shown(self._get_terminal_size, os.environ.get("TERM", "").startswith(ERASING))
+        self.suspended = False
 
     def write(self, data: str) -> None:
         """A picture on its way to the terminal, in as few bytes as show it."""
-        super().write(slim(data))
+        if sent := self.shown.write(data):
+            super().write(sent)
+
+    def anew(self) -> None:
+        """Whatever stands on the terminal, everything is sent again; may be called in a signal handler."""
+        self.shown.forget()
+        self.send_message(events.Callback(self._repaint))
+
+    def _repaint(self) -> None:
+        self._app.refresh()
+
+    def start_application_mode(self) -> None:
+        """Begin, or go on; a resize to the same size is one too, where others have lent the terminal."""
+        super().start_application_mode()  # type: ignore[no-untyped-call]  # Textual's own
+        resized = signal.getsignal(signal.SIGWINCH)
+
+        def changed(number: int, frame: FrameType | None) -> None:
+            if callable(resized):
+                resized(number, frame)
+            self.anew()
+
+        signal.signal(signal.SIGWINCH, changed)
+
+    def suspend_application_mode(self) -> None:
+        """The terminal is given back for a while."""
+        self.suspended = True
+        super().suspend_application_mode()
+
+    def resume_application_mode(self) -> None:
+        """Go on, also behind a stop that nobody could prepare for; the terminal shows what others left on it."""
+        if not self.suspended:
+            self.suspend_application_mode()
+        self.suspended = False
+        super().resume_application_mode()
+        self.anew()
 
     def _request_terminal_sync_mode_support(self) -> None:
         """Not asked of terminals that would take the end of the question for a letter to show."""

@@ -7,6 +7,7 @@ it changes, and blanks are sent in whatever ink there is: no one sees the ink of
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 from core.records import dataclass, field
@@ -33,6 +34,7 @@ SHOWN_ON_BLANKS: Final = frozenset({"4", "7", "9", "21", "53"})
 """Attributes that a blank shows: underlines, reverse, strike through, overline."""
 
 
+@lru_cache(256)
 def read(parameters: str) -> Style:
     """The style of a sequence's parameters, as they act after a reset."""
     attributes, ink, paper = set(), PLAIN.ink, PLAIN.paper
@@ -58,12 +60,14 @@ def change(now: Style, then: Style) -> str:
         return ""
     if then == PLAIN:
         return "\x1b[0m"
-    gone = now.attributes - then.attributes
-    base = PLAIN if gone else now
-    parts = ["0"] if gone else []
-    parts += sorted(then.attributes - base.attributes)
-    parts += [new for old, new in ((base.ink, then.ink), (base.paper, then.paper)) if old != new]
-    return f"\x1b[{';'.join(parts)}m"
+    ways = ["0", *_added(PLAIN, then)], _added(now, then)
+    return min((f"\x1b[{';'.join(way)}m" for way in ways[: 1 if now.attributes - then.attributes else 2]), key=len)
+
+
+def _added(base: Style, then: Style) -> list[str]:
+    """The parameters that make one style of another which has all of its attributes."""
+    colours = [new for old, new in ((base.ink, then.ink), (base.paper, then.paper)) if old != new]
+    return [*sorted(then.attributes - base.attributes), *colours]
 
 
 def alike_on_blanks(now: Style, then: Style) -> bool:
@@ -74,7 +78,7 @@ def alike_on_blanks(now: Style, then: Style) -> bool:
 
 def slim(data: str) -> str:
     """The text for the terminal with the same effect; it begins and ends in plain style."""
-    pen = _Pen()
+    pen = Pen()
     wanted = PLAIN
     for style, place, other, text in TOKEN.findall(data):
         if text:
@@ -91,17 +95,23 @@ def slim(data: str) -> str:
 
 
 @dataclass(slots=True)
-class _Pen:
+class Pen:
     """What goes to the terminal, and the style it writes in just now."""
 
     now: Style = PLAIN
     out: list[str] = field(default_factory=list)
 
+    def has(self, text: str, wanted: Style) -> bool:
+        """Whether this text may be written without another style."""
+        return self.now == wanted or (text.isspace() and alike_on_blanks(self.now, wanted))
+
     def write(self, text: str, wanted: Style) -> None:
-        if not (text.isspace() and alike_on_blanks(self.now, wanted)):
+        """Text in a style."""
+        if not self.has(text, wanted):
             self.turn(wanted)
         self.out.append(text)
 
     def turn(self, wanted: Style) -> None:
+        """From now on in another style."""
         self.out.append(change(self.now, wanted))
         self.now = wanted

@@ -22,6 +22,7 @@ KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Ctrl+Z, Ctrl+Y", "undo, redo"),
     ("Ctrl+S, Ctrl+O", "save, open"),
     ("Ctrl+Q", "leave the program"),
+    ("Ctrl+L", "paint the screen again if it was spoilt"),
     ("F1 to F8", "the softkeys; also Esc, then the digit,"),
     ("", "or Ctrl+K, then the digit (on any screen)"),
     ("? or Ctrl+G", "this help (Ctrl+G where text is typed)"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -136,3 +137,40 @@ def test_text_of_a_file_never_moves_the_cursor_of_the_terminal(tmp_path: Path) -
     assert done.returncode == 2
     assert "\x1b" not in done.stderr
     assert os.linesep in done.stderr
+
+
+def spoilt(terminal: Terminal, text: str) -> None:
+    """Somebody else writes on the screen."""
+    terminal.stream.feed(b"\x1b[0m\x1b[2J\x1b[H$ ls\r\npart.nc\r\n$ fg\r\n")
+    assert text not in terminal.text
+
+
+def stopped(terminal: Terminal, number: signal.Signals) -> None:
+    os.kill(terminal.pid, number)
+    os.waitpid(terminal.pid, os.WUNTRACED)
+    terminal.read(quiet=0.1)
+
+
+@pytest.mark.parametrize("number", [signal.SIGTSTP, signal.SIGSTOP])
+def test_behind_a_stop_the_whole_screen_comes_back_and_keys_arrive_once(number: signal.Signals) -> None:
+    with running([*PROGRAM, "--example", "pocket"]) as terminal:
+        terminal.until("look-ahead 1!")
+        before = terminal.text.splitlines()[:23]
+        stopped(terminal, number)
+        spoilt(terminal, "look-ahead")
+        os.kill(terminal.pid, signal.SIGCONT)
+        terminal.until("look-ahead 1!")
+        terminal.read(quiet=0.3)
+        assert terminal.text.splitlines()[:23] == before
+        terminal.send(b"\t\t\t\t12345")
+        terminal.until("12345")
+
+
+def test_a_screen_that_was_written_on_is_painted_again_by_a_key_or_a_size_that_is_the_same() -> None:
+    with running([*PROGRAM, "--example", "pocket"]) as terminal:
+        terminal.until("look-ahead 1!")
+        for ask in (lambda: terminal.send(b"\x0c"), lambda: os.kill(terminal.pid, signal.SIGWINCH)):
+            spoilt(terminal, "look-ahead")
+            ask()
+            terminal.until("look-ahead 1!")
+            assert "$ ls" not in terminal.text

@@ -72,7 +72,7 @@ def test_nothing_but_styles_is_ever_left_out(data: str) -> None:
         ("\x1b[31mA\x1b[0m\x1b[32m  \x1b[0m\x1b[31mB\x1b[0m", "\x1b[31mA  B\x1b[0m"),
         ("\x1b[31;44mA\x1b[0m\x1b[32;44mB\x1b[0m", "\x1b[31;44mA\x1b[32mB\x1b[0m"),
         ("\x1b[1;31mA\x1b[0m\x1b[31mB\x1b[0m", "\x1b[1;31mA\x1b[0;31mB\x1b[0m"),
-        ("\x1b[31mA\x1b[0m\x1b[7m \x1b[0m", "\x1b[31mA\x1b[7;39m \x1b[0m"),
+        ("\x1b[31mA\x1b[0m\x1b[7m \x1b[0m", "\x1b[31mA\x1b[0;7m \x1b[0m"),
         ("\x1b[31mA\x1b[0m", "\x1b[31mA\x1b[0m"),
         ("plain", "plain"),
     ],
