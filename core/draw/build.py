@@ -47,14 +47,16 @@ def contour_scene(
         *_layers(deleted, Style.DELETED, dashed=True),
         *_layers((current or EMPTY,), Style.CURRENT),
     )
-    marks = (
-        *_travel(path if len(path) else surface),
-        *_plunge(leads, path),
-        *_spots(() if start is None else (start,), Style.START, Symbol.START),
-        *_spots(meetings, Style.DELETED, Symbol.DELETED),
-        *_spots(gouges, Style.GOUGE, Symbol.GOUGE),
-    )
+    travel = (*_travel(path if len(path) else surface), *_plunge(leads, path))
+    marks = (*travel, *_trouble(start, meetings, gouges))
     return Scene(layers, () if cutter is None else (Circle(*cutter),), marks, unit)
+
+
+def _trouble(start: Point | None, meetings: Sequence[Point], gouges: Sequence[Point]) -> Iterator[Mark]:
+    """START, and over it what is wrong."""
+    yield from _spots(() if start is None else (start,), Style.START, Symbol.START)
+    yield from _spots(meetings, Style.DELETED, Symbol.DELETED)
+    yield from _spots(gouges, Style.GOUGE, Symbol.GOUGE)
 
 
 def _layers(paths: Sequence[Path], style: Style, *, dashed: bool = False) -> Iterator[Layer]:
