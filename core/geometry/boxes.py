@@ -29,23 +29,51 @@ def near_pairs(first: Floats, second: Floats, reach: float) -> tuple[Rows, Rows]
     """Indices (i, j), in rising order of i, of all boxes no farther apart than `reach`."""
     if first.shape[1] * second.shape[1] <= AT_ONCE:
         i, j = np.nonzero(_near(first[:, :, None], second[:, None, :], reach))
-        keep = _within(first[:, i], second[:, j], reach)
+        keep = _within(first.take(i, axis=1), second.take(j, axis=1), reach)
         return i[keep], j[keep]
     one, two = _runs(first), _runs(second)
     return _members(first, second, *_near_groups(_bounds(one), _bounds(two), reach), reach)
 
 
-def near_pairs_within(bounds: Floats, reach: float) -> tuple[Rows, Rows]:
-    """Indices i < j, in rising order of i, of all boxes no farther apart than `reach` that do not follow each other."""
+def near_pairs_within(bounds: Floats, reach: float, spread: Floats, most: float) -> tuple[Rows, Rows]:
+    """Indices i < j, in rising order of i, of boxes no farther apart than `reach` that do not follow each other.
+
+    `spread` (2, n) is a least and a largest value for each box, such as of its piece's headings: pairs within a run
+    whose values differ by no more than `most` may be left out.
+    """
     if bounds.shape[1] ** 2 <= AT_ONCE:
         i, j = near_pairs(bounds, bounds, reach)
     else:
-        runs = _bounds(_runs(bounds))
-        one, two = _near_groups(runs, runs, reach)
-        ahead = two >= one
-        i, j = _members(bounds, bounds, one[ahead], two[ahead], reach)
+        runs, values = _bounds(_runs(bounds)), _values(spread, RUN)
+        one, two = _near_groups_within(runs, reach, values, most)
+        i, j = _members(bounds, bounds, one, two, reach)
     keep = j > i + 1
     return i[keep], j[keep]
+
+
+def _near_groups_within(bounds: Floats, reach: float, spread: Floats, most: float) -> tuple[Rows, Rows]:
+    """Pairs i <= j of boxes no farther apart than `reach`, but for neighbours whose values differ too little."""
+    tree, values = _tree(bounds, FAN), [spread]
+    while len(values) < len(tree):
+        values.append(_values(values[-1], FAN))
+    count = tree[0].shape[1]
+    i, j = np.nonzero(np.ones((count, count), np.bool_))
+    for depth, level in enumerate(tree):
+        if depth:
+            i, j = _children(i, j, level.shape[1], level.shape[1])
+        ahead = np.flatnonzero((j >= i) & _near(level.take(i, axis=1), level.take(j, axis=1), reach))
+        i, j = i[ahead], j[ahead]
+        low, high = values[len(tree) - 1 - depth]
+        differ = np.maximum(high[i], high[j]) - np.minimum(low[i], low[j]) > most
+        keep = np.flatnonzero((j > i + 1) | differ)
+        i, j = i[keep], j[keep]
+    return i, j
+
+
+def _values(spread: Floats, size: int) -> Floats:
+    """Least and largest values of groups of so many."""
+    starts = np.arange(0, spread.shape[1], size)
+    return np.stack((np.minimum.reduceat(spread[0], starts), np.maximum.reduceat(spread[1], starts)))
 
 
 def _near_groups(first: Floats, second: Floats, reach: float) -> tuple[Rows, Rows]:
@@ -54,9 +82,9 @@ def _near_groups(first: Floats, second: Floats, reach: float) -> tuple[Rows, Row
     i, j = np.nonzero(_near(one[0][:, :, None], two[0][:, None, :], reach))
     for low, high in zip(one[1:], two[1:], strict=True):
         i, j = _children(i, j, low.shape[1], high.shape[1])
-        keep = _near(low[:, i], high[:, j], reach)
+        keep = _near(low.take(i, axis=1), high.take(j, axis=1), reach)
         i, j = i[keep], j[keep]
-    keep = _within(first[:, i], second[:, j], reach)
+    keep = _within(first.take(i, axis=1), second.take(j, axis=1), reach)
     return i[keep], j[keep]
 
 
@@ -92,7 +120,7 @@ def _members(first: Floats, second: Floats, one: Rows, two: Rows, reach: float) 
         where = np.flatnonzero(near.reshape(RUN * RUN, -1).T)
         pair, member = where // (RUN * RUN), where & (RUN * RUN - 1)
         i, j = RUN * left[pair] + member // RUN, RUN * right[pair] + (member & (RUN - 1))
-        keep = _within(first[:, i], second[:, j], reach)
+        keep = _within(first.take(i, axis=1), second.take(j, axis=1), reach)
         found.append(np.stack((i[keep], j[keep])))
     i, j = np.concatenate(found, axis=1)
     order = np.argsort(i, kind="stable")
@@ -121,7 +149,7 @@ def nearest_boxes(points: Points, boxes: Floats, within: Floats, slack: float) -
     for depth, level in enumerate(tree):
         if depth:
             k, j = _brood(k, j, level.shape[1])
-        near, far = _apart(spots[:, k], level[:, j]), _span(spots[:, k], level[:, j])
+        near, far = _apart(spots[:, k], level.take(j, axis=1)), _span(spots[:, k], level.take(j, axis=1))
         starts = np.searchsorted(k, np.arange(len(points)))
         within = np.minimum(within, np.minimum.reduceat(far, starts))
         within = np.maximum(within, np.minimum.reduceat(near, starts))
@@ -131,7 +159,7 @@ def nearest_boxes(points: Points, boxes: Floats, within: Floats, slack: float) -
 
 
 def _contenders(i: Rows, j: Rows, low: Floats, high: Floats) -> tuple[Rows, Rows]:
-    a, b = low[:, i], high[:, j]
+    a, b = low.take(i, axis=1), high.take(j, axis=1)
     keep = _apart(a, b) <= np.min(_span(a, b))
     return i[keep], j[keep]
 

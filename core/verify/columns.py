@@ -71,6 +71,14 @@ def columns(pieces: Measured) -> Columns:
     return Columns(x, y, along, up, square, centre_x, centre_y, pieces.radius, middle_x, middle_y, cosine)
 
 
+def middle(pieces: Columns, *, arc: bool) -> tuple[Floats, Floats]:
+    """The middles of pieces that are all arcs or all lines."""
+    if arc:
+        x = pieces.centre_x + pieces.radius * pieces.middle_x
+        return x, pieces.centre_y + pieces.radius * pieces.middle_y
+    return pieces.x + 0.5 * pieces.along, pieces.y + 0.5 * pieces.up
+
+
 def to_line(x: Floats, y: Floats, line: Columns) -> tuple[Floats, Floats]:
     """Squared distances of points from their lines, and the fractions of the lines they are nearest to."""
     x, y = x - line.x, y - line.y

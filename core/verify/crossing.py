@@ -17,6 +17,10 @@ TURN: Final = 1e-6
 """Radians short of half a turn that are taken for one."""
 
 
+STEADY: Final = 2.5
+"""Radians: pieces whose directions differ by no more keep advancing one way, and meet nowhere but at their joints."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Crossings:
     """m places (m, 2) in length travelled at which a surface meets itself, in order, and the points (m,)."""
@@ -50,17 +54,34 @@ def crossings(surface: Measured, stations: Floats, bounds: Floats, *, closed: bo
 
 def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Rows, Rows]:
     """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbours that come back."""
-    i, j = near_pairs_within(bounds, JOINED)
-    first = np.flatnonzero(_overlapping(bounds))
+    spread, turned = _headings(surface)
+    i, j = near_pairs_within(bounds, JOINED, spread, STEADY)
+    again = np.flatnonzero((turned > pi - TURN) & _overlapping(bounds))
+    i, j = np.concatenate((i, again)), np.concatenate((j, again + 1))
     if closed and len(surface) > 2:
-        others: Flags = (i > 0) | (j < len(surface) - 1)
-        i, j, first = i[others], j[others], np.append(first, -1)
-    if len(first):
-        rows = np.stack((first % len(surface), first + 1))
-        ends = np.sort(rows, axis=0)
-        again = _may_meet_again(surface, ends[0], ends[1], rows[0] < rows[1])
-        i, j = np.concatenate((i, ends[0][again])), np.concatenate((j, ends[1][again]))
+        seam = (i == 0) & (j == len(surface) - 1)
+        keep = np.flatnonzero(~seam | _turns_half_round(surface))
+        i, j = i[keep], j[keep]
     return i, j
+
+
+def _headings(surface: Measured) -> tuple[Floats, Floats]:
+    """(2, n) least and largest direction of each piece in radians, counted on over all turns since the first piece.
+
+    And (n - 1,) how much a piece, the next one and the joint between them turn.
+    """
+    turned = surface.turn * surface.angle
+    begin, end = surface.unit, surface.unit
+    arc = np.flatnonzero(surface.turn)
+    if len(arc):
+        # a chord runs as its arc does in the middle, but for full circles, which no run can be steady with
+        half = np.exp(0.5j * turned[arc])
+        begin[arc] *= np.conj(half)
+        end[arc] *= half
+    corners = np.angle(begin[1:] * np.conj(end[:-1]))
+    first = np.concatenate(([0.0], np.cumsum(turned[:-1] + corners)))
+    spread = np.stack((np.minimum(first, first + turned), np.maximum(first, first + turned)))
+    return spread, surface.angle[:-1] + surface.angle[1:] + np.abs(corners)
 
 
 def _overlapping(bounds: Floats) -> Flags:
@@ -70,13 +91,11 @@ def _overlapping(bounds: Floats) -> Flags:
     return wide
 
 
-def _may_meet_again(surface: Measured, i: Rows, j: Rows, following: Flags) -> Flags:
-    """Neighbours that can meet elsewhere than at their joint: a curve must turn half round to come back to itself."""
-    one, other = surface.take(np.where(following, i, j)), surface.take(np.where(following, j, i))
-    leaving, arriving = direction(other, np.zeros(len(i))), direction(one, np.ones(len(i)))
-    turned = one.angle + other.angle + np.abs(np.angle(leaving * np.conj(arriving)))
-    again: Flags = turned > pi - TURN
-    return again
+def _turns_half_round(surface: Measured) -> bool:
+    """The last and the first piece can meet elsewhere than at START: a curve must turn half round to come back."""
+    last, first = surface.take(np.array([-1])), surface.take(np.array([0]))
+    corner = np.angle(direction(first, np.zeros(1)) * np.conj(direction(last, np.ones(1))))
+    return (last.angle + first.angle + np.abs(corner)).item() > pi - TURN
 
 
 def _away(one: Measured, other: Measured, places: Floats, points: Points, following: Flags, around: Flags) -> Flags:

@@ -14,7 +14,7 @@ from core.geometry.side import Side
 from core.tolerance import CLOSED, GOUGE, LARGEST
 from core.verify.crossing import Crossings, crossings
 from core.verify.gouge import gouges, gouging
-from core.verify.pairs import approaches, clearance, middles, pairs_of
+from core.verify.pairs import approaches, clearance, pairs_of
 from core.verify.sides import sided, wrong_side
 from core.verify.uncut import uncut
 from core.verify.verdict import NOTHING, Verdict
@@ -118,7 +118,7 @@ def _judged(surface: Path, ground: _Ground, side: Side, radius: float, numbers: 
         uncut=uncut(pairs, radius, surface, closed=ground.closed),
         surface_length=length,
         crosses_itself=len(ground.crossed) > 0,
-        wrong_side=wrong_side(pairs, middles(pairs), found, sides, reach),
+        wrong_side=wrong_side(pairs, found, sides, reach),
         crossing_at=_first(ground.crossed),
     )
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.geometry.boxes import closest_pairs, near_pairs
-from core.geometry.distance import between, distance, nearest_places
-from core.geometry.measured import Floats, Measured, Rows, at, blocks, boxes
+from core.geometry.distance import between, nearest_places
+from core.geometry.measured import Floats, Measured, Rows, blocks, boxes
 from core.tolerance import UNCUT
 from core.verify.touch import Touches, touches
 
@@ -57,20 +57,6 @@ def rounding(surface: Measured) -> float:
 def _slack(pieces: Measured, rows: Rows) -> Floats:
     """(m,) what the uneven radii of these pieces leave open."""
     return pieces.slack[rows] if pieces.slack.any() else np.zeros(len(rows))
-
-
-def middles(pairs: Pairs) -> Floats:
-    """(m,) distance from the middle of each pair's piece of the centre path to its piece of the surface."""
-    return middle_distances(pairs.centre, pairs.i, pairs.surface, pairs.j)
-
-
-def middle_distances(pieces: Measured, i: Rows, others: Measured, j: Rows) -> Floats:
-    """(m,) distance from the middle of pieces `i` to their partners `j`."""
-    middle = at(pieces, np.full(len(pieces), 0.5))
-    apart, arcs = np.empty(len(i)), others.arcs[j]
-    for block in blocks(arcs, arcs):
-        apart[block] = distance(others.take(j[block]), middle[i[block]])
-    return apart
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -49,16 +49,16 @@ def sided(side: Side, crossings: Crossings, total: float, *, closed: bool) -> Si
     return Sided(side, first, last, closed, len(crossings) > 0)
 
 
-def wrong_side(pairs: Pairs, middle: Floats, found: Gouging, surface: Sided, reach: float) -> tuple[int, ...]:
+def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float) -> tuple[int, ...]:
     """Rows of the centre path of which some point is clearly on the part's side, in rising order.
 
-    A piece whose middle is within `reach` of the surface is judged there, by the distances `middle` of its pairs; any
+    A piece whose middle is within `reach` of the surface is judged there; any
     other piece in its middle and at its ends; a gouge at its ends, in its middle and where it is deepest.
     """
     if not len(pairs.surface) or not len(pairs.centre):
         return ()
     tie = _tie(pairs.surface, surface)
-    contact = _contact(pairs, middle, reach, tie)
+    contact = _contact(pairs, reach, tie)
     rows = contact.k[np.flatnonzero(np.diff(contact.k, prepend=-1))]
     s = _middle_places(pairs)
     spots = at(pairs.centre, np.full(len(pairs.centre), 0.5))
@@ -77,8 +77,9 @@ def _tie(surface: Measured, sides: Sided) -> float:
     return ON_PATH + (float(np.abs(surface.end[-1] - surface.start[0])) if sides.endless else 0.0)
 
 
-def _contact(pairs: Pairs, middle: Floats, reach: float, tie: float) -> Nearest:
+def _contact(pairs: Pairs, reach: float, tie: float) -> Nearest:
     """For each piece whose middle is within reach the surface pieces nearest to it there."""
+    middle = pairs.touch.middle
     close = np.flatnonzero(middle <= reach)
     if not len(close):
         return Nearest(close, close, np.zeros(0))

@@ -16,7 +16,7 @@ import numpy as np
 from core.geometry.distance import foot
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at
 from core.tolerance import ON_PATH
-from core.verify.columns import Columns, arc_to_arc, columns, line_to_arc, to_arc, to_line
+from core.verify.columns import Columns, arc_to_arc, columns, line_to_arc, middle, to_arc, to_line
 
 BLOCK: Final = 8_000
 """Pairs worked out at a time: few enough to stay in a processor's cache."""
@@ -32,6 +32,8 @@ NONE: Final = 2.0
 class Touches:
     """(m,) least distance of each pair, and what of its surface piece is within the limit of its centre piece.
 
+    `middle` is the distance of the centre piece's middle.
+
     The part from `first` to `last`, fractions, is within for sure, none where `first` > `last`; it is all there is
     unless the pair is `unsure`.
     """
@@ -40,10 +42,11 @@ class Touches:
     first: Floats
     last: Floats
     unsure: Flags
+    middle: Floats
 
     def take(self, rows: Rows) -> Touches:
         """The pairs of these indices."""
-        return Touches(self.apart[rows], self.first[rows], self.last[rows], self.unsure[rows])
+        return Touches(self.apart[rows], self.first[rows], self.last[rows], self.unsure[rows], self.middle[rows])
 
 
 def touches(centre: Measured, i: Rows, surface: Measured, j: Rows, radius: float, grant: Floats) -> Touches:
@@ -53,11 +56,12 @@ def touches(centre: Measured, i: Rows, surface: Measured, j: Rows, radius: float
     """
     limit = radius + grant
     one, other = columns(centre), columns(surface)
-    found = Touches(np.empty(len(i)), np.full(len(i), NONE), np.full(len(i), -NONE), np.zeros(len(i), np.bool_))
+    found = _blank(len(i))
     bent_one, bent_other = centre.arcs, surface.arcs
     for rows, arcs in _blocks(bent_one, i, bent_other, j):
         a, b = one.take(i[rows], arcs=arcs[0]), other.take(j[rows], arcs=arcs[1])
         spots = _ends(a, b, arcs)
+        found.middle[rows], _ = _apart(*middle(a, arc=arcs[0]), b, arc=arcs[1])
         found.apart[rows], within = _measure(a, b, arcs, spots, limit[rows])
         if arcs[1]:
             _on_arcs(found, rows, centre, i[rows], surface, j[rows], within)
@@ -67,6 +71,11 @@ def touches(centre: Measured, i: Rows, surface: Measured, j: Rows, radius: float
             found.unsure[rows] = _unsure(found, rows, centre, i[rows], surface, j[rows])
     found.unsure[found.apart < radius - grant] = True
     return found
+
+
+def _blank(count: int) -> Touches:
+    none = np.full(count, NONE)
+    return Touches(np.empty(count), none, -none, np.zeros(count, np.bool_), np.empty(count))
 
 
 def _blocks(one: Flags, i: Rows, other: Flags, j: Rows) -> Iterator[tuple[Rows, tuple[bool, bool]]]:

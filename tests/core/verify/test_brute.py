@@ -1,0 +1,148 @@
+"""The judge against a slow one over many contours of all kinds, and over their paths spoiled in all ways.
+
+`python -m tests.core.verify.test_brute [seeds]` compares as many more as wanted.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from math import cos, pi, sin, tau
+from random import Random
+
+import numpy as np
+import pytest
+
+from core.comp.best import best_path
+from core.comp.compensate import compensate
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Turn
+from core.geometry.side import Side
+from core.tolerance import STOCK
+from core.verify.judge import judge
+from tests.core.verify.brute import slow
+from tests.core.verify.corpus import Chain
+from tests.core.verify.shapes import circle, moved
+
+
+def _spots(random: Random, count: int) -> list[tuple[float, float]]:
+    return [(round(random.uniform(-5, 5), 3), round(random.uniform(-5, 5), 3)) for _ in range(count)]
+
+
+def wander(random: Random) -> Path:
+    """Any chain, which mostly crosses itself."""
+    spots = _spots(random, random.randint(2, 7))
+    return Chain(tuple(spots), tuple(random.choice((0.0, 0.0, 0.4, -0.7, 1.0)) for _ in spots[1:])).path()
+
+
+def convex(random: Random) -> Path:
+    """A closed convex outline, started anywhere on its first side."""
+    count = random.randint(3, 14)
+    angles = sorted(random.uniform(0, tau) for _ in range(count))
+    spots = [(5 * cos(a), 5 * sin(a)) for a in angles]
+    share = random.choice((0.0, 0.5))
+    (x0, y0), (x1, y1) = spots[-1], spots[0]
+    spots.insert(0, (x0 + share * (x1 - x0), y0 + share * (y1 - y0)))
+    bulges = [0.0, *(random.choice((0.0, 0.1)) for _ in range(count - 1)), 0.0]
+    spots = [*spots, spots[0]] if share else [*spots[:1], *spots[1:]]
+    return Chain(tuple(spots), tuple(bulges[: len(spots) - 1])).path()
+
+
+def walls(random: Random) -> Path:
+    """Slots and fins as wide as the cutter, a little wider or narrower: walls side by side, to and fro."""
+    width, x, spots = random.choice((1.0, 1.0, 0.98, 1.02, 1.3)), 0.0, [(0.0, 0.0)]
+    for k in range(random.randint(2, 6)):
+        y = 3.0 if k % 2 == 0 else random.choice((0.0, 0.5))
+        spots.append((x, y))
+        x += width if k % 2 == 0 else random.choice((0.0, width, 2.0))
+        spots.append((x + 1e-3 * (spots[-1] == (x, y)), y))
+    return Chain(tuple(dict.fromkeys(spots)), (0.0,) * (len(dict.fromkeys(spots)) - 1)).path()
+
+
+def spiral(random: Random) -> Path:
+    """Turns nearer and farther apart than the cutter is wide, of lines or of arcs."""
+    grow, step = random.choice((0.1, 0.16, 0.3)), random.choice((0.3, 0.7, 1.2))
+    angles = np.arange(0.0, random.uniform(6.0, 16.0), step)
+    spots = [((0.5 + grow * a) * cos(a), (0.5 + grow * a) * sin(a)) for a in angles.tolist()]
+    bulge = random.choice((0.0, float(np.tan(step / 4.0))))
+    return Chain(tuple(spots), (bulge,) * (len(spots) - 1)).path()
+
+
+def waves(random: Random) -> Path:
+    """Small steps under a large cutter."""
+    x = np.arange(0.0, random.uniform(1.0, 3.0), random.choice((0.1, 0.25)))
+    y = random.choice((0.05, 0.4, 1.0)) * np.sin(random.choice((1.0, 2.5, 6.0)) * x)
+    return Chain(tuple(zip(x.tolist(), y.tolist(), strict=True)), (0.0,) * (len(x) - 1)).path()
+
+
+def rounds(random: Random) -> Path:
+    """A full circle, or big arcs about one centre that follow each other, in and out."""
+    if random.random() < 0.4:
+        return circle((random.uniform(-2, 2), 1.0), random.choice((0.4, 0.5, 2.0)), random.choice((Turn.CW, Turn.CCW)))
+    pieces, radius, angle = [], 2.0, 0.0
+    for _ in range(random.randint(1, 3)):
+        sweep = random.choice((0.3, pi, 4.0, 5.9))
+        ends = [(radius * cos(a), radius * sin(a)) for a in (angle, angle + sweep)]
+        pieces.append(Arc(ends[0], ends[1], (0.0, 0.0), Turn.CCW))
+        angle += sweep
+    return Path.from_pieces(pieces)
+
+
+FAMILIES: tuple[Callable[[Random], Path], ...] = (wander, convex, walls, spiral, waves, rounds)
+
+
+def centres(random: Random, surface: Path) -> Iterator[tuple[Side, float, Path]]:
+    """Paths beside a surface: the control's, the best one's loops, of another radius, spoiled a little or much."""
+    side, radius = random.choice(list(Side)), random.choice((0.1, 0.5, 0.5, 1.3))
+    closed = bool(np.hypot(*(surface.points[0] - surface.points[-1])) < 1e-6)
+    made = compensate(surface, side, radius, random.choice((1, 3, 20)), closed=closed).path
+    loops = best_path(surface, side, radius, closed=closed).loops
+    for path in (made, *loops[:1]):
+        if not len(path):
+            continue
+        yield side, radius, path
+        yield side, radius * random.choice((0.998, 1.00002, 0.5)), path
+        yield side, radius, moved(path, 10.0 ** random.uniform(-7, -1), (10.0 ** random.uniform(-8, 0), 0.0))
+        if np.all(path.starts == path.ends, axis=1).any():
+            continue
+        index, size = random.randrange(len(path.points)), 10.0 ** random.uniform(-7, 0)
+        x, y = path.points[index].tolist()
+        yield side, radius, Chain.of(path).moved(index, x + size, y - size / 3.0).path()
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("seed", range(2))
+def test_the_judge_and_the_slow_judge_agree(family: Callable[[Random], Path], seed: int) -> None:
+    assert compared(family, seed, 3) > 10
+
+
+def compared(family: Callable[[Random], Path], seed: int, contours: int) -> int:
+    """How many paths were judged by both."""
+    random, count = Random(f"{family.__name__} {seed}"), 0
+    for _ in range(contours):
+        surface = family(random)
+        for side, radius, path in centres(random, surface):
+            if len(path):
+                agree(surface, side, radius, path)
+                count += 1
+    return count
+
+
+def agree(surface: Path, side: Side, radius: float, path: Path) -> None:
+    told, truth = judge(surface, side, radius, path), slow(surface, radius, path, STOCK)
+    assert told.judged
+    assert told.clearance == pytest.approx(truth.clearance, abs=1e-9)
+    assert told.depth == pytest.approx(radius - truth.clearance if truth.clearance < radius - 1e-6 else 0.0, abs=1e-9)
+    steps = truth.step * (2.0 * len(path) + 2.0 * len(told.gouges) + 2.0)
+    assert sum(gouge.extent for gouge in told.gouges) == pytest.approx(truth.gouging, abs=steps)
+    thickest = max((stretch.thickness for stretch in told.uncut), default=0.0)
+    assert thickest == pytest.approx(truth.farthest - radius if truth.farthest - radius > STOCK else 0.0, abs=1e-6)
+    # stretches are told whole where they are thicker than STOCK somewhere, dense points count only where they are
+    assert told.uncut_length > truth.left - truth.step * (2.0 * len(surface) + 2.0 * len(told.uncut) + 2.0)
+    for stretch in told.uncut:
+        assert stretch.length <= told.surface_length + 1e-9
+
+
+if __name__ == "__main__":
+    seeds = range(int(sys.argv[1]) if len(sys.argv) > 1 else 10)
+    print(sum(compared(family, seed, 5) for family in FAMILIES for seed in seeds), "paths are judged alike")
