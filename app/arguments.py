@@ -44,7 +44,7 @@ def screen_parser() -> argparse.ArgumentParser:
 def command_parser(name: str) -> argparse.ArgumentParser:
     """Of one of the commands without a screen."""
     parser = argparse.ArgumentParser(f"cutcomp {name}", description=HELP[name])
-    parser.add_argument("file", type=Path, metavar="FILE", help="a program file (TOML)")
+    parser.add_argument("file", type=Path, metavar="FILE", help="a program file (TOML), - for standard input")
     if name in ("path", "lookahead"):
         parser.add_argument("--block", type=int, metavar="N", help="this block only")
         parser.add_argument("--json", action="store_true", help="machine-readable")

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Final
 from app.widgets.words import segment
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.program.model import Entry, Program
-from core.program.store import StoreError, load
+from core.program.store import StoreError, load, load_from
 from core.units import sentence
 
 if TYPE_CHECKING:
@@ -25,6 +25,10 @@ if TYPE_CHECKING:
 CLEAN: Final = 0
 FINDINGS: Final = 1
 UNUSABLE: Final = 2
+
+DASH: Final = "-"
+"""In place of a file: standard input, or standard output."""
+STDIN: Final = "standard input"
 
 HELP: Final = {
     "path": "the centre path of every block",
@@ -52,13 +56,22 @@ class Unusable(Exception):
 def _derived(path: Path, block: int | None = None, lookahead: str | None = None) -> Derived:
     from core.pipeline.derive import compared, derive
 
-    try:
-        program = load(path)
-    except StoreError as error:
-        raise Unusable(str(error)) from error
+    program = _program(path)
     if block is not None and not 1 <= block <= len(program.blocks):
         raise Unusable(f"--block {block}: {path} has blocks 1 to {len(program.blocks)}.")
     return compared(derive(program if lookahead is None else _with_lookahead(program, lookahead)))
+
+
+def _program(path: Path) -> Program:
+    try:
+        return load_from(sys.stdin.buffer, STDIN) if str(path) == DASH else load(path)
+    except StoreError as error:
+        raise Unusable(str(error)) from error
+
+
+def _name(path: Path) -> str:
+    """What a program is called in what is made of it."""
+    return STDIN if str(path) == DASH else path.stem
 
 
 def _with_lookahead(program: Program, text: str) -> Program:
@@ -104,9 +117,9 @@ def path(options: argparse.Namespace) -> int:
 
     derived = _derived(options.file, options.block, options.lookahead)
     if options.json:
-        print(json.dumps(path_document(derived, options.block), allow_nan=False))
+        _deliver(f"{json.dumps(path_document(derived, options.block), allow_nan=False)}\n", None)
     else:
-        print("\n".join(path_listing(derived, options.block)))
+        _deliver("".join(f"{line}\n" for line in path_listing(derived, options.block)), None)
         _report(derived, options.block)
     return _status(derived, options.block)
 
@@ -122,9 +135,10 @@ def lookahead(options: argparse.Namespace) -> int:
     tables = [(found, look_ahead_table(found, derived.program)) for found in _chosen(derived, options.block)]
     if options.json:
         blocks = [table_document(found, table, unit) for found, table in tables]
-        print(json.dumps({"units": str(unit), "blocks": blocks}, allow_nan=False))
+        text = json.dumps({"units": str(unit), "blocks": blocks}, allow_nan=False)
     else:
-        print("\n\n".join("\n".join(table_listing(found, table, unit)) for found, table in tables))
+        text = "\n\n".join("\n".join(table_listing(found, table, unit)) for found, table in tables)
+    _deliver(f"{text}\n", None)
     return _status(derived, options.block)
 
 
@@ -135,7 +149,7 @@ def post(options: argparse.Namespace) -> int:
 
     control = _control(options)
     derived = _derived(options.file)
-    result = nc_text(derived, options.file.stem, options.override, control)
+    result = nc_text(derived, _name(options.file), options.override, control)
     _report(derived, None)
     if not isinstance(result, Posted):
         say(f"nothing was posted. {result.text}{_words(result, options)}")
@@ -177,7 +191,7 @@ def plot(options: argparse.Namespace) -> int:
     from core.pipeline.plot import svg_of
 
     derived = _derived(options.file)
-    _deliver(svg_of(derived, title=options.file.stem), options.output)
+    _deliver(svg_of(derived, title=_name(options.file)), options.output)
     _report(derived, None)
     return _status(derived, None)
 
@@ -185,7 +199,7 @@ def plot(options: argparse.Namespace) -> int:
 def _deliver(text: str, output: Path | None) -> None:
     from core.program.store import write_output
 
-    if output is None:
+    if output is None or str(output) == DASH:
         try:
             sys.stdout.write(text)
             sys.stdout.flush()

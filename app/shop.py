@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
-from app.commands import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
+from app.commands import CLEAN, DASH, FINDINGS, SHOP_HELP, UNUSABLE, say
 from core.finding import Finding, Severity
 from core.program.model import Entry, Program, Tool
 from core.program.store import StoreError, load, save, write_output
@@ -51,7 +51,7 @@ def sheet(options: argparse.Namespace) -> int:
 
     program = load(options.file)
     text = sheet_for(program, options.output or Path("-"), name=options.file.stem)
-    if options.output is None:
+    if options.output in (None, Path(DASH)):
         sys.stdout.write(text)
     else:
         write_output(options.output, text)

@@ -11,14 +11,14 @@ import os
 import stat
 from contextlib import suppress
 from pathlib import Path
-from typing import Final
+from typing import BinaryIO, Final
 
 from core.program.disk import sync_folder, why, write_all
 from core.program.file_read import StoreError, read_program
 from core.program.file_write import written
 from core.program.model import Program
 
-__all__ = ["LARGEST_FILE", "StoreError", "dumps", "load", "loads", "save", "write_output", "write_text"]
+__all__ = ["LARGEST_FILE", "StoreError", "dumps", "load", "load_from", "loads", "save", "write_output", "write_text"]
 
 LARGEST_FILE: Final = 4_000_000
 """Bytes of the largest program file: about twenty thousand segments."""
@@ -41,19 +41,36 @@ def load(path: str | Path) -> Program:
         data = _content(path)
     except (OSError, ValueError) as error:
         raise StoreError(f"{path} cannot be read: {why(error)}") from error
+    return _decoded(data, str(path))
+
+
+def load_from(stream: BinaryIO, name: str) -> Program:
+    """The program that comes through a pipe; StoreError calls it `name`."""
+    try:
+        data = _whole(stream)
+    except (OSError, ValueError) as error:
+        raise StoreError(f"{name} cannot be read: {why(error)}") from error
+    return _decoded(data, name)
+
+
+def _decoded(data: bytes, name: str) -> Program:
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
-        raise StoreError(f"{path}, line {line}: this is not UTF-8 text. Save it as UTF-8, or open a copy.") from error
-    return read_program(text, str(path))
+        raise StoreError(f"{name}, line {line}: this is not UTF-8 text. Save it as UTF-8, or open a copy.") from error
+    return read_program(text, name)
 
 
 def _content(path: Path) -> bytes:
     if not stat.S_ISREG(path.stat().st_mode):
         raise IsADirectoryError(errno.EISDIR, "no file")
     with path.open("rb") as file:
-        data = file.read(LARGEST_FILE + 1)
+        return _whole(file)
+
+
+def _whole(file: BinaryIO) -> bytes:
+    data = file.read(LARGEST_FILE + 1)
     if len(data) > LARGEST_FILE:
         raise OSError(errno.EFBIG, "too large")
     return data

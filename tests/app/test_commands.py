@@ -1,0 +1,80 @@
+"""The commands without a screen: pipes, full disks, and what they say on standard error."""
+
+from __future__ import annotations
+
+import io
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from app.__main__ import main
+from app.files import example
+
+FULL = Path("/dev/full")
+
+
+def piped(monkeypatch: pytest.MonkeyPatch, data: bytes) -> None:
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(data)))
+
+
+def test_a_program_comes_through_a_pipe(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    piped(monkeypatch, example("pocket").read_bytes())
+    assert main(["path", "-", "--json"]) == 0
+    through = json.loads(capsys.readouterr().out)
+    assert main(["path", str(example("pocket")), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == through
+
+
+def test_what_is_posted_from_a_pipe_has_a_name(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    piped(monkeypatch, example("pocket").read_bytes())
+    assert main(["post", "-"]) == 0
+    assert capsys.readouterr().out.startswith("(PROGRAM standard input)\n")
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b"format = ", "standard input, line 1"),
+        (b"a\n\xff", "standard input, line 2: this is not UTF-8 text."),
+        (b" " * 4_000_001, "standard input cannot be read: "),
+    ],
+)
+def test_what_comes_through_a_pipe_and_is_no_program_is_named(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], data: bytes, words: str
+) -> None:
+    piped(monkeypatch, data)
+    assert main(["path", "-"]) == 2
+    assert capsys.readouterr().err.startswith(f"cutcomp: {words}")
+
+
+@pytest.mark.parametrize("command", ["post", "plot", "sheet"])
+def test_a_dash_is_standard_output(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, command: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main([command, str(example("flange")), "-o", "-"]) == 0
+    assert len(capsys.readouterr().out) > 100
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(not FULL.exists(), reason="there is no device that is always full")
+@pytest.mark.parametrize("words", [("path",), ("path", "--json"), ("lookahead",), ("lookahead", "--json"), ("post",)])
+def test_standard_output_that_takes_nothing_is_told_in_a_sentence(words: tuple[str, ...]) -> None:
+    command, *rest = words
+    given = [sys.executable, "-m", "app", command, str(example("flange")), *rest]
+    with FULL.open("w") as full:
+        done = subprocess.run(given, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr == "cutcomp: standard output cannot be written: No space left on device.\n"
+
+
+def test_a_finding_names_its_segment(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["path", str(example("notch"))]) == 1
+    told = capsys.readouterr().err
+    assert "cutcomp: block 1, segment 4: error: The path of segment 3 gouges segment 4" in told
+    assert "cutcomp: block 1, corner 3-4: warning: At this inside corner" in told
