@@ -7,7 +7,7 @@ from app.session import SEGMENT
 from core.program.edit import Where
 from core.program.model import Entry
 from tests.app.operator import Operator
-from tests.app.test_contour import square
+from tests.app.squares import square
 
 
 def place(operator: Operator) -> tuple[Where, str]:

@@ -10,7 +10,7 @@ from app.screens.program import ProgramPage
 from app.session import SEGMENT
 from core.program.edit import Where
 from tests.app.operator import Operator
-from tests.app.test_contour import square
+from tests.app.squares import square
 
 
 def test_a_choice_names_its_choices() -> None:
