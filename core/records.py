@@ -44,7 +44,7 @@ def _methods(cls: type, *, frozen: bool, eq: bool) -> dict[str, Any]:
         methods |= {"__setattr__": _refuse, "__delattr__": _refuse}
         methods |= {"__getstate__": _state, "__setstate__": _restored}
     if eq:
-        values = _values(tuple(one.name for one in dataclasses.fields(cls)))
+        values = _values(tuple(one.name for one in dataclasses.fields(cls) if one.compare))
         methods |= {"__eq__": _equality(values), "__hash__": _hash(values) if frozen else None}
     return methods
 

@@ -13,7 +13,7 @@ from core.output.ready import forbidding
 from core.pipeline.compensation import Compensation, parameter
 from core.pipeline.derived import Derived, DerivedBlock, Loop, RoughPass, Work
 from core.pipeline.jobs import job
-from core.pipeline.outline import outline_block
+from core.pipeline.outline import former, outline_block
 from core.pipeline.steps import step_findings
 from core.pipeline.trouble import better_findings, by_weight, path_findings, size_warning
 from core.program.model import Block, PathChoice, Program
@@ -24,46 +24,58 @@ MOST_PASSES: Final = 1000
 
 
 def derive(program: Program, before: Derived | None = None) -> Derived:
-    """The whole program derived; blocks that are the same objects as in `before` are taken from there."""
+    """The whole program derived; what does not change from `before` is taken from there."""
     blocks = (derive_block(number, block, program, before) for number, block in enumerate(program.blocks, 1))
     return Derived(program, tuple(blocks))
 
 
 def derive_block(number: int, block: Block, program: Program, before: Derived | None = None) -> DerivedBlock:
-    """One block derived, or its former self where nothing it depends on has changed."""
-    former = _former(number, block, program, before)
-    if former is not None:
-        return former
-    found = outline_block(number, block, program)
+    """One block derived, with all of its former self that depends on nothing that has changed."""
+    old, then = former(number, before), None if before is None else before.program
+    if old is not None and then is not None and old.known and _alike(block, program, old.block, then):
+        return old
+    found = replace(outline_block(number, block, program, old), known=True)
+    if not found.solved.pieces or found.radius is None:
+        return found
+    if old is None or then is None or old.work is None or _cuts(found, program) != _cuts(old, then):
+        return _told(found, _worked(found, program), program)
+    return _told(found, old.work, program)
+
+
+def _alike(block: Block, program: Program, old: Block, then: Program) -> bool:
+    """Whether a block and all it depends on are the same objects as before."""
+    same = old is block and then.tools is program.tools
+    return same and then.parameters is program.parameters and then.unit is program.unit
+
+
+def _cuts(found: DerivedBlock, program: Program) -> tuple[object, ...]:
+    """All that the paths depend on: depths, feeds and speeds change no path."""
+    solved = found.solved
+    shape = (solved.pieces, solved.closed, found.side, found.profile, found.lookahead.value)
+    return (*shape, found.radius, solved.tool_diameter, solved.finish_diameter, program.parameters, program.unit)
+
+
+def _worked(found: DerivedBlock, program: Program) -> Work:
     pieces = found.solved.pieces
-    if not pieces or found.radius is None:
-        return replace(found, known=True)
     surface = Path.from_pieces([piece for _, piece in pieces], [float(number) for number, _ in pieces])
-    return _worked(found, program, surface)
-
-
-def _former(number: int, block: Block, program: Program, before: Derived | None) -> DerivedBlock | None:
-    if before is None or number > len(before.blocks) or not before.blocks[number - 1].known:
-        return None
-    then = before.program
-    same = before.blocks[number - 1].block is block and then.tools is program.tools
-    same = same and then.parameters is program.parameters and then.unit is program.unit
-    return before.blocks[number - 1] if same else None
-
-
-def _worked(found: DerivedBlock, program: Program, surface: Path) -> DerivedBlock:
     if found.side is None:
-        bare = Work(surface, (Loop(surface, EMPTY, EMPTY),), None, None)
-        return _checked(replace(found, work=bare, known=True), program)
+        return Work(surface, (Loop(surface, EMPTY, EMPTY),), None, None)
     assert found.radius is not None
     how = Compensation(surface, found.side, found.solved.closed, found.lookahead.value, program)
     control = how.control(found.radius)
     best = how.best(found.radius) if program.parameters.path is PathChoice.BEST else None
     chosen = how.posted(control, found.radius, best)
     verdict = judge_together(surface, found.side, found.radius, [loop.whole for loop in chosen])
-    work = Work(surface, chosen, control, verdict, _rough(found, how), best)
-    trouble = (*found.findings, *path_findings(work), *size_warning(found.radius, surface))
-    return _checked(replace(found, work=work, known=True, findings=by_weight(trouble)), program)
+    return Work(surface, chosen, control, verdict, _rough(found, how), best)
+
+
+def _told(found: DerivedBlock, work: Work, program: Program) -> DerivedBlock:
+    """The block with its paths, and with what is to be said of them."""
+    assert found.radius is not None
+    trouble: tuple[Finding, ...] = ()
+    if work.verdict is not None:
+        trouble = (*path_findings(work), *size_warning(found.radius, work.surface))
+    return _checked(replace(found, work=work, findings=by_weight((*found.findings, *trouble))), program)
 
 
 def _checked(found: DerivedBlock, program: Program) -> DerivedBlock:

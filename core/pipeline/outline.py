@@ -22,15 +22,25 @@ _SIDES = {
 }
 
 
-def outline(program: Program) -> Derived:
-    """Every block with its blanks calculated and its look-ahead, without geometry."""
-    blocks = (outline_block(number, block, program) for number, block in enumerate(program.blocks, 1))
+def outline(program: Program, before: Derived | None = None) -> Derived:
+    """Every block with its blanks calculated and its look-ahead, without geometry.
+
+    Segments that are the same objects as in `before` are taken from there.
+    """
+    blocks = (
+        outline_block(number, block, program, former(number, before)) for number, block in enumerate(program.blocks, 1)
+    )
     return Derived(program, tuple(blocks))
 
 
-def outline_block(number: int, block: Block, program: Program) -> DerivedBlock:
+def former(number: int, before: Derived | None) -> DerivedBlock | None:
+    """What a block was before, by its place in the program."""
+    return before.block(number) if before is not None and number <= len(before.blocks) else None
+
+
+def outline_block(number: int, block: Block, program: Program, before: DerivedBlock | None = None) -> DerivedBlock:
     """One block's outline."""
-    solved = solve_block(block, program)
+    solved = solve_block(block, program, None if before is None else before.solved)
     lookahead = look_ahead(block, solved)
     diameter = solved.finish_diameter if solved.finish_diameter is not None else solved.tool_diameter
     return DerivedBlock(

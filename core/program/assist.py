@@ -8,6 +8,7 @@ solutions fit, the order is documented in `solve_line` and `solve_arc`, and the 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import hypot
 from typing import assert_never
@@ -16,7 +17,7 @@ from core.finding import Finding, Severity
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.program import solve_arc, solve_line
 from core.program.fields import FARTHEST, Form
-from core.program.model import ArcSegment, BlendSegment, Block, LineSegment, Program, Segment
+from core.program.model import ArcSegment, BlendSegment, Block, Entry, LineSegment, Program, Segment, Unread
 from core.program.reading import Reading, carry, fill, fill_angle, read
 from core.program.solution import Known, Outcome, Task, solve
 from core.program.solve_blend import Blends, blended
@@ -27,10 +28,14 @@ from core.tolerance import CLOSED, JOINED, LARGEST
 from core.units import Unit
 
 
-def solve_block(block: Block, program: Program) -> SolvedBlock:
-    """The block with its blanks calculated; trouble is in its findings, never raised."""
+def solve_block(block: Block, program: Program, before: SolvedBlock | None = None) -> SolvedBlock:
+    """The block with its blanks calculated; trouble is in its findings, never raised.
+
+    Segments that are the same objects as in `before`, and begin with the same, are taken from there.
+    """
     start = solve_start(block, program)
-    segments = _segments(block, start, program.unit)
+    drafts = _drafts(block, start, program.unit, () if before is None else before.drafts)
+    segments = _segments(block, drafts, before)
     determined = next(
         (index for index, one in enumerate(segments) if one.start is None or one.end is None), len(segments)
     )
@@ -49,6 +54,7 @@ def solve_block(block: Block, program: Program) -> SolvedBlock:
         speed=known.get("speed"),
         peck_depth=known.get("peck_depth", 0.0),
         findings=start.findings,
+        drafts=tuple(drafts),
     )
 
 
@@ -71,48 +77,79 @@ class _Here:
     feed: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class _Draft:
-    """A segment solved by itself, before blending: `here` is what it takes over, `ahead` what it hands on."""
+@dataclass(frozen=True, eq=False, slots=True)
+class Draft:
+    """A segment solved by itself, before blending: `here` is what it takes over, `ahead` what it hands on.
 
+    `z` and `feed` are its own, None where it takes over those of the segment before.
+    """
+
+    segment: Segment
+    unit: Unit
+    z: float | None
+    feed: float | None
     reading: Reading
     shape: _Shape
     here: _Here
     ahead: _Here
 
 
-def _segments(block: Block, start: Start, unit: Unit) -> list[SolvedSegment]:
-    drafts = _drafts(block, start, unit)
+def _segments(block: Block, drafts: list[Draft], before: SolvedBlock | None) -> list[SolvedSegment]:
     shapes = [draft.shape for draft in drafts]
     blend = {index for index, segment in enumerate(block.segments) if isinstance(segment, BlendSegment)}
     radii = {index: drafts[index].reading.known["radius"] for index in blend if "radius" in drafts[index].reading.known}
     lengthless = (index for index, shape in enumerate(shapes) if shape.piece is None and shape.end is not None)
     empty = frozenset(lengthless) - blend
     blends = blended(block.segments, [shape.piece for shape in shapes], radii, empty)
-    return [_finished(draft, index, blends) for index, draft in enumerate(drafts)]
+    known = {} if before is None else dict(zip(before.drafts, before.segments, strict=True))
+    pairs = ((draft, known.get(draft)) for draft in drafts)
+    return [
+        old if old is not None and _stands(old, draft, index, blends) else _finished(draft, index, blends)
+        for index, (draft, old) in enumerate(pairs)
+    ]
 
 
-def _drafts(block: Block, start: Start, unit: Unit) -> list[_Draft]:
+def _stands(old: SolvedSegment, draft: Draft, index: int, blends: Blends) -> bool:
+    """Whether no blend made anything else of a segment than before."""
+    unblended = index not in blends.faults and index not in blends.waiting and old.end is draft.shape.end
+    return unblended and old.piece is blends.pieces[index]
+
+
+def _drafts(block: Block, start: Start, unit: Unit, before: Sequence[Draft]) -> list[Draft]:
     here = _Here(start.point, start.known.get("z_bottom"), start.known.get("plunge_feed"))
-    drafts: list[_Draft] = []
-    for number, segment in enumerate(block.segments, 1):
-        drafts.append(_draft(segment, number, here, unit))
+    drafts: list[Draft] = []
+    for index, segment in enumerate(block.segments):
+        old = before[index] if index < len(before) else None
+        if old is None or old.segment is not segment or old.unit is not unit or old.here.point != here.point:
+            old = _draft(segment, index + 1, here.point, unit)
+        drafts.append(old if old.here == here else _carried(old, here))
         here = drafts[-1].ahead
     return drafts
 
 
-def _draft(segment: Segment, number: int, here: _Here, unit: Unit) -> _Draft:
+def _draft(segment: Segment, number: int, point: Point | None, unit: Unit) -> Draft:
+    """A segment that takes over a point, and neither Z nor feed yet."""
     reading = read(_FORMS[type(segment)], segment, unit, number)
-    known, values = reading.known, reading.values
-    feed, z_end = known.pop("feed", here.feed), known.pop("z_end", here.z)
-    carry(values, "feed", feed, unit)
-    if not isinstance(segment, BlendSegment):
-        carry(values, "z_end", z_end, unit)
-    shape = _shape(segment, reading, here.point, unit)
-    return _Draft(reading, shape, here, _Here(shape.end or _typed_end(known), z_end, feed))
+    feed, z = reading.known.pop("feed", None), reading.known.pop("z_end", None)
+    shape = _shape(segment, reading, point, unit)
+    ahead = _Here(shape.end or _typed_end(reading.known), z, feed)
+    return Draft(segment, unit, z, feed, reading, shape, _Here(point, None, None), ahead)
 
 
-def _finished(draft: _Draft, index: int, blends: Blends) -> SolvedSegment:
+def _carried(draft: Draft, here: _Here) -> Draft:
+    """The same segment with Z END and FEED carried over from another one before it."""
+    values = dict(draft.reading.values)
+    z = here.z if draft.z is None else draft.z
+    feed = here.feed if draft.feed is None else draft.feed
+    for name, value in (("z_end", z), ("feed", feed)):
+        if name in values and not isinstance(values[name], Entry | Unread):
+            values[name] = None
+            carry(values, name, value, draft.unit)
+    ahead = _Here(draft.ahead.point, z, feed)
+    return replace(draft, reading=replace(draft.reading, values=values), here=here, ahead=ahead)
+
+
+def _finished(draft: Draft, index: int, blends: Blends) -> SolvedSegment:
     shape, here, ahead = draft.shape, draft.here, draft.ahead
     fault = blends.faults.get(index)
     told = shape.findings if fault is None else (*shape.findings, fault)

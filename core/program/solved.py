@@ -7,11 +7,15 @@ it into something typed.  Needs no numpy.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Piece, Point
 from core.program.model import Entry, Unread
-from core.records import dataclass
+from core.records import dataclass, field
+
+if TYPE_CHECKING:
+    from core.program.assist import Draft
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +75,8 @@ class SolvedBlock:
     speed: float | None
     peck_depth: float
     findings: tuple[Finding, ...]
+    drafts: tuple[Draft, ...] = field(default=(), compare=False)
+    """What each segment is by itself, for the block that an edit makes of this one."""
 
     @property
     def pieces(self) -> tuple[tuple[int, Piece], ...]:

@@ -9,7 +9,7 @@ import pytest
 from core import records
 from core.finding import Finding, Severity
 
-LONG = ("number", "text", "rest", "more")
+LONG = ("number", "text", "rest", "more", "note")
 
 
 def made(decorator: Any) -> tuple[Any, ...]:
@@ -22,6 +22,7 @@ def made(decorator: Any) -> tuple[Any, ...]:
         text: str = "none"
         rest: tuple[int, ...] = ()
         more: list[int] = dataclasses.field(default_factory=list)
+        note: str = dataclasses.field(default="", compare=False)
 
         def doubled(self: Any) -> Any:
             return replace(self, number=2 * self.number)
@@ -63,7 +64,7 @@ class TestAsTheStandardLibrary:
     def test_values_by_place_by_name_and_by_default(self, classes):
         part, larger, *_ = classes
         one = part(1.5, rest=(1,))
-        assert [getattr(one, name) for name in LONG] == [1.5, "none", (1,), []]
+        assert [getattr(one, name) for name in LONG] == [1.5, "none", (1,), [], ""]
         assert part(1.0).more is not part(1.0).more
         assert larger(1.0, last=8).last == 8
         assert larger(1.0).last == 7
@@ -89,6 +90,7 @@ class TestAsTheStandardLibrary:
         part, _, loose, empty, one = classes
         assert part(1.0, more=[1]) == part(1.0, more=[1])
         assert part(1.0) != part(1.0, "other")
+        assert part(1.0, note="one") == part(1.0, note="other")
         assert one(1.0) != part(1.0)
         assert one(1.0) == one(1.0)
         assert hash(one(1.0)) == hash(one(1.0))
@@ -105,8 +107,8 @@ class TestAsTheStandardLibrary:
         part, larger, *_ = classes
         assert part(1.0).doubled() == part(2.0)
         assert [one.name for one in fields(larger)] == [*LONG, "last"]
-        assert dataclasses.asdict(part(1.0)) == {"number": 1.0, "text": "none", "rest": (), "more": []}
-        assert repr(part(1.0)).endswith("Part(number=1.0, text='none', rest=(), more=[])")
+        assert dataclasses.asdict(part(1.0)) == {"number": 1.0, "text": "none", "rest": (), "more": [], "note": ""}
+        assert repr(part(1.0)).endswith("Part(number=1.0, text='none', rest=(), more=[], note='')")
         assert part.kind == "part"
         match part(3.0, "three"):
             case part(number, text):

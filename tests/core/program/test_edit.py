@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 
 from core.program import edit
 from core.program.edit import Refused, Where
@@ -266,7 +266,7 @@ def test_set_unit_keeps_what_could_not_be_read():
     assert edit.set_unit(given, Unit.IN).blocks[0].segments[0] == LineSegment(x_end=unread, y_end=Entry(0.0))
 
 
-@settings(derandomize=True, max_examples=30)
+@settings(derandomize=True, max_examples=30, suppress_health_check=[HealthCheck.too_slow])
 @given(programs)
 def test_set_unit_loses_no_field(given_program):
     other = Unit.IN if given_program.unit is Unit.MM else Unit.MM
