@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 
 HALF: Final = (HIGHEST - LOWEST + 1) // 2
 """The table stands in two columns of ten values."""
-HEADING: Final = f"{'value':>6}{'gouge':>9}{'uncut':>9}{'':5}"
+HEADING: Final = f"{'value':>6}{'gouge':>9}{'uncut':>9} {'del.':4}"
+ERASED: Final = 4
+"""Cells for the deleted segments; the lines below the table name those of the value under the cursor in full."""
 NOTHING: Final = (
     "There is nothing to compare yet: a tool, a side and a",
     "determined contour are needed.",
@@ -93,5 +95,6 @@ def _fate(table: Table, value: int, at: int, unit: Unit) -> Row:
 
 def _numbers(fate: Fate, unit: Unit) -> Row:
     gouge = Span(f"{'none':>8}", Look.GOOD) if fate.clean else Span(f"{length(fate.gouge, unit):>8}", Look.ERROR)
-    erased = f" {numbers(fate.deleted)}"
-    return (gouge, Span(f"{length(fate.uncut, unit):>9}", Look.TYPED), Span(erased, Look.WARNING))
+    erased = numbers(fate.deleted)
+    short = erased if len(erased) <= ERASED else f"{erased[: ERASED - 1]}…"
+    return (gouge, Span(f"{length(fate.uncut, unit):>9}", Look.TYPED), Span(f" {short}", Look.WARNING))

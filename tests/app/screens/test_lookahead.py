@@ -1,0 +1,41 @@
+"""LOOKAHEAD TABLE: what of it has room in its columns."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from app.screens.lookahead import LookaheadTable
+from app.screens.page import Surface
+from app.widgets.rows import text_of
+from core.pipeline.derive import derive
+from core.pipeline.table import look_ahead_table
+from core.program.model import CutterComp, Entry, LineSegment, Program
+from tests.app.operator import Operator
+from tests.app.squares import square
+
+SAW = tuple((2.0 + 0.1 * step, -0.3 * (step % 2)) for step in range(9))
+"""Eight short teeth that the cutter cannot enter."""
+
+
+def saw() -> Operator:
+    """Ten lines straight on, the teeth, and a line."""
+    operator = square()
+    points = (*((0.2 * step, 0.0) for step in range(10)), *SAW, (6.0, 0.0))
+    segments = tuple(LineSegment(x_end=Entry(x), y_end=Entry(y), feed=Entry(10.0)) for x, y in points)
+    block = replace(operator.block, cutter_comp=CutterComp.LEFT, segments=segments, lookahead=None)
+    return Operator.at(replace(operator.session.program, blocks=(block,)))
+
+
+def lines(program: Program, operator: Operator) -> list[str]:
+    (found,) = derive(program).blocks
+    view = LookaheadTable(1).view(operator.session, Surface(80, 24, look_ahead_table(found, program)))
+    return [text_of(row) for row in (*view.header, *view.body)]
+
+
+def test_deleted_segments_that_have_no_room_are_marked_as_cut_short() -> None:
+    operator = saw()
+    told = lines(operator.session.program, operator)
+    assert told[1] == " value    gouge    uncut del. value    gouge    uncut del."
+    last = told[-1][29:].split()
+    assert (last[0], last[3]) == ("20*", "12-…")
+    assert all(len(line) <= 59 for line in told)
