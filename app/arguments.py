@@ -1,4 +1,4 @@
-"""The arguments of the command line, but for those that only `cutcomp check`, `proof` and the shop's commands read."""
+"""The arguments of the command line, but for those that `cutcomp check`, `proof` and the shop's commands read."""
 
 from __future__ import annotations
 
@@ -58,18 +58,6 @@ def command_parser(name: str) -> argparse.ArgumentParser:
             "--control", metavar="NAME[:VARIANT]", help="as that control's own G41, G42, RL or RR program"
         )
     return parser
-
-
-def tool_arguments(parser: argparse.ArgumentParser) -> None:
-    """What an NC program does not say itself: its tools' diameters, and its unit."""
-    parser.add_argument(
-        "--tool",
-        action="append",
-        default=[],
-        metavar="N=DIAMETER",
-        help="a tool's diameter in the program's unit, or with mm or in behind it",
-    )
-    parser.add_argument("--units", choices=("IN", "MM"), type=str.upper, help="the unit of a program that names none")
 
 
 def example_names() -> tuple[str, ...]:

@@ -12,7 +12,6 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Final
 
-from app.arguments import tool_arguments
 from app.checking import Answer, Asked, answer, answer_all, lines, same_contours
 from app.listing import SUFFIXES
 from core.controls.registry import UnknownControl, names, resolve
@@ -59,7 +58,14 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--tools", type=Path, metavar="TABLE", help="a tool table as LinuxCNC writes it, in the program's unit"
     )
-    tool_arguments(parser)
+    parser.add_argument(
+        "--tool",
+        action="append",
+        default=[],
+        metavar="N=DIAMETER",
+        help="a tool's diameter in the program's unit, or with mm or in behind it",
+    )
+    parser.add_argument("--units", choices=("IN", "MM"), type=str.upper, help="the unit of a program that names none")
     parser.add_argument("--shop", action="store_true", help="the shop's rules H1 to H9 too")
     parser.add_argument(
         "--contour", action="store_true", help="compare two programs, of any language, by the contours they describe"

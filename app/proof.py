@@ -7,7 +7,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.arguments import tool_arguments
 from app.commands import UNUSABLE, say
 
 if TYPE_CHECKING:
@@ -40,7 +39,14 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("file", type=Path, metavar="FILE", help="an NC program")
     parser.add_argument("--control", metavar="NAME[:VARIANT]", help="the control; the screen changes it by key")
     parser.add_argument("--tools", type=Path, metavar="TABLE", help="a tool table as LinuxCNC writes it")
-    tool_arguments(parser)
+    parser.add_argument(
+        "--tool",
+        action="append",
+        default=[],
+        metavar="N=DIAMETER",
+        help="a tool's diameter in the program's unit, or with mm or in behind it",
+    )
+    parser.add_argument("--units", choices=("IN", "MM"), type=str.upper, help="the unit of a program that names none")
     return parser
 
 
