@@ -6,38 +6,40 @@ import argparse
 import json
 import os
 import sys
+import threading
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from multiprocessing import active_children, get_context
 from pathlib import Path
+from signal import SIG_IGN, SIGINT, signal
 from typing import Final
 
 from app.checking import Answer, Asked, answer, answer_all, lines, same_contours
+from app.control_options import Unusable, add_options, bytes_of, control_of, name_of, tools_of, unit_of
 from app.listing import SUFFIXES
-from core.controls.registry import UnknownControl, names, resolve
-from core.controls.source import shown
-from core.controls.tools import CutterTool, ToolTable, read_table
+from core.controls.registry import names
 from core.records import dataclass
-from core.units import Unit
 
 CLEAN: Final = 0
 FINDINGS: Final = 1
 UNUSABLE: Final = 2
 
 
-class Unusable(Exception):
-    """Arguments or a file that cannot be used; the text says why."""
-
-
 def check(arguments: list[str]) -> int:
     """Runs the command; returns 0 for clean, 1 for errors found, 2 for what cannot be used."""
     options = _parser().parse_args(arguments)
     try:
-        asked = _asked(options)
-        paths = list(_programs(options.files))
+        return _done(options)
     except Unusable as trouble:
         print(f"cutcomp: {trouble}", file=sys.stderr)
         return UNUSABLE
+
+
+def _done(options: argparse.Namespace) -> int:
+    asked = _asked(options)
+    paths = list(_programs(options.files))
     if options.contour:
         return _contours(paths, asked)
     single = len(paths) == 1 and paths[0] == options.files[0]
@@ -55,17 +57,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="a program, or a folder of them")
     parser.add_argument("--control", required=True, metavar="NAME[:VARIANT]|all", help="the control, or all of them")
-    parser.add_argument(
-        "--tools", type=Path, metavar="TABLE", help="a tool table as LinuxCNC writes it, in the program's unit"
-    )
-    parser.add_argument(
-        "--tool",
-        action="append",
-        default=[],
-        metavar="N=DIAMETER",
-        help="a tool's diameter in the program's unit, or with mm or in behind it",
-    )
-    parser.add_argument("--units", choices=("IN", "MM"), type=str.upper, help="the unit of a program that names none")
+    add_options(parser)
     parser.add_argument("--shop", action="store_true", help="the shop's rules H1 to H9 too")
     parser.add_argument(
         "--contour", action="store_true", help="compare two programs, of any language, by the contours they describe"
@@ -75,50 +67,8 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _asked(options: argparse.Namespace) -> Asked:
-    control = options.control.strip().lower()
-    if control != "all":
-        full = resolve(control)
-        if isinstance(full, UnknownControl):
-            raise Unusable(full.text)
-        control = full
-    return Asked(control, tools_of(options), options.shop, Unit(options.units) if options.units else None)
-
-
-def tools_of(options: argparse.Namespace) -> ToolTable:
-    """The tools that --tools and --tool name; Unusable where they cannot be read."""
-    table = ToolTable()
-    if options.tools is not None:
-        table, findings = read_table(_bytes(options.tools))
-        if findings:
-            first = findings[0]
-            raise Unusable(f"{name_of(options.tools)}, line {first.line}: {first.text}")
-    return table.with_tools(ToolTable.of(*(_tool(text) for text in options.tool)))
-
-
-def _tool(text: str) -> CutterTool:
-    """A tool written N=DIAMETER."""
-    number, _, diameter = text.partition("=")
-    unit = {"mm": Unit.MM, "in": Unit.IN}.get(diameter.strip().lower()[-2:])
-    digits = diameter.strip()[:-2] if unit else diameter
-    try:
-        tool = CutterTool(int(number), float(digits), unit=unit)
-    except ValueError:
-        raise Unusable(f"--tool {shown(text)}: write a number and a diameter, as in 1=.5 or 2=6mm.") from None
-    if not abs(tool.diameter) < 1e6 or tool.number < 0:
-        raise Unusable(f"--tool {shown(text)}: that is no diameter of a tool.")
-    return tool
-
-
-def _bytes(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise Unusable(f"{name_of(path)}: {error.strerror}.") from error
-
-
-def name_of(path: Path) -> str:
-    """A file's name fit for a terminal."""
-    return "".join(one if one.isprintable() else "?" for one in str(path))
+    every = options.control.strip().lower() == "all"
+    return Asked("all" if every else control_of(options.control), tools_of(options), options.shop, unit_of(options))
 
 
 def _programs(files: list[Path]) -> Iterator[Path]:
@@ -128,9 +78,7 @@ def _programs(files: list[Path]) -> Iterator[Path]:
             yield path
             continue
         found = sorted(one for one in path.rglob("*") if one.suffix.lower() in SUFFIXES and one.is_file())
-        if not found:
-            raise Unusable(f"{name_of(path)} is a folder without programs ({' '.join(SUFFIXES)}).")
-        yield from found
+        yield from found or [path]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -144,7 +92,9 @@ class _Checked:
 
 def _one(path: Path, asked: Asked) -> _Checked:
     try:
-        text = _bytes(path)
+        if path.is_dir():
+            raise Unusable(f"{name_of(path)} is a folder without programs ({' '.join(sorted(SUFFIXES))}).")
+        text = bytes_of(path)
     except Unusable as trouble:
         return _Checked(path, unusable=str(trouble))
     found = answer_all(text, asked) if asked.control == "all" else (answer(text, asked),)
@@ -158,7 +108,32 @@ def _answers(paths: list[Path], asked: Asked) -> Iterator[_Checked]:
         yield from (_one(path, asked) for path in paths)
         return
     with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
-        yield from pool.map(_one, paths, [asked] * len(paths), chunksize=max(1, len(paths) // (8 * workers)))
+        with _uninterrupted():
+            answers = pool.map(_one, paths, [asked] * len(paths), chunksize=max(1, len(paths) // (8 * workers)))
+        try:
+            yield from answers
+        except BrokenProcessPool:
+            raise Unusable("A process that checked files was ended from outside; the rest is not checked.") from None
+        except BaseException:
+            # nobody waits for what is being worked out, nor for the pool's own thread to say that it is cancelled
+            threading.excepthook = lambda _: None
+            for process in active_children():
+                process.terminate()
+            raise
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Processes that begin here do not hear Ctrl+C: it is for the one that started them."""
+    try:
+        before = signal(SIGINT, SIG_IGN)
+    except ValueError:  # not in the main thread, which alone hears it
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal(SIGINT, before)
 
 
 def _status(checked: _Checked) -> int:
@@ -176,13 +151,9 @@ def _told(checked: _Checked) -> int:
 
 def _contours(paths: list[Path], asked: Asked) -> int:
     """Two programs by their contours: 0 if they describe the same, 1 if not."""
-    try:
-        if len(paths) != 2:
-            raise Unusable("--contour compares two files.")
-        first, second = (_bytes(path) for path in paths)
-    except Unusable as trouble:
-        print(f"cutcomp: {trouble}", file=sys.stderr)
-        return UNUSABLE
+    if len(paths) != 2:
+        raise Unusable("--contour compares two files.")
+    first, second = (bytes_of(path) for path in paths)
     same, told = same_contours(first, second, asked)
     print(*told, sep="\n")
     return CLEAN if same else FINDINGS

@@ -107,7 +107,7 @@ def _compared(row: Compared | OtherLanguage, asked: Asked) -> Answer:
 def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
     if reads(control, text):
         return ()
-    said = "The program is not written in this control's language."
+    said = "The program is not written in this control's language; --control all compares it by its contour."
     return (Finding("LANGUAGE", Severity.WARNING, said, line=1, column=1),)
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def proof(arguments: list[str]) -> int:
     """Runs the command; returns the exit status."""
-    from app.check import Unusable
+    from app.control_options import Unusable
 
     options = _parser().parse_args(arguments)
     try:
@@ -33,34 +33,23 @@ def shown(file: Path, characters: str = "") -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
+    from app.control_options import add_options
+
     parser = argparse.ArgumentParser(
         "cutcomp proof", description="The listing of an NC program, the path a control makes of it, and its findings."
     )
     parser.add_argument("file", type=Path, metavar="FILE", help="an NC program")
     parser.add_argument("--control", metavar="NAME[:VARIANT]", help="the control; the screen changes it by key")
-    parser.add_argument("--tools", type=Path, metavar="TABLE", help="a tool table as LinuxCNC writes it")
-    parser.add_argument(
-        "--tool",
-        action="append",
-        default=[],
-        metavar="N=DIAMETER",
-        help="a tool's diameter in the program's unit, or with mm or in behind it",
-    )
-    parser.add_argument("--units", choices=("IN", "MM"), type=str.upper, help="the unit of a program that names none")
+    add_options(parser)
     return parser
 
 
 def _proof(options: argparse.Namespace) -> int:
-    from app.check import Unusable, tools_of
+    from app.control_options import control_of, tools_of, unit_of
     from app.main import run
-    from core.controls.registry import UnknownControl, resolve
-    from core.units import Unit
 
-    control = "" if options.control is None else resolve(options.control)
-    if isinstance(control, UnknownControl):
-        raise Unusable(control.text)
-    tools = tools_of(options)
-    unit = Unit(options.units) if options.units else None
+    control = "" if options.control is None else control_of(options.control)
+    tools, unit = tools_of(options), unit_of(options)
 
     def page() -> ProofPage:
         plain = _page(options.file, control)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final
 
@@ -17,6 +17,7 @@ from core.controls.klartext import control as klartext
 from core.controls.report import Run
 from core.controls.source import lines_of
 from core.controls.tools import ToolTable
+from core.finding import Finding, Severity
 from core.units import Unit
 
 Control = Callable[[bytes, str, ToolTable, Unit | None], Run]
@@ -26,6 +27,11 @@ The unit is the one in force at the start, None for the one that the control usu
 """
 
 NO_TOOLS: Final = ToolTable()
+
+_NOTHING: Final = b" \t\r\n\x00\xef\xbb\xbf\xff\xfe"
+"""Blanks, line ends and the marks of encodings: of these alone is an empty program."""
+
+_EMPTY: Final = Finding("EMPTY", Severity.ERROR, "The program is empty; there is nothing to run.", line=1, column=1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +105,8 @@ def run(text: bytes, control: str, tools: ToolTable = NO_TOOLS, unit: Unit | Non
     if isinstance(full, UnknownControl):
         return full
     name, _, variant = full.partition(":")
-    return CONTROLS[name].control(text, variant, tools, unit)
+    made = CONTROLS[name].control(text, variant, tools, unit)
+    return made if text.strip(_NOTHING) else replace(made, findings=(_EMPTY,))
 
 
 def programmed(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -> Run | None:

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import sys
 from pathlib import Path
+from subprocess import PIPE, Popen
 
 import pytest
 
@@ -173,3 +177,39 @@ def test_klartext_and_iso_are_compared_by_their_contours(
 
 def test_comparing_contours_needs_two_files(capsys: pytest.CaptureFixture[str]) -> None:
     assert output(capsys, NC / "threeblock-line.nc", "--control", "linuxcnc", "--contour")[0] == 2
+
+
+def test_an_empty_program_is_an_error(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    file = tmp_path / "a.nc"
+    for data in (b"", b"\n \r\n", b"\xef\xbb\xbf"):
+        file.write_bytes(data)
+        for control in ("linuxcnc", "threeblock", "klartext"):
+            status, out, _ = output(capsys, file, "--control", control)
+            assert status == 1
+            assert "1:1  error    EMPTY" in out
+
+
+def test_an_empty_folder_among_others_is_told_and_the_others_are_checked(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    (tmp_path / "empty").mkdir()
+    file = NC / "rosettacnc-square.ngc"
+    status, out, err = output(capsys, tmp_path / "empty", file, "--control", "rosettacnc:easy", "--tool", "1=6")
+    assert status == 2
+    assert "is a folder without programs (.cnc .din" in err
+    assert out.splitlines()[-1] == "2 files: 1 clean, 0 with errors, 1 not readable."
+
+
+def test_ctrl_c_ends_an_archive_quietly(tmp_path: Path) -> None:
+    text = b"G21 G17 G90 F100\nG1 X0 Y0\n" + b"".join(b"X%d Y%d\n" % (row, row % 9) for row in range(60_000)) + b"M2\n"
+    for number in range(12):
+        (tmp_path / f"{number}.nc").write_bytes(text)
+    command = [sys.executable, "-m", "app", "check", str(tmp_path), "--control", "linuxcnc"]
+    running = Popen(command, stdout=PIPE, stderr=PIPE, start_new_session=True, cwd=Path(__file__).parents[2])
+    with running:
+        assert running.stdout is not None
+        running.stdout.readline()
+        os.killpg(running.pid, signal.SIGINT)
+        _, told = running.communicate(timeout=60)
+    assert running.returncode == 130
+    assert told == b""

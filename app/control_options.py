@@ -1,0 +1,81 @@
+"""The options that `cutcomp check` and `cutcomp proof` have in common: the control, the tools, the unit."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from core.controls.registry import UnknownControl, resolve
+from core.controls.source import shown
+from core.controls.tools import CutterTool, ToolTable, read_table
+from core.units import Unit
+
+
+class Unusable(Exception):
+    """Arguments or a file that cannot be used; the text says why."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """The tools and the unit."""
+    parser.add_argument(
+        "--tools", type=Path, metavar="TABLE", help="a tool table as LinuxCNC writes it, in the program's unit"
+    )
+    parser.add_argument(
+        "--tool",
+        action="append",
+        default=[],
+        metavar="N=DIAMETER",
+        help="a tool's diameter in the program's unit, or with mm or in behind it",
+    )
+    parser.add_argument("--units", choices=("IN", "MM"), type=str.upper, help="the unit of a program that names none")
+
+
+def control_of(text: str) -> str:
+    """The full name of a control; Unusable where there is none of that name."""
+    found = resolve(text)
+    if isinstance(found, UnknownControl):
+        raise Unusable(f"--control {shown(text)}: {found.text}")
+    return found
+
+
+def unit_of(options: argparse.Namespace) -> Unit | None:
+    """The unit that --units names."""
+    return Unit(options.units) if options.units else None
+
+
+def tools_of(options: argparse.Namespace) -> ToolTable:
+    """The tools that --tools and --tool name; Unusable where they cannot be read."""
+    table = ToolTable()
+    if options.tools is not None:
+        table, findings = read_table(bytes_of(options.tools))
+        if findings:
+            first = findings[0]
+            raise Unusable(f"{name_of(options.tools)}, line {first.line}: {first.text}")
+    return table.with_tools(ToolTable.of(*(_tool(text) for text in options.tool)))
+
+
+def _tool(text: str) -> CutterTool:
+    """A tool written N=DIAMETER."""
+    number, _, diameter = text.partition("=")
+    unit = {"mm": Unit.MM, "in": Unit.IN}.get(diameter.strip().lower()[-2:])
+    digits = diameter.strip()[:-2] if unit else diameter
+    try:
+        tool = CutterTool(int(number), float(digits), unit=unit)
+    except ValueError:
+        raise Unusable(f"--tool {shown(text)}: write a number and a diameter, as in 1=.5 or 2=6mm.") from None
+    if not abs(tool.diameter) < 1e6 or tool.number < 0:
+        raise Unusable(f"--tool {shown(text)}: that is no diameter of a tool.")
+    return tool
+
+
+def bytes_of(path: Path) -> bytes:
+    """What a file holds; Unusable where it cannot be read."""
+    try:
+        return path.read_bytes()
+    except (OSError, ValueError) as error:
+        raise Unusable(f"{name_of(path)}: {getattr(error, 'strerror', None) or error}.") from error
+
+
+def name_of(path: Path) -> str:
+    """A file's name fit for a terminal."""
+    return "".join(one if one.isprintable() else "?" for one in str(path))
