@@ -100,11 +100,12 @@ Given = Measured | Floats | Points
 Formula = Callable[..., NDArray[Any]]
 
 
-def stacked(parts: Sequence[Measured]) -> Measured:
-    """The pieces of several paths as those of one; their rows go on counting."""
+def stacked(paths: Sequence[Path]) -> Measured:
+    """The pieces of several paths that have a length as those of one path; rows count all pieces of all paths."""
+    parts = [measured(path) for path in paths]
     if len(parts) == 1:
         return parts[0]
-    counts = np.cumsum([0, *(len(part) for part in parts)])
+    counts = np.cumsum([0, *(len(path) for path in paths)])
     rows = [part.rows + count for part, count in zip(parts, counts.tolist(), strict=False)]
     names = ("start", "vector", "arm", "turn", "angle", "radius", "length", "slack")
     empty = measured(EMPTY)

@@ -11,6 +11,7 @@ from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.pipeline.derived import DerivedBlock, Loop, RoughPass, Work
 from core.tolerance import GOUGE
+from core.verify.names import Names, move_name
 from core.verify.nearest import Nearest, nearest
 from core.verify.report import findings as verdict_findings
 from core.verify.verdict import Gouge
@@ -22,10 +23,36 @@ def path_findings(work: Work) -> tuple[Finding, ...]:
     assert work.compensated is not None
     return (
         *(work.compensated if work.best is None else work.best).findings,
-        *verdict_findings(work.verdict, work.surface),
+        *verdict_findings(work.verdict, work.surface, move_names(work)),
         *blend_findings(work.loops, work.verdict.gouges, work.verdict.wrong_side),
         *rough_findings(work.rough, work.compensated if work.best is None else None),
     )
+
+
+def move_names(work: Work) -> Names:
+    """What the moves of all loops are, counted as the verdict counts them."""
+
+    def name(row: int, _number: float) -> str:
+        for loop in work.loops:
+            for path in (loop.lead_in, loop.path, loop.lead_out):
+                if row < len(path):
+                    return _move_name(loop, path, row, work.surface)
+                row -= len(path)
+        raise IndexError(row)
+
+    return name
+
+
+def _move_name(loop: Loop, path: Path, row: int, surface: Path) -> str:
+    if path is loop.path:
+        return move_name(path, row, surface)
+    if path is loop.lead_in:
+        return "The blend-in arc"
+    # the overlap's arcs are the path's own, the blend's is not
+    again = bool((loop.path.centres == path.centres[row]).all(axis=1).any())
+    if row == len(path) - 1 and path.turns[row] and not again:
+        return "The blend-out arc"
+    return f"{move_name(path, row, surface)} past START"
 
 
 def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge], wrong_side: Sequence[int]) -> Iterator[Finding]:

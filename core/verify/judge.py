@@ -41,7 +41,7 @@ def judge_together(surface: Path, side: Side, radius: float, centres: Sequence[P
             return _unjudged(radius)
         if not len(surface) or not centres:
             return judge(surface, side, radius, EMPTY)
-        moves, numbers = stacked([measured(centre) for centre in centres]), [centre.numbers for centre in centres]
+        moves, numbers = stacked(centres), [centre.numbers for centre in centres]
         return _judged(surface, _ground(surface), side, radius, np.concatenate((*numbers, np.empty(0))), moves)
 
 

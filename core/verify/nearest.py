@@ -37,7 +37,7 @@ def nearest(surface: Path, centres: Sequence[Path], clearance: float) -> Nearest
     with np.errstate(all="ignore"):
         if not (len(surface) and centres and all(judgeable(surface, clearance, centre) for centre in centres)):
             return None
-        walls, moves = measured(surface), stacked([measured(centre) for centre in centres])
+        walls, moves = measured(surface), stacked(centres)
         slack = 2.0 * float(walls.slack.max() + moves.slack.max(initial=0.0))
         reach = clearance + slack + 2.0 * GOUGE
         near = approaches(pairs_of(moves, walls, walls.stations, boxes(walls), clearance, reach), reach)
@@ -50,5 +50,5 @@ def nearest(surface: Path, centres: Sequence[Path], clearance: float) -> Nearest
         place = at(moves.take(near.i[row]), near.places[k[first : first + 1], row])
         wall = walls.take(near.j[row])
         touched, centre = at(wall, foot(wall, place)).item(), place.item()
-    number = surface.numbers[near.j[row]].item()
+    number = surface.numbers[wall.rows].item()
     return Nearest(clearance, (centre.real, centre.imag), (touched.real, touched.imag), number)

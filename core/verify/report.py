@@ -9,19 +9,29 @@ from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.stretch import stretch
 from core.tolerance import STOCK
+from core.verify.names import Names, by_number
 from core.verify.stray import Away, Stray
 from core.verify.verdict import Gouge, Uncut, Verdict
+
+DIGIT: Final = 0.00254
+"""Millimetres: the last digit of a form in inches."""
+
+SHOWN: Final = DIGIT / 2.0
+"""Lengths below this would be told as zeros."""
 
 LISTED: Final = 12
 """A stretch over more segments is told by its first and its last alone."""
 
 
-def findings(verdict: Verdict, surface: Path) -> tuple[Finding, ...]:
-    """What the operator must know: errors first, then warnings, then what stays uncut in the contour's order."""
+def findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple[Finding, ...]:
+    """What the operator must know: errors first, then warnings, then what stays uncut in the contour's order.
+
+    `names` says what the moves of the judged path are.
+    """
     if not verdict.judged:
         return (_unjudged(),)
     return (
-        *(_gouge(gouge) for gouge in verdict.gouges),
+        *(_gouge(gouge, names) for gouge in verdict.gouges),
         *_wrong_side(verdict),
         *_crosses_itself(verdict),
         *(_uncut(one, surface) for one in verdict.uncut),
@@ -59,12 +69,12 @@ def _unjudged() -> Finding:
     return Finding("UNJUDGED", Severity.ERROR, text)
 
 
-def _gouge(gouge: Gouge) -> Finding:
+def _gouge(gouge: Gouge, names: Names) -> Finding:
     """The segment is the surface's; `lengths` holds the length of path that gouges."""
-    text = (
-        f"{_move(gouge.path_number)} gouges segment {_number(gouge.surface_number)} by {{value}} at X {{x}} Y {{y}}, "
-        "over {0} of path."
-    )
+    move = names(gouge.path_piece, gouge.path_number)
+    fine = gouge.depth < SHOWN
+    depth = "less than {1}" if fine else "{value}"
+    text = f"{move} gouges segment {_number(gouge.surface_number)} by {depth} at X {{x}} Y {{y}}, over {{0}} of path."
     return Finding(
         "GOUGE",
         Severity.ERROR,
@@ -72,15 +82,8 @@ def _gouge(gouge: Gouge) -> Finding:
         segment=gouge.surface_number,
         at=gouge.surface_at,
         value=gouge.depth,
-        lengths=(gouge.extent,),
+        lengths=(gouge.extent, DIGIT) if fine else (gouge.extent,),
     )
-
-
-def _move(number: float) -> str:
-    """A piece of the centre path: the path of a segment, or of the corner behind segment k by k + 1/2."""
-    if number == int(number):
-        return f"The path of segment {int(number)}"
-    return f"The corner arc after segment {int(number)}"
 
 
 def _number(number: float) -> str:
@@ -115,8 +118,9 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
         shares = _shares(uncut, surface)
         listed = ", ".join(f"segment {number:g} {{{row}}}" for row, (number, _) in enumerate(shares, 1))
         told = f" ({listed})" if len(shares) > 1 else ""
-        text = f"{{value}} of {where} stays uncut{told}, {{0}} at the thickest, at X {{x}} Y {{y}}."
-        lengths = (uncut.thickness, *(length for _, length in shares))
+        thick = "{0}" if uncut.thickness >= SHOWN else f"less than {{{len(shares) + 1}}}"
+        text = f"{{value}} of {where} stays uncut{told}, {thick} at the thickest, at X {{x}} Y {{y}}."
+        lengths = (uncut.thickness, *(length for _, length in shares), DIGIT)
     return Finding(
         "UNCUT",
         Severity.INFO,

@@ -7,6 +7,7 @@ from core.finding import Severity
 from core.pipeline.derive import better, compared, derive, stocks
 from core.pipeline.derived import Tag
 from core.pipeline.outline import outline
+from core.pipeline.trouble import move_names
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Entry, LineSegment, Parameters, PathChoice, Unread, changed
 from core.units import Unit, sentence
@@ -164,6 +165,22 @@ def test_a_blend_arc_that_gouges_is_named():
     narrow = ((1, 0), (2, 0), (2, 0.8), (0, 0.8), (0, 0), (1, 0))
     (found,) = derive(program(block(narrow, CutterComp.LEFT), parameters=parameters)).blocks
     assert [finding.code for finding in found.errors].count("BLEND_GOUGES") == 2
+    told = {finding.text.split(" gouges")[0] for finding in found.errors if finding.code == "GOUGE"}
+    assert told == {"The blend-in arc", "The blend-out arc"}
+
+
+def test_a_move_past_start_that_gouges_is_named():
+    """The overlap runs along the first segment again, as wrong as the first time."""
+    parameters = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0.5))
+    hook = ((1, 0), (2, 0), (2, 1), (0.9, 1), (0.9, 0.3), (0, 0.3), (0, 0), (1, 0))
+    (found,) = derive(program(block(hook, CutterComp.LEFT, lookahead=Entry(1)), parameters=parameters)).blocks
+    work = found.work
+    assert work is not None
+    name = move_names(work)
+    rows = np.cumsum([0, *(len(part) for loop in work.loops for part in (loop.lead_in, loop.path, loop.lead_out))])
+    assert name(0, 1.0) == "The path of segment 1"
+    assert name(rows[2] - 1, 0.0) == "The path of segment 7"
+    assert name(rows[3] - 1, 0.0) == "The path of segment 1 past START"
 
 
 def test_a_tool_larger_than_the_part_is_said():

@@ -281,3 +281,9 @@ def test_loops_that_cannot_be_judged_are_never_clean() -> None:
     wall = Path.from_pieces([Line((0, 0), (10, 0))])
     lost = Path.from_pieces([Line((0, 1), (nan, 1))])
     assert not judge_together(wall, Side.LEFT, 1.0, [Path.from_pieces([Line((0, 1), (10, 1))]), lost]).clean
+
+
+def test_pieces_of_several_loops_are_counted_with_those_that_have_no_length() -> None:
+    still = lines((1, 1), (1, 1), (1.2, 1))
+    verdict = judge_together(square(), Side.LEFT, R, (still, lines((1, 1), (1, 0.1))))
+    assert [gouge.path_piece for gouge in verdict.gouges] == [2]

@@ -7,10 +7,12 @@ from math import nan
 import pytest
 
 from core.finding import Severity
-from core.geometry.path import EMPTY
+from core.geometry.path import EMPTY, Path
+from core.geometry.piece import Arc, Line, Piece, Turn
 from core.geometry.side import Side
 from core.units import Unit, sentence
 from core.verify.judge import judge
+from core.verify.names import move_name
 from core.verify.report import findings, stray_findings
 from core.verify.stray import stray
 from tests.core.verify.shapes import around, lines, square
@@ -36,11 +38,36 @@ def test_a_gouge_names_both_segments_and_the_place() -> None:
     )
 
 
-def test_the_corner_arc_that_gouges_is_named() -> None:
+def test_a_move_is_named_by_what_it_is() -> None:
+    surface = Path.from_pieces([Line((0, 0), (4, 0)), Arc((4, 0), (5, 1), (4, 1), Turn.CCW), Line((5, 1), (5, 4))])
+    pieces: list[Piece] = [
+        Line((0, 1), (3, 1)),
+        Line((3, 1), (3.5, 1.5)),
+        Line((3.5, 1.5), (4, 2)),
+        Arc((4, 2), (5, 3), (4, 3), Turn.CCW),
+    ]
+    path = Path.from_pieces(pieces, [1.0, 1.5, 2.0, 2.5])
+    assert [move_name(path, row, surface) for row in range(4)] == [
+        "The path of segment 1",
+        "The straight move across the corner after segment 1",
+        "The straight move across segment 2",
+        "The corner arc after segment 2",
+    ]
+
+
+def test_without_the_path_a_half_number_is_a_corner_s() -> None:
     path = lines((0, 1), (5, 0.5), (10, 1))
     half = type(path).of(path.points, path.centres, path.turns, path.numbers + 0.5)
     (gouge,) = findings(judge(WALL, Side.LEFT, 1.0, half), WALL)
-    assert gouge.text.startswith("The corner arc after segment 1 gouges segment 1")
+    assert gouge.text.startswith("The path at the corner after segment 1 gouges segment 1")
+
+
+def test_nothing_is_told_as_zeros() -> None:
+    for unit, digit in ((Unit.MM, "0.003"), (Unit.IN, "0.0001")):
+        (gouge, *_) = findings(judge(WALL, Side.LEFT, 1.0, lines((0, 0.9995), (10, 0.9995))), WALL)
+        assert f"by less than {digit} at X" in sentence(gouge, unit)
+        (uncut,) = findings(judge(WALL, Side.LEFT, 1.0, lines((0, 1.0005), (10, 1.0005))), WALL)
+        assert f"stays uncut, less than {digit} at the thickest" in sentence(uncut, unit)
 
 
 def test_uncut_stretches_name_their_segments() -> None:
