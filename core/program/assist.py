@@ -146,7 +146,8 @@ def _carried(draft: Draft, here: _Here) -> Draft:
             values[name] = None
             carry(values, name, value, draft.unit)
     ahead = _Here(draft.ahead.point, z, feed)
-    return replace(draft, reading=replace(draft.reading, values=values), here=here, ahead=ahead)
+    reading = Reading(values, draft.reading.known, draft.reading.findings)
+    return Draft(draft.segment, draft.unit, draft.z, draft.feed, reading, draft.shape, here, ahead)
 
 
 def _finished(draft: Draft, index: int, blends: Blends) -> SolvedSegment:

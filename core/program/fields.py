@@ -250,9 +250,10 @@ def check(one: Field, value: float, unit: Unit) -> str | None:
 
 def bounds(one: Field, unit: Unit) -> tuple[float | None, float | None]:
     """The least and the largest value a field takes, in program units."""
-    measure = one.kind in (Kind.LENGTH, Kind.FEED)
-    low, high = (None if bound is None else from_mm(bound, unit) if measure else bound for bound in (one.low, one.high))
-    return low, high
+    low, high = one.low, one.high
+    if unit is Unit.MM or one.kind not in (Kind.LENGTH, Kind.FEED):
+        return low, high
+    return None if low is None else from_mm(low, unit), None if high is None else from_mm(high, unit)
 
 
 def range_of(one: Field, unit: Unit) -> str:
