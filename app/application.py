@@ -143,7 +143,7 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
             self.desk = self.desk.knowing(self.engine.derive(program, before))
             return
         if session.stale:
-            self.desk = self.desk.knowing(outline(program))
+            self.desk = self.desk.knowing(outline(program, before))
         if self.engine.ready:
             self._deriving.ask(lambda: self.engine.derive(program, before))
 
@@ -178,7 +178,7 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
     def _tabulate(self) -> None:
         """The look-ahead table of the block shown, kept until the block changes."""
         found, program = self.shown.found, self.shown.program
-        if found.work is None or self.engine.table_of is found:
+        if self.engine.tabulated(found):
             return
         if self.engine.fast("derive", "table"):
             self.engine.keep_table(found, program)

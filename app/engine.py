@@ -16,7 +16,7 @@ from app.memory import Memory
 from app.screens.page import Drawn, Sketch
 from app.widgets.rows import Row
 from app.widgets.verdict import verdict_rows
-from core.pipeline.derived import Derived, DerivedBlock
+from core.pipeline.derived import Derived, DerivedBlock, Work
 from core.pipeline.outline import outline
 from core.program.model import Program
 from core.records import dataclass, field
@@ -77,16 +77,20 @@ class Known:
 
 @dataclass(slots=True)
 class Engine:
-    """Remembers how long things took, and the look-ahead table of the last block asked for."""
+    """Remembers how long things took, and the look-ahead table of the last paths asked for.
+
+    A block whose depths or feeds have changed is another one with the same paths: its table stays.
+    """
 
     limit: float = FAST
     ready: bool = False
     memory: Memory = field(default_factory=Memory)
     took: dict[str, float] = field(default_factory=dict)
     table: Table | None = None
-    table_of: DerivedBlock | None = None
+    table_of: Work | None = None
     needs: tuple[Finding, ...] = ()
-    needs_of: DerivedBlock | None = None
+    needs_of: tuple[Work, int] | None = None
+    """The paths they are about, and the calculated look-ahead they explain."""
     told: tuple[Table, Table] | None = None
     """The table as it was made, and with what its block needs."""
 
@@ -123,17 +127,23 @@ class Engine:
         """Make and keep the look-ahead table of a block."""
         from core.pipeline.table import look_ahead_table
 
-        if self.table_of is found:
+        if self.table_of is found.work:
             return
         table = self.timed("table", lambda: look_ahead_table(found, program))
         # never a new table beside another block, not for a moment: the screens look in from another thread
         self.table_of = None
         self.table = table
-        self.table_of = found
+        self.table_of = found.work
+
+    def tabulated(self, found: DerivedBlock) -> bool:
+        """Whether the table is that of a block, or the block can have none."""
+        return found.work is None or self.table_of is found.work
 
     def lacks_needs(self, found: DerivedBlock) -> bool:
         """Whether the table of this block is there, its calculated value is not clean, and nobody has said why."""
-        if self.table is None or self.table_of is not found or self.needs_of is found:
+        if self.table is None or found.work is None or self.table_of is not found.work:
+            return False
+        if self.needs_of == _needing(found):
             return False
         return not self.table.row(found.lookahead.calculated).clean
 
@@ -141,12 +151,12 @@ class Engine:
         """Say with the table what the block needs; for a thread, since remedies are tried one after the other."""
         from core.pipeline.needs import needs
 
-        if self.needs_of is found:
+        if self.needs_of == _needing(found):
             return
-        told = needs(found, program, self.table if self.table_of is found else None)
+        told = needs(found, program, self.table if self.table_of is found.work else None)
         self.needs_of = None
         self.needs = () if told is None else told.sentences
-        self.needs_of = found
+        self.needs_of = _needing(found)
 
     def known(self, found: DerivedBlock, trial: Session | None) -> Known:
         """What the screens may show of this block."""
@@ -155,10 +165,14 @@ class Engine:
     def _table(self, found: DerivedBlock) -> Table | None:
         """The table of a block, with what the block needs before its other notes once that is known."""
         table = self.table
-        if table is None or self.table_of is not found:
+        if table is None or found.work is None or self.table_of is not found.work:
             return None
-        if self.needs_of is not found or not self.needs:
+        if self.needs_of != _needing(found) or not self.needs:
             return table
         if self.told is None or self.told[0] is not table:
             self.told = (table, replace(table, notes=(*self.needs, *table.notes)))
         return self.told[1]
+
+
+def _needing(found: DerivedBlock) -> tuple[Work, int] | None:
+    return None if found.work is None else (found.work, found.lookahead.calculated)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from core.draw.scene import BEYOND, Layer
 from core.draw.view import TALL, View
-from core.geometry.path import Floats
+from core.geometry.path import Floats, Path
 
 SAG: Final = 0.1
 """How far a chord may stray from its arc, in cells' widths: less than half a dot of the finest mode."""
@@ -94,16 +94,31 @@ def chords(layers: Sequence[Layer], view: View, columns: int, rows: int) -> Chor
 def _gather(given: Sequence[tuple[int, Layer]], view: View) -> _Pieces:
     """The pieces of all layers in window coordinates, in order; only dashed layers are measured."""
     paths = [layer.path for _, layer in given]
-    points = [_in_window(path.points, view) for path in paths]
+    chain, own = _chain(paths)
+    points, counts = _in_window(chain.points, view), np.array([len(path) for path in paths])
     return _Pieces(
-        np.concatenate([each[:-1] for each in points]),
-        np.concatenate([each[1:] for each in points]),
-        np.concatenate([_in_window(path.centres, view) for path in paths]),
-        np.concatenate([path.turns for path in paths]),
-        np.abs(np.concatenate([path.sweeps for path in paths])),
-        np.repeat([index for index, _ in given], [len(path) for path in paths]),
-        np.concatenate([_travelled(layer) for _, layer in given]) / view.scale,
+        points[:-1][own],
+        points[1:][own],
+        _in_window(chain.centres, view)[own],
+        chain.turns[own],
+        np.abs(chain.sweeps[own]),
+        np.repeat([index for index, _ in given], counts),
+        _travelled([layer for _, layer in given], np.cumsum(counts)) / view.scale,
     )
+
+
+def _chain(paths: Sequence[Path]) -> tuple[Path, Mask]:
+    """All paths as one, and which of its pieces are theirs: a line from each to the next is not.
+
+    What is asked of it once would be asked of a hundred little paths one by one.
+    """
+    points = np.concatenate([path.points for path in paths])
+    own = np.ones(len(points) - 1, np.bool_)
+    own[np.cumsum([len(path) + 1 for path in paths])[:-1] - 1] = False
+    centres, turns = points[:-1].copy(), np.zeros(len(own), np.int8)
+    centres[own] = np.concatenate([path.centres for path in paths])
+    turns[own] = np.concatenate([path.turns for path in paths])
+    return Path.of(points, centres, turns), own
 
 
 def _in_window(points: Floats, view: View) -> Points:
@@ -112,13 +127,14 @@ def _in_window(points: Floats, view: View) -> Points:
     return window
 
 
-def _travelled(layer: Layer) -> Floats:
-    """Millimetres from the path's start to each piece of a dashed layer."""
-    if not layer.dashed:
-        return np.zeros(len(layer.path))
-    lengths = layer.path.lengths
-    travelled: Floats = np.cumsum(lengths) - lengths
-    return travelled
+def _travelled(layers: Sequence[Layer], behind: Rows) -> Floats:
+    """Millimetres from its path's start to each piece of a dashed layer; `behind` counts the pieces up to its end."""
+    along = np.zeros(behind[-1])
+    for layer, last in zip(layers, behind.tolist(), strict=True):
+        if layer.dashed and len(layer.path) > 1:
+            lengths = layer.path.lengths
+            along[last - len(lengths) : last] = np.cumsum(lengths) - lengths
+    return along
 
 
 def _drawable(pieces: _Pieces, limit: float) -> Mask:
