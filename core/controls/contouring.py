@@ -25,12 +25,27 @@ APART: Final = 0.001
 """Millimetres from which on two programmed elements do not join."""
 
 
+class Travel(NamedTuple):
+    """A move of the tool's centre as it is to be made: its end, its feed (None at rapid), as an arc turn and centre."""
+
+    x: float
+    y: float
+    z: float
+    feed: float | None
+    turn: int
+    centre: Point
+
+
 class Line(NamedTuple):
-    """A line of a program being written, the segment it cuts, and whether it only leads to that or away from it."""
+    """A line of a program being written, the segment it cuts, and whether it only leads to that or away from it.
+
+    `travel` is the move that the line has to make where nothing is compensated.
+    """
 
     text: str
     segment: float | None = None
     lead: bool = False
+    travel: Travel | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
@@ -58,6 +73,13 @@ class Cut(Terms):
     """A run and the compensated contour it goes along."""
 
     compensated: Compensated
+
+
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class Plain(Terms):
+    """A run without compensation, move by move; the first one is a rapid in the plane at the height `travel`."""
+
+    travels: tuple[Travel, ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)

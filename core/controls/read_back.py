@@ -12,7 +12,7 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.contouring import Cut, Line, refusal
+from core.controls.contouring import Cut, Line, Plain, refusal
 from core.controls.registry import UnknownControl, run
 from core.controls.report import Run, Stretch
 from core.controls.tools import ToolTable
@@ -43,7 +43,7 @@ class Meant:
 
     control: str
     lines: tuple[Line, ...]
-    cuts: tuple[Cut, ...]
+    cuts: tuple[Cut | Plain, ...]
     tools: ToolTable
     unit: Unit
     last_digit: float
@@ -79,11 +79,14 @@ def read_back(meant: Meant) -> Told:
     stopped = _stopped(made, meant)
     if stopped:
         return Told(stopped)
-    if len(made.stretches) != len(meant.cuts):
-        text = f"The control makes {len(made.stretches)} compensated runs of {len(meant.cuts)}."
+    cuts = [cut for cut in meant.cuts if isinstance(cut, Cut)]
+    if len(made.stretches) != len(cuts):
+        text = f"The control makes {len(made.stretches)} compensated runs of {len(cuts)}."
         return Told((refusal(text),))
+    if (other := _other_move(made, meant)) is not None:
+        return Told((other,))
     told: dict[tuple[int, bytes], Told] = {}
-    for cut, stretch in zip(meant.cuts, made.stretches, strict=True):
+    for cut, stretch in zip(cuts, made.stretches, strict=True):
         moves = made.moves.part(stretch.first, stretch.last)
         key = (id(cut.compensated), moves.points[:, :2].tobytes())
         if not _level(made, stretch, cut, meant):
@@ -94,6 +97,27 @@ def read_back(meant: Meant) -> Told:
     differing = [one for each in told.values() for one in each.notes]
     worst = sorted(differing, key=lambda one: one.lengths)[-1:]
     return Told(errors, (*worst, *_warnings(made, meant)))
+
+
+def _other_move(made: Run, meant: Meant) -> Finding | None:
+    """A move without compensation that the control does not make as it was meant."""
+    moves = made.moves
+    for number, line in enumerate(meant.lines, 1):
+        travel = line.travel
+        if travel is None:
+            continue
+        # the last move up to this line: a line that leads to where the tool stands already makes none
+        row = int(np.searchsorted(moves.lines, number, side="right")) - 1
+        other = bool(moves.rapid[row]) != (travel.feed is None) or int(moves.turns[row]) != travel.turn
+        if other and (int(moves.lines[row]) == number or travel.turn):
+            return refusal(f"{meant.control} makes another move of line {number} of the program.")
+        off = np.abs(moves.points[row] - (travel.x, travel.y, travel.z)).max()
+        if travel.turn:
+            off = max(off, np.abs(moves.centres[row, :2] - travel.centre).max())
+        if off > meant.tolerance:
+            text = f"{meant.control} ends line {number} of the program {{0}} elsewhere."
+            return refusal(text, lengths=(float(off),))
+    return None
 
 
 def _stopped(made: Run, meant: Meant) -> tuple[Finding, ...]:

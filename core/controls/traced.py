@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from core.controls.contouring import End, Programmed, Terms
 from core.controls.corners import Element, arc_element, beyond, line_element, square
+from core.controls.iso_leads import Ready, merged, out_of, start_of
 from core.controls.iso_style import Entry, IsoStyle
 from core.controls.moves import Moves, Plane
 from core.controls.report import Run, Stretch
 from core.controls.verdicts import closed_part
-from core.controls.write_iso import Ready, merged, out_of, start_of
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Point, Turn
 from core.geometry.piece import Line as Straight

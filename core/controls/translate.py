@@ -13,12 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.controls.contouring import Line
+from core.controls.iso_leads import Ready
 from core.controls.iso_style import STYLES
 from core.controls.registry import UnknownControl, run
 from core.controls.report import Run, Stretch
 from core.controls.tools import ToolTable
 from core.controls.traced import Traced, Untold, led, traced
-from core.controls.write_iso import Frame, Ready, tools_of, write
+from core.controls.write_iso import Frame, tools_of, write
 from core.controls.write_klartext import DECIMALS, write_led
 from core.units import to_mm
 

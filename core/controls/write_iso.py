@@ -8,39 +8,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import hypot
 from typing import Final
 
-from core.controls.contouring import Cut, End, Line, Programmed, Terms, begin, finish, number_text, programmed
-from core.controls.corners import Element, arc_element, beyond, line_element
-from core.controls.iso_style import Entry, IsoStyle, Radius
+from core.controls.contouring import Line, Plain, Terms, Travel, number_text
+from core.controls.corners import Element
+from core.controls.iso_leads import Ready
+from core.controls.iso_style import IsoStyle, Radius
 from core.controls.tools import CutterTool, ToolTable
-from core.finding import Finding
 from core.geometry.piece import Point
 from core.geometry.side import Side
 from core.units import Unit, from_mm
-
-ON_LINE: Final = 1e-6
-"""Millimetres by which the joint of two lines may lie beside the line they are merged to."""
 
 SPARE: Final = 51
 """Offsets from this number on hold the radii of runs that leave stock."""
 
 ROUNDING: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
 """How far the machine may leave the path at a corner, in program units."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Ready:
-    """A run with what is run of it: elements, leads included, and the points it is entered from and left to."""
-
-    cut: Terms
-    side: Side
-    shape: Programmed
-    start: Point
-    to: Point
-    out: Point
-    offset: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,64 +33,6 @@ class Frame:
     unit: Unit
     work_offset: int = 54
     corners: str = ""
-
-
-def start_of(end: End, style: IsoStyle, reach: float) -> Point:
-    """Where the entry starts: `reach` away from where it ends, on the line the control needs it on."""
-    if end.blend:
-        return beyond(end.corner if style.entry is Entry.OWN else end.at, end.off, reach)
-    if style.entry is Entry.NEXT:
-        return beyond(end.at, end.off, reach)
-    return beyond(end.corner if style.entry is Entry.OWN else end.at, end.way, -reach)
-
-
-def out_of(end: End, reach: float) -> Point:
-    """Where the exit ends."""
-    return beyond(end.at, end.off, reach)
-
-
-def ready(cut: Cut, style: IsoStyle, reach: float, offset: int) -> Ready | Finding:
-    """A cut with its leads of a length."""
-    shape = programmed(cut.compensated)
-    if isinstance(shape, Finding):
-        return shape
-    first, last = begin(cut.compensated), finish(cut.compensated)
-    shape = _led(merged(shape) if style.merged else shape, cut, first, last)
-    start, out = start_of(first, style, reach), out_of(last, reach)
-    return Ready(cut, cut.compensated.side, shape, start, first.corner, out, offset)
-
-
-def _led(shape: Programmed, cut: Cut, first: End, last: End) -> Programmed:
-    """With the blends as programmed arcs."""
-    if not first.blend:
-        return shape
-    lead_in, lead_out = cut.compensated.lead_in, cut.compensated.lead_out
-    elements, segments = shape.elements, shape.segments
-    (ax, ay), (bx, by) = lead_in.centres[0].tolist(), lead_out.centres[-1].tolist()
-    turn_in, turn_out = int(lead_in.turns[0]), int(lead_out.turns[-1])
-    into = arc_element(first.corner, elements[0].start, (ax, ay), turn_in, 0.0, 0.0, 0.0, 0)
-    off = arc_element(elements[-1].end, last.corner, (bx, by), turn_out, 0.0, 0.0, 0.0, 0)
-    return Programmed((into, *elements, off), (segments[0], *segments, segments[-1]))
-
-
-def merged(shape: Programmed) -> Programmed:
-    """Lines that go on in one line made one, with the first one's segment."""
-    elements, segments = [shape.elements[0]], [shape.segments[0]]
-    for element, segment in zip(shape.elements[1:], shape.segments[1:], strict=True):
-        if _goes_on(elements[-1], element):
-            elements[-1] = line_element(elements[-1].start, element.end, 0.0, 0.0, rapid=False, feed=0.0, line=0)
-        else:
-            elements.append(element)
-            segments.append(segment)
-    return Programmed(tuple(elements), tuple(segments))
-
-
-def _goes_on(first: Element, second: Element) -> bool:
-    if first.turn or second.turn:
-        return False
-    (ax, ay), (bx, by) = first.leaving, second.leaving
-    length = min(hypot(one.end[0] - one.start[0], one.end[1] - one.start[1]) for one in (first, second))
-    return ax * bx + ay * by > 0.0 and abs(ax * by - ay * bx) * length <= ON_LINE
 
 
 def offsets(cuts: Sequence[Terms], style: IsoStyle) -> dict[tuple[int, float], int]:
@@ -137,7 +62,9 @@ def tools_of(cuts: Sequence[Terms], style: IsoStyle) -> ToolTable:
     )
 
 
-def write(cuts: Sequence[Ready], style: IsoStyle, frame: Frame, remarks: Sequence[str] = ()) -> tuple[Line, ...]:
+def write(
+    cuts: Sequence[Ready | Plain], style: IsoStyle, frame: Frame, remarks: Sequence[str] = ()
+) -> tuple[Line, ...]:
     """The lines of the program; `remarks` are ready comment lines and stand first."""
     return tuple(_Writer(style, frame).program(cuts, remarks))
 
@@ -152,7 +79,7 @@ class _Writer:
         self.height = ""
         self.at: tuple[str, str] = ("", "")
 
-    def program(self, cuts: Sequence[Ready], remarks: Sequence[str]) -> Iterator[Line]:
+    def program(self, cuts: Sequence[Ready | Plain], remarks: Sequence[str]) -> Iterator[Line]:
         """Everything from the first line to the end."""
         yield from (Line(remark) for remark in remarks if self.style.comments)
         unit = self.style.inch if self.frame.unit is Unit.IN else self.style.metric
@@ -163,9 +90,10 @@ class _Writer:
             yield Line(self.frame.corners)
         before: Terms | None = None
         for one in cuts:
-            yield from self.tool(one.cut, before)
-            yield from self.cut(one)
-            before = one.cut
+            terms = one if isinstance(one, Plain) else one.cut
+            yield from self.tool(terms, before)
+            yield from self.plain(one) if isinstance(one, Plain) else self.cut(one)
+            before = terms
         yield Line("M5")
         yield Line("M30")
 
@@ -206,6 +134,27 @@ class _Writer:
         self.height = ""
         yield from self.rapid(cut.leave)
 
+    def plain(self, one: Plain) -> Iterator[Line]:
+        """One run without compensation, as its moves are."""
+        yield from self.rapid(one.travel)
+        first, *rest = one.travels
+        yield self.words("G0", *self.place((first.x, first.y)))._replace(travel=first)
+        for travel in rest:
+            yield from self.travelled(travel)
+
+    def travelled(self, travel: Travel) -> Iterator[Line]:
+        """A move with the axes that move in it; none where nothing does as written."""
+        start, height = self.at, self.height
+        self.height, place = f"Z{self.length(travel.z)}", self.place((travel.x, travel.y))
+        up = (self.height,) if self.height != height else ()
+        if travel.turn:
+            words = ("G2" if travel.turn < 0 else "G3", *place, *up, *self.centre(travel.centre, start))
+        elif place != start or up:
+            words = ("G0" if travel.feed is None else "G1", *(place if place != start else ()), *up)
+        else:
+            return
+        yield self.words(*words, *(() if travel.feed is None else self.feed_word(travel.feed)))._replace(travel=travel)
+
     def rapid(self, height: float) -> Iterator[Line]:
         """To a height, where the tool is not there yet."""
         text = f"Z{self.length(height)}"
@@ -233,13 +182,13 @@ class _Writer:
         if start == end and not whole:
             return
         code = "G1" if not element.turn else "G2" if element.turn < 0 else "G3"
-        centre = self.centre(element, start) if element.turn else ()
+        centre = self.centre(element.centre, start) if element.turn else ()
         yield self.words(code, *end, *centre, *self.feed_word(feed), segment=segment)
 
-    def centre(self, element: Element, start: tuple[str, str]) -> tuple[str, str]:
+    def centre(self, centre: Point, start: tuple[str, str]) -> tuple[str, str]:
         """I and J: from the origin, or from the start as it is written."""
         unit = self.frame.unit
-        x, y = (from_mm(value, unit) for value in element.centre)
+        x, y = (from_mm(value, unit) for value in centre)
         if not self.style.absolute:
             x, y = x - float(start[0][1:]), y - float(start[1][1:])
         digits = self.style.digits(unit)

@@ -8,33 +8,38 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import hypot
+from math import degrees, hypot, tau
 from typing import Final
 
-from core.controls.contouring import Cut, Line, Programmed, Terms, blend_of, programmed
-from core.controls.corners import Element
-from core.controls.write_iso import Ready
+from core.controls.contouring import Cut, Line, Plain, Programmed, Terms, Travel, blend_of, programmed
+from core.controls.corners import Element, sweep
+from core.controls.iso_leads import Ready
 from core.finding import Finding
 from core.geometry.piece import Point
 from core.geometry.side import Side
-from core.units import Unit, from_mm
+from core.units import Unit, from_mm, to_mm
 
 DECIMALS: Final = {Unit.IN: 5, Unit.MM: 4}
 """Decimals the control takes."""
 
-_Shaped = tuple[Cut, Programmed]
+_Shaped = tuple[Cut, Programmed] | Plain
 
 
-def write(cuts: Sequence[Cut], name: str, unit: Unit, remarks: Sequence[str] = ()) -> tuple[Line, ...] | Finding:
+def write(
+    cuts: Sequence[Cut | Plain], name: str, unit: Unit, remarks: Sequence[str] = ()
+) -> tuple[Line, ...] | Finding:
     """The lines of the program; or why the control would not run one of these paths by its own compensation."""
     shaped: list[_Shaped] = []
     for cut in cuts:
+        if isinstance(cut, Plain):
+            shaped.append(cut)
+            continue
         shape = programmed(cut.compensated)
         if isinstance(shape, Finding):
             return shape
         shaped.append((cut, shape))
     lines = _Writer(unit).program(shaped, name, remarks)
-    return tuple(Line(f"{number} {line.text}", line.segment) for number, line in enumerate(lines))
+    return tuple(line._replace(text=f"{number} {line.text}") for number, line in enumerate(lines))
 
 
 def write_led(runs: Sequence[Ready], unit: Unit) -> tuple[Line, ...]:
@@ -82,12 +87,13 @@ class _Writer:
         frame = f"PGM {name} {'INCH' if self.unit is Unit.IN else 'MM'}"
         yield Line(f"BEGIN {frame}")
         yield from (Line(f"; {remark}") for remark in remarks)
-        yield from self.tools([cut for cut, _ in cuts])
-        before: Cut | None = None
-        for cut, shape in cuts:
-            yield from self.tool(cut, before)
-            yield from self.cut(cut, shape)
-            before = cut
+        yield from self.tools([one if isinstance(one, Plain) else one[0] for one in cuts])
+        before: Terms | None = None
+        for one in cuts:
+            terms = one if isinstance(one, Plain) else one[0]
+            yield from self.tool(terms, before)
+            yield from self.plain(one) if isinstance(one, Plain) else self.cut(*one)
+            before = terms
         yield Line("M30")
         yield Line(f"END {frame}")
 
@@ -120,6 +126,37 @@ class _Writer:
         last = shape.segments[-1]
         yield Line(f"DEP CT CCA+90 R{self.length(blend)}" if blend else f"L {self.place((bx, by))} R0", last)
         yield Line(f"L Z{self.length(cut.leave)} R0 FMAX")
+
+    def plain(self, one: Plain) -> Iterator[Line]:
+        """One run without compensation, as its moves are."""
+        x, y, z = self.at((0.0, 0.0), one.travel)
+        for travel in one.travels:
+            start, (x, y, z) = (x, y, z), self.at((travel.x, travel.y), travel.z)
+            feed = "FMAX" if travel.feed is None else f"F{self.feed(travel.feed)}"
+            if not travel.turn:
+                words = [
+                    new for new, old in zip((x, y, z), start, strict=True) if new != old or travel is one.travels[0]
+                ]
+                if words:
+                    yield Line(f"L {' '.join(words)} R0 {feed}", travel=travel)
+                continue
+            cx, cy = travel.centre
+            yield Line(f"CC X{self.length(cx)} Y{self.length(cy)}")
+            sense = "+" if travel.turn > 0 else "-"
+            if z == start[2]:
+                yield Line(f"C {x} {y} DR{sense} R0 {feed}", travel=travel)
+            else:
+                angle = self.turned(start, (x, y), travel)
+                yield Line(f"CP IPA{sense}{angle:.6f} {z} DR{sense} R0 {feed}", travel=travel)
+
+    def at(self, point: Point, height: float) -> tuple[str, str, str]:
+        """X, Y and Z as words."""
+        return f"X{self.length(point[0])}", f"Y{self.length(point[1])}", f"Z{self.length(height)}"
+
+    def turned(self, start: tuple[str, str, str], end: tuple[str, str], travel: Travel) -> float:
+        """Degrees that a helix turns between places as they are written."""
+        (sx, sy), (ex, ey) = ([to_mm(float(word[1:]), self.unit) for word in words[:2]] for words in (start, end))
+        return degrees(sweep((sx, sy), (ex, ey), travel.centre, travel.turn) or tau)
 
     def begin(self, cut: Cut, shape: Programmed, feed: float) -> Line:
         """APPR CT onto the first element, or a straight block with RL or RR."""

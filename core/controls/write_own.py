@@ -7,11 +7,12 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from core.controls import write_iso, write_klartext
-from core.controls.contouring import Cut, Line, begin, finish, refusal
+from core.controls.contouring import Cut, Line, Plain, begin, finish, refusal
+from core.controls.iso_leads import Ready, out_of, ready, start_of
 from core.controls.iso_style import STYLES, Entry, IsoStyle
 from core.controls.read_back import Meant, read_back
 from core.controls.tools import ToolTable
-from core.controls.write_iso import Frame, Ready, offsets, out_of, ready, start_of, tools_of
+from core.controls.write_iso import Frame, offsets, tools_of
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Line as Straight
@@ -44,14 +45,14 @@ class NotWritten:
     findings: tuple[Finding, ...]
 
 
-def write_own(cuts: Sequence[Cut], control: str, frame: Frame, name: str, remarks: Remarks) -> Own | NotWritten:
+def write_own(cuts: Sequence[Cut | Plain], control: str, frame: Frame, name: str, remarks: Remarks) -> Own | NotWritten:
     """The program of a control by its full name; `remarks` makes its first lines of the notes on it."""
     if control == "klartext":
         return _klartext(cuts, frame, name, remarks)
     return _iso(cuts, control, frame, remarks)
 
 
-def _klartext(cuts: Sequence[Cut], frame: Frame, name: str, remarks: Remarks) -> Own | NotWritten:
+def _klartext(cuts: Sequence[Cut | Plain], frame: Frame, name: str, remarks: Remarks) -> Own | NotWritten:
     decimals = write_klartext.DECIMALS[frame.unit]
 
     def meant(notes: Sequence[Finding]) -> Meant | Finding:
@@ -61,7 +62,7 @@ def _klartext(cuts: Sequence[Cut], frame: Frame, name: str, remarks: Remarks) ->
     return _confirmed(meant)
 
 
-def _iso(cuts: Sequence[Cut], control: str, frame: Frame, remarks: Remarks) -> Own | NotWritten:
+def _iso(cuts: Sequence[Cut | Plain], control: str, frame: Frame, remarks: Remarks) -> Own | NotWritten:
     style = STYLES[control]
     shared = _shared(cuts)
     found = [_led(cut, style, offsets(cuts, style)[cut.tool, cut.stock]) for cut in shared]
@@ -69,7 +70,7 @@ def _iso(cuts: Sequence[Cut], control: str, frame: Frame, remarks: Remarks) -> O
     if against:
         return NotWritten(against)
     by_run = {id(cut.compensated): one for cut, one in zip(shared, found, strict=True) if isinstance(one, Ready)}
-    every = [replace(by_run[id(cut.compensated)], cut=cut) for cut in cuts]
+    every = [cut if isinstance(cut, Plain) else replace(by_run[id(cut.compensated)], cut=cut) for cut in cuts]
     frame = replace(frame, corners=_corners(control))
 
     def meant(notes: Sequence[Finding]) -> Meant:
@@ -79,9 +80,9 @@ def _iso(cuts: Sequence[Cut], control: str, frame: Frame, remarks: Remarks) -> O
     return _confirmed(meant)
 
 
-def _shared(cuts: Sequence[Cut]) -> Sequence[Cut]:
-    """One cut of each run."""
-    return list({id(cut.compensated): cut for cut in cuts}.values())
+def _shared(cuts: Sequence[Cut | Plain]) -> Sequence[Cut]:
+    """One cut of each compensated run."""
+    return list({id(cut.compensated): cut for cut in cuts if isinstance(cut, Cut)}.values())
 
 
 def _corners(control: str) -> str:
@@ -111,7 +112,7 @@ def _led(cut: Cut, style: IsoStyle, offset: int) -> Ready | Finding:
 
 
 def _meant(
-    lines: tuple[Line, ...], control: str, cuts: Sequence[Cut], tools: ToolTable, frame: Frame, decimals: int
+    lines: tuple[Line, ...], control: str, cuts: Sequence[Cut | Plain], tools: ToolTable, frame: Frame, decimals: int
 ) -> Meant:
     digit = to_mm(10.0**-decimals, frame.unit)
     return Meant(control, lines, tuple(cuts), tools, frame.unit, digit, leads=control != "klartext")

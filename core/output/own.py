@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from core.controls.contouring import Cut
+from core.controls.contouring import Cut, Plain
 from core.controls.iso_style import STYLES, Radius
 from core.controls.write_iso import Frame, offsets
 from core.controls.write_own import NotWritten, write_own
@@ -27,16 +27,18 @@ def objections(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ...]:
         return (Finding("NO_BLOCK", Severity.ERROR, "There is no block to post."),)
     found = list(forbidding(jobs, Grid(unit), override=None))
     for job in jobs:
-        if job.comp == "ON":
-            text = "CUTTER COMP. is ON: the control has nothing to compensate.  Post the centre path."
-            found.append(Finding("NOTWRITTEN", Severity.ERROR, f"Block {job.block}: {text}"))
-        elif not level_floor(job):
-            text = "A segment climbs or falls (Z END), which is not written here.  Post the centre path."
+        if job.comp != "ON" and not level_floor(job):
+            text = (
+                "A segment climbs or falls (Z END) under compensation, where the heights at corners are the control's"
+            )
+            text += " own.  Post the centre path, or choose CUTTER COMP. ON."
             found.append(Finding("NOTWRITTEN", Severity.ERROR, f"Block {job.block}: {text}"))
     return tuple(dict.fromkeys(found))
 
 
-def post_own(jobs: Sequence[Job], cuts: Sequence[Cut], unit: Unit, *, name: str, control: str) -> Posted | Refusal:
+def post_own(
+    jobs: Sequence[Job], cuts: Sequence[Cut | Plain], unit: Unit, *, name: str, control: str
+) -> Posted | Refusal:
     """The program of a control by its full name, or why there is none; `cuts` are those of the jobs, in order."""
     against = objections(jobs, unit)
     if against:
@@ -71,7 +73,7 @@ def _beside(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
 
 
 def _told(
-    jobs: Sequence[Job], cuts: Sequence[Cut], unit: Unit, name: str, control: str, notes: Sequence[Finding]
+    jobs: Sequence[Job], cuts: Sequence[Cut | Plain], unit: Unit, name: str, control: str, notes: Sequence[Finding]
 ) -> Iterator[str]:
     """The sentences of the header."""
     yield f"PROGRAM {name}"
@@ -87,18 +89,19 @@ def _told(
         yield f"NOTE {note.code} {where}{sentence(note, unit)}"
 
 
-def _tool(cut: Cut, unit: Unit, control: str) -> str:
+def _tool(cut: Cut | Plain, unit: Unit, control: str) -> str:
     own = "" if control == "klartext" else ": THE CONTROL'S TABLE MUST SAY THE SAME"
     return f"TOOL {cut.tool} DIAMETER {_length(cut.diameter, unit)}{own}"
 
 
-def _radii(cuts: Sequence[Cut], unit: Unit, control: str) -> Iterator[str]:
+def _radii(cuts: Sequence[Cut | Plain], unit: Unit, control: str) -> Iterator[str]:
     """The offsets an operator has to enter."""
     style = STYLES.get(control)
     if style is None or style.radius is not Radius.OFFSET:
         return
-    sizes = {(cut.tool, cut.stock): cut.diameter / 2 + cut.stock for cut in cuts}
-    for key, number in offsets(cuts, style).items():
+    sizes = {(cut.tool, cut.stock): cut.diameter / 2 + cut.stock for cut in cuts if isinstance(cut, Cut)}
+    numbers = offsets(cuts, style)
+    for key, number in ((key, numbers[key]) for key in sizes):
         stock = f", LEAVES {_length(key[1], unit)}" if key[1] else ""
         yield f"OFFSET D{number} RADIUS {_length(sizes[key], unit)} OF TOOL {key[0]}{stock}"
 

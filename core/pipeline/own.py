@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from core.comp.result import Compensated
-from core.controls.contouring import Cut
+from core.controls.contouring import Cut, Plain, Travel
 from core.finding import Finding, Severity
 from core.output.job import Job
 from core.output.motion import Pass
@@ -18,7 +18,7 @@ from core.program.model import PathChoice
 def post_for(derived: Derived, *, name: str, control: str) -> Posted | Refusal:
     """The program of a control by its full name, as the registry has it, or why there is none."""
     unit, every = derived.program.unit, jobs(derived)
-    against = (*objections(every, unit), *_best(derived))
+    against = (*objections(every, unit), *(_best(derived) if any(job.comp != "ON" for job in every) else ()))
     if against:
         return Refusal(against, unit)
     cuts = [cut for found, job in zip(derived.blocks, every, strict=True) for cut in _cuts(found, job)]
@@ -33,9 +33,29 @@ def _best(derived: Derived) -> tuple[Finding, ...]:
     return (Finding("NOTWRITTEN", Severity.ERROR, text, field="path"),)
 
 
-def _cuts(found: DerivedBlock, job: Job) -> list[Cut]:
+def _cuts(found: DerivedBlock, job: Job) -> list[Cut | Plain]:
+    if job.comp == "ON":
+        return [_plain(one, job) for one in passes(job)]
     feeds = {floor.number: floor.feed or 0.0 for floor in job.floors}
     return [_cut(one, _run_of(found, job, one), feeds, job) for one in passes(job)]
+
+
+def _plain(one: Pass, job: Job) -> Plain:
+    """A pass with nothing to compensate: the tool's centre runs on the contour."""
+    heights = [motion.z for motion in one.motions]
+    return Plain(
+        travels=tuple(Travel(each.x, each.y, each.z, each.feed, int(each.turn), each.centre) for each in one.motions),
+        tool=one.cutter.number,
+        diameter=one.cutter.diameter,
+        stock=0.0,
+        speed=one.speed,
+        feeds={},
+        plunge_feed=job.plunge_feed,
+        travel=heights[0],
+        near=heights[0],
+        depth=min(heights),
+        leave=heights[-1],
+    )
 
 
 def _run_of(found: DerivedBlock, job: Job, one: Pass) -> Compensated:

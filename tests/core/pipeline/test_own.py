@@ -14,11 +14,13 @@ from core.controls.tools import ToolTable
 from core.geometry.distance import distance
 from core.geometry.measured import at, measured
 from core.geometry.path import Path as Line
+from core.output.passes import passes
 from core.output.post import Posted, Refusal
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
+from core.pipeline.jobs import jobs
 from core.pipeline.own import post_for
-from core.program.model import Block, CutterComp, Entry, Parameters, PathChoice, Program, changed
+from core.program.model import ArcSegment, Block, CutterComp, Direction, Entry, Parameters, PathChoice, Program, changed
 from core.program.store import load
 from core.units import Unit, from_mm
 from tests import rs274
@@ -113,14 +115,64 @@ def test_nothing_is_posted_against_an_error_whatever_is_said() -> None:
     assert "GOUGE" in {finding.code for finding in result.findings}
 
 
-def test_on_and_heights_and_best_are_refused() -> None:
-    on = derived(block(MID_SIDE_SQUARE, CutterComp.ON))
+def test_heights_under_compensation_and_best_are_refused() -> None:
     best = derived(SQUARE, parameters=replace(BLENDS, path=PathChoice.BEST))
     climbing = replace(SQUARE, segments=(changed(SQUARE.segments[0], {"z_end": Entry(-0.1)}), *SQUARE.segments[1:]))
-    for found, word in ((on, "ON"), (best, "BEST"), (derived(climbing), "Z END")):
+    for found, word in ((best, "BEST"), (derived(climbing), "Z END")):
         result = post_for(found, name="PART", control="linuxcnc")
         assert isinstance(result, Refusal)
         assert any(word in finding.text for finding in result.findings), result
+
+
+def climbing() -> Block:
+    """A square without compensation whose first side climbs."""
+    plain = replace(block(MID_SIDE_SQUARE, CutterComp.ON), peck_depth=Entry(0.1))
+    return replace(plain, segments=(changed(plain.segments[0], {"z_end": Entry(-0.1)}), *plain.segments[1:]))
+
+
+def arc(way: Direction, end: tuple[float, float], height: float, centre: tuple[float, float]) -> ArcSegment:
+    """An arc that climbs or falls to a height."""
+    (x, y), (cx, cy) = map(Entry, end), map(Entry, centre)
+    return ArcSegment(way, x_end=x, y_end=y, z_end=Entry(height), x_center=cx, y_center=cy)
+
+
+HELIX = replace(
+    block(((2.0, 0.0),), CutterComp.ON),
+    segments=(
+        arc(Direction.CCW, (0.0, 2.0), -0.05, (0.0, 0.0)),
+        arc(Direction.CW, (1.0, 3.0), -0.2, (1.0, 2.0)),
+    ),
+)
+
+
+def made_by(of: Program, control: str) -> tuple[Derived, str, Run]:
+    found = derive(of)
+    text = posted(found, control).text
+    made = run(text.encode(), control, NO_TOOLS if control == "threeblock" else table(of, text), of.unit)
+    assert isinstance(made, Run)
+    assert made.stopped_at is None
+    return found, text, made
+
+
+@pytest.mark.parametrize("control", names())
+@pytest.mark.parametrize("of", [climbing(), HELIX], ids=["lines", "helices"])
+def test_on_runs_on_the_contour_at_every_height(of: Block, control: str) -> None:
+    found, text, made = made_by(program(of), control)
+    assert not {"G41", "G42", "RL", "RR"} & set(text.split())
+    assert not made.stretches
+    wanted = [motion for job in jobs(found) for one in passes(job) for motion in one.motions if not motion.rapid]
+    feeds = [move for move in made.moves if not move.rapid]
+    ends = [(move.point, move.turn) for move, before in zip(feeds, [None, *feeds], strict=False) if move != before]
+    assert [turn for _, turn in ends] == [int(motion.turn) for motion in wanted]
+    places = np.array([(motion.x, motion.y, motion.z) for motion in wanted])
+    assert np.array([point for point, _ in ends]) == pytest.approx(places, abs=0.006)
+
+
+@pytest.mark.parametrize("control", names())
+def test_on_goes_beside_blocks_with_compensation(control: str) -> None:
+    found, _, made = made_by(program(SQUARE, climbing(), SQUARE, parameters=BLENDS), control)
+    assert len(made.stretches) == 6
+    assert [each.block.cutter_comp for each in found.blocks].count(CutterComp.ON) == 1
 
 
 def test_another_work_offset_is_told_where_it_cannot_be_written() -> None:
