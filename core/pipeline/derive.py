@@ -44,7 +44,7 @@ def derive_block(number: int, block: Block, program: Program, before: Derived | 
 
 def _alike(block: Block, program: Program, old: Block, then: Program) -> bool:
     """Whether a block and all it depends on are the same objects as before."""
-    same = old is block and then.tools is program.tools
+    same = old is block and then.tools is program.tools and then.setup is program.setup
     return same and then.parameters is program.parameters and then.unit is program.unit
 
 

@@ -10,6 +10,7 @@ from core.geometry.side import Side
 from core.pipeline.derived import Derived, DerivedBlock, LookAhead, Tag
 from core.program.assist import solve_block
 from core.program.model import Block, CutterComp, Entry, Program
+from core.program.shared import shared_findings
 from core.program.solved import SolvedBlock
 from core.tolerance import JOINED
 
@@ -42,18 +43,19 @@ def outline_block(number: int, block: Block, program: Program, before: DerivedBl
     """One block's outline."""
     solved = solve_block(block, program, None if before is None else before.solved)
     lookahead = look_ahead(block, solved)
+    side = _SIDES[block.cutter_comp]
     diameter = solved.finish_diameter if solved.finish_diameter is not None else solved.tool_diameter
     return DerivedBlock(
         number=number,
         block=block,
         solved=solved,
         lookahead=lookahead,
-        side=_SIDES[block.cutter_comp],
+        side=side,
         profile=block.cutter_comp in (CutterComp.PROFILE_LEFT, CutterComp.PROFILE_RIGHT),
         radius=None if diameter is None else diameter / 2,
         work=None,
         known=False,
-        findings=(*solved.every_finding, *_heights(solved), *_usr_warning(lookahead, _SIDES[block.cutter_comp])),
+        findings=(*shared_findings(program), *solved.every_finding, *_heights(solved), *_usr_warning(lookahead, side)),
     )
 
 

@@ -8,7 +8,7 @@ from typing import Final
 
 from core.finding import Finding, Severity
 from core.program.fields import TABLES, Field, Form, check
-from core.program.model import Block, Entry, Segment, Unread
+from core.program.model import Block, Entry, Parameters, PartSetup, Segment, Unread
 from core.program.solved import Solved, Value
 from core.records import dataclass
 from core.units import Kind, Unit, from_mm, from_radians, printable, to_mm, to_radians
@@ -23,8 +23,8 @@ class Reading:
     findings: tuple[Finding, ...]
 
 
-def read(form: Form, part: Block | Segment, unit: Unit, number: int) -> Reading:
-    """Read all numbers of START or of a segment; what cannot be used is not known and has a finding."""
+def read(form: Form, part: Block | Segment | Parameters | PartSetup, unit: Unit, number: int) -> Reading:
+    """Read all numbers of START, a segment or what all blocks share; what cannot be used is not known and has a finding."""
     values: dict[str, Value] = {}
     known: dict[str, float] = {}
     findings: list[Finding] = []

@@ -6,6 +6,7 @@ from math import isfinite
 from typing import assert_never
 
 from core.finding import Finding, Severity
+from core.program.fields import Form, check, field
 from core.program.model import Entry, Program, Tool, Typed, Unread
 from core.records import dataclass
 from core.units import Unit, printable, to_mm
@@ -40,6 +41,11 @@ def called(program: Program, typed: Typed, name: str, severity: Severity = Sever
     trouble = _diameter_trouble(tool)
     if trouble is not None:
         return Called(tool.type, None, (Finding("TOOL_DIAMETER", severity, trouble, 0, name),))
+    assert isinstance(tool.diameter, Entry)
+    outside = check(field(Form.TOOL, "diameter"), tool.diameter.value, program.unit)
+    if outside is not None:
+        told = Finding("TOOL_DIAMETER", severity, f"Tool {tool.number}: {outside}", 0, name)
+        return Called(tool.type, None, (told,))
     return Called(tool.type, diameter(tool, program.unit))
 
 

@@ -51,3 +51,10 @@ def test_a_diameter_that_cannot_be_used(typed, words):
     assert (found.findings[0].code, found.findings[0].severity) == ("TOOL_DIAMETER", Severity.WARNING)
     assert words in found.findings[0].text
     assert diameter(tool, Unit.IN) is None
+
+
+def test_a_diameter_beyond_any_tool_is_refused_as_a_typed_one_is():
+    part = Program(tools=(Tool(1, diameter=Entry(20000.0)),))
+    found = called(part, Entry(1.0), "tool")
+    assert found.diameter is None
+    assert [one.text for one in found.findings] == ["Tool 1: TOOL DIAMETER must be above 0, at most 10000."]
