@@ -24,7 +24,7 @@ class Reading:
 
 
 def read(form: Form, part: Block | Segment | Parameters | PartSetup, unit: Unit, number: int) -> Reading:
-    """Read all numbers of START, a segment or what all blocks share; what cannot be used is not known and has a finding."""
+    """Read all numbers of START, a segment or what blocks share; what cannot be used is not known and has a finding."""
     values: dict[str, Value] = {}
     known: dict[str, float] = {}
     findings: list[Finding] = []
