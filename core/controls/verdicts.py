@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -12,6 +12,8 @@ from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.tolerance import CLOSED
 from core.verify.judge import judge
+from core.verify.report import stray_findings
+from core.verify.stray import Away, Stray, stray
 from core.verify.verdict import Gouge, Verdict
 
 MOST_GOUGES: Final = 20
@@ -76,7 +78,9 @@ def closed_part(path: Path) -> tuple[int, int]:
 
 def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
     """The verdicts as findings with lines: gouges and the wrong side are errors, the rest is a warning."""
-    return tuple(finding for result in results for finding in (*_cuts(result), *_leads(result), *_rest(result)))
+    return tuple(
+        finding for result in results for finding in (*_cuts(result), *_leads(result), *_strays(result), *_rest(result))
+    )
 
 
 def depth(results: tuple[Judged, ...]) -> tuple[float, int | None]:
@@ -120,6 +124,25 @@ def _leads(result: Judged) -> list[Finding]:
         line = _line(gouge.path_number)
         found.append(Finding("LEAD-GOUGE", Severity.INFO, text, at=gouge.surface_at, value=gouge.depth, line=line))
     return found
+
+
+def _strays(result: Judged) -> list[Finding]:
+    """Moves between the leads that leave the surface by more than the radius, or run against it."""
+    numbers, lines = result.centre.numbers, set(result.surface.numbers.tolist())
+    against = tuple(row for row in result.verdict.backwards if numbers[row] in lines)
+    away: tuple[Away, ...] = ()
+    if any(numbers[row] in lines for row in result.verdict.loose):
+        found = stray(result.surface, result.stretch.radius, result.centre).away
+        away = tuple(one for one in found if _between_leads(one, result.centre, lines))
+    told = stray_findings(Stray(away, against))
+    begun = [*(int(numbers[row]) for row in against[:1]), *(int(one.first_number) for one in away)]
+    return [replace(finding, segment=None, line=line) for finding, line in zip(told, begun, strict=True)]
+
+
+def _between_leads(away: Away, centre: Path, lines: set[float]) -> bool:
+    """Leads are at a path's two ends, or have lines of their own."""
+    ends = {tuple(centre.points[0].tolist()), tuple(centre.points[-1].tolist())}
+    return {away.first_number, away.last_number} <= lines and not ends & {away.start, away.end}
 
 
 def _gouge(gouge: Gouge) -> Finding:

@@ -14,7 +14,9 @@ from core.tolerance import GOUGE
 from core.verify.names import Names, move_name
 from core.verify.nearest import Nearest, nearest
 from core.verify.report import findings as verdict_findings
-from core.verify.verdict import Gouge
+from core.verify.report import stray_findings
+from core.verify.stray import Away, Stray, stray
+from core.verify.verdict import Gouge, Verdict
 
 
 def path_findings(work: Work) -> tuple[Finding, ...]:
@@ -24,9 +26,26 @@ def path_findings(work: Work) -> tuple[Finding, ...]:
     return (
         *(work.compensated if work.best is None else work.best).findings,
         *verdict_findings(work.verdict, work.surface, move_names(work)),
+        *stray_findings(strayed(work, work.verdict)),
         *blend_findings(work.loops, work.verdict.gouges, work.verdict.wrong_side),
         *rough_findings(work.rough, work.compensated if work.best is None else None),
     )
+
+
+def strayed(work: Work, verdict: Verdict) -> Stray:
+    """Where the paths without their blends leave the surface by more than the radius, and what runs backwards."""
+    away: list[Away] = []
+    against: list[int] = []
+    first = 0
+    for loop in work.loops:
+        begin = first + len(loop.lead_in)
+        last = begin + len(loop.path) + len(loop.lead_out)
+        rows = range(begin, begin + len(loop.path))
+        if any(row in rows for row in verdict.loose):
+            away += stray(work.surface, verdict.radius, loop.path).away
+        against += [row for row in verdict.backwards if row in range(first, last)]
+        first = last
+    return Stray(tuple(away), tuple(against))
 
 
 def move_names(work: Work) -> Names:

@@ -12,6 +12,7 @@ from core.geometry.measured import Floats, Measured, boxes, measured, stacked
 from core.geometry.path import EMPTY, Path
 from core.geometry.side import Side
 from core.tolerance import CLOSED, GOUGE, LARGEST
+from core.verify.contact import backwards, loose
 from core.verify.crossing import Crossings, crossings
 from core.verify.gouge import gouges, gouging
 from core.verify.pairs import approaches, clearance, pairs_of
@@ -119,6 +120,8 @@ def _judged(surface: Path, ground: _Ground, side: Side, radius: float, numbers: 
         surface_length=length,
         crosses_itself=len(ground.crossed) > 0,
         wrong_side=wrong_side(pairs, found, sides, reach),
+        loose=loose(pairs),
+        backwards=backwards(pairs, radius),
         crossing_at=_first(ground.crossed),
     )
 

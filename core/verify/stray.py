@@ -8,21 +8,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import isinf
-from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import foot
-from core.geometry.measured import Flags, Floats, Measured, Rows, at, boxes, direction, measured
+from core.geometry.measured import boxes, measured
 from core.geometry.path import Path
 from core.geometry.piece import Point
 from core.tolerance import GOUGE
+from core.verify.contact import backwards
 from core.verify.judge import judgeable
 from core.verify.pairs import Pairs, pairs_of
 from core.verify.uncut import uncut
-
-PARALLEL: Final = 1e-6
-"""Sine of the angle up to which a move and the wall it touches run the same way."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +60,7 @@ def stray(surface: Path, radius: float, centre: Path) -> Stray:
         reach = radius + 10.0 * GOUGE + slack
         pairs = pairs_of(moves, walls, walls.stations, boxes(walls), radius, reach)
         turned = pairs_of(walls, moves, moves.stations, boxes(moves), radius, reach)
-        return Stray(_away(turned, radius, centre), _backwards(pairs, radius))
+        return Stray(_away(turned, radius, centre), backwards(pairs, radius))
 
 
 def _away(pairs: Pairs, radius: float, centre: Path) -> tuple[Away, ...]:
@@ -74,24 +70,3 @@ def _away(pairs: Pairs, radius: float, centre: Path) -> tuple[Away, ...]:
         Away(one.first_number, one.last_number, one.start, one.end, one.length, one.thickness, one.thickest)
         for one in told
     )
-
-
-def _backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
-    """Rows of pieces that touch a wall in their middle or a wall's, all of them against its direction."""
-    moves, walls = pairs.centre.take(pairs.i), pairs.surface.take(pairs.j)
-    limit = 2.0 * GOUGE + pairs.grant
-    way = np.concatenate((_way(moves, walls, radius, limit), _way(walls, moves, radius, limit)))
-    row = np.tile(pairs.i, 2)
-    with_it, against = np.unique(row[way > 0]), np.unique(row[way < 0])
-    return tuple(pairs.centre.rows[np.setdiff1d(against, with_it)].tolist())
-
-
-def _way(pieces: Measured, other: Measured, radius: float, limit: Floats) -> Rows:
-    """+1 where the middle of a piece is a radius from its partner and both run the same way, -1 opposite, else 0."""
-    half = np.full(len(pieces), 0.5)
-    middle = at(pieces, half)
-    t = foot(other, middle)
-    turn = direction(pieces, half) * np.conj(direction(other, t))
-    touching: Flags = np.abs(np.abs(middle - at(other, t)) - radius) <= limit
-    alike: Flags = touching & (t > 0.0) & (t < 1.0) & (np.abs(turn.imag) < PARALLEL)
-    return np.where(alike, np.sign(turn.real), 0.0).astype(np.intp)

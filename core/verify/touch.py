@@ -15,7 +15,7 @@ import numpy as np
 
 from core.geometry.distance import foot
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at
-from core.tolerance import ON_PATH
+from core.tolerance import ON_PATH, STOCK
 from core.verify.columns import Columns, arc_to_arc, columns, line_to_arc, middle, to_arc, to_line
 
 BLOCK: Final = 8_000
@@ -32,7 +32,7 @@ NONE: Final = 2.0
 class Touches:
     """(m,) least distance of each pair, and what of its surface piece is within the limit of its centre piece.
 
-    `middle` is the distance of the centre piece's middle.
+    `middle` is the distance of the centre piece's middle, `along` whether that and its ends are within STOCK.
 
     The part from `first` to `last`, fractions, is within for sure, none where `first` > `last`; it is all there is
     unless the pair is `unsure`.
@@ -43,10 +43,12 @@ class Touches:
     last: Floats
     unsure: Flags
     middle: Floats
+    along: Flags
 
     def take(self, rows: Rows) -> Touches:
         """The pairs of these indices."""
-        return Touches(self.apart[rows], self.first[rows], self.last[rows], self.unsure[rows], self.middle[rows])
+        columns = self.apart[rows], self.first[rows], self.last[rows], self.unsure[rows]
+        return Touches(*columns, self.middle[rows], self.along[rows])
 
 
 def touches(centre: Measured, i: Rows, surface: Measured, j: Rows, radius: float, grant: Floats) -> Touches:
@@ -62,6 +64,8 @@ def touches(centre: Measured, i: Rows, surface: Measured, j: Rows, radius: float
         a, b = one.take(i[rows], arcs=arcs[0]), other.take(j[rows], arcs=arcs[1])
         spots = _ends(a, b, arcs)
         found.middle[rows], _ = _apart(*middle(a, arc=arcs[0]), b, arc=arcs[1])
+        farthest = np.maximum(np.maximum(*spots.mine), found.middle[rows])
+        found.along[rows] = farthest <= limit[rows] + STOCK
         found.apart[rows], within = _measure(a, b, arcs, spots, limit[rows])
         if arcs[1]:
             _on_arcs(found, rows, centre, i[rows], surface, j[rows], within)
@@ -75,7 +79,7 @@ def touches(centre: Measured, i: Rows, surface: Measured, j: Rows, radius: float
 
 def _blank(count: int) -> Touches:
     none = np.full(count, NONE)
-    return Touches(np.empty(count), none, -none, np.zeros(count, np.bool_), np.empty(count))
+    return Touches(np.empty(count), none, -none, np.zeros(count, np.bool_), np.empty(count), np.empty(count, np.bool_))
 
 
 def _blocks(one: Flags, i: Rows, other: Flags, j: Rows) -> Iterator[tuple[Rows, tuple[bool, bool]]]:

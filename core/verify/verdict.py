@@ -121,6 +121,8 @@ class Verdict:
 
     `clearance` is the least distance from path to surface (infinite for an empty path); gouges are deepest first,
     uncut stretches in the contour's order.  `wrong_side` lists rows of the path that run on the part's side.
+    `loose` are rows that may be farther from the surface than the radius somewhere, lead moves among them, and
+    `backwards` rows that run against all walls they touch.
     `crossing_at` is the first place where the surface crosses or touches itself.  `judged` is False, and
     `clearance` not a number, where coordinates or radius are no lengths a machine could have or an arc has two clearly
     different radii: nothing is known then.
@@ -133,6 +135,8 @@ class Verdict:
     surface_length: float
     crosses_itself: bool
     wrong_side: tuple[int, ...] = ()
+    loose: tuple[int, ...] = ()
+    backwards: tuple[int, ...] = ()
     crossing_at: Point | None = None
     judged: bool = True
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from core.controls.tools import ToolTable
 from core.controls.verdicts import closed_part, depth, findings, judged
 from core.geometry.path import Path
 from core.units import Unit, from_mm, sentence
+from core.verify.judge import judge
 from tests.core.controls.hand import DATA, ran, sample
 
 NOTCH = "G20 G17 F10\nG0 X-1 Y2\nG41 D1\nG1 X0 Y0\nX2\nY-.3\nX2.3\nY0\nX5\nG40\nG0 Y2\nM2\n"
@@ -73,3 +76,24 @@ def test_names_are_whole_or_short() -> None:
     assert all(resolve(name) == name for name in names())
     for wrong in ("fanuc", "rosettacnc:hard", "", "linuxcnc:2"):
         assert "linuxcnc" in getattr(resolve(wrong), "text", "")
+
+
+def test_a_path_that_leaves_the_surface_or_turns_back_is_told_by_line() -> None:
+    done = ran("G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n", "rosettacnc:easy", t1=0.5)
+    (result,) = judged(done)
+    assert not {"AWAY", "BACKWARDS"} & {finding.code for finding in findings((result,))}
+    way = result.centre.points.tolist()
+    row = int(np.argmax(result.centre.lengths * np.isin(result.centre.numbers, result.surface.numbers)))
+    (x0, y0), (x1, y1) = way[row], way[row + 1]
+    along, off = np.array((x1 - x0, y1 - y0)), np.array((y0 - y1, x1 - x0)) * 0.2
+    corners = [np.array((x0, y0)) + t * along + (t == 0.6) * off for t in (0.5, 0.6, 0.7, 0.4)]
+    points = np.array([*way[: row + 1], *(corner.tolist() for corner in corners), *way[row + 1 :]])
+    kept = np.insert(np.arange(len(result.centre)), row, [row] * 4)
+    path = result.centre
+    bent = Path.of(points, path.centres[kept], path.turns[kept], path.numbers[kept])
+    verdict = judge(result.surface, result.stretch.side, result.stretch.radius, bent)
+    told = [
+        one for one in findings((replace(result, centre=bent, verdict=verdict),)) if one.code in ("AWAY", "BACKWARDS")
+    ]
+    assert [one.code for one in told] == ["BACKWARDS", "AWAY"]
+    assert {one.line for one in told} == {int(path.numbers[row])}

@@ -3,14 +3,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from core.comp.blend import blend_in, blend_out
 from core.finding import Severity
+from core.geometry.path import Path
+from core.geometry.side import Side
 from core.pipeline.derive import better, compared, derive, stocks
-from core.pipeline.derived import Tag
+from core.pipeline.derived import Loop, Tag
 from core.pipeline.outline import outline
-from core.pipeline.trouble import move_names
+from core.pipeline.trouble import move_names, path_findings
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Entry, LineSegment, Parameters, PathChoice, Unread, changed
 from core.units import Unit, sentence
+from core.verify.judge import judge_together
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE, block, program
 
 IN = 25.4
@@ -262,20 +266,18 @@ def test_a_z_end_outside_the_block_is_an_error_of_its_segment(height, limit):
     assert limit in wrong.text
 
 
-@pytest.mark.parametrize("typed", [Unread("abc", "why"), Entry(-1.0)])
-def test_a_program_parameter_that_cannot_be_used_forbids_posting(typed):
-    """It would otherwise be posted with the usual value, as if nothing had been typed."""
-    part = program(block(MID_SIDE_SQUARE, CutterComp.LEFT))
-    before = derive(part)
-    assert before.blocks[0].postable
-    after = derive(replace(part, parameters=replace(part.parameters, retract_clearance=typed)), before)
-    assert [finding.field for finding in after.blocks[0].errors] == ["retract_clearance"]
-
-
-@pytest.mark.parametrize("typed", [Unread("abc", "why"), Entry(1e9)])
-def test_a_safe_z_that_cannot_be_used_forbids_posting_and_changes_no_path(typed):
-    part = program(block(MID_SIDE_SQUARE, CutterComp.LEFT))
-    before = derive(part)
-    after = derive(replace(part, setup=replace(part.setup, safe_z=typed)), before)
-    assert "safe_z" in [finding.field for finding in after.blocks[0].errors]
-    assert after.blocks[0].work is before.blocks[0].work
+def test_a_path_that_leaves_the_part_or_turns_back_is_told():
+    (found,) = derive(program(block(NOTCH, CutterComp.LEFT))).blocks
+    assert not {"AWAY", "BACKWARDS"} & set(codes(found))
+    work, radius = found.work, found.radius
+    assert work is not None
+    assert radius is not None
+    start, end = (0.0, radius), (0.5 * IN, radius)
+    corners = (start, (0.3 * IN, radius), (0.35 * IN, 2 * radius), (0.4 * IN, radius), (0.2 * IN, radius), end)
+    path = Path.of(np.array(corners), np.array(corners[:-1]), np.zeros(5, np.int8), np.ones(5))
+    loop = Loop(path, blend_in(path, Side.LEFT, 1.0), blend_out(path, Side.LEFT, 1.0, 0.0, closed=False))
+    verdict = judge_together(work.surface, Side.LEFT, radius, [loop.whole])
+    told = path_findings(replace(work, loops=(loop,), verdict=verdict))
+    against, away = (one for one in told if one.code in ("AWAY", "BACKWARDS"))
+    assert against.text == "1 move runs against the direction of the contour."
+    assert away.lengths[0] == pytest.approx(radius)

@@ -1,0 +1,59 @@
+"""Contact: which pieces of a centre path keep to the surface, and which of them run against it."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from core.geometry.distance import foot
+from core.geometry.measured import Flags, Rows, at, direction
+from core.tolerance import ON_PATH
+from core.verify.pairs import Pairs
+from core.verify.touch import POINT
+
+PARALLEL: Final = 1e-6
+"""Sine of the angle up to which a move and the wall it touches run the same way."""
+
+
+def loose(pairs: Pairs) -> tuple[int, ...]:
+    """Rows of pieces that no single surface piece is a radius or less from at both ends and in the middle."""
+    held = np.zeros(len(pairs.centre), np.bool_)
+    held[pairs.i[pairs.touch.along]] = True
+    return tuple(pairs.centre.rows[~held].tolist())
+
+
+def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
+    """Rows of pieces that touch walls along more than a point, all of them against the walls' direction."""
+    touch = pairs.touch
+    wide = (touch.last - touch.first) * pairs.surface.length.take(pairs.j) > POINT
+    row, way = pairs.i, np.zeros(len(pairs.i), np.intp)
+    sure, unsure = np.flatnonzero(wide & ~touch.unsure), np.flatnonzero(touch.unsure)
+    way[sure] = _way(pairs, sure)
+    if len(unsure):
+        way[unsure] = _way_in_the_middle(pairs, unsure, radius)
+    against = np.zeros(len(pairs.centre), np.bool_)
+    against[row[way < 0]] = True
+    against[row[way > 0]] = False
+    return tuple(pairs.centre.rows[against].tolist())
+
+
+def _way(pairs: Pairs, chosen: Rows) -> Rows:
+    """+1 where both pieces, parallel or about one centre, run the same way, else -1."""
+    i, j = pairs.i[chosen], pairs.j[chosen]
+    turn = pairs.centre.turn[i] * pairs.surface.turn[j]
+    dot = (pairs.centre.vector[i] * np.conj(pairs.surface.vector[j])).real
+    way: Rows = np.sign(np.where(turn == 0.0, dot, turn)).astype(np.intp)
+    return way
+
+
+def _way_in_the_middle(pairs: Pairs, chosen: Rows, radius: float) -> Rows:
+    """The same where the middle of a centre piece is a radius from its partner and parallel to it there, else 0."""
+    piece, other = pairs.centre.take(pairs.i[chosen]), pairs.surface.take(pairs.j[chosen])
+    half = np.full(len(chosen), 0.5)
+    middle = at(piece, half)
+    t = foot(other, middle)
+    turn = direction(piece, half) * np.conj(direction(other, t))
+    touching: Flags = np.abs(np.abs(middle - at(other, t)) - radius) <= pairs.grant[chosen] + ON_PATH
+    alike = touching & (t > 0.0) & (t < 1.0) & (np.abs(turn.imag) < PARALLEL)
+    return np.where(alike, np.sign(turn.real), 0.0).astype(np.intp)
