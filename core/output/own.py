@@ -77,7 +77,9 @@ def _told(
 ) -> Iterator[str]:
     """The sentences of the header."""
     yield f"PROGRAM {name}"
-    yield f"WRITTEN BY CUTCOMP FOR {control}: THE CONTOUR AS TYPED, THE CONTROL COMPENSATES"
+    compensates = any(isinstance(cut, Cut) for cut in cuts)
+    how = "THE CONTROL COMPENSATES" if compensates else "NOTHING IS COMPENSATED"
+    yield f"WRITTEN BY CUTCOMP FOR {control}: THE CONTOUR AS TYPED, {how}"
     yield f"UNITS {'INCH' if unit is Unit.IN else 'MM'}"
     yield from dict.fromkeys(_tool(cut, unit, control) for cut in cuts)
     yield from _radii(cuts, unit, control)

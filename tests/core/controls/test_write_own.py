@@ -8,6 +8,8 @@ from math import sqrt
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
 from core.comp.result import Compensated
@@ -24,6 +26,7 @@ from core.geometry.piece import Arc, Piece, Point, Turn
 from core.geometry.piece import Line as Straight
 from core.geometry.side import Side
 from core.units import Unit
+from tests.core.controls.klartext.test_centre_laws import LEGS, pieces_of
 
 INCH = 25.4
 EVERY = names()
@@ -303,3 +306,27 @@ def test_farthest_finds_the_piece_that_is_off() -> None:
     apart, number = farthest(bent, SQUARE)
     assert apart / INCH == pytest.approx(0.5)
     assert number in (3.0, 4.0)
+
+
+@settings(max_examples=120, deadline=None, derandomize=True)
+@given(LEGS, st.sampled_from(Side), st.sampled_from([name for name in names() if name != "klartext"]))
+def test_random_contours_read_back_or_the_reason_is_told(
+    legs: list[tuple[float, float, int, float]], side: Side, control: str
+) -> None:
+    """Lines and arcs at any angle: the control's path is the block's, or nearly, and that is said; or nothing."""
+    contour = Path.from_pieces(pieces_of(legs))
+    one = compensate(contour, side, 4.0, 8, closed=False, blend=2.0)
+    if not len(one.path) or bool(one.bridged.any()):
+        return
+    result = write(control, cut(one, depth=-0.2))
+    if isinstance(result, NotWritten):
+        assert all(len(finding.text) > 20 for finding in result.findings)
+        assert result.findings
+        return
+    made = made_by(control, result.text, cut(one, depth=-0.2))
+    assert made.stopped_at is None
+    (stretch,) = made.stretches
+    path = made.moves.part(stretch.first, stretch.last).path()
+    inner = path.part(1, len(path) - 1)
+    allowed = max(0.006, *(note.lengths[0] + 0.006 for note in result.notes if note.code == "DIFFERS"), 0.0)
+    assert max(farthest(inner, one.whole)[0], farthest(one.whole, inner)[0]) <= allowed

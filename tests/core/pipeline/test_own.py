@@ -160,6 +160,7 @@ def test_on_runs_on_the_contour_at_every_height(of: Block, control: str) -> None
     found, text, made = made_by(program(of), control)
     assert not {"G41", "G42", "RL", "RR"} & set(text.split())
     assert not made.stretches
+    assert control == "threeblock" or "NOTHING" in text
     wanted = [motion for job in jobs(found) for one in passes(job) for motion in one.motions if not motion.rapid]
     feeds = [move for move in made.moves if not move.rapid]
     ends = [(move.point, move.turn) for move, before in zip(feeds, [None, *feeds], strict=False) if move != before]
