@@ -109,7 +109,8 @@ class Dialect:
     `percent_ends`: a second line of % ends the program.  `end_needed`: M2, M30 or that line must stand at the end.
     `group_rule`: the rule's id for two G codes of one group.  `parameters`: how it keeps those of a program, None where
     nothing is known of them.  `cycles`: its drilling cycles are known; `cycle_rule` the rule that keeps them from
-    compensation; `returns_to_r`: G99 is in force at the start.
+    compensation; `returns_to_r`: G99 is in force at the start.  `d_anywhere`: D may stand in any block.
+    `dwell_takes_axes`: X with G4 is a time, or may be.  `tells_unused`: words that nothing takes are told.
     """
 
     name: str
@@ -131,6 +132,9 @@ class Dialect:
     cycles: bool = True
     cycle_rule: str = "CYCLE"
     returns_to_r: bool = False
+    d_anywhere: bool = False
+    dwell_takes_axes: bool = True
+    tells_unused: bool = True
 
     def starting(self, unit: Unit | None) -> Dialect:
         """The same in a machine that starts in another unit, the control's usual one for None."""

@@ -102,7 +102,7 @@ class Reader:
         found = _NUMBER.match(self.text, self.at)
         if found:
             self.at = found.end()
-            return float(found[0])
+            return self._worked(found.start(), "This number", float, found[0])
         first = self.text[self.at : self.at + 1]
         if first == "[":
             return self.brackets()
@@ -134,7 +134,7 @@ class Reader:
             value = self._worked(begin, found[0], work, value, self._ranked(above + 1))
         return value
 
-    def _worked(self, at: int, name: str, work: Callable[..., float], *values: float) -> float:
+    def _worked(self, at: int, name: str, work: Callable[..., float], *values: float | str) -> float:
         try:
             value = work(*values)
         except (ValueError, ArithmeticError):

@@ -16,6 +16,9 @@ from core.finding import Severity
 MOST_BLOCKS: Final = 400_000
 """Blocks that subprograms and loops may add to those of the file; beyond it the run stops."""
 
+MOST_OWORDS: Final = 40_000
+"""O-words that may run."""
+
 _LABEL: Final = re.compile(r"[ \t]*+(?:[Nn][ \t]*+[0-9]++)?[ \t]*+[Oo][ \t]*+([0-9]{1,9})(?![0-9])")
 
 
@@ -43,6 +46,7 @@ class Flow:
         self.at = 0
         self.calls: list[_Call] = []
         self.budget = len(lines) + MOST_BLOCKS
+        self.words_left = MOST_OWORDS
         self.labels: dict[int, int] | None = None
         self.percents = 0
         self.values = Parameters(dialect.parameters) if dialect.parameters else None
@@ -57,6 +61,10 @@ class Flow:
         if word.word in ("ENDSUB", "RETURN") and self.calls and self.calls[-1].depth == len(self.owords.frames):
             text = "A subprogram called by M98 ends with M99; call it with its O-word, or write M99."
             self.log.stop("OWORD", text, index + 1, word.line.column(word.begin))
+        self.words_left -= 1
+        if self.words_left < 0:
+            text = f"The program has run more than {MOST_OWORDS} O-words and is given up; a loop may have no end."
+            self.log.stop("LIMIT", text, index + 1, word.line.column(word.begin))
         self.at = self.owords.run(word)
         return True
 
@@ -92,12 +100,18 @@ class Flow:
         if start is None:
             text = f"There is no subprogram O{number} in this file; write it behind the end of the program."
             self.log.stop("SUBPROGRAM", text, block.line, column)
-        times = int(block.words.get("L", 1.0))
+        times = whole(block.words.get("L", 1.0))
+        if times is None or times < 0:
+            text = "L, how often the subprogram runs, is a whole number, not below 0."
+            self.log.stop("SUBPROGRAM", text, block.line, block.column("L"))
         if times > 0:
             self.calls.append(_Call(number, start, self.at, times - 1, self.depth))
             self.at = start
 
     def _return(self, block: Block) -> bool:
+        if "P" in block.words:
+            text = "M99 with P goes on at a block number, which is not followed here; write the blocks as they run."
+            self.log.stop("BRANCH", text, block.line, block.column("P"))
         if self.owords and self.depth and (not self.calls or self.calls[-1].depth != self.depth):
             text = "A subprogram called by its O-word ends with endsub or return, not with M99."
             self.log.stop("OWORD", text, block.line, block.column("M", 990))

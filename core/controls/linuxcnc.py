@@ -60,6 +60,8 @@ DIALECT: Final = Dialect(
     parameters=Kept.NGC,
     cycle_rule="N-CYCLE",
     returns_to_r=True,
+    dwell_takes_axes=False,
+    tells_unused=False,
 )
 
 REFUSED: Final = {
@@ -164,6 +166,12 @@ class LinuxCnc(LookAhead):
             text = "Compensation is on already; write G40 before it is turned on again."
             self.log.stop("N-ONWHENON", text, block.line, block.side_column())
         radius, orientation = self.radius(block)
+        if radius < 0.0:
+            text = "The diameter is negative: the tool runs on the other side."
+            self.log.tell(Severity.INFO, "NEGATIVE", text, block.line, block.side_column())
+        elif radius == 0.0:
+            text = "The radius is 0: nothing is compensated."
+            self.log.tell(Severity.WARNING, "RADIUS0", text, block.line, block.side_column())
         self.turn_on(radius * side.sign, orientation)
 
     def radius(self, block: Block) -> tuple[float, int]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import dist, hypot
 from typing import Final
 
-from core.controls import cycles, origin, tooling
+from core.controls import cycles, origin, tooling, unused
 from core.controls.arcs import NoArc, about, given_centre, through
 from core.controls.corners import arc_element, element_sweep, line_element
 from core.controls.dialect import Code, Dialect, Do
@@ -70,6 +70,8 @@ class Machine:
         if block.moves_only:
             if block.g:
                 self.mode, self.cycles.code = block.g[0], None
+            if self.dialect.tells_unused and self.mode in (0, 10) and not _CENTRES.isdisjoint(block.words):
+                unused.tell(self, block)
             self._motion(block)
             return
         once = self._codes(block)
@@ -86,6 +88,8 @@ class Machine:
         for code in codes:
             if code.do is Do.RATE:
                 self.rates.set(code.value, self)
+            elif code.do is Do.UNITS and self.dialect.unit_first:
+                self._set(code, block)
         if not self.dialect.unit_first and "F" in block.words:
             self.feed = block.words["F"] * self.scale
         self.rates.take(block)
@@ -93,12 +97,14 @@ class Machine:
         self._warn_unused(block)
         once = None
         for code in codes:
-            if code.do in origin.ONCE:
+            if code.do in origin.ONCE or (code.do is Do.DWELL and self.dialect.dwell_takes_axes):
                 once = code
             else:
                 self._set(code, block)
         if self.dialect.unit_first and "F" in block.words:
             self.feed = block.words["F"] * self.scale
+        if self.dialect.tells_unused:
+            unused.tell(self, block)
         return once
 
     def _grouped(self, block: Block) -> list[Code]:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
 from core.controls.moves import Plane, Point3
+from core.controls.source import shown
 from core.units import Unit, from_mm
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ def named(machine: Machine, name: str) -> float | str:
     }
     if name in values:
         return values[name]
-    return f"#<{name.lower()}> is not known before the control runs; write the number itself."
+    return f"#<{shown(name.lower())}> is not known before the control runs; write the number itself."
 
 
 def _read(machine: Machine, at: Point3, axis: int) -> float:

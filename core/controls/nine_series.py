@@ -41,6 +41,7 @@ DIALECT: Final = Dialect(
     ),
     Unit.IN,
     syntax=Syntax(Semicolon.END),
+    d_anywhere=True,
 )
 
 NON_MOTION: Final = 10
@@ -161,7 +162,7 @@ class NineSeries(NineWords):
             self.entering = False
             self.offset = self.coming
             self._interpreted(first, second)
-            return generated.entry(first, second, self.coming, self.corners, short=self.short)
+            return self._told(generated.entry(first, second, self.coming, self.corners, short=self.short), second)
         if self.coming != self.offset:
             text = "The side or the radius changes here; the way across is an interpretation."
             self.log.tell(Severity.INFO, "CHANGE", text, second.line, 1)
@@ -171,8 +172,15 @@ class NineSeries(NineWords):
             end = square_end(first, self.offset)
             return Joint(end, end)
         if angle < 0.0:
-            return generated.outside(first, second, self.offset, self.corners)
+            return self._told(generated.outside(first, second, self.offset, self.corners), second)
         return self._inside(first, second, angle)
+
+    def _told(self, joint: Joint, element: Element) -> Joint:
+        """The joint; that its generated blocks are made however short they are is told."""
+        if joint.through or joint.centre is not None or joint.end != joint.start:
+            text = "the least length of a generated block (AMP) is taken as 0; the control drops a shorter one."
+            self._assumed("AMP", text, element.line)
+        return joint
 
     @property
     def _sign(self) -> int:
@@ -212,7 +220,16 @@ class NineSeries(NineWords):
         """Inside an arc the surface keeps the feed; outside the centre does."""
         if not element.turn or element.turn * self.offset <= 0.0:
             return element.feed
+        self._assumed(
+            "MFR", "the least feed inside arcs (MFR) is taken as 0; the control may feed faster.", element.line
+        )
         return element.feed * offset_radius(element, self.offset) / element.radius
+
+    def _assumed(self, rule: str, text: str, line: int) -> None:
+        """Tells once of a value that the machine builder sets."""
+        if rule not in self.log.counts:
+            words = f"The machine builder sets a value that counts here, and first here: {text}"
+            self.log.tell(Severity.INFO, rule, words, line, 1)
 
     def _circular_exit(self, line: int) -> None:
         text = "Block format error: the move that cancels compensation has to be straight; write G1."
@@ -230,7 +247,7 @@ class NineSeries(NineWords):
         elif self.short or self.offset == 0.0:
             self.release_square()
         else:
-            joint = generated.exit_points(held, element, self.offset, self.corners)
+            joint = self._told(generated.exit_points(held, element, self.offset, self.corners), element)
             self.release(joint.end)
             self._between(joint, element)
         self._cancel()

@@ -11,6 +11,7 @@ from core.controls.words import SWITCHES, Block, whole
 from core.finding import Severity
 from core.geometry.side import Side
 
+_MACHINE: Final = frozenset((280, 300, 530))
 _CHANGES: Final = frozenset((520, 920, 921, 540, 550, 560, 570, 580, 590))
 
 
@@ -46,6 +47,9 @@ class NineWords(Chain):
             self.log.tell(Severity.INFO, "R6", text, block.line, block.column("M"))
         if self.active and not _CHANGES.isdisjoint(block.g):
             self.interrupt(block)
+        if self.active and not _MACHINE.isdisjoint(block.g):
+            text = "What compensation does with a move to the machine's own points is not known; write G40 before."
+            self.log.stop("HOME", text, block.line, block.column("G"))
         if self.active and self.leaving is None and not {170, 180, 190}.isdisjoint(block.g):
             text = "The plane is not changed under compensation; write G40 before."
             self.log.stop("PLANE", text, block.line, block.side_column())

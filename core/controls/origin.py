@@ -68,8 +68,23 @@ def run_once(machine: Machine, code: Code, block: Block) -> None:
             _offset_data(machine, block)
         case Do.HOME:
             _home(machine, block)
+        case Do.DWELL:
+            _dwell(machine, block)
         case _:
             _in_machine(machine, block)
+
+
+def _dwell(machine: Machine, block: Block) -> None:
+    """G4: X beside it is a time, and Y or Z have no place there; nothing moves."""
+    wrong = next((letter for letter in "YZ" if letter in block.words), None)
+    if wrong is not None:
+        text = f"{wrong} beside G4 may be a move or nothing; write it in a block of its own."
+        machine.log.stop("DWELL", text, block.line, block.column(wrong))
+    if "X" in block.words:
+        text = "X beside G4 is taken as the time to wait; nothing moves."
+        machine.log.tell(Severity.INFO, "DWELL", text, block.line, block.column("X"))
+    if machine.follower.active:
+        machine.follower.idle(block)
 
 
 def _locally(machine: Machine, block: Block, old: Point3) -> Point3:

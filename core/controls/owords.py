@@ -73,7 +73,7 @@ def _read(index: int, line: str) -> OWord | None:
     match = _LINE.match(squeezed.text)
     if match is None:
         return None
-    label = str(int(match[1])) if match[1] else match[2] or ""
+    label = match[1].lstrip("0") or "0" if match[1] else match[2] or ""
     return OWord(index, label, match[4], squeezed, match.start(4), match.end())
 
 

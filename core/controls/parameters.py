@@ -11,6 +11,7 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, Final
 
 from core.controls import machine_values
+from core.controls.source import shown
 
 if TYPE_CHECKING:
     from core.controls.machine import Machine
@@ -93,10 +94,11 @@ class Parameters:
                 return self._result(name)
             if name == "_CALL_LEVEL":
                 return float(len(self._outer))
-            return self._system(f"#<{name.lower()}>", machine_values.named, name, at)
+            return self._system(f"#<{shown(name.lower())}>", machine_values.named, name, at)
         value = self._scope(name).get(name)
         if value is None:
-            raise FaultError("PARAMETER", f"#<{name.lower()}> is given no value before this; set it first.", at)
+            text = f"#<{shown(name.lower())}> is given no value before this; set it first."
+            raise FaultError("PARAMETER", text, at)
         return value
 
     def _result(self, name: str) -> float:
@@ -115,7 +117,7 @@ class Parameters:
         """Refuses what a program cannot set."""
         if isinstance(key, str):
             if key in machine_values.NAMES or key.startswith(("_HAL[", "_INI[")):
-                raise FaultError("PARAMETER", f"#<{key.lower()}> can only be read; choose another name.", at)
+                raise FaultError("PARAMETER", f"#<{shown(key.lower())}> can only be read; choose another name.", at)
         elif self.kept is Kept.MACRO_B:
             if not 1 <= key < _MACRO_SYSTEM:
                 raise FaultError("PARAMETER", f"#{key} can only be read; a program sets #1 to #4999.", at)

@@ -15,6 +15,7 @@ from core.geometry.side import Side
 LARGEST_DIAMETER: Final = 83.23072
 """Millimetres (3.2768 in); the 83.321 mm printed beside it has two digits swapped."""
 
+_ORIGINS: Final = frozenset((40, 280, 300, 920, 540, 550, 560, 570, 580, 590, 200, 210, 700, 710))
 _POINTLESS: Final = re.compile(r"[XYZIJ][ \t]*[-+]?0*[1-9][0-9]*(?![0-9.])", re.IGNORECASE)
 
 
@@ -46,6 +47,10 @@ class ThreeBlockWords(Chain):
             self.log.stop("B14-MCODE", text, block.line, block.column("M"))
         if not {170, 180, 190}.isdisjoint(block.g) and 170 not in block.g:
             self.wrong_plane(block)
+        wrong = next((code for code in block.g if code in _ORIGINS), None)
+        if wrong is not None:
+            text = f"What compensation does at G{wrong / 10:g} is not known; write G40 before."
+            self.log.stop("ORIGIN", text, block.line, block.column("G", wrong))
         if 990 in block.g:
             text = "G99 is taken out under compensation; the control puts its own between tangent moves."
             self.log.tell(Severity.INFO, "B15-G99", text, block.line, block.column("G", 990))

@@ -91,6 +91,15 @@ def test_what_lies_deep_is_refused_or_read(piece: str) -> None:
     assert done.stopped_at == 2
 
 
+@pytest.mark.parametrize(
+    "text", ["#99999[", f"G1 X[{'9' * 400}]", f"#{'9' * 400}=1", f"o{'9' * 5000} sub", "G1 X#<\x1b[2J>"]
+)
+def test_signs_and_sizes_nobody_writes_are_refused(text: str) -> None:
+    done = ran(f"G20 F9\n{text}\nM2\n", "linuxcnc")
+    assert done.stopped_at == 2
+    assert all(finding.text.isprintable() for finding in done.findings)
+
+
 def test_rosettacnc_works_its_variables_out() -> None:
     text = "G21 F100\n#500=10 #1=2\nG1 X[#500 * #1] Y-#1\nG1 X[#500 & 3]\nM30\n"
     done = ran(text, "rosettacnc")

@@ -1,0 +1,47 @@
+"""Every row of the makers' statements does what it must by hand calculation.
+
+`python -m tests.core.controls.test_statements` prints them control by control.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+
+from tests.core.controls.hand import ran, same, shape, told
+from tests.core.controls.statements import ROWS, Row
+
+
+def wrong(row: Row) -> str:
+    """What of a row's run is not as it must be, empty if all is."""
+    done = ran(row.text, row.control, **row.tools)
+    path = shape(done)
+    if row.path is not None and not same(path, row.path):
+        return f"path {path}"
+    if done.stopped_at != row.stops:
+        return f"stopped at {done.stopped_at}: {[finding.text for finding in done.findings]}"
+    for rule, line in row.rules:
+        lines = [finding.line for finding in told(done, rule.removeprefix("-"))]
+        if (line in lines) == rule.startswith("-"):
+            return f"{rule} told at {lines}"
+    return ""
+
+
+@pytest.mark.parametrize("row", ROWS, ids=[f"{row.control} {row.statement}" for row in ROWS])
+def test_the_statement_holds(row: Row) -> None:
+    assert not wrong(row)
+
+
+def main() -> None:
+    """Prints each row and how many hold."""
+    held: Counter[str] = Counter()
+    for row in ROWS:
+        what = wrong(row)
+        held[row.control.partition(":")[0]] += not what
+        print(f"{row.control:18}{'holds' if not what else 'WRONG':7}{row.statement}{': ' + what if what else ''}")
+    print(", ".join(f"{control} {count}" for control, count in held.items()), f"of {len(ROWS)} hold")
+
+
+if __name__ == "__main__":
+    main()
