@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 HALF: Final = (HIGHEST - LOWEST + 1) // 2
 """The table stands in two columns of ten values."""
-HEADING: Final = f"{'value':>6}{'gouge':>9}{'uncut':>9} {'del.':4}"
+HEADING: Final = f"{'value':>6}{'gouge':>8}{'uncut':>9} {'del.':5}"
 ERASED: Final = 4
 """Cells for the deleted segments; the lines below the table name those of the value under the cursor in full."""
 NOTHING: Final = (

@@ -35,7 +35,8 @@ def lines(program: Program, operator: Operator) -> list[str]:
 def test_deleted_segments_that_have_no_room_are_marked_as_cut_short() -> None:
     operator = saw()
     told = lines(operator.session.program, operator)
-    assert told[1] == " value    gouge    uncut del. value    gouge    uncut del."
+    assert told[1] == " value   gouge    uncut del.  value   gouge    uncut del. "
+    assert [told[1].index(name) + 5 for name in ("gouge", "uncut")] == [14, 23]
     last = told[-1][29:].split()
     assert (last[0], last[3]) == ("20*", "12-…")
     assert all(len(line) <= 59 for line in told)
