@@ -45,10 +45,14 @@ class Ahead:
 
 @dataclass(frozen=True, slots=True)
 class Unreached:
-    """The element at which the control would still stop, and why; `{0}` is the tool's radius."""
+    """The element at which the control would still stop, and why; `{0}` is the tool's radius.
+
+    `before` is the path up to there, as far as it is known.
+    """
 
     row: int
     text: str
+    before: Ahead | None = None
 
 
 def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Point | None) -> Ahead | Unreached:
@@ -61,8 +65,11 @@ def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Po
     if not len(found.path):
         return Unreached(0, "the tool of radius {0} reaches nothing of this contour")
     if bool(found.bridged.any()):
-        at = int(found.path.numbers[found.bridged][0])
-        return Unreached(at, "within the blocks of LA the tool of radius {0} finds no way past this block")
+        row = int(found.path.numbers[found.bridged][0])
+        start, way = _point(found.path.points[0]), _point(found.path.start_directions[0])
+        before = Ahead(begin or start, way, tuple(one for one in _runs(found.path) if one.row < row), ())
+        why = "within the blocks of LA the tool of radius {0} finds no way past this block"
+        return Unreached(row, why, before)
     return _checked(found, elements, offset, begin)
 
 

@@ -13,7 +13,7 @@ from typing import Final, NoReturn
 from core.controls import corners
 from core.controls.corners import Element
 from core.controls.klartext import leads
-from core.controls.klartext.ahead import Run, Unreached, path_ahead
+from core.controls.klartext.ahead import Ahead, Run, Unreached, path_ahead
 from core.controls.klartext.leads import Form
 from core.controls.klartext.record import Record
 from core.controls.klartext.steps import Corner, Role, Speed, Step
@@ -190,21 +190,31 @@ class Centre:
             return
         found = path_ahead([step.element for step in steps], steps[0].offset, steps[-1].ahead, stands)
         if isinstance(found, Unreached):
+            if found.before:
+                self._along(steps, found.before, found.before.runs)
+                self._remember(steps[: found.row])
             self._too_large(steps[found.row].element, found.text, abs(steps[0].offset))
-        if self.entry:
-            self._arrive(self.entry, found.start, found.way)
         for one in found.left_out:
             element = steps[one].element
             self.log.tell(
                 Severity.WARNING, "M120", LEFT_OUT, element.line, element.column, lengths=(abs(steps[0].offset),)
             )
         runs, behind = (found.runs[:-1], found.runs[-2:-1]) if goes_on else (found.runs, ())
-        for run in runs:
-            self._run(steps[run.row], run)
-        for step in steps[:-1] if goes_on else steps:
-            self.record.remember(step)
+        self._along(steps, found, runs)
+        self._remember(steps[:-1] if goes_on else steps)
         if goes_on:
             self.held, self.begin = steps[-1], behind[0].end if behind else found.start
+
+    def _along(self, steps: list[Step], path: Ahead, runs: tuple[Run, ...]) -> None:
+        """The way to a path computed ahead, and pieces of it."""
+        if self.entry:
+            self._arrive(self.entry, path.start, path.way)
+        for run in runs:
+            self._run(steps[run.row], run)
+
+    def _remember(self, steps: list[Step]) -> None:
+        for step in steps:
+            self.record.remember(step)
 
     def _run(self, step: Step, run: Run) -> None:
         """A piece of the path computed ahead."""

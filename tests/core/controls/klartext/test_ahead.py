@@ -63,6 +63,9 @@ def test_an_arc_under_the_radius_is_left_out() -> None:
 def test_too_few_blocks_ahead_still_stop() -> None:
     made = runs(START, "L X+0 Y+0 RL F100 M120 LA2", *GROOVE, "L X-30 R0")
     assert (made.stopped_at, codes(made)[-1]) == (7, ("HE3", 7))
+    # the moves up to there: the entry, the wall, and round its corner as far as over the groove's first side
+    assert flat(made)[:2] == [NEAR((-5, 0)), NEAR((-5, 20))]
+    assert {move.line for move in made.moves} <= {0, 4, 5, 6}
 
 
 def test_it_begins_and_ends_within_a_contour() -> None:
