@@ -87,6 +87,8 @@ def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
 
 def _all(parts: list[Crossings]) -> Crossings:
     """The crossings of all parts, one behind the other; takes the list apart."""
+    if len(parts) == 1:
+        return parts.pop()
     rows = [tuple(getattr(part, name) for name in Crossings.__slots__) for part in parts]
     parts.clear()
     return Crossings(*stacked(rows))
@@ -125,10 +127,9 @@ def _pairs(chain: Chain, first: int, last: int, reach: int) -> tuple[Indices, In
     meeting &= _shifted(boxes[2], window) >= boxes[0, window:]
     meeting &= _shifted(boxes[1], window) <= boxes[3, window:]
     meeting &= _shifted(boxes[3], window) >= boxes[1, window:]
-    distance, b = np.divmod(np.flatnonzero(meeting), last - first)
-    order = np.argsort(b * window + distance)
-    b = b[order] + first
-    a = b - window + distance[order]
+    b, a = np.divmod(np.flatnonzero(meeting.T), window - 1)
+    b += first
+    a += b - window
     near = places[b] - places[a] <= reach
     return a[near], b[near]
 

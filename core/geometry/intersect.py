@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 from math import tau
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,10 @@ from core.tolerance import JOINED, ON_PATH
 Indices = NDArray[np.intp]
 Planes = NDArray[np.complex128]
 Masks = NDArray[np.bool_]
+
+
+_ROOM: Final = 1e-6
+"""How much too large a sector is taken, times the radius: the exact test comes after it."""
 
 
 class Meeting(IntEnum):
@@ -191,6 +195,8 @@ def _line_arc(line: Pieces, arc: Pieces) -> _Solved:
     on = np.flatnonzero(_within(along, length[pair]))
     pair, along = pair[on], along[on]
     points = line.start[pair] + along * unit[pair]
+    near = np.flatnonzero(_in_sector(points, _taken(arc, pair)))
+    pair, along, points = pair[near], along[near], points[near]
     run, rest = _along_arc(points, _taken(arc, pair), radius[pair])
     found = _on_both(_Points(pair, along, run, length[pair] - along, rest, points))
     return _kinds(len(room), found.pair, np.abs(room) <= ON_PATH), found
@@ -212,6 +218,9 @@ def _arcs(a: Pieces, b: Pieces) -> _Solved:
     pair, half = _half_chords(np.sqrt(np.maximum(area, 0.0)) / (2.0 * divisor), room)
     foot = (apart + differ * total / divisor) / 2.0
     points = a.centre[pair] + (between / divisor)[pair] * (foot[pair] + 1j * half)
+    near = np.flatnonzero(_in_sector(points, _taken(a, pair)))
+    near = near[_in_sector(points[near], _taken(b, pair[near]))]
+    pair, points = pair[near], points[near]
     run_a, rest_a = _along_arc(points, _taken(a, pair), big[pair])
     run_b, rest_b = _along_arc(points, _taken(b, pair), small[pair])
     found = _as_travelled(_on_both(_Points(pair, run_a, run_b, rest_a, rest_b, points)))
@@ -220,6 +229,19 @@ def _arcs(a: Pieces, b: Pieces) -> _Solved:
     if len(rows):
         kinds[rows[_overlap(_taken(a, rows), _taken(b, rows))]] = Meeting.OVERLAP.value
     return kinds, found
+
+
+def _in_sector(point: Planes, arc: Pieces) -> Masks:
+    """Which points may lie on their arc: between the rays to its ends by cross products, with room for rounding.
+
+    Of an arc of half a turn or more, and of one whose ends are nearly one point, those behind either ray.
+    """
+    first, last, radial = arc.start - arc.centre, arc.end - arc.centre, point - arc.centre
+    room = _ROOM * np.maximum(np.abs(first), 1.0)
+    behind_first = (first.conj() * radial).imag * arc.turn >= -room
+    before_last = (radial.conj() * last).imag * arc.turn >= -room
+    minor = (first.conj() * last).imag * arc.turn > room
+    return np.where(minor, behind_first & before_last, behind_first | before_last)
 
 
 def _half_chords(half: Floats, room: Floats) -> tuple[Indices, Floats]:
