@@ -1,8 +1,8 @@
 """Findings: how every stage reports trouble, as values and never as exceptions.
 
 A finding's text is a sentence for the operator.  Lengths in it stand as `{value}`, `{x}`, `{y}` or
-`{0}`, `{1}` ... (the rest of `lengths`), filled in program units by `core.units.sentence`.  `{0~1}` is length 0
-with as many decimals as tell it from length 1.
+`{0}`, `{1}` ... (the rest of `lengths`), an area as `{area}`, filled in program units by `core.units.sentence`.
+`{0~1}` is length 0 with as many decimals as tell it from length 1.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Finding:
     `code` is a stable word such as GOUGE, or a control's rule id.  `segment` is a programmed number k
     or k + 1/2 for the corner arc behind it; `field` a field's name in `core.program.fields`.
     `at` (x, y) and `value` are millimetres, `lengths` further millimetres named in the text.
-    `line` and `column` count from 1 in a program somebody else wrote.
+    `line` and `column` count from 1 in a program somebody else wrote.  `area` is in square millimetres.
     """
 
     code: str
@@ -40,3 +40,4 @@ class Finding:
     lengths: tuple[float, ...] = ()
     line: int | None = None
     column: int | None = None
+    area: float | None = None

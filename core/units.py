@@ -142,6 +142,9 @@ def sentence(finding: Finding, unit: Unit) -> str:
         known["value"] = finding.value
     if finding.at is not None:
         known["x"], known["y"] = finding.at
+    if finding.area is not None:
+        # a length as well once it is divided by an inch
+        known["area"] = from_mm(finding.area, unit)
 
     def fill(place: re.Match[str]) -> str:
         length, other = known.get(place[1]), known.get(place[2] or "")

@@ -103,6 +103,7 @@ def finding_document(finding: Finding, unit: Unit) -> Document:
         "x": at[0],
         "y": at[1],
         "value": None if finding.value is None else from_mm(finding.value, unit),
+        "area": None if finding.area is None else from_mm(from_mm(finding.area, unit), unit),
         "text": sentence(finding, unit),
     }
 

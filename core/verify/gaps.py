@@ -24,29 +24,41 @@ WIDE: Final = 4.0
 """Gaps farther from the path than so many radii are few, and left to `farthest`."""
 
 
+ON_EDGE: Final = 1e-7
+"""Millimetres from the cutter's edge at which a gap's end is on it."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Bound:
-    """(k,) for each gap an end of a path's piece, the place farthest from it along the surface, and how far it is."""
+    """(k,) for each gap an end of a path's piece, the place farthest from it along the surface, and how far it is.
+
+    `sector` is the area between the gap and the circle of the radius about that end, as seen from it, positive where
+    the gap runs counter-clockwise; nan where an end of the gap that is reached is not on that circle.
+    """
 
     corner: Points
     place: Floats
     apart: Floats
+    sector: Floats
 
     def keep(self, chosen: Flags) -> Bound:
         """Those for which `chosen` (k,) is True."""
-        return Bound(self.corner[chosen], self.place[chosen], self.apart[chosen])
+        return Bound(self.corner[chosen], self.place[chosen], self.apart[chosen], self.sector[chosen])
 
 
-def bounds(pairs: Pairs, gaps: Stretches, near: Rows) -> Bound:
+def bounds(pairs: Pairs, gaps: Stretches, near: Rows, radius: float) -> Bound:
     """What no place of each gap is farther from the path than; `near` (2, k) are the pieces at its ends."""
     parts = _parts(pairs, gaps)
     corner = _corner(pairs, near, parts)
-    apart = np.abs(parts.points - corner[parts.owner])
+    seen = parts.points - corner[parts.owner]
+    apart = np.abs(seen)
+    sector = _sectors(pairs, parts, seen, radius)
+    sector[_off(parts, apart, near, radius)] = np.nan
     _to_arcs(pairs, parts, corner, apart)
     most = np.maximum.reduceat(apart, parts.begins)
     where = np.flatnonzero(apart == most[parts.owner])
     first = where[np.flatnonzero(np.diff(parts.owner[where], prepend=-1))]
-    return Bound(corner, parts.s[first], most)
+    return Bound(corner, parts.s[first], most, sector)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -98,6 +110,32 @@ def _to_arcs(pairs: Pairs, parts: _Parts, corner: Points, apart: Floats) -> None
     inner = (s > parts.s[rows]) & (s < parts.s[rows + 1])
     parts.s[rows[inner]] = s[inner]
     apart[rows[inner]] = (np.abs(arc.centre - p) + arc.radius)[inner]
+
+
+def _sectors(pairs: Pairs, parts: _Parts, seen: Points, radius: float) -> Floats:
+    """(k,) area between each gap and the circle about the point from which its parts begin at `seen`."""
+    turned = np.conj(seen[:-1]) * seen[1:]
+    angle, area = np.angle(turned), 0.5 * turned.imag
+    rows = np.flatnonzero(pairs.surface.turn[parts.j[:-1]])
+    if len(rows):
+        arc = pairs.surface.take(parts.j[rows])
+        sweep = (parts.s[rows + 1] - parts.s[rows]) / arc.radius
+        area[rows] += 0.5 * arc.turn * arc.radius**2 * (sweep - np.sin(sweep))
+        t = (parts.s[rows] - pairs.surface_stations[parts.j[rows]]) / arc.length
+        middle = seen[rows] + at(arc, t + 0.5 * sweep / arc.angle) - parts.points[rows]
+        angle[rows] = np.angle(np.conj(seen[rows]) * middle) + np.angle(np.conj(middle) * seen[rows + 1])
+    area -= 0.5 * radius * radius * angle
+    last = np.append(parts.begins[1:], len(seen))[:-1] - 1
+    area[last] = 0.0
+    sums: Floats = np.add.reduceat(np.append(area, 0.0), parts.begins)
+    return sums
+
+
+def _off(parts: _Parts, apart: Floats, near: Rows, radius: float) -> Flags:
+    """Gaps of which an end that is reached is not as far from the point as the cutter's edge."""
+    ends = np.stack((parts.begins, np.append(parts.begins[1:], len(apart)) - 1))
+    off: Flags = np.any((np.abs(apart[ends] - radius) > ON_EDGE) & (near >= 0), axis=0)
+    return off
 
 
 def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: float) -> Farthest:

@@ -19,6 +19,9 @@ DIGIT: Final = 0.00254
 SHOWN: Final = DIGIT / 2.0
 """Lengths below this would be told as zeros."""
 
+SHOWN_AREA: Final = 0.033
+"""Square millimetres below which an area would be told as zeros in inches."""
+
 LISTED: Final = 12
 """A stretch over more segments is told by its first and its last alone."""
 
@@ -119,7 +122,8 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
         listed = ", ".join(f"segment {number:g} {{{row}}}" for row, (number, _) in enumerate(shares, 1))
         told = f" ({listed})" if len(shares) > 1 else ""
         thick = "{0}" if uncut.thickness >= SHOWN else f"less than {{{len(shares) + 1}}}"
-        text = f"{{value}} of {where} stays uncut{told}, {thick} at the thickest, at X {{x}} Y {{y}}."
+        area = "" if uncut.area is None or uncut.area < SHOWN_AREA else ", area {area}"
+        text = f"{{value}} of {where} stays uncut{told}, {thick} at the thickest, at X {{x}} Y {{y}}{area}."
         lengths = (uncut.thickness, *(length for _, length in shares), DIGIT)
     return Finding(
         "UNCUT",
@@ -129,6 +133,7 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
         at=uncut.thickest,
         value=uncut.length,
         lengths=lengths,
+        area=uncut.area,
     )
 
 

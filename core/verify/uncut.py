@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from math import nan
+
 import numpy as np
 
 from core.geometry.measured import Floats, Points, Rows, at, place
 from core.geometry.path import Path
-from core.tolerance import ON_PATH, STOCK
+from core.tolerance import CLOSED, ON_PATH, STOCK
 from core.verify.farthest import Farthest
-from core.verify.gaps import bounds, thickest
+from core.verify.gaps import Bound, bounds, thickest
 from core.verify.pairs import Pairs
 from core.verify.reach import Stretches
 from core.verify.reached import reached
@@ -25,22 +27,28 @@ def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool) -> UncutS
     if not len(gaps):
         return NOTHING
     if not len(pairs.centre):
-        far = Farthest(gaps.first, np.full(len(gaps), np.inf))
-    else:
-        bound = bounds(pairs, gaps, near)
-        thick = bound.apart > radius + STOCK
-        over = closed and gaps.first[0] == 0.0 and gaps.last[-1] == total
-        if over and (thick[0] or thick[-1]):
-            thick[0] = thick[-1] = True
-        gaps, near, bound = gaps.keep(thick), near[:, thick], bound.keep(thick)
-        far = thickest(pairs, gaps, near, bound, radius)
-    told = _told(pairs, gaps, far, radius, surface)
-    if closed and len(told) > 1 and gaps.first[0] == 0.0 and gaps.last[-1] == total:
-        told = told.over_start()
+        nowhere = Farthest(gaps.first, np.full(len(gaps), np.inf))
+        return _told(pairs, gaps, nowhere, radius, surface, np.full(len(gaps), nan))
+    over = closed and bool(gaps.first[0] == 0.0 and gaps.last[-1] == total)
+    bound = bounds(pairs, gaps, near, radius)
+    thick = bound.apart > radius + STOCK
+    if over and (thick[0] or thick[-1]):
+        thick[0] = thick[-1] = True
+    gaps, near, bound = gaps.keep(thick), near[:, thick], bound.keep(thick)
+    area = np.where((near < 0).any(axis=0), nan, np.abs(bound.sector))
+    told = _told(pairs, gaps, thickest(pairs, gaps, near, bound, radius), radius, surface, area)
+    if over and len(told) > 1:
+        told = told.over_start(_area_over_start(bound))
     return told.keep(told.thickness > STOCK)
 
 
-def _told(pairs: Pairs, gaps: Stretches, far: Farthest, radius: float, surface: Path) -> UncutStretches:
+def _area_over_start(bound: Bound) -> float:
+    """The area of the first and the last gap together, seen from one point; not a number if they are not."""
+    one = bool(np.abs(bound.corner[0] - bound.corner[-1]) <= CLOSED)
+    return abs(float(bound.sector[0] + bound.sector[-1])) if one else nan
+
+
+def _told(pairs: Pairs, gaps: Stretches, far: Farthest, radius: float, surface: Path, area: Floats) -> UncutStretches:
     start, first = _points(pairs, gaps.first, ON_PATH)
     end, last = _points(pairs, gaps.last, -ON_PATH)
     thickest, _ = _points(pairs, far.place, 0.0)
@@ -52,6 +60,7 @@ def _told(pairs: Pairs, gaps: Stretches, far: Farthest, radius: float, surface: 
         gaps.last - gaps.first,
         far.apart - radius,
         thickest,
+        area,
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from math import isnan
 from typing import Any, Final, overload
 
 import numpy as np
@@ -33,7 +34,9 @@ class Gouge:
 class Uncut:
     """One stretch of the surface that no point of the path reaches: segments it begins and ends on, and its ends.
 
-    `thickness` is the largest distance from the stretch to the swept area, met at `thickest`.
+    `thickness` is the largest distance from the stretch to the swept area, met at `thickest`.  `area` is what lies
+    between both, square millimetres; None where the stretch ends at the contour's end, or where the cutter moves on
+    while it is away from it.
     """
 
     first_number: float
@@ -43,6 +46,7 @@ class Uncut:
     length: float
     thickness: float
     thickest: Point
+    area: float | None = None
 
 
 class UncutStretches(Sequence[Uncut]):
@@ -82,8 +86,8 @@ class UncutStretches(Sequence[Uncut]):
         """The stretches for which `chosen` (k,) is True."""
         return self if chosen.all() else UncutStretches(*(column[chosen] for column in self.columns))
 
-    def over_start(self) -> UncutStretches:
-        """A closed contour's first and last stretch as the one they are, standing last."""
+    def over_start(self, area: float) -> UncutStretches:
+        """A closed contour's first and last stretch as the one they are, standing last, with its area."""
         one, other = self[0], self[-1]
         thicker = max(other, one, key=lambda stretch: stretch.thickness)
         both = (
@@ -94,15 +98,24 @@ class UncutStretches(Sequence[Uncut]):
             other.length + one.length,
             thicker.thickness,
             complex(*thicker.thickest),
+            area,
         )
         columns = zip(self.columns, both, strict=True)
         return UncutStretches(*(np.append(column[1:-1], value) for column, value in columns))
 
 
 def _uncut(
-    first: float, last: float, start: complex, end: complex, length: float, thickness: float, thickest: complex
+    first: float,
+    last: float,
+    start: complex,
+    end: complex,
+    length: float,
+    thickness: float,
+    thickest: complex,
+    area: float,
 ) -> Uncut:
-    return Uncut(first, last, _point(start), _point(end), length, thickness, _point(thickest))
+    known = None if isnan(area) else area
+    return Uncut(first, last, _point(start), _point(end), length, thickness, _point(thickest), known)
 
 
 def _point(place: complex) -> Point:
@@ -110,7 +123,7 @@ def _point(place: complex) -> Point:
 
 
 NOTHING: Final = UncutStretches(
-    *(np.zeros(0, kind) for kind in (float, float, complex, complex, float, float, complex))
+    *(np.zeros(0, kind) for kind in (float, float, complex, complex, float, float, complex, float))
 )
 """No stretches."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, hypot, pi, sin, tan, tau
+from math import asin, cos, hypot, pi, sin, sqrt, tan, tau
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ from core.verify import gaps
 from core.verify.judge import judge
 from core.verify.verdict import UncutStretches
 from tests.core.verify.corpus import Chain
-from tests.core.verify.shapes import circle, lines
+from tests.core.verify.shapes import circle, lines, square
 
 RADIUS = 0.25
 
@@ -108,3 +108,44 @@ def test_a_corner_is_proved_without_the_search(monkeypatch: pytest.MonkeyPatch) 
 
     monkeypatch.setattr(gaps, "farthest", searched)
     assert len(uncut(polygon(80), inside(polygon(80)))) == 80
+
+
+def cap(radius: float, width: float) -> float:
+    """What a circle reaches over a chord."""
+    return radius**2 * asin(width / 2 / radius) - width / 2 * sqrt(radius**2 - width**2 / 4)
+
+
+def test_the_area_in_inside_corners_over_start_too() -> None:
+    corner = RADIUS**2 * (1 - pi / 4)
+    path = lines((RADIUS, RADIUS), (1.75, RADIUS), (1.75, 1.75), (RADIUS, 1.75), (RADIUS, RADIUS))
+    assert [one.area for one in uncut(square(), path)] == pytest.approx([corner] * 4, abs=1e-8)
+    other = judge(square().reversed(), Side.RIGHT, RADIUS, path.reversed()).uncut
+    assert [one.area for one in other] == pytest.approx([corner] * 4, abs=1e-8)
+
+
+def test_the_area_of_a_notch_the_cutter_cannot_enter() -> None:
+    notch = lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
+    (told,) = uncut(notch, compensate(notch, Side.LEFT, RADIUS, 3, closed=False).path)
+    assert told.area == pytest.approx(0.09 - cap(RADIUS, 0.3), abs=1e-8)
+
+
+@pytest.mark.parametrize("angle", [1.5, 3.0, pi, 5.0, 5.6])
+def test_the_area_of_a_round_bay_the_cutter_cannot_enter(angle: float) -> None:
+    """An arc of radius 1, more than half round or less, below a wall."""
+    width = 2.0 * sin(angle / 2.0)
+    bay = Arc((0, 0), (width, 0), (width / 2, cos(angle / 2.0)), Turn.CCW)
+    surface = Path.from_pieces([Line((-3, 0), (0, 0)), bay, Line((width, 0), (width + 3, 0))])
+    radius = width / 2 + 0.5
+    height = sqrt(radius**2 - width**2 / 4)
+    start, end, middle = (0.0, radius), (width, radius), (width / 2, height)
+    pieces = [Arc(start, middle, (0, 0), Turn.CW), Arc(middle, end, (width, 0), Turn.CW)]
+    path = Path.from_pieces([Line((-3, radius), start), *pieces, Line(end, (width + 3, radius))])
+    (stretch,) = uncut(surface, path, radius)
+    assert stretch.area == pytest.approx((angle - sin(angle)) / 2.0 - cap(radius, width), abs=1e-8)
+
+
+def test_no_area_is_told_where_it_has_no_bound() -> None:
+    wall = lines((0, 0), (10, 0))
+    assert [one.area for one in uncut(wall, lines((1, RADIUS), (4, RADIUS), (5, 2), (6, RADIUS), (9, RADIUS)))] == [
+        None
+    ] * 3

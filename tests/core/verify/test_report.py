@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import nan
+from math import nan, pi
 
 import pytest
 
@@ -15,7 +15,7 @@ from core.verify.judge import judge
 from core.verify.names import move_name
 from core.verify.report import findings, stray_findings
 from core.verify.stray import stray
-from tests.core.verify.shapes import around, lines, square
+from tests.core.verify.shapes import around, lines, moved, square
 from tests.core.verify.test_judge import CORNERS, MID_SIDE, MID_SIDE_PATH, OVER_RUN, OVER_RUN_PATH, R
 
 INCH = 25.4
@@ -80,6 +80,14 @@ def test_uncut_stretches_name_their_segments() -> None:
         "0.500 of segments 1 to 2 stays uncut (segment 1 0.250, segment 2 0.250), 0.104 at the thickest, "
         "at X 2.000 Y 0.000."
     )
+    assert found[0].area == pytest.approx(R * R * (1.0 - pi / 4.0), abs=1e-8)
+
+
+def test_the_area_is_told_in_program_units_where_it_is_worth_it() -> None:
+    surface, path = (moved(one, 0.0, (0.0, 0.0), INCH) for one in (MID_SIDE, MID_SIDE_PATH))
+    (first, *_) = findings(judge(surface, Side.LEFT, R * INCH, path), surface)
+    assert sentence(first, Unit.IN).endswith(", area 0.0134.")
+    assert sentence(first, Unit.MM).endswith(", area 8.653.")
 
 
 def test_a_stretch_over_start_says_so() -> None:
