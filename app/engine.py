@@ -64,7 +64,7 @@ class Known:
         if not found.known and (before := self.memory.last("picture", tuple)) is not None:
             # while the new path is being calculated the old drawing stands; the verdict says that it is not known
             return before
-        about = (found, self.table, segment, unit, sketch.lookahead)
+        about = (*_seen(found, segment), self.table, segment, unit, sketch.lookahead)
         scene = self.memory.recall("scene", about, lambda: scene_of(found, self.table, segment, unit, sketch))
         window = (scene, sketch, columns, rows, desk.mode)
         return self.memory.recall("picture", window, lambda: picture_rows(*window))
@@ -176,3 +176,13 @@ class Engine:
 
 def _needing(found: DerivedBlock) -> tuple[Work, int] | None:
     return None if found.work is None else (found.work, found.lookahead.calculated)
+
+
+def _seen(found: DerivedBlock, segment: int) -> tuple[object, ...]:
+    """All of a block that its drawing shows: another depth or feed leaves the drawing as it stands."""
+    solved = found.solved
+    if found.work is None or not 0 <= segment <= len(solved.segments):
+        return (found,)
+    current = solved.segments[segment - 1].piece if segment else None
+    begins = solved.segments[0].start if solved.segments else None
+    return found.work, found.radius, solved.segments[solved.determined :], current, begins
