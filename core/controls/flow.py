@@ -16,7 +16,7 @@ from core.finding import Severity
 MOST_BLOCKS: Final = 400_000
 """Blocks that subprograms and loops may add to those of the file; beyond it the run stops."""
 
-MOST_OWORDS: Final = 40_000
+MOST_OWORDS: Final = 15_000
 """O-words that may run."""
 
 _LABEL: Final = re.compile(r"[ \t]*+(?:[Nn][ \t]*+[0-9]++)?[ \t]*+[Oo][ \t]*+([0-9]{1,9})(?![0-9])")

@@ -86,7 +86,7 @@ class OWords:
         self.log = log
         self.frames: list[Frame] = []
         self.opened: dict[str, Open] = {}
-        self.begun: dict[str, int] = {}
+        self.begun: dict[tuple[str, str], int] = {}
         self.by_label: dict[str, list[OWord]] = {}
         for word in words.values():
             self.by_label.setdefault(word.label, []).append(word)
@@ -234,11 +234,10 @@ class OWords:
         return word.row + 1
 
     def _fresh(self, word: OWord) -> None:
-        """A label that began something once cannot begin anything else."""
-        if self.begun.setdefault(word.label, word.row) != word.row:
-            text = (
-                f"This label is in use since line {self.begun[word.label] + 1}; give this {word.word.lower()} its own."
-            )
+        """A label that began something once cannot begin anything else in its subprogram."""
+        key = (self.frames[-1].label if self.frames else "", word.label)
+        if self.begun.setdefault(key, word.row) != word.row:
+            text = f"This label is in use since line {self.begun[key] + 1}; give this {word.word.lower()} its own."
             self._stop(word, text)
 
     def _while(self, word: OWord) -> int:

@@ -8,21 +8,28 @@ from pathlib import Path
 
 from core.controls.moves import Moves, Plane
 from core.controls.report import Run
-from core.units import Unit, from_mm
+from core.units import Unit
 from tests.rs274 import process
+
+DIGIT = 1.2e-4
+"""Program units by which four printed decimals may be off."""
 
 _CALL = re.compile(r"^\s*\d+\s+\S+\s+(\w+)\(([^)]*)\)")
 
 
 @dataclass(frozen=True)
 class Printed:
-    """One move as printed: line or arc, its end (x, y, z), of an arc centre and turn; the feed in mm a minute."""
+    """One move as printed: line or arc, its end (x, y, z), of an arc centre and turn; the feed; millimetres.
+
+    `digit` is how far the printed decimals may be off.
+    """
 
     end: tuple[float, float, float]
     rapid: bool
     centre: tuple[float, float] | None = None
     turn: int = 0
     feed: float = 0.0
+    digit: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -40,7 +47,7 @@ def table_text(diameters: dict[int, float], unit: Unit) -> str:
 
 
 def witness(program: str, folder: Path, diameters: dict[int, float], unit: Unit) -> Witnessed:
-    """What the interpreter makes of a program, in program units."""
+    """What the interpreter makes of a program."""
     text, table = folder / "program.ngc", folder / "tools.tbl"
     text.write_text(program)
     table.write_text(table_text(diameters, unit))
@@ -91,19 +98,20 @@ def _moves(lines: list[str]):
             plane = {"CANON_PLANE_XY": Plane.XY, "CANON_PLANE_XZ": Plane.ZX, "CANON_PLANE_YZ": Plane.YZ}[numbers]
         elif name == "SET_G92_OFFSET":
             x, y, z = (float(number) for number in numbers.split(",")[:3])
-            origin = (x, y, z)
+            origin = (x * feeds.scale, y * feeds.scale, z * feeds.scale)
         elif name in ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED"):
-            x, y, z = (float(number) for number in numbers.split(",")[:3])
+            x, y, z = (float(number) * feeds.scale for number in numbers.split(",")[:3])
             rapid = name == "STRAIGHT_TRAVERSE"
             end = (x + origin[0], y + origin[1], z + origin[2])
-            yield Printed(end, rapid, feed=0.0 if rapid else feeds.feed)
+            yield Printed(end, rapid, feed=0.0 if rapid else feeds.feed, digit=feeds.scale * DIGIT)
         elif name == "ARC_FEED":
-            arc = _arc([float(number) for number in numbers.split(",")], plane, origin)
-            yield replace(arc, feed=feeds.feed)
+            arc = _arc([float(number) for number in numbers.split(",")], plane, origin, feeds.scale)
+            yield replace(arc, feed=feeds.feed, digit=feeds.scale * DIGIT)
 
 
-def _arc(numbers: list[float], plane: Plane, origin: tuple[float, float, float]) -> Printed:
-    first, second, cx, cy, turn, height = numbers[:6]
+def _arc(numbers: list[float], plane: Plane, origin: tuple[float, float, float], scale: float) -> Printed:
+    turn = numbers[4]
+    first, second, cx, cy, _, height = (number * scale for number in numbers[:6])
     axes = plane.axes
     end = [0.0, 0.0, 0.0]
     for axis, value in zip(axes, (first, second, height), strict=True):
@@ -113,18 +121,14 @@ def _arc(numbers: list[float], plane: Plane, origin: tuple[float, float, float])
 
 def printed(run: Run) -> tuple[Printed, ...]:
     """A run's moves in the same form."""
-    return tuple(_printed(run.moves, run.unit))
+    return tuple(_printed(run.moves))
 
 
-def _printed(moves: Moves, unit: Unit):
+def _printed(moves: Moves):
     for move in moves.part(1, len(moves)) if len(moves) > 1 else ():
-        x, y, z = (from_mm(value, unit) for value in move.point)
-        if not move.turn:
-            yield Printed((x, y, z), move.rapid, feed=0.0 if move.rapid else move.feed)
-            continue
         first, second, _ = move.plane.axes
-        centre = (from_mm(move.centre[first], unit), from_mm(move.centre[second], unit))
-        yield Printed((x, y, z), False, centre, move.turn, move.feed)
+        centre = (move.centre[first], move.centre[second]) if move.turn else None
+        yield Printed(move.point, move.rapid, centre, move.turn, 0.0 if move.rapid else move.feed)
 
 
 def difference(ours: tuple[Printed, ...], theirs: tuple[Printed, ...]) -> str:
@@ -134,7 +138,7 @@ def difference(ours: tuple[Printed, ...], theirs: tuple[Printed, ...]) -> str:
         apart = max(abs(first - second) for first, second in pairs)
         same_kind = one.turn == other.turn and one.rapid == other.rapid
         fed_alike = abs(one.feed - other.feed) <= 2e-3 + 1e-3 * abs(other.feed)
-        if not same_kind or apart > 1.2e-4 or not fed_alike:
+        if not same_kind or apart > other.digit or not fed_alike:
             return f"move {index}: {one} against {other}"
     if len(ours) != len(theirs):
         return f"{len(ours)} moves against {len(theirs)}"

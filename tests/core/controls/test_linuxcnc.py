@@ -11,7 +11,8 @@ from core.controls import registry
 from core.controls.moves import Plane
 from core.controls.tools import read_table
 from core.units import Unit, from_mm
-from tests.core.controls.compare_rs274 import COMPENSATED, SAMPLES, outcome, programs, sample_outcome
+from tests.core.controls.compare_rs274 import outcome, programs, sample_outcome
+from tests.core.controls.distribution import COMPENSATED, LIBRARY, SAMPLES, called, sample
 from tests.core.controls.hand import ran, same, shape, told
 from tests.core.controls.programs import MODAL
 from tests.core.controls.rs274 import difference, printed, run_witness, witness
@@ -34,7 +35,15 @@ def test_random_programs_run_or_are_refused_as_by_the_interpreter_itself(tmp_pat
 @pytest.mark.skipif(not SAMPLES.is_dir(), reason="LinuxCNC's sample programs are not installed")
 @pytest.mark.parametrize("name", [name for name, why in COMPENSATED.items() if not why])
 def test_the_samples_of_the_distribution_run_alike(name: str, tmp_path: Path) -> None:
-    fared, apart = sample_outcome(name, tmp_path)
+    fared, apart = sample_outcome(sample(name), tmp_path)
+    assert fared.startswith(("same moves", "both refuse")), apart
+
+
+@needs_witness
+@pytest.mark.skipif(not SAMPLES.is_dir(), reason="LinuxCNC's sample programs are not installed")
+@pytest.mark.parametrize("name", LIBRARY)
+def test_the_library_of_the_distribution_runs_alike(name: str, tmp_path: Path) -> None:
+    fared, apart = sample_outcome(called(name), tmp_path)
     assert fared.startswith(("same moves", "both refuse")), apart
 
 
