@@ -8,6 +8,7 @@ from app.messages import Close, Edit, Message, Move, Open, Say
 from app.screens import doors
 from app.screens.page import Softkey, Softkeys
 from app.session import SEGMENT, Session, Tone
+from core.pipeline.derived import Tag
 from core.program.edit import Where, choose, delete_segment, recalculate_lookahead
 from core.units import Kind, from_mm, show
 
@@ -49,8 +50,11 @@ def softkeys(session: Session, cursor: str) -> Softkeys:
 
 
 def _recalculating(session: Session) -> dict[int, Softkey]:
-    """F3 acts everywhere on START; its label stands where the look-ahead has the cursor."""
-    return {} if session.where.segment else {3: Softkey("", recalculated(session))}
+    """F3 acts everywhere on START; its label stands where it would change something."""
+    if session.where.segment:
+        return {}
+    typed = session.found.side is not None and session.found.lookahead.tag is Tag.USR
+    return {3: Softkey("RECALCULATE LOOKAHEAD" if typed else "", recalculated(session))}
 
 
 def _segment_keys(session: Session) -> dict[int, Softkey]:

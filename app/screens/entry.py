@@ -21,7 +21,9 @@ class EntryPage(Page):
     fresh: bool = True
 
     def typed(self, key: str, character: str | None) -> Answer | None:
-        """A key of editing."""
+        """A key of editing; a question mark in the first place asks for help."""
+        if self.fresh and character == "?":
+            return None
         entry = press(None if self.fresh else self.entry, self.entry.text, key, character)
         return None if entry is None else Answer(replace(self, entry=entry, fresh=False))
 

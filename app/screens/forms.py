@@ -65,7 +65,8 @@ class FormPage(Page):
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
         """A key on a field: typing, picking, accepting, moving."""
         one = self.field(session)
-        if one is None or (character == "?" and one.kind is not Kind.TEXT):
+        # a text may hold a question mark, but hardly begins with one
+        if one is None or (character == "?" and (one.kind is not Kind.TEXT or self.editing is None)):
             return None
         if key in FORWARD or key in BACK:
             return self.accepted(session, key)

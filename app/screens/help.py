@@ -25,7 +25,7 @@ KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Ctrl+L", "paint the screen again if it was spoilt"),
     ("F1 to F8", "the softkeys; also Esc, then the digit,"),
     ("", "or Ctrl+K, then the digit (on any screen)"),
-    ("? or Ctrl+G", "this help (Ctrl+G where text is typed)"),
+    ("? or Ctrl+G", "this help (Ctrl+G in the middle of a text)"),
 )
 """Key and what it does, each short enough for one line."""
 MARKS: Final[tuple[tuple[str, str], ...]] = (
@@ -37,6 +37,7 @@ MARKS: Final[tuple[tuple[str, str], ...]] = (
     ("3! 3* [3]", "look-ahead 3 gouges; erases; in force"),
     ("S > o", "START, direction, plunge point"),
     ("! x", "gouge; where segments were erased"),
+    ("Free: n", "kilobytes of memory that are free"),
 )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from app.screens.help import HelpPage
 from app.screens.new_segment import NewSegment
 from app.screens.post import PostPage
 from core.program.model import Entry
@@ -58,3 +59,12 @@ def test_the_first_softkeys_stand_whenever_the_list_is_seen_again(keys: tuple[st
     operator = Operator.at().press("f8", "f7")
     assert "DELETE BLOCK" not in operator.part("softkeys")
     assert "DELETE BLOCK" in operator.press(*keys).part("softkeys")
+
+
+@pytest.mark.parametrize("keys", [("ctrl+s",), ("f5",)])
+def test_a_question_mark_in_the_first_place_of_a_text_asks_for_help(keys: tuple[str, ...]) -> None:
+    operator = Operator.at().press(*keys, "?")
+    assert isinstance(operator.desk.page, HelpPage)
+    operator.press("escape", "a", "?")
+    assert not isinstance(operator.desk.page, HelpPage)
+    assert "a?" in "\n".join(operator.screen())
