@@ -5,12 +5,16 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
+from app import times
 from app.commands import CLEAN, DASH, FINDINGS, SHOP_HELP, UNUSABLE, say
+from app.keeping import holder
 from core.finding import Finding, Severity
+from core.program.lock import Held, myself, release, take
 from core.program.model import Entry, Program, Tool
 from core.program.store import StoreError, load, save, write_output
 from core.program.tool_table import Imported, decoded, read_tool_table
@@ -60,15 +64,35 @@ def sheet(options: argparse.Namespace) -> int:
 
 def tools(options: argparse.Namespace) -> int:
     """`cutcomp tools`: the table of a program, after an import that is whole or not at all."""
+    if options.table is None:
+        return _listed(load(options.file))
+    now, lock = times.now(), None
+    with suppress(OSError):
+        # where no lock can be written, the program cannot either, and says so
+        lock = take(options.file, myself(now))
+    if isinstance(lock, Held):
+        say(f"nothing was imported: {holder(lock.owner, now)} TOOL SETUP there imports a table, too.")
+        return UNUSABLE
+    try:
+        return _imported(options)
+    finally:
+        if lock is not None:
+            release(lock)
+
+
+def _imported(options: argparse.Namespace) -> int:
     program = load(options.file)
-    if options.table is not None:
-        table = read_table(options.table, Unit(options.units) if options.units else program.unit, program.unit)
-        _tell(options.table, table.findings)
-        if table.errors:
-            say("nothing was imported.")
-            return FINDINGS
-        program = merged(program, table.tools)
-        save(program, options.file)
+    table = read_table(options.table, Unit(options.units) if options.units else program.unit, program.unit)
+    _tell(options.table, table.findings)
+    if table.errors:
+        say("nothing was imported.")
+        return FINDINGS
+    program = merged(program, table.tools)
+    save(program, options.file)
+    return _listed(program)
+
+
+def _listed(program: Program) -> int:
     for tool in program.tools:
         print(told(tool, program.unit))
     return CLEAN

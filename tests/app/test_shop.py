@@ -12,8 +12,10 @@ from app.screens.ask import Ask
 from app.screens.import_tools import FaultsPage
 from app.screens.program import ProgramPage
 from app.screens.tools import ToolsPage
+from core.program.lock import Lock, release, take
 from core.program.model import Entry, Tool
 from core.program.store import load, save
+from tests.app.kept import ELSEWHERE
 from tests.app.operator import Operator
 
 
@@ -52,6 +54,21 @@ def test_an_import_that_is_whole(part: Path, capsys: pytest.CaptureFixture[str])
     said = capsys.readouterr()
     assert "line 2, column 1: warning: Tool 8 has no diameter" in said.err
     assert "T7          0.5000 IN  BALL\n" in said.out
+
+
+def test_nothing_is_imported_into_a_program_that_somebody_has_open(
+    part: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    table, before = part.with_name("tool.tbl"), part.read_bytes()
+    table.write_text("T7 P1 D.5\n")
+    lock = take(part, ELSEWHERE)
+    assert isinstance(lock, Lock)
+    assert main(["tools", str(part), "--import", str(table)]) == 2
+    assert "nothing was imported: bob on office has this program open since" in capsys.readouterr().err
+    assert part.read_bytes() == before
+    release(lock)
+    assert main(["tools", str(part), "--import", str(table)]) == 0
+    assert not lock.path.exists()
 
 
 def test_an_import_with_a_fault_changes_nothing(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
