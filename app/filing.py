@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, assert_never
 
 from app.files import empty_program, examples, is_nc, opened
 from app.messages import Browse, Close, Do, Leave, Load, Open, Post, Save, Say, Swap
+from app.patience import FILE, within
 from app.saving import asked, put_theirs_aside, replacing, there
 from app.screens.ask import Ask
 from app.screens.browse import BrowsePage, listed
@@ -84,13 +85,25 @@ def _load(desk: Desk, message: Load) -> Desk:
     if message.path is None:
         return fresh(desk, Session.of(empty_program(desk.settings.unit))).take(Say("A new program."))
     try:
-        session = opened(message.path)
+        session = _opened(message.path)
     except StoreError as error:
         return _failed(desk, error)
     if message.path.parent == examples():
         # an example is nobody's to overwrite: it has no file until it is saved under a name
         return fresh(desk, Session.of(session.program)).take(Say(f"Example {message.path.stem}: SAVE gives it a name."))
     return fresh(desk, session).take(Say(f"Opened: {message.path}"))
+
+
+def _opened(path: Path) -> Session:
+    """A program, or the work on it that was left behind where its file cannot be read; StoreError for neither."""
+    try:
+        return within(FILE, lambda: opened(path))
+    except TimeoutError as error:
+        raise StoreError(f"{path} cannot be opened: {error}.") from error
+    except StoreError as error:
+        from app.rescue import rescued
+
+        return rescued(path, error)
 
 
 def fresh(desk: Desk, session: Session) -> Desk:

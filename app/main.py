@@ -146,4 +146,9 @@ def begin(path: Path | None, example: str | None) -> Session:
         return Session.of(files.empty_program())
     if not path.exists() and path.parent.is_dir():
         return Session.of(files.empty_program(), path).saying(f"{path} does not exist yet: saving makes it.")
-    return files.opened(path)
+    try:
+        return files.opened(path)
+    except StoreError as error:
+        from app.rescue import rescued
+
+        return rescued(path, error)

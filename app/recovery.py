@@ -92,6 +92,8 @@ def _told(keeping: Keeping, session: Session, found: Recovered) -> list[str]:
         lines.append(f"The file was written by somebody else since, {times.told(times.of(stamp.changed), today)}.")
     if found.damaged:
         lines.append("The end of it cannot be read and is kept aside.")
+    if stamp is None and session.file is not None and session.file.exists():
+        lines.append(f"{printable(session.file.name)} itself cannot be read as a program any more; it stays as it is.")
     against = "a new program" if stamp is None else "the saved file"
     return [*lines, f"Against {against}:"]
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from app import files
 from app.messages import Say
+from app.patience import FOLDER, within
 from app.screens.program import ProgramPage
 from app.screens.start import SHOWN, Entry, Group, StartPage
 from app.session import Tone
@@ -22,7 +23,12 @@ if TYPE_CHECKING:
 
 def begun(desk: Desk) -> Desk:
     """The desk with the start screen below what already asks."""
-    page = _page(desk.settings, first_folder(desk.settings), first=True)
+    settings, folder, trouble = desk.settings, Path.cwd(), ""
+    try:
+        folder = within(FOLDER, lambda: first_folder(settings))
+    except OSError as error:
+        trouble = _trouble(folder, error)
+    page = _page(settings, folder, first=True, trouble=trouble)
     return replace(desk, pages=(ProgramPage(), page, *desk.pages[2:]))
 
 
@@ -51,11 +57,11 @@ def walk(folder: Path) -> Callable[[Desk], Desk]:
         try:
             entries = _entries(desk.settings, folder)
         except OSError as error:
-            return desk.take(Say(f"{folder} cannot be shown: {error.strerror or error}.", Tone.ERROR))
+            return desk.take(Say(_trouble(folder, error), Tone.ERROR))
         inside = [row for row, entry in enumerate(entries) if entry.group is Group.FOLDER]
         back = (row for row in inside[1:] if entries[row].path == page.folder)
         there = next((row for row in inside if not entries[row].folder), inside[0])
-        page = replace(page, folder=folder, entries=entries, row=next(back, there), unseen=_files(entries))
+        page = replace(page, folder=folder, entries=entries, row=next(back, there), unseen=_files(entries), trouble="")
         settings = replace(desk.settings, folder=str(folder)) if str(folder).isprintable() else desk.settings
         return replace(desk, pages=(*desk.pages[:-1], page), settings=settings)
 
@@ -83,14 +89,19 @@ def guide(desk: Desk) -> Desk:
     return begin(desk)
 
 
-def _page(settings: Settings, folder: Path, *, first: bool) -> StartPage:
+def _page(settings: Settings, folder: Path, *, first: bool, trouble: str = "") -> StartPage:
+    """The screen; of a folder that cannot be read, or has kept us waiting already, only what is to be said."""
+    entries = tuple(_lists(settings, ()))
     try:
-        entries = _entries(settings, folder)
-    except OSError:
-        folder = Path.home()
-        entries = tuple(_lists(settings, ()))
+        entries = entries if trouble else _entries(settings, folder)
+    except OSError as error:
+        folder, trouble = Path.home(), _trouble(folder, error)
     row = next((row for row, entry in enumerate(entries) if not entry.folder), 0)
-    return StartPage(folder, entries, settings.unit, first, row, unseen=_files(entries))
+    return StartPage(folder, entries, settings.unit, first, row, unseen=_files(entries), trouble=trouble)
+
+
+def _trouble(folder: Path, error: OSError) -> str:
+    return f"{folder} cannot be shown: {error.strerror or error}."
 
 
 def _files(entries: tuple[Entry, ...]) -> tuple[Path, ...]:
@@ -98,8 +109,8 @@ def _files(entries: tuple[Entry, ...]) -> tuple[Path, ...]:
 
 
 def _entries(settings: Settings, folder: Path) -> tuple[Entry, ...]:
-    """The whole list; OSError when the folder cannot be read."""
-    return tuple(_lists(settings, tuple(_inside(folder))))
+    """The whole list; OSError when the folder cannot be read, or does not answer."""
+    return tuple(_lists(settings, within(FOLDER, lambda: tuple(_inside(folder)))))
 
 
 def _lists(settings: Settings, inside: tuple[Entry, ...]) -> Iterator[Entry]:

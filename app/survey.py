@@ -7,6 +7,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from app.patience import FILE, within
 from app.widgets.header import printable
 from app.widgets.rows import Look
 from core.program.model import Entry, Program
@@ -36,19 +37,27 @@ class Facts:
 def facts_of(path: Path, known: Facts | None = None) -> Facts:
     """The facts of a file, from the disk; for a thread, since it derives the whole program."""
     try:
+        facts, program = within(FILE, lambda: _read(path, known))
+    except TimeoutError as error:
+        return Facts(path, word="no answer", trouble=f"{printable(path.name)}: {error}.")
+    return facts if program is None else _judged(facts, program)
+
+
+def _read(path: Path, known: Facts | None) -> tuple[Facts, Program | None]:
+    """What the disk tells, and the program where it has to be judged."""
+    try:
         status = path.stat()
     except (OSError, ValueError):
-        return Facts(path, word="gone", trouble="This file is not there any more, or its folder cannot be read.")
+        return Facts(path, word="gone", trouble="This file is not there any more, or its folder cannot be read."), None
     stamp = (status.st_mtime_ns, status.st_size)
     if known is not None and known.stamp == stamp:
-        return known
+        return known, None
     date = datetime.fromtimestamp(status.st_mtime).astimezone().strftime("%Y-%m-%d")
     facts = Facts(path, stamp, date)
     try:
-        program = load(path)
+        return facts, load(path)
     except StoreError as error:
-        return replace(facts, word="unreadable", look=Look.DIM, trouble=printable(str(error)))
-    return _judged(facts, program)
+        return replace(facts, word="unreadable", look=Look.DIM, trouble=printable(str(error))), None
 
 
 def _judged(facts: Facts, program: Program) -> Facts:

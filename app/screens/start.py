@@ -48,7 +48,8 @@ class Entry:
 class StartPage(Page):
     """The list; `facts` are known, those of `unseen` are still to be found out or to be checked again.
 
-    `first` is the screen the program begins with: its last softkey then leaves the program.
+    `first` is the screen the program begins with: its last softkey then leaves the program.  `trouble` is why there is
+    no folder on it.
     """
 
     layout: ClassVar[Layout] = Layout.TEXT
@@ -59,6 +60,7 @@ class StartPage(Page):
     row: int = 0
     facts: Mapping[Path, Facts] = field(default_factory=lambda: MappingProxyType({}))
     unseen: tuple[Path, ...] = ()
+    trouble: str = ""
 
     @property
     def entry(self) -> Entry | None:
@@ -146,7 +148,8 @@ class StartPage(Page):
 
     def _said(self) -> Said:
         known = self.facts.get(self.entry.path) if self.entry else None
-        return Said(known.trouble, Tone.WARNING) if known is not None and known.trouble else Said(PROMPT)
+        trouble = self.trouble or (known.trouble if known is not None else "")
+        return Said(trouble, Tone.WARNING) if trouble else Said(PROMPT)
 
     def _rows(self, width: int) -> tuple[list[Row], int]:
         """Every line, and which has the cursor."""

@@ -1,0 +1,22 @@
+"""A program file that cannot be read any more, while work on it was left behind: the work is offered all the same."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from app import places
+from app.files import empty_program
+from app.session import Session
+from core.program.lock import alive
+from core.program.store import StoreError
+
+
+def rescued(path: Path, error: StoreError) -> Session:
+    """An empty program in the file's place, on which the work will be offered; the error where nothing was left.
+
+    It has no stamp of the file: whoever saves it is asked, and what stands in the file is kept beside it.
+    """
+    dead = (found for _, found in places.left(path, places.own_folder()) if not alive(found.head.owner))
+    if (found := next(dead, None)) is None:
+        raise error
+    return Session.of(empty_program(found.history.program.unit), path)
