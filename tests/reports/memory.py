@@ -78,10 +78,29 @@ class Told:
         os.write(self.pipe, f"{key.encode().hex()} {len(screens)} {softkeys}\n".encode())
 
 
-def _told(kind: type[Any], told: Told) -> type[Any]:
-    """The App that tells its next key behind each; who leaves, or has a large program, goes on with the first one."""
+def begun(desk: Any, told: Told) -> Any:
+    """The desk at the beginning of another life: a program, the start screen, or an NC program under proof."""
     from app.files import opened
     from app.filing import fresh
+    from app.screens.proof import ProofPage
+    from app.screens.proof_files import read
+    from app.starting import begun as at_start
+
+    part = told.chance.choice(("pocket", "plate-mm"))
+    shutil.copy(ROOT / "app" / "examples" / f"{part}.toml", told.cage)
+    desk = fresh(desk, opened(told.cage / f"{part}.toml"))
+    match told.chance.choice(("program", "program", "start", "proof")):
+        case "start":
+            return at_start(desk)
+        case "proof":
+            file = told.cage / "part.nc"
+            return replace(desk, pages=(*desk.pages[:1], ProofPage.of(read(file), file, alone=True)))
+        case _:
+            return desk
+
+
+def _told(kind: type[Any], told: Told) -> type[Any]:
+    """The App that tells its next key behind each; who leaves, or has a large program, begins another life."""
     from tests.reports.monkey_keys import Monkey
 
     monkey = Monkey(told.chance, told.cage)
@@ -111,10 +130,7 @@ def _told(kind: type[Any], told: Told) -> type[Any]:
             program = self.desk.session.program
             large = sum(len(block.segments) for block in program.blocks) > LARGEST or len(program.blocks) > 5
             if self.desk.exit or large or told.keys % LIFE == LIFE - 1:
-                part = told.chance.choice(("pocket", "plate-mm"))
-                shutil.copy(ROOT / "app" / "examples" / f"{part}.toml", told.cage)
-                desk = replace(fresh(self.desk, opened(told.cage / f"{part}.toml")), exit=False)
-                self.desk = self.keep(desk)
+                self.desk = self.keep(replace(begun(self.desk, told), exit=False))
             super()._advance()
 
     return Haunted
