@@ -1,5 +1,6 @@
 """What the first paint waits for: the screen that is seen, and none of those that are not."""
 
+import re
 import sys
 from pathlib import Path
 
@@ -23,6 +24,8 @@ def ready(app):
 CutcompApp.on_ready = ready
 guarded()
 """
+ROOT = Path(__file__).parents[2]
+COMPILED = re.compile(r"^from dataclasses import .*\bdataclass\b", re.MULTILINE)
 FORM = {"contour", "contour_cells", "contour_keys", "doors", "forms", "frame", "page", "plan", "program", "topics"}
 LATER = {
     "app.filing",
@@ -73,3 +76,12 @@ def test_without_a_file_the_start_screen_comes_too(tmp_path: Path) -> None:
     modules = loaded(tmp_path)
     assert screens(modules) == FORM | {"start"}
     assert "numpy" not in modules
+
+
+def test_no_class_on_the_way_has_its_methods_compiled_at_once(tmp_path: Path, part: str) -> None:
+    modules = [name for name in loaded(tmp_path, part) if name.split(".")[0] in ("app", "core")]
+    paths = [ROOT.joinpath(*name.split(".")) for name in modules]
+    sources = [path for one in paths for path in (one.with_suffix(".py"), one / "__init__.py") if path.exists()]
+    assert len(sources) == len(modules)
+    costly = [str(path.relative_to(ROOT)) for path in sources if COMPILED.search(path.read_text())]
+    assert costly == []
