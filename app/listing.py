@@ -15,6 +15,8 @@ LARGEST: Final = 64_000_000
 """Bytes of a file that is opened."""
 MARKS: Final = ((b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"))
 """The marks of UTF-16."""
+MARK: Final = "\ufeff"
+"""The mark of an encoding, as the first character of a text."""
 SUFFIXES: Final = frozenset(
     [".nc", ".ngc", ".tap", ".cnc", ".txt", ".iso", ".eia", ".gcode", ".din", ".mpf", ".min", ".h"]
 )
@@ -70,7 +72,7 @@ class Listing:
 
     def text(self, row: int) -> str:
         """A line without its end; none behind the last one."""
-        return _END.sub("", self.lines[row]).removeprefix("\ufeff") if 0 <= row < len(self.lines) else ""
+        return _END.sub("", self.lines[row]).removeprefix(MARK) if 0 <= row < len(self.lines) else ""
 
     def takes(self, text: str) -> bool:
         """Whether the file's encoding can hold a text."""
@@ -85,7 +87,7 @@ class Listing:
         if not self.lines:
             return self.inserted(0, text)
         old = self.lines[row]
-        mark = "\ufeff" if old.startswith("\ufeff") else ""
+        mark = MARK if old.startswith(MARK) else ""
         return self._do(Change(row, (old,), (mark + text + self._end_of(row),)))
 
     def inserted(self, row: int, text: str = "") -> Listing:
@@ -93,11 +95,19 @@ class Listing:
         if row >= len(self.lines) and self.lines and not self._end_of(len(self.lines) - 1):
             last = len(self.lines) - 1
             return self._do(Change(last, self.lines[last:], (self.lines[last] + self._usual(), text)))
+        if row == 0 and self.lines and self.lines[0].startswith(MARK):
+            rest = tuple(one for one in (self.lines[0].removeprefix(MARK),) if one)
+            return self._do(Change(0, self.lines[:1], (MARK + text + self._usual(), *rest)))
         return self._do(Change(row, (), (text + self._usual(),)))
 
     def deleted(self, row: int) -> Listing:
-        """Without a line."""
-        return self._do(Change(row, (self.lines[row],), ())) if self.lines else self
+        """Without a line; the mark of the file's encoding stays in front."""
+        if not self.lines or self.lines == (MARK,):
+            return self
+        if self.lines[row].startswith(MARK):
+            behind = "".join(self.lines[row + 1 : row + 2])
+            return self._do(Change(row, self.lines[row : row + 2], (MARK + behind,)))
+        return self._do(Change(row, (self.lines[row],), ()))
 
     def _end_of(self, row: int) -> str:
         found = _END.search(self.lines[row])

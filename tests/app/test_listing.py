@@ -127,3 +127,18 @@ def test_which_files_are_nc_programs(name: str, text: str, nc: bool, tmp_path: P
 def test_what_is_no_file_is_no_nc_program(tmp_path: Path) -> None:
     assert not is_nc(tmp_path)
     assert not is_nc(tmp_path / "none.nc")
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-8-sig"])
+def test_the_mark_of_the_encoding_stays_in_front(encoding: str) -> None:
+    listing = Listing.read("A\nB\n".encode(encoding))
+    first = listing.inserted(0, "X")
+    assert first.data == "X\nA\nB\n".encode(encoding)
+    assert first.deleted(0).data == "A\nB\n".encode(encoding)
+    assert first.deleted(0).deleted(0).data == "B\n".encode(encoding)
+    empty = first.deleted(0).deleted(0).deleted(0)
+    assert empty.data == "".encode(encoding)
+    assert empty.deleted(0) is empty
+    assert empty.inserted(0, "C").data == "C\n".encode(encoding)
+    assert len(empty.inserted(0, "C")) == 1
+    assert empty.undone().undone().undone().data == first.data
