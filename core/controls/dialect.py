@@ -75,8 +75,6 @@ COMMON: Final[Mapping[int, Code]] = MappingProxyType(
 )
 """What G codes are on every control here."""
 
-POINT_ONE: Final[Mapping[int, Code]] = MappingProxyType(_group("compensation", Do.SIDE, 411, 421))
-
 
 def codes(*groups: tuple[str, Do, tuple[int, ...]]) -> Mapping[int, Code]:
     """The common codes with a control's own over them."""

@@ -57,7 +57,7 @@ def ours(work: Work) -> dict[str, Callable[[], object]]:
     return {
         "control path": control(work),
         "verdict": lambda: judge(work.contour, work.side, work.radius, path),
-        "best path": lambda: best_path(work.contour, work.side, work.radius, closed=work.closed),
+        "best path": best(work),
     }
 
 
@@ -66,9 +66,13 @@ def control(work: Work) -> Callable[[], object]:
     return lambda: compensate(work.contour, work.side, work.radius, LOOKAHEAD, closed=work.closed)
 
 
-def bytes_a_segment(work: Work) -> float:
-    """Peak of what is allocated while the control path is made, by tracemalloc, which numpy reports to."""
-    run = control(work)
+def best(work: Work) -> Callable[[], object]:
+    """The best path."""
+    return lambda: best_path(work.contour, work.side, work.radius, closed=work.closed)
+
+
+def bytes_a_segment(work: Work, run: Callable[[], object]) -> float:
+    """Peak of what is allocated while a path is made, by tracemalloc, which numpy reports to."""
     run()
     tracemalloc.start()
     run()
@@ -168,8 +172,10 @@ def main(arguments: list[str]) -> None:
     sizes = tuple(count for count in SIZES if count <= options.most)
     found = families(sizes, options.rounds)
     ratios(found, sizes[-1])
-    print("\npeak of the control path above the input, bytes a segment (tracemalloc):")
-    print("  ".join(f"{family.__name__} {bytes_a_segment(family(sizes[-1])):.0f}" for family in FAMILIES))
+    print("\npeak above the input, bytes a segment (tracemalloc):")
+    for name, path in (("control path", control), ("best path", best)):
+        works = [(family.__name__, family(sizes[-1])) for family in FAMILIES]
+        print(f"{name}: " + "  ".join(f"{family} {bytes_a_segment(work, path(work)):.0f}" for family, work in works))
     beside_peers(sizes, options.rounds)
     small(options.rounds)
 
