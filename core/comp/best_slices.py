@@ -91,8 +91,9 @@ class _Stations(NamedTuple):
 def sliced(raw: Raw, found: Events) -> Slices:
     """The side pieces cut at all events."""
     strands = _strands(raw)
-    every = _stations(raw, found, strands.nodes)
-    stations = every.of(raw.side)
+    stations = _stations(raw, found, strands.nodes)
+    one, other = stations.of(~raw.side).twins()
+    stations = stations.of(raw.side)
     head = np.arange(len(strands.heads)) + np.searchsorted(stations.piece, strands.heads)
     at = np.arange(len(stations.piece)) + np.searchsorted(strands.heads, stations.piece, side="right")
     count = len(head) + len(at)
@@ -103,12 +104,12 @@ def sliced(raw: Raw, found: Events) -> Slices:
     until, end, last = np.roll(piece, -1), np.roll(begin, -1), np.roll(first, -1)
     until[tail], end[tail], last[tail] = strands.tails, raw.lengths[strands.tails], strands.ends
     dead, turning = _turns(stations, at - 1, _alone(raw, stations), count)
+    del stations, at
     dead[head] |= raw.blunt_start[strands.heads]
     dead[tail] |= raw.blunt_end[strands.tails]
     size = _sizes(raw, piece, begin, until, end)
     points, outer = _nodes(raw, found, strands)
     cut = Slices(piece, until, begin, end, size, first, last, dead, turning, points, outer)
-    one, other = every.of(~raw.side).twins()
     whole = np.flatnonzero(raw.start[strands.heads] == raw.end[strands.tails])
     return _welded(cut, np.concatenate((one, whole)), np.concatenate((other, strands.ends[whole])))
 
