@@ -83,7 +83,9 @@ class Follower:
 
     def straight(self, element: Element, end: Point, *, low: bool = False) -> None:
         """A straight move of an element's to a point of its plane, at its end's height or still at its start's."""
-        x, y, z = solid(end[0], end[1], element.low if low else element.high, self.plane)
+        x, y, z = end[0], end[1], element.low if low else element.high
+        if self.plane is not Plane.XY:
+            x, y, z = solid(x, y, z, self.plane)
         if element.rapid:
             self.tape.rapid(x, y, z, element.line)
         else:
@@ -119,7 +121,9 @@ class Follower:
         """An element programmed under compensation."""
         if self._span is None:
             return
-        target = solid(element.end[0], element.end[1], element.high, self.plane)
+        target = (*element.end, element.high)
+        if self.plane is not Plane.XY:
+            target = solid(*target, self.plane)
         if element.turn:
             middle = solid(element.centre[0], element.centre[1], element.high, self.plane)
             self._span.programmed.arc(target, middle, element.turn, self.plane, element.feed, element.line)

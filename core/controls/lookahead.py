@@ -67,12 +67,14 @@ class LookAhead(Follower):
         self.no_arc = False
         self.watching = self.always
         self.nose: Point = (0.0, 0.0)
+        self.lathe = False
 
     def turn_on(self, offset: float, orientation: int = 0) -> None:
         """Compensation is on from the next move on; a lathe tool's orientation shifts its moves by the nose radius."""
         self.offset = offset
         ways = NOSES.get(orientation, (0, 0)) if self.plane is Plane.ZX else (0, 0)
         self.nose = (ways[0] * abs(offset), ways[1] * abs(offset))
+        self.lathe = ways != (0, 0)
         self.active = self.watching = True
         self.first = True
 
@@ -92,11 +94,13 @@ class LookAhead(Follower):
 
     def straight(self, element: Element, end: Point, *, low: bool = False) -> None:
         """A straight move, of a lathe tool's controlled point."""
-        super().straight(element, self._nosed(end), low=low)
+        super().straight(element, self._nosed(end) if self.lathe else end, low=low)
 
     def bend(self, element: Element, end: Point, centre: Point, turn: int, height: float) -> None:
         """An arc, of a lathe tool's controlled point."""
-        super().bend(element, self._nosed(end), self._nosed(centre), turn, height)
+        if self.lathe:
+            end, centre = self._nosed(end), self._nosed(centre)
+        super().bend(element, end, centre, turn, height)
 
     def _nosed(self, point: Point) -> Point:
         return (point[0] + self.nose[0], point[1] + self.nose[1]) if self.active else point

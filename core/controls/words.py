@@ -160,7 +160,7 @@ def read_line(
     """
     upper = _capitals(text)
     if _CLEAN.fullmatch(upper):
-        return [_filled(Block(line, text), upper, log)] if _PAIR.search(upper) else []
+        return [_filled(Block(line, text), upper, log)] if upper and not upper.isspace() else []
     if syntax.semicolon is Semicolon.END and ";" in upper:
         return list(_pieces(text, line, log, syntax))
     return _closer(Block(line, text), _bare(upper), log, syntax, values)

@@ -13,8 +13,10 @@ import numpy as np
 import pytest
 
 from core.controls.registry import names
+from tests.core.controls.cycle_programs import drilled, timed
 from tests.core.controls.hand import DATA, ran
 from tests.core.controls.klartext.test_mutations import mutated
+from tests.core.controls.macro_programs import SAME, generated, whole
 
 SAMPLES = sorted((DATA / "nc").glob("*.n*"))
 ISO = [name for name in names() if not name.startswith("klartext")]
@@ -40,6 +42,15 @@ def slowest(sample: Path, count: int, controls: list[str]) -> float:
 @pytest.mark.parametrize("sample", SAMPLES, ids=lambda sample: sample.stem)
 def test_mutations_of_a_sample(sample: Path) -> None:
     slowest(sample, 60, ISO)
+
+
+@pytest.mark.timeout(60)
+def test_mutations_of_programs_with_parameters_loops_and_cycles(tmp_path: Path) -> None:
+    texts = [*map(whole, SAME.values()), *map(generated, range(4)), *map(drilled, range(4)), *map(timed, range(4))]
+    for index, text in enumerate(texts):
+        sample = tmp_path / f"{index}.ngc"
+        sample.write_text(text)
+        slowest(sample, 8, ["linuxcnc", "linuxcnc", "rosettacnc", "nine-series"])
 
 
 def main() -> None:
