@@ -116,7 +116,7 @@ def _judged(surface: Path, ground: _Ground, side: Side, radius: float, numbers: 
         radius=radius,
         clearance=clearance(pairs, near, reach),
         gouges=gouges(found, pairs, radius, surface, numbers),
-        uncut=uncut(pairs, radius, surface, closed=ground.closed),
+        uncut=uncut(pairs, radius, surface, closed=ground.closed, side=side),
         surface_length=length,
         crosses_itself=len(ground.crossed) > 0,
         wrong_side=wrong_side(pairs, found, sides, reach),

@@ -8,6 +8,7 @@ import numpy as np
 
 from core.geometry.measured import Floats, Points, Rows, at, place
 from core.geometry.path import Path
+from core.geometry.side import Side
 from core.tolerance import CLOSED, ON_PATH, STOCK
 from core.verify.farthest import Farthest
 from core.verify.gaps import Bound, bounds, thickest
@@ -17,10 +18,11 @@ from core.verify.reached import reached
 from core.verify.verdict import NOTHING, UncutStretches
 
 
-def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool) -> UncutStretches:
+def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool, side: Side | None = None) -> UncutStretches:
     """Stretches farther than the radius from the path, in the contour's order, each over its joints in one.
 
     In a closed contour a stretch that runs over START stands last.  What is nowhere thicker than STOCK is left out.
+    Areas are told of what lies on the cutter's `side`.
     """
     total = float(pairs.surface_stations[-1])
     gaps, near = reached(pairs, radius).gaps(total)
@@ -35,17 +37,23 @@ def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool) -> UncutS
     if over and (thick[0] or thick[-1]):
         thick[0] = thick[-1] = True
     gaps, near, bound = gaps.keep(thick), near[:, thick], bound.keep(thick)
-    area = np.where((near < 0).any(axis=0), nan, np.abs(bound.sector))
+    sign = 0 if side is None else side.sign
+    area = _areas(np.where((near < 0).any(axis=0), nan, bound.sector), sign)
     told = _told(pairs, gaps, thickest(pairs, gaps, near, bound, radius), radius, surface, area)
     if over and len(told) > 1:
-        told = told.over_start(_area_over_start(bound))
+        told = told.over_start(_area_over_start(bound, sign))
     return told.keep(told.thickness > STOCK)
 
 
-def _area_over_start(bound: Bound) -> float:
+def _areas(sector: Floats, sign: int) -> Floats:
+    """Sectors on the cutter's side: a gap of a contour that crosses itself may run round the part instead."""
+    return np.where(sector * sign > 0.0, np.abs(sector), nan)
+
+
+def _area_over_start(bound: Bound, sign: int) -> float:
     """The area of the first and the last gap together, seen from one point; not a number if they are not."""
     one = bool(np.abs(bound.corner[0] - bound.corner[-1]) <= CLOSED)
-    return abs(float(bound.sector[0] + bound.sector[-1])) if one else nan
+    return float(_areas(bound.sector[:1] + bound.sector[-1:], sign)[0]) if one else nan
 
 
 def _told(pairs: Pairs, gaps: Stretches, far: Farthest, radius: float, surface: Path, area: Floats) -> UncutStretches:

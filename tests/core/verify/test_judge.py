@@ -34,6 +34,7 @@ def test_over_run_square_cut_at_its_outer_corner_alone() -> None:
     assert stretch.end == pytest.approx((0.0, -0.25))
     assert stretch.thickest == pytest.approx((2.0, 2.0))
     assert stretch.thickness == pytest.approx(2.25 * sqrt(2) - R)
+    assert stretch.area is None
     assert verdict.crosses_itself
     assert verdict.crossing_at == pytest.approx((0.0, 0.0))
 
