@@ -21,8 +21,6 @@ TO_BE_SPLIT: Final = frozenset(
         "tests/core/comp/test_best.py",
         "tests/core/comp/test_golden.py",
         "tests/core/controls/test_write_own.py",
-        "tests/reports/kill.py",
-        "tests/reports/monkey.py",
     }
 )
 """Tests that are longer still.  Nothing is added here; what has been split is taken out."""

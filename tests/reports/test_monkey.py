@@ -13,8 +13,9 @@ from app.screens.save import SaveAsPage
 from core.program import store
 from tests.app.operator import Operator
 from tests.reports import monkey
-from tests.reports.monkey import report, run, screens, through_textual
+from tests.reports.monkey import run, through_textual
 from tests.reports.monkey_keys import Coverage, Monkey
+from tests.reports.monkey_tally import MEGABYTE, Tally, report, screens
 
 
 def test_random_keys_on_every_screen() -> None:
@@ -60,7 +61,7 @@ def test_nothing_acts_outside_the_cage(tmp_path: Path, monkeypatch: pytest.Monke
 
 
 def test_the_report_names_what_was_not_reached() -> None:
-    tally = monkey.Tally(keys=1, memory=[(1, monkey.MEGABYTE)])
+    tally = Tally(keys=1, memory=[(1, MEGABYTE)])
     tally.coverage = Coverage(seen={("DrawPage", 1), ("DrawPage", 2)})
     tally.coverage.pressed["DrawPage", 1] += 1
     told = list(report(tally, 1.0))
