@@ -8,6 +8,7 @@ from pathlib import Path
 from app.desk import Desk
 from app.files import empty_program, opened
 from app.keeping import Keeping
+from app.screens.decide import Decide
 from app.session import Session
 from core.pipeline.outline import outline
 from core.program.lock import Owner, myself
@@ -50,3 +51,14 @@ def started(own: Path, file: Path | None = None, me: Owner = DEAD, clock: str = 
     session = opened(file) if file is not None and file.exists() else Session.of(empty_program(), file)
     keeping = Keeping(me, own, lambda: clock)
     return Kept(keeping.keep(Desk(session)), keeping)
+
+
+def names(path: Path) -> list[str]:
+    """What lies beside a program."""
+    return sorted(one.name for one in path.parent.iterdir() if one != path)
+
+
+def asked(operator: Kept) -> str:
+    """The words of the question that stands on the screen."""
+    assert isinstance(operator.desk.page, Decide)
+    return " ".join(operator.part("body").split())

@@ -14,8 +14,8 @@ from app.screens.decide import Decide
 from app.session import Session
 from core.program.lock import lock_path
 from core.program.model import Entry
-from core.program.store import dumps, load, save
-from tests.app.kept import DEAD, ELSEWHERE, Kept, started
+from core.program.store import load, save
+from tests.app.kept import DEAD, asked, names, started
 
 
 @pytest.fixture
@@ -29,16 +29,6 @@ def part(tmp_path: Path) -> Path:
     path.parent.mkdir()
     save(load(example("pocket")), path)
     return path
-
-
-def names(path: Path) -> list[str]:
-    """What lies beside a program."""
-    return sorted(one.name for one in path.parent.iterdir() if one != path)
-
-
-def asked(operator: Kept) -> str:
-    assert isinstance(operator.desk.page, Decide)
-    return " ".join(operator.part("body").split())
 
 
 def equal(one: Session, other: Session) -> bool:
@@ -239,104 +229,3 @@ def test_a_journal_that_is_none_is_not_offered_and_not_lost(own: Path, part: Pat
     assert isinstance(operator.desk.page, Contour)
     operator.press("tab").type("7").press("ctrl+s", "ctrl+q")
     assert [part.with_name(name).read_text() for name in names(part)] == ["somebody's own"]
-
-
-def test_a_file_written_by_another_since_the_crash_is_told_and_kept(own: Path, part: Path) -> None:
-    started(own, part).press("tab").type("7").killed()
-    part.write_text(dumps(load(example("notch"))))
-    operator = started(own, part)
-    assert "The file was written by somebody else since" in asked(operator)
-    operator.press("r", "ctrl+s")
-    assert "CHANGED MEANWHILE" in operator.part("header")
-    assert load(part) == load(example("notch"))
-
-
-def test_the_second_opener_may_look(own: Path, part: Path) -> None:
-    started(own, part, ELSEWHERE)
-    operator = started(own, part, DEAD)
-    assert "bob on office has this program open since 05:00." in asked(operator)
-    operator.press("l", "tab").type("7")
-    assert operator.session.program == load(part)
-    assert "Nothing can be changed" in operator.said
-    assert "SAVE AS makes a copy" in operator.press("escape", "ctrl+s").said
-    operator.press("f8", "f7", "f3", "delete", *str(part.with_name("mine.toml")), "enter", "enter").type("7")
-    assert operator.session.file == part.with_name("mine.toml")
-    assert operator.session.history.undo_count == 1
-    assert lock_path(part).exists()
-
-
-def test_replacing_a_file_that_somebody_has_open_says_who(own: Path, part: Path) -> None:
-    started(own, part, ELSEWHERE)
-    operator = started(own).press("tab").type("7").press("ctrl+s", "delete", *str(part), "enter")
-    assert "bob on office has it open." in " ".join(operator.part("body").split())
-    assert load(part).blocks[0].tool == Entry(1.0)
-
-
-def test_the_second_opener_may_take_over_with_the_work_of_the_first(own: Path, part: Path) -> None:
-    first = started(own, part, ELSEWHERE).press("tab").type("7")
-    second = started(own, part, DEAD).press("t")
-    assert "Work on part.toml by bob on office was not saved" in asked(second)
-    second.press("r")
-    assert second.session.history == first.session.history
-    first.press("up").type("8")
-    assert "has this program open" in first.said
-    assert "SAVE AS keeps your work." in first.said
-    second.press("ctrl+s")
-    assert load(part).blocks[0].tool == Entry(7.0)
-
-
-def test_the_first_one_notices_before_it_saves(own: Path, part: Path) -> None:
-    first = started(own, part, ELSEWHERE).press("tab").type("7")
-    started(own, part, DEAD).press("t", "d", "tab").type("3").press("ctrl+s")
-    first.press("ctrl+s")
-    assert "TAKEN OVER" in first.part("header")
-    first.press("k")
-    assert load(part).blocks[0].tool == Entry(3.0)
-    mine = first.session.file
-    assert mine is not None
-    assert mine.name.startswith("part.mine-")
-    assert load(mine).blocks[0].tool == Entry(7.0)
-
-
-@pytest.mark.parametrize(("key", "tool", "whose"), [("t", 3.0, "mine"), ("y", 7.0, "theirs")])
-def test_a_file_changed_by_another_is_noticed_and_both_are_kept(
-    own: Path, part: Path, key: str, tool: float, whose: str
-) -> None:
-    operator = started(own, part).press("tab").type("7")
-    theirs = load(part)
-    save(started(own, part.with_name("x.toml")).press("tab").type("3").session.program, part)
-    other = load(part)
-    assert other != theirs
-    operator.press("ctrl+s")
-    assert "was changed by somebody else" in " ".join(operator.part("body").split())
-    operator.press(key)
-    assert load(part).blocks[0].tool == Entry(tool)
-    copies = [name for name in names(part) if whose in name and name.endswith(".toml")]
-    assert len(copies) == 1
-    kept = load(part.with_name(copies[0]))
-    assert {kept.blocks[0].tool, load(part).blocks[0].tool} == {Entry(3.0), Entry(7.0)}
-    assert not operator.session.unsaved
-
-
-def test_written_again_with_the_same_content_is_no_change(own: Path, part: Path) -> None:
-    operator = started(own, part).press("tab").type("7")
-    part.write_bytes(part.read_bytes())
-    assert "Saved" in operator.press("ctrl+s").said
-
-
-def test_a_link_into_another_folder_is_asked_once(own: Path, part: Path) -> None:
-    link = part.parent.parent / "link.toml"
-    link.symlink_to(part)
-    operator = started(own, link).press("tab").type("7").press("ctrl+s")
-    assert "is a link to" in " ".join(operator.part("body").split())
-    assert load(part).blocks[0].tool == Entry(1.0)
-    operator.press("w")
-    assert load(part).blocks[0].tool == Entry(7.0)
-    assert "Saved" in operator.press("tab").type("8").press("ctrl+s").said
-
-
-def test_an_nc_file_is_never_written_through_a_link_unasked(own: Path, part: Path) -> None:
-    (part.parent / "part.nc").symlink_to(part.parent.parent / "elsewhere.nc")
-    operator = started(own, part).press("f8", "f6", "enter")
-    assert "which leads to" in " ".join(operator.part("body").split())
-    assert not (part.parent.parent / "elsewhere.nc").exists()

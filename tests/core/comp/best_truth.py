@@ -16,6 +16,9 @@ from core.geometry.side import Side
 SHARES = np.array([0.0, 0.0731, 0.2683, 0.5, 0.6117, 0.8429, 1.0])
 """Where loops are looked at: both ends, the middle, and between."""
 
+CLOSE = 1e-9
+"""Agreement with what is found by hand."""
+
 PLACES = np.array([0.0137, 0.0731, 0.2683, 0.4142, 0.6117, 0.8429, 0.9713])
 """Where a contour is looked at: shares that nothing is built on, for one place where the cutter fits is no path."""
 
@@ -145,3 +148,10 @@ CHORD = 2e-5
 
 QUADRANT = 48
 """Chords to a quarter of the reference's cutter: they leave it by the radius times 1 - cos(pi / 4 / 48) = 1.34e-4 r."""
+
+
+def only(contour: Path, side: Side, radius: float, *, closed: bool = True) -> Path:
+    """The one loop there is, of the same kind as the contour."""
+    best = assert_true(contour, side, radius, closed=closed)
+    assert best.closed == (closed,)
+    return best.loops[0]

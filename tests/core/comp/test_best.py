@@ -1,35 +1,20 @@
-"""The best path of contours small enough to check by hand."""
+"""The best path of contours small enough to check by hand: corners, starts, ends, slots."""
 
 from __future__ import annotations
 
-from math import cos, hypot, nan, pi, sin, sqrt
+from math import pi, sqrt
 
 import numpy as np
 import pytest
 
-from core.comp.best import best_path
-from core.geometry.path import EMPTY, Path
+from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
 from core.geometry.side import Side
-from tests.core.comp.best_truth import assert_true
+from tests.core.comp.best_truth import CLOSE, only
 from tests.core.comp.contours import lines
-
-CLOSE = 1e-9
-
-
-def circle(radius: float, turn: Turn = Turn.CCW) -> Path:
-    return Path.from_pieces([Arc((radius, 0.0), (radius, 0.0), (0.0, 0.0), turn)])
-
 
 SQUARE = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0))
 MID_SIDE = lines((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0))
-
-
-def only(contour: Path, side: Side, radius: float, *, closed: bool = True) -> Path:
-    """The one loop there is, of the same kind as the contour."""
-    best = assert_true(contour, side, radius, closed=closed)
-    assert best.closed == (closed,)
-    return best.loops[0]
 
 
 def test_inside_a_square_the_corners_are_trimmed_across_the_start_too():
@@ -92,134 +77,6 @@ def test_a_slot_with_a_round_end_as_wide_as_the_cutter():
     assert path.points[3] == pytest.approx((2.25, -1), abs=CLOSE)
 
 
-def test_a_dumbbell_with_a_narrow_neck_splits_into_two_loops():
-    dumbbell = lines(
-        (0, 0), (2, 0), (2, 0.8), (3, 0.8), (3, 0), (5, 0), (5, 2), (3, 2), (3, 1.2), (2, 1.2), (2, 2), (0, 2), (0, 0)
-    )
-    best = assert_true(dumbbell, Side.LEFT, 0.25, closed=True)
-    assert best.closed == (True, True)
-    assert [loop.numbers[0] for loop in best.loops] == [1, 3.5]
-    left, right = (loop.points for loop in best.loops)
-    assert left[:, 0].max() < 2.5 < right[:, 0].min()
-
-
-def test_a_dumbbell_with_a_wide_neck_is_one_loop():
-    dumbbell = lines(
-        (0, 0), (2, 0), (2, 0.5), (3, 0.5), (3, 0), (5, 0), (5, 2), (3, 2), (3, 1.5), (2, 1.5), (2, 2), (0, 2), (0, 0)
-    )
-    assert only(dumbbell, Side.LEFT, 0.25).numbers.tolist() == [
-        1,
-        2,
-        2.5,
-        3,
-        3.5,
-        4,
-        5,
-        6,
-        7,
-        8,
-        8.5,
-        9,
-        9.5,
-        10,
-        11,
-        12,
-    ]
-
-
-@pytest.mark.parametrize("turn", [Turn.CCW, Turn.CW])
-def test_a_full_circle_is_its_own_offset(turn):
-    inside = Side.LEFT if turn is Turn.CCW else Side.RIGHT
-    for side, radius in ((inside, 0.75), (Side.RIGHT if inside is Side.LEFT else Side.LEFT, 1.25)):
-        loop = only(circle(1.0, turn), side, 0.25)
-        assert (len(loop), loop.turns[0]) == (1, turn)
-        assert loop.points == pytest.approx(np.array([(radius, 0), (radius, 0)]), abs=CLOSE)
-
-
-def test_inside_a_circle_of_the_cutters_own_radius_there_is_no_path():
-    for radius in (1.0, 1.5):
-        best = best_path(circle(1.0), Side.LEFT, radius, closed=True)
-        assert best.loops == ()
-        assert [finding.code for finding in best.findings] == ["NO_PATH"]
-
-
-def test_outside_a_lens_of_two_arcs():
-    lens = Path.from_pieces(
-        [Arc((-1.0, 0.0), (1.0, 0.0), (0.0, 1.0), Turn.CCW), Arc((1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), Turn.CCW)]
-    )
-    out = only(lens, Side.RIGHT, 0.5)
-    assert out.numbers.tolist() == [1, 1.5, 2, 2.5]
-    radius = sqrt(2)
-    assert out.lengths.sum() == pytest.approx(2 * (radius + 0.5) * pi / 2 + 2 * 0.5 * pi / 2, abs=CLOSE)
-    inside = only(lens, Side.LEFT, 0.2)
-    assert inside.numbers.tolist() == [1, 2]
-    assert inside.points[0] == pytest.approx((-sqrt((radius - 0.2) ** 2 - 1), 0), abs=CLOSE)
-
-
-def test_a_big_cutter_around_a_star_runs_on_corner_arcs_alone():
-    angles = [k * pi / 5 for k in range(10)]
-    tips = [((1.0, 0.3)[k % 2] * cos(angle), (1.0, 0.3)[k % 2] * sin(angle)) for k, angle in enumerate(angles)]
-    star = lines(*tips, tips[0])
-    loop = only(star, Side.RIGHT, 5.0)
-    assert loop.numbers.tolist() == [2.5, 4.5, 6.5, 8.5, 10.5]
-    assert loop.radii == pytest.approx(np.full(5, 5.0), abs=CLOSE)
-
-
-def gear(teeth: int) -> Path:
-    """Root arcs and tip arcs about the centre with radial flanks."""
-    pieces: list[Arc | Line] = []
-    for tooth in range(teeth):
-        angles = [2 * pi * (tooth + part) / teeth for part in (0.0, 0.5, 1.0)]
-        a, b, c, d = (
-            (radius * cos(angle), radius * sin(angle))
-            for radius, angle in ((8.0, angles[0]), (8.0, angles[1]), (10.0, angles[1]), (10.0, angles[2]))
-        )
-        end = (8.0 * cos(angles[2]), 8.0 * sin(angles[2])) if tooth < teeth - 1 else (8.0, 0.0)
-        pieces += [Arc(a, b, (0.0, 0.0), Turn.CCW), Line(b, c), Arc(c, d, (0.0, 0.0), Turn.CCW), Line(d, end)]
-    return Path.from_pieces(pieces)
-
-
-def test_around_a_gear_the_cutter_enters_gaps_it_fits_in():
-    teeth = 12
-    loop = only(gear(teeth), Side.RIGHT, 0.5)
-    assert np.count_nonzero(np.mod(loop.numbers, 4) == 1) == teeth
-    assert np.hypot(*loop.points.T).min() == pytest.approx(8.5, abs=CLOSE)
-
-
-def test_around_a_gear_a_cutter_too_big_for_the_gaps_stays_on_the_tips():
-    loop = only(gear(12), Side.RIGHT, 1.5)
-    assert not np.isin(np.mod(loop.numbers, 4), (0, 1, 2)).any()
-    assert np.hypot(*loop.points.T).min() > 10.0
-
-
-def spiral(turns: int) -> Path:
-    """Half circles outwards, counter-clockwise, the walls 1 apart."""
-    pieces, x = [], 0.0
-    for k in range(turns):
-        end = x + (k + 1.0) * (k % 2 * 2 - 1)
-        pieces.append(Arc((x, 0.0), (end, 0.0), ((x + end) / 2, 0.0), Turn.CCW))
-        x = end
-    return Path.from_pieces(pieces)
-
-
-def test_a_spiral_is_followed_from_end_to_end_where_the_cutter_fits_between_its_walls():
-    for side, shift in ((Side.LEFT, -0.45), (Side.RIGHT, 0.45)):
-        path = only(spiral(8), side, 0.45, closed=False)
-        assert path.numbers.tolist() == [1, 2, 3, 4, 5, 6, 7, 8]
-        assert path.radii == pytest.approx(np.arange(0.5, 4.5, 0.5) + shift, abs=CLOSE)
-
-
-def test_a_spiral_tighter_than_the_cutter_leaves_its_outermost_turn_only():
-    assert best_path(spiral(8), Side.LEFT, 0.51, closed=False).findings[0].code == "NO_PATH"
-    assert only(spiral(8), Side.RIGHT, 0.51, closed=False).numbers.tolist() == [7, 8]
-
-
-def test_a_hook_that_nearly_closes_starts_where_the_cutter_passes_its_end():
-    path = only(lines((0, 0), (4, 0), (4, 4), (0, 4), (0, 0.4), (3, 0.4)), Side.LEFT, 0.5, closed=False)
-    expected = [(3 + sqrt(0.5**2 - 0.1**2), 0.5), (3.5, 0.5), (3.5, 3.5), (0.5, 3.5), (0.5, 0.9), (3, 0.9)]
-    assert path.points == pytest.approx(np.array(expected), abs=CLOSE)
-
-
 def test_both_ends_of_an_open_line_are_left_as_they_are():
     for side, y in ((Side.LEFT, 0.5), (Side.RIGHT, -0.5)):
         path = only(lines((0, 0), (3, 0)), side, 0.5, closed=False)
@@ -230,113 +87,3 @@ def test_an_exact_reversal_is_gone_around_with_a_half_circle():
     path = only(lines((0, 0), (3, 0), (0, 0)), Side.LEFT, 0.5, closed=False)
     assert path.numbers.tolist() == [1, 1.5, 2]
     assert path.lengths[1] == pytest.approx(pi / 2, abs=CLOSE)
-
-
-def test_a_cusp_has_its_half_circle_outside_only():
-    cusp = Path.from_pieces([Line((0.0, 0.0), (2.0, 0.0)), Arc((2.0, 0.0), (1.0, 1.0), (2.0, 1.0), Turn.CW)])
-    outside = only(cusp, Side.RIGHT, 0.25, closed=False)
-    assert outside.numbers.tolist() == [1, 1.5, 2]
-    best = assert_true(cusp, Side.LEFT, 0.25, closed=False)
-    assert 1.5 not in np.concatenate([loop.numbers for loop in best.loops])
-
-
-def test_over_run_lead_ins_are_walls_on_both_sides_and_told():
-    overrun = lines((-1, 0), (2, 0), (2, 2), (0, 2), (0, -1))
-    best = assert_true(overrun, Side.RIGHT, 0.25, closed=False)
-    first, second = best.loops
-    assert first.points == pytest.approx(np.array([(-1, -0.25), (-0.25, -0.25), (-0.25, -1)]), abs=CLOSE)
-    assert second.points[[0, -1]] == pytest.approx(np.array([(0.25, -0.25), (-0.25, 0.25)]), abs=CLOSE)
-    assert [finding.code for finding in best.findings] == ["CROSSES_ITSELF"]
-
-
-POCKET = Path.from_pieces(
-    [
-        Line((2.0, 0.25), (4.0, 0.25)),
-        Arc((4.0, 0.25), (4.75, 1.0), (4.0, 1.0), Turn.CCW),
-        Line((4.75, 1.0), (4.75, 3.0)),
-        Arc((4.75, 3.0), (4.25, 3.5), (4.25, 3.0), Turn.CCW),
-        Line((4.25, 3.5), (3.0, 3.5)),
-        Line((3.0, 3.5), (2.5, 3.0)),
-        Line((2.5, 3.0), (1.0, 3.0)),
-        Arc((1.0, 3.0), (0.5, 3.5), (1.0, 3.5), Turn.CW),
-        Line((0.5, 3.5), (0.25, 3.5)),
-        Line((0.25, 3.5), (0.25, 0.25)),
-        Line((0.25, 0.25), (2.0, 0.25)),
-    ]
-)
-
-
-def test_a_pocket_with_a_slot_too_narrow_beside_a_boss():
-    loop = only(POCKET, Side.LEFT, 0.25)
-    assert loop.points[0] == pytest.approx((2, 0.5), abs=CLOSE)
-    assert 9 not in loop.numbers.tolist()
-    row = loop.numbers.tolist().index(8)
-    assert loop.points[row + 1] == pytest.approx((0.5, 3.5 - sqrt(0.75**2 - 0.5**2)), abs=CLOSE)
-
-
-def test_closing_gap_is_bridged():
-    gap = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0.002))
-    assert len(only(gap, Side.LEFT, 0.25)) == 4
-    around = best_path(gap, Side.RIGHT, 0.25, closed=True)
-    assert around.closed == (True,)
-    assert around.loops[0].lengths.sum() == pytest.approx(8 + pi / 2, abs=CLOSE)
-
-
-def test_an_arc_of_uneven_radii_is_followed_on_its_mean():
-    uneven = Arc((4.0, 0.0), (4.001, 2.0), (4.0, 1.0), Turn.CCW)
-    straight = (Line((0.0, 0.0), (4.0, 0.0)), Line((4.001, 2.0), (0.0, 2.0)), Line((0.0, 2.0), (0.0, 0.0)))
-    best = best_path(Path.from_pieces([straight[0], uneven, *straight[1:]]), Side.LEFT, 0.3, closed=True)
-    assert (len(best.loops), best.findings) == (1, ())
-    arc = best.loops[0].numbers.tolist().index(2)
-    ends = best.loops[0].points[arc : arc + 2] - best.loops[0].centres[arc]
-    assert hypot(*ends[0]) == pytest.approx(hypot(*ends[1]), abs=1e-9)
-
-
-def test_zero_length_segments_are_passed_over_and_told():
-    doubled = lines((0, 0), (0, 0), (2, 0), (2, 2), (2, 2), (0, 2), (0, 0))
-    best = best_path(doubled, Side.LEFT, 0.25, closed=True)
-    assert [(finding.code, finding.segment) for finding in best.findings] == [("ZERO_LENGTH", 1), ("ZERO_LENGTH", 4)]
-    assert best.loops[0].numbers.tolist() == [2, 3, 5, 6]
-
-
-BAD = {
-    "NaN": (lines((0, 0), (nan, 1)), 0.25, "NOT_FINITE"),
-    "infinite": (lines((0, 0), (float("inf"), 1)), 0.25, "NOT_FINITE"),
-    "huge": (lines((0, 0), (1e300, 1)), 0.25, "NOT_FINITE"),
-    "empty": (EMPTY, 0.25, "EMPTY_CONTOUR"),
-    "a point": (lines((1, 1), (1, 1)), 0.25, "EMPTY_CONTOUR"),
-    "arc of two radii": (
-        Path.from_pieces([Arc((1.0, 0.0), (0.0, 1.1), (0.0, 0.0), Turn.CCW)]),
-        0.25,
-        "ARC_RADII",
-    ),
-    "no radius": (SQUARE, 0.0, "RADIUS"),
-    "negative radius": (SQUARE, -1.0, "RADIUS"),
-    "radius NaN": (SQUARE, nan, "RADIUS"),
-    "radius larger than everything": (SQUARE, 1e6, "NO_PATH"),
-}
-
-
-@pytest.mark.parametrize("name", BAD)
-@pytest.mark.parametrize("closed", [True, False])
-def test_bad_input_gives_a_finding_and_no_loops(name, closed):
-    contour, radius, code = BAD[name]
-    best = best_path(contour, Side.LEFT, radius, closed=closed)
-    assert not best.loops
-    assert not best.closed
-    assert code in [finding.code for finding in best.findings]
-
-
-def test_a_scribble_that_lies_on_itself_everywhere_is_told_and_still_true():
-    points = np.random.default_rng(1).uniform(0, 100, (60, 2))
-    scribble = Path.of(points, points[:-1], np.zeros(59, np.int8))
-    best = assert_true(scribble, Side.LEFT, 0.2, closed=False)
-    assert best.findings[0].code == "CROSSES_ITSELF"
-    assert len(best.loops) > 100
-
-
-def test_a_scribble_no_part_can_be_is_refused_and_not_worked_on_without_end():
-    points = np.random.default_rng(1).uniform(0, 100, (20_000, 2))
-    best = best_path(Path.of(points, points[:-1], np.zeros(19_999, np.int8)), Side.LEFT, 1.0, closed=False)
-    assert best.loops == ()
-    assert [finding.code for finding in best.findings] == ["CROSSES_ITSELF", "TANGLED"]

@@ -10,7 +10,8 @@ from collections import Counter
 import pytest
 
 from tests.core.controls.hand import ran, same, shape, told
-from tests.core.controls.statements import ROWS, Row
+from tests.core.controls.statement import Row
+from tests.core.controls.statements import ROWS
 
 
 def wrong(row: Row) -> str:

@@ -1,85 +1,29 @@
-"""Contours written for every control, read back here once more, and programs that must not be handed out."""
+"""Contours written for every control: how each is entered and told of stock, and what is refused."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-from itertools import pairwise
-from math import sqrt
-
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
-from core.comp.result import Compensated
-from core.controls.contouring import Cut, Line, begin, finish, programmed
-from core.controls.iso_style import STYLES
-from core.controls.read_back import Meant, farthest, read_back, same
-from core.controls.registry import names, run
-from core.controls.report import Run
-from core.controls.write_iso import Frame, tools_of
-from core.controls.write_own import NotWritten, Own, write_own
+from core.controls.contouring import begin, finish, programmed
+from core.controls.write_own import Own
 from core.finding import Finding
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Piece, Point, Turn
+from core.geometry.piece import Arc, Turn
 from core.geometry.piece import Line as Straight
 from core.geometry.side import Side
-from core.units import Unit
-from tests.core.controls.klartext.test_centre_laws import LEGS, pieces_of
-
-INCH = 25.4
-EVERY = names()
-
-
-def outline(*points: Point) -> Path:
-    """Lines through points, in inches."""
-    scaled = [(x * INCH, y * INCH) for x, y in points]
-    return Path.from_pieces([Straight(a, b) for a, b in pairwise(scaled)])
-
-
-SQUARE = outline((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0))
-
-
-def squared(side: Side, blend: float = 0.125, overlap: float = 0.0) -> Compensated:
-    """The square from mid-side, for a half-inch cutter."""
-    return compensate(SQUARE, side, 0.25 * INCH, 4, closed=True, blend=blend * INCH, overlap=overlap * INCH)
-
-
-def cut(one: Compensated, *, tool: int = 1, stock: float = 0.0, depth: float = -0.25) -> Cut:
-    """One run at a depth (inches), 10 inches a minute."""
-    feeds = {int(number): 10.0 * INCH for number in one.contour.numbers}
-    size = 2 * (one.radius - stock * INCH)
-    up, near = 1.0 * INCH, 0.1 * INCH
-    return Cut(
-        compensated=one, tool=tool, diameter=size, stock=stock * INCH, speed=300.0, feeds=feeds,
-        plunge_feed=20.0 * INCH, travel=up, near=near, depth=depth * INCH, leave=up,
-    )  # fmt: skip
-
-
-def write(control: str, *cuts: Cut) -> Own | NotWritten:
-    """The program in inches, without remarks."""
-    return write_own(cuts, control, Frame(Unit.IN), "PART", lambda _: ())
-
-
-def text_of(control: str, *cuts: Cut) -> str:
-    found = write(control, *cuts)
-    assert isinstance(found, Own), found
-    return found.text
-
-
-def made_by(control: str, text: str, *cuts: Cut) -> Run:
-    """What the control does with a program and the tools it counts on."""
-    tools = tools_of(cuts, STYLES[control]) if control in STYLES else tools_of(cuts, STYLES["linuxcnc"])
-    made = run(text.encode(), control, tools, Unit.IN)
-    assert isinstance(made, Run)
-    return made
-
-
-def refused(control: str, *cuts: Cut) -> Finding:
-    found = write(control, *cuts)
-    assert isinstance(found, NotWritten), found
-    return found.findings[0]
+from tests.core.controls.own_programs import (
+    EVERY,
+    INCH,
+    SQUARE,
+    cut,
+    outline,
+    refused,
+    squared,
+    text_of,
+    write,
+)
 
 
 def test_threeblock_turns_on_in_the_plunge_and_centres_are_absolute() -> None:
@@ -130,67 +74,6 @@ def test_nist_is_entered_along_the_path_of_the_tool() -> None:
 def test_a_9_series_program_says_how_corners_are_gone_round() -> None:
     for control, word in (("nine-series:a", "G39"), ("nine-series:b-g39.1", "G39.1")):
         assert text_of(control, cut(squared(Side.LEFT))).splitlines()[1] == word
-
-
-@pytest.mark.parametrize("control", EVERY)
-@pytest.mark.parametrize("side", list(Side))
-@pytest.mark.parametrize("overlap", [0.0, 0.125])
-def test_a_square_reads_back_or_its_corners_are_the_reason(control: str, side: Side, overlap: float) -> None:
-    one = cut(squared(side, overlap=overlap))
-    found = write(control, one)
-    if side is Side.LEFT and control in ("rosettacnc:nist", "rosettacnc:easy"):
-        assert isinstance(found, NotWritten)
-        assert "rule C6" in found.findings[0].text
-        assert found.findings[0].segment == 2.0
-        return
-    assert isinstance(found, Own), found
-    made = made_by(control, found.text, one)
-    (stretch,) = made.stretches
-    path = made.moves.part(stretch.first, stretch.last).path()
-    own = path if control == "klartext" else path.part(1, len(path) - 1)
-    mitred = side is Side.RIGHT and control.startswith("nine-series")
-    whole = one.compensated.whole
-    apart = max(farthest(own, whole)[0], farthest(whole, own)[0])
-    assert (apart > 1e-3) is mitred
-    assert same(own, whole, 1e-3) is not (mitred or (control == "threeblock" and overlap > 0.0))
-    assert [note.code for note in found.notes] == (["DIFFERS"] if mitred else [])
-
-
-def test_how_far_mitred_corners_are_off_is_told() -> None:
-    found = write("nine-series:a", cut(squared(Side.RIGHT)))
-    assert isinstance(found, Own)
-    assert found.notes[0].lengths[0] / INCH == pytest.approx(0.25 * (sqrt(2) - 1), abs=1e-4)
-    assert found.notes[0].segment in (1.0, 2.0, 3.0, 4.0)
-
-
-@pytest.mark.parametrize("control", EVERY)
-@pytest.mark.parametrize("side", list(Side))
-def test_arcs_and_a_full_circle_read_back(control: str, side: Side) -> None:
-    pieces: list[Piece] = [
-        Straight((0.0, 0.0), (40.0, 0.0)),
-        Arc((40.0, 0.0), (60.0, 20.0), (40.0, 20.0), Turn.CCW),
-        Arc((60.0, 20.0), (80.0, 40.0), (80.0, 20.0), Turn.CW),
-        Straight((80.0, 40.0), (120.0, 40.0)),
-    ]
-    circle = Path.from_pieces([Arc((30.0, 0.0), (30.0, 0.0), (0.0, 0.0), Turn.CCW)])
-    for one in (
-        compensate(Path.from_pieces(pieces), side, 5.0, 2, closed=False, blend=2.0),
-        compensate(circle, side, 5.0, 3, closed=True, blend=2.0, overlap=4.0),
-    ):
-        found = write_own([cut(one)], control, Frame(Unit.MM), "PART", lambda _: ())
-        assert isinstance(found, Own), found
-        assert not found.notes
-
-
-@pytest.mark.parametrize("control", EVERY)
-def test_passes_and_stock_are_runs_of_their_own(control: str) -> None:
-    wide = compensate(SQUARE, Side.RIGHT, 0.3 * INCH, 4, closed=True, blend=0.125 * INCH)
-    cuts = [cut(wide, stock=0.05, depth=-0.1), cut(squared(Side.RIGHT), depth=-0.1), cut(squared(Side.RIGHT))]
-    text = text_of(control, *cuts)
-    made = made_by(control, text, *cuts)
-    assert [stretch.radius / INCH for stretch in made.stretches] == pytest.approx([0.3, 0.25, 0.25])
-    depths = [float(made.moves.points[stretch.last - 2, 2]) / INCH for stretch in made.stretches]
-    assert depths == pytest.approx([-0.1, -0.1, -0.25])
 
 
 def test_how_each_control_is_told_of_stock() -> None:
@@ -248,37 +131,6 @@ def test_a_bridge_is_refused() -> None:
     assert refused("linuxcnc", cut(one)).code == "NOTWRITTEN"
 
 
-def meant(control: str = "linuxcnc") -> Meant:
-    """A program that is right."""
-    one = cut(squared(Side.RIGHT))
-    lines = tuple(Line(text, 3.0) for text in text_of(control, one).splitlines())
-    return Meant(control, lines, (one,), tools_of((one,), STYLES[control]), Unit.IN, 1e-6 * INCH, leads=True)
-
-
-def changed(old: str, new: str) -> Meant:
-    """The right program with one text changed in it."""
-    right = meant()
-    lines = tuple(line._replace(text=line.text.replace(old, new)) for line in right.lines)
-    assert lines != right.lines
-    return replace(right, lines=lines)
-
-
-def test_a_program_that_is_wrong_is_never_let_through() -> None:
-    assert not read_back(meant()).errors
-    assert "gouges" in read_back(changed("G1 X2. Y2.", "G1 X1.99 Y2.")).errors[0].text
-    assert "uncut" in read_back(changed("G1 X2. Y2.", "G1 X2.01 Y2.")).errors[0].text
-    assert "depth" in read_back(changed("G1 X2. Y2.", "G1 X2. Y2. Z0.")).errors[0].text
-    assert "N-ONWHENON" in read_back(changed("G1 X2. Y2.", "G42 D1 X2. Y2.")).errors[0].text
-    assert "1 compensated" not in read_back(changed("G42 D1 ", "")).errors[0].text
-    assert read_back(changed("G42", "G41")).errors
-
-
-def test_a_right_program_with_another_tool_is_wrong() -> None:
-    right = meant()
-    bigger = replace(right, tools=tools_of((replace(right.cuts[0], diameter=0.6 * INCH),), STYLES["linuxcnc"]))
-    assert "uncut" in read_back(bigger).errors[0].text
-
-
 def test_ends_of_a_path_with_blends() -> None:
     one = squared(Side.LEFT)
     first, last = begin(one), finish(one)
@@ -299,34 +151,3 @@ def test_ends_of_a_path_without_blends() -> None:
     assert first.off == pytest.approx((0.0, -1.0))
     assert last.way == pytest.approx((1.0, 0.0))
     assert np.array(last.corner) / INCH == pytest.approx([1.0, 0.0])
-
-
-def test_farthest_finds_the_piece_that_is_off() -> None:
-    bent = outline((1, 0), (2, 0), (2, 1), (2.5, 2), (0, 2))
-    apart, number = farthest(bent, SQUARE)
-    assert apart / INCH == pytest.approx(0.5)
-    assert number in (3.0, 4.0)
-
-
-@settings(max_examples=120, deadline=None, derandomize=True)
-@given(LEGS, st.sampled_from(Side), st.sampled_from([name for name in names() if name != "klartext"]))
-def test_random_contours_read_back_or_the_reason_is_told(
-    legs: list[tuple[float, float, int, float]], side: Side, control: str
-) -> None:
-    """Lines and arcs at any angle: the control's path is the block's, or nearly, and that is said; or nothing."""
-    contour = Path.from_pieces(pieces_of(legs))
-    one = compensate(contour, side, 4.0, 8, closed=False, blend=2.0)
-    if not len(one.path) or bool(one.bridged.any()):
-        return
-    result = write(control, cut(one, depth=-0.2))
-    if isinstance(result, NotWritten):
-        assert all(len(finding.text) > 20 for finding in result.findings)
-        assert result.findings
-        return
-    made = made_by(control, result.text, cut(one, depth=-0.2))
-    assert made.stopped_at is None
-    (stretch,) = made.stretches
-    path = made.moves.part(stretch.first, stretch.last).path()
-    inner = path.part(1, len(path) - 1)
-    allowed = max(0.006, *(note.lengths[0] + 0.006 for note in result.notes if note.code == "DIFFERS"), 0.0)
-    assert max(farthest(inner, one.whole)[0], farthest(one.whole, inner)[0]) <= allowed

@@ -1,0 +1,88 @@
+"""NC PROOF and files: opened, saved, left."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from app.desk import Desk
+from app.files import empty_program
+from app.messages import Load
+from app.screens.proof import ProofPage
+from app.screens.proof_files import opening
+from app.session import Session
+from tests.app.prover import SQUARE, Prover, square
+
+
+def test_saving_writes_the_file_and_only_what_was_changed(tmp_path: Path) -> None:
+    file = tmp_path / "part.nc"
+    file.write_bytes(SQUARE.replace(b"\n", b"\r\n"))
+    prover = Prover.of(file.read_bytes(), "threeblock", file).press("x", "s")
+    assert prover.said.startswith("Saved:")
+    assert file.read_bytes() == SQUARE.replace(b"\n", b"\r\n").split(b"\r\n", 1)[1]
+    assert not prover.page.unsaved
+    assert prover.page.fresh
+    assert prover.press("u").page.unsaved
+
+
+def test_saving_under_another_name_asks_before_it_replaces(tmp_path: Path) -> None:
+    other = tmp_path / "other.nc"
+    prover = square().press("S", *str(other), "enter")
+    assert other.read_bytes() == SQUARE
+    assert prover.page.file == other
+    other.write_bytes(b"theirs")
+    prover.press("s")
+    assert "THE FILE HAS CHANGED" in "\n".join(prover.screen())
+    prover.press("escape")
+    assert other.read_bytes() == b"theirs"
+    prover.press("s", "r")
+    assert other.read_bytes() == SQUARE
+
+
+def test_what_cannot_be_written_is_said_and_nothing_is_lost(tmp_path: Path) -> None:
+    prover = square("threeblock", tmp_path / "none" / "part.nc").press("x", "s")
+    assert "not saved" in prover.said
+    assert prover.page.unsaved
+
+
+def test_leaving_with_changes_is_asked_about() -> None:
+    prover = square().press("f8")
+    assert prover.desk.exit
+    prover = square().press("x", "f8")
+    assert "LEAVE?" in "\n".join(prover.screen())
+    assert prover.press("escape").desk.exit is False
+    assert prover.press("ctrl+q", "l").desk.exit
+
+
+def test_the_program_screens_open_an_nc_file(tmp_path: Path) -> None:
+    file = tmp_path / "part.nc"
+    file.write_bytes(b"0 BEGIN PGM P MM\n1 END PGM P MM\n")
+    desk = Desk(Session.of(empty_program())).take(Load(file))
+    assert isinstance(desk.page, ProofPage)
+    assert desk.page.control == "klartext"
+    assert not desk.press("f8").exit
+
+
+def test_a_file_is_chosen_from_a_folder(tmp_path: Path) -> None:
+    (tmp_path / "b.nc").write_bytes(SQUARE)
+    (tmp_path / "a.toml").write_text("format = 1\n")
+    session = replace(Session.of(empty_program()), file=tmp_path / "a.toml")
+    prover = Prover(Desk(session)).press("f8", "f7", "f7", "f5")
+    text = "\n".join(prover.screen())
+    assert "b.nc" in text
+    assert "a.toml" not in text
+    assert isinstance(prover.press("down", "enter").desk.page, ProofPage)
+    assert "line 3" not in prover.said
+
+
+def test_what_is_no_file_is_a_sentence(tmp_path: Path) -> None:
+    desk = opening(tmp_path)(Desk(Session.of(empty_program())))
+    assert "is not opened" in desk.session.said.text
+
+
+def test_unsaved_lines_are_not_lost_to_another_program(tmp_path: Path) -> None:
+    (tmp_path / "a.toml").write_text('format = 1\nunits = "IN"\n')
+    prover = square().press("x")
+    desk = prover.desk.take(Load(tmp_path / "a.toml"))
+    assert isinstance(desk.page, ProofPage)
+    assert "not saved" in desk.session.said.text

@@ -1,0 +1,93 @@
+"""The best path of contours that cross themselves, do not close, or are none."""
+
+from __future__ import annotations
+
+from math import hypot, nan, pi
+
+import numpy as np
+import pytest
+
+from core.comp.best import best_path
+from core.geometry.path import EMPTY, Path
+from core.geometry.piece import Arc, Line, Turn
+from core.geometry.side import Side
+from tests.core.comp.best_truth import CLOSE, assert_true, only
+from tests.core.comp.contours import lines
+
+
+def test_over_run_lead_ins_are_walls_on_both_sides_and_told():
+    overrun = lines((-1, 0), (2, 0), (2, 2), (0, 2), (0, -1))
+    best = assert_true(overrun, Side.RIGHT, 0.25, closed=False)
+    first, second = best.loops
+    assert first.points == pytest.approx(np.array([(-1, -0.25), (-0.25, -0.25), (-0.25, -1)]), abs=CLOSE)
+    assert second.points[[0, -1]] == pytest.approx(np.array([(0.25, -0.25), (-0.25, 0.25)]), abs=CLOSE)
+    assert [finding.code for finding in best.findings] == ["CROSSES_ITSELF"]
+
+
+def test_closing_gap_is_bridged():
+    gap = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0.002))
+    assert len(only(gap, Side.LEFT, 0.25)) == 4
+    around = best_path(gap, Side.RIGHT, 0.25, closed=True)
+    assert around.closed == (True,)
+    assert around.loops[0].lengths.sum() == pytest.approx(8 + pi / 2, abs=CLOSE)
+
+
+def test_an_arc_of_uneven_radii_is_followed_on_its_mean():
+    uneven = Arc((4.0, 0.0), (4.001, 2.0), (4.0, 1.0), Turn.CCW)
+    straight = (Line((0.0, 0.0), (4.0, 0.0)), Line((4.001, 2.0), (0.0, 2.0)), Line((0.0, 2.0), (0.0, 0.0)))
+    best = best_path(Path.from_pieces([straight[0], uneven, *straight[1:]]), Side.LEFT, 0.3, closed=True)
+    assert (len(best.loops), best.findings) == (1, ())
+    arc = best.loops[0].numbers.tolist().index(2)
+    ends = best.loops[0].points[arc : arc + 2] - best.loops[0].centres[arc]
+    assert hypot(*ends[0]) == pytest.approx(hypot(*ends[1]), abs=1e-9)
+
+
+def test_zero_length_segments_are_passed_over_and_told():
+    doubled = lines((0, 0), (0, 0), (2, 0), (2, 2), (2, 2), (0, 2), (0, 0))
+    best = best_path(doubled, Side.LEFT, 0.25, closed=True)
+    assert [(finding.code, finding.segment) for finding in best.findings] == [("ZERO_LENGTH", 1), ("ZERO_LENGTH", 4)]
+    assert best.loops[0].numbers.tolist() == [2, 3, 5, 6]
+
+
+SQUARE = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0))
+BAD = {
+    "NaN": (lines((0, 0), (nan, 1)), 0.25, "NOT_FINITE"),
+    "infinite": (lines((0, 0), (float("inf"), 1)), 0.25, "NOT_FINITE"),
+    "huge": (lines((0, 0), (1e300, 1)), 0.25, "NOT_FINITE"),
+    "empty": (EMPTY, 0.25, "EMPTY_CONTOUR"),
+    "a point": (lines((1, 1), (1, 1)), 0.25, "EMPTY_CONTOUR"),
+    "arc of two radii": (
+        Path.from_pieces([Arc((1.0, 0.0), (0.0, 1.1), (0.0, 0.0), Turn.CCW)]),
+        0.25,
+        "ARC_RADII",
+    ),
+    "no radius": (SQUARE, 0.0, "RADIUS"),
+    "negative radius": (SQUARE, -1.0, "RADIUS"),
+    "radius NaN": (SQUARE, nan, "RADIUS"),
+    "radius larger than everything": (SQUARE, 1e6, "NO_PATH"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+@pytest.mark.parametrize("closed", [True, False])
+def test_bad_input_gives_a_finding_and_no_loops(name, closed):
+    contour, radius, code = BAD[name]
+    best = best_path(contour, Side.LEFT, radius, closed=closed)
+    assert not best.loops
+    assert not best.closed
+    assert code in [finding.code for finding in best.findings]
+
+
+def test_a_scribble_that_lies_on_itself_everywhere_is_told_and_still_true():
+    points = np.random.default_rng(1).uniform(0, 100, (60, 2))
+    scribble = Path.of(points, points[:-1], np.zeros(59, np.int8))
+    best = assert_true(scribble, Side.LEFT, 0.2, closed=False)
+    assert best.findings[0].code == "CROSSES_ITSELF"
+    assert len(best.loops) > 100
+
+
+def test_a_scribble_no_part_can_be_is_refused_and_not_worked_on_without_end():
+    points = np.random.default_rng(1).uniform(0, 100, (20_000, 2))
+    best = best_path(Path.of(points, points[:-1], np.zeros(19_999, np.int8)), Side.LEFT, 1.0, closed=False)
+    assert best.loops == ()
+    assert [finding.code for finding in best.findings] == ["CROSSES_ITSELF", "TANGLED"]
