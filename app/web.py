@@ -7,6 +7,7 @@ Host is not the served address is refused.
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import sys
 from collections.abc import Awaitable, Callable
@@ -29,6 +30,11 @@ const look = setInterval(() => {
 }, 100);
 </script>"""
 """Without it the first key needs a click or Tab: the terminal in the page does not take the keys by itself."""
+
+
+ELSEWHERE: Final = re.compile(r"<link[^>]*https?://fonts\.[^>]*>")
+"""A type from another machine: without the internet the page would wait for it."""
+_NAME: Final = re.compile(r"[\w.:\[\]-]+", re.ASCII)
 
 
 def refusal(host: str, *, allow_network: bool) -> str:
@@ -59,7 +65,7 @@ def serve(file: Path | None, host: str, port: int) -> None:
     root = str(Path(__file__).parent.parent)
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH"))))
     server = made(command(file), host, port, title="cutcomp", public_url=address(host, port))
-    server.handle_index = _focused(server.handle_index)
+    server.handle_index = _own_page(server.handle_index, host, port)
     server.handle_websocket = _own_pages_only(server.handle_websocket, host, port)
     server.serve()
 
@@ -80,13 +86,26 @@ def _own_pages_only(handle: Callable[[Any], Awaitable[Any]], host: str, port: in
     return guarded
 
 
-def _focused(handle: Callable[[Any], Awaitable[Any]]) -> Callable[[Any], Awaitable[Any]]:
+def _own_page(handle: Callable[[Any], Awaitable[Any]], host: str, port: int) -> Callable[[Any], Awaitable[Any]]:
     async def page(request: Any) -> Any:  # noqa: ANN401  # as above
         answer = await handle(request)
-        answer.text = answer.text.replace("</body>", f"{FOCUS}</body>")
+        answer.text = adapted(answer.text, address(host, port), request.headers.get("Host", ""))
         return answer
 
     return page
+
+
+def adapted(page: str, served: str, asked: str) -> str:
+    """The page as it works here: the address it was asked for under, no type from another machine, keys at once.
+
+    The server writes the address it listens on into the page; a browser that was told another name of the same
+    machine would connect from one to the other and be refused, and 0.0.0.0 is nobody's address.
+    """
+    here = urlsplit(served).netloc
+    page = ELSEWHERE.sub("", page)
+    if _NAME.fullmatch(asked):
+        page = page.replace(f"//{here}/", f"//{asked}/")
+    return page.replace("</body>", f"{FOCUS}</body>")
 
 
 def welcome(asked: str, origin: str, host: str, port: int) -> bool:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
-from app.web import address, command, is_local, refusal, welcome
+from app.web import adapted, address, command, is_local, refusal, welcome
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "127.8.9.1", "::1", "localhost", "LOCALHOST"])
@@ -51,3 +51,27 @@ def test_only_the_served_page_may_connect(asked: str, origin: str, let_in: bool)
 def test_addresses_as_typed_into_a_browser() -> None:
     assert address("127.0.0.1", 80) == "http://127.0.0.1:80"
     assert address("::1", 8000) == "http://[::1]:8000"
+
+
+PAGE = """<link
+  rel="stylesheet"
+  href="https://fonts.googleapis.com/css?family=Roboto%20Mono"
+/><script src="http://0.0.0.0:8000/static/js/textual.js"></script>
+<div data-session-websocket-url="ws://0.0.0.0:8000/ws"></div></body>"""
+
+
+@pytest.mark.parametrize("asked", ["shop-pc:8000", "192.168.1.5:8000", "[::1]:8000", "localhost:8000"])
+def test_the_page_connects_to_the_address_it_was_asked_for_under(asked: str) -> None:
+    page = adapted(PAGE, "http://0.0.0.0:8000", asked)
+    assert f'"http://{asked}/static/js/textual.js"' in page
+    assert f'"ws://{asked}/ws"' in page
+    assert "0.0.0.0" not in page
+
+
+@pytest.mark.parametrize("asked", ["", '"><script>', "a b"])
+def test_what_is_no_address_does_not_get_into_the_page(asked: str) -> None:
+    assert "http://0.0.0.0:8000/static" in adapted(PAGE, "http://0.0.0.0:8000", asked)
+
+
+def test_the_page_asks_no_other_machine_for_anything() -> None:
+    assert "fonts" not in adapted(PAGE, "http://0.0.0.0:8000", "shop-pc:8000")
