@@ -99,7 +99,8 @@ class NcKeeping:
 
             lines = (looking, "You can look at it and save a copy under another name. Or take it over.")
             over = (Close(), Do(lambda now: self._taken_over(now, page.opening)))
-            return desk.take(Open(Decide("OPEN ALREADY", lines, (("l", "LOOK", (Close(),)), ("t", "TAKE OVER", over)))))
+            options = (("l", "LOOK", (Close(),)), ("t", "TAKE OVER", over))
+            return desk.take(Open(Decide("OPEN ALREADY", lines, options, file.name)))
         return self._offered(desk, page, one)
 
     def _lock(self, one: Kept) -> str:
@@ -143,7 +144,8 @@ class NcKeeping:
         discard = (Close(), Do(lambda now: discarded(now, path)))
         options = (("r", "RESTORE", restore), ("d", "DISCARD", discard))
         details = differences(page.listing, found.listing)
-        return desk.take(Open(Decide("CHANGES THAT WERE NOT SAVED", self._told(page, found), options, details)))
+        told = self._told(page, found)
+        return desk.take(Open(Decide("CHANGES THAT WERE NOT SAVED", told, options, one.file.name, details)))
 
     def _told(self, page: ProofPage, found: Found) -> tuple[str, ...]:
         from app.nc_journal import mark

@@ -69,7 +69,7 @@ def _question(keeping: Keeping, desk: Desk, path: Path, found: Recovered) -> Dec
         "WORK THAT WAS NOT SAVED",
         tuple(_told(keeping, desk.session, found)),
         (("r", "RESTORE", (Close(), restore)), ("d", "DISCARD", (Close(), discard))),
-        differences(desk.session.program, found.history.program),
+        details=differences(desk.session.program, found.history.program),
     )
 
 

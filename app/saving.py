@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from app import times
 from app.messages import Close, Open, Post, Save, Say
@@ -22,6 +22,9 @@ from core.units import printable
 
 if TYPE_CHECKING:
     from app.desk import Desk
+
+
+UNREADABLE: Final = "It is no program any more."
 
 
 def asked(desk: Desk, path: Path, message: Save) -> Desk | None:
@@ -76,7 +79,7 @@ def _taken(session: Session, path: Path, message: Save) -> Ask | None:
     today = times.now()
     copy = beside(path, "mine", today)
     who = f"{printable(owner.user)} on {printable(owner.host)}"
-    lines = (f"{who} has taken {printable(path.name)} over.", f"A copy of yours would be {printable(copy.name)}.")
+    lines = (f"{who} has taken {printable(path.name)} over.", f"A copy of yours would be {printable_path(copy.name)}.")
     keep = ("k", "KEEP BOTH", (Close(), Save(copy, leave=message.leave)))
     write = ("w", "WRITE ALL THE SAME", (Close(), message._replace(taken=True)))
     return Ask("TAKEN OVER", lines, (keep, write))
@@ -90,21 +93,25 @@ def _changed(desk: Desk, path: Path, message: Save) -> Desk | None:
         return None
     today = times.now()
     mine = beside(path, "mine", today)
-    lines = (
-        f"{printable(path.name)} was changed by somebody else {times.told(times.of(now.changed), today)}.",
-        *shortened(_theirs(desk.session, path))[:2],
-        f"Both are kept. Which gets the name? The other one is copied: yours to {printable_path(mine.name)}.",
-    )
-    theirs = ("t", "THEIRS", (Close(), Save(mine, leave=message.leave)))
+    name, when, theirs = printable(path.name), times.told(times.of(now.changed), today), _theirs(desk.session, path)
+    title, label = "CHANGED MEANWHILE", "THEIRS"
+    told = (f"{name} was changed by somebody else {when}.", *shortened(theirs or (UNREADABLE,))[:2])
+    if stamp is None and theirs is None:
+        # nobody need have changed it: it could not be read when it was opened
+        title, label = "REPLACE THE FILE?", "THE FILE AS IT IS"
+        told = (f"{name} cannot be read as a program. It was written {when}.",)
+    both = f"Both are kept. Which gets the name? The other one is copied: yours to {printable_path(mine.name)}."
+    keep = ("t", label, (Close(), Save(mine, leave=message.leave)))
     yours = ("y", "YOURS", (Close(), message._replace(changed=True)))
-    return desk.take(Open(Ask("CHANGED MEANWHILE", lines, (theirs, yours))))
+    return desk.take(Open(Ask(title, (*told, both), (keep, yours))))
 
 
-def _theirs(session: Session, path: Path) -> tuple[str, ...]:
+def _theirs(session: Session, path: Path) -> tuple[str, ...] | None:
+    """What differs in the file, None where it is no program."""
     try:
         return differences(session.saved, load(path))
     except StoreError:
-        return ("It is no program any more.",)
+        return None
 
 
 def put_theirs_aside(path: Path) -> None:

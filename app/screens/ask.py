@@ -17,11 +17,15 @@ Option = tuple[str, str, tuple[Message, ...]]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Ask(Page):
-    """A question; `options` stand on F1, F2 ... and F8 leaves everything as it is."""
+    """A question; `options` stand on F1, F2 ... and F8 leaves everything as it is.
+
+    `about` is a file's name where the question is not about the program's own file.
+    """
 
     title: str
     lines: tuple[str, ...]
     options: tuple[Option, ...]
+    about: str = ""
 
     def softkeys(self, session: Session) -> Softkeys:
         """The answers."""
@@ -48,7 +52,7 @@ class Ask(Page):
         asked = tuple(plain(f" {part}") for line in self.lines for part in wrap(line, max(surface.width - 3, 8)))
         answers = tuple(_answer(letter, label) for letter, label, _ in self.options)
         return View(
-            header(self.title, plain(""), session, surface.width),
+            header(self.title, plain(""), session, surface.width, self.about),
             ((), *asked, (), *answers, _answer("Esc", "leave everything as it is")),
             Said("Press the softkey or the letter of an answer."),
         )

@@ -48,7 +48,7 @@ class Decide(Ask):
             (Span(f"  {letter.upper():<4}", Look.KEY), Span(label, Look.LABEL)) for letter, label, _ in self.options
         ]
         return View(
-            header(self.title, plain(""), session, width),
+            header(self.title, plain(""), session, width, self.about),
             ((), *asked, (), *told, (), *answers),
             Said("Press the softkey or the letter of an answer."),
         )

@@ -220,7 +220,7 @@ class ProofPage(Page):
             return (Leave() if self.alone else Close(),)
         lines = ("The NC file has changes that are not saved.",)
         options = (("s", "SAVE", (Close(), saving())), ("l", "LEAVE WITHOUT", (Close(), Close())))
-        return (Open(Ask("NOT SAVED", lines, options)),)
+        return (Open(Ask("NOT SAVED", lines, options, "" if self.file is None else self.file.name)),)
 
     def view(self, session: Session, surface: Surface) -> View:
         """The listing, the drawing, the findings."""

@@ -67,9 +67,8 @@ def _saved(desk: Desk, path: Path | None, *, agreed: bool) -> Desk:
     if page.looking and target == page.file:
         return desk.take(Say(f"{page.looking} S saves a copy under another name.", Tone.ERROR))
     if not agreed and (question := _question(page, target)) is not None:
-        return desk.take(
-            Open(Ask(question[0], (question[1],), (("r", "REPLACE", (Close(), saving(path, agreed=True))),)))
-        )
+        replaced = (("r", "REPLACE", (Close(), saving(path, agreed=True))),)
+        return desk.take(Open(Ask(question[0], (question[1],), replaced, target.name)))
     data = page.listing.data
     try:
         write_data(target, data)

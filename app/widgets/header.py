@@ -6,9 +6,12 @@ from app.session import Session
 from app.widgets.rows import Look, Row, Span, padded
 
 
-def header(first: str, second: Row, session: Session, width: int) -> tuple[Row, Row]:
-    """Two header lines; the file's name stands at the right of the second, with * while it is not saved."""
-    name = file_name(session)
+def header(first: str, second: Row, session: Session, width: int, about: str = "") -> tuple[Row, Row]:
+    """Two header lines; the file's name stands at the right of the second, with * while it is not saved.
+
+    `about` is the file's name where the screen is about another file than the session's program.
+    """
+    name = printable(about)[:24] or file_name(session)
     room = max(width - len(name) - 2, 1)
     return (
         (Span(f" {first}", Look.HEAD),),

@@ -81,6 +81,8 @@ def test_after_a_crash_the_changes_are_offered_and_come_back_with_undo(file: Pat
     again = typist(file, ME)
     question = asked(again)
     assert question.title == "CHANGES THAT WERE NOT SAVED"
+    assert "part.nc" in again.part("header")
+    assert "new program" not in again.part("header")
     assert "2 changes can be undone" in question.lines[0]
     assert question.details[0] == "Line 2: G0 X1. Y2. (in the file: G0 X1.)"
     assert question.details[1] == "Line 3 of the file is taken out: \xb0 M30"
@@ -170,6 +172,7 @@ def test_a_second_opener_looks_or_takes_over(file: Path) -> None:
     take(file, ELSEWHERE)
     one = typist(file, ME)
     assert asked(one).title == "OPEN ALREADY"
+    assert "part.nc" in one.part("header")
     one.press("l", "x", "enter", "i")
     assert one.texts[0] == "G20 G17"
     assert "bob on office has this program open" in one.said

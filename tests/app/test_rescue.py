@@ -51,7 +51,21 @@ def test_discarded_the_file_stays_as_it_is_until_somebody_decides(part: Path, tm
     rest = part.read_bytes()
     operator.press("tab").type("3").press("ctrl+s")
     assert part.read_bytes() == rest
-    assert "CHANGED MEANWHILE" in "\n".join(operator.screen())
+    told = " ".join(operator.part("body").split())
+    assert "part.toml cannot be read as a program." in told
+    assert "somebody else" not in told
+    operator.press("t")
+    assert part.read_bytes() == rest
+    assert operator.session.file is not None
+    assert operator.session.file.name.startswith("part.mine-")
+
+
+def test_what_somebody_else_has_made_unreadable_is_told_as_changed(part: Path, tmp_path: Path) -> None:
+    operator = started(tmp_path / "own", part).press("tab").type("3")
+    part.write_bytes(b"no program")
+    told = " ".join(operator.press("ctrl+s").part("body").split())
+    assert "was changed by somebody else" in told
+    assert "It is no program any more." in told
 
 
 def test_opened_from_the_screens_the_work_is_offered_too(part: Path, tmp_path: Path) -> None:
