@@ -152,15 +152,23 @@ def small(rounds: int) -> None:
         print(f"{name}: {value:.2f} ms")
 
 
-def ratios(found: Mapping[tuple[str, int], Mapping[str, float]], most: int) -> None:
-    """The families against one another, and growth from the second largest size to the largest."""
+def ratios(found: Mapping[tuple[str, int], Mapping[str, float]], sizes: tuple[int, ...]) -> None:
+    """The families against one another, and growth from the second largest size to the largest, if there are two."""
+    most = sizes[-1]
     times = {name: row["control path"] for (name, count), row in found.items() if count == most}
     middle = statistics.median(times.values())
     print(f"\nat {most} segments the median family takes {middle:.1f} ms")
     for name, value in times.items():
-        before = found[name, most // 10]["control path"]
-        grows = value / before / 10.0
-        print(f"{name:<10}{value / middle:>6.2f} x the median   time per segment {grows:.2f} x that at {most // 10}")
+        print(f"{name:<10}{value / middle:>6.2f} x the median{grown(found, name, sizes)}")
+
+
+def grown(found: Mapping[tuple[str, int], Mapping[str, float]], name: str, sizes: tuple[int, ...]) -> str:
+    """How the time per segment of a family grew to the largest size; nothing if only one was measured."""
+    if len(sizes) < 2:
+        return ""
+    before, most = sizes[-2:]
+    each, former = (found[name, count]["control path"] / count for count in (most, before))
+    return f"   time per segment {each / former:.2f} x that at {before}"
 
 
 def main(arguments: list[str]) -> None:
@@ -170,8 +178,10 @@ def main(arguments: list[str]) -> None:
     parser.add_argument("--rounds", type=int, default=7)
     options = parser.parse_args(arguments)
     sizes = tuple(count for count in SIZES if count <= options.most)
+    if not sizes:
+        parser.error(f"--most is at least {SIZES[0]}")
     found = families(sizes, options.rounds)
-    ratios(found, sizes[-1])
+    ratios(found, sizes)
     print("\npeak above the input, bytes a segment (tracemalloc):")
     for name, path in (("control path", control), ("best path", best)):
         works = [(family.__name__, family(sizes[-1])) for family in FAMILIES]

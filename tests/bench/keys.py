@@ -5,7 +5,8 @@ side by side.  Keys are typed into two contours of 200 segments: a plate whose e
 gear none of whose 50 gaps it enters, where every remedy is tried after every change.
 
 `changed` is the time from the key to the first screen that shows the derived path, `finished` that to the last byte:
-by then the look-ahead table stands, and what the contour needs.
+by then the look-ahead table stands, and what the contour needs.  The next key is typed when the program is at rest: no
+byte comes and none of its threads has run for a while.  `idle` are the bytes sent while nobody types, which must be 0.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ import statistics
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from math import cos, dist, pi, sin
 from pathlib import Path
@@ -98,6 +101,16 @@ def _towards(corner: tuple[float, float], other: tuple[float, float], far: float
     return round(x + part * (to_x - x), 5), round(y + part * (to_y - y), 5)
 
 
+LOOK = 0.02
+"""Seconds between two looks at a program that sends nothing."""
+LOOKS = 5
+"""So many looks in a row at which it has not run: it is at rest."""
+LONGEST = 20.0
+"""Seconds after which a program that still runs is given up."""
+IDLE = 3.0
+"""Seconds in which nobody types."""
+
+
 @dataclass(frozen=True)
 class Answer:
     """What came back after a key: bytes, and seconds to the first derived screen and to the last byte."""
@@ -107,20 +120,45 @@ class Answer:
     finished: float
 
 
-def answer(terminal: Terminal, key: bytes, quiet: float) -> Answer:
-    """Type a key and wait for the screen to come to rest; the emulator is fed afterwards, it takes its time."""
+def answer(terminal: Terminal, key: bytes) -> Answer:
+    """Type a key and wait for the program to come to rest; the emulator is fed afterwards, it takes its time."""
     begun = time.perf_counter()
     terminal.send(key)
-    came: list[tuple[float, bytes]] = []
-    while select.select([terminal.fd], [], [], quiet)[0]:
-        data = os.read(terminal.fd, 65536)
-        came.append((time.perf_counter() - begun, data))
+    came = [(when - begun, data) for when, data in until_rest(terminal)]
     changed = 0.0
     for when, data in came:
         terminal.stream.feed(data)
         if not changed and "calculating" not in terminal.text:
             changed = when
     return Answer(sum(len(data) for _, data in came), changed, came[-1][0] if came else 0.0)
+
+
+def until_rest(terminal: Terminal) -> Iterator[tuple[float, bytes]]:
+    """What a program sends, each with its time, until it neither sends nor calculates."""
+    still, used, begun = 0, -1, time.perf_counter()
+    while still < LOOKS:
+        if select.select([terminal.fd], [], [], LOOK)[0]:
+            data = os.read(terminal.fd, 65536)
+            still = 0
+            yield time.perf_counter(), data
+            continue
+        running_now, spent = at_work(terminal.pid)
+        still = 0 if running_now or spent != used else still + 1
+        used = spent
+        if time.perf_counter() - begun > LONGEST:
+            raise AssertionError(f"not at rest after {LONGEST} s:\n{terminal.text}")
+
+
+def at_work(pid: int) -> tuple[bool, int]:
+    """Whether a thread of a process runs, could run or waits for the disk; and the ticks all have run, by /proc."""
+    states, ticks = [], 0
+    for thread in Path(f"/proc/{pid}/task").iterdir():
+        with suppress(FileNotFoundError, ProcessLookupError):
+            # behind the name, which may hold anything: state, ..., at 11 and 12 user and system time
+            values = (thread / "stat").read_text().rpartition(")")[2].split()
+            states.append(values[0])
+            ticks += int(values[11]) + int(values[12])
+    return not {"R", "D"}.isdisjoint(states), ticks
 
 
 def first_paint(arguments: list[str], text: str) -> float:
@@ -141,22 +179,31 @@ def side_by_side(program: Path, rounds: int) -> tuple[float, float]:
     return statistics.median(empty), statistics.median(ours)
 
 
-def key_answers(program: Program, before: list[bytes], keys: list[bytes], quiet: float = 0.25) -> list[Answer]:
-    """Type the keys one by one, each after the screen has come to rest, behind some that are not counted."""
+@contextmanager
+def opened(program: Program) -> Iterator[Terminal]:
+    """Our program at rest on a file of its own, beside which no earlier run has left unsaved work."""
     with tempfile.TemporaryDirectory() as folder:
-        # a file of its own, beside which no earlier run has left unsaved work
         path = Path(folder) / "part.toml"
         save(program, path)
-        return _answers(path, before, keys, quiet)
+        with running([sys.executable, "-m", "app", str(path)]) as terminal:
+            terminal.until("MILL CONTOUR")
+            answer(terminal, b"")
+            yield terminal
 
 
-def _answers(path: Path, before: list[bytes], keys: list[bytes], quiet: float) -> list[Answer]:
-    with running([sys.executable, "-m", "app", str(path)]) as terminal:
-        terminal.until("MILL CONTOUR")
-        terminal.read(quiet=2.0)
+def key_answers(program: Program, before: list[bytes], keys: list[bytes]) -> list[Answer]:
+    """Type the keys one by one, each after the program has come to rest, behind some that are not counted."""
+    with opened(program) as terminal:
         for key in before:
-            answer(terminal, key, 0.5)
-        return [answer(terminal, key, quiet) for key in keys]
+            answer(terminal, key)
+        return [answer(terminal, key) for key in keys]
+
+
+def tabs_and_idle(program: Program, count: int) -> tuple[list[Answer], int]:
+    """Tab through the fields, then do nothing: the answers, and the bytes that come all the same."""
+    with opened(program) as terminal:
+        answers = [answer(terminal, b"\t") for _ in range(count)]
+        return answers, terminal.read(quiet=IDLE, longest=IDLE).count
 
 
 def report(name: str, answers: list[Answer]) -> str:
@@ -177,35 +224,41 @@ def _middle_and_high(values: list[float]) -> tuple[float, float]:
     return statistics.median(values), sorted(values)[round(0.95 * (len(values) - 1))]
 
 
-def keys_of(program: Program, name: str, number: int, rounds: int) -> None:
-    """The table of one program; `number` is a LINE whose X END is moved to and fro."""
+def rows_of(program: Program, name: str, number: int, count: int) -> Iterator[str]:
+    """The table of one program, `count` keys of each kind; `number` is a LINE whose X END is moved to and fro."""
     x = _x_end(program, number)
-    digits = [str(digit % 10).encode() for digit in range(rounds)]
-    print(report(f"{name}: a digit of TOOL", key_answers(program, [b"\t"], digits)))
+    digits = [str(digit % 10).encode() for digit in range(count)]
+    yield report(f"{name}: a digit of TOOL", key_answers(program, [b"\t"], digits))
     there = [str(number).encode(), b"\r", b"\t"]
     typed = [key for digit in digits for key in (digit, b"\x7f")]
-    first = [str(x).encode()]
-    print(report(f"{name}: a digit of X END", key_answers(program, [*there, *first], typed, 0.6)[::2]))
-    print(report(f"{name}: Tab", key_answers(program, [], [b"\t"] * rounds)))
-    depths = [key for row in range(rounds) for key in (f"-.{row + 26}".encode(), b"\r", b"\x1b[A")]
-    print(report(f"{name}: Enter, another Z BOTTOM", key_answers(program, [b"\t"] * 7, depths, 0.6)[1::3]))
-    points = [key for row in range(rounds) for key in (f"{x + 0.004 * (row % 5 + 1):.4f}".encode(), b"\r", b"\x1b[A")]
-    print(report(f"{name}: Enter, another X END", key_answers(program, there, points, 0.6)[1::3]))
+    yield report(f"{name}: a digit of X END", key_answers(program, [*there, str(x).encode()], typed)[::2])
+    tabs, idle = tabs_and_idle(program, count)
+    yield report(f"{name}: Tab", tabs)
+    depths = [key for row in range(count) for key in (f"-.{row + 26}".encode(), b"\r", b"\x1b[A")]
+    yield report(f"{name}: Enter, another Z BOTTOM", key_answers(program, [b"\t"] * 7, depths)[1::3])
+    points = [key for row in range(count) for key in (f"{x + 0.004 * (row % 5 + 1):.4f}".encode(), b"\r", b"\x1b[A")]
+    yield report(f"{name}: Enter, another X END", key_answers(program, there, points)[1::3])
+    yield f"{f'{name}: idle for {IDLE:.0f} s':<42} {'':37}{idle:6}"
 
 
 def main() -> None:
-    """Print the tables."""
+    """Print the tables, row by row."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--rounds", type=int, default=9, help="starts; keys are four times as many")
+    parser.add_argument("--starts", type=int, default=3, help="starts of the empty app and of ours")
+    parser.add_argument("--keys", type=int, default=8, help="keys of each kind")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         program = Path(folder) / "gear.toml"
         save(gear(200), program)
-        empty, ours = side_by_side(program, options.rounds)
+        empty, ours = side_by_side(program, options.starts)
     print(f"first paint   empty app {1000 * empty:.0f} ms   cutcomp {1000 * ours:.0f} ms   {ours / empty:.2f}:1")
-    print(f"{'median and 95th percentile':<42} {'changed, ms':>15}   {'finished, ms':>15}   {'bytes':>13}     n")
-    keys_of(plate(), "plate", 105, 4 * options.rounds)
-    keys_of(gear(200), "gear", 101, 4 * options.rounds)
+    print(
+        f"{'median and 95th percentile':<42} {'changed, ms':>15}   {'finished, ms':>15}   {'bytes':>13}     n",
+        flush=True,
+    )
+    for contour, name, number in ((plate(), "plate", 105), (gear(200), "gear", 101)):
+        for row in rows_of(contour, name, number, options.keys):
+            print(row, flush=True)
 
 
 def _x_end(program: Program, number: int) -> float:
