@@ -16,6 +16,7 @@ from core.controls.dialect import Arcs, Dialect, Do, codes
 from core.controls.lookahead import LookAhead
 from core.controls.moves import Plane
 from core.controls.parameters import Kept
+from core.controls.radius_zero import nothing_compensated
 from core.controls.report import Log, Run
 from core.controls.runner import execute
 from core.controls.tools import ToolTable
@@ -170,8 +171,7 @@ class LinuxCnc(LookAhead):
             text = "The diameter is negative: the tool runs on the other side."
             self.log.tell(Severity.INFO, "NEGATIVE", text, block.line, block.side_column())
         elif radius == 0.0:
-            text = "The radius is 0: nothing is compensated."
-            self.log.tell(Severity.WARNING, "RADIUS0", text, block.line, block.side_column())
+            nothing_compensated(self.machine, "The radius is 0.", block.line, block.side_column())
         self.turn_on(radius * side.sign, orientation)
 
     def radius(self, block: Block) -> tuple[float, int]:
@@ -187,8 +187,8 @@ class LinuxCnc(LookAhead):
         tool = self.machine.tools.get(number)
         if tool is None:
             if number == 0 or "D" not in block.words:
-                text = "No tool is loaded, so the radius is 0 and nothing is compensated."
-                self.log.tell(Severity.WARNING, "RADIUS0", text, block.line, block.side_column())
+                text = "No tool is loaded, so the radius is 0."
+                nothing_compensated(self.machine, text, block.line, block.side_column())
                 return 0.0, 0
             text = f"The tool table has no tool {number}; enter it, or write the number of one that is there."
             self.log.stop("N-DBIG", text, block.line, block.column("D"))

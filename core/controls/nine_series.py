@@ -17,6 +17,7 @@ from core.controls.corners import Element, fits, meeting, offset_radius, square_
 from core.controls.dialect import Dialect, Do, codes
 from core.controls.generated import Corners
 from core.controls.nine_words import NineWords
+from core.controls.radius_zero import nothing_compensated
 from core.controls.report import Log, Run
 from core.controls.runner import execute
 from core.controls.tools import ToolTable
@@ -143,7 +144,7 @@ class NineSeries(NineWords):
                 self._circular_start(element.line, 1)
             self._without_offset(element)
             if self._span is None:
-                self.open_span(Side.LEFT if self.coming > 0.0 else Side.RIGHT, self.coming, element)
+                self.open_span(self.running, self.coming, element)
         elif not fits(element, self.coming):
             text = "The arc's radius {0} is not larger than the cutter's {1}; use a smaller cutter."
             self.log.stop("R9", text, element.line, 1, lengths=(element.radius, abs(self.coming)))
@@ -153,8 +154,7 @@ class NineSeries(NineWords):
 
     def _without_offset(self, element: Element) -> None:
         if self.coming == 0.0:
-            text = "The offset is 0 here: nothing is compensated; write D and the number of an offset."
-            self.log.tell(Severity.WARNING, "RADIUS0", text, element.line, 1)
+            nothing_compensated(self.machine, "The offset is 0; write D and an offset's number.", element.line, 1)
 
     def joint(self, first: Element, second: Element) -> Joint:
         """How this control joins: the entry, a change, inside and outside corners."""

@@ -80,6 +80,12 @@ class NineWords(Chain):
             self.log.tell(Severity.INFO, "R4", text, block.line, block.column("DG"))
         return radius
 
+    @property
+    def running(self) -> Side:
+        """The side on which the tool runs: a negative radius is on the other one, offset 0 on the one written."""
+        sign = self.coming or (self.side.sign if self.side else 0)
+        return Side.LEFT if sign > 0.0 else Side.RIGHT
+
     def own(self, code: int, _: Block) -> None:
         """G39 and G39.1."""
         self.corners = Corners.ARC if code == 391 else Corners.LINES

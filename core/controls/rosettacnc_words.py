@@ -6,6 +6,7 @@ from typing import Final
 
 from core.controls.follower import Follower
 from core.controls.moves import Plane
+from core.controls.radius_zero import nothing_compensated
 from core.controls.words import SWITCHES, Block, whole
 from core.finding import Severity
 from core.geometry.side import Side
@@ -29,8 +30,7 @@ class Switch:
         point_one = not {411, 421}.isdisjoint(block.g)
         radius = self._diameter(block) / 2 if point_one else self._table(block)
         if radius == 0.0:
-            text = "The radius is 0: nothing is compensated."
-            self.follower.log.tell(Severity.WARNING, "RADIUS0", text, block.line, column)
+            nothing_compensated(self.follower.machine, "The radius is 0.", block.line, column)
         if radius < 0.0:
             text = "The radius is negative and changes the side; that is an interpretation."
             self.follower.log.tell(Severity.INFO, "NEGATIVE", text, block.line, column)
@@ -77,8 +77,8 @@ class Switch:
             text = f"The tool table has no tool {number}; enter it, or write the number of one that is there."
             log.stop("C1", text, block.line, block.column("D") if "D" in block.words else block.side_column())
         if tool is None:
-            text = "No tool is loaded and there is no D, so the radius is 0 and nothing is compensated."
-            log.tell(Severity.WARNING, "RADIUS0", text, block.line, block.side_column())
+            text = "No tool is loaded and there is no D, so the radius is 0."
+            nothing_compensated(machine, text, block.line, block.side_column())
         if tool is not None:
             self._nose(tool.orientation, block, block.side_column())
         radius = tool.diameter_mm(machine.unit) / 2 if tool else 0.0

@@ -7,6 +7,7 @@ from typing import Final, NoReturn
 
 from core.controls.chain import Chain
 from core.controls.moves import Plane
+from core.controls.radius_zero import nothing_compensated
 from core.controls.report import Log
 from core.controls.words import Block
 from core.finding import Severity
@@ -95,7 +96,7 @@ class ThreeBlockWords(Chain):
         offset = self._radius(block) * side.sign
         if offset == 0.0:
             text = "The diameter is 0: G41 and G42 turn nothing on."
-            self.log.tell(Severity.INFO, "B3-DIA0", text, block.line, column)
+            nothing_compensated(self.machine, text, block.line, column, code="B3-DIA0", severity=Severity.INFO)
             return
         self.offset, self.active, self.opening = offset, True, True
         self.blocks, self.held, self.start, self.elements = [], None, None, 0

@@ -10,7 +10,7 @@ import numpy as np
 from core.controls.report import Run, Stretch
 from core.finding import Finding, Severity
 from core.geometry.path import Path
-from core.tolerance import CLOSED
+from core.tolerance import CLOSED, GOUGE
 from core.verify.judge import judge
 from core.verify.report import stray_findings
 from core.verify.stray import Away, Stray, stray
@@ -57,6 +57,10 @@ def _judged(run: Run, stretch: Stretch) -> Judged:
     surface = whole.part(first, last)
     centre = run.moves.part(stretch.first, stretch.last).path(stretch.plane)
     verdict = judge(surface, stretch.side, stretch.radius, centre)
+    if stretch.radius <= GOUGE:
+        # a centre on the contour itself is on neither side of it, whatever its leads cross; a later offset may not be 0
+        lines = set(surface.numbers.tolist())
+        verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if centre.numbers[row] in lines))
     leads = (*whole.numbers[:first].tolist(), *whole.numbers[last:].tolist())
     if not leads:
         return Judged(stretch, surface, centre, verdict)

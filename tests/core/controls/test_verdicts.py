@@ -14,7 +14,7 @@ from core.controls.verdicts import closed_part, depth, findings, judged
 from core.geometry.path import Path
 from core.units import Unit, from_mm, sentence
 from core.verify.judge import judge
-from tests.core.controls.hand import DATA, ran, sample
+from tests.core.controls.hand import DATA, ran, sample, told
 
 NOTCH = "G20 G17 F10\nG0 X-1 Y2\nG41 D1\nG1 X0 Y0\nX2\nY-.3\nX2.3\nY0\nX5\nG40\nG0 Y2\nM2\n"
 
@@ -97,3 +97,33 @@ def test_a_path_that_leaves_the_surface_or_turns_back_is_told_by_line() -> None:
     ]
     assert [one.code for one in told] == ["BACKWARDS", "AWAY"]
     assert {one.line for one in told} == {int(path.numbers[row])}
+
+
+POCKET = "G20 G17 G90\n{load}\nG0 X1.5 Y1.2\nG1 F10.\nG41 X2. Y0.5\nX3.\nY2.\nX0.\nY0.5\nX2.\nG40 X1.5 Y1.2\nM2\n"
+
+
+@pytest.mark.parametrize("control", ["nine-series:a", "nine-series:b-g39", "nine-series:b-g39.1"])
+@pytest.mark.parametrize("load", ["T1 M6", "T1 M6 D0", "T1 M6 D2"])
+def test_with_offset_0_no_side_is_wrong_and_the_depth_that_the_tool_cuts_is_told(control: str, load: str) -> None:
+    done = ran(POCKET.format(load=load), control, t1=0.5, t2=0)
+    assert {"WRONG-SIDE", "GOUGE"}.isdisjoint(finding.code for finding in findings(judged(done)))
+    (told_of,) = told(done, "RADIUS0")
+    assert "tool 1 of diameter 0.5000 cuts 0.2500 into the part along the contour" in sentence(told_of, Unit.IN)
+
+
+def test_an_offset_that_comes_later_is_on_the_wrong_side_all_the_same() -> None:
+    program = POCKET.format(load="T1 M6").replace("X3.\n", "X3.\nD9\n")
+    assert "WRONG-SIDE" in {finding.code for finding in findings(judged(ran(program, "nine-series:a", t9=-0.5)))}
+
+
+def test_a_tool_that_is_not_loaded_is_told_of_where_it_is_the_only_one() -> None:
+    for control in ("linuxcnc", "rosettacnc", "nine-series:a"):
+        (only,) = told(ran(POCKET.format(load="M3"), control, t3=0.5), "RADIUS0")
+        assert "tool 3 of diameter 0.5000 cuts 0.2500 into the part" in sentence(only, Unit.IN)
+        (none,) = told(ran(POCKET.format(load="M3"), control, t3=0.5, t4=0.25), "RADIUS0")
+        assert "any cutter cuts by its radius into the part" in none.text
+
+
+def test_a_real_wrong_side_with_a_radius_is_still_told() -> None:
+    done = ran(POCKET.format(load="T1 M6 D1").replace("G41", "G42"), "nine-series:a", t1=0.5)
+    assert "WRONG-SIDE" in {finding.code for finding in findings(judged(done))}
