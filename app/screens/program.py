@@ -45,7 +45,7 @@ class ProgramPage(Page):
         there = {"up": at - 1, "down": at + 1, "home": 1, "end": last, "pageup": 1, "pagedown": last}.get(key)
         if there is not None:
             return Answer(self, (Move(Where(min(max(there, 1), last))),))
-        return Answer(self, (Open(Contour()),)) if key in ("enter", "right") else None
+        return Answer(self, (Move(session.where), Open(Contour()))) if key in ("enter", "right") else None
 
     def help(self, session: Session) -> tuple[str, ...]:
         """What a program is made of."""

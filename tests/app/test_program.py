@@ -31,6 +31,17 @@ def test_exit_goes_to_the_list_and_enter_back_into_the_block() -> None:
     assert isinstance(operator.press("enter").desk.page, Contour)
 
 
+@pytest.mark.parametrize("key", ["enter", "right"])
+def test_a_block_is_entered_on_segment_wherever_it_was_left(key: str) -> None:
+    operator = opened().press("up")
+    assert operator.session.field == "lookahead"
+    operator.press("f8", key).type("4")
+    assert operator.block.lookahead is None
+    assert operator.session.where == Where(1, 4)
+    operator.press("f8", key)
+    assert (operator.session.where, operator.session.field) == (Where(1, 4), "segment")
+
+
 def test_blocks_are_inserted_copied_moved_and_deleted() -> None:
     operator = at_list().press("f2")
     assert operator.session.where == Where(2, 0)
