@@ -245,7 +245,7 @@ def main() -> None:
     """Print the tables, row by row."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--starts", type=int, default=3, help="starts of the empty app and of ours")
-    parser.add_argument("--keys", type=int, default=8, help="keys of each kind")
+    parser.add_argument("--keys", type=int, default=6, help="keys of each kind")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         program = Path(folder) / "gear.toml"
