@@ -2,7 +2,8 @@
 
 Random keys go to the App itself, without a terminal and without threads, on programs, on the start screen and on NC
 programs; a part goes through Textual.  After every few keys the screen must be that which somebody draws who knows
-nothing but the desk, the program must come back equal from its file's text, and what is not saved from its journal.
+nothing but the desk, the program must come back equal from its file's text, and what is not saved from its journal,
+be it a program or an NC file under proof.
 Now and then the program dies, or its file is somebody else's; work is then offered back as on any day.
 """
 
@@ -25,7 +26,10 @@ from unittest.mock import patch
 from app import files
 from app.engine import Engine
 from app.keeping import Keeping
-from app.main import begin, keep_settings
+from app.listing import Listing
+from app.main import begin, closed, keep_settings
+from app.nc_journal import found_in
+from app.nc_keeping import NcKeeping, proofs
 from app.places import read
 from app.screens.page import Page
 from app.screens.proof import ProofPage
@@ -63,6 +67,7 @@ class Life:
 
     app: Reference
     keeping: Keeping
+    nc_keeping: NcKeeping
     forgetful: Reference
     monkey: Monkey
     tally: Tally
@@ -112,6 +117,8 @@ class Life:
             self.wrong("the program does not come back from its file's text")
         if not self.kept():
             self.wrong("the journal does not bring back the program")
+        if not self.listings_kept():
+            self.wrong("the journal does not bring back the NC file")
 
     def drawn_anew(self, width: int, height: int) -> tuple[Row, ...]:
         """The screen as one draws it who remembers nothing and derives everything from the program."""
@@ -129,15 +136,40 @@ class Life:
         found = read(self.keeping.journal.path)
         return found is not None and found.history == self.session.history
 
+    def listings_kept(self) -> bool:
+        """Whether the NC files under proof can be had back where they are not saved."""
+        for page in proofs(self.app.desk):
+            one = self.nc_keeping.kept.get(page.opening)
+            if page.file is None or not page.unsaved:
+                continue
+            if one is None or one.journal is None:
+                return False
+            found = found_in(one.journal.path.read_bytes())
+            if found is None or found.damaged or not same_text(found.listing, page.listing):
+                return False
+        return True
+
+    @property
+    def file(self) -> Path | None:
+        """The file that the next life may find work on."""
+        listings = (page.file for page in proofs(self.app.desk) if page.unsaved)
+        return next(listings, None) or self.session.file
+
     def wrong(self, what: str) -> None:
         """Something is not as it must be; the last keys lead there."""
         self.tally.wrong.append(f"{type(self.app.desk.page).__name__}: {what} after {' '.join(self.trail[-30:])}")
 
     def die(self) -> None:
-        """kill -9: only the handle is closed."""
+        """kill -9: only the handles are closed."""
         self.tally.deaths += 1
-        if self.keeping.journal is not None:
-            self.keeping.journal.close()
+        for journal in (self.keeping.journal, *(one.journal for one in self.nc_keeping.kept.values())):
+            if journal is not None:
+                journal.close()
+
+
+def same_text(one: Listing, other: Listing) -> bool:
+    """Whether two listings are the same, with as much to undo."""
+    return one.lines == other.lines and len(one.past) == len(other.past)
 
 
 def text(line: list[tuple[str, Look]]) -> str:
@@ -170,37 +202,38 @@ class Cage:
         """One life; the file of a program that died with its work unsaved."""
         shop = furnished(self.folder / "shop" / str(number)) if died is None else died.parent
         with chdir(shop):
-            life = self._begun(number, shop, died)
-            done = False
+            life = self._begun(shop, died)
             try:
                 life.go_on(keys)
-                done = True
-            finally:
-                if not done:
-                    print(f"life {number}: {' '.join(life.trail[-60:])}", file=sys.stderr)
+            except BaseException:
+                print(f"life {number}: {' '.join(life.trail[-60:])}", file=sys.stderr)
+                raise
             self.tally.lives += 1
-            file = life.session.file
+            file = life.file
             if life.app.left or file is None or self.monkey.chance.random() < 0.5:
-                life.keeping.close()
+                closed(life.keeping, life.nc_keeping)
                 return None
             life.die()
             return file if self.folder in file.parents else None
 
-    def _begun(self, number: int, shop: Path, died: Path | None) -> Life:
+    def _begun(self, shop: Path, died: Path | None) -> Life:
         """The program started: on a file, on none, on an example, on an NC program; on work that was left behind."""
-        keeping = Keeping(DEAD, self.folder / "own", lambda: TIME)
-        start = self.monkey.chance.choice(("file", "file", "none", "example", "locked", "proof"))
-        file = died or (shop / "pocket.toml" if start in ("file", "locked") else None)
-        if start == "locked" and file is not None and died is None:
+        own = self.folder / "own"
+        keeping, nc_keeping = Keeping(DEAD, own, lambda: TIME), NcKeeping(DEAD, own, lambda: TIME)
+        start = self.monkey.chance.choice(("file", "none", "example", "locked", "proof", "proof"))
+        if died is not None:
+            start = "proof" if files.is_nc(died) else "file"
+        listing = (died or shop / "part.nc") if start == "proof" else None
+        file = (died or shop / "pocket.toml") if start in ("file", "locked") else None
+        if start == "locked" and file is not None:
             take(file, ELSEWHERE)
         session = begin(file, "notch" if start == "example" else None)
-        app = Reference(session, keeping.keep)
-        keep_settings(app, first=start == "none" and died is None)
-        if start == "proof" and died is None:
-            page: Page = ProofPage.of(read_listing(shop / "part.nc"), shop / "part.nc", alone=True)
-            app.desk = replace(app.desk, pages=(page,))
-        del number
-        return Life(app, keeping, self.forgetful, self.monkey, self.tally)
+        app = Reference(session, lambda desk: nc_keeping.keep(keeping.keep(desk)))
+        keep_settings(app, first=start == "none")
+        if listing is not None:
+            page: Page = ProofPage.of(read_listing(listing), listing, alone=True)
+            app.desk = nc_keeping.keep(replace(app.desk, pages=(page,)))
+        return Life(app, keeping, nc_keeping, self.forgetful, self.monkey, self.tally)
 
 
 def run(keys: int, seed: int) -> Tally:

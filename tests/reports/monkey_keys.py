@@ -30,6 +30,8 @@ WEIGHTS: Final = {
     "letter": 10,
     "garbage": 3,
 }
+UNTRIED: Final = 0.3
+"""How often a softkey that was never pressed is preferred to everything else."""
 ACTING: Final = frozenset({"enter", "right", "left", *(f"f{number}" for number in range(1, 9)), *EVERYWHERE})
 """Keys that may write or open what a name says."""
 LAST: Final = ("ProgramPage", "StartPage", "ProofPage")
@@ -75,7 +77,12 @@ class Monkey:
     coverage: Coverage = field(default_factory=Coverage)
 
     def keys(self, desk: Desk) -> list[str]:
-        """What it does next."""
+        """What it does next; on a screen with softkeys that it has never pressed, one of these sooner."""
+        name = type(desk.page).__name__
+        if self.chance.random() < UNTRIED and any(
+            not self.coverage.pressed[name, number] for number in desk.page.softkeys(desk.session)
+        ):
+            return self._softkey(desk)
         kind = self.chance.choices(list(WEIGHTS), list(WEIGHTS.values()))[0]
         match kind:
             case "softkey":

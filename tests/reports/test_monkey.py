@@ -8,7 +8,9 @@ from typing import Any
 
 import pytest
 
+from app.listing import Listing
 from app.memory import Memory
+from app.nc_keeping import Kept, NcKeeping
 from app.screens.save import SaveAsPage
 from core.program import store
 from tests.app.operator import Operator
@@ -48,6 +50,14 @@ def test_a_program_that_does_not_come_back_is_found(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(monkey, "dumps", lambda program: store.dumps(program).replace("speed", "x_speed"))
     with pytest.raises(store.StoreError):
         run(200, seed=1)
+
+
+def test_a_change_of_an_nc_file_that_is_not_kept_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    def forget(_: NcKeeping, one: Kept, listing: Listing) -> None:
+        one.listing = listing
+
+    monkeypatch.setattr(NcKeeping, "_write", forget)
+    assert any("does not bring back the NC file" in text for text in run(400, seed=2).wrong)
 
 
 def test_nothing_acts_outside_the_cage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
