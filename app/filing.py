@@ -142,10 +142,18 @@ def _leave(desk: Desk, message: Leave) -> Desk:
         return replace(desk, exit=True)
     if listing:
         too = " So has the program." if desk.session.unsaved else ""
-        lines = (f"The NC file under proof has changes that are not saved.{too}",)
-        return desk.take(Open(Ask("LEAVE?", lines, (("l", "LEAVE WITHOUT", (Leave(unsaved=True),)),))))
+        lines = (f"The NC file under proof has changes that are not saved.{too} Ctrl+S on its screen saves them.",)
+        name = _name_of_listing(desk)
+        return desk.take(Open(Ask("LEAVE?", lines, (("l", "LEAVE WITHOUT", (Leave(unsaved=True),)),), name)))
     options = (("s", "SAVE AND LEAVE", (Close(), Save(leave=True))), ("l", "LEAVE WITHOUT", (Leave(unsaved=True),)))
     return desk.take(Open(Ask("LEAVE?", ("The program has changes that are not saved.",), options)))
+
+
+def _name_of_listing(desk: Desk) -> str:
+    """The NC file that is not saved, by its name."""
+    from app.nc_keeping import proofs
+
+    return next((page.file.name for page in proofs(desk) if page.unsaved and page.file is not None), "")
 
 
 def _without(desk: Desk, kind: type[SaveAsPage]) -> Desk:

@@ -236,3 +236,12 @@ def test_any_work_is_replayed(work: list[tuple[str, int, str]], data: bytes) -> 
         assert len(found.listing.past) == len(listing.past)
         assert len(found.listing.future) == len(listing.future)
         assert found.listing.encoding == listing.encoding
+
+
+def test_the_question_before_leaving_names_the_nc_file(file: Path) -> None:
+    one = typist(file, ME).press("x", "ctrl+q")
+    assert "LEAVE?" in one.part("header")
+    assert "part.nc" in one.part("header")
+    assert "Ctrl+S on its screen saves them." in " ".join(one.part("body").split())
+    one.press("escape", "ctrl+s")
+    assert not one.page.unsaved
