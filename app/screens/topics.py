@@ -65,7 +65,10 @@ _CORNER: Final = (
     "        |                |",
 )
 
-_FEED: Final = Topic("The feed holds for the segments behind it until another is typed. CAL shows the one in force.")
+_FEED: Final = Topic(
+    "The feed holds for the segments behind it until another is typed. CAL shows the one in force: PLUNGE FEED where "
+    "none is typed on segment 1."
+)
 _END_X: Final = Topic("Type what the drawing gives. What is blank is calculated, shown as CAL, and follows every edit.")
 _END_Z: Final = Topic("Blank keeps the height. Another Z makes the tool ramp along the segment, never below Z BOTTOM.")
 _CENTER: Final = Topic(
@@ -93,7 +96,9 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         ),
         (Form.START, "z_start"): Topic("The surface of the raw material. Rapids stay above it by RETRACT CLEARANCE."),
         (Form.START, "z_bottom"): Topic("The deepest the tool may go, below Z START: usually a negative number."),
-        (Form.START, "plunge_feed"): Topic("The tool goes straight down with it, in the material."),
+        (Form.START, "plunge_feed"): Topic(
+            "The tool goes straight down with it, in the material, and mills with it where FEED of segment 1 is blank."
+        ),
         (Form.START, "speed"): Topic("Written as S before the block begins. 0 posts nothing."),
         (Form.START, "peck_depth"): Topic(
             "The contour is milled once at each depth; the last pass takes what is left.", _PECK
@@ -140,8 +145,8 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
             "The tool comes to the contour and leaves it on an arc. 0 goes straight.", _BLEND
         ),
         (Form.PARAMETERS, "blend_overlap"): Topic("Only closed contours have it.", _OVERLAP),
-        (Form.PARAMETERS, "finish_xy"): Topic("Only with a FINISH TOOL: what it takes off the sides."),
-        (Form.PARAMETERS, "finish_z"): Topic("Only with a FINISH TOOL: what it takes off the floor."),
+        (Form.PARAMETERS, "finish_xy"): Topic("Only with a FINISH TOOL on START: what it takes off the sides."),
+        (Form.PARAMETERS, "finish_z"): Topic("Only with a FINISH TOOL on START: what it takes off the floor."),
         (Form.PARAMETERS, "pocket_overlap"): Topic("50 moves each PROFILE pass over by half the tool."),
         (Form.PARAMETERS, "max_offset"): Topic("The material outside the contour. 0 makes one pass along it."),
         (Form.PARAMETERS, "retract_clearance"): Topic("Above Z START nothing may stand in the way this high."),

@@ -8,6 +8,7 @@ from core.comp.lookahead import HIGHEST, LOWEST, calculated
 from core.finding import Finding, Severity
 from core.geometry.side import Side
 from core.pipeline.derived import Derived, DerivedBlock, LookAhead, Tag
+from core.pipeline.unsaid import unsaid_findings
 from core.program.assist import solve_block
 from core.program.model import Block, CutterComp, Entry, Program
 from core.program.shared import shared_findings
@@ -55,7 +56,13 @@ def outline_block(number: int, block: Block, program: Program, before: DerivedBl
         radius=None if diameter is None else diameter / 2,
         work=None,
         known=False,
-        findings=(*shared_findings(program), *solved.every_finding, *_heights(solved), *_usr_warning(lookahead, side)),
+        findings=(
+            *shared_findings(program),
+            *solved.every_finding,
+            *_heights(solved),
+            *unsaid_findings(block, solved, program),
+            *_usr_warning(lookahead, side),
+        ),
     )
 
 

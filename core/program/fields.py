@@ -91,7 +91,11 @@ def _count(name: str, label: str, prompt: str, low: float, high: float) -> Field
     return Field(name, label, Kind.COUNT, prompt, low, high)
 
 
-_FEED: Final = _feed("feed", "FEED", "Enter the feed along this segment. Blank takes it from the segment before.")
+_FEED: Final = _feed(
+    "feed",
+    "FEED",
+    "Enter the feed along this segment. Blank takes it from the segment before, on the first from PLUNGE FEED.",
+)
 _X_END: Final = _place("x_end", "X END", "Enter the X coordinate of the end of this segment.")
 _Y_END: Final = _place("y_end", "Y END", "Enter the Y coordinate of the end of this segment.")
 _Z_END: Final = _place("z_end", "Z END", "Enter Z at the end of this segment. Blank keeps Z of the segment before.")
