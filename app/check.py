@@ -188,6 +188,11 @@ def _print_table(answers: tuple[Answer, ...]) -> None:
     outcome = max(len(one.outcome) for one in answers)
     for one in answers:
         print(f"{one.control:<{width}}  {one.outcome:<{outcome}}  {one.parts}".rstrip())
+    missing = sorted({one.missing for one in answers if one.missing is not None})
+    if missing:
+        told = " and ".join(map(str, missing))
+        sizes = " ".join(f"--tool {number}=0.5" for number in missing)
+        print(f"No diameter of tool {told} is known: add {sizes} with the real diameter, or --tools TABLE.")
 
 
 def _as_summary(answers: Iterator[_Checked]) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import Final
 
@@ -9,6 +10,7 @@ from core.controls import shoprules
 from core.controls.compare import Compared, OtherLanguage, compare
 from core.controls.contours import ContourPair, Parting, contours
 from core.controls.moves import Move, Moves
+from core.controls.radius_zero import RADIUS_ZERO
 from core.controls.registry import UnknownControl, reads, run
 from core.controls.report import Run
 from core.controls.tools import ToolTable
@@ -19,6 +21,8 @@ from core.units import Kind, Unit, from_mm, sentence, show
 
 NOT_FOLLOWED: Final = ("MACRO", "LIMIT", "BEYOND")
 """Rules at which not the control stops but the reading of the program."""
+_NO_SIZE: Final = re.compile(r"(?:[Tt]ool table has no tool|diameter of tool|Offset) (\d+)")
+"""How the controls say that they know no size of a tool."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -51,6 +55,19 @@ class Answer:
     def errors(self) -> bool:
         """Whether anything is an error."""
         return any(finding.severity is Severity.ERROR for finding in self.findings)
+
+    @property
+    def uncompensated(self) -> bool:
+        """Whether compensation is asked for somewhere with radius 0."""
+        return any(finding.code in RADIUS_ZERO for finding in self.findings)
+
+    @property
+    def missing(self) -> int | None:
+        """The number of the tool for whose diameter the control stops, if it does."""
+        if self.stopped_at is None:
+            return None
+        found = (_NO_SIZE.search(one.text) for one in self.findings if one.severity is Severity.ERROR)
+        return next((int(one[1]) for one in found if one), None)
 
     @property
     def count(self) -> int:
@@ -95,7 +112,7 @@ def _compared(row: Compared | OtherLanguage, asked: Asked) -> Answer:
         return Answer(
             row.control, Unit.MM, None, told, None, "reads another language", parts=f"not compared: {row.why}"
         )
-    parts = _parting(row.parts, row.run.unit) if row.parts else ""
+    parts = _parting(row.parts, row.of, row.run.unit) if row.parts else ""
     if not row.by:
         return _answer(row.run, row.results, (), parts, shop=asked.shop)
     text = f"It is written in another language: compared by the contour as {row.by} reads it, with straight leads."
@@ -134,11 +151,15 @@ def _outcome(done: Run, results: tuple[Judged, ...]) -> str:
     if gouges:
         return gouges
     wrong = any(result.verdict.wrong_side for result in results)
-    return "runs on the wrong side" if wrong else "runs"
+    if wrong:
+        return "runs on the wrong side"
+    if not any(one.code in RADIUS_ZERO for one in done.findings):
+        return "runs"
+    return f"runs, {'not all' if any(one.radius for one in done.stretches) else 'nothing'} compensated"
 
 
-def _parting(parts: Parting, unit: Unit) -> str:
-    where = f"parts at line {parts.line}"
+def _parting(parts: Parting, of: str, unit: Unit) -> str:
+    where = f"parts from {of} at line {parts.line}"
     return f"{where}, by {_length(parts.distance, unit)} at most, at line {parts.farthest}"
 
 

@@ -29,7 +29,8 @@ LEAST: Final = 0.001
 class Compared:
     """A control's run of the program; `parts` tells where it leaves the path of the first control that runs it.
 
-    `by` names the control whose contour was translated where this one does not read the program's language.
+    `of` names that control.  `by` names the one whose contour was translated where this one does not read the
+    program's language.
     """
 
     control: str
@@ -38,6 +39,7 @@ class Compared:
     gouge: float
     parts: Parting | None
     by: str = ""
+    of: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +66,7 @@ def compare(text: bytes, tools: ToolTable, unit: Unit | None = None) -> tuple[Co
         if isinstance(done, UnknownControl):
             continue
         parts = None if first is None else parting(first.moves, done.moves)
-        rows.append(_row(done, parts))
+        rows.append(_row(done, parts, of="" if first is None else first.control))
         if first is None and done.stopped_at is None:
             first = done
     whole = first or next(filter(None, (programmed(text, row.control, tools) for row in rows)), None)
@@ -74,9 +76,9 @@ def compare(text: bytes, tools: ToolTable, unit: Unit | None = None) -> tuple[Co
     )
 
 
-def _row(done: Run, parts: Parting | None, *, by: str = "") -> Compared:
+def _row(done: Run, parts: Parting | None, *, by: str = "", of: str = "") -> Compared:
     results = judged(done)
-    return Compared(done.control, done, results, depth(results)[0], parts, by)
+    return Compared(done.control, done, results, depth(results)[0], parts, by, of)
 
 
 def _by_contour(control: str, first: Run | None, *, paths: bool) -> Compared | OtherLanguage:
@@ -88,7 +90,7 @@ def _by_contour(control: str, first: Run | None, *, paths: bool) -> Compared | O
         return OtherLanguage(control, made.text)
     done, digit = made
     parts = _centres_part(first, done, max(LEAST, 2 * digit)) if paths else None
-    return _row(done, parts, by=first.control)
+    return _row(done, parts, by=first.control, of=first.control)
 
 
 def _centres_part(first: Run, other: Run, tolerance: float) -> Parting | None:

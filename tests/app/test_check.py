@@ -12,6 +12,8 @@ from subprocess import PIPE, Popen
 import pytest
 
 from app.check import check
+from app.checking import Asked, answer_all
+from core.controls.tools import ToolTable
 
 NC = Path(__file__).parents[1] / "data" / "nc"
 
@@ -65,9 +67,33 @@ def test_all_controls_in_a_table(capsys: pytest.CaptureFixture[str]) -> None:
     assert status == 1
     assert rows["rosettacnc:nist"] == "alarms at line 15 (C6)"
     assert rows["rosettacnc:easy"].strip() == "runs"
-    assert "parts at line 14, by 3.075 at most" in rows["rosettacnc:normal"]
+    assert "parts from rosettacnc:easy at line 14, by 3.075 at most" in rows["rosettacnc:normal"]
     assert rows["klartext"].split("  ", 1)[0] == "runs"
     assert "by the contour" in rows["klartext"]
+
+
+def test_a_tool_nobody_gave_is_told_once_with_what_to_add(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    file = tmp_path / "w.nc"
+    file.write_text("G20 G90\nT3 M6\nG0 X0 Y0\nG1 F10.\nG41 D3 X1. Y0\nX3.\nY2.\nG40 X5. Y2.\nM2\n")
+    _, out, _ = output(capsys, file, "--control", "all")
+    rows = out.splitlines()
+    known = "No diameter of tool 3 is known: add --tool 3=0.5 with the real diameter, or --tools TABLE."
+    assert rows[-1] == known
+    assert all(name in out for name in ("B5-TOOL", "C1", "(TOOL)"))
+    assert known not in output(capsys, file, "--control", "all", "--tool", "3=.5")[1]
+
+
+def test_every_control_that_lacks_a_size_names_the_tool() -> None:
+    text = b"G20 G90\nT3 M6\nG0 X0 Y0\nG1 F10.\nG41 D3 X1. Y0\nX3.\nY2.\nG40 X5. Y2.\nM2\n"
+    for one in answer_all(text, Asked("all", ToolTable(), shop=False, unit=None)):
+        assert one.missing == (None if one.control == "klartext" else 3), one.control
+
+
+def test_compensation_with_radius_0_is_no_clean_run(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    file = tmp_path / "w.nc"
+    file.write_text("T1/.5/0.\nG0 X0 Y0\nG41 X1. Y0\nG1 X3. F10.\nY2.\nX1.\nG40 X1. Y3.\nM2\n")
+    _, out, _ = output(capsys, file, "--control", "threeblock")
+    assert out.splitlines()[-1].startswith("threeblock: runs, nothing compensated; ")
 
 
 def test_the_shop_s_rules_when_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
