@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import Final
 from unittest.mock import patch
 
-from app import files
+from app import files, filing
 from app.engine import Engine
 from app.keeping import Keeping
 from app.listing import Listing
@@ -243,13 +243,14 @@ def run(keys: int, seed: int) -> Tally:
         cage = Path(name).resolve()
         shutil.copytree(files.examples(), cage / "examples")
         own = {"XDG_CONFIG_HOME": f"{cage}/config", "XDG_STATE_HOME": f"{cage}/own", "HOME": name}
-        with patch.dict(os.environ, own), patch.object(files, "examples", lambda: cage / "examples"):
+        # filing has the name of its own
+        one, other = (patch.object(module, "examples", lambda: cage / "examples") for module in (files, filing))
+        with patch.dict(os.environ, own), one, other:
             forgetful = Reference(Session.of(files.empty_program()))
             place = Cage(cage, forgetful, Monkey(random.Random(seed), cage, tally.coverage), tally)
-            number, died = 0, None
+            died = None
             while tally.keys < keys:
-                number += 1
-                died = place.live(number, min(LIFE, keys - tally.keys), died)
+                died = place.live(tally.lives, min(LIFE, keys - tally.keys), died)
                 tally.remember()
     return tally
 
