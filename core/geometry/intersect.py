@@ -16,14 +16,15 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Floats, Path, Turns
+from core.geometry.path import Floats, Path
 from core.geometry.piece import SLIVER
+from core.geometry.planes import Indices, Masks, Pieces, Planes, coordinates, pieces_of, planes
 from core.tolerance import JOINED, ON_PATH
 
-Indices = NDArray[np.intp]
-Planes = NDArray[np.complex128]
-Masks = NDArray[np.bool_]
-
+__all__ = [
+    "Indices", "Masks", "Meeting", "Meetings", "Pieces", "Planes", "coordinates", "meet", "meet_pieces", "planes",
+]  # fmt: skip
+"""The words of `planes` too, in which whoever meets pieces calculates."""
 
 _ROOM: Final = 1e-6
 """How much too large a sector is taken, times the radius: the exact test comes after it."""
@@ -57,15 +58,6 @@ class Meetings:
     points: Floats
 
 
-class Pieces(NamedTuple):
-    """k pieces that need not join: ends and centres as complex numbers, turns as in `Path`."""
-
-    start: Planes
-    end: Planes
-    centre: Planes
-    turn: Turns
-
-
 class _Points(NamedTuple):
     """p points in the order of their pairs: `Meetings` without its kinds."""
 
@@ -81,26 +73,9 @@ _Solved = tuple[NDArray[np.int8], _Points]
 """How each of k pairs meets, and the points where they do."""
 
 
-def planes(pairs: Floats) -> Planes:
-    """(n, 2) coordinates as (n,) complex numbers, without a copy where they lie together in memory."""
-    flat: Planes = np.ascontiguousarray(pairs).view(np.complex128)[:, 0]
-    return flat
-
-
-def coordinates(points: Planes) -> Floats:
-    """(n,) complex numbers as (n, 2) coordinates, without a copy where they lie together in memory."""
-    return np.ascontiguousarray(points).view(np.float64).reshape(-1, 2)
-
-
 def meet(one: Path, a: Indices, other: Path, b: Indices) -> Meetings:
     """How pieces a (k,) of `one` meet pieces b (k,) of `other`, pair by pair; `meet_pieces` says by which rules."""
     return meet_pieces(pieces_of(one), a, pieces_of(other), b)
-
-
-def pieces_of(path: Path) -> Pieces:
-    """The pieces of a path, without a copy."""
-    points = planes(path.points)
-    return Pieces(points[:-1], points[1:], planes(path.centres), path.turns)
 
 
 def meet_pieces(one: Pieces, a: Indices, other: Pieces, b: Indices) -> Meetings:

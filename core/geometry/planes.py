@@ -1,0 +1,43 @@
+"""Points as complex numbers, and pieces that need not join: what is calculated with many pieces at once.
+
+conj(u) v has the dot product as real and the cross product as imaginary part.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.geometry.path import Floats, Path, Turns
+
+Indices = NDArray[np.intp]
+Planes = NDArray[np.complex128]
+Masks = NDArray[np.bool_]
+
+
+class Pieces(NamedTuple):
+    """k pieces that need not join: ends and centres as complex numbers, turns as in `Path`."""
+
+    start: Planes
+    end: Planes
+    centre: Planes
+    turn: Turns
+
+
+def planes(pairs: Floats) -> Planes:
+    """(n, 2) coordinates as (n,) complex numbers, without a copy where they lie together in memory."""
+    flat: Planes = np.ascontiguousarray(pairs).view(np.complex128)[:, 0]
+    return flat
+
+
+def coordinates(points: Planes) -> Floats:
+    """(n,) complex numbers as (n, 2) coordinates, without a copy where they lie together in memory."""
+    return np.ascontiguousarray(points).view(np.float64).reshape(-1, 2)
+
+
+def pieces_of(path: Path) -> Pieces:
+    """The pieces of a path, without a copy."""
+    points = planes(path.points)
+    return Pieces(points[:-1], points[1:], planes(path.centres), path.turns)
