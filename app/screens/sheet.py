@@ -61,7 +61,7 @@ class SheetPage(EntryPage):
     def view(self, session: Session, surface: Surface) -> View:
         """The name and what the sheet holds."""
         told = (
-            "Part, tools, start point, clamping room, depths and passes,",
+            "Part, tools, start point, clamping room, depths, passes,",
             "look-ahead, feeds, speed and findings of every block.",
             ".html is a page with the drawing, .txt is text.",
         )
