@@ -20,6 +20,15 @@ PAN: Final = 0.125
 """One arrow moves the window by this part of it."""
 ARROWS: Final = {"left": (-PAN, 0.0), "right": (PAN, 0.0), "up": (0.0, PAN), "down": (0.0, -PAN)}
 SEGMENTS: Final = {"n": 1, "pagedown": 1, "p": -1, "pageup": -1}
+PROMPT: Final = (
+    "+ - zoom, arrows move, 0 fits, n p walk, m changes characters, Esc goes back. "
+    "S START, o plunge, x deletes, ! gouge."
+)
+LEGEND: Final = (
+    "S is START, o where the tool goes down, the arrow the way it travels.",
+    "x is where two pieces meet that delete what is between them, ! where the path gouges.",
+    "With block and ASCII characters the contour has whole lines, the centre path dots.",
+)
 FARTHEST: Final = 2.0
 """One may move so many times the whole drawing away from it."""
 
@@ -64,14 +73,15 @@ class DrawPage(Page):
         return Answer(replace(self, sketch=sketch))
 
     def view(self, session: Session, surface: Surface) -> View:
-        """The drawing; the two prompt lines name its keys."""
+        """The drawing; the two prompt lines name its keys and its signs."""
         form = form_at(session)
         title = f"{form}   zoom {self.sketch.zoom:.2g}" if self.sketch.zoom != 1.0 else str(form)
         number = segment_line(str(session.where.segment), title, cursor=False)
-        prompt = (
-            "+ - zoom, arrows move, 0 fits. n and p walk over the segments. m changes the characters. Esc goes back."
-        )
-        return View(header(block_line(session), number, session, surface.width), (), Said(prompt), 0, self.sketch)
+        return View(header(block_line(session), number, session, surface.width), (), Said(PROMPT), 0, self.sketch)
+
+    def help(self, session: Session) -> tuple[str, ...]:
+        """What the signs and lines of the drawing are."""
+        return ("DRAW", PROMPT, *LEGEND)
 
 
 def zoomed(sketch: Sketch, factor: float) -> Sketch:

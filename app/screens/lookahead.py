@@ -30,7 +30,9 @@ NOTHING: Final = (
     "There is nothing to compare yet: a tool, a side and a",
     "determined contour are needed.",
 )
-PROMPT: Final = "Up and down show what a value does. Enter takes it as USR. ! gouges, * erases segments, < recommended."
+PROMPT: Final = (
+    "Up and down show what a value does. Enter takes it as USR. ! gouges, * deletes segments, < recommended."
+)
 STEPS: Final = {"up": -1, "down": 1, "left": -HALF, "right": HALF, "pageup": -HALF, "pagedown": HALF}
 
 

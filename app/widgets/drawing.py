@@ -55,8 +55,19 @@ def picture_rows(scene: Scene, sketch: Sketch, columns: int, rows: int, mode: st
     bounds = bounds_of(scene)
     if bounds is None:
         return ()
-    view = View.fit(bounds, columns, rows).zoom(sketch.zoom).pan(sketch.dx, sketch.dy, columns, rows)
+    view = (
+        _fitted(bounds, columns, rows, scaled=scene.unit is not None)
+        .zoom(sketch.zoom)
+        .pan(sketch.dx, sketch.dy, columns, rows)
+    )
     return tuple(_rows(draw(scene, view, columns, rows, Mode(mode))))
+
+
+def _fitted(bounds: Box, columns: int, rows: int, *, scaled: bool) -> View:
+    """All of the part, with the last row free where the scale bar stands in it."""
+    if not scaled:
+        return View.fit(bounds, columns, rows)
+    return View.fit(bounds, columns, rows - 1).pan(0.0, -0.5 / rows, columns, rows)
 
 
 def bounds_of(scene: Scene) -> Box | None:

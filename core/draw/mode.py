@@ -31,6 +31,8 @@ class Cells:
 
     `across`, `down`: dots a cell.  `bit` (down, across): the bit a dot lights.  In ASCII a cell has one dot and the bit
     is chosen by direction: level, rising, upright, falling.  `table` (256,): the character of every combination.
+    `faint` (256,): that of a cell in which only centre paths are, so that they differ from the surface without colours;
+    None where the dots are fine enough to keep the two apart.
     `symbols`: a mark's character; `arrows`: heads for 0, 45, 90 ... degrees.  `bar`: the scale bar's end, middle, end.
     """
 
@@ -41,6 +43,7 @@ class Cells:
     symbols: Mapping[Symbol, str]
     arrows: str
     bar: str
+    faint: Characters | None = None
 
     @property
     def dot(self) -> tuple[float, float]:
@@ -82,13 +85,13 @@ def _braille() -> Cells:
 
 def _block() -> Cells:
     table = _table({0: " ", 1: "▀", 2: "▄"}, "█")
-    return Cells(1, 2, np.array([[0], [1]]), table, _SYMBOLS, ">>^<<<v>", "├─┤")
+    return Cells(1, 2, np.array([[0], [1]]), table, _SYMBOLS, ">>^<<<v>", "├─┤", _table({0: " ", 1: "'", 2: "."}, ":"))
 
 
 def _ascii() -> Cells:
     bends = {1 | 2: "/", 4 | 2: "/", 1 | 8: "\\", 4 | 8: "\\"}
     table = _table({0: " ", 1: "-", 2: "/", 4: "|", 8: "\\", **bends}, "+")
-    return Cells(1, 1, np.array([[0]]), table, _SYMBOLS, ">>^<<<v>", "|-|")
+    return Cells(1, 1, np.array([[0]]), table, _SYMBOLS, ">>^<<<v>", "|-|", _table({0: " "}, "."))
 
 
 _CELLS: Final[Mapping[Mode, Cells]] = MappingProxyType(

@@ -26,6 +26,8 @@ NUDGE: Final = 1e-6
 """Parts of a dot: a line exactly between two rows of dots must not change rows where rounding does."""
 AXES: Final = 2
 """The first layers drawn are the two axes."""
+FAINT: Final = frozenset({Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID})
+"""Roles that do not make a cell one of the surface."""
 PHASE: Final = 0.25
 """Where in its period an axis begins at the window's edge: away from where rounding could decide."""
 
@@ -51,8 +53,12 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
     look = cells(mode)
     layers = (*_axes(scene, view, columns, rows), *scene.layers, *map(_outline, scene.circles))
     found = _clipped(chords(layers, view, columns, rows), columns / 2, rows * TALL / 2)
-    lit, styles = _light(found, layers, look, columns, rows)
-    characters = look.table[np.packbits(lit, axis=1, bitorder="little")[:, 0]].reshape(rows, columns)
+    lit, styles, strong = _light(found, layers, look, columns, rows)
+    codes = np.packbits(lit, axis=1, bitorder="little")[:, 0]
+    characters = look.table[codes]
+    if look.faint is not None:
+        characters = np.where(strong | (styles == Style.AXIS), characters, look.faint[codes])
+    characters = characters.reshape(rows, columns)
     styles = styles.reshape(rows, columns)
     write_signs(characters, styles, scene, view, mode)
     return Picture(tuple("".join(row) for row in characters.tolist()), styles)
@@ -110,8 +116,10 @@ def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]
     return low, high
 
 
-def _light(found: Chords, layers: tuple[Layer, ...], look: Cells, columns: int, rows: int) -> tuple[Bits, Styles]:
-    """Bits lit (rows x columns, 8) and styles (rows x columns,)."""
+def _light(
+    found: Chords, layers: tuple[Layer, ...], look: Cells, columns: int, rows: int
+) -> tuple[Bits, Styles, NDArray[np.bool_]]:
+    """Bits lit (rows x columns, 8), styles (rows x columns,), and which cells more than centre paths are in."""
     chord, across, down, along = _dots(found, look, columns, rows)
     layer = found.layers[chord]
     shown = _dashes(layers, layer, along)
@@ -121,7 +129,11 @@ def _light(found: Chords, layers: tuple[Layer, ...], look: Cells, columns: int, 
     lit.reshape(-1)[(cell * 8 + bit)[shown]] = True
     styles = np.zeros(rows * columns, np.uint8)
     styles[cell[shown]] = np.array([each.style for each in layers], np.uint8)[layer[shown]]
-    return lit, styles
+    strong = np.zeros(rows * columns, np.bool_)
+    if look.faint is not None:
+        bold = np.array([each.style not in FAINT for each in layers])[layer]
+        strong[cell[shown & bold]] = True
+    return lit, styles, strong
 
 
 def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Rows, Rows, Floats]:

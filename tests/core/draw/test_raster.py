@@ -82,9 +82,9 @@ def test_small_pictures(scene, mode, expected):
             Mode.BLOCK,
             [
                 "  Y     !   >       ",
-                "        █           ",
-                "  ▀ S▄▄▄█▄▄▄▄▄▄▄▄▄> ",
-                "▄   ▄   █   ▄   ▄  X",
+                "        :           ",
+                "  ▀ S...:.........> ",
+                "▄   ▄   :   ▄   ▄  X",
                 "├───┤ 2 MM          ",
             ],
         ),
@@ -92,9 +92,9 @@ def test_small_pictures(scene, mode, expected):
             Mode.ASCII,
             [
                 "  Y     !   >       ",
-                "        |           ",
-                "  | S---+---------> ",
-                "-   -   +   -   -  X",
+                "        .           ",
+                "  | S.............> ",
+                "-   -   .   -   -  X",
                 "|---| 2 MM          ",
             ],
         ),
@@ -118,6 +118,26 @@ def test_an_earlier_layers_dots_stay_lit_under_a_later_one():
     lower, upper = Layer(lines((-4, 0.3), (4, 0.3)), Style.SURFACE), Layer(lines((-4, -0.8), (4, -0.8)), Style.PATH)
     both = draw(Scene((lower, upper), axes=False), View((0.0, -1.0), 1.0), 8, 2, Mode.BRAILLE)
     assert both.rows[0] == "⣒" * 8
+    assert set(both.styles[0].tolist()) == {Style.PATH}
+
+
+@pytest.mark.parametrize(
+    ("mode", "expected"),
+    [
+        (Mode.ASCII, ["........", "--------"]),
+        (Mode.BLOCK, ["........", "▀▀▀▀▀▀▀▀"]),
+    ],
+)
+def test_a_centre_path_differs_from_the_surface_without_colours(mode, expected):
+    surface, path = Layer(lines((-4, -0.5), (4, -0.5)), Style.SURFACE), Layer(lines((-4, 0.5), (4, 0.5)), Style.PATH)
+    assert rows(Scene((surface, path), axes=False), VIEW, 8, 2, mode) == expected
+
+
+@pytest.mark.parametrize(("mode", "surface"), [(Mode.ASCII, "-"), (Mode.BLOCK, "▀")])
+def test_the_surface_shows_where_a_centre_path_runs_in_its_cells(mode, surface):
+    along = lines((-4, 1.5), (4, 1.5))
+    both = draw(Scene((Layer(along, Style.SURFACE), Layer(along, Style.PATH)), axes=False), VIEW, 8, 2, mode)
+    assert both.rows[0] == surface * 8
     assert set(both.styles[0].tolist()) == {Style.PATH}
 
 

@@ -1,0 +1,44 @@
+"""The drawing in its room: all of the part, and the scale bar beside it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.screens.page import Sketch
+from app.widgets.drawing import picture_rows
+from app.widgets.rows import Look
+from core.draw.mode import Mode
+from core.draw.scene import Layer, Scene, Style
+from core.geometry.path import Path
+from core.units import Unit
+
+
+def upright(width: float, height: float) -> Scene:
+    """A rectangle from zero, such as decides by its height how large it is drawn."""
+    points = np.array([(0, 0), (width, 0), (width, height), (0, height), (0, 0)], float)
+    path = Path.of(points, points[:-1], np.zeros(4, np.int8))
+    return Scene((Layer(path, Style.SURFACE),), unit=Unit.IN)
+
+
+@pytest.mark.parametrize("mode", [mode.value for mode in Mode])
+@pytest.mark.parametrize(("columns", "rows"), [(59, 10), (59, 18), (80, 21), (120, 50)])
+@pytest.mark.parametrize("size", [(3.0, 50.0), (40.0, 40.0), (500.0, 5.0)])
+def test_fit_leaves_the_scale_bar_a_row_of_its_own(
+    mode: str, columns: int, rows: int, size: tuple[float, float]
+) -> None:
+    drawn = picture_rows(upright(*size), Sketch(), columns, rows, mode)
+    in_row = [{span.look for span in row} for row in drawn]
+    assert Look.SCALE in in_row[-1]
+    assert Look.SURFACE not in in_row[-1]
+    # the bottom edge stands whole above it, the top edge is in sight
+    edges = [row for row, looks in enumerate(in_row) if Look.SURFACE in looks]
+    assert edges[-1] <= rows - 2
+    longest = max(len(span.text) for span in drawn[edges[-1]] if span.look is Look.SURFACE)
+    assert longest == max(len(span.text) for row in drawn for span in row if span.look is Look.SURFACE)
+
+
+def test_a_low_drawing_has_no_scale_bar_and_all_its_rows() -> None:
+    drawn = picture_rows(upright(3.0, 50.0), Sketch(), 59, 7, "ascii")
+    assert not any(span.look is Look.SCALE for row in drawn for span in row)
+    assert any(span.look is Look.SURFACE for span in drawn[-1])
