@@ -159,8 +159,9 @@ def _outcome(done: Run, results: tuple[Judged, ...]) -> str:
 
 
 def _parting(parts: Parting, of: str, unit: Unit) -> str:
+    """Where the paths part, and by how much where they are farthest apart; short enough for a line of the screen."""
     where = f"parts from {of} at line {parts.line}"
-    return f"{where}, by {_length(parts.distance, unit)} at most, at line {parts.farthest}"
+    return f"{where}, by {_length(parts.distance, unit)} at line {parts.farthest}"
 
 
 def _length(value: float, unit: Unit) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from textwrap import wrap
 from typing import TYPE_CHECKING, ClassVar
 
 from app.messages import Close, Do, Message
@@ -64,22 +65,29 @@ class ComparePage(Page):
         title = (plain(" COMPARE CONTROLS", Look.HEAD), plain(f" {'control':<18} what it does", Look.LABEL))
         if not self.rows:
             return View(title, ((), plain("   calculating ...", Look.DIM)), Said("Esc goes back."))
-        body = [row for index in range(len(self.rows)) for row in self._row(index)]
+        told = [self._row(index, surface.across) for index in range(len(self.rows))]
+        body = [row for rows in told for row in rows]
         one = self.rows[self.at]
         parts = f"; {one.parts}" if one.parts else ""
-        return View(title, ((), *body), Said(f"Enter tries {one.control}: {one.outcome}{parts}."), 1 + self._top())
+        focus = 1 + sum(len(rows) for rows in told[: self.at])
+        return View(title, ((), *body), Said(f"Enter tries {one.control}: {one.outcome}{parts}."), focus)
 
-    def _top(self) -> int:
-        """The line of the cursor's row."""
-        return sum(2 if row.parts else 1 for row in self.rows[: self.at])
-
-    def _row(self, index: int) -> tuple[Row, ...]:
+    def _row(self, index: int, width: int) -> tuple[Row, ...]:
+        """A control's lines, wrapped between words: no number is cut."""
         one = self.rows[index]
         on_it = index == self.at
-        look = Look.ERROR if one.errors else Look.DIM if one.moves is None else Look.GOOD
         name = Span(f"{one.control:<17}", Look.CURSOR if on_it else Look.TYPED)
-        first: Row = (Span(" > " if on_it else "   ", Look.TAG), name, Span(f" {one.outcome}", look))
-        return (first, plain(f"{'':5}{one.parts}", Look.LABEL)) if one.parts else (first,)
+        outcome, *more = wrap(one.outcome, max(width - 22, 8))
+        first: Row = (Span(" > " if on_it else "   ", Look.TAG), name, Span(f" {outcome}", _look(one)))
+        rest = [plain(f"{'':21}{line}", _look(one)) for line in more]
+        parts = wrap(one.parts, max(width - 6, 8), subsequent_indent="  ")
+        return (first, *rest, *(plain(f"{'':5}{line}", Look.LABEL) for line in parts))
+
+
+def _look(one: Fate) -> Look:
+    if one.errors:
+        return Look.ERROR
+    return Look.DIM if one.moves is None else Look.WARNING if one.uncompensated else Look.GOOD
 
 
 def _tried_on(desk: Desk, control: str) -> Desk:

@@ -10,6 +10,7 @@ from app.session import Said, Tone
 from app.widgets.form import typed_spans
 from app.widgets.header import printable
 from app.widgets.rows import Look, Row, Span, padded, plain
+from app.widgets.words import shortened
 from core.finding import Finding, Severity
 from core.units import Unit, sentence
 
@@ -62,23 +63,28 @@ def _changes(page: ProofPage) -> str:
 def _header(page: ProofPage, width: int) -> tuple[Row, ...]:
     """The control and the tools; what comes of it, and the file's name."""
     tools = "  ".join(f"{one.number}={one.diameter:g}" for one in page.asked.tools.tools.values())
+    tools = shortened(tools, width - len(f" NC PROOF  {page.control}  tools "))
     first: Row = (Span(" NC PROOF  ", Look.HEAD), Span(page.control, Look.TAG), Span("  tools ", Look.LABEL))
     first = (*first, Span(tools or "none given", Look.TYPED if tools else Look.LABEL))
     name = "no name" if page.file is None else printable(page.file.name)
     name = f" {name[:24]}{'*' if page.unsaved else ''}"
-    return first, (*padded(_outcome(page), max(width - len(name) - 1, 1)), Span(name, Look.DIM))
+    room = max(width - len(name) - 1, 1)
+    return first, (*padded(_outcome(page, room), room), Span(name, Look.DIM))
 
 
-def _outcome(page: ProofPage) -> Row:
-    """What the control does, in a few words."""
+def _outcome(page: ProofPage, room: int) -> Row:
+    """What the control does, in a few words; the counts only where there is room for both."""
     answer = page.told.answer if page.told is not None else None
     if answer is None:
         return plain(" calculating ...", Look.DIM)
-    look = Look.ERROR if answer.errors else Look.GOOD
-    text = f" {answer.outcome}; {answer.count} moves, {answer.stretches} compensated"
+    look = Look.ERROR if answer.errors else Look.WARNING if answer.uncompensated else Look.GOOD
+    outcome, counts = answer.outcome, f"; {answer.count} moves, {answer.stretches} compensated"
     if page.told is not None and page.told.rest is not None:
-        look, text = Look.WARNING, f" gouges not known yet: being judged ...; {answer.count} moves"
-    return (Span(text, look), Span("" if page.fresh else " ...", Look.DIM))
+        look, outcome, counts = Look.WARNING, "gouges not known yet: being judged ...", f"; {answer.count} moves"
+    behind = "" if page.fresh else " ..."
+    room -= 1 + len(behind)
+    text = outcome + counts if len(outcome + counts) <= room else shortened(outcome, room)
+    return (Span(f" {text}", look), Span(behind, Look.DIM))
 
 
 def _listing(page: ProofPage, surface: Surface) -> tuple[Row, ...]:
@@ -149,8 +155,7 @@ def _finding(page: ProofPage, index: int, one: Finding, unit: Unit, width: int) 
     look = Look.CURSOR if page.telling and index == page.at else LOOKS[one.severity]
     text = f"{MARKS[one.severity]} {place:>6} {one.code:<9} {sentence(one, unit)}"
     mark = "> " if index == page.at else "  "
-    room = max(width - 3, 1)
-    return (Span(mark, Look.TAG), Span(text if len(text) <= room else f"{text[: room - 1]}…", look))
+    return (Span(mark, Look.TAG), Span(shortened(text, max(width - 3, 1)), look))
 
 
 def _prompt(page: ProofPage, unit: Unit) -> Said:

@@ -17,6 +17,14 @@ def place(point: tuple[float, float], unit: Unit) -> str:
     return f"X {length(point[0], unit)} Y {length(point[1], unit)}"
 
 
+def shortened(text: str, width: int) -> str:
+    """The text in at most `width` cells: what does not fit is left out by whole words, so that no number is cut."""
+    if len(text) <= width:
+        return text
+    kept = text[:width].rpartition(" ")[0].rstrip(" ,;:")
+    return f"{kept} …" if len(kept) + 2 <= width else f"{kept}…"[:width]
+
+
 def number(segment: float) -> str:
     """A segment's number; the corner arc behind segment 3 is 3.5."""
     return f"{segment:g}"

@@ -9,10 +9,12 @@ import pytest
 from app.desk import Desk
 from app.files import empty_program
 from app.listing import Listing
+from app.screens.page import Surface
 from app.screens.proof import ProofPage
 from app.screens.proof_compare import ComparePage
 from app.screens.proof_tool import read_tool
 from app.session import Session
+from app.widgets.rows import Look
 from core.controls.tools import CutterTool, ToolTable
 from core.units import Unit
 from tests.app.operator import Operator
@@ -155,3 +157,30 @@ def test_a_long_program_is_walked_through_quickly() -> None:
         desk = desk.press(key)
         assert len(Operator(desk).screen()) == 24
     assert not page.asked.small
+
+
+def test_no_number_is_cut_on_the_table_of_controls_or_in_the_header() -> None:
+    text = b"T1 M6\nG0 X1.5 Y0.5\nG1 F10.\nG41 X2. Y0.5\nX3.\nY2.\nX0.\nY0.5\nX2.\nG40 X1.5 Y1.2\nM2\n"
+    prover = Prover.of(text, "rosettacnc:easy")
+    outcome = prover.page.told.answer.outcome
+    header = prover.screen()[1].strip()
+    told = header.rpartition("  ")[0].removesuffix(" …").split()
+    assert told == outcome.split()[: len(told)]
+    assert "…" in header
+    seen = " ".join(line.split("│")[0].strip() for line in prover.press("v").screen())
+    compared = prover.desk.page
+    assert isinstance(compared, ComparePage)
+    for row in compared.rows:
+        assert row.outcome in seen
+        assert row.parts in seen
+
+
+def test_a_run_that_compensates_nothing_does_not_look_clean() -> None:
+    page = (
+        Prover.of(b"T1\nG0 X1. Y1.\nG41 X1.5 Y.8\nG1 X2. Y.5 F10.\nX3.\nY2.\nG40 X1.5\nM2\n", "threeblock")
+        .press("t", *"1=0", "enter")
+        .page
+    )
+    _, (outcome, *_) = page.view(Session.of(empty_program()), Surface()).header
+    assert "nothing compensated" in outcome.text
+    assert outcome.look is Look.WARNING

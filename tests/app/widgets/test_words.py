@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.widgets.words import length, number, numbers, place, segment
+from app.widgets.words import length, number, numbers, place, segment, shortened
 from core.units import Unit
 
 
@@ -26,3 +26,15 @@ def test_lengths_come_in_program_units() -> None:
 def test_a_corner_stands_between_two_segments() -> None:
     assert segment(3.0) == "segment 3"
     assert segment(3.5) == "corner 3-4"
+
+
+def test_what_does_not_fit_is_left_out_by_whole_words() -> None:
+    text = "gouges by 0.1500 at line 12, before"
+    assert shortened(text, len(text)) == text
+    assert shortened(text, 31) == "gouges by 0.1500 at line 12 …"
+    assert shortened(text, 15) == "gouges by …"
+    for width in range(1, len(text)):
+        short = shortened(text, width)
+        assert len(short) <= width
+        assert short.endswith("…")
+        assert set(short.removesuffix("…").split()) <= {word.rstrip(",") for word in text.split()}
