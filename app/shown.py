@@ -67,21 +67,25 @@ class Shown:
     erases: bool = False
     lines: list[Line] = field(default_factory=list)
     cursor: tuple[int, int] | None = None
+    stale: bool = False
 
     def forget(self) -> None:
-        """Somebody else may have written on the terminal."""
-        self.lines, self.cursor = [], None
+        """Somebody else may have written on the terminal; may be called at any moment, in a signal handler too.
+
+        A write that is under way goes on with what it knows; the next one knows nothing.
+        """
+        self.stale = True
 
     def write(self, data: str) -> str:
         """What has to be sent so that the terminal shows what `data` would make it show."""
         if NEUTRAL.fullmatch(data):
             return data
         columns, rows = self.size()
-        if self.lines and (len(self.lines[0]), len(self.lines)) != (columns, rows):
-            self.forget()
+        if self.stale or (self.lines and (len(self.lines[0]), len(self.lines)) != (columns, rows)):
+            self._forgotten()
         picture = parsed(data, columns, rows)
         if picture is None or not (self.lines or picture.whole(columns, rows)):
-            self.forget()
+            self._forgotten()
             return slim(data)
         ink = _Ink(self.cursor, columns, self.erases)
         self.lines = self.lines or [[None] * columns for _ in range(rows)]
@@ -92,6 +96,11 @@ class Shown:
         self.cursor = picture.cursor
         ink.pen.turn(PLAIN)
         return "".join(ink.pen.out)
+
+    def _forgotten(self) -> None:
+        # lowered first: what is forgotten from here on is forgotten before the next write
+        self.stale = False
+        self.lines, self.cursor = [], None
 
 
 @dataclass(slots=True)

@@ -25,7 +25,10 @@ _SPREAD: Final = 0.6180339887498949
 """Multiples of the golden section, less their whole numbers, are spread evenly and follow no pattern of a contour."""
 
 _INSIDE: Final = 1e-6
-"""By this share of the radius, and by JOINED, must a joint be nearer than it to be certainly inside."""
+"""By this share of the radius, and by CROWDED, must a joint be nearer than it to be certainly inside.
+
+What is cut off ends so far from every place where the path may turn that it is never taken for such a place.
+"""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -78,7 +81,7 @@ def _mitred(chain: Untrimmed, left: _Left, sign: int, radius: float) -> tuple[In
 
 def _narrowed(chain: Untrimmed, left: _Left, radius: float) -> None:
     """Cut from `left` what the joints of the surface ahead and behind have inside their circles."""
-    limit = radius - max(_INSIDE * radius, JOINED)
+    limit = radius - max(_INSIDE * radius, 2.0 * CROWDED)
     raw, joints = chain.raw, chain.joints
     count, step = len(raw), 1
     probes = np.arange(count)

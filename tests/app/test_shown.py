@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import pyte
@@ -9,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.shown import Shown
+from app.shown import Line, Picture, Shown
 from app.slim import slim
 
 COLUMNS, ROWS = 12, 4
@@ -158,3 +159,20 @@ def test_another_size_forgets() -> None:
     watched.write(covering("c", columns=COLUMNS + 2, rows=ROWS + 1))
     assert watched.alike
     assert watched.write("\x1b[1;1H\x1b[44mc\x1b[0m\x1b[1;1H") == ""
+
+
+def test_forgotten_in_the_middle_of_a_write_all_is_sent_with_the_next_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    watched = Watched()
+    watched.write(covering("a"))
+    over = Picture.over
+
+    def resized_meanwhile(picture: Picture, lines: list[Line]) -> Iterator[tuple[int, Line]]:
+        for row in over(picture, lines):
+            watched.shown.forget()
+            yield row
+
+    monkeypatch.setattr(Picture, "over", resized_meanwhile)
+    watched.write(covering("b"))
+    monkeypatch.setattr(Picture, "over", over)
+    assert watched.write(covering("b")).count("b") == COLUMNS * ROWS
+    assert watched.alike

@@ -121,3 +121,10 @@ def test_curves_of_tiny_segments_whose_bays_are_tighter_than_the_cutter():
         for radius in (1.0, 12.0):
             best = assert_true(wavy(400, 0.3), side, radius, closed=True)
             assert best.closed == (True,)
+
+
+def test_what_is_cut_off_for_certain_ends_at_no_place_where_the_path_turns():
+    corners = [(0.0, 0.0), (0.1, 0.0), (0.2, 0.0), (0.4, 0.0), (0.4, 0.05), (0.4, 0.15000000000000002), (0.0, 0.0)]
+    best = assert_true(Path.from_pieces([Line(*ends) for ends in pairwise(corners)]), Side.LEFT, 0.05, closed=True)
+    turn = best.loops[0].points[1]
+    assert np.allclose(turn, (0.35, 0.05), rtol=0.0, atol=1e-9)
