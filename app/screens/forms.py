@@ -136,6 +136,9 @@ class FormPage(Page):
         held = str(self.value(session, one.name) or "")
         spelled = spelling(one, self.spelled, character)
         chosen = spelled_choice(one, held, spelled) if spelled else stepped_choice(one, held, key)
+        if chosen is None and character is not None and character.isalnum():
+            told = f"{one.label} has no choice with {character.upper()}: {', '.join(one.choices)}."
+            return Answer(self._without_text(), (Say(told, Tone.ERROR),))
         return None if chosen is None else replace(self, spelled=spelled).pick(session, one, chosen)
 
     def reason(self, session: Session) -> Said | None:

@@ -118,6 +118,17 @@ def test_a_direction_is_spelled_out(word: str, first: tuple[str, ...]) -> None:
     assert segment.direction == Direction(word.upper())
 
 
+@pytest.mark.parametrize("key", ["q", "7"])
+def test_a_letter_that_begins_no_choice_is_told_and_changes_nothing(key: str) -> None:
+    operator = square().press("tab", "tab")
+    held = operator.block
+    operator.press(key)
+    assert operator.block is held
+    assert operator.said == (
+        f"!! CUTTER COMP. has no choice with {key.upper()}: ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT."
+    )
+
+
 def test_letters_are_forgotten_where_the_cursor_goes_elsewhere() -> None:
     operator = Operator.at().press("enter", "tab", "p", "tab", "shift+tab", "r")
     assert operator.block.cutter_comp == CutterComp.RIGHT
