@@ -58,7 +58,15 @@ class Reference(CutcompApp):
         return other.lines(width, height)
 
     def key_less(self) -> None:
-        """Everything calculated that the desk asks for, without a key."""
+        """Everything calculated that the desk asks for, without a key.
+
+        First without what is being typed: what the contour needs is asked for before a field is typed into, and holds
+        for a number that leaves the contour as it is.
+        """
+        self._derive()
+        self.trial = None
+        self._tabulate()
+        self._need()
         self._advance()
 
 

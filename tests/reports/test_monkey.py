@@ -8,16 +8,20 @@ from typing import Any
 
 import pytest
 
+from app.files import example
 from app.listing import Listing
 from app.memory import Memory
 from app.nc_keeping import Kept, NcKeeping
 from app.screens.save import SaveAsPage
+from app.session import Session
 from core.program import store
+from core.program.store import load
 from tests.app.operator import Operator
 from tests.reports import monkey
 from tests.reports.monkey import run, through_textual
 from tests.reports.monkey_keys import Coverage, Monkey
 from tests.reports.monkey_tally import MEGABYTE, Tally, report, screens
+from tests.reports.reference import Reference
 
 
 def test_random_keys_on_every_screen() -> None:
@@ -50,6 +54,12 @@ def test_a_program_that_does_not_come_back_is_found(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(monkey, "dumps", lambda program: store.dumps(program).replace("speed", "x_speed"))
     with pytest.raises(store.StoreError):
         run(200, seed=1)
+
+
+@pytest.mark.parametrize("field", [2, 3, 6, 7])
+def test_what_the_contour_needs_is_told_the_same_while_a_number_is_typed(field: int) -> None:
+    app = Reference(Session.of(load(example("notch")))).press(*["tab"] * field, *"-1+1/8")
+    assert app.lines(132, 43) == app.fresh(132, 43)
 
 
 def test_a_change_of_an_nc_file_that_is_not_kept_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
