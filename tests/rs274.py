@@ -37,14 +37,15 @@ def require() -> None:
         pytest.fail(SAYS) if os.environ.get("CI") else pytest.skip(SAYS)
 
 
-def process(program: File, table: File) -> subprocess.CompletedProcess[str]:
+def process(program: File, table: File, output: int = subprocess.PIPE) -> subprocess.CompletedProcess[str]:
     """Run a file with the file of a tool table; the program's folder is the interpreter's home."""
     assert WITNESS is not None, SAYS
     return subprocess.run(
         [WITNESS, "-g", "-t", str(table), str(program)],
         env={**os.environ, "HOME": str(program.parent)},
         cwd=program.parent,
-        capture_output=True,
+        stdout=output,
+        stderr=subprocess.PIPE,
         text=True,
         timeout=60,
         check=False,

@@ -7,6 +7,7 @@ start of the second.  A corner is outside where the path turns away from the too
 
 from __future__ import annotations
 
+from functools import partial
 from math import atan2, cos, hypot, pi, sin, sqrt, tan, tau
 from typing import Final, NamedTuple
 
@@ -47,6 +48,10 @@ class Element(NamedTuple):
         return self.turn != 0 or self.start != self.end
 
 
+_element: Final = partial(tuple.__new__, Element)
+"""An element of twelve values at once: naming them takes longer than working them out."""
+
+
 def line_element(
     start: Point, end: Point, low: float, high: float, rapid: bool, feed: float, line: int, column: int = 1
 ) -> Element:  # fmt: skip
@@ -54,7 +59,7 @@ def line_element(
     dx, dy = end[0] - start[0], end[1] - start[1]
     size = hypot(dx, dy)
     way = (dx / size, dy / size) if size else (0.0, 0.0)
-    return Element(start, end, start, 0, way, way, low, high, rapid, feed, line, column)
+    return _element((start, end, start, 0, way, way, low, high, rapid, feed, line, column))
 
 
 def arc_element(
@@ -62,7 +67,7 @@ def arc_element(
 ) -> Element:  # fmt: skip
     """A circular element; equal ends are the full circle."""
     leaving, arriving = tangent(start, centre, turn), tangent(end, centre, turn)
-    return Element(start, end, centre, turn, leaving, arriving, low, high, False, feed, line, column)
+    return _element((start, end, centre, turn, leaving, arriving, low, high, False, feed, line, column))
 
 
 def tangent(at: Point, centre: Point, turn: int) -> Point:

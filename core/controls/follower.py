@@ -83,7 +83,8 @@ class Follower:
 
     def straight(self, element: Element, end: Point, *, low: bool = False) -> None:
         """A straight move of an element's to a point of its plane, at its end's height or still at its start's."""
-        x, y, z = end[0], end[1], element.low if low else element.high
+        x, y = end
+        z = element.low if low else element.high
         if self.plane is not Plane.XY:
             x, y, z = solid(x, y, z, self.plane)
         if element.rapid:
@@ -98,8 +99,9 @@ class Follower:
     def bend(self, element: Element, end: Point, centre: Point, turn: int, height: float) -> None:
         """Any arc of an element's, at its feed."""
         plane = self.plane
-        target = solid(end[0], end[1], height, plane)
-        middle = solid(centre[0], centre[1], height, plane)
+        target, middle = (*end, height), (*centre, height)
+        if plane is not Plane.XY:
+            target, middle = solid(*target, plane), solid(*middle, plane)
         self.tape.arc(target, middle, turn, plane, element.feed, element.line)
 
     @property
@@ -121,14 +123,15 @@ class Follower:
         """An element programmed under compensation."""
         if self._span is None:
             return
-        target = (*element.end, element.high)
-        if self.plane is not Plane.XY:
-            target = solid(*target, self.plane)
+        plane, height, tape = self.plane, element.high, self._span.programmed
+        target = (*element.end, height)
+        if plane is not Plane.XY:
+            target = solid(*target, plane)
         if element.turn:
-            middle = solid(element.centre[0], element.centre[1], element.high, self.plane)
-            self._span.programmed.arc(target, middle, element.turn, self.plane, element.feed, element.line)
+            middle = solid(*element.centre, height, plane)
+            tape.arc(target, middle, element.turn, plane, element.feed, element.line)
         else:
-            self._span.programmed.straight(*target, element.feed, element.line)
+            tape.straight(*target, element.feed, element.line)
 
     def leave(self, *, entry: int, exits: int) -> None:
         """Compensation is cancelled: the next motion in the plane still belongs to the stretch."""

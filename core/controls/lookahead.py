@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from math import hypot, pi
 from types import MappingProxyType
 from typing import Final, NamedTuple
@@ -48,6 +49,9 @@ class Held(NamedTuple):
 
     element: Element
     end: Point
+
+
+_held: Final = partial(tuple.__new__, Held)
 
 
 class LookAhead(Follower):
@@ -94,13 +98,13 @@ class LookAhead(Follower):
 
     def straight(self, element: Element, end: Point, *, low: bool = False) -> None:
         """A straight move, of a lathe tool's controlled point."""
-        super().straight(element, self._nosed(end) if self.lathe else end, low=low)
+        Follower.straight(self, element, self._nosed(end) if self.lathe else end, low=low)
 
     def bend(self, element: Element, end: Point, centre: Point, turn: int, height: float) -> None:
         """An arc, of a lathe tool's controlled point."""
         if self.lathe:
             end, centre = self._nosed(end), self._nosed(centre)
-        super().bend(element, end, centre, turn, height)
+        Follower.bend(self, element, end, centre, turn, height)
 
     def _nosed(self, point: Point) -> Point:
         return (point[0] + self.nose[0], point[1] + self.nose[1]) if self.active else point
@@ -122,7 +126,7 @@ class LookAhead(Follower):
             super().travel(element)
         elif self.first:
             self._enter(element)
-        elif element.moves:
+        elif element.turn or element.start != element.end:
             self._corner(element)
         else:
             self.note(element)
@@ -175,7 +179,7 @@ class LookAhead(Follower):
         """A further move in the plane, against the one that is held."""
         if element.turn and element.turn * self.offset > 0.0 and offset_radius(element, self.offset) <= 0.0:
             self._too_small(element)
-        front = self._front
+        front = self.queue[0].element
         angle = turning(front, element) * (1 if self.offset > 0.0 else -1)
         back = abs(angle) > pi - TANGENT
         if (angle > TANGENT and not back) or (back and self._hooks(front, element)):
@@ -186,7 +190,7 @@ class LookAhead(Follower):
             self._run_queue()
             self.started = square_end(front, self.offset)
         self.note(element)
-        self.queue = [Held(element, square_end(element, self.offset))]
+        self.queue = [_held((element, square_end(element, self.offset)))]
 
     def _hooks(self, front: Element, element: Element) -> bool:
         """Reversals that are inside corners: off the top of an arc, or onto one, with the cutter outside of it."""
@@ -227,7 +231,7 @@ class LookAhead(Follower):
                 self._check_arc(held, point, line)
             elif self.started is not None:
                 self._check_line(held, point, line)
-        self.queue = [held._replace(end=point) for held in self.queue]
+        self.queue = [_held((element, point)) for element, _ in self.queue]
         self._run_queue()
         self.started = point
 

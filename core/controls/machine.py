@@ -72,7 +72,10 @@ class Machine:
                 self.mode, self.cycles.code = block.g[0], None
             if self.dialect.tells_unused and self.mode in (0, 10) and not _CENTRES.isdisjoint(block.words):
                 unused.tell(self, block)
-            self._motion(block)
+            if self.mode in _LINES and not _AXES.isdisjoint(block.words):
+                self.straight(block, self.target(block.words))
+            else:
+                self._motion(block)
             return
         once = self._codes(block)
         if once is None:
@@ -227,14 +230,13 @@ class Machine:
         if self.moved_in is None:
             self._first_motion(block)
         if self.plane is Plane.XY:
-            start, low, high = self.position[:2], self.position[2], end[2]
-            stop: Point = end[:2]
+            ax, ay, low = self.position
+            bx, by, high = end
         else:
-            first, second, low = flat(self.position, self.plane)
-            third, fourth, high = flat(end, self.plane)
-            start, stop = (first, second), (third, fourth)
+            ax, ay, low = flat(self.position, self.plane)
+            bx, by, high = flat(end, self.plane)
         self.position = end
-        self.follower.travel(line_element(start, stop, low, high, rapid, feed, block.line))
+        self.follower.travel(line_element((ax, ay), (bx, by), low, high, rapid, feed, block.line))
 
     def _first_motion(self, block: Block) -> None:
         self.moved_in = self.unit
@@ -283,6 +285,8 @@ class Machine:
         self.log.tell(Severity.WARNING, "FEED", text, block.line, block.column("XYZIJ"))
 
 
+_AXES: Final = frozenset("XYZ")
+_LINES: Final = (0, 10)
 _MOVES: Final = frozenset((0, 10, 20, 30))
 _ENDS: Final = frozenset((20, 300))
 _CENTRES: Final = frozenset("IJKR")

@@ -8,6 +8,7 @@ from core.controls.dialect import Dialect
 from core.controls.flow import Flow
 from core.controls.follower import Follower
 from core.controls.machine import Machine
+from core.controls.plain_move import plain_move
 from core.controls.report import AlarmError, Log, Run
 from core.controls.source import lines_of
 from core.controls.tools import ToolTable
@@ -47,6 +48,10 @@ def _run(flow: Flow, machine: Machine) -> None:
         if flow.owords is not None and flow.follow(line - 1):
             continue
         text = lines[line - 1]
+        move = plain_move(text, line)
+        if move is not None:
+            machine.step(move)
+            continue
         for block in read_line(text, line, log, dialect.syntax, values):
             machine.step(block)
             if block.moves_only:

@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from resource import RUSAGE_CHILDREN, RUSAGE_SELF, getrusage
 from statistics import median
+from subprocess import DEVNULL
 
 from core.controls.registry import UnknownControl, run
 from core.controls.report import Run
@@ -83,7 +84,7 @@ def compare_broken(count: int) -> int:
 
 def compare_speed(runs: int) -> int:
     """Processor seconds for 100,000 blocks under compensation, the median of some runs in turn; and memory."""
-    text, ours, theirs = long(100_000), [], []
+    text, ours, theirs, silent = long(100_000), [], [], []
     tools = ToolTable.diameters({1: 1.0}, Unit.MM)
     with tempfile.TemporaryDirectory() as name:
         program, table = Path(name) / "long.ngc", Path(name) / "tools.tbl"
@@ -91,9 +92,11 @@ def compare_speed(runs: int) -> int:
         table.write_text(table_text({1: 1.0}, Unit.MM))
         for _ in range(runs):
             theirs.append(_spent(RUSAGE_CHILDREN, lambda: process(program, table)))
+            silent.append(_spent(RUSAGE_CHILDREN, lambda: process(program, table, DEVNULL)))
             ours.append(_spent(RUSAGE_SELF, lambda: run(text.encode(), "linuxcnc", tools)))
-    one, other = median(theirs), median(ours)
-    print(f"rs274 {one:.2f} s, here {other:.2f} s: {other / one:.2f} times as long")
+    here = median(ours)
+    for name, one in (("into a pipe", median(theirs)), ("into nothing", median(silent))):
+        print(f"rs274 {name} {one:.2f} s, here {here:.2f} s: {here / one:.2f} times as long")
     for count in (50_000, 100_000, 200_000):
         print(f"{count:7d} blocks: {_most_memory(long(count).encode(), tools) / 1e6:.0f} MB")
     return 0
