@@ -30,6 +30,8 @@ STRIP: Final = 59
 
 NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 """Errors that only say that a block is still to be typed."""
+MARKS: Final = {Severity.ERROR: "!!", Severity.WARNING: "! ", Severity.INFO: "i "}
+"""What each weight of a finding begins with."""
 READ_ON: Final = ": Ctrl+F"
 """The key that shows every finding in full, behind how many more there are."""
 
@@ -149,7 +151,7 @@ def _case(found: DerivedBlock, table: Table | None, look: int | None) -> Case | 
 
 def _sentence(finding: Finding, unit: Unit) -> Row:
     look = Look.ERROR if finding.severity is Severity.ERROR else Look.WARNING
-    mark = "!!" if finding.severity is Severity.ERROR else "! "
+    mark = MARKS[finding.severity]
     where = "" if not finding.segment else f"{segment(finding.segment)}: "
     return plain(f" {mark} {where}{sentence(finding, unit)}", look)
 
