@@ -242,7 +242,8 @@ class Desk:
         return self.take(Say("Ctrl+F shows the findings of a block: from its form."))
 
     def _helped(self) -> Desk:
-        return self.take(Open(doors.keys_and_help(self.page.help(self.session))))
+        file = next((name for page in reversed(self.pages) if (name := page.about_file())), "")
+        return self.take(Open(doors.keys_and_help(self.page.help(self.session), file)))
 
     def _undo(self) -> Desk:
         """Undo; a half-typed text is what is taken back first."""

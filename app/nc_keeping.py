@@ -177,7 +177,8 @@ class NcKeeping:
         except (OSError, StoreError) as error:
             one.journal = None
             return desk.take(Say(f"Restored, but the journal cannot be written: {_reason(error)}", Tone.WARNING))
-        return desk.take(Say("Your changes are back. u takes them back step by step, s saves them."))
+        sizes = "" if page.asked.tools.tools else " No tool's diameter and no control is kept: t and c give them again."
+        return desk.take(Say(f"Your changes are back. u takes them back step by step, s saves them.{sizes}"))
 
     def _begin(self, one: Kept, listing: Listing, *, replace_it: bool) -> None:
         from app.nc_journal import whole

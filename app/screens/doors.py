@@ -33,11 +33,11 @@ def findings() -> FindingsPage:
     return FindingsPage()
 
 
-def keys_and_help(about: tuple[str, ...]) -> HelpPage:
-    """KEYS AND HELP, beginning with these sentences."""
+def keys_and_help(about: tuple[str, ...], file: str = "") -> HelpPage:
+    """KEYS AND HELP, beginning with these sentences; `file` as `Page.about_file` has it."""
     from app.screens.help import HelpPage
 
-    return HelpPage(about=about)
+    return HelpPage(about=about, file=file)
 
 
 def lookahead_table(value: int) -> LookaheadTable:

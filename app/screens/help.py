@@ -46,6 +46,11 @@ class HelpPage(TextPage):
     """Sentences about the field, then the key sheet; a line that begins with two blanks is of a picture."""
 
     about: tuple[str, ...] = ()
+    file: str = ""
+
+    def about_file(self) -> str:
+        """That of the page below."""
+        return self.file
 
     def title(self, session: Session) -> str:
         """HELP."""

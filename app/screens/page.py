@@ -189,6 +189,10 @@ class Page:
         """Sentences about what has the cursor."""
         return ()
 
+    def about_file(self) -> str:
+        """The name of the file that the page is about, where that is not the session's program."""
+        return ""
+
 
 def unseen(page: Page, key: str) -> Answer | None:
     """Undo and redo in a dialog, which hides what they would change: only told."""

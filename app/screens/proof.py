@@ -240,3 +240,7 @@ class ProofPage(Page):
         from app.screens.proof_keys import HELP
 
         return HELP
+
+    def about_file(self) -> str:
+        """The NC program."""
+        return "no name" if self.file is None else self.file.name

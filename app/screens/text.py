@@ -57,7 +57,7 @@ class TextPage(Page):
         prompt = (
             f"{behind} more lines: down or Page Down shows them. Esc goes back." if behind > 0 else "Esc goes back."
         )
-        first = header(self.title(session), plain(""), session, surface.width)
+        first = header(self.title(session), plain(""), session, surface.width, self.about_file())
         return View(first, ((), *lines[top : top + room]), Said(prompt))
 
 

@@ -88,6 +88,7 @@ def test_after_a_crash_the_changes_are_offered_and_come_back_with_undo(file: Pat
     assert question.details[1] == "Line 3 of the file is taken out: \xb0 M30"
     again.press("r")
     assert again.texts == ["G20 G17", "G0 X1. Y2."]
+    assert again.said.endswith("No tool's diameter and no control is kept: t and c give them again.")
     assert again.page.unsaved
     again.press("u", "u")
     assert again.texts == ["G20 G17", "G0 X1.", "\xb0 M30"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -184,3 +185,9 @@ def test_a_run_that_compensates_nothing_does_not_look_clean() -> None:
     _, (outcome, *_) = page.view(Session.of(empty_program()), Surface()).header
     assert "nothing compensated" in outcome.text
     assert outcome.look is Look.WARNING
+
+
+def test_help_bears_the_name_of_the_nc_file() -> None:
+    assert "part.nc" in square(file=Path("part.nc")).press("?").part("header")
+    assert "no name" in square().press("?").part("header")
+    assert "part.nc" in square(file=Path("part.nc")).press("v", "ctrl+g").part("header")
