@@ -22,20 +22,27 @@ Made = TypeVar("Made")
 def slotted(*, slots: bool, frozen: bool = False, eq: bool = True) -> Callable[[type[Made]], type[Made]]:
     """What `dataclasses.dataclass` does with these arguments.
 
-    TypeError for what is not done here: a class without slots, or with a `__post_init__`.
+    TypeError for what is not done here: a class without slots, with a `__post_init__`, or with
+    fields that have other options than a default and `compare`.
     """
 
     def decorated(bare: type[Made]) -> type[Made]:
-        if not slots or hasattr(bare, "__post_init__"):
+        cls: type[Made] = dataclasses.dataclass(init=False, repr=False, eq=False, slots=True)(bare)
+        optioned = any(map(_optioned, dataclasses.fields(cls)))  # type: ignore[arg-type]  # a dataclass by now
+        if not slots or optioned or hasattr(bare, "__post_init__"):
             message = f"{bare.__name__} needs the standard library's own dataclass"
             raise TypeError(message)
-        cls: type[Made] = dataclasses.dataclass(init=False, repr=False, eq=False, slots=True)(bare)
         for name, method in _methods(cls, frozen=frozen, eq=eq).items():
-            if name not in bare.__dict__:
+            # a class with an __eq__ of its own has a __hash__ of None, which is not its own
+            if bare.__dict__.get(name) is None:
                 setattr(cls, name, method)
         return cls
 
     return decorated
+
+
+def _optioned(one: dataclasses.Field[Any]) -> bool:
+    return not (one.init and one.repr) or one.hash is not None or one.kw_only is True
 
 
 def _methods(cls: type, *, frozen: bool, eq: bool) -> dict[str, Any]:

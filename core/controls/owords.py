@@ -23,7 +23,8 @@ DEEPEST: Final = 9
 _MOST_ARGUMENTS: Final = 30
 _WORDS: Final = "ENDSUB|SUB|CALL|ELSEIF|ENDIF|IF|ELSE|ENDWHILE|WHILE|DO|ENDREPEAT|REPEAT|BREAK|CONTINUE|RETURN"
 _LINE: Final = re.compile(rf"(?:N[0-9]++)?O(?:([0-9]++)|<([^<>]++)>|([#\[].*?))({_WORDS})(?=[\[#]|$)")
-_COMMENT: Final = re.compile(r"\([^)]*\)|;.*")
+_COMMENT: Final = re.compile(r"\([^)]*+(?:\)|$)|;.*")
+"""One that is not closed is found too, so that no line is searched again from each of its brackets."""
 _ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE"}
 
 
@@ -68,13 +69,19 @@ def found_in(lines: Sequence[str]) -> dict[int, OWord]:
 def _read(index: int, line: str) -> OWord | None:
     if not line.isascii():
         return None
-    bare = _COMMENT.sub(lambda comment: " " * len(comment[0]), line.upper())
+    bare = _COMMENT.sub(_blank, line.upper())
     squeezed = Squeezed.of(bare)
     match = _LINE.match(squeezed.text)
     if match is None:
         return None
     label = match[1].lstrip("0") or "0" if match[1] else match[2] or ""
     return OWord(index, label, match[4], squeezed, match.start(4), match.end())
+
+
+def _blank(comment: re.Match[str]) -> str:
+    """Blanks for a comment; one that is not closed is left for the words' reader to tell."""
+    text = comment[0]
+    return " " * len(text) if text.endswith(")") or text.startswith(";") else text
 
 
 class OWords:

@@ -160,3 +160,24 @@ def test_what_is_not_done_is_refused():
             value: int
 
             def __post_init__(self) -> None: ...
+
+
+@pytest.mark.parametrize("options", [{"kw_only": True}, {"init": False}, {"repr": False}, {"hash": False}])
+def test_options_of_fields_are_refused(options):
+    with pytest.raises(TypeError, match="Optioned needs"):
+
+        @records.slotted(slots=True)
+        class Optioned:
+            value: int = dataclasses.field(default=0, **options)
+
+
+@pytest.mark.parametrize("decorator", [records.slotted, standard])
+def test_an_equality_of_its_own_keeps_the_hash_of_the_fields(decorator):
+    @decorator(frozen=True, slots=True)
+    class Own:
+        value: int
+
+        def __eq__(self, other):
+            return isinstance(other, Own) and self.value == other.value
+
+    assert hash(Own(3)) == hash(Own(3))

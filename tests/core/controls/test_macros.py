@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.controls.expressions import Reader
+from core.controls.owords import found_in
 from core.controls.parameters import FaultError, Kept, Parameters
 from core.finding import Severity
 from core.units import Unit
@@ -154,3 +155,7 @@ def test_any_expression_is_a_number_or_a_fault(text: str) -> None:
         fault = caught
     assert abs(value) < float("inf")
     assert fault is None or (0 <= fault.at <= len(text) and fault.text.isprintable())
+
+
+def test_brackets_that_never_close_are_read_once() -> None:
+    assert found_in(["o1 sub (", "o1 " + "(" * 200_000, "o2 sub (a ; b)", "o3 sub ; (", "(o4 sub"]).keys() == {2, 3}
