@@ -29,8 +29,8 @@ AGREES: Final = 2e-5
 """Do two angles agree?  Radians, a little over the 0.001 degree to which the form shows them."""
 
 STOCK: Final = 1e-4
-"""Is what the cutter leaves on the surface worth a word?  A stretch left thinner than this everywhere is cut: no machine
-is as exact, and curves drawn by many lines leave that much at every joint."""
+"""Is what the cutter leaves on the surface worth a word?  A stretch left thinner than this everywhere is cut: no
+machine is as exact, and curves drawn by many lines leave that much at every joint."""
 
 LARGEST: Final = 1e7
 """Is a coordinate one a machine could have?  Ten kilometres; beyond it doubles lose the last digit."""
