@@ -44,7 +44,7 @@ def test_the_second_opener_may_look(own: Path, part: Path) -> None:
     assert operator.session.program == load(part)
     assert "Nothing can be changed" in operator.said
     assert "SAVE AS makes a copy" in operator.press("escape", "ctrl+s").said
-    operator.press("f8", "f7", "f3", "delete", *str(part.with_name("mine.toml")), "enter", "enter").type("7")
+    operator.press("f8", "f7", "f3", "delete", *str(part.with_name("mine.toml")), "enter", "enter", "tab").type("7")
     assert operator.session.file == part.with_name("mine.toml")
     assert operator.session.history.undo_count == 1
     assert lock_path(part).exists()
