@@ -8,10 +8,10 @@ a helix.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass
 from enum import IntEnum
-from itertools import chain
+from struct import Struct
 from typing import Final
 
 import numpy as np
@@ -87,16 +87,15 @@ class Moves:
             array.flags.writeable = False
 
     @staticmethod
-    def of(rows: Sequence[Row]) -> Moves:
-        """The moves of a tape's rows."""
-        table = np.fromiter(chain.from_iterable(rows), np.float64, len(rows) * 11).reshape(-1, 11)
+    def of(table: Floats) -> Moves:
+        """The moves of rows (n, `WIDTH`) of a tape."""
         return Moves(
-            np.ascontiguousarray(table[:, 0:3]),
-            np.ascontiguousarray(table[:, 3:6]),
+            table[:, 0:3].copy(),
+            table[:, 3:6].copy(),
             table[:, 6].astype(np.int8),
             table[:, 7].astype(np.int8),
             table[:, 8].astype(np.bool_),
-            np.ascontiguousarray(table[:, 9]),
+            table[:, 9].copy(),
             table[:, 10].astype(np.int32),
         )
 
@@ -142,41 +141,61 @@ class Moves:
         return Path.of(points, centres, turns, self.lines[1:][moving].astype(np.float64))
 
 
-Row = tuple[float, float, float, float, float, float, int, int, bool, float, int]
-"""x, y, z, centre x, y, z, turn, plane, rapid, feed, line."""
+WIDTH: Final = 11
+"""Numbers in a row of a tape: x, y, z, centre x, y, z, turn, plane, rapid, feed, line."""
+
+_ROW: Final = Struct(f"{WIDTH}d")
+_POINT: Final = Struct("3d")
 
 
-@dataclass(slots=True)
 class Tape:
-    """Moves being recorded, one row each; `moves` closes it."""
+    """Moves being recorded, a row of `WIDTH` doubles each, one behind the other in memory; `moves` closes it."""
 
-    start: Point3 = (0.0, 0.0, 0.0)
-    rows: list[Row] = field(default_factory=list)
+    __slots__ = ("_packed",)
 
-    def __post_init__(self) -> None:
-        x, y, z = self.start
-        self.rows.append((x, y, z, x, y, z, 0, 0, True, 0.0, 0))
+    def __init__(self, start: Point3 = (0.0, 0.0, 0.0)) -> None:
+        self._packed = bytearray()
+        self.rapid(*start, 0)
 
     def __len__(self) -> int:
-        return len(self.rows)
+        return len(self._packed) // _ROW.size
 
     @property
     def last(self) -> Point3:
         """Where the axes stand."""
-        return self.rows[-1][:3]
+        x, y, z = _POINT.unpack_from(self._packed, len(self._packed) - _ROW.size)
+        return x, y, z
 
     def rapid(self, x: float, y: float, z: float, line: int) -> None:
         """A straight move at rapid."""
-        self.rows.append((x, y, z, x, y, z, 0, 0, True, 0.0, line))
+        self._packed += _ROW.pack(x, y, z, x, y, z, 0, 0, True, 0.0, line)
 
     def straight(self, x: float, y: float, z: float, feed: float, line: int) -> None:
         """A straight move at feed."""
-        self.rows.append((x, y, z, x, y, z, 0, 0, False, feed, line))
+        self._packed += _ROW.pack(x, y, z, x, y, z, 0, 0, False, feed, line)
 
     def arc(self, end: Point3, centre: Point3, turn: int, plane: int, feed: float, line: int) -> None:
         """An arc or a helix at feed."""
-        self.rows.append((*end, *centre, turn, plane, False, feed, line))
+        self._packed += _ROW.pack(*end, *centre, turn, plane, False, feed, line)
+
+    def row(
+        self, end: Point3, centre: Point3, turn: int, plane: int, feed: float, line: int, *, rapid: bool
+    ) -> None:  # fmt: skip
+        """A move by all that its row has."""
+        self._packed += _ROW.pack(*end, *centre, turn, plane, rapid, feed, line)
+
+    def extend(self, table: Floats) -> None:
+        """Many moves: rows (n, `WIDTH`)."""
+        self._packed += table.tobytes()
+
+    def cut(self, rows: int) -> None:
+        """Takes back all moves but the first so many rows."""
+        del self._packed[rows * _ROW.size :]
 
     def moves(self) -> Moves:
         """Everything recorded."""
-        return Moves.of(self.rows)
+        return Moves.of(self.table())
+
+    def table(self) -> Floats:
+        """The rows (n, `WIDTH`) recorded so far."""
+        return np.frombuffer(bytes(self._packed), np.float64).reshape(-1, WIDTH)

@@ -275,7 +275,7 @@ class NineSeries(NineWords):
         if last is None:
             return
         if before.held is not None and not self.entering:
-            del self.tape.rows[before.rows :]
+            self.tape.cut(before.rows)
             self.held, self.start, self.standing = before.held, before.start, list(before.standing)
             self.release_square()
         for element in (last, *standing):

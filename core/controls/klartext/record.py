@@ -36,14 +36,14 @@ class Record:
         x, y, z = solid(end[0], end[1], height, step.plane)
         element = step.element
         rapid, feed = step.before if lead else (element.rapid, element.feed)
-        self.tape.rows.append((x, y, z, x, y, z, 0, 0, rapid, feed, element.line))
+        self.tape.row((x, y, z), (x, y, z), 0, 0, feed, element.line, rapid=rapid)
 
     def arc(self, end: Point, height: float, centre: Point, turn: int, step: Step, feed: float | None = None) -> None:
         """An arc in the step's plane, at the step's feed unless given."""
         stop, middle = solid(*end, height, step.plane), solid(*centre, height, step.plane)
         element = step.element
         speed = element.feed if feed is None else feed
-        self.tape.rows.append((*stop, *middle, turn, step.plane, element.rapid, speed, element.line))
+        self.tape.row(stop, middle, turn, step.plane, speed, element.line, rapid=element.rapid)
 
     def plain(self, step: Step, end: Point) -> None:
         """The step's element as programmed, but ending at `end`."""
@@ -61,7 +61,7 @@ class Record:
     def open(self, step: Step) -> None:
         """Compensation begins: the next moves are a stretch."""
         self.programmed, self.entry = Tape(self.tape.last), step
-        self.first, self.leaving = len(self.tape.rows) - 1, 0
+        self.first, self.leaving = len(self.tape) - 1, 0
         self.remember(step)
 
     def remember(self, step: Step) -> None:
@@ -71,7 +71,8 @@ class Record:
         element, plane = step.element, step.plane if step.element.turn else 0
         stop = solid(*element.end, element.high, step.plane)
         centre = solid(*element.centre, element.high, step.plane) if element.turn else stop
-        self.programmed.rows.append((*stop, *centre, element.turn, plane, element.rapid, element.feed, element.line))
+        rapid, feed, line = element.rapid, element.feed, element.line
+        self.programmed.row(stop, centre, element.turn, plane, feed, line, rapid=rapid)
         self.leaving = int(step.role in (Role.EXIT, Role.DEPARTURE))
         self.led_out = step.role is Role.DEPARTURE
 
@@ -79,10 +80,10 @@ class Record:
         """Compensation ends: keep the stretch, unless it is the path itself or only its entry."""
         entry, programmed = self.entry, self.programmed
         self.entry, self.programmed = None, None
-        if entry is None or programmed is None or not entry.offset or len(self.tape.rows) <= self.first + 1:
+        if entry is None or programmed is None or not entry.offset or len(self.tape) <= self.first + 1:
             return
         side = Side.LEFT if entry.offset > 0.0 else Side.RIGHT
-        moves, last = programmed.moves(), len(self.tape.rows)
+        moves, last = programmed.moves(), len(self.tape)
         leads = (entry.role is Role.APPROACH, self.led_out)
         stretch = Stretch(
             side, abs(entry.offset) / self.share, entry.plane, moves, 1, self.leaving, self.first, last, *leads

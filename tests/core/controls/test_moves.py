@@ -32,6 +32,23 @@ def test_moves_read_back_as_recorded() -> None:
     assert arc.centre == (2.0, 0.0, -1.0)
 
 
+def test_a_tape_goes_on_after_its_moves_were_asked_for() -> None:
+    made = Tape((1.0, 2.0, 3.0))
+    before = made.moves()
+    made.straight(4.0, 5.0, 6.0, 10.0, 1)
+    assert (len(before), len(made.moves()), before[0].point) == (1, 2, (1.0, 2.0, 3.0))
+
+
+def test_a_tape_takes_many_moves_at_once_and_takes_moves_back() -> None:
+    made, more = tape(), tape()
+    made.extend(more.table())
+    assert len(made) == 10
+    assert made.moves().part(5, 10).points.tolist() == more.moves().points.tolist()
+    made.cut(5)
+    assert made.last == more.last
+    assert len(made) == 5
+
+
 def test_a_plane_s_path_leaves_out_what_stands_on_it() -> None:
     path = tape().moves().path()
     assert path.numbers.tolist() == [1.0, 3.0]
