@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from math import tau
+from math import pi, tau
 from typing import Any, Final
 
 import numpy as np
@@ -23,6 +23,9 @@ FEW: Final = 300
 
 BLOCK: Final = 16_000
 """Pairs worked out at a time."""
+
+FLAT: Final = 1e-9
+"""Radians up to which an arc of any radius a machine could have bulges by nothing beyond its ends."""
 
 Floats = NDArray[np.float64]
 Points = NDArray[np.complex128]
@@ -153,8 +156,9 @@ def _one_radius(start: Points, end: Points, centre: Points) -> tuple[Points, Flo
 
 def _angles(arm: Points, last: Points, turn: Floats, whole: Flags) -> Floats:
     """Angles travelled from `arm` to `last`, in [0, tau]; a hair less than a full turn or no radius is an empty arc."""
-    arm = np.where(arm == 0.0, 1.0, arm)
-    angle = np.mod(np.angle(last / arm) * turn, tau)
+    turned = last * np.conj(arm)
+    angle = np.arctan2(turned.imag * turn, turned.real)
+    angle[angle < 0.0] += tau
     angle[(angle > tau - SLIVER) | np.isnan(angle)] = 0.0
     angle[whole] = tau
     return angle
@@ -245,24 +249,44 @@ def travelled(arc: Measured, towards: Points) -> Floats:
 def boxes(pieces: Measured) -> Floats:
     """(4, n) exact bounding boxes: least x, least y, largest x, largest y."""
     start, end = pieces.start, pieces.end
-    box = np.array(
-        (
-            np.minimum(start.real, end.real),
-            np.minimum(start.imag, end.imag),
-            np.maximum(start.real, end.real),
-            np.maximum(start.imag, end.imag),
-        )
-    )
+    box = np.empty((4, len(start)))
+    for row, (one, other) in enumerate(((start.real, end.real), (start.imag, end.imag))):
+        np.minimum(one, other, out=box[row])
+        np.maximum(one, other, out=box[row + 2])
     rows = np.flatnonzero(pieces.turn)
     if not len(rows):
         return box
-    arc = pieces.take(rows)
-    quarters = np.array((-1.0, -1.0j, 1.0, 1.0j))[:, None]
-    passed = travelled(arc, quarters) < arc.angle
+    arc = pieces if len(rows) == len(pieces) else pieces.take(rows)
     centre = arc.centre
-    limits = np.array((centre.real, centre.imag, centre.real, centre.imag)) + np.outer((-1, -1, 1, 1), arc.radius)
-    box[:, rows] = np.where(passed, limits, box[:, rows])
+    sides = (centre.real - arc.radius, centre.imag - arc.radius, centre.real + arc.radius, centre.imag + arc.radius)
+    for row, (passed, limit) in enumerate(zip(_quarters(arc), sides, strict=True)):
+        through = np.flatnonzero(passed)
+        box[row, rows[through]] = limit[through]
     return box
+
+
+def _quarters(arc: Measured) -> tuple[Flags, ...]:
+    """Four times (n,) whether the arcs pass the directions -x, -y, x and y seen from their centres.
+
+    Counter-clockwise from `a` to `b` an arc of no more than half a turn passes a direction q where neither the cross
+    product of a and q nor that of q and b is negative; a larger one where q is not within what is left of the circle.
+    What doubles cannot tell, at the ends and at half a turn, moves no box by more than their last digit.
+    """
+    first, last = arc.arm, arc.arm + arc.vector
+    swap = arc.turn < 0.0
+    a, b = np.where(swap, last, first), np.where(swap, first, last)
+    large = arc.angle > pi
+    a, b = np.where(large, b, a), np.where(large, a, b)
+    x, y, u, v = a.real, a.imag, b.real, b.imag
+    some = arc.angle > FLAT
+    plus, minus = (x > 0.0, y > 0.0, u > 0.0, v > 0.0), (x < 0.0, y < 0.0, u < 0.0, v < 0.0)
+    within = (
+        np.where(large, ~(plus[1] & minus[3]), ~(minus[1] | plus[3])),
+        np.where(large, ~(minus[0] & plus[2]), ~(plus[0] | minus[2])),
+        np.where(large, ~(minus[1] & plus[3]), ~(plus[1] | minus[3])),
+        np.where(large, ~(plus[0] & minus[2]), ~(minus[0] | plus[2])),
+    )
+    return tuple(passed & some for passed in within)
 
 
 def place(pieces: Measured, stations: Floats, s: Floats) -> tuple[Rows, Floats]:

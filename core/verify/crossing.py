@@ -71,13 +71,12 @@ def _headings(surface: Measured) -> tuple[Floats, Floats]:
     And (n - 1,) how much a piece, the next one and the joint between them turn.
     """
     turned = surface.turn * surface.angle
-    begin, end = surface.unit, surface.unit
+    begin = end = surface.vector
     arc = np.flatnonzero(surface.turn)
     if len(arc):
-        # a chord runs as its arc does in the middle, but for full circles, which no run can be steady with
-        half = np.exp(0.5j * turned[arc])
-        begin[arc] *= np.conj(half)
-        end[arc] *= half
+        begin, end = begin.copy(), end.copy()
+        begin[arc] = 1j * surface.turn[arc] * surface.arm[arc]
+        end[arc] = 1j * surface.turn[arc] * (surface.arm[arc] + surface.vector[arc])
     corners = np.angle(begin[1:] * np.conj(end[:-1]))
     first = np.concatenate(([0.0], np.cumsum(turned[:-1] + corners)))
     spread = np.stack((np.minimum(first, first + turned), np.maximum(first, first + turned)))

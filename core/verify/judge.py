@@ -48,7 +48,7 @@ def judge_together(surface: Path, side: Side, radius: float, centres: Sequence[P
 
 def judge_all(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> tuple[Verdict, ...]:
     """The verdict of `judge` on each centre path; the surface is looked at once, and equal paths are judged once."""
-    keys = [_key(centre) for centre in centres]
+    keys = [_key(centre) for centre in centres] if len(centres) > 1 else [()] * len(centres)
     with np.errstate(all="ignore"):
         ground = _ground(surface) if len(surface) and _sound(surface) else None
         verdicts = {
