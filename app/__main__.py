@@ -9,7 +9,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from app.commands import HELP, SHOP_HELP, UNUSABLE, say
+from app.beforehand import prepare
+from app.shell import HELP, SHOP_HELP, UNUSABLE, say
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -46,6 +47,8 @@ def _parsed(given: list[str]) -> int:
 
 def screens(file: Path | None, *, example: str | None = None, characters: str = "") -> int:
     """The screens on a program or on an NC file, an example part, or the start screen; returns the exit status."""
+    # before these imports already, not only before those of the screens
+    prepare()
     from app.files import is_nc
     from app.main import run
 

@@ -6,7 +6,7 @@ import argparse
 from importlib.resources import files
 from pathlib import Path
 
-from app.commands import HELP, SHOP_HELP
+from app.shell import HELP, SHOP_HELP
 
 DESCRIPTION = """\
 Type a MILL CONTOUR from the drawing, see what the cutter will do, write the NC file.

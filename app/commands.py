@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from app.shell import CLEAN, FINDINGS, UNUSABLE, say
 from app.widgets.words import segment
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.program.model import Entry, Program
@@ -22,31 +23,9 @@ if TYPE_CHECKING:
     from core.output.post import Refusal
     from core.pipeline.derived import Derived, DerivedBlock
 
-CLEAN: Final = 0
-FINDINGS: Final = 1
-UNUSABLE: Final = 2
-
 DASH: Final = "-"
 """In place of a file: standard input, or standard output."""
 STDIN: Final = "standard input"
-
-HELP: Final = {
-    "path": "the centre path of every block",
-    "lookahead": "what becomes of the path at every look-ahead value",
-    "post": "write the NC file",
-    "plot": "draw the program as SVG",
-}
-SHOP_HELP: Final = {
-    "sheet": "the setup sheet, as text or as a page with the drawing",
-    "tools": "list the tool table, or import one of LinuxCNC",
-    "serve": "the screens in a browser on this machine",
-}
-
-
-def say(text: str) -> None:
-    """A message for the person at the keyboard."""
-    plain = "".join(one if one.isprintable() or one == "\n" else "?" for one in text)
-    print(f"cutcomp: {plain}", file=sys.stderr)
 
 
 class Unusable(Exception):

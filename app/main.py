@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import gc
 import os
 import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
-from app.commands import say
+from app.beforehand import prepare
+from app.shell import UNUSABLE, say
 from core.program.store import StoreError, load
 
 if TYPE_CHECKING:
@@ -19,11 +19,6 @@ if TYPE_CHECKING:
     from app.nc_keeping import NcKeeping
     from app.screens.page import Page
     from app.session import Session
-
-UNUSABLE: Final = 2
-"""Exit status: the file cannot be used."""
-TURN: Final = 0.0005
-"""Seconds a thread calculates before another one that waits has its turn; a tenth of what is usual."""
 
 
 def run(
@@ -121,18 +116,6 @@ def keep_settings(app: CutcompApp, *, first: bool) -> None:
 
         desk = starting.begun(desk)
     app.desk = keeper.keep(desk)
-
-
-def prepare() -> None:
-    """What must be so before Textual is imported.
-
-    Without the first, F3 of some terminals is lost.  The imports make hundreds of thousands of objects that stay:
-    looking through them again and again costs a tenth of the start, so the App switches the collector on again.
-    A key waits no longer than `TURN` for what a thread is calculating, each time it has to.
-    """
-    os.environ.setdefault("TEXTUAL_DISABLE_KITTY_KEY", "1")
-    gc.disable()
-    sys.setswitchinterval(TURN)
 
 
 def begin(path: Path | None, example: str | None) -> Session:

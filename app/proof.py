@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.commands import UNUSABLE, say
+from app.shell import UNUSABLE, say
 
 if TYPE_CHECKING:
     from app.screens.proof import ProofPage

@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Final
 
 from app import times
-from app.commands import CLEAN, DASH, FINDINGS, SHOP_HELP, UNUSABLE, say
+from app.commands import DASH
 from app.keeping import holder
+from app.shell import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
 from core.finding import Finding, Severity
 from core.program.lock import Held, myself, release, take
 from core.program.model import Entry, Program, Tool
