@@ -2,8 +2,8 @@
 
 The standard decorator writes and compiles up to six functions for every class while its module is imported, a
 millisecond each time, a fifth of the time until the first screen stands.  Here all classes share their equality, hash
-and representation, and `__init__` is compiled for the first instance.  Fields are the standard library's own:
-`dataclasses.replace`, `fields` and the type checker see nothing else than before.
+and representation, and `__init__` is compiled where there are more than `FEW` instances.  Fields are the standard
+library's own: `dataclasses.replace`, `fields` and the type checker see nothing else than before.
 """
 
 from __future__ import annotations
@@ -12,9 +12,12 @@ import dataclasses
 from collections.abc import Callable
 from dataclasses import MISSING, FrozenInstanceError, field
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Any, Final, NoReturn, TypeVar
 
 __all__ = ["dataclass", "field"]
+
+FEW: Final = 8
+"""So many instances are made without a compiled `__init__`: most of what the first screen needs is there once."""
 
 Made = TypeVar("Made")
 
@@ -57,14 +60,34 @@ def _methods(cls: type, *, frozen: bool, eq: bool) -> dict[str, Any]:
 
 
 def _compiling(cls: type) -> Callable[..., None]:
-    """An `__init__` that puts the compiled one in its own place."""
+    """An `__init__` for the first `FEW` instances, which then puts the compiled one in its own place."""
+    made = 0
 
     def first(self: object, *values: object, **named: object) -> None:
+        nonlocal made
+        made += 1
+        if made <= FEW and _put(self, cls, values, named):
+            return
         init = _compiled(cls)
         type.__setattr__(cls, "__init__", init)
         init(self, *values, **named)
 
     return first
+
+
+def _put(self: object, cls: type, values: tuple[object, ...], named: dict[str, object]) -> bool:
+    """Give an instance its values one by one; nothing done where the compiled `__init__` has to complain."""
+    fields = dataclasses.fields(cls)
+    given = dict(zip((one.name for one in fields), values, strict=False)) | named
+    whole = (one.name in given or one.default is not MISSING or one.default_factory is not MISSING for one in fields)
+    if len(given) < len(values) + len(named) or not {one.name for one in fields} >= given.keys() or not all(whole):
+        return False
+    for one in fields:
+        value = given.get(one.name, MISSING)
+        if value is MISSING:
+            value = one.default if one.default_factory is MISSING else one.default_factory()
+        object.__setattr__(self, one.name, value)
+    return True
 
 
 def _compiled(cls: type) -> Callable[..., None]:

@@ -56,10 +56,21 @@ def standard(*, frozen=False, eq=True, slots=True):
     return dataclasses.dataclass(frozen=frozen, eq=eq, slots=slots)
 
 
-OURS, THEIRS = made(records.slotted), made(standard)
+def compiled(**options):
+    """Ours as they are behind the first instances."""
+
+    def decorated(bare):
+        cls = records.slotted(**options)(bare)
+        type.__setattr__(cls, "__init__", records._compiled(cls))
+        return cls
+
+    return decorated
 
 
-@pytest.mark.parametrize("classes", [OURS, THEIRS], ids=["ours", "the standard library's"])
+OURS, THEIRS, MANY = made(records.slotted), made(standard), made(compiled)
+
+
+@pytest.mark.parametrize("classes", [OURS, MANY, THEIRS], ids=["ours", "many of ours", "the standard library's"])
 class TestAsTheStandardLibrary:
     def test_values_by_place_by_name_and_by_default(self, classes):
         part, larger, *_ = classes
@@ -72,6 +83,10 @@ class TestAsTheStandardLibrary:
             part()
         with pytest.raises(TypeError, match="wrong"):
             part(1.0, wrong=2)
+        with pytest.raises(TypeError, match="number"):
+            part(1.0, number=2.0)
+        with pytest.raises(TypeError, match="positional"):
+            part(1.0, "text", (), [], "", 6)
 
     def test_frozen(self, classes):
         part, _, loose, *_ = classes
@@ -116,15 +131,24 @@ class TestAsTheStandardLibrary:
 
 
 def test_without_equality_of_its_own_a_class_keeps_the_one_it_inherits():
-    for _, larger, *_ in (OURS, THEIRS):
+    for _, larger, *_ in (OURS, MANY, THEIRS):
         assert larger(1.0, last=1) == larger(1.0, last=2)
 
 
-def test_nothing_is_compiled_before_the_first_instance():
+def test_nothing_is_compiled_for_the_first_instances():
     part = made(records.slotted)[0]
-    before = part.__init__
-    part(1.0)
+    before, first = part.__init__, [part(float(number), rest=(1,)) for number in range(records.FEW)]
+    assert part.__init__ is before
+    more = [part(float(number), rest=(1,)) for number in range(records.FEW)]
     assert part.__init__ is not before
+    assert more == first
+
+
+def test_a_call_that_cannot_be_leaves_the_next_one_as_it_is():
+    part = made(records.slotted)[0]
+    with pytest.raises(TypeError, match="wrong"):
+        part(1.0, wrong=2)
+    assert part(1.0) == part(1.0)
 
 
 def test_own_methods_stay():
