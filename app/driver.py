@@ -20,7 +20,7 @@ from textual.drivers.linux_driver import LinuxDriver
 
 from app.charset import ASCII, UTF_8, charset
 from app.desk import MODES
-from app.shown import Shown
+from app.shown import Shown, Texts
 
 if TYPE_CHECKING:
     from textual.app import App
@@ -53,6 +53,17 @@ class TerminalDriver(LinuxDriver):
         """A picture on its way to the terminal, in as few bytes as show it."""
         if sent := self.shown.write(data):
             super().write(sent)
+
+    def paint(self, lines: list[tuple[int, Texts]]) -> bool:
+        """Lines of the picture as they have become, at once; False while nobody knows what stands on the terminal."""
+        if self.suspended or not self._app._running or self._app._closed:
+            return False
+        sent = self.shown.paint(lines)
+        if sent:
+            self._app._begin_update()
+            super().write(sent)
+            self._app._end_update()
+        return sent is not None
 
     def anew(self) -> None:
         """Whatever stands on the terminal, everything is sent again; may be called in a signal handler."""

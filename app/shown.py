@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 from rich.cells import cell_len
@@ -53,6 +54,8 @@ class Run(NamedTuple):
 
 Line = list[Cell | None]
 """None: nobody knows what stands there."""
+Texts = list[tuple[str, str]]
+"""Texts of a line, each with the parameters of its control sequence."""
 
 
 @dataclass(slots=True)
@@ -80,20 +83,42 @@ class Shown:
         """What has to be sent so that the terminal shows what `data` would make it show."""
         if NEUTRAL.fullmatch(data):
             return data
-        columns, rows = self.size()
-        if self.stale or (self.lines and (len(self.lines[0]), len(self.lines)) != (columns, rows)):
-            self._forgotten()
+        columns, rows = self._measured()
         picture = parsed(data, columns, rows)
         if picture is None or not (self.lines or picture.whole(columns, rows)):
             self._forgotten()
             return slim(data)
-        ink = _Ink(self.cursor, columns, self.erases)
         self.lines = self.lines or [[None] * columns for _ in range(rows)]
-        for row, line in picture.over(self.lines):
+        return self._sent(picture.over(self.lines), picture.cursor)
+
+    def paint(self, texts: Iterable[tuple[int, Texts]]) -> str | None:
+        """What has to be sent so that these lines stand; None while nothing is known of the terminal.
+
+        Every line is as long as the terminal is wide, and its cursor stays where it is.
+        """
+        columns, rows = self._measured()
+        if not self.lines or self.cursor is None:
+            return None
+        lines = [(row, line) for row, line in ((row, line_of(one)) for row, one in texts) if row < rows]
+        if any(len(line) != columns for _, line in lines):
+            return None
+        return self._sent(lines, self.cursor)
+
+    def _measured(self) -> tuple[int, int]:
+        """Columns and rows of the terminal, of which nothing is known any more if they have changed."""
+        columns, rows = self.size()
+        if self.stale or (self.lines and (len(self.lines[0]), len(self.lines)) != (columns, rows)):
+            self._forgotten()
+        return columns, rows
+
+    def _sent(self, lines: Iterable[tuple[int, Line]], cursor: tuple[int, int]) -> str:
+        """What makes these lines of those that stand, and puts the cursor there."""
+        ink = _Ink(self.cursor, len(self.lines[0]), self.erases)
+        for row, line in lines:
             ink.line(row, self.lines[row], line)
             self.lines[row] = line
-        ink.move(*picture.cursor)
-        self.cursor = picture.cursor
+        ink.move(*cursor)
+        self.cursor = cursor
         ink.pen.turn(PLAIN)
         return "".join(ink.pen.out)
 
@@ -122,9 +147,21 @@ class Picture:
         changed: dict[int, Line] = {}
         for row, column, text, style in self.runs:
             line = changed.setdefault(row, lines[row].copy()) if row not in changed else changed[row]
-            blank = style if style.attributes & SHOWN_ON_BLANKS else Style(paper=style.paper)
-            line[column : column + len(text)] = [Cell(one, blank if one == " " else style) for one in text]
+            line[column : column + len(text)] = [cell(one, style) for one in text]
         yield from sorted(changed.items())
+
+
+@lru_cache(8192)
+def cell(text: str, style: Style) -> Cell:
+    """A character in a style; the same ones are the same object, so that equal lines are compared quickly."""
+    plain = text == " " and not style.attributes & SHOWN_ON_BLANKS
+    return Cell(text, Style(paper=style.paper) if plain else style)
+
+
+def line_of(texts: Texts) -> Line:
+    """The cells of texts side by side."""
+    styles = ((text, read(codes) if codes else PLAIN) for text, codes in texts)
+    return [cell(one, style) for text, style in styles for one in text]
 
 
 def parsed(data: str, columns: int, rows: int) -> Picture | None:
@@ -167,7 +204,8 @@ class _Ink:
         """The cells of a line that differ; a line of which nothing is known is erased before."""
         if None in old:
             old = self._erased(row, new)
-        changed = [column for column, cell in enumerate(new) if cell != old[column]]
+        both = enumerate(zip(old, new, strict=True))
+        changed = [column for column, (was, then) in both if was is not then and was != then]
         tail = self._tail(new) if changed else 0
         erased = sum(column >= tail for column in changed) >= SHORTEST
         for column in changed:
@@ -195,6 +233,8 @@ class _Ink:
 
     def _to(self, row: int, column: int, line: Line) -> None:
         """To a cell: what stands between is written again where that is shorter than going over it."""
+        if self.cursor == (row, column):
+            return
         if self.cursor is None or self.cursor[0] != row:
             self.move(row, column)
             return

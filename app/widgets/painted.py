@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from rich.segment import Segment
 from textual.geometry import Region
 from textual.strip import Strip
 from textual.widget import Widget
 
 from app.widgets.looks import style_of
-from app.widgets.rows import Row, changed
+from app.widgets.rows import Look, Row, changed
 
 
 class Rows(Widget, inherit_css=False):
-    """Shows rows from its top on."""
+    """Shows rows from its top on.
+
+    A driver that knows what stands on the terminal is given the rows that have changed; the way through Textual's
+    compositor, which takes longer than everything else between a key and its picture, is for the first picture, for
+    another size, and for terminals of which nothing is known.
+    """
 
     def __init__(self, rows: tuple[Row, ...] = ()) -> None:
         super().__init__()
         self.rows = rows
+        self.written: dict[Look, str] = {}
 
     def show(self, rows: tuple[Row, ...]) -> None:
         """Put these rows on the screen; cells that stay the same are not painted again."""
@@ -24,17 +32,48 @@ class Rows(Widget, inherit_css=False):
         if len(old) != len(rows):
             self.refresh()
             return
-        regions = [
-            Region(difference[0], number, difference[1], 1)
-            for number, (before, after) in enumerate(zip(old, rows, strict=True))
-            if (difference := changed(before, after)) is not None
-        ]
+        both = enumerate(zip(old, rows, strict=True))
+        differing = [(number, before, after) for number, (before, after) in both if before != after]
+        if not differing or self._straight([(number, after) for number, _, after in differing]):
+            return
+        spans = ((number, changed(before, after)) for number, before, after in differing)
+        regions = [Region(span[0], number, span[1], 1) for number, span in spans if span is not None]
         if regions:
             self.refresh(*regions)
 
+    def _straight(self, rows: list[tuple[int, Row]]) -> bool:
+        """Give these lines to the driver; False where it cannot paint them by themselves."""
+        # not the driver's class: a terminal's is not known in a browser, nor in tests without a terminal
+        paint: Any = getattr(self.app._driver, "paint", None)
+        if paint is None or self.size != self.app.size:
+            return False
+        lines = [(number, [(span.text, self._codes(span.look)) for span in row]) for number, row in rows]
+        return bool(paint(lines))
+
+    def _codes(self, look: Look) -> str:
+        """The parameters of the control sequence for a look, as Textual writes it to this terminal."""
+        codes = self.written.get(look)
+        if codes is None:
+            text = self._filtered(Strip([self._segment("x", look)])).render(self.app.console)
+            codes = text.partition("x")[0].removeprefix("\x1b[").removesuffix("m")
+            self.written[look] = codes
+        return codes
+
+    def render_lines(self, crop: Region) -> list[Strip]:
+        """Lines of the terminal, as Textual asks for them; none is kept, since rows change without its being told."""
+        return [self._filtered(self.render_line(y)).crop(*crop.column_span) for y in crop.line_range]
+
     def render_line(self, y: int) -> Strip:
-        """One line of the terminal, as Textual asks for it."""
+        """One line, in all colours."""
         row, width = self.rows[y] if y < len(self.rows) else (), self.size.width
-        few = self.app.native_ansi_color
-        segments = [Segment(span.text, style_of(span.look, few_colours=few)) for span in row]
+        segments = [self._segment(span.text, span.look) for span in row]
         return Strip(segments).adjust_cell_length(width, self.rich_style).crop(0, width)
+
+    def _segment(self, text: str, look: Look) -> Segment:
+        return Segment(text, style_of(look, few_colours=self.app.native_ansi_color))
+
+    def _filtered(self, strip: Strip) -> Strip:
+        """As this terminal has it: without colours where it has none."""
+        for one in self.get_line_filters():
+            strip = strip.apply_filter(one, self.background_colors[1])
+        return strip

@@ -1,0 +1,38 @@
+"""What is painted key by key is what the whole screen painted anew shows, on every kind of terminal."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+
+import pytest
+
+from tests.terminal import Terminal, running
+
+TERMINALS: tuple[Mapping[str, str], ...] = (
+    {"COLORTERM": "truecolor"},
+    {"TERM": "screen"},
+    {"TERM": "vt100", "LANG": "C"},
+    {"NO_COLOR": "1"},
+)
+KEYS = (b"\t", b"\t", b" ", b"\x1b[B", b"1", b".", b"x", b"\r", b"\x1b", b"\x1b[6~", b"\x1bOS", b"\x1bOS", b"\x1a")
+
+
+def cells(terminal: Terminal) -> list[object]:
+    """Every cell with its looks; of a blank only what a blank shows."""
+    screen = terminal.screen
+    every = [screen.buffer[y][x] for y in range(screen.lines) for x in range(screen.columns)]
+    return [(" ", cell.bg) if cell.data == " " and not (cell.reverse or cell.underscore) else cell for cell in every]
+
+
+@pytest.mark.parametrize("environment", TERMINALS, ids=lambda one: " ".join(one.values()))
+def test_key_by_key_equals_painted_anew(environment: Mapping[str, str]) -> None:
+    with running([sys.executable, "-m", "app", "--example", "pocket"], environment=environment) as terminal:
+        terminal.until("GOUGE none")
+        for key in KEYS:
+            terminal.send(key)
+            terminal.read(quiet=0.15)
+            before = cells(terminal)
+            terminal.send(b"\x0c")
+            terminal.read(quiet=0.15)
+            assert cells(terminal) == before
