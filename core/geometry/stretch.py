@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.geometry.path import EMPTY, Path
+from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point
 
 
@@ -13,9 +13,15 @@ def stretch(surface: Path, first: float, start: Point, last: float, end: Point) 
 
     Empty if there are no such segments; it runs past a closed contour's start if `last` lies before `first`.
     """
+    found = stretch_pieces(surface, first, start, last, end)
+    return Path.from_pieces([piece for _, piece in found], [number for number, _ in found])
+
+
+def stretch_pieces(surface: Path, first: float, start: Point, last: float, end: Point) -> list[tuple[float, Piece]]:
+    """`stretch` as pieces, each with the number of its segment."""
     begins, ends = np.flatnonzero(surface.numbers == first), np.flatnonzero(surface.numbers == last)
     if not len(begins) or not len(ends):
-        return EMPTY
+        return []
     row, count = int(begins[0]), len(surface)
     backwards = ends[-1] < row or (ends[-1] == row and _before(surface[row], end, start))
     steps = (int(ends[-1]) - row) % count + (count if backwards and ends[-1] == row else 0)
@@ -23,7 +29,7 @@ def stretch(surface: Path, first: float, start: Point, last: float, end: Point) 
     pieces[0] = _cut(pieces[0], start, pieces[0].end)
     pieces[-1] = _cut(pieces[-1], pieces[-1].start, end)
     numbers = [float(surface.numbers[(row + step) % count]) for step in range(steps + 1)]
-    return Path.from_pieces(pieces, numbers)
+    return list(zip(numbers, pieces, strict=True))
 
 
 def _cut(piece: Piece, start: Point, end: Point) -> Piece:

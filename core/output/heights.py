@@ -24,7 +24,7 @@ WRAPPED: Final = 1e-6
 
 def level_floor(job: Job) -> bool:
     """No segment rises above Z BOTTOM."""
-    return all(max(floor.z_start, floor.z_end) <= job.z_bottom + JOINED for floor in job.floors)
+    return all(max(low, high) <= job.z_bottom + JOINED for low, high, _ in job.levels)
 
 
 def heights(job: Job, run: Run) -> Floats:

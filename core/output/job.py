@@ -6,11 +6,10 @@ begins; a segment's *floor* is the height its Z START and Z END give it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path, joined
 from core.geometry.piece import Point
+from core.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +91,11 @@ class Job:
     lookahead: str = ""
     findings: tuple[Finding, ...] = ()
     notes: tuple[str, ...] = ()
+
+    @property
+    def levels(self) -> frozenset[tuple[float, float, float | None]]:
+        """The heights and feeds that floors have, each triple once: Z START, Z END, feed."""
+        return frozenset((floor.z_start, floor.z_end, floor.feed) for floor in self.floors)
 
     @property
     def errors(self) -> tuple[Finding, ...]:

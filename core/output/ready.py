@@ -76,8 +76,8 @@ def _tools(job: Job) -> Iterator[_Check]:
 def _depths(job: Job) -> Iterator[_Check]:
     stock = job.finish_z if job.finish_tool else 0.0
     deep = job.z_start - job.z_bottom
-    high = max((max(floor.z_start, floor.z_end) for floor in job.floors), default=job.z_start)
-    low = min((min(floor.z_start, floor.z_end) for floor in job.floors), default=job.z_bottom)
+    levels = [height for low, high, _ in job.levels for height in (low, high)]
+    high, low = max(levels, default=job.z_start), min(levels, default=job.z_bottom)
     yield deep < 0.0, "DEPTH", "Z BOTTOM lies above Z START.", "z_bottom"
     yield low < job.z_bottom - JOINED, "Z_END", "A Z END lies below Z BOTTOM.  No pass goes so deep.", "z_end"
     yield high > job.z_start + JOINED, "Z_END", "A Z END lies above Z START.  Rapid moves would run into it.", "z_end"
@@ -100,7 +100,7 @@ def _numbers(job: Job) -> Iterator[_Check]:
         job.plunge_feed,
         job.speed,
         job.safe_z,
-        *(value for floor in job.floors for value in (floor.z_start, floor.z_end, floor.feed or 0.0)),
+        *(value or 0.0 for level in job.levels for value in level),
     )
     sane = all(isfinite(value) and abs(value) <= LARGEST for value in given)
     yield not sane, "NUMBER", "A depth, feed or speed is no number a machine could have.", None
@@ -132,8 +132,10 @@ def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
 
 
 def _sane(run: Run) -> bool:
-    values = np.concatenate((run.whole.points, run.whole.centres))
-    return bool(np.all(np.abs(values) <= LARGEST))
+    parts = [part for part in (run.lead_in, run.path, run.lead_out) if len(part)]
+    arrays = [array for part in parts for array in (part.points, part.centres)]
+    # a comparison with what is no number is false
+    return all(array.min() >= -LARGEST and array.max() <= LARGEST for array in arrays)
 
 
 def _still(feed: float, grid: Grid) -> bool:
@@ -142,7 +144,8 @@ def _still(feed: float, grid: Grid) -> bool:
 
 def _unfed(job: Job, grid: Grid) -> set[int]:
     """Segments that some run cuts without a feed."""
-    fed = {floor.number for floor in job.floors if floor.feed is not None and not _still(floor.feed, grid)}
+    moving = {feed for feed in {feed for _, _, feed in job.levels} if feed is not None and not _still(feed, grid)}
+    fed = {floor.number for floor in job.floors if floor.feed in moving}
     numbers = [run.path.numbers for run in (*job.finish, *job.rough)]
     used = set(np.floor(np.concatenate(numbers)).astype(int).tolist()) if numbers else set()
     return used - fed

@@ -68,7 +68,8 @@ def outline_block(number: int, block: Block, program: Program, before: DerivedBl
 
 def look_ahead(block: Block, solved: SolvedBlock) -> LookAhead:
     """The look-ahead in force: the operator's value, or the calculated one."""
-    empty = sum(any(one.code == "ZERO_LENGTH" for one in segment.findings) for segment in solved.segments)
+    told = (segment.findings for segment in solved.segments if segment.findings)
+    empty = sum(any(one.code == "ZERO_LENGTH" for one in findings) for findings in told)
     value = calculated(len(solved.segments) - empty, closed=solved.closed)
     match block.lookahead:
         case Entry(typed) if LOWEST <= typed <= HIGHEST:

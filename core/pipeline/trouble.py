@@ -167,6 +167,9 @@ def better_findings(best: BestPath, apart: Separation) -> tuple[Finding, ...]:
 
 def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
     """A tool that is larger than the whole contour is mostly a wrong one."""
+    # the contour is no smaller than what its points span
+    if len(surface) and 2 * radius <= float((surface.points.max(axis=0) - surface.points.min(axis=0)).max()):
+        return ()
     boxes = surface.boxes
     extent = max((boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0)).tolist(), default=inf)
     if 2 * radius <= extent:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain, repeat
 from math import hypot
 from typing import assert_never
 
@@ -101,28 +102,30 @@ def _segments(block: Block, drafts: list[Draft], before: SolvedBlock | None) -> 
     lengthless = (index for index, shape in enumerate(shapes) if shape.piece is None and shape.end is not None)
     empty = frozenset(lengthless) - blend
     blends = blended(block.segments, [shape.piece for shape in shapes], radii, empty)
-    known = {} if before is None else dict(zip(before.drafts, before.segments, strict=True))
-    pairs = ((draft, known.get(draft)) for draft in drafts)
+    # a draft that is kept has the place it had
+    kept = () if before is None else zip(drafts, before.drafts, before.segments, strict=False)
+    known = (old if was is draft else None for draft, was, old in kept)
     return [
         old if old is not None and _stands(old, draft, index, blends) else _finished(draft, index, blends)
-        for index, (draft, old) in enumerate(pairs)
+        for index, (draft, old) in enumerate(zip(drafts, chain(known, repeat(None)), strict=False))
     ]
 
 
 def _stands(old: SolvedSegment, draft: Draft, index: int, blends: Blends) -> bool:
     """Whether no blend made anything else of a segment than before."""
-    unblended = index not in blends.faults and index not in blends.waiting and old.end is draft.shape.end
-    return unblended and old.piece is blends.pieces[index]
+    if old.piece is not blends.pieces[index] or old.end is not draft.shape.end:
+        return False
+    return index not in blends.faults and index not in blends.waiting
 
 
 def _drafts(block: Block, start: Start, unit: Unit, before: Sequence[Draft]) -> list[Draft]:
     here = _Here(start.point, start.known.get("z_bottom"), start.known.get("plunge_feed"))
     drafts: list[Draft] = []
-    for index, segment in enumerate(block.segments):
-        old = before[index] if index < len(before) else None
+    for index, (segment, old) in enumerate(zip(block.segments, chain(before, repeat(None)), strict=False)):
         if old is None or old.segment is not segment or old.unit is not unit or old.here.point != here.point:
             old = _draft(segment, index + 1, here.point, unit)
-        drafts.append(old if old.here == here else _carried(old, here))
+        # behind a segment that is kept it is the same object
+        drafts.append(old if old.here is here or old.here == here else _carried(old, here))
         here = drafts[-1].ahead
     return drafts
 

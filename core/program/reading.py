@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import inf
 from types import MappingProxyType
 from typing import Final
 
 from core.finding import Finding, Severity
-from core.program.fields import TABLES, Field, Form, check
+from core.program.fields import TABLES, Field, Form, bounds, check
 from core.program.model import Block, Entry, Parameters, PartSetup, Segment, Unread
 from core.program.solved import Solved, Value
 from core.records import dataclass
@@ -28,16 +29,21 @@ def read(form: Form, part: Block | Segment | Parameters | PartSetup, unit: Unit,
     values: dict[str, Value] = {}
     known: dict[str, float] = {}
     findings: list[Finding] = []
-    for name, one, factor in _NUMBERS[form, unit]:
+    for name, one, factor, low, high in _NUMBERS[form, unit]:
         typed = values[name] = getattr(part, name)
         if typed is None:
             continue
-        fault = _fault(one, typed, number, unit)
+        fault = None if _inside(typed, low, high) else _fault(one, typed, number, unit)
         if fault is None:
             known[name] = typed.value * factor
         else:
             findings.append(fault)
     return Reading(values, known, tuple(findings))
+
+
+def _inside(typed: Entry | Unread, low: float, high: float) -> bool:
+    """Whether it is a number between two bounds, which is taken at once; what is not is looked at closely."""
+    return isinstance(typed, Entry) and low < typed.value < high
 
 
 def _fault(one: Field, typed: Entry | Unread, number: int, unit: Unit) -> Finding | None:
@@ -54,13 +60,22 @@ def _factor(kind: Kind, unit: Unit) -> float:
     return to_radians(1.0) if kind is Kind.ANGLE else 1.0
 
 
-def _numbers(form: Form, unit: Unit) -> tuple[tuple[str, Field, float], ...]:
+def _open(one: Field, unit: Unit) -> tuple[float, float]:
+    """Bounds between which a field takes every number, themselves left out; none for whole numbers: an empty range."""
+    if one.kind is Kind.COUNT:
+        return inf, -inf
+    low, high = bounds(one, unit)
+    least, most = -inf if low is None else low, inf if high is None else high
+    return least if one.above is None else max(least, one.above), most
+
+
+def _numbers(form: Form, unit: Unit) -> tuple[tuple[str, Field, float, float, float], ...]:
     numbers = (one for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT))
-    return tuple((one.name, one, _factor(one.kind, unit)) for one in numbers)
+    return tuple((one.name, one, _factor(one.kind, unit), *_open(one, unit)) for one in numbers)
 
 
 _NUMBERS: Final = MappingProxyType({(form, unit): _numbers(form, unit) for form in Form for unit in Unit})
-"""The fields of a form that take a number, each with its factor into millimetres or radians."""
+"""The fields of a form that take a number, each with its factor into millimetres or radians and its open bounds."""
 
 
 def fill(values: dict[str, Value], calculated: Mapping[str, float], unit: Unit) -> None:

@@ -7,7 +7,7 @@ from typing import Final
 
 from core.finding import Finding, Severity
 from core.geometry.path import Path
-from core.geometry.stretch import stretch
+from core.geometry.stretch import stretch_pieces
 from core.tolerance import STOCK
 from core.verify.names import Names, by_number
 from core.verify.stray import Away, Stray
@@ -139,9 +139,9 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
 
 def _shares(uncut: Uncut, surface: Path) -> list[tuple[float, float]]:
     """How much of each segment a stretch takes, in the contour's order; few enough to be read."""
-    part = stretch(surface, uncut.first_number, uncut.start, uncut.last_number, uncut.end)
-    shares = zip(part.numbers.tolist(), part.lengths.tolist(), strict=True)
-    return [(number, length) for number, length in shares if length > STOCK] if len(part) <= LISTED else []
+    part = stretch_pieces(surface, uncut.first_number, uncut.start, uncut.last_number, uncut.end)
+    shares = [(number, piece.length) for number, piece in part] if len(part) <= LISTED else []
+    return [(number, length) for number, length in shares if length > STOCK]
 
 
 def _segments(uncut: Uncut, surface: Path) -> str:

@@ -10,7 +10,7 @@ from core.geometry.side import Side
 from core.pipeline.derive import better, compared, derive, stocks
 from core.pipeline.derived import Loop, Tag
 from core.pipeline.outline import outline
-from core.pipeline.trouble import move_names, path_findings
+from core.pipeline.trouble import move_names, path_findings, size_warning
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Entry, LineSegment, Parameters, PathChoice, Unread, changed
 from core.units import Unit, sentence
@@ -191,6 +191,15 @@ def test_a_tool_larger_than_the_part_is_said():
     tiny = ((0, 0), (0.2, 0), (0.2, 0.2), (0, 0.2), (0, 0))
     (found,) = derive(program(block(tiny, CutterComp.RIGHT))).blocks
     assert "TOOL_LARGE" in codes(found)
+
+
+@pytest.mark.parametrize(("radius", "told"), [(0.99, False), (1.0, False), (1.01, True)])
+def test_the_size_of_a_contour_is_that_of_its_arcs(radius, told):
+    """The points of this circle span 1 mm by 0."""
+    half = Path.of([[0, 0], [1, 0], [0, 0]], [[0.5, 0], [1, 0]], [1, 0])
+    whole = Path.of([[0, 0], [0, 0]], [[1, 0]], [1])
+    assert bool(size_warning(radius, whole)) is told
+    assert bool(size_warning(radius / 2, half)) is told
 
 
 DUMBBELL = (

@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import inf, nan, nextafter, pi
 
 import pytest
 
-from core.program.fields import Form
-from core.program.model import Entry, LineSegment, Unread
+from core.program.fields import TABLES, Form, bounds, check
+from core.program.model import (
+    ArcSegment,
+    BlendSegment,
+    Block,
+    Entry,
+    LineSegment,
+    Parameters,
+    PartSetup,
+    Unread,
+    changed,
+)
 from core.program.reading import carry, fill, fill_angle, read
 from core.program.solved import Solved, Value
-from core.units import Unit
+from core.units import Kind, Unit
 from tests.core.program.parts import line
 
 
@@ -50,3 +60,39 @@ def test_nothing_is_carried_from_nothing():
     values: dict[str, Value] = {"feed": None}
     carry(values, "feed", None, Unit.IN)
     assert values == {"feed": None}
+
+
+PARTS = {
+    Form.START: Block(),
+    Form.LINE: LineSegment(),
+    Form.ARC: ArcSegment(),
+    Form.BLEND: BlendSegment(),
+    Form.PARAMETERS: Parameters(),
+    Form.SETUP: PartSetup(),
+}
+
+
+@pytest.mark.parametrize("unit", Unit)
+@pytest.mark.parametrize("form", PARTS)
+def test_a_number_is_known_exactly_where_its_field_takes_it(form: Form, unit: Unit):
+    numbers = [one for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT)]
+    assert numbers
+    for one in numbers:
+        edges = {
+            0.0,
+            1.0,
+            2.5,
+            -3.0,
+            54.0,
+            1e300,
+            *(edge for edge in (*bounds(one, unit), one.above) if edge is not None),
+        }
+        for value in (nan, inf, -inf, *(near for edge in edges for near in _about(edge))):
+            reading = read(form, changed(PARTS[form], {one.name: Entry(value)}), unit, 1)
+            taken = check(one, value, unit) is None
+            assert (one.name in reading.known) is taken
+            assert len(reading.findings) == (not taken)
+
+
+def _about(edge: float) -> tuple[float, float, float]:
+    return nextafter(edge, -inf), edge, nextafter(edge, inf)
