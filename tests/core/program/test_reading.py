@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import inf, nan, nextafter, pi
+from typing import Any
 
 import pytest
 
@@ -62,7 +63,7 @@ def test_nothing_is_carried_from_nothing():
     assert values == {"feed": None}
 
 
-PARTS = {
+PARTS: dict[Form, Any] = {
     Form.START: Block(),
     Form.LINE: LineSegment(),
     Form.ARC: ArcSegment(),
