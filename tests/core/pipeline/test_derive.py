@@ -196,8 +196,8 @@ def test_a_tool_larger_than_the_part_is_said():
 @pytest.mark.parametrize(("radius", "told"), [(0.99, False), (1.0, False), (1.01, True)])
 def test_the_size_of_a_contour_is_that_of_its_arcs(radius, told):
     """The points of this circle span 1 mm by 0."""
-    half = Path.of([[0, 0], [1, 0], [0, 0]], [[0.5, 0], [1, 0]], [1, 0])
-    whole = Path.of([[0, 0], [0, 0]], [[1, 0]], [1])
+    half = Path.of(np.array([[0.0, 0], [1, 0], [0, 0]]), np.array([[0.5, 0], [1, 0]]), np.array([1, 0], np.int8))
+    whole = Path.of(np.zeros((2, 2)), np.array([[1.0, 0]]), np.array([1], np.int8))
     assert bool(size_warning(radius, whole)) is told
     assert bool(size_warning(radius / 2, half)) is told
 
