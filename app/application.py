@@ -79,6 +79,7 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         gc.freeze()
         gc.enable()
         self.set_interval(MINUTE, self.refresh_screen)
+        self.desk = self.keep(self.desk)
         program = self.desk.session.program
         self._loading.ask(lambda: self.engine.load(program))
 

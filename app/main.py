@@ -103,7 +103,10 @@ def in_browser() -> bool:
 
 
 def keep_settings(app: CutcompApp, *, first: bool) -> None:
-    """Take up what stays from one time to the next, and keep it from now on; `first` begins with the start screen."""
+    """Take up what stays from one time to the next, and keep it from now on; `first` begins with the start screen.
+
+    That this file was the last one is put on the disk once the first screen stands.
+    """
     from app import settings
 
     file = settings.place()
@@ -115,7 +118,7 @@ def keep_settings(app: CutcompApp, *, first: bool) -> None:
         from app import starting
 
         desk = starting.begun(desk)
-    app.desk = keeper.keep(desk)
+    app.desk = desk
 
 
 def begin(path: Path | None, example: str | None) -> Session:

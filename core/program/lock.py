@@ -16,7 +16,7 @@ from pathlib import Path
 from socket import gethostname
 from typing import Final
 
-from core.program.disk import sync_folder, write_all
+from core.program.disk import write_all
 from core.records import dataclass
 
 SUFFIX: Final = ".cutcomp-lock"
@@ -146,10 +146,10 @@ def _create(lock: Lock) -> None:
     handle = os.open(lock.path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o644)
     try:
         write_all(handle, json.dumps(asdict(lock.owner)).encode())
+        # nobody ever finds half a lock; that a power cut takes the whole of it away again, with its owner, is right
         os.fsync(handle)
     finally:
         os.close(handle)
-    sync_folder(lock.path.parent)
 
 
 def _owner(path: Path) -> Owner | None:
