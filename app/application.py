@@ -11,7 +11,7 @@ from textual.app import App
 
 from app.behind import Behind
 from app.desk import Desk
-from app.engine import Engine
+from app.engine import Engine, bearing
 from app.screens.frame import Frame, picture
 from app.screens.page import Question
 from app.session import Session
@@ -137,20 +137,26 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
     def _derive(self) -> None:
         """Everything that follows from the program: now while it is fast, else in a thread."""
         session = self.desk.session
+        self._deriving.forget()
         if not session.stale and all(found.known for found in session.derived.blocks):
             return
         program, before = session.program, session.derived
+        if (held := self.engine.held(program)) is not None:
+            self.desk = self.desk.knowing(held)
+            return
         if self.engine.fast("derive"):
             self.desk = self.desk.knowing(self.engine.derive(program, before))
             return
         if session.stale:
             self.desk = self.desk.knowing(outline(program, before))
-        if self.engine.ready:
-            self._deriving.ask(lambda: self.engine.derive(program, before))
+        # what is on its way already, of the program or of the number just accepted, is not begun again
+        if self.engine.ready and program not in (self._deriving.doing, self._trying.doing):
+            self._deriving.ask(lambda: self.engine.derive(program, before), program)
 
     def _derived(self, derived: Derived) -> None:
         """A result from a thread; one for another program than that of now is dropped."""
-        self.desk = self.desk.knowing(derived)
+        program = self.desk.session.program
+        self.desk = self.desk.knowing(bearing(derived, program) if derived.program == program else derived)
         self._tabulate()
         self._need()
         self.refresh_screen()
@@ -166,11 +172,13 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         before = session.derived
         if self.engine.fast("derive", "trial"):
             self.trial = session.trying(self.engine.derive(program, before))
-        else:
-            self._trying.ask(lambda: self.engine.derive(program, before))
+        elif self._trying.doing != program:
+            self._trying.ask(lambda: self.engine.derive(program, before), program)
 
     def _tried(self, derived: Derived) -> None:
-        """A late trial is shown while the same number still stands in the field."""
+        """A late trial is shown while the same number still stands in the field; by now it may have been accepted."""
+        if derived.program == self.desk.session.program:
+            self._derived(derived)
         if self.desk.page.preview(self.desk.session) == derived.program:
             self.trial = self.desk.session.trying(derived)
             self._tabulate()

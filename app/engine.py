@@ -53,7 +53,8 @@ class Known:
         """The drawing as rows; none before the numeric library is there."""
         if not self.ready or columns < 1 or rows < 1:
             return ()
-        from app.widgets.drawing import picture_rows, scene_of
+        from app.widgets.drawing import picture_rows
+        from core.pipeline.plot import block_scene
 
         if drawn is not None:
             scene = self.memory.recall("page-scene", drawn.about, drawn.scene)
@@ -64,8 +65,10 @@ class Known:
         if not found.known and (before := self.memory.last("picture", tuple)) is not None:
             # while the new path is being calculated the old drawing stands; the verdict says that it is not known
             return before
-        about = (*_seen(found, segment), self.table, segment, unit, sketch.lookahead)
-        scene = self.memory.recall("scene", about, lambda: scene_of(found, self.table, segment, unit, sketch))
+        # of the table no more is drawn than the path of one value: where none is asked for it may come later
+        row = None if sketch.lookahead is None or self.table is None else self.table.row(sketch.lookahead)
+        about = (*_seen(found, segment), row, segment, unit)
+        scene = self.memory.recall("scene", about, lambda: block_scene(found, segment, unit, row))
         window = (scene, sketch, columns, rows, desk.mode)
         return self.memory.recall("picture", window, lambda: picture_rows(*window))
 
@@ -86,6 +89,8 @@ class Engine:
     ready: bool = False
     memory: Memory = field(default_factory=Memory)
     took: dict[str, float] = field(default_factory=dict)
+    latest: Derived | None = None
+    """What was derived last, whether of the program or of one that was tried out."""
     table: Table | None = None
     table_of: Work | None = None
     needs: tuple[Finding, ...] = ()
@@ -121,7 +126,13 @@ class Engine:
         """Everything that follows from a program."""
         from core.pipeline.derive import derive
 
-        return self.timed("derive", lambda: derive(program, before))
+        self.latest = self.timed("derive", lambda: derive(program, before))
+        return self.latest
+
+    def held(self, program: Program) -> Derived | None:
+        """What was derived last if that was of an equal program: what Enter accepts has been tried out already."""
+        latest = self.latest
+        return None if latest is None or latest.program != program else bearing(latest, program)
 
     def keep_table(self, found: DerivedBlock, program: Program) -> None:
         """Make and keep the look-ahead table of a block."""
@@ -172,6 +183,15 @@ class Engine:
         if self.told is None or self.told[0] is not table:
             self.told = (table, replace(table, notes=(*self.needs, *table.notes)))
         return self.told[1]
+
+
+def bearing(derived: Derived, program: Program) -> Derived:
+    """What was derived of an equal program, with the blocks of this one, by which the next derivation sees changes.
+
+    Everything derived follows from values alone, so equal programs have it in common.
+    """
+    both = zip(derived.blocks, program.blocks, strict=True)
+    return Derived(program, tuple(replace(found, block=block) for found, block in both))
 
 
 def _needing(found: DerivedBlock) -> tuple[Work, int] | None:

@@ -14,10 +14,6 @@ from core.draw.mode import Mode
 from core.draw.raster import Picture, draw
 from core.draw.scene import Box, Scene, Style
 from core.draw.view import View
-from core.pipeline.derived import DerivedBlock
-from core.pipeline.plot import block_scene
-from core.pipeline.table import Table
-from core.units import Unit
 
 ROOM_FOR_SCALE: Final = 10
 """In fewer rows the scale bar would cover the part."""
@@ -40,12 +36,6 @@ LOOKS: Final = {
     Style.MESSAGE: Look.DIM,
 }
 """The look of each role of the drawing."""
-
-
-def scene_of(found: DerivedBlock, table: Table | None, segment: int, unit: Unit, sketch: Sketch) -> Scene:
-    """The scene of a block, or that of one value of its look-ahead table."""
-    row = None if sketch.lookahead is None or table is None else table.row(sketch.lookahead)
-    return block_scene(found, segment, unit, row)
 
 
 def picture_rows(scene: Scene, sketch: Sketch, columns: int, rows: int, mode: str) -> tuple[Row, ...]:

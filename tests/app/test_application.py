@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+from math import inf
 
 import pytest
 
@@ -11,7 +12,9 @@ from app.engine import Known
 from app.screens.frame import Frame, picture
 from app.widgets.painted import Rows
 from app.widgets.rows import text_of
-from core.program.model import Entry
+from core.pipeline.derive import derive
+from core.pipeline.derived import Derived
+from core.program.model import Entry, Program
 from tests.app.operator import FROZEN
 from tests.app.pilots import app_on, loaded, typed
 
@@ -75,6 +78,31 @@ async def test_a_slow_machine_shows_the_form_at_once_and_the_verdict_later() -> 
         await pilot.pause()
         assert "GOUGE   0.2500" in shown(app, "GOUGE")
         assert not app.desk.session.stale
+
+
+@pytest.mark.parametrize("limit", [inf, -1.0], ids=["fast", "slow"])
+async def test_what_was_tried_out_while_it_was_typed_is_not_derived_again(
+    limit: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    done: list[Program] = []
+
+    def counted(program: Program, before: Derived | None = None) -> Derived:
+        done.append(program)
+        return derive(program, before)
+
+    app = app_on("pocket")
+    app.engine.limit = limit
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        monkeypatch.setattr("core.pipeline.derive.derive", counted)
+        await pilot.press(*["tab"] * 11, "1", "enter", "tab")
+        await app.workers.wait_for_complete()
+        await pilot.pause()
+        assert len(done) == 1
+        assert not app.desk.session.stale
+        assert app.desk.session.found.known
+        assert app.desk.session.found.block is app.desk.session.block
+        assert "GOUGE   0.2500" in shown(app, "GOUGE")
 
 
 async def test_nothing_takes_the_focus_and_the_screen_is_never_changed() -> None:

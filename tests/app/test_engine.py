@@ -7,7 +7,7 @@ import pytest
 from app.engine import Engine
 from app.files import example
 from core.pipeline.derive import derive
-from core.pipeline.derived import DerivedBlock
+from core.pipeline.derived import DerivedBlock, Work
 from core.program.edit import Where, type_field
 from core.program.model import Entry, Program
 from core.program.store import load
@@ -51,3 +51,51 @@ def test_another_depth_keeps_the_table_and_what_the_contour_needs() -> None:
     assert engine.tabulated(found)
     assert not engine.lacks_needs(found)
     assert engine.known(found, None).table is engine.known(before.blocks[0], None).table
+
+
+EDITS = [
+    *((Where(1, 0), "tool", text) for text in ("1", "3", "7")),
+    *((Where(1, 0), "z_bottom", text) for text in ("-.1", "-0", "2")),
+    *((Where(1, 1), "x_end", text) for text in ("2.5", ".1", "-0", "9")),
+    (Where(1, 0), "lookahead", "1"),
+]
+
+
+@pytest.mark.parametrize("name", ["overrun-square", "pocket", "flange", "plate-mm"])
+@pytest.mark.parametrize(("where", "field", "text"), EDITS)
+def test_what_was_tried_out_is_what_would_be_derived_of_an_equal_program(
+    name: str, where: Where, field: str, text: str
+) -> None:
+    part = load(example(name))
+    tried, accepted = (type_field(part, where, field, Entry(float(text))) for _ in range(2))
+    assert isinstance(tried, Program)
+    assert isinstance(accepted, Program)
+    engine = Engine(ready=True)
+    engine.derive(tried, derive(part))
+    held = engine.held(accepted)
+    assert held is not None
+    assert held.program is accepted
+    assert all(one.block is block for one, block in zip(held.blocks, accepted.blocks, strict=True))
+    assert [plain(one) for one in held.blocks] == [plain(one) for one in derive(accepted).blocks]
+
+
+def plain(found: DerivedBlock) -> tuple[object, ...]:
+    """All that is derived, in values that can be compared."""
+    told = (found.number, found.block, found.lookahead, found.side, found.profile, found.radius, found.known)
+    return (*told, found.solved, found.findings, None if found.work is None else cut(found.work))
+
+
+def cut(work: Work) -> tuple[object, ...]:
+    """The paths and what they do."""
+    paths = [work.surface, *(loop.whole for loop in work.loops)]
+    arrays = [array.tolist() for path in paths for array in (path.points, path.centres, path.turns, path.numbers)]
+    verdict = work.verdict
+    return arrays, None if verdict is None else (verdict.clean, verdict.uncut_length, verdict.clearance)
+
+
+def test_nothing_is_held_of_another_program() -> None:
+    engine = Engine(ready=True)
+    assert engine.held(PART) is None
+    engine.derive(PART, derive(PART))
+    assert engine.held(PART) is not None
+    assert engine.held(changed(Where(1, 1), "x_end", 2.5)[1]) is None
