@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
 
 from core.comp.advise import recommended
 from core.comp.compensate import compensate_all
@@ -99,13 +102,31 @@ def trial_of(found: DerivedBlock, program: Program) -> Trial | None:
 def look_ahead_table(found: DerivedBlock, program: Program) -> Table | None:
     """The table of a derived block; None for ON and while there is nothing to compensate."""
     trial = trial_of(found, program)
-    return None if trial is None else replace(table_of(trial), notes=better(found))
+    return None if trial is None else replace(table_of(trial, _judged(found)), notes=better(found))
 
 
-def table_of(trial: Trial) -> Table:
-    """The table of any contour: a value's fate is that of its finish path and of the roughing passes before it."""
+def _judged(found: DerivedBlock) -> Judged | None:
+    """The path in force and its verdict, where that is the control's."""
+    work = found.work
+    if work is None or work.verdict is None or work.compensated is None or work.best is not None:
+        return None
+    return Judged(work.compensated.whole, work.verdict)
+
+
+class Judged(NamedTuple):
+    """A whole path whose verdict is known."""
+
+    whole: Path
+    verdict: Verdict
+
+
+def table_of(trial: Trial, judged: Judged | None = None) -> Table:
+    """The table of any contour: a value's fate is that of its finish path and of the roughing passes before it.
+
+    `judged` is a finish path that has been judged already, against this contour with this radius.
+    """
     values = range(LOWEST, HIGHEST + 1)
-    every, verdicts = _all(trial, trial.radius, trial.radius)
+    every, verdicts = _all(trial, trial.radius, trial.radius, judged)
     rougher = trial.radius if trial.rougher is None else trial.rougher
     passes = [_all(trial, rougher + stock, rougher)[1] for stock in trial.stocks]
     rough = list(zip(*passes, strict=True)) or [()] * len(values)
@@ -113,10 +134,24 @@ def table_of(trial: Trial) -> Table:
     return Table(tuple(rows), recommended(rows))
 
 
-def _all(trial: Trial, radius: float, cutter: float) -> tuple[Sequence[Compensated], Sequence[Verdict]]:
+def _all(
+    trial: Trial, radius: float, cutter: float, judged: Judged | None = None
+) -> tuple[Sequence[Compensated], Sequence[Verdict]]:
     """The path at `radius` of every value, and what a cutter of radius `cutter` does on it."""
     values = range(LOWEST, HIGHEST + 1)
     every = compensate_all(
         trial.surface, trial.side, radius, values, closed=trial.closed, blend=trial.blend, overlap=trial.overlap
     )
-    return every, judge_all(trial.surface, trial.side, cutter, [one.whole for one in every])
+    # values that test the same crossings have one path between them
+    wholes = {id(one.path): one.whole for one in every}
+    known = {} if judged is None else {key: judged.verdict for key, one in wholes.items() if _same(one, judged.whole)}
+    rest = {key: one for key, one in wholes.items() if key not in known}
+    told = judge_all(trial.surface, trial.side, cutter, list(rest.values())) if rest else ()
+    verdicts = known | dict(zip(rest, told, strict=True))
+    return every, [verdicts[id(one.path)] for one in every]
+
+
+def _same(one: Path, other: Path) -> bool:
+    """Whether two paths are the same to the last bit."""
+    names = ("turns", "numbers", "points", "centres")
+    return all(np.array_equal(getattr(one, name), getattr(other, name)) for name in names)

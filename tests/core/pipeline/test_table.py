@@ -1,4 +1,4 @@
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import pytest
 
@@ -8,8 +8,9 @@ from core.pipeline.derive import derive
 from core.pipeline.jobs import job
 from core.pipeline.table import look_ahead_table
 from core.program.edit import set_unit
-from core.program.model import CutterComp, Entry, Parameters, Tool
+from core.program.model import CutterComp, Entry, Parameters, PathChoice, Tool
 from core.units import Unit
+from core.verify.judge import judge
 from tests.core.pipeline.parts import NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE, block, program
 
 
@@ -37,6 +38,29 @@ def test_the_over_run_square_is_clean_from_three_although_most_of_it_is_erased()
 
 def test_there_is_no_table_without_compensation():
     assert table(OUTSIDE_SQUARE, CutterComp.ON) is None
+
+
+def told(verdict):
+    return [list(value) if name == "uncut" else value for name, value in _values(verdict)]
+
+
+def _values(verdict):
+    return [(one.name, getattr(verdict, one.name)) for one in fields(verdict)]
+
+
+@pytest.mark.parametrize("choice", list(PathChoice))
+@pytest.mark.parametrize("points", [NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE])
+def test_every_value_is_judged_by_its_own_path(points, choice):
+    part = program(block(points, CutterComp.RIGHT), parameters=Parameters(path=choice))
+    (found,) = derive(part).blocks
+    assert found.work is not None
+    assert found.side is not None
+    assert found.radius is not None
+    rows = look_ahead_table(found, part).rows
+    for row in rows:
+        assert told(row.verdict) == told(judge(found.work.surface, found.side, found.radius, row.compensated.whole))
+    if choice is PathChoice.CONTROL:
+        assert rows[found.lookahead.value - 1].verdict is found.work.verdict
 
 
 class Fate:
