@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Final, TypeVar
 from app.memory import Memory
 from app.screens.page import Drawn, Sketch
 from app.widgets.rows import Row
-from app.widgets.verdict import verdict_rows
+from app.widgets.verdict import fitted, verdict_rows
 from core.pipeline.derived import Derived, DerivedBlock, Work
 from core.pipeline.outline import outline
 from core.program.model import Program
@@ -72,10 +72,11 @@ class Known:
         window = (scene, sketch, columns, rows, desk.mode)
         return self.memory.recall("picture", window, lambda: picture_rows(*window))
 
-    def verdict(self, session: Session, look: int | None) -> list[Row]:
-        """All lines of the verdict, of the path in force or of that of a look-ahead value."""
-        about = (session.found, self.table, session.program.unit, look)
-        return self.memory.recall("verdict", about, lambda: verdict_rows(*about))
+    def verdict(self, session: Session, look: int | None, height: int, width: int, first: int = 0) -> tuple[Row, ...]:
+        """The verdict in its room from line `first` on, of the path in force or of that of a look-ahead value."""
+        about = (session.found, self.table, session.program.unit, look, first + height)
+        room = (height, width)
+        return self.memory.recall("verdict", (*about, *room), lambda: fitted(verdict_rows(*about)[first:], *room))
 
 
 @dataclass(slots=True)

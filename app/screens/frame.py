@@ -18,7 +18,6 @@ from app.widgets.prompt import prompt_rows
 from app.widgets.rows import Look, Part, Row, composed, plain
 from app.widgets.softkeys import softkey_rows
 from app.widgets.status import status_row
-from app.widgets.verdict import fitted
 
 if TYPE_CHECKING:
     from app.application import CutcompApp
@@ -110,7 +109,6 @@ def _verdict(session: Session, known: Known, view: View, layout: Layout, areas: 
         return ()
     if view.told is not None:
         return view.told[: area.height]
-    rows = known.verdict(session, view.sketch.lookahead)
-    if layout is not Layout.FORM:
-        rows = rows[1:]
-    return fitted(rows, area.height, area.width)
+    # the strip of all look-ahead values stands on the form alone
+    first = 0 if layout is Layout.FORM else 1
+    return known.verdict(session, view.sketch.lookahead, area.height, area.width, first)

@@ -47,8 +47,21 @@ class Case:
     verdict: Verdict
 
 
-def verdict_rows(found: DerivedBlock, table: Table | None, unit: Unit, look: int | None) -> list[Row]:
-    """All lines of the verdict; `look` is a look-ahead value to judge instead of the one in force."""
+def verdict_rows(
+    found: DerivedBlock, table: Table | None, unit: Unit, look: int | None, most: int | None = None
+) -> list[Row]:
+    """All lines of the verdict; `look` is a look-ahead value to judge instead of the one in force.
+
+    The lines behind the first `most`, which nobody reads, are empty: a hundred sentences take longer than a picture.
+    """
+    lines = _lines(found, table, unit, look)
+    read = lines if most is None else lines[:most]
+    told = [_sentence(one, unit) if isinstance(one, Finding) else one for one in read]
+    return [*told, *[()] * (len(lines) - len(read))]
+
+
+def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | None) -> list[Row | Finding]:
+    """The lines in their order, the findings still to be put into words."""
     case = _case(found, table, look)
     first = _strip(found, table, unit)
     if hint := _beginning(found):
@@ -56,10 +69,10 @@ def verdict_rows(found: DerivedBlock, table: Table | None, unit: Unit, look: int
     if look is not None and case is not None:
         return [first, *_case_lines(case, unit)]
     findings = _untold(found.findings, case)
-    errors = [_sentence(one, unit) for one in findings if one.severity is Severity.ERROR]
-    rest = [_sentence(one, unit) for one in findings if one.severity is not Severity.ERROR]
+    errors = [one for one in findings if one.severity is Severity.ERROR]
+    rest = [one for one in findings if one.severity is not Severity.ERROR]
     lines = [] if case is None else list(_case_lines(case, unit))
-    notes = [] if table is None else [_sentence(one, unit) for one in table.notes]
+    notes = () if table is None else table.notes
     gravest = 1 if case is not None and case.verdict.gouges else 0
     return [first, *lines[:gravest], *errors, *lines[gravest:], *notes, *rest]
 
@@ -96,10 +109,13 @@ def _untold(findings: tuple[Finding, ...], case: Case | None) -> list[Finding]:
 
 
 def fitted(rows: list[Row], height: int, width: int) -> tuple[Row, ...]:
-    """The rows wrapped to the width as far as they fit, the last line saying how many more there are."""
-    wrapped = [_wrapped(row, width) for row in rows]
+    """The rows wrapped to the width as far as they fit, the last line saying how many more there are.
+
+    No more than the first `height` rows are looked at, one where there is no height.
+    """
     lines: list[Row] = []
-    for told, block in enumerate(wrapped, 1):
+    for told, row in enumerate(rows, 1):
+        block = _wrapped(row, width)
         room, left = height - len(lines), len(rows) - told
         if len(block) > room or (left and len(block) == room):
             return (*lines, *_last(block, room, width, left))

@@ -134,3 +134,16 @@ def test_what_is_missing_is_told_in_full_on_the_form() -> None:
     operator = Operator.at().press("enter").type("1").press("l").type("", "0", "0", "0", "0", "-1")
     told = " ".join(operator.press("pagedown", "a").part("verdict").split())
     assert "enter the end and the center, the end and RADIUS, or the center and SWEEP ANGLE." in told
+
+
+@pytest.mark.parametrize("name", ["notch", "overrun-square", "pocket"])
+@pytest.mark.parametrize("width", [20, 59])
+def test_lines_that_have_no_room_are_counted_without_being_put_into_words(name: str, width: int) -> None:
+    session = derived(name).session
+    about = session.found, look_ahead_table(session.found, session.program), session.program.unit
+    rows = verdict_rows(*about, None)
+    assert len(rows) > 3
+    for height in range(len(rows) + 2):
+        few = verdict_rows(*about, None, height)
+        assert few == [*rows[:height], *[()] * (len(rows) - height)]
+        assert fitted(few, height, width) == fitted(rows, height, width)
