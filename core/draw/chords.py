@@ -15,9 +15,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.draw.scene import BEYOND, Layer
+from core.draw.scene import BEYOND, Layer, chained
 from core.draw.view import TALL, View
-from core.geometry.path import Floats, Path
+from core.geometry.path import Floats
 
 SAG: Final = 0.1
 """How far a chord may stray from its arc, in cells' widths: less than half a dot of the finest mode."""
@@ -94,7 +94,7 @@ def chords(layers: Sequence[Layer], view: View, columns: int, rows: int) -> Chor
 def _gather(given: Sequence[tuple[int, Layer]], view: View) -> _Pieces:
     """The pieces of all layers in window coordinates, in order; only dashed layers are measured."""
     paths = [layer.path for _, layer in given]
-    chain, own = _chain(paths)
+    chain, own = chained(paths)
     points, counts = _in_window(chain.points, view), np.array([len(path) for path in paths])
     return _Pieces(
         points[:-1][own],
@@ -105,20 +105,6 @@ def _gather(given: Sequence[tuple[int, Layer]], view: View) -> _Pieces:
         np.repeat([index for index, _ in given], counts),
         _travelled([layer for _, layer in given], np.cumsum(counts)) / view.scale,
     )
-
-
-def _chain(paths: Sequence[Path]) -> tuple[Path, Mask]:
-    """All paths as one, and which of its pieces are theirs: a line from each to the next is not.
-
-    What is asked of it once would be asked of a hundred little paths one by one.
-    """
-    points = np.concatenate([path.points for path in paths])
-    own = np.ones(len(points) - 1, np.bool_)
-    own[np.cumsum([len(path) + 1 for path in paths])[:-1] - 1] = False
-    centres, turns = points[:-1].copy(), np.zeros(len(own), np.int8)
-    centres[own] = np.concatenate([path.centres for path in paths])
-    turns[own] = np.concatenate([path.turns for path in paths])
-    return Path.of(points, centres, turns), own
 
 
 def _in_window(points: Floats, view: View) -> Points:

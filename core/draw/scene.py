@@ -11,8 +11,9 @@ from enum import Enum, IntEnum, auto
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from core.geometry.path import Floats, Path
+from core.geometry.path import EMPTY, Floats, Path
 from core.geometry.piece import Point
 from core.tolerance import LARGEST
 from core.units import Unit
@@ -94,15 +95,32 @@ class Scene:
     @property
     def bounds(self) -> Box | None:
         """Least x, least y, largest x, largest y of all that can be drawn; None for an empty scene."""
-        boxes = [layer.path.boxes for layer in self.layers if len(layer.path)]
+        paths = [layer.path for layer in self.layers if len(layer.path)]
+        chain, own = chained(paths) if paths else (EMPTY, np.empty(0, np.bool_))
+        with np.errstate(invalid="ignore", over="ignore"):
+            boxes = [chain.boxes[own]]
         boxes += [_box_of(circle.centre, circle.radius) for circle in self.circles]
         boxes += [_box_of(mark.at, 0.0) for mark in self.marks]
-        rows = np.concatenate(boxes) if boxes else np.empty((0, 4))
+        rows = np.concatenate(boxes)
         rows = rows[np.all(np.abs(rows) <= BEYOND, axis=1)]
         if not len(rows):
             return None
         (x0, y0), (x1, y1) = rows[:, :2].min(axis=0).tolist(), rows[:, 2:].max(axis=0).tolist()
         return (x0, y0, x1, y1)
+
+
+def chained(paths: Sequence[Path]) -> tuple[Path, NDArray[np.bool_]]:
+    """All paths as one, and which of its pieces are theirs: a line from each to the next is not.
+
+    What is asked of it once would be asked of a hundred little paths one by one.
+    """
+    points = np.concatenate([path.points for path in paths])
+    own = np.ones(len(points) - 1, np.bool_)
+    own[np.cumsum([len(path) + 1 for path in paths])[:-1] - 1] = False
+    centres, turns = points[:-1].copy(), np.zeros(len(own), np.int8)
+    centres[own] = np.concatenate([path.centres for path in paths])
+    turns[own] = np.concatenate([path.turns for path in paths])
+    return Path.of(points, centres, turns), own
 
 
 def _box_of(centre: Point, radius: float) -> Floats:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import tau
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,9 @@ from core.geometry.piece import SLIVER, Arc, Line, Piece, Turn
 
 Floats = NDArray[np.float64]
 Turns = NDArray[np.int8]
+
+_QUARTERS: Final = np.array([[0.0], [tau / 4], [tau / 2], [3 * tau / 4]])
+"""(4, 1) where a circle reaches farthest along +X, +Y, -X, -Y, in radians."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -98,7 +102,8 @@ class Path:
         angle = np.arctan2(last[:, 1], last[:, 0]) - np.arctan2(first[:, 1], first[:, 0])
         swept = np.mod(angle * self.turns, tau)
         swept[swept > tau - SLIVER] = 0.0
-        swept[np.all(self.starts == self.ends, axis=1)] = tau
+        same = self.starts == self.ends
+        swept[same[:, 0] & same[:, 1]] = tau
         return swept * self.turns
 
     @property
@@ -128,14 +133,15 @@ class Path:
     def boxes(self) -> Floats:
         """(n, 4) exact bounding boxes: least x, least y, largest x, largest y."""
         low, high = np.minimum(self.starts, self.ends), np.maximum(self.starts, self.ends)
-        first, radii, sweeps = self.starts - self.centres, self.radii[:, None], self.sweeps
-        begin = np.arctan2(first[:, 1], first[:, 0])
-        for quarter, (dx, dy) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
-            ahead = np.mod((quarter * tau / 4 - begin) * self.turns, tau)
-            extreme = self.centres + radii * (dx, dy)
-            passed = ((ahead < np.abs(sweeps)) & (self.turns != 0))[:, None]
-            low = np.where(passed, np.minimum(low, extreme), low)
-            high = np.where(passed, np.maximum(high, extreme), high)
+        arcs = np.flatnonzero(self.turns)
+        if len(arcs):
+            centres, radii = self.centres[arcs], self.radii[arcs][:, None]
+            first = self.starts[arcs] - centres
+            begin = np.arctan2(first[:, 1], first[:, 0])
+            ahead = np.mod((_QUARTERS - begin) * self.turns[arcs], tau)
+            passed = (ahead < np.abs(self.sweeps[arcs])).T
+            high[arcs] = np.where(passed[:, :2], np.maximum(high[arcs], centres + radii), high[arcs])
+            low[arcs] = np.where(passed[:, 2:], np.minimum(low[arcs], centres - radii), low[arcs])
         return np.hstack((low, high))
 
     def reversed(self) -> Path:
