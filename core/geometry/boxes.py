@@ -29,51 +29,10 @@ def near_pairs(first: Floats, second: Floats, reach: float) -> tuple[Rows, Rows]
     """Indices (i, j), in rising order of i, of all boxes no farther apart than `reach`."""
     if first.shape[1] * second.shape[1] <= AT_ONCE:
         i, j = np.nonzero(_near(first[:, :, None], second[:, None, :], reach))
-        keep = _within(first.take(i, axis=1), second.take(j, axis=1), reach)
+        keep = reaching(first.take(i, axis=1), second.take(j, axis=1), reach)
         return i[keep], j[keep]
     one, two = _runs(first), _runs(second)
     return _members(first, second, *_near_groups(_bounds(one), _bounds(two), reach), reach)
-
-
-def near_pairs_within(bounds: Floats, reach: float, spread: Floats, most: float) -> tuple[Rows, Rows]:
-    """Indices i < j, in rising order of i, of boxes no farther apart than `reach` that do not follow each other.
-
-    `spread` (2, n) is a least and a largest value for each box, such as of its piece's headings: pairs within a run
-    whose values differ by no more than `most` may be left out.
-    """
-    if bounds.shape[1] ** 2 <= AT_ONCE:
-        i, j = near_pairs(bounds, bounds, reach)
-    else:
-        runs, values = _bounds(_runs(bounds)), _values(spread, RUN)
-        one, two = _near_groups_within(runs, reach, values, most)
-        i, j = _members(bounds, bounds, one, two, reach)
-    keep = j > i + 1
-    return i[keep], j[keep]
-
-
-def _near_groups_within(bounds: Floats, reach: float, spread: Floats, most: float) -> tuple[Rows, Rows]:
-    """Pairs i <= j of boxes no farther apart than `reach`, but for neighbours whose values differ too little."""
-    tree, values = _tree(bounds, FAN), [spread]
-    while len(values) < len(tree):
-        values.append(_values(values[-1], FAN))
-    count = tree[0].shape[1]
-    i, j = np.nonzero(np.ones((count, count), np.bool_))
-    for depth, level in enumerate(tree):
-        if depth:
-            i, j = _children(i, j, level.shape[1], level.shape[1])
-        ahead = np.flatnonzero((j >= i) & _near(level.take(i, axis=1), level.take(j, axis=1), reach))
-        i, j = i[ahead], j[ahead]
-        low, high = values[len(tree) - 1 - depth]
-        differ = np.maximum(high[i], high[j]) - np.minimum(low[i], low[j]) > most
-        keep = np.flatnonzero((j > i + 1) | differ)
-        i, j = i[keep], j[keep]
-    return i, j
-
-
-def _values(spread: Floats, size: int) -> Floats:
-    """Least and largest values of groups of so many."""
-    starts = np.arange(0, spread.shape[1], size)
-    return np.stack((np.minimum.reduceat(spread[0], starts), np.maximum.reduceat(spread[1], starts)))
 
 
 def _near_groups(first: Floats, second: Floats, reach: float) -> tuple[Rows, Rows]:
@@ -81,10 +40,10 @@ def _near_groups(first: Floats, second: Floats, reach: float) -> tuple[Rows, Row
     one, two = _level_trees(first, second)
     i, j = np.nonzero(_near(one[0][:, :, None], two[0][:, None, :], reach))
     for low, high in zip(one[1:], two[1:], strict=True):
-        i, j = _children(i, j, low.shape[1], high.shape[1])
+        i, j = children(i, j, low.shape[1], high.shape[1])
         keep = _near(low.take(i, axis=1), high.take(j, axis=1), reach)
         i, j = i[keep], j[keep]
-    keep = _within(first.take(i, axis=1), second.take(j, axis=1), reach)
+    keep = reaching(first.take(i, axis=1), second.take(j, axis=1), reach)
     return i[keep], j[keep]
 
 
@@ -120,7 +79,7 @@ def _members(first: Floats, second: Floats, one: Rows, two: Rows, reach: float) 
         where = np.flatnonzero(near.reshape(RUN * RUN, -1).T)
         pair, member = where // (RUN * RUN), where & (RUN * RUN - 1)
         i, j = RUN * left[pair] + member // RUN, RUN * right[pair] + (member & (RUN - 1))
-        keep = _within(first.take(i, axis=1), second.take(j, axis=1), reach)
+        keep = reaching(first.take(i, axis=1), second.take(j, axis=1), reach)
         found.append(np.stack((i[keep], j[keep])))
     i, j = np.concatenate(found, axis=1)
     order = np.argsort(i, kind="stable")
@@ -133,7 +92,7 @@ def closest_pairs(first: Floats, second: Floats) -> tuple[Rows, Rows]:
     i, j = np.nonzero(np.ones((one[0].shape[1], two[0].shape[1]), np.bool_))
     i, j = _contenders(i, j, one[0], two[0])
     for low, high in zip(one[1:], two[1:], strict=True):
-        i, j = _contenders(*_children(i, j, low.shape[1], high.shape[1]), low, high)
+        i, j = _contenders(*children(i, j, low.shape[1], high.shape[1]), low, high)
     return i, j
 
 
@@ -179,16 +138,17 @@ def _tree(boxes: Floats, most: int) -> list[Floats]:
     """Boxes, groups of boxes, groups of groups ... down to `most` of them, the coarsest first."""
     levels = [boxes]
     while levels[-1].shape[1] > most:
-        levels.append(_grouped(levels[-1]))
+        levels.append(grouped(levels[-1]))
     return levels[::-1]
 
 
-def _grouped(boxes: Floats) -> Floats:
+def grouped(boxes: Floats) -> Floats:
+    """The boxes around every FAN of these."""
     starts = np.arange(0, boxes.shape[1], FAN)
     return np.vstack((np.minimum.reduceat(boxes[:2], starts, axis=1), np.maximum.reduceat(boxes[2:], starts, axis=1)))
 
 
-def _children(i: Rows, j: Rows, first: int, second: int) -> tuple[Rows, Rows]:
+def children(i: Rows, j: Rows, first: int, second: int) -> tuple[Rows, Rows]:
     """All pairs of members of paired groups; a level that only repeats its single group keeps it."""
     i, j = _brood(i, j, second)
     j, i = _brood(j, i, first)
@@ -217,13 +177,22 @@ def _apart(a: Floats, b: Floats) -> Floats:
     return gap
 
 
-def _within(a: Floats, b: Floats, reach: float) -> Flags:
+def meeting(a: Floats, b: Floats) -> Flags:
+    """Boxes that have a point in common."""
+    met: Flags = a[0] <= b[2]
+    met &= b[0] <= a[2]
+    met &= a[1] <= b[3]
+    met &= b[1] <= a[3]
+    return met
+
+
+def reaching(a: Floats, b: Floats, reach: float) -> Flags:
     """Boxes no farther apart than `reach`."""
     x, y = np.maximum(a[0] - b[2], b[0] - a[2]), np.maximum(a[1] - b[3], b[1] - a[3])
     np.maximum(x, 0.0, out=x)
     np.maximum(y, 0.0, out=y)
-    within: Flags = x * x + y * y <= reach * reach
-    return within
+    near: Flags = x * x + y * y <= reach * reach
+    return near
 
 
 def _span(a: Floats, b: Floats) -> Floats:

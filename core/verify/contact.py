@@ -18,7 +18,7 @@ PARALLEL: Final = 1e-6
 
 def loose(pairs: Pairs) -> tuple[int, ...]:
     """Rows of pieces that no single surface piece is a radius or less from at both ends and in the middle."""
-    held = np.zeros(len(pairs.centre), np.bool_)
+    held = pairs.own.settled(len(pairs.centre))
     held[pairs.i[pairs.touch.along]] = True
     return tuple(pairs.centre.rows[~held].tolist())
 
@@ -35,6 +35,8 @@ def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     against = np.zeros(len(pairs.centre), np.bool_)
     against[row[way < 0]] = True
     against[row[way > 0]] = False
+    own = pairs.own
+    against[own.piece[(own.last - own.first) * pairs.surface.length[: len(own.piece)] > POINT]] = False
     return tuple(pairs.centre.rows[against].tolist())
 
 

@@ -8,17 +8,13 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.boxes import near_pairs_within
+from core.geometry.aligned import aligned_pairs
 from core.geometry.distance import between, distance, foot, nearest_places
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction
 from core.tolerance import JOINED
 
 TURN: Final = 1e-6
 """Radians short of half a turn that are taken for one."""
-
-
-STEADY: Final = 2.5
-"""Radians: pieces whose directions differ by no more keep advancing one way, and meet nowhere but at their joints."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -54,9 +50,9 @@ def crossings(surface: Measured, stations: Floats, bounds: Floats, *, closed: bo
 
 def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Rows, Rows]:
     """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbours that come back."""
-    spread, turned = _headings(surface)
-    i, j = near_pairs_within(bounds, JOINED, spread, STEADY)
-    again = np.flatnonzero((turned > pi - TURN) & _overlapping(bounds))
+    i, j = aligned_pairs(bounds, bounds, JOINED, 2, both=False)
+    again = np.flatnonzero(_overlapping(bounds))
+    again = again[_turned(surface, again) > pi - TURN]
     i, j = np.concatenate((i, again)), np.concatenate((j, again + 1))
     if closed and len(surface) > 2:
         seam = (i == 0) & (j == len(surface) - 1)
@@ -65,22 +61,13 @@ def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Row
     return i, j
 
 
-def _headings(surface: Measured) -> tuple[Floats, Floats]:
-    """(2, n) least and largest direction of each piece in radians, counted on over all turns since the first piece.
-
-    And (n - 1,) how much a piece, the next one and the joint between them turn.
-    """
-    turned = surface.turn * surface.angle
-    begin = end = surface.vector
-    arc = np.flatnonzero(surface.turn)
-    if len(arc):
-        begin, end = begin.copy(), end.copy()
-        begin[arc] = 1j * surface.turn[arc] * surface.arm[arc]
-        end[arc] = 1j * surface.turn[arc] * (surface.arm[arc] + surface.vector[arc])
-    corners = np.angle(begin[1:] * np.conj(end[:-1]))
-    first = np.concatenate(([0.0], np.cumsum(turned[:-1] + corners)))
-    spread = np.stack((np.minimum(first, first + turned), np.maximum(first, first + turned)))
-    return spread, surface.angle[:-1] + surface.angle[1:] + np.abs(corners)
+def _turned(surface: Measured, rows: Rows) -> Floats:
+    """How much these pieces, the next ones and the joints between them turn, radians."""
+    one, other = surface.take(rows), surface.take(rows + 1)
+    end = np.where(one.turn == 0.0, one.vector, 1j * one.turn * (one.arm + one.vector))
+    begin = np.where(other.turn == 0.0, other.vector, 1j * other.turn * other.arm)
+    turned: Floats = one.angle + other.angle + np.abs(np.angle(begin * np.conj(end)))
+    return turned
 
 
 def _overlapping(bounds: Floats) -> Flags:

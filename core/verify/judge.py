@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, isfinite, isinf, nan
+from typing import Final
 
 import numpy as np
 
@@ -12,13 +13,17 @@ from core.geometry.measured import Floats, Measured, boxes, measured, stacked
 from core.geometry.path import EMPTY, Path
 from core.geometry.side import Side
 from core.tolerance import CLOSED, GOUGE, LARGEST
+from core.verify.beside import NOBODY, Beside, beside
 from core.verify.contact import backwards, loose
 from core.verify.crossing import Crossings, crossings
 from core.verify.gouge import gouges, gouging
-from core.verify.pairs import approaches, clearance, pairs_of
+from core.verify.pairs import approaches, clearance, granted, pairs_of
 from core.verify.sides import sided, wrong_side
 from core.verify.uncut import uncut
 from core.verify.verdict import NOTHING, Verdict
+
+FEW: Final = 300
+"""Walls of which measuring every pair costs less than proving what runs beside them."""
 
 
 def judge(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
@@ -107,7 +112,8 @@ def _judged(surface: Path, ground: _Ground, side: Side, radius: float, numbers: 
     if isinf(slack):
         return _unjudged(radius)
     reach = radius + 10.0 * GOUGE
-    pairs = pairs_of(moves, ground.walls, ground.stations, ground.bounds, radius, reach + slack)
+    own = _own(moves, numbers, ground.walls, surface.numbers, side, radius)
+    pairs = pairs_of(moves, ground.walls, ground.stations, ground.bounds, radius, reach + slack, own)
     near = approaches(pairs, radius - GOUGE)
     found = gouging(pairs, near)
     length = float(ground.stations[-1])
@@ -124,6 +130,16 @@ def _judged(surface: Path, ground: _Ground, side: Side, radius: float, numbers: 
         backwards=backwards(pairs, radius),
         crossing_at=_first(ground.crossed),
     )
+
+
+def _own(moves: Measured, numbers: Floats, walls: Measured, segments: Floats, side: Side, radius: float) -> Beside:
+    """The moves that run beside the wall of their number, where there are enough walls for that to save time."""
+    known = segments[walls.rows]
+    if len(known) <= FEW or not (known[1:] > known[:-1]).all():
+        return NOBODY
+    mine = numbers[moves.rows]
+    wall = np.minimum(np.searchsorted(known, mine), len(known) - 1)
+    return beside(moves, np.where(known[wall] == mine, wall, -1), walls, side.sign, radius, granted(walls))
 
 
 def _first(crossed: Crossings) -> tuple[float, float] | None:

@@ -10,16 +10,19 @@ from core.geometry.boxes import closest_pairs, near_pairs
 from core.geometry.distance import between, nearest_places
 from core.geometry.measured import Floats, Measured, Rows, blocks, boxes
 from core.tolerance import UNCUT
+from core.verify.beside import NOBODY, Beside
 from core.verify.touch import Touches, touches
+from core.verify.unproved import CLEAR, unproved_pairs
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pairs:
     """Pieces `i` of the centre path and `j` of the surface, in rising order of i, and what is measured of both paths.
 
-    Every pair whose pieces come within the reach it was made for is there, and no other.  `touch` is what is measured
-    of the pairs, `grant` (m,) what rounding and the uneven radii of arcs leave open for each.  `centre_stations` and
-    `surface_stations` are the lengths travelled at the pieces' starts and at the end.
+    Every pair whose pieces come within the reach it was made for is there, and no other, but for what `own` proves of
+    own pieces, corners and their walls.  `touch` is what is measured of the pairs, `grant` (m,) what rounding and the
+    uneven radii of arcs leave open for each.  `centre_stations` and `surface_stations` are the lengths travelled at
+    the pieces' starts and at the end.
     """
 
     centre: Measured
@@ -32,26 +35,36 @@ class Pairs:
     j: Rows
     grant: Floats
     touch: Touches
+    own: Beside
 
 
 def pairs_of(
-    centre: Measured, surface: Measured, stations: Floats, bounds: Floats, radius: float, reach: float
+    centre: Measured,
+    surface: Measured,
+    stations: Floats,
+    bounds: Floats,
+    radius: float,
+    reach: float,
+    own: Beside = NOBODY,
 ) -> Pairs:
     """All pairs within `reach`; `stations` and `bounds` are the surface's.  Touches are those within `radius`."""
     around = boxes(centre)
-    i, j = near_pairs(around, bounds, reach)
-    grant = UNCUT + rounding(surface) + _slack(centre, i) + _slack(surface, j)
+    if len(own.piece):
+        i, j = unproved_pairs(centre, around, surface, bounds, own, reach, radius + CLEAR * granted(surface))
+    else:
+        i, j = near_pairs(around, bounds, reach)
+    grant = granted(surface) + _slack(centre, i) + _slack(surface, j)
     touch = touches(centre, i, surface, j, radius, grant)
     near = np.flatnonzero(touch.apart <= reach)
     if len(near) < len(i):
         i, j, grant, touch = i[near], j[near], grant[near], touch.take(near)
-    return Pairs(centre, surface, centre.stations, stations, around, bounds, i, j, grant, touch)
+    return Pairs(centre, surface, centre.stations, stations, around, bounds, i, j, grant, touch, own)
 
 
-def rounding(surface: Measured) -> float:
-    """Four units in the last place of the largest coordinate or radius."""
+def granted(surface: Measured) -> float:
+    """What counts as exact: UNCUT, and four units in the last place of the largest coordinate or radius."""
     largest = max(np.abs(surface.start.real).max(), np.abs(surface.start.imag).max(), surface.radius.max())
-    return 4.0 * float(np.spacing(largest))
+    return UNCUT + 4.0 * float(np.spacing(largest))
 
 
 def _slack(pieces: Measured, rows: Rows) -> Floats:
@@ -79,7 +92,8 @@ def approaches(pairs: Pairs, limit: float) -> Approaches:
     """All pairs nearer than `limit` less the slack of both."""
     deep = np.flatnonzero(pairs.touch.apart < limit)
     near = _measure(pairs, pairs.i[deep], pairs.j[deep], limit)
-    return replace(near, least=float(pairs.touch.apart.min(initial=np.inf)))
+    least = min(pairs.touch.apart.min(initial=np.inf), pairs.own.apart.min(initial=np.inf))
+    return replace(near, least=float(least))
 
 
 def _measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:

@@ -40,11 +40,21 @@ def reached(pairs: Pairs, radius: float) -> Reached:
     start, length = pairs.surface_stations[pairs.j[sure]], pairs.surface.length[pairs.j[sure]]
     first, last = start + touch.first[sure] * length, start + touch.last[sure] * length
     parts = Parts(first, last, first, first, sure)
+    walls = np.flatnonzero(pairs.own.piece >= 0)
+    if len(walls):
+        parts = joined((_by_own(pairs, walls), parts))
     unsure = np.flatnonzero(touch.unsure)
     if len(unsure):
         more = within(pairs.surface, pairs.j[unsure], pairs.centre, pairs.i[unsure], radius + pairs.grant[unsure])
         parts = joined((parts, replace(more, pair=unsure[more.pair])))
     return _settled(pairs, parts, radius)
+
+
+def _by_own(pairs: Pairs, walls: Rows) -> Parts:
+    """What own pieces reach of their walls; their pairs count on from the measured ones."""
+    start, length = pairs.surface_stations[walls], pairs.surface.length[walls]
+    first, last = start + pairs.own.first[walls] * length, start + pairs.own.last[walls] * length
+    return Parts(first, last, first, first, len(pairs.i) + walls)
 
 
 def _settled(pairs: Pairs, parts: Parts, radius: float) -> Reached:
@@ -61,12 +71,13 @@ def _settled(pairs: Pairs, parts: Parts, radius: float) -> Reached:
     end = holder[np.append(begin[1:], len(first)) - 1]
     pair = parts.pair[order[np.concatenate((begin, end))]]
     ends = np.concatenate((first[begin], last[end]))
-    loose = np.flatnonzero(pairs.touch.unsure[pair])
+    measured = np.flatnonzero(pair < len(pairs.i))
+    loose = measured[pairs.touch.unsure[pair[measured]]]
     if len(loose):
         inward = np.repeat((1.0, -1.0), len(begin))
         ends[loose] = _draw_in(pairs, pair[loose], ends[loose], inward[loose], radius)
     low, high = ends[: len(begin)], ends[len(begin) :]
-    i = pairs.i[pair]
+    i = np.concatenate((pairs.i, pairs.own.piece))[pair]
     return Reached(Stretches(low, np.maximum(low, high)), i[: len(begin)], i[len(begin) :])
 
 

@@ -60,10 +60,12 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float) -> tu
     tie = _tie(pairs.surface, surface)
     contact = _contact(pairs, reach, tie)
     rows = contact.k[np.flatnonzero(np.diff(contact.k, prepend=-1))]
-    s = _middle_places(pairs)
-    spots = at(pairs.centre, np.full(len(pairs.centre), 0.5))
-    wrong = [rows[_wrong(pairs, s[rows], spots[rows], replace(contact, k=_counted(contact.k)), surface, found)]]
-    more = _samples(pairs, _others(len(pairs.centre), rows), found)
+    s = (pairs.centre_stations[rows] + pairs.centre_stations[rows + 1]) / 2.0
+    spots = at(pairs.centre.take(rows), np.full(len(rows), 0.5))
+    wrong = [rows[_wrong(pairs, s, spots, replace(contact, k=_counted(contact.k)), surface, found)]]
+    known = pairs.own.settled(len(pairs.centre))
+    known[rows] = True
+    more = _samples(pairs, np.flatnonzero(~known), found)
     if len(more):
         index, t = place(pairs.centre, pairs.centre_stations, more)
         points = at(pairs.centre.take(index), t)
@@ -78,32 +80,45 @@ def _tie(surface: Measured, sides: Sided) -> float:
 
 
 def _contact(pairs: Pairs, reach: float, tie: float) -> Nearest:
-    """For each piece whose middle is within reach the surface pieces nearest to it there."""
-    middle = pairs.touch.middle
-    close = np.flatnonzero(middle <= reach)
-    if not len(close):
-        return Nearest(close, close, np.zeros(0))
-    i = pairs.i[close]
+    """For each piece whose middle is within reach the surface pieces nearest to it there.
+
+    Own pieces and corners are on the cutter's side of their walls, and only there if other walls are as near.
+    """
+    i, j, middle = _as_near_as_own(pairs, reach, tie)
+    if not len(i):
+        return Nearest(i, i, np.zeros(0))
     rows = i[np.flatnonzero(np.diff(i, prepend=-1))]
-    near = least_of(_counted(i), pairs.j[close], middle[close], len(rows), tie)
+    near = least_of(_counted(i), j, middle, len(rows), tie)
     return Nearest(rows[near.k], near.j, near.apart)
+
+
+def _as_near_as_own(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Rows, Floats]:
+    """Pieces, rising, walls and distances of the pieces' middles from them, within reach.
+
+    A piece that has walls of its own is there, with these too, if another wall is as near.
+    """
+    own, middle = pairs.own, pairs.touch.middle
+    close = np.flatnonzero(middle <= reach)
+    walls, bent = np.flatnonzero(own.piece >= 0), np.flatnonzero(own.corner >= 0)
+    if not len(walls):
+        return pairs.i[close], pairs.j[close], middle[close]
+    piece = np.concatenate((own.piece[walls], own.corner[bent], own.corner[bent]))
+    wall = np.concatenate((walls, bent, bent + 1))
+    apart = np.concatenate((own.apart[walls], own.apart[bent], own.apart[bent]))
+    nearest = np.full(len(pairs.centre), np.inf)
+    nearest[piece] = apart
+    close = close[middle[close] <= nearest[pairs.i[close]] + tie]
+    asked = np.zeros(len(pairs.centre), np.bool_)
+    asked[pairs.i[close]] = True
+    chosen = np.flatnonzero(asked[piece])
+    i, j = np.concatenate((pairs.i[close], piece[chosen])), np.concatenate((pairs.j[close], wall[chosen]))
+    order = np.argsort(i, kind="stable")
+    return i[order], j[order], np.concatenate((middle[close], apart[chosen]))[order]
 
 
 def _counted(rising: Rows) -> Rows:
     """Rising numbers replaced by 0, 1, 2 ... for their distinct values."""
     return np.cumsum(np.diff(rising, prepend=rising[:1]) > 0)
-
-
-def _others(count: int, rows: Rows) -> Rows:
-    """0 ... count - 1 without `rows`."""
-    rest = np.ones(count, np.bool_)
-    rest[rows] = False
-    return np.flatnonzero(rest)
-
-
-def _middle_places(pairs: Pairs) -> Floats:
-    middle: Floats = (pairs.centre_stations[:-1] + pairs.centre_stations[1:]) / 2.0
-    return middle
 
 
 def _samples(pairs: Pairs, rows: Rows, found: Gouging) -> Floats:

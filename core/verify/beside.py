@@ -1,0 +1,198 @@
+"""Beside: pieces of a centre path that run exactly a radius beside a wall of their own, as nearly all of them do.
+
+Words: a wall is a piece of the surface; its own piece runs beside it, a radius away on the cutter's side, the same way,
+and nowhere beyond its ends.  A corner is an arc of the radius about the joint of two straight walls, from the
+one's own piece to the other's.  A joint is proved where neither own piece at it is nearer to the other's wall than the
+radius.  The path's numbers only say where to look; what is not proved here has to be measured.
+
+What is granted for rounding adds up to a few times `grant` in a proof: far less than a gouge.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows
+
+HALF: Final = pi * (1.0 + 1e-12)
+"""Radians up to which an arc stays on one side of the normal at its end."""
+
+LEAST: Final = 1e-3
+"""Millimetres of radius below which nothing is proved: what is granted must be next to nothing of it."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Beside:
+    """(n,) for each wall its own piece `piece`, and the corner behind that, `corner`; -1 where there is none.
+
+    An own piece reaches its wall from `first` to `last`, fractions, equal without one, and is `apart` from it.
+    `proved` (n - 1,) are the joints of each wall and the next.
+    """
+
+    piece: Rows
+    corner: Rows
+    first: Floats
+    last: Floats
+    apart: Floats
+    proved: Flags
+
+    def settled(self, count: int) -> Flags:
+        """(count,) pieces of the path that are own pieces or corners."""
+        settled = np.zeros(count + 1, np.bool_)
+        settled[self.piece], settled[self.corner] = True, True
+        return settled[:-1]
+
+
+NOBODY: Final = Beside(*(np.zeros(0, kind) for kind in (np.intp, np.intp, float, float, float, bool)))
+"""No own pieces, of no walls: everything has to be measured."""
+
+
+class _Given(NamedTuple):
+    centre: Measured
+    surface: Measured
+    sign: int
+    radius: float
+    grant: float
+
+
+class _Runs(NamedTuple):
+    """Pieces (m,) beside walls: which are their own, the lengths along the wall at both ends, and how near they are."""
+
+    own: Flags
+    begin: Floats
+    end: Floats
+    apart: Floats
+
+
+def beside(centre: Measured, likely: Rows, surface: Measured, sign: int, radius: float, grant: float) -> Beside:
+    """The own pieces of all walls; `likely` (m,) is the wall each piece may run beside, -1 where it is none.
+
+    The cutter is on the left where `sign` is 1, on the right where it is -1.  What is off by no more than `grant`
+    counts as exact.
+    """
+    given, count = _Given(centre, surface, sign, radius, grant), len(surface)
+    piece = np.full(count, -1)
+    rows = np.flatnonzero(likely >= 0) if radius >= LEAST else np.zeros(0, np.intp)
+    piece[likely[rows]] = rows
+    own, begin, end, apart = np.zeros(count, np.bool_), np.zeros(count), np.zeros(count), np.full(count, np.inf)
+    chosen = np.flatnonzero(piece >= 0)
+    bent = 2 * (surface.turn[chosen] != 0.0) + (centre.turn[piece[chosen]] != 0.0)
+    for kind, runs in ((0, _lines), (3, _arcs)):
+        j = chosen if (bent == kind).all() else chosen[bent == kind]
+        if len(j):
+            own[j], begin[j], end[j], apart[j] = runs(given, piece[j], j)
+    piece[~own], apart[~own], end[~own] = -1, np.inf, begin[~own]
+    proved, corner = _joints(given, piece, begin <= grant, end >= surface.length - grant)
+    first, last = (np.clip(place / surface.length, 0.0, 1.0) for place in (begin, end))
+    return Beside(piece, corner, first, last, apart, proved)
+
+
+def _lines(given: _Given, i: Rows, j: Rows) -> _Runs:
+    centre, surface, sign, radius, grant = given
+    length = surface.length[j]
+    back = np.conj(surface.vector[j] / length)
+    start = (centre.start[i] - surface.start[j]) * back
+    end = start + centre.vector[i] * back
+    one, other = sign * start.imag, sign * end.imag
+    apart = np.minimum(one, other)
+    own = (apart >= radius - grant) & (np.maximum(one, other) <= radius + grant)
+    own &= (start.real >= -grant) & (end.real <= length + grant) & (end.real >= start.real)
+    return _Runs(own, start.real, end.real, apart)
+
+
+def _arcs(given: _Given, i: Rows, j: Rows) -> _Runs:
+    """Arcs about one centre, the same way round, neither of more than half a turn, nor of uneven radii."""
+    centre, surface, sign, radius, grant = given
+    turn, theirs, mine = surface.turn[j], surface.radius[j], centre.radius[i]
+    off = np.abs(centre.start[i] - centre.arm[i] - (surface.start[j] - surface.arm[j]))
+    own = (np.abs(theirs - mine - turn * sign * radius) + off <= grant) & (centre.turn[i] == turn)
+    own &= (theirs - turn * sign * radius > grant) & (surface.angle[j] <= HALF)
+    own &= (surface.slack[j] == 0.0) & (centre.slack[i] == 0.0)
+    seen = centre.arm[i] * np.conj(surface.arm[j])
+    begin = theirs * np.arctan2(seen.imag * turn, seen.real)
+    end = begin + theirs * centre.angle[i]
+    own &= (begin >= -grant) & (end <= surface.length[j] + grant)
+    return _Runs(own, begin, end, np.abs(theirs - mine) - off)
+
+
+def _joints(given: _Given, piece: Rows, from_start: Flags, to_end: Flags) -> tuple[Flags, Rows]:
+    """(n - 1,) joints that are proved, and (n,) corners; own pieces may begin at a wall's start and end at its end."""
+    centre, surface, grant = given.centre, given.surface, given.grant
+    proved, corner = np.zeros(max(len(surface) - 1, 0), np.bool_), np.full(len(surface), -1)
+    j = np.flatnonzero((piece[:-1] >= 0) & (piece[1:] >= 0))
+    if not len(j):
+        return proved, corner
+    met = np.abs(surface.start[j] + surface.vector[j] - surface.start[j + 1]) <= grant
+    i, k = piece[j], piece[j + 1]
+    linked = (k == i + 1) & (np.abs(centre.start[i] + centre.vector[i] - centre.start[k]) <= grant)
+    whole = to_end[j] & from_start[j + 1] & met
+    straight = (surface.turn[j] == 0.0) & (surface.turn[j + 1] == 0.0)
+    sharp, smooth = np.flatnonzero(straight & met), np.flatnonzero(~straight & linked & whole)
+    proved[j[sharp]] = _apart(given, j[sharp], i[sharp], k[sharp], linked[sharp])
+    proved[j[smooth]] = _tangent(given, j[smooth], i[smooth], k[smooth])
+    about = np.flatnonzero(straight & whole & (k == i + 2))
+    about = about[_about(given, j[about], i[about] + 1) & proved[j[about]]]
+    corner[j[about]] = i[about] + 1
+    return proved, corner
+
+
+def _apart(given: _Given, j: Rows, i: Rows, k: Rows, linked: Flags) -> Flags:
+    """Straight walls j and the next: neither of their own pieces i and k is nearer to the other wall than the radius.
+
+    Either the wall lies below the line of the piece's own wall, a radius above which the piece runs; or the pieces
+    meet, a radius above both walls, and the piece comes down to there from above the other wall's line.
+    """
+    centre, surface, sign, _, grant = given
+    wall, following, one, other = surface.vector[j], surface.vector[j + 1], centre.vector[i], centre.vector[k]
+    unit, next_unit = wall / surface.length[j], following / surface.length[j + 1]
+    rise = sign * (np.conj(unit) * following).imag
+    fall = sign * (np.conj(wall) * next_unit).imag
+    down = sign * (np.conj(one) * next_unit).imag
+    up = sign * (np.conj(unit) * other).imag
+    proved: Flags = ((rise <= grant) | (linked & (down >= -grant))) & ((fall <= grant) | (linked & (up >= -grant)))
+    return proved
+
+
+def _tangent(given: _Given, j: Rows, i: Rows, k: Rows) -> Flags:
+    """Walls j and the next that leave their joint Q one way, with own pieces i and k that meet over it in P.
+
+    The normal through P and Q parts what is before the joint from what is behind it, since no arc turns by more than
+    half a turn, and holds the centres of all arcs.  Seen from the centre of an arc that begins in Q, a point before
+    the joint is nearer in angle to Q than to any other point of the arc, or else to the arc's end; so it is no
+    nearer to the arc than to Q, or than to that end.  To a line it is nearest in Q.  An own piece is no nearer to
+    Q than P is.  What is left to ask is how near the ends of arcs come to the circle or line of the piece across.
+    The joint is smooth within a few grants over the radius, by which an arc may be turned about Q.
+    """
+    surface, centre, radius = given.surface, given.centre, given.radius
+    start, end = surface.start[j], surface.start[j + 1] + surface.vector[j + 1]
+    proved = np.ones(len(j), np.bool_)
+    for wall, point, piece in ((j, start, k), (j + 1, end, i)):
+        give = 1e-3 * radius + 40.0 * given.grant / radius * surface.radius[wall]
+        proved &= (surface.turn[wall] == 0.0) | (_from_whole(centre, piece, point) >= radius + give)
+    return proved
+
+
+def _from_whole(pieces: Measured, rows: Rows, points: Points) -> Floats:
+    """Distance of each point from its piece's whole circle or endless line."""
+    start, arm, vector = pieces.start[rows], pieces.arm[rows], pieces.vector[rows]
+    round_ = np.abs(np.abs(points - start + arm) - pieces.radius[rows])
+    along = np.abs(((points - start) * np.conj(vector)).imag) / np.where(vector == 0.0, 1.0, np.abs(vector))
+    apart: Floats = np.where(pieces.turn[rows] == 0.0, along, round_)
+    return apart
+
+
+def _about(given: _Given, j: Rows, rows: Rows) -> Flags:
+    """Which of these pieces are corners about the end of the straight wall j.
+
+    All of a corner is ahead of the one wall and behind the other, so that both are nearest to it in their joint.
+    """
+    centre, surface, sign, radius, grant = given
+    off = np.abs(centre.start[rows] - centre.arm[rows] - surface.start[j] - surface.vector[j])
+    off += np.abs(centre.radius[rows] - radius)
+    about: Flags = (off <= grant) & (centre.turn[rows] == -sign) & (centre.angle[rows] <= HALF)
+    about &= centre.slack[rows] == 0.0
+    return about
