@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from textwrap import wrap
 from typing import Final
 
@@ -13,6 +14,7 @@ _MARKS: Final = {Tone.PLAIN: "", Tone.WARNING: "! ", Tone.ERROR: "!! "}
 _LOOKS: Final = {Tone.PLAIN: Look.PLAIN, Tone.WARNING: Look.WARNING, Tone.ERROR: Look.ERROR}
 
 
+@lru_cache(64)
 def prompt_rows(said: Said, width: int) -> tuple[Row, ...]:
     """The sentence on two lines, marked by !! and a colour when it is an error; what is longer ends in an ellipsis."""
     text = "".join(character if character.isprintable() else "?" for character in said.text)

@@ -8,6 +8,7 @@ Every character of a row takes one cell: others are replaced before they get her
 from __future__ import annotations
 
 from enum import StrEnum
+from functools import lru_cache
 from typing import Final, NamedTuple
 
 from rich.cells import cell_len
@@ -66,8 +67,9 @@ def text_of(row: Row) -> str:
     return "".join(span.text for span in row)
 
 
+@lru_cache(2048)
 def padded(row: Row, width: int) -> Row:
-    """The row cut or filled with blanks to exactly `width` cells."""
+    """The row cut or filled with blanks to exactly `width` cells; most rows of a picture were in the one before."""
     spans: list[Span] = []
     left = width
     for span in row:

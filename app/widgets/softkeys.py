@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from textwrap import wrap
 from typing import Final
 
@@ -27,6 +28,7 @@ def softkey_rows(softkeys: Softkeys, height: int) -> tuple[Row, ...]:
     return tuple(rows)
 
 
+@lru_cache(256)
 def _lines(number: int, label: str) -> tuple[Row, ...]:
     key = Span(f"F{number}", Look.KEY if label else Look.DIM)
     lines = wrap(label, LABEL) or [""]

@@ -5,8 +5,13 @@ side by side.  Keys are typed into two contours of 200 segments: a plate whose e
 gear none of whose 50 gaps it enters, where every remedy is tried after every change.
 
 `changed` is the time from the key to the first screen that shows the derived path, `finished` that to the last byte:
-by then the look-ahead table stands, and what the contour needs.  The next key is typed when the program is at rest: no
-byte comes and none of its threads has run for a while.  `idle` are the bytes sent while nobody types, which must be 0.
+by then the look-ahead table stands, and what the contour needs.  Where half-typed numbers are tried out in a thread,
+`changed` is the screen with the digit, on which the accepted path still stands: then only `finished` tells the rest.
+The next key is typed when the program is at rest: no byte comes and none of its threads has run for a while.  `idle`
+are the bytes sent while nobody types, which must be 0.
+
+The rows of single keys show what each kind costs.  `a LINE as it is typed` is every key of typing the ends of lines
+anew, in the mix in which an operator presses them: half a number is another contour, often a wild one.
 """
 
 from __future__ import annotations
@@ -224,9 +229,20 @@ def _middle_and_high(values: list[float]) -> tuple[float, float]:
     return statistics.median(values), sorted(values)[round(0.95 * (len(values) - 1))]
 
 
+def line_keys(program: Program, number: int) -> Iterator[bytes]:
+    """The keys that type a LINE's ends anew, X moved a little, and lead to X END of the LINE four segments on."""
+    x, y = _ends(program, number)
+    for value in (x + 0.004, y):
+        yield from (digit.encode() for digit in f"{value:.4f}")
+        yield b"\r"
+    yield from (b"\t", b"\x1b[A")
+    yield from [b"\x1b[6~"] * 4
+    yield b"\t"
+
+
 def rows_of(program: Program, name: str, number: int, count: int) -> Iterator[str]:
     """The table of one program, `count` keys of each kind; `number` is a LINE whose X END is moved to and fro."""
-    x = _x_end(program, number)
+    x, _ = _ends(program, number)
     digits = [str(digit % 10).encode() for digit in range(count)]
     yield report(f"{name}: a digit of TOOL", key_answers(program, [b"\t"], digits))
     there = [str(number).encode(), b"\r", b"\t"]
@@ -238,6 +254,8 @@ def rows_of(program: Program, name: str, number: int, count: int) -> Iterator[st
     yield report(f"{name}: Enter, another Z BOTTOM", key_answers(program, [b"\t"] * 7, depths)[1::3])
     points = [key for row in range(count) for key in (f"{x + 0.004 * (row % 5 + 1):.4f}".encode(), b"\r", b"\x1b[A")]
     yield report(f"{name}: Enter, another X END", key_answers(program, there, points)[1::3])
+    lines = [key for line in range(max(1, count // 3)) for key in line_keys(program, number + 4 * line)]
+    yield report(f"{name}: a LINE as it is typed", key_answers(program, there, lines))
     yield f"{f'{name}: idle for {IDLE:.0f} s':<42} {'':37}{idle:6}"
 
 
@@ -261,11 +279,12 @@ def main() -> None:
             print(row, flush=True)
 
 
-def _x_end(program: Program, number: int) -> float:
+def _ends(program: Program, number: int) -> tuple[float, float]:
     segment = program.blocks[0].segments[number - 1]
     assert isinstance(segment, LineSegment)
     assert isinstance(segment.x_end, Entry)
-    return segment.x_end.value
+    assert isinstance(segment.y_end, Entry)
+    return segment.x_end.value, segment.y_end.value
 
 
 if __name__ == "__main__":
