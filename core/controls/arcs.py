@@ -13,7 +13,11 @@ from core.controls.moves import Plane, Point3
 from core.geometry.piece import Point
 from core.units import Unit
 
-_THOUSANDTH: Final = 0.001
+THOUSANDTH: Final = 0.001
+"""Share of the radius up to which an arc's radii may differ whatever they are."""
+
+WHOLE_CHORD: Final = 1 - 1e-12
+"""Share of the diameter from which on a chord is one: rounding must not put the centre beside it."""
 
 SHORTEST: Final = 0.00127
 """Millimetres (0.00005 in): an arc's radius under it is none, and so far a radius R may fall short of its chord."""
@@ -34,8 +38,8 @@ def about(start: Point, end: Point, centre: Point, arcs: Arcs, unit: Unit) -> No
     if min(first, last) < SHORTEST:
         return NoArc("The arc has no radius: its centre is its start or its end; correct the centre.")
     apart = abs(first - last)
-    allowed = arcs.inch * 25.4 if unit is Unit.IN else arcs.mm
-    if apart > allowed * arcs.worst or (apart > allowed and apart > _THOUSANDTH * max(first, last)):
+    allowed = arcs.allowed(unit)
+    if apart > allowed * arcs.worst or (apart > allowed and apart > THOUSANDTH * max(first, last)):
         text = "The arc's radius is {0} at its start and {1} at its end; correct the centre or the end point."
         return NoArc(text, (first, last))
     return None
@@ -50,21 +54,22 @@ def through(start: Point, end: Point, radius: float, turn: int) -> Point | NoArc
     if chord / 2 - size > SHORTEST or size == 0.0:
         return NoArc("The radius {0} does not reach the end point {1} away; correct R.", (size, chord))
     away = sqrt(max(size * size - chord * chord / 4, 0.0)) * turn * (1 if radius > 0 else -1)
-    if chord / 2 / size > 1 - 1e-12:
+    if chord / 2 / size > WHOLE_CHORD:
         away = 0.0
     return (start[0] + end[0]) / 2 - away * dy / chord, (start[1] + end[1]) / 2 + away * dx / chord
 
 
-_IN_PLANE: Final[Mapping[Plane, tuple[str, str, str]]] = MappingProxyType(
+IN_PLANE: Final[Mapping[Plane, tuple[str, str, str]]] = MappingProxyType(
     {Plane.XY: ("I", "J", "K"), Plane.ZX: ("K", "I", "J"), Plane.YZ: ("J", "K", "I")}
 )
+"""The letters of a centre's first, second and standing coordinate."""
 
 
 def given_centre(
     words: Mapping[str, float], plane: Plane, start: Point, scale: float, origin: Point3 | None
 ) -> Point | NoArc:  # fmt: skip
     """The centre out of I, J, K: from the arc's start, or from an origin (in plane coordinates) where there is one."""
-    first, second, standing = _IN_PLANE[plane]
+    first, second, standing = IN_PLANE[plane]
     if "R" in words:
         return NoArc("The arc has R beside its centre; keep one of them.")
     if standing in words:

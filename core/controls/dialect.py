@@ -95,6 +95,10 @@ class Arcs:
     mm: float = 0.0127
     worst: float = 1e9
 
+    def allowed(self, unit: Unit) -> float:
+        """Millimetres by which the radii may differ."""
+        return self.inch * 25.4 if unit is Unit.IN else self.mm
+
 
 @dataclass(frozen=True, slots=True)
 class Dialect:

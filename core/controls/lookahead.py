@@ -17,6 +17,8 @@ from core.controls.corners import Element, meetings, offset_radius, square_end, 
 from core.controls.follower import Follower
 from core.controls.moves import Plane, Point3, flat, solid
 from core.controls.report import Log
+from core.controls.series.elements import Elements
+from core.controls.series.lookahead import Terms, corners, joined
 from core.controls.words import Block
 from core.geometry.piece import Point
 from core.geometry.side import Side
@@ -132,6 +134,34 @@ class LookAhead(Follower):
             self.note(element)
             self.queue.append(Held(element, square_end(self._front, self.offset)))
 
+    def travel_all(self, elements: Elements) -> int:
+        """One by one up to the first move behind the entry, then all corners at once."""
+        if not self.active or not self.offset:
+            return 0 if self.no_arc or self._leaving else super().travel_all(elements)
+        taken = 0
+        while taken < elements.size and not self._steady:
+            self.travel(elements.one(taken))
+            taken += 1
+        return taken + (self._at_once(elements.part(taken, elements.size)) if taken < elements.size else 0)
+
+    @property
+    def _steady(self) -> bool:
+        """Whether the next corner hangs on the held move and the next one alone."""
+        return len(self.queue) == 1 and not (self.first or self.no_arc or self.lathe or self._leaving)
+
+    def _at_once(self, elements: Elements) -> int:
+        """All the leading elements whose corners stop nothing."""
+        made = corners(self._front, self.started, elements, Terms(self.offset, TANGENT, self._slack))
+        count = len(made.bends)
+        if count:
+            elements = elements.part(0, count)
+            self.tape.extend(joined(self._front, elements, made, self.plane, self.offset))
+            self.note_all(elements)
+            last = elements.one(count - 1)
+            self.queue = [Held(last, square_end(last, self.offset))]
+            self.started = made.starts[0].item(-1), made.starts[1].item(-1)
+        return count
+
     @property
     def _front(self) -> Element:
         return self.queue[0].element
@@ -246,9 +276,13 @@ class LookAhead(Follower):
             return
         swept = sweep(element.start, element.end, element.centre, element.turn) or 2 * pi
         now = sweep(self.started, point, element.centre, element.turn) or 2 * pi
-        slack = 0.001 if self.machine.unit is Unit.IN else 0.0254
-        if now > swept + slack:
+        if now > swept + self._slack:
             self.log.stop(self.rules.concave, NO_FIT, line, 1, at=element.end)
+
+    @property
+    def _slack(self) -> float:
+        """Radians by which an arc's sweep may grow."""
+        return 0.001 if self.machine.unit is Unit.IN else 0.0254
 
     def _run_queue(self) -> None:
         for element, end in self.queue:

@@ -267,9 +267,13 @@ class Machine:
             element = element._replace(feed=self.rates.feed(self, block, length))
         self.follower.travel(element)
 
+    @property
+    def centres_from_origin(self) -> bool:
+        """Whether I, J, K count from the program's origin; otherwise from the arc's start."""
+        return self.absolute_centres and not (self.incremental and self.dialect.arcs.absolute)
+
     def _centre(self, block: Block, start: Point, end: Point, turn: int) -> Point | NoArc:
-        absolute = self.absolute_centres and not (self.incremental and self.dialect.arcs.absolute)
-        origin_there = flat(self.shift, self.plane) if absolute else None
+        origin_there = flat(self.shift, self.plane) if self.centres_from_origin else None
         if "R" in block.words and _CENTRES_IJK.isdisjoint(block.words):
             return through(start, end, block.words["R"] * self.scale, turn)
         centre = given_centre(block.words, self.plane, start, self.scale, origin_there)

@@ -10,6 +10,7 @@ from core.controls.follower import Follower
 from core.controls.machine import Machine
 from core.controls.plain_move import plain_move
 from core.controls.report import AlarmError, Log, Run
+from core.controls.series.road import Road
 from core.controls.source import lines_of
 from core.controls.tools import ToolTable
 from core.controls.words import Block, read_line
@@ -42,7 +43,8 @@ def _run(flow: Flow, machine: Machine) -> None:
     lines, dialect, log, values = flow.lines, flow.dialect, flow.log, flow.values
     if values is not None:
         values.machine = machine
-    while flow.at < len(lines):
+    road = Road()
+    while road.ahead(flow, machine):
         line = flow.at = flow.at + 1
         flow.next_line(line)
         if flow.owords is not None and flow.follow(line - 1):
