@@ -9,9 +9,8 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
-from difflib import get_close_matches
 from enum import StrEnum
-from functools import partial
+from functools import cache, partial
 from typing import Any, Final, TypeVar
 
 from core.program.fields import TABLES, Field, Form, check
@@ -73,6 +72,10 @@ class _Table:
 
     def only(self, allowed: tuple[str, ...]) -> None:
         """Refuse keys that mean nothing here."""
+        if self.data.keys() <= set(allowed):
+            return
+        from difflib import get_close_matches
+
         for key in self.data:
             if key not in allowed:
                 near = get_close_matches(key, allowed, 1)
@@ -178,14 +181,23 @@ def _placed(fault: str, text: str) -> str:
 
 def _numbers(table: _Table, form: Form) -> dict[str, Typed]:
     """The typed numbers of a form by name: entries out of the table, texts out of its `unread` table."""
-    fields = [one for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT)]
+    fields = _number_fields(form)
+    typed: dict[str, Typed] = {one.name: Entry(table.number(one.name, one)) for one in fields if one.name in table.data}
+    return typed | _unread_numbers(table, fields) if UNREAD in table.data else typed
+
+
+def _unread_numbers(table: _Table, fields: tuple[Field, ...]) -> dict[str, Typed]:
     unread = table.table(UNREAD)
     unread.only(tuple(one.name for one in fields))
     for key in unread.data:
         if key in table.data:
             raise unread.fault(key, f"{key} stands twice, as a number and as unread text: remove one.")
-    typed: dict[str, Typed] = {one.name: Entry(table.number(one.name, one)) for one in fields if one.name in table.data}
-    return typed | {one.name: _unread(unread, one) for one in fields if one.name in unread.data}
+    return {one.name: _unread(unread, one) for one in fields if one.name in unread.data}
+
+
+@cache
+def _number_fields(form: Form) -> tuple[Field, ...]:
+    return tuple(one for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT))
 
 
 def _unread(table: _Table, one: Field) -> Unread:
@@ -197,6 +209,7 @@ def _unread(table: _Table, one: Field) -> Unread:
     return Unread(text, value.reason if isinstance(value, Unreadable) else "Type it again.")
 
 
+@cache
 def _keys(form: Form, *others: str) -> tuple[str, ...]:
     return (*others, *(one.name for one in TABLES[form]), UNREAD)
 
