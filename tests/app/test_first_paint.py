@@ -76,6 +76,7 @@ LATER = {
     "hashlib",
     "importlib.resources",
     "numpy",
+    "ssl",
     "textual.widgets._select",
     "textual.widgets._tree",
 }
@@ -147,6 +148,9 @@ try:
     from textual.types import Nothing
 except ImportError:
     print("as ever")
+assert "ssl" not in sys.modules
+import ssl
+assert ssl.create_default_context()
 """
     done = subprocess.run([sys.executable, "-c", asked], cwd=ROOT, capture_output=True, text=True, check=False)
     assert (done.stdout, done.stderr) == ("as ever\n", "")
