@@ -18,10 +18,10 @@ def clear(surface: Surface, points: Planes, segments: Indices, radius: float) ->
     not far from there.
     """
     found = _clear_nearby(surface.path, points, segments, radius)
-    rows = np.flatnonzero(found)
+    rows = found.nonzero()[0]
     spots = points[rows]
     for i, j in near(tree(np.array((spots.real, spots.imag, spots.real, spots.imag))), surface.walls, radius):
-        some = np.flatnonzero(found[rows[i]])
+        some = found[rows[i]].nonzero()[0]
         i, j = rows[i[some]], j[some]
         found[i[distances(surface.path, j, points[i]) < radius - CLEAR]] = False
     return found
@@ -34,7 +34,7 @@ def _clear_nearby(surface: Path, points: Planes, segments: Indices, radius: floa
     while near_some and step < len(surface):
         near_some = False
         for shift in (step, -step):
-            rows = np.flatnonzero(found)
+            rows = found.nonzero()[0]
             joint = joints[np.clip(segments[rows] + shift, 0, len(surface))]
             apart = np.abs(points[rows] - joint)
             found[rows[apart < radius - CLEAR]] = False
@@ -47,7 +47,7 @@ def distances(surface: Path, rows: Indices, points: Planes) -> Floats:
     """(k,) least distances of points from pieces of a path."""
     ends = planes(surface.points)
     start, end = ends[rows], ends[rows + 1]
-    arcs = np.flatnonzero(surface.turns[rows])
+    arcs = surface.turns[rows].nonzero()[0]
     span, to = end - start, points - start
     square = span.real * span.real + span.imag * span.imag
     part = (span.real * to.real + span.imag * to.imag) / np.where(square == 0.0, 1.0, square)

@@ -58,7 +58,7 @@ def events(raw: Raw, sign: int) -> Events | None:
         met = meet_pieces(raw.pieces, i, raw.pieces, j)
         count += len(met.pair)
         found.append(_events(raw, i, j, met, sign))
-        over = np.flatnonzero(met.kinds == Meeting.OVERLAP)
+        over = (met.kinds == Meeting.OVERLAP).nonzero()[0]
         if len(over):
             found.append(_overlaps(raw, i[over], j[over]))
     return _all(found)
@@ -70,7 +70,7 @@ def _pairs(raw: Raw) -> Iterator[tuple[Indices, Indices]]:
     Pieces joined smoothly meet only at their joint, unless together they go once around one way.
     """
     boxes = piece_boxes(*raw.pieces, 2.0 * ON_PATH)
-    own, rest = np.flatnonzero(raw.side), np.flatnonzero(~raw.side)
+    own, rest = raw.side.nonzero()[0], (~raw.side).nonzero()[0]
     mine, first = tree(boxes[:, own]), int(own[0]) if len(own) else 0
     parted = _parted(raw)
     for i, j in near_selves(mine, (parted & (raw.following == np.arange(1, len(raw) + 1)))[own]):
@@ -123,7 +123,7 @@ def _overlaps(raw: Raw, i: Indices, j: Indices) -> Events:
     for one, other in ((i, j), (j, i)):
         for ends, along in ((raw.start[other], np.zeros(len(other))), (raw.end[other], raw.lengths[other])):
             at = along_of(raw, one, ends)
-            on = np.flatnonzero((at >= -JOINED) & (at <= raw.lengths[one] + JOINED))
+            on = ((at >= -JOINED) & (at <= raw.lengths[one] + JOINED)).nonzero()[0]
             found.append(Events(one[on], other[on], at[on], along[on], ends[on], np.zeros(len(on))))
     return _all(found)
 

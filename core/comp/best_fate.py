@@ -25,7 +25,7 @@ def clear_slices(raw: Raw, cut: Slices, surface: Surface, radius: float) -> Slic
     """The slices along which the cutter is nowhere nearer to the surface than the radius."""
     if not len(cut):
         return cut
-    turning = np.flatnonzero(cut.turning >= 0)
+    turning = (cut.turning >= 0).nonzero()[0]
     company = merged(len(cut), turning, cut.turning[turning])
     alive = _none(cut.dead, company)
     first = alive & (_rank(np.where(alive, company, -1)) % EVERY == 0)
@@ -37,13 +37,13 @@ def clear_slices(raw: Raw, cut: Slices, surface: Surface, radius: float) -> Slic
     doubtful = alive & whole[company] & part[company] & ~first
     good |= alive & whole[company] & ~part[company]
     good |= _measured(raw, cut, doubtful, surface, radius)
-    return cut.take(np.flatnonzero(good))
+    return cut.take(good.nonzero()[0])
 
 
 def _measured(raw: Raw, cut: Slices, asked: Masks, surface: Surface, radius: float) -> Masks:
     """Which of the slices that are asked about are clear, each measured in its middle."""
     good = asked.copy()
-    spots, piece = middles(raw, cut, np.flatnonzero(asked))
+    spots, piece = middles(raw, cut, asked.nonzero()[0])
     good[asked] = clear(surface, spots, raw.segment[piece], radius)
     return good
 

@@ -111,7 +111,7 @@ def _without_cusps(chain: Chain, surface: Path, side: Side) -> Chain:
     by the angle between them and by their curvatures.  Where they lie on each other both sides are outside.
     """
     points, centres = planes(chain.raw.points), planes(chain.raw.centres)
-    corners = np.flatnonzero(chain.parts == Part.CORNER.value)
+    corners = (chain.parts == Part.CORNER.value).nonzero()[0]
     across = points[corners] + points[corners + 1] - 2.0 * centres[corners]
     corners = corners[np.abs(across) <= JOINED]
     if not len(corners):
@@ -162,7 +162,7 @@ def _untrimmed(chain: Chain, sides: int, joints: Planes, *, rings: tuple[int, ..
     to its first; the row at its end, if there are more, is none of either ring.
     """
     path = chain.raw
-    rows = np.flatnonzero(chain.parts <= Part.CORNER.value)
+    rows = (chain.parts <= Part.CORNER.value).nonzero()[0]
     points = planes(path.points)
     start, end, turns = points[rows], points[rows + 1], path.turns[rows]
     centre = planes(path.centres)[rows]
@@ -204,7 +204,7 @@ def _onward(rows: Indices, count: int, rings: tuple[int, ...]) -> tuple[Indices,
 def lengths(start: Planes, end: Planes, centre: Planes, turns: Turns) -> Floats:
     """(n,) lengths of pieces; an arc whose ends are equal is a full circle."""
     found: Floats = np.abs(end - start)
-    arcs = np.flatnonzero(turns)
+    arcs = turns.nonzero()[0]
     first, last, turn = start[arcs] - centre[arcs], end[arcs] - centre[arcs], turns[arcs]
     angle = np.angle(first.conj() * last) * turn
     angle[angle < 0.0] += tau

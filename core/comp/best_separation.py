@@ -62,7 +62,7 @@ def _unfollowed(control: Path, loop: Path, limit: float) -> list[tuple[float, fl
     begin, end = np.concatenate(first), np.concatenate(last)
     order = np.argsort(begin, kind="stable")
     begin, reached = begin[order], np.maximum.accumulate(end[order])
-    gaps = np.flatnonzero(begin[1:] - reached[:-1] > limit)
+    gaps = (begin[1:] - reached[:-1] > limit).nonzero()[0]
     return list(zip(reached[gaps].tolist(), begin[gaps + 1].tolist(), strict=True))
 
 

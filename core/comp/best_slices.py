@@ -79,7 +79,7 @@ class _Stations(NamedTuple):
 
     def of(self, pieces: Masks) -> _Stations:
         """Those on some pieces."""
-        rows = np.flatnonzero(pieces[self.piece])
+        rows = pieces[self.piece].nonzero()[0]
         return _Stations(self.piece[rows], self.along[rows], self.event[rows], self.node[rows], self.turn[rows])
 
     def twins(self) -> tuple[Indices, Indices]:
@@ -110,13 +110,13 @@ def sliced(raw: Raw, found: Events) -> Slices:
     size = _sizes(raw, piece, begin, until, end)
     points, outer = _nodes(raw, found, strands)
     cut = Slices(piece, until, begin, end, size, first, last, dead, turning, points, outer)
-    whole = np.flatnonzero(raw.start[strands.heads] == raw.end[strands.tails])
+    whole = (raw.start[strands.heads] == raw.end[strands.tails]).nonzero()[0]
     return _welded(cut, np.concatenate((one, whole)), np.concatenate((other, strands.ends[whole])))
 
 
 def _strands(raw: Raw) -> _Strands:
     """The strands of a raw chain; full circles are strands of their own."""
-    pieces = np.flatnonzero(raw.side)
+    pieces = raw.side.nonzero()[0]
     onward = raw.smooth & (raw.following == np.arange(1, len(raw) + 1)) & (raw.start != raw.end)
     onward[:-1] &= raw.start[1:] != raw.end[1:]
     begins = np.ones(len(pieces), np.bool_)
@@ -161,7 +161,7 @@ def _alone(raw: Raw, stations: _Stations) -> Masks:
     joined[raw.following[raw.following >= 0]] = True
     crowded = joined[piece] & (along < CROWDED)
     crowded |= (raw.following[piece] >= 0) & (raw.lengths[piece] - along < CROWDED)
-    close = np.flatnonzero((piece[1:] == piece[:-1]) & (along[1:] - along[:-1] < CROWDED))
+    close = ((piece[1:] == piece[:-1]) & (along[1:] - along[:-1] < CROWDED)).nonzero()[0]
     crowded[close] = True
     crowded[close + 1] = True
     return ~crowded
@@ -204,7 +204,7 @@ def _welded(cut: Slices, one: Indices, other: Indices) -> Slices:
     outer = cut.outer.copy()
     outer[same[cut.outer]] = True
     joined = replace(cut, first=same[cut.first], last=same[cut.last], outer=outer)
-    return joined.take(np.flatnonzero(~short))
+    return joined.take((~short).nonzero()[0])
 
 
 def merged(count: int, one: Indices, other: Indices) -> Indices:
@@ -225,7 +225,7 @@ def merged(count: int, one: Indices, other: Indices) -> Indices:
 def middles(raw: Raw, cut: Slices, rows: Indices) -> tuple[Planes, Indices]:
     """The points half way along slices, and the pieces they lie on."""
     piece, along = cut.piece[rows], (cut.begin[rows] + cut.end[rows]) / 2.0
-    several = np.flatnonzero(piece != cut.until[rows])
+    several = (piece != cut.until[rows]).nonzero()[0]
     if len(several):
         some = rows[several]
         travelled = np.cumsum(raw.lengths)

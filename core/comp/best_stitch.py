@@ -44,7 +44,7 @@ def stitch(raw: Raw, cut: Slices, sign: int) -> Stitched:
 
 def _without_doubles(raw: Raw, cut: Slices) -> Slices:
     """Of slices that run along each other the same way, the earliest: contours that touch themselves have them."""
-    crowded = np.flatnonzero(np.bincount(cut.first, minlength=1)[cut.first] > 1)
+    crowded = (np.bincount(cut.first, minlength=1)[cut.first] > 1).nonzero()[0]
     order = crowded[np.lexsort((cut.last[crowded], cut.first[crowded]))]
     one, two = order[:-1], order[1:]
     same = (cut.first[one] == cut.first[two]) & (cut.last[one] == cut.last[two])
@@ -53,7 +53,7 @@ def _without_doubles(raw: Raw, cut: Slices) -> Slices:
         return cut
     keep = np.ones(len(cut), np.bool_)
     keep[two[same]] = False
-    return cut.take(np.flatnonzero(keep))
+    return cut.take(keep.nonzero()[0])
 
 
 def _without_whiskers(cut: Slices) -> Slices:
@@ -66,7 +66,7 @@ def _without_whiskers(cut: Slices) -> Slices:
         nowhere &= cut.size < WHISKER
         if not nowhere.any():
             break
-        cut = cut.take(np.flatnonzero(~nowhere))
+        cut = cut.take((~nowhere).nonzero()[0])
     return cut
 
 
@@ -81,14 +81,14 @@ def _across(raw: Raw, cut: Slices, following: Indices, sign: int) -> None:
     """Fill in what follows the slices that end at a node where another piece takes over."""
     taken = np.zeros(len(cut), np.bool_)
     taken[following[following >= 0]] = True
-    ends, begins = np.flatnonzero(following < 0), np.flatnonzero(~taken)
+    ends, begins = (following < 0).nonzero()[0], (~taken).nonzero()[0]
     begins = begins[np.argsort(cut.first[begins], kind="stable")]
     low = np.searchsorted(cut.first[begins], cut.last[ends], side="left")
     high = np.searchsorted(cut.first[begins], cut.last[ends], side="right")
     rivals = np.bincount(cut.last[ends], minlength=len(cut.points))[cut.last[ends]]
     simple = (high - low == 1) & (rivals == 1)
     following[ends[simple]] = begins[low[simple]]
-    several = np.flatnonzero((high > low) & ~simple)
+    several = ((high > low) & ~simple).nonzero()[0]
     if len(several):
         _by_turn(raw, cut, following, sign, ends[several], [begins[low[k] : high[k]] for k in several.tolist()])
 
@@ -119,7 +119,7 @@ def chains(made: Stitched) -> list[tuple[Indices, bool]]:
     if not count:
         return []
     rows = np.arange(count)
-    breaks = np.flatnonzero(following[:-1] != rows[1:])
+    breaks = (following[:-1] != rows[1:]).nonzero()[0]
     heads = np.concatenate(([0], breaks + 1))
     tails = np.concatenate((breaks, [count - 1]))
     entry = np.searchsorted(heads, following[tails], side="right") - 1

@@ -48,7 +48,7 @@ def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
     kept = np.abs(points[1:] - points[:-1]) > JOINED
     if not kept.all():
         kept |= contour.lengths > JOINED
-    findings = tuple(trouble.zero_length(contour, np.flatnonzero(~kept)))
+    findings = tuple(trouble.zero_length(contour, (~kept).nonzero()[0]))
     if not kept.all():
         contour = _without(contour, kept)
     if not len(contour):
@@ -67,7 +67,7 @@ def _walls(path: Path) -> Tree:
 def _without(contour: Path, kept: Masks) -> Path:
     """The contour's kept segments: each starts where the one kept before it ends, full circles stay full."""
     ends = contour.points[1:][kept]
-    whole = np.flatnonzero((contour.points[1:] == contour.points[:-1]).all(axis=1)[kept])
+    whole = (contour.points[1:] == contour.points[:-1]).all(axis=1)[kept].nonzero()[0]
     points = np.concatenate((contour.points[:1], ends))
     for row in whole[::-1].tolist():
         points[row] = points[row + 1]
@@ -79,7 +79,7 @@ def _even(path: Path) -> Path:
     points, centres = planes(path.points), planes(path.centres)
     start, end = points[:-1], points[1:]
     off = np.abs(np.abs(start - centres) - np.abs(end - centres))
-    rows = np.flatnonzero((path.turns != 0) & (off > ON_PATH))
+    rows = ((path.turns != 0) & (off > ON_PATH)).nonzero()[0]
     if not len(rows):
         return path
     start, chord = start[rows], (end - start)[rows]
@@ -110,7 +110,7 @@ def crosses_itself(surface: Surface, *, closed: bool) -> tuple[float, float] | N
     A full circle among other segments touches its neighbours with both ends.
     """
     path = surface.path
-    circles = np.flatnonzero((path.turns != 0) & (path.points[1:] == path.points[:-1]).all(axis=1))
+    circles = ((path.turns != 0) & (path.points[1:] == path.points[:-1]).all(axis=1)).nonzero()[0]
     if len(circles) and len(path) > 1:
         row = int(circles[0])
         return float(path.numbers[row]), float(path.numbers[row - 1 if row else 1])
@@ -121,7 +121,7 @@ def crosses_itself(surface: Surface, *, closed: bool) -> tuple[float, float] | N
             i, j = i[keep], j[keep]
         met = meet(path, i, path, j)
         hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], planes(met.points))]
-        hit = np.concatenate((hit, np.flatnonzero(met.kinds == Meeting.OVERLAP)))
+        hit = np.concatenate((hit, (met.kinds == Meeting.OVERLAP).nonzero()[0]))
         if len(hit):
             return float(path.numbers[i[hit[0]]]), float(path.numbers[j[hit[0]]])
     return None
@@ -134,7 +134,7 @@ def _parted(path: Path) -> Masks:
     """
     first, last = tangents(path)
     turned = np.abs(np.angle(last.conj() * np.roll(first, -1)))
-    arcs = np.flatnonzero(path.turns)
+    arcs = path.turns.nonzero()[0]
     if len(arcs):
         own = np.zeros(len(path))
         own[arcs] = np.mod(np.angle(first[arcs].conj() * last[arcs]) * path.turns[arcs], tau)
@@ -162,7 +162,7 @@ def tangents(path: Path) -> tuple[Planes, Planes]:
     """(n,) directions of travel at the starts and at the ends of all pieces, not of unit length."""
     points, centres = planes(path.points), planes(path.centres)
     chord = points[1:] - points[:-1]
-    arcs = np.flatnonzero(path.turns)
+    arcs = path.turns.nonzero()[0]
     if not len(arcs):
         return chord, chord
     first, last = chord.copy(), chord

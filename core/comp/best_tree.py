@@ -210,7 +210,7 @@ def piece_boxes(start: Planes, end: Planes, centre: Planes, turns: Turns, grow: 
     for axis, (one, two) in enumerate(((start.real, end.real), (start.imag, end.imag))):
         np.minimum(one, two, out=boxes[axis])
         np.maximum(one, two, out=boxes[axis + 2])
-    arcs = np.flatnonzero(turns)
+    arcs = turns.nonzero()[0]
     if len(arcs):
         _widen(boxes, arcs, start[arcs] - centre[arcs], end[arcs] - centre[arcs], centre[arcs], turns[arcs])
     boxes[:2] -= grow

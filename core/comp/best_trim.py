@@ -58,7 +58,7 @@ def _mitred(chain: Untrimmed, left: _Left, sign: int, radius: float) -> tuple[In
     Where three offset lines meet in one place, or nearly, all is left to the general rule.
     """
     raw, order = chain.raw, chain.order
-    rows = np.flatnonzero(chain.inside & (raw.turns == 0))
+    rows = (chain.inside & (raw.turns == 0)).nonzero()[0]
     rows = rows[raw.turns[order[rows]] == 0]
     behind = order[rows]
     one = (raw.end[rows] - raw.start[rows]) / raw.lengths[rows]
@@ -156,9 +156,9 @@ def _rebuilt(chain: Untrimmed, left: _Left, corners: tuple[Indices, Planes], cut
     gone = left.high - left.low <= np.where(cut_low | cut_high, JOINED, -CROWDED)
     start, end = raw.start.copy(), raw.end.copy()
     start[chain.order[rows]], end[rows] = meets, meets
-    start[cut_low] = places(raw, np.flatnonzero(cut_low), left.low[cut_low])
-    end[cut_high] = places(raw, np.flatnonzero(cut_high), left.high[cut_high])
-    joined = np.flatnonzero(following >= 0)
+    start[cut_low] = places(raw, cut_low.nonzero()[0], left.low[cut_low])
+    end[cut_high] = places(raw, cut_high.nonzero()[0], left.high[cut_high])
+    joined = (following >= 0).nonzero()[0]
     behind = following[joined]
     apart = gone[joined] | cut_high[joined] | gone[behind] | cut_low[behind]
     blunt_start, blunt_end = cut_low, cut_high

@@ -37,7 +37,7 @@ def winds(path: Path, radius: float) -> bool:
     if np.abs(joints).max(initial=0.0) > _REVERSAL:
         return True
     swept = np.zeros(len(path))
-    arcs = np.flatnonzero(path.turns)
+    arcs = path.turns.nonzero()[0]
     if len(arcs):
         turn = path.turns[arcs]
         angle = np.mod(np.angle(first[arcs].conj() * last[arcs]) * turn, tau)

@@ -139,7 +139,7 @@ def _nothing(asked: _Asked, lookahead: int, findings: tuple[Finding, ...]) -> Co
 def _with_length(contour: Path) -> tuple[Path, list[Finding]]:
     """The contour without its zero-length segments, and a finding for each of them."""
     points = planes(contour.points)
-    near = np.flatnonzero(np.abs(points[1:] - points[:-1]) <= JOINED)
+    near = (np.abs(points[1:] - points[:-1]) <= JOINED).nonzero()[0]
     dropped = np.array([row for row in near.tolist() if contour[row].length <= JOINED], np.intp)
     if not len(dropped):
         return contour, []
@@ -151,7 +151,7 @@ def _without(contour: Path, dropped: Indices) -> Path:
     kept = np.ones(len(contour), np.bool_)
     kept[dropped] = False
     points = np.concatenate((contour.points[:1], contour.points[1:][kept]))
-    whole = np.flatnonzero((contour.points[1:] == contour.points[:-1]).all(axis=1)[kept])
+    whole = (contour.points[1:] == contour.points[:-1]).all(axis=1)[kept].nonzero()[0]
     for row in whole[::-1].tolist():
         points[row] = points[row + 1]
     return Path.of(points, contour.centres[kept], contour.turns[kept], contour.numbers[kept])

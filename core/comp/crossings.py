@@ -150,7 +150,7 @@ def _boxes(chain: Chain, first: int, last: int) -> Floats:
     turns = chain.raw.turns[begin:last]
     grow = np.full(len(turns), ON_PATH)
     lift = np.zeros(len(turns), np.complex128)
-    arcs = np.flatnonzero(turns)
+    arcs = turns.nonzero()[0]
     if len(arcs):
         lift[arcs], beyond = _lifts(points[arcs], points[arcs + 1], centres[arcs], turns[arcs])
         grow[arcs] += beyond

@@ -143,7 +143,7 @@ def _joints(beside: _Beside, sign: int, radius: float, count: int) -> tuple[Indi
     An exact reversal is an outside corner: its offsets would meet nowhere on the other side.
     """
     before, behind = beside.end_normals[:count], beside.start_normals[1 : count + 1]
-    link = np.flatnonzero(radius * np.abs(behind - before) > JOINED)
+    link = (radius * np.abs(behind - before) > JOINED).nonzero()[0]
     bend = before[link].conj() * behind[link]
     reversal = (bend.real < 0.0) & (radius * np.abs(bend.imag) <= JOINED)
     return link, (sign * bend.imag < 0.0) | reversal
@@ -152,6 +152,6 @@ def _joints(beside: _Beside, sign: int, radius: float, count: int) -> tuple[Indi
 def _close_circles(points: Planes, contour: Path, places: NDArray[np.int32]) -> None:
     """Keep full circles full where the next piece's start was taken for their end: equal ends are what makes them."""
     ends = planes(contour.points)
-    circles = np.flatnonzero((contour.turns != 0) & (ends[1:] == ends[:-1]))
+    circles = ((contour.turns != 0) & (ends[1:] == ends[:-1])).nonzero()[0]
     for row in np.searchsorted(places, 2 * circles)[::-1].tolist():
         points[row] = points[row + 1]

@@ -61,12 +61,12 @@ def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, 
     trims = joints if first.all() else joints.chosen(first)
     left.high[trims.a], left.low[trims.b], left.starts[trims.b] = trims.along_a, trims.along_b, trims.points
     left.standing[trims.b - 1] = 0
-    return left, np.flatnonzero(left.low > left.high + ON_PATH) + 2
+    return left, (left.low > left.high + ON_PATH).nonzero()[0] + 2
 
 
 def _what_is_left(chain: Chain, left: Left) -> tuple[Path, tuple[Masks, Indices]]:
     """The path of the pieces that still stand; which of them are bridges, and their rows in the chain."""
-    alive = np.flatnonzero((np.frombuffer(left.gone, np.uint8) == 0) & (left.standing != 0))
+    alive = ((np.frombuffer(left.gone, np.uint8) == 0) & (left.standing != 0)).nonzero()[0]
     starts = np.append(left.starts[alive], complex(*chain.raw.points[-1]))
     real = _not_slivers(chain, left, alive, starts)
     if not real.all():
@@ -86,10 +86,10 @@ def _not_slivers(chain: Chain, left: Left, alive: Indices, starts: NDArray[np.co
     One that is left for a whole turn but for rounding is made one: its ends in `starts` become the same numbers.
     """
     real = np.abs(starts[1:] - starts[:-1]) > JOINED
-    near = np.flatnonzero(~real)
+    near = (~real).nonzero()[0]
     arcs = near[chain.raw.turns[alive[near]] != 0]
     rest = left.high[alive[arcs]] - left.low[alive[arcs]]
-    for row in np.flatnonzero(np.isinf(rest)).tolist():
+    for row in np.isinf(rest).nonzero()[0].tolist():
         piece = int(alive[arcs[row]])
         rest[row] = chain.raw[piece].length - left.low[piece]
     whole = arcs[rest > JOINED]
@@ -107,7 +107,7 @@ def _deletions(chain: Chain, events: Crossings) -> Deletions:
     piece = np.arange(len(event), dtype=np.int32) + (events.b - np.cumsum(between, dtype=np.int32))[event]
     spanned = np.full(len(chain), -1, np.int32)
     spanned[piece[::-1]] = event[::-1]
-    deleted = np.flatnonzero((spanned >= 0) & (chain.places % 2 == 0))
+    deleted = ((spanned >= 0) & (chain.places % 2 == 0)).nonzero()[0]
     event, numbers = spanned[deleted], chain.raw.numbers
     by = np.stack((numbers[events.a[event]], numbers[events.b[event]]), axis=1)
     return Deletions(numbers[deleted], by, coordinates(events.points[event]))

@@ -51,13 +51,13 @@ def _not_finite(contour: Path) -> Finding:
 
 def _not_arcs(contour: Path) -> tuple[Finding, ...]:
     """Arcs whose radii at start and end differ by more than a blunder of rounding, or are nothing."""
-    rows = np.flatnonzero(contour.turns)
+    rows = contour.turns.nonzero()[0]
     if not len(rows):
         return ()
     points, centres = planes(contour.points), planes(contour.centres)[rows]
     first, last = np.abs(points[rows] - centres), np.abs(points[rows + 1] - centres)
     pointed = (np.minimum(first, last) <= JOINED) & (np.abs(points[rows + 1] - points[rows]) > JOINED)
-    bad = np.flatnonzero((np.abs(first - last) > ARC_RADII) | pointed)
+    bad = ((np.abs(first - last) > ARC_RADII) | pointed).nonzero()[0]
     text = "The arc's radius is {0} at its start and {1} at its end: check its centre."
     return tuple(
         Finding(
@@ -132,7 +132,7 @@ def _rows(numbers: Floats, some: Floats) -> Indices:
     """The rows of some of the numbers of a contour, by bisection where they rise, as they do but in a NC program."""
     if (numbers[1:] > numbers[:-1]).all():
         return np.searchsorted(numbers, some)
-    return np.flatnonzero(np.isin(numbers, some))
+    return np.isin(numbers, some).nonzero()[0]
 
 
 def nothing_left() -> Finding:
@@ -143,7 +143,7 @@ def nothing_left() -> Finding:
 def spoken(numbers: NDArray[np.float64]) -> str:
     """Segment numbers as said on the shop floor: `segment 4`, `segments 2-3, 7`."""
     whole = numbers.astype(int)
-    runs = np.split(whole, np.flatnonzero(np.diff(whole) != 1) + 1)
+    runs = np.split(whole, (np.diff(whole) != 1).nonzero()[0] + 1)
     words = [f"{run[0]}-{run[-1]}" if len(run) > 1 else f"{run[0]}" for run in runs[:NAMED_AT_MOST]]
     return ("segments " if len(whole) > 1 else "segment ") + ", ".join(words)
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import cos, sin
 
-import numpy as np
-
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol
 from core.geometry.path import EMPTY, Floats, Path
 from core.geometry.piece import Line, Piece, Point
@@ -69,7 +67,7 @@ def _spots(places: Sequence[Point], style: Style, symbol: Symbol) -> Iterator[Ma
 
 def _travel(path: Path) -> Iterator[Mark]:
     """An arrow in the middle of the path's first piece with a length."""
-    for row in np.flatnonzero(path.lengths > 0.0)[:1].tolist():
+    for row in (path.lengths > 0.0).nonzero()[0][:1].tolist():
         at, along = _middle(path[row])
         yield Mark(at, Style.START, Symbol.ARROW, along)
 

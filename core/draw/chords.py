@@ -60,7 +60,7 @@ class _Pieces:
         """The pieces of these rows; all of them are not copied."""
         if keep.all():
             return self
-        rows = np.flatnonzero(keep)
+        rows = keep.nonzero()[0]
         return _Pieces(
             self.starts[rows],
             self.ends[rows],

@@ -97,7 +97,7 @@ def _clipped(found: Chords, half_width: float, half_height: float) -> Chords:
         low, high = _between(start, step, limit)
         np.maximum(enter, low, out=enter)
         np.minimum(leave, high, out=leave)
-    keep = np.flatnonzero(enter <= leave)
+    keep = (enter <= leave).nonzero()[0]
     starts, run, enter, leave = found.starts[keep], run[keep], enter[keep], leave[keep]
     along = found.along[keep] + enter * np.abs(run)
     return Chords(starts + enter * run, starts + leave * run, found.layers[keep], along)

@@ -89,7 +89,7 @@ def meet_pieces(one: Pieces, a: Indices, other: Pieces, b: Indices) -> Meetings:
     combination = (one.turn[a] != 0) + 2 * (other.turn[b] != 0)
     parts = []
     for which, solve in enumerate((_lines, _arc_line, _line_arc, _arcs)):
-        rows = np.flatnonzero(combination == which)
+        rows = (combination == which).nonzero()[0]
         if len(rows):
             kinds[rows], found = solve(_taken(one, a[rows]), _taken(other, b[rows]))
             parts.append(found._replace(pair=rows[found.pair]))
@@ -129,11 +129,11 @@ def _lines(a: Pieces, b: Pieces) -> _Solved:
     divisor = np.where(parallel, 1.0, cross)
     part = (between.conj() * span_b).imag / divisor
     along_a, along_b = part * length_a, (between.conj() * span_a).imag / divisor * length_b
-    on = np.flatnonzero(_within(along_a, length_a) & _within(along_b, length_b) & ~parallel)
+    on = (_within(along_a, length_a) & _within(along_b, length_b) & ~parallel).nonzero()[0]
     rests = (length_a - along_a)[on], (length_b - along_b)[on]
     found = _Points(on, along_a[on], along_b[on], *rests, (a.start + part * span_a)[on])
     kinds = _kinds(len(cross), on, parallel)
-    rows = np.flatnonzero(parallel & (length_a > 0.0) & (length_b > 0.0))
+    rows = (parallel & (length_a > 0.0) & (length_b > 0.0)).nonzero()[0]
     if len(rows):
         kinds[rows], touches = _parallel(_taken(a, rows), _taken(b, rows))
         found = _joined([found, touches._replace(pair=rows[touches.pair])])
@@ -149,7 +149,7 @@ def _parallel(a: Pieces, b: Pieces) -> _Solved:
     low = np.maximum(np.minimum(first.real, last.real), 0.0)
     common = np.minimum(np.maximum(first.real, last.real), length) - low
     in_line = np.minimum(np.abs(first.imag), np.abs(last.imag)) <= ON_PATH
-    touch = np.flatnonzero(in_line & (np.abs(common) <= ON_PATH))
+    touch = (in_line & (np.abs(common) <= ON_PATH)).nonzero()[0]
     kinds = np.where(in_line & (common > ON_PATH), Meeting.OVERLAP.value, Meeting.APART.value).astype(np.int8)
     kinds[touch] = Meeting.TOUCH.value
     along_a, along_b = low[touch], np.abs(low - first.real)[touch]
@@ -167,10 +167,10 @@ def _line_arc(line: Pieces, arc: Pieces) -> _Solved:
     room = radius - height
     pair, half = _half_chords(np.sqrt(np.maximum(room * (radius + height), 0.0)), room)
     along = foot.real[pair] + half
-    on = np.flatnonzero(_within(along, length[pair]))
+    on = _within(along, length[pair]).nonzero()[0]
     pair, along = pair[on], along[on]
     points = line.start[pair] + along * unit[pair]
-    near = np.flatnonzero(_in_sector(points, _taken(arc, pair)))
+    near = _in_sector(points, _taken(arc, pair)).nonzero()[0]
     pair, along, points = pair[near], along[near], points[near]
     run, rest = _along_arc(points, _taken(arc, pair), radius[pair])
     found = _on_both(_Points(pair, along, run, length[pair] - along, rest, points))
@@ -193,14 +193,14 @@ def _arcs(a: Pieces, b: Pieces) -> _Solved:
     pair, half = _half_chords(np.sqrt(np.maximum(area, 0.0)) / (2.0 * divisor), room)
     foot = (apart + differ * total / divisor) / 2.0
     points = a.centre[pair] + (between / divisor)[pair] * (foot[pair] + 1j * half)
-    near = np.flatnonzero(_in_sector(points, _taken(a, pair)))
+    near = _in_sector(points, _taken(a, pair)).nonzero()[0]
     near = near[_in_sector(points[near], _taken(b, pair[near]))]
     pair, points = pair[near], points[near]
     run_a, rest_a = _along_arc(points, _taken(a, pair), big[pair])
     run_b, rest_b = _along_arc(points, _taken(b, pair), small[pair])
     found = _as_travelled(_on_both(_Points(pair, run_a, run_b, rest_a, rest_b, points)))
     kinds = _kinds(len(room), found.pair, np.abs(room) <= ON_PATH)
-    rows = np.flatnonzero(concentric & (np.abs(differ) <= ON_PATH))
+    rows = (concentric & (np.abs(differ) <= ON_PATH)).nonzero()[0]
     if len(rows):
         kinds[rows[_overlap(_taken(a, rows), _taken(b, rows))]] = Meeting.OVERLAP.value
     return kinds, found
@@ -225,7 +225,7 @@ def _half_chords(half: Floats, room: Floats) -> tuple[Indices, Floats]:
     Halves within JOINED make one point: the foot between them, once, free of rounding.  `room` is what the pair is
     short of tangency; below 0 there is no chord.
     """
-    rows = np.flatnonzero(room >= -ON_PATH)
+    rows = (room >= -ON_PATH).nonzero()[0]
     pair = np.repeat(rows, np.where(half[rows] > JOINED, 2, 1))
     signed = np.where(half[pair] > JOINED, half[pair], 0.0)
     signed[:-1] *= np.where(pair[1:] == pair[:-1], -1.0, 1.0)
@@ -290,7 +290,7 @@ def _on_both(points: _Points) -> _Points:
 def _as_travelled(points: _Points) -> _Points:
     """Put two points of a pair in the order in which a is travelled."""
     pair, along = points.pair, points.along_a
-    swap = np.flatnonzero((pair[1:] == pair[:-1]) & (along[1:] < along[:-1]))
+    swap = ((pair[1:] == pair[:-1]) & (along[1:] < along[:-1])).nonzero()[0]
     for column in points[1:]:
         column[swap], column[swap + 1] = column[swap + 1], column[swap]
     return points

@@ -135,7 +135,7 @@ def measured(path: Path) -> Measured:
     keep = length > ON_PATH
     if keep.all():
         return whole
-    return whole.take(np.flatnonzero(keep) if keep.any() else np.arange(min(1, len(turn))))
+    return whole.take(keep.nonzero()[0] if keep.any() else np.arange(min(1, len(turn))))
 
 
 def _one_radius(start: Points, end: Points, centre: Points) -> tuple[Points, Floats]:
@@ -175,7 +175,7 @@ def by_kind(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArra
         return line(*given)
     if chosen.all():
         return arc(*given)
-    rows_line, rows_arc = np.flatnonzero(~chosen), np.flatnonzero(chosen)
+    rows_line, rows_arc = (~chosen).nonzero()[0], chosen.nonzero()[0]
     lines, arcs = line(*_pick(given, rows_line)), arc(*_pick(given, rows_arc))
     both = np.empty((*lines.shape[:-1], len(chosen)), lines.dtype)
     both[..., rows_line], both[..., rows_arc] = lines, arcs
@@ -200,7 +200,7 @@ def blocks(first: Flags, second: Flags) -> Iterator[Rows]:
         return
     kinds = 2 * first.astype(np.int8) + second
     for kind in range(4):
-        rows = np.flatnonzero(kinds == kind)
+        rows = (kinds == kind).nonzero()[0]
         for start in range(0, len(rows), BLOCK):
             yield rows[start : start + BLOCK]
 
@@ -253,14 +253,14 @@ def boxes(pieces: Measured) -> Floats:
     for row, (one, other) in enumerate(((start.real, end.real), (start.imag, end.imag))):
         np.minimum(one, other, out=box[row])
         np.maximum(one, other, out=box[row + 2])
-    rows = np.flatnonzero(pieces.turn)
+    rows = pieces.turn.nonzero()[0]
     if not len(rows):
         return box
     arc = pieces if len(rows) == len(pieces) else pieces.take(rows)
     centre = arc.centre
     sides = (centre.real - arc.radius, centre.imag - arc.radius, centre.real + arc.radius, centre.imag + arc.radius)
     for row, (passed, limit) in enumerate(zip(_quarters(arc), sides, strict=True)):
-        through = np.flatnonzero(passed)
+        through = passed.nonzero()[0]
         box[row, rows[through]] = limit[through]
     return box
 

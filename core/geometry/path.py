@@ -133,7 +133,7 @@ class Path:
     def boxes(self) -> Floats:
         """(n, 4) exact bounding boxes: least x, least y, largest x, largest y."""
         low, high = np.minimum(self.starts, self.ends), np.maximum(self.starts, self.ends)
-        arcs = np.flatnonzero(self.turns)
+        arcs = self.turns.nonzero()[0]
         if len(arcs):
             centres, radii = self.centres[arcs], self.radii[arcs][:, None]
             first = self.starts[arcs] - centres

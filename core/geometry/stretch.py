@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point
 
@@ -19,7 +17,7 @@ def stretch(surface: Path, first: float, start: Point, last: float, end: Point) 
 
 def stretch_pieces(surface: Path, first: float, start: Point, last: float, end: Point) -> list[tuple[float, Piece]]:
     """`stretch` as pieces, each with the number of its segment."""
-    begins, ends = np.flatnonzero(surface.numbers == first), np.flatnonzero(surface.numbers == last)
+    begins, ends = (surface.numbers == first).nonzero()[0], (surface.numbers == last).nonzero()[0]
     if not len(begins) or not len(ends):
         return []
     row, count = int(begins[0]), len(surface)
