@@ -170,7 +170,9 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         if program is None or not self.engine.ready:
             return
         before = session.derived
-        if self.engine.fast("derive", "trial"):
+        if (held := self.engine.held(program)) is not None:
+            self.trial = session.trying(held)
+        elif self.engine.fast("derive", "trial"):
             self.trial = session.trying(self.engine.derive(program, before))
         elif self._trying.doing != program:
             self._trying.ask(lambda: self.engine.derive(program, before), program)

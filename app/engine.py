@@ -34,6 +34,9 @@ FAST: Final = 0.016
 OLD: Final = 0.5
 """How much a measurement counts beside the next one: a machine that was busy once is not taken for a slow one."""
 
+KEPT: Final = 4
+"""So many derived programs and tables are kept: two megabytes each time at a thousand segments."""
+
 Result = TypeVar("Result")
 
 
@@ -81,19 +84,20 @@ class Known:
 
 @dataclass(slots=True)
 class Engine:
-    """Remembers how long things took, and the look-ahead table of the last paths asked for.
+    """Remembers how long things took, what was derived last, and the look-ahead tables of the last paths asked for.
 
-    A block whose depths or feeds have changed is another one with the same paths: its table stays.
+    A block whose depths or feeds have changed is another one with the same paths: its table stays.  Enter, undo, and a
+    digit taken back lead to a program that was derived or tried out a moment ago.
     """
 
     limit: float = FAST
     ready: bool = False
     memory: Memory = field(default_factory=Memory)
     took: dict[str, float] = field(default_factory=dict)
-    latest: Derived | None = None
-    """What was derived last, whether of the program or of one that was tried out."""
-    table: Table | None = None
-    table_of: Work | None = None
+    derived: tuple[Derived, ...] = ()
+    """What was derived last, whether of the program or of one that was tried out; the newest first."""
+    tables: tuple[tuple[Work, Table | None], ...] = ()
+    """Paths and their tables, the newest first; changed as a whole, since screens look in from another thread."""
     needs: tuple[Finding, ...] = ()
     needs_of: tuple[Work, int] | None = None
     """The paths they are about, and the calculated look-ahead they explain."""
@@ -127,37 +131,34 @@ class Engine:
         """Everything that follows from a program."""
         from core.pipeline.derive import derive
 
-        self.latest = self.timed("derive", lambda: derive(program, before))
-        return self.latest
+        result = self.timed("derive", lambda: derive(program, before))
+        self.derived = (result, *self.derived)[:KEPT]
+        return result
 
     def held(self, program: Program) -> Derived | None:
-        """What was derived last if that was of an equal program: what Enter accepts has been tried out already."""
-        latest = self.latest
-        return None if latest is None or latest.program != program else bearing(latest, program)
+        """What was derived lately of an equal program; None where that was of none."""
+        found = next((one for one in self.derived if one.program == program), None)
+        return None if found is None else bearing(found, program)
 
     def keep_table(self, found: DerivedBlock, program: Program) -> None:
         """Make and keep the look-ahead table of a block."""
         from core.pipeline.table import look_ahead_table
 
-        if self.table_of is found.work:
+        if found.work is None or self.tabulated(found):
             return
         table = self.timed("table", lambda: look_ahead_table(found, program))
-        # never a new table beside another block, not for a moment: the screens look in from another thread
-        self.table_of = None
-        self.table = table
-        self.table_of = found.work
+        self.tables = ((found.work, table), *self.tables)[:KEPT]
 
     def tabulated(self, found: DerivedBlock) -> bool:
-        """Whether the table is that of a block, or the block can have none."""
-        return found.work is None or self.table_of is found.work
+        """Whether the table of a block is there, or the block can have none."""
+        return found.work is None or any(work is found.work for work, _ in self.tables)
 
     def lacks_needs(self, found: DerivedBlock) -> bool:
         """Whether the table of this block is there, its calculated value is not clean, and nobody has said why."""
-        if self.table is None or found.work is None or self.table_of is not found.work:
+        table = self._made(found)
+        if table is None or self.needs_of == _needing(found):
             return False
-        if self.needs_of == _needing(found):
-            return False
-        return not self.table.row(found.lookahead.calculated).clean
+        return not table.row(found.lookahead.calculated).clean
 
     def keep_needs(self, found: DerivedBlock, program: Program) -> None:
         """Say with the table what the block needs; for a thread, since remedies are tried one after the other."""
@@ -165,7 +166,7 @@ class Engine:
 
         if self.needs_of == _needing(found):
             return
-        told = needs(found, program, self.table if self.table_of is found.work else None)
+        told = needs(found, program, self._made(found))
         self.needs_of = None
         self.needs = () if told is None else told.sentences
         self.needs_of = _needing(found)
@@ -174,12 +175,14 @@ class Engine:
         """What the screens may show of this block."""
         return Known(self._table(found), self.ready, self.memory, trial)
 
+    def _made(self, found: DerivedBlock) -> Table | None:
+        """The table of a block as it was made; None before that, and where the block has none."""
+        return next((table for work, table in self.tables if work is found.work), None)
+
     def _table(self, found: DerivedBlock) -> Table | None:
         """The table of a block, with what the block needs before its other notes once that is known."""
-        table = self.table
-        if table is None or found.work is None or self.table_of is not found.work:
-            return None
-        if self.needs_of != _needing(found) or not self.needs:
+        table = self._made(found)
+        if table is None or self.needs_of != _needing(found) or not self.needs:
             return table
         if self.told is None or self.told[0] is not table:
             self.told = (table, replace(table, notes=(*self.needs, *table.notes)))

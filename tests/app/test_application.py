@@ -99,6 +99,12 @@ async def test_what_was_tried_out_while_it_was_typed_is_not_derived_again(
         await app.workers.wait_for_complete()
         await pilot.pause()
         assert len(done) == 1
+        assert app.desk.session.block.lookahead == Entry(1.0)
+        # a point behind a whole number, a digit taken back, undo, redo
+        await pilot.press("up", "1", ".", "0", "backspace", "enter", "ctrl+z", "ctrl+y")
+        await app.workers.wait_for_complete()
+        await pilot.pause()
+        assert len(done) == 1
         assert not app.desk.session.stale
         assert app.desk.session.found.known
         assert app.desk.session.found.block is app.desk.session.block
