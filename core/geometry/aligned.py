@@ -8,25 +8,62 @@ bounds is nowhere.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from core.geometry.boxes import FAN, children, grouped, meeting, near_pairs, reaching
-from core.geometry.measured import Floats, Rows
+from core.geometry.measured import Flags, Floats, Rows
 
 SHIFTS: Final = 2 * FAN
 """From so many indices apart on, the groups of two boxes are no neighbours."""
-
 
 FEW: Final = 100
 """Boxes of which comparing every pair costs less than shifting."""
 
 
-def aligned_pairs(first: Floats, second: Floats, reach: float, apart: int, *, both: bool = True) -> tuple[Rows, Rows]:
+@dataclass(frozen=True, eq=False, slots=True)
+class Runs:
+    """Runs of boxes of which nothing is wanted, told by two sums along both rows that grow from box to box.
+
+    `begin` and `end` (2, n) are the sums where a box begins and where it ends, of the `first` row and the `second`.
+    Boxes, one of each row, are in one run if either sum grows by no more than 1 from where the earlier begins to
+    where the later ends.
+    """
+
+    first_begin: Floats
+    first_end: Floats
+    second_begin: Floats
+    second_end: Floats
+
+    def grouped(self) -> Runs:
+        """The sums of groups of boxes: where the first member begins and the last one ends."""
+        last = np.append(np.arange(FAN - 1, self.first_end.shape[1] - 1, FAN), self.first_end.shape[1] - 1)
+        first_end, second_end = self.first_end[:, last], self.second_end[:, last]
+        return Runs(self.first_begin[:, ::FAN].copy(), first_end, self.second_begin[:, ::FAN].copy(), second_end)
+
+    def ahead(self, step: int) -> Flags:
+        """(n - step,) whether box k of the first row and box k + step of the second are in one run."""
+        return _in_one(self.first_begin[:, :-step], self.second_end[:, step:])
+
+    def behind(self, step: int) -> Flags:
+        """(n - step,) whether box k + step of the first row and box k of the second are in one run."""
+        return _in_one(self.second_begin[:, :-step], self.first_end[:, step:])
+
+
+def _in_one(begin: Floats, end: Floats) -> Flags:
+    one: Flags = end[0] - begin[0] <= 1.0
+    one |= end[1] - begin[1] <= 1.0
+    return one
+
+
+def aligned_pairs(
+    first: Floats, second: Floats, reach: float, apart: int, *, both: bool = True, runs: Runs | None = None
+) -> tuple[Rows, Rows]:
     """Indices (i, j), in no order, of all boxes no farther apart than `reach` with |i - j| >= `apart`, 1 or 2.
 
-    Both rows have the same length.  Only pairs i < j are wanted unless `both`.
+    Both rows have the same length.  Only pairs i < j are wanted unless `both`; some within `runs` are left out.
     """
     if first.shape[1] <= FEW:
         i, j = near_pairs(first, second, reach)
@@ -35,16 +72,16 @@ def aligned_pairs(first: Floats, second: Floats, reach: float, apart: int, *, bo
     grown = first.copy()
     grown[:2] -= reach
     grown[2:] += reach
-    levels = [(grown, second)]
+    levels = [(grown, second, runs)]
     while levels[-1][0].shape[1] > SHIFTS:
-        one, other = levels[-1]
-        levels.append((grouped(one), grouped(other)))
+        one, other, proved = levels[-1]
+        levels.append((grouped(one), grouped(other), proved.grouped() if proved else None))
     none = np.zeros(0, np.intp)
     i, j = none, none
     for depth in range(len(levels) - 1, -1, -1):
-        one, other = levels[depth]
+        one, other, proved = levels[depth]
         i, j = _opened(i, j, one, other)
-        beside = _shifted(one, other, 2 if depth else apart, both=both)
+        beside = _shifted(one, other, 2 if depth else apart, proved, both=both)
         i, j = np.concatenate((beside[0], i)), np.concatenate((beside[1], j))
     keep = np.flatnonzero(reaching(first.take(i, axis=1), second.take(j, axis=1), reach))
     return i[keep], j[keep]
@@ -61,15 +98,25 @@ def _opened(i: Rows, j: Rows, one: Floats, other: Floats) -> tuple[Rows, Rows]:
     return i[met], j[met]
 
 
-def _shifted(one: Floats, other: Floats, apart: int, *, both: bool) -> tuple[Rows, Rows]:
-    """Boxes that meet, from `apart` to less than SHIFTS indices from each other."""
+def _shifted(one: Floats, other: Floats, apart: int, runs: Runs | None, *, both: bool) -> tuple[Rows, Rows]:
+    """Boxes that meet and are in no run, from `apart` to less than SHIFTS indices from each other."""
     found_i, found_j = [np.zeros(0, np.intp)], [np.zeros(0, np.intp)]
     for step in range(apart, min(SHIFTS, one.shape[1])):
-        low = np.flatnonzero(meeting(one[:, :-step], other[:, step:]))
+        low = _met(one[:, :-step], other[:, step:], runs.ahead(step) if runs else None)
         found_i.append(low)
         found_j.append(low + step)
         if both:
-            low = np.flatnonzero(meeting(one[:, step:], other[:, :-step]))
+            low = _met(one[:, step:], other[:, :-step], runs.behind(step) if runs else None)
             found_i.append(low + step)
             found_j.append(low)
     return np.concatenate(found_i), np.concatenate(found_j)
+
+
+def _met(one: Floats, other: Floats, proved: Flags | None) -> Rows:
+    """Indices of boxes that meet and of which nothing is proved; few are looked at alone."""
+    if proved is None:
+        return np.flatnonzero(meeting(one, other))
+    rows = np.flatnonzero(~proved)
+    if 4 * len(rows) > len(proved):
+        return np.flatnonzero(meeting(one, other) & ~proved)
+    return rows[meeting(one.take(rows, axis=1), other.take(rows, axis=1))]

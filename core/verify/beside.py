@@ -16,10 +16,17 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from core.geometry.aligned import Runs
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows
 
 HALF: Final = pi * (1.0 + 1e-12)
 """Radians up to which an arc stays on one side of the normal at its end."""
+
+END: Final = 2.0
+"""What a joint that ends a run adds to its sum, of which a run has no more than 1."""
+
+STEP: Final = 0.025
+"""What every joint adds to the sum of a run: no run has more than forty."""
 
 LEAST: Final = 1e-3
 """Millimetres of radius below which nothing is proved: what is granted must be next to nothing of it."""
@@ -30,7 +37,7 @@ class Beside:
     """(n,) for each wall its own piece `piece`, and the corner behind that, `corner`; -1 where there is none.
 
     An own piece reaches its wall from `first` to `last`, fractions, equal without one, and is `apart` from it.
-    `proved` (n - 1,) are the joints of each wall and the next.
+    `proved` (n - 1,) are the joints of each wall and the next, `runs` those in which nothing is nearer than the radius.
     """
 
     piece: Rows
@@ -39,6 +46,7 @@ class Beside:
     last: Floats
     apart: Floats
     proved: Flags
+    runs: Runs | None
 
     def settled(self, count: int) -> Flags:
         """(count,) pieces of the path that are own pieces or corners."""
@@ -47,7 +55,8 @@ class Beside:
         return settled[:-1]
 
 
-NOBODY: Final = Beside(*(np.zeros(0, kind) for kind in (np.intp, np.intp, float, float, float, bool)))
+_NO_ROWS, _NOTHING = np.zeros(0, np.intp), np.zeros(0)
+NOBODY: Final = Beside(_NO_ROWS, _NO_ROWS, _NOTHING, _NOTHING, _NOTHING, np.zeros(0, np.bool_), None)
 """No own pieces, of no walls: everything has to be measured."""
 
 
@@ -86,9 +95,9 @@ def beside(centre: Measured, likely: Rows, surface: Measured, sign: int, radius:
         if len(j):
             own[j], begin[j], end[j], apart[j] = runs(given, piece[j], j)
     piece[~own], apart[~own], end[~own] = -1, np.inf, begin[~own]
-    proved, corner = _joints(given, piece, begin <= grant, end >= surface.length - grant)
+    proved, linked, corner = _joints(given, piece, begin <= grant, end >= surface.length - grant)
     first, last = (np.clip(place / surface.length, 0.0, 1.0) for place in (begin, end))
-    return Beside(piece, corner, first, last, apart, proved)
+    return Beside(piece, corner, first, last, apart, proved, _runs(given, corner, proved, linked))
 
 
 def _lines(given: _Given, i: Rows, j: Rows) -> _Runs:
@@ -119,13 +128,17 @@ def _arcs(given: _Given, i: Rows, j: Rows) -> _Runs:
     return _Runs(own, begin, end, np.abs(theirs - mine) - off)
 
 
-def _joints(given: _Given, piece: Rows, from_start: Flags, to_end: Flags) -> tuple[Flags, Rows]:
-    """(n - 1,) joints that are proved, and (n,) corners; own pieces may begin at a wall's start and end at its end."""
+def _joints(given: _Given, piece: Rows, from_start: Flags, to_end: Flags) -> tuple[Flags, Flags, Rows]:
+    """(n - 1,) joints that are proved, and at which own pieces meet; and (n,) corners.
+
+    `from_start` and `to_end` (n,) are own pieces that begin at the wall's start, and that end at its end.
+    """
     centre, surface, grant = given.centre, given.surface, given.grant
     proved, corner = np.zeros(max(len(surface) - 1, 0), np.bool_), np.full(len(surface), -1)
     j = np.flatnonzero((piece[:-1] >= 0) & (piece[1:] >= 0))
+    meeting = np.zeros(len(proved), np.bool_)
     if not len(j):
-        return proved, corner
+        return proved, meeting, corner
     met = np.abs(surface.start[j] + surface.vector[j] - surface.start[j + 1]) <= grant
     i, k = piece[j], piece[j + 1]
     linked = (k == i + 1) & (np.abs(centre.start[i] + centre.vector[i] - centre.start[k]) <= grant)
@@ -137,7 +150,8 @@ def _joints(given: _Given, piece: Rows, from_start: Flags, to_end: Flags) -> tup
     about = np.flatnonzero(straight & whole & (k == i + 2))
     about = about[_about(given, j[about], i[about] + 1) & proved[j[about]]]
     corner[j[about]] = i[about] + 1
-    return proved, corner
+    meeting[j] = linked
+    return proved, meeting, corner
 
 
 def _apart(given: _Given, j: Rows, i: Rows, k: Rows, linked: Flags) -> Flags:
@@ -196,3 +210,32 @@ def _about(given: _Given, j: Rows, rows: Rows) -> Flags:
     about: Flags = (off <= grant) & (centre.turn[rows] == -sign) & (centre.angle[rows] <= HALF)
     about &= centre.slack[rows] == 0.0
     return about
+
+
+def _runs(given: _Given, corner: Rows, proved: Flags, linked: Flags) -> Runs | None:
+    """Runs of straight walls that turn one way at every joint, and by half a turn in all at the most.
+
+    Where they turn away from the cutter, every wall lies below the line of every other, and below a line through a
+    joint between the directions of its two walls; an own piece runs a radius above its wall's line, and so does
+    every place of a corner.  Where they turn towards the cutter and the own pieces meet at every joint, the path, seen
+    from the line of any of the walls, comes down to that wall's own piece, a radius above it, and goes up from there:
+    each own piece runs on along its wall, which rises from that line, and gives way by two grants at the most.
+
+    The sums are those of the joints' sines, for each way, which are no less than the angles by pi / 2 up to a right
+    one; and of STEP each, for what is granted.  Any other joint ends a run; a corner belongs to the joint behind it.
+    """
+    surface = given.surface
+    straight = surface.turn == 0.0
+    plain = proved & straight[:-1] & straight[1:]
+    if 2 * np.count_nonzero(plain) < len(plain):
+        return None
+    unit = surface.vector / surface.length
+    bend = np.conj(unit[:-1]) * unit[1:]
+    plain &= bend.real > 0.0
+    rise = given.sign * bend.imag
+    sines = np.where((plain & (rise <= 0.0), plain & linked & (rise >= 0.0)), np.abs(rise) + STEP, END)
+    sums = np.zeros((2, len(surface) + 1))
+    np.cumsum(sines, axis=1, out=sums[:, 1:-1])
+    sums[:, -1] = sums[:, -2] + END
+    begin, behind = sums[:, :-1], sums[:, 1:]
+    return Runs(begin, np.where(corner >= 0, behind, begin), begin, begin)

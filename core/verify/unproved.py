@@ -40,13 +40,21 @@ def unproved_pairs(
 
 def _of_company(around: Floats, bounds: Floats, own: Beside, reach: float) -> tuple[Rows, Rows]:
     """Company and walls, but for proved joints: near boxes, and neighbours whether they are near or not."""
-    wall, j = aligned_pairs(_boxes(around, own), bounds, reach, 2)
+    wall, j = aligned_pairs(_boxes(around, own), bounds, reach, 2, runs=own.runs)
     before, behind = np.flatnonzero(~own.proved), np.flatnonzero(~own.proved) + 1
-    corner = np.flatnonzero(own.corner[1:] >= 0) + 1
+    corner = _turning_back(own)
     i = np.concatenate((own.piece[wall], own.corner[wall], own.piece[before], own.piece[behind], own.corner[corner]))
     j = np.concatenate((j, j, behind, before, corner - 1))
     there = i >= 0
     return i[there], j[there]
+
+
+def _turning_back(own: Beside) -> Rows:
+    """Walls behind which there is a corner that may be near the wall before."""
+    corner = own.corner[1:] >= 0
+    if own.runs:
+        corner &= ~own.runs.behind(1)
+    return np.flatnonzero(corner) + 1
 
 
 def _boxes(around: Floats, own: Beside) -> Floats:
