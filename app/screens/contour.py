@@ -31,10 +31,14 @@ FIRST_SEGMENT: Final = "Use ENTER to edit START, then right arrow or Page Down f
 class Contour(FormPage):
     """A block's form; the cursor is the session's own.
 
-    `added`: the segment was made by the last key.  An Enter that was meant for that key is not one for the field.
+    `added`: the segment was made by the last key, a letter.  Who ends that letter with Enter, as everything else here,
+    would be on the second field without knowing it, and the next number would become Y END instead of X END: a wrong
+    path that nobody sees.  So this one Enter goes nowhere and says so; whoever meant to go on presses it again.
+    `held`: it has just done so.  Up then stays as well: it goes back over the Enter that was not taken.
     """
 
     added: bool = False
+    held: bool = False
 
     def fields(self, session: Session) -> tuple[Field, ...]:
         """The fields of START or of the segment."""
@@ -63,16 +67,18 @@ class Contour(FormPage):
         return Answer(self, (Edit(outcome, _label(one, session.where)),))
 
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
-        """The first key behind a new segment, then any key."""
-        if not self.added:
-            return self._pressed(key, character, session)
-        if key == "enter" and (one := self.field(session)) is not None:
-            return Answer(replace(self, added=False), (Say(f"{one.label} is next: type it, or Enter again goes on."),))
-        return replace(self, added=False)._pressed(key, character, session)
+        """The first keys behind a new segment, then any key."""
+        page, one = replace(self, added=False, held=False), self.field(session)
+        if one is not None and self.added and key == "enter":
+            told = f"The cursor is still on {one.label}: type it, or Enter again goes on."
+            return Answer(replace(page, held=True), (Say(told),))
+        if one is not None and self.held and key in ("up", "shift+tab"):
+            return Answer(page, (Say(f"{one.label} has the cursor: type it. Up again goes to SEGMENT."),))
+        return page._pressed(key, character, session)
 
     def settle(self, session: Session) -> Answer:
         """The half-typed text taken; a half-typed segment number is forgotten."""
-        page = replace(self, added=False)
+        page = replace(self, added=False, held=False)
         if self.cursor(session) == SEGMENT:
             return Answer(page._without_text())
         return FormPage.settle(page, session)

@@ -55,6 +55,8 @@ class Place:
 
 PLACES: Final = (Place(1, 26, 10), Place(29, 28, 10), Place(1, 56, 40))
 """The left and the right column at 80 cells, and a line across both."""
+TAG: Final = 3
+"""Letters of every tag: CAL, USR, DEF, ERR."""
 NUMBER: Final = 10
 """The longest number a form shows; it is never cut, a longer text is."""
 
@@ -88,9 +90,12 @@ def cursor_line(cells: Sequence[Cell], cursor: str, width: int) -> int:
 
 
 def _aligned(place: Place, cells: Sequence[Cell], column: int) -> Place:
-    """The column with values as narrow as its longest tagged label asks for, so that its tags stand in one line."""
-    tagged = [cell for cell in cells if cell.column == column and cell.tag]
-    beside = [place.width - len(cell.label) - len(cell.tag) - 2 for cell in tagged]
+    """The column with values as narrow as its longest label asks for, so that its tags stand in one line.
+
+    Whatever can bear a tag counts, with or without one: else the others would move when a number is typed into it.
+    """
+    taggable = [cell for cell in cells if cell.column == column and not cell.choice]
+    beside = [place.width - len(cell.label) - TAG - 2 for cell in taggable if cell.state is not State.READ_ONLY]
     return replace(place, value=min([place.value, *beside]))
 
 

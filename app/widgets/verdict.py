@@ -32,8 +32,8 @@ NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 """Errors that only say that a block is still to be typed."""
 MARKS: Final = {Severity.ERROR: "!!", Severity.WARNING: "! ", Severity.INFO: "i "}
 """What each weight of a finding begins with."""
-READ_ON: Final = ": Ctrl+F"
-"""The key that shows every finding in full, behind how many more there are."""
+READ_ON: Final = "Ctrl+F"
+"""The key that shows every finding in full, behind how many more there are and behind one that is cut."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -128,9 +128,10 @@ def _last(block: list[Row], room: int, width: int, left: int) -> list[Row]:
     if room <= 0:
         return []
     *whole, last = block[:room]
+    more = f" +{left} more: {READ_ON}" if left else ""
     if len(block) > room:
         last = (*last, Span(" …", last[-1].look))
-    more = f" +{left} more{READ_ON}" if left else ""
+        more = more or f" {READ_ON}"
     space = width - len(more) - bool(more)
     return [*whole, (*padded(_cut(_paired(last, space), space), space), Span(more, Look.LABEL))]
 

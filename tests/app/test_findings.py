@@ -60,6 +60,13 @@ def test_how_many_more_names_the_key() -> None:
     assert text_of(rows[-1]).endswith(" +2 more: Ctrl+F")
 
 
+def test_a_finding_that_is_cut_names_the_key_also_where_it_is_the_only_one() -> None:
+    rows = fitted([plain(f" {'word ' * 40}")], 2, 59)
+    assert text_of(rows[-1]).endswith("…  Ctrl+F")
+    assert {len(text_of(row)) <= 59 for row in rows} == {True}
+    assert "Ctrl+F" not in "".join(text_of(row) for row in fitted([plain(" word")], 2, 59))
+
+
 def test_the_strip_tells_what_the_best_value_costs() -> None:
     assert verdict(derived("overrun-square"))[0].endswith("best 3 (uncut 8.5000)")
     assert verdict(derived("pocket"))[0].endswith("best 2 (deletes 9)")
@@ -124,7 +131,7 @@ def test_a_long_finding_takes_the_lines_that_are_free() -> None:
 
 def test_a_row_that_is_cut_short_says_so() -> None:
     rows = [plain(" strip"), plain(f" {LONG}")]
-    assert text_of(fitted(rows, 2, 59)[1]).rstrip().endswith("…")
+    assert text_of(fitted(rows, 2, 59)[1]).rstrip().endswith("…  Ctrl+F")
     assert "…" in text_of(fitted([*rows, plain(" more")], 2, 59)[1])
     assert fitted(rows, 0, 59) == ()
     assert fitted([], 3, 59) == ()

@@ -9,6 +9,7 @@ from app.screens.new_segment import NewSegment
 from app.screens.program import ProgramPage
 from app.session import SEGMENT
 from core.program.edit import Where
+from core.program.model import Entry
 from tests.app.operator import Operator
 from tests.app.squares import square
 
@@ -85,6 +86,17 @@ def test_an_enter_directly_behind_the_letter_skips_no_field(letter: str, field: 
     assert operator.session.field == field
     assert "Enter again goes on" in operator.said
     assert operator.press("enter").session.field != field
+
+
+@pytest.mark.parametrize("back", ["up", "shift+tab"])
+def test_back_over_that_enter_stays_on_the_field_and_only_then_leaves_it(back: str) -> None:
+    operator = square().press("ctrl+end", "right", "l", "enter", back)
+    assert operator.session.field == "x_end"
+    assert "X END has the cursor" in operator.said
+    assert square().press("ctrl+end", "right", "l", "enter", back).type("7").typed("x_end")[-1] == Entry(7.0)
+    assert operator.press(back).session.field == SEGMENT
+    assert square().press("ctrl+end", "right", "l", back).session.field == SEGMENT
+    assert square().press("ctrl+end", "right", "l", "enter", "enter", back).session.field == "x_end"
 
 
 def test_an_enter_behind_something_typed_goes_on() -> None:

@@ -55,6 +55,13 @@ def test_a_long_text_being_typed_pushes_the_label_aside() -> None:
     assert "1 1/2+2 3/4+.1" in line(X, cursor="x", editing=Editing("1 1/2+2 3/4+.1", 14))
 
 
+def test_tags_stay_where_they_are_when_another_field_of_the_column_loses_its_own() -> None:
+    plain, long = Cell("peck", "PECK CLEARANCE", "0.0500", 1, 0, State.CALCULATED, "DEF"), "RETRACT CLEARANCE"
+    held = line(plain, Cell("retract", long, "0.1000", 1, 1, State.CALCULATED, "DEF"))
+    assert line(plain, Cell("retract", long, "2.0000", 1, 1)) == held
+    assert line(plain, Cell("retract", long, "2..", 1, 1, State.UNREAD, "ERR")) == held
+
+
 def test_read_only_values_stand_in_brackets() -> None:
     cell = Cell("TYPE", "TYPE", "END MILL", 1, 0, State.READ_ONLY)
     assert line(cell) == " " * 29 + "(TYPE               END MILL)"
