@@ -35,7 +35,7 @@ def _clear_nearby(surface: Path, points: Planes, segments: Indices, radius: floa
         near_some = False
         for shift in (step, -step):
             rows = found.nonzero()[0]
-            joint = joints[np.clip(segments[rows] + shift, 0, len(surface))]
+            joint = joints[np.minimum(np.maximum(segments[rows] + shift, 0), len(surface))]
             apart = np.abs(points[rows] - joint)
             found[rows[apart < radius - CLEAR]] = False
             near_some |= bool((apart < 2.0 * radius).any())
@@ -51,7 +51,7 @@ def distances(surface: Path, rows: Indices, points: Planes) -> Floats:
     span, to = end - start, points - start
     square = span.real * span.real + span.imag * span.imag
     part = (span.real * to.real + span.imag * to.imag) / np.where(square == 0.0, 1.0, square)
-    found: Floats = np.abs(to - np.clip(part, 0.0, 1.0) * span)
+    found: Floats = np.abs(to - np.minimum(np.maximum(part, 0.0), 1.0) * span)
     if len(arcs):
         centre, turn = planes(surface.centres)[rows[arcs]], surface.turns[rows[arcs]]
         found[arcs] = _arc_distances(start[arcs] - centre, end[arcs] - centre, turn, points[arcs] - centre)

@@ -55,7 +55,7 @@ def _unfollowed(control: Path, loop: Path, limit: float) -> list[tuple[float, fl
     first, last = [np.zeros(1), stations[-1:]], [np.zeros(1), stations[-1:]]
     for i, j in _near(loop, control, limit):
         for begin, end in _along(loop, i, control, j):
-            begin, end = np.clip(begin, 0.0, size[i]), np.clip(end, 0.0, size[i])
+            begin, end = (np.minimum(np.maximum(one, 0.0), size[i]) for one in (begin, end))
             on = _follows(loop, i, control, j, (begin, (begin + end) / 2.0, end), limit) & (end > begin)
             first.append((stations[i] + begin)[on])
             last.append((stations[i] + end)[on])

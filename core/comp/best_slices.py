@@ -17,6 +17,7 @@ from core.comp.best_events import Events, places
 from core.comp.best_raw import Raw
 from core.geometry.intersect import Indices, Masks, Planes
 from core.geometry.path import Floats
+from core.geometry.planes import onward
 from core.tolerance import CROWDED, JOINED
 
 
@@ -101,7 +102,7 @@ def sliced(raw: Raw, found: Events) -> Slices:
     piece[head], first[head] = strands.heads, np.arange(len(head))
     piece[at], begin[at], first[at] = stations.piece, stations.along, stations.node
     tail = np.append(head[1:], count)[: len(head)] - 1
-    until, end, last = np.roll(piece, -1), np.roll(begin, -1), np.roll(first, -1)
+    until, end, last = onward(piece), onward(begin), onward(first)
     until[tail], end[tail], last[tail] = strands.tails, raw.lengths[strands.tails], strands.ends
     dead, turning = _turns(stations, at - 1, _alone(raw, stations), count)
     del stations, at
@@ -137,7 +138,9 @@ def _stations(raw: Raw, found: Events, nodes: int) -> _Stations:
     turn = np.concatenate((found.turn, -found.turn))
     order = _sorted(piece, along)
     piece, event = piece[order], event[order]
-    return _Stations(piece, np.clip(along[order], 0.0, raw.lengths[piece]), event, nodes + event, turn[order])
+    return _Stations(
+        piece, np.minimum(np.maximum(along[order], 0.0), raw.lengths[piece]), event, nodes + event, turn[order]
+    )
 
 
 def _sorted(piece: Indices, along: Floats) -> Indices:

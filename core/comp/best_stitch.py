@@ -14,6 +14,7 @@ from core.comp.best_events import directions
 from core.comp.best_raw import Raw
 from core.comp.best_slices import Slices, middles
 from core.geometry.intersect import Indices, Masks
+from core.geometry.planes import onward
 from core.tolerance import GOUGE, WHISKER
 
 _ROUNDS = 32
@@ -72,7 +73,7 @@ def _without_whiskers(cut: Slices) -> Slices:
 
 def _straight_on(cut: Slices) -> Indices:
     """For each slice the next one, where that is on the same piece or joined to it and begins where the slice ends."""
-    following = np.roll(np.arange(len(cut)), -1)
+    following = onward(np.arange(len(cut)))
     following[cut.last != cut.first[following]] = -1
     return following
 

@@ -13,6 +13,7 @@ from core.comp.best_tree import Tree, near_selves, piece_boxes, tree
 from core.finding import Finding
 from core.geometry.intersect import Indices, Masks, Meeting, Planes, coordinates, meet, planes
 from core.geometry.path import EMPTY, Floats, Path
+from core.geometry.planes import onward
 from core.tolerance import JOINED, ON_PATH
 
 _UNDER_HALF: Final = 3.1
@@ -133,14 +134,14 @@ def _parted(path: Path) -> Masks:
     It is so where the two together turn through less than half a turn.
     """
     first, last = tangents(path)
-    turned = np.abs(np.angle(last.conj() * np.roll(first, -1)))
+    turned = np.abs(np.angle(last.conj() * onward(first)))
     arcs = path.turns.nonzero()[0]
     if len(arcs):
         own = np.zeros(len(path))
         own[arcs] = np.mod(np.angle(first[arcs].conj() * last[arcs]) * path.turns[arcs], tau)
         own[arcs[first[arcs] == last[arcs]]] = tau
         tangent = _tangent(path, own, turned)
-        turned += own + np.roll(own, -1)
+        turned += own + onward(own)
         turned[tangent] = 0.0
     parted: Masks = turned <= _UNDER_HALF
     return parted
@@ -152,9 +153,9 @@ def _tangent(path: Path, own: Floats, joint: Floats) -> Masks:
     The chord between the two points where circles meet is no longer than the smaller diameter times the angle there.
     """
     radii = np.abs(planes(path.points)[:-1] - planes(path.centres))
-    joined: Masks = 2.0 * np.minimum(radii, np.roll(radii, -1)) * joint <= JOINED
-    joined &= path.turns * np.roll(path.turns, -1) < 0
-    joined &= np.maximum(own, np.roll(own, -1)) < _NOT_WHOLE
+    joined: Masks = 2.0 * np.minimum(radii, onward(radii)) * joint <= JOINED
+    joined &= path.turns * onward(path.turns) < 0
+    joined &= np.maximum(own, onward(own)) < _NOT_WHOLE
     return joined
 
 

@@ -102,7 +102,8 @@ def near_selves(boxes: Tree, known: Masks | None = None) -> Iterator[tuple[Indic
     """
     for first in range(0, boxes.count, STRETCH):
         yield _following(boxes.boxes, first, min(first + STRETCH, boxes.count), known)
-    yield from _descend(boxes, boxes, 0.0, selves=True)
+    if boxes.count > 2 * NEARBY:  # fewer are all in two groups beside each other
+        yield from _descend(boxes, boxes, 0.0, selves=True)
 
 
 def _following(boxes: NDArray[np.float32], first: int, last: int, known: Masks | None) -> tuple[Indices, Indices]:

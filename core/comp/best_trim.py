@@ -103,7 +103,7 @@ def _joints(chain: Untrimmed, rows: Indices, step: int, *, ahead: bool) -> Plane
     """The joint `step` segments ahead of pieces, or behind them, their own ends not counted."""
     segment = chain.raw.segment[rows]
     own = segment + 1 + step if ahead else segment + chain.corner[rows] - step
-    return chain.joints[np.clip(own, 0, len(chain.joints) - 1)]
+    return chain.joints[np.minimum(np.maximum(own, 0), len(chain.joints) - 1)]
 
 
 def _cut(raw: Raw, left: _Left, rows: Indices, spots: Planes, limit: float) -> bool:

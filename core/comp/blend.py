@@ -24,7 +24,7 @@ def blend_in(path: Path, side: Side, blend: float) -> Path:
     if not len(path) or blend <= 0.0:
         return EMPTY
     first = path[0]
-    along = _direction(first, first.start)
+    along = direction(first, first.start)
     start, centre = _quarter(first.start, -along, along, side, blend)
     return Path.from_pieces([Arc(start, first.start, centre, Turn(side.sign))], [float(path.numbers[0])])
 
@@ -40,7 +40,7 @@ def blend_out(path: Path, side: Side, blend: float, overlap: float, *, closed: b
     if not len(whole) or blend <= 0.0:
         return again
     last = whole[-1]
-    along = _direction(last, last.end)
+    along = direction(last, last.end)
     end, centre = _quarter(last.end, along, along, side, blend)
     return joined((again, Path.from_pieces([Arc(last.end, end, centre, Turn(side.sign))], [float(whole.numbers[-1])])))
 
@@ -88,7 +88,7 @@ def _beginning(piece: Piece, length: float) -> Piece:
     return Arc(piece.start, _point(centre + (start - centre) * rect(1.0, turned)), piece.centre, piece.turn)
 
 
-def _direction(piece: Piece, at: Point) -> complex:
+def direction(piece: Piece, at: Point) -> complex:
     """The unit tangent of a piece at one of its ends."""
     if isinstance(piece, Line):
         along = complex(*piece.end) - complex(*piece.start)

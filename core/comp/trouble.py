@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from core.comp.blend import direction
 from core.comp.offset import Chain, Part
 from core.comp.prune import Pruned
 from core.finding import Finding, Severity
@@ -39,7 +40,7 @@ def _error(code: str, text: str, segment: float | None = None) -> Finding:
 
 def _usable(values: Floats) -> bool:
     """Are all values numbers a machine could have?  Comparisons with NaN are false."""
-    return bool(values.min() >= -LARGEST and values.max() <= LARGEST)
+    return bool(np.abs(values).max() <= LARGEST)
 
 
 def _not_finite(contour: Path) -> Finding:
@@ -79,9 +80,9 @@ def zero_length(contour: Path, rows: Indices) -> list[Finding]:
 
 def inside_start(contour: Path, side: Side, radius: float) -> list[Finding]:
     """A closed contour that starts at an inside corner: the cutter comes down in the other wall."""
-    corner = contour.part(0, 1).start_directions[0], contour.part(len(contour) - 1, len(contour)).end_directions[0]
-    (dx, dy), (ex, ey) = (direction.tolist() for direction in corner)
-    if side.sign * (ex * dy - ey * dx) <= 0.0 or radius * (1.0 - (ex * dx + ey * dy)) <= GOUGE:
+    first, last = contour[0], contour[-1]
+    bend = direction(last, last.end).conjugate() * direction(first, first.start)
+    if side.sign * bend.imag <= 0.0 or radius * (1.0 - bend.real) <= GOUGE:
         return []
     text = "The contour starts at an inside corner, where the cutter cuts into the last segment: start mid-side."
     at = (float(contour.points[0, 0]), float(contour.points[0, 1]))

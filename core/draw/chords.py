@@ -157,7 +157,7 @@ def _visible(arcs: _Pieces, radii: Floats, begin: Floats, reach: float) -> tuple
     """
     distance = np.abs(arcs.centres)
     within = reach * reach - (distance - radii) ** 2
-    part = np.clip(within / np.maximum(4.0 * distance * radii, CONCENTRIC), 0.0, 1.0)
+    part = np.minimum(np.maximum(within / np.maximum(4.0 * distance * radii, CONCENTRIC), 0.0), 1.0)
     half = 2.0 * np.arcsin(np.sqrt(part))
     middle = np.mod((np.angle(-arcs.centres) - begin) * arcs.turns, tau)
     turned = np.array([[-tau], [0.0], [tau]])

