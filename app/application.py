@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Callable
 from dataclasses import replace
+from time import perf_counter
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from textual.app import App
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     from app.survey import Facts
 
 MINUTE: Final = 60.0
+FRAME: Final = 1 / 60
+"""Seconds in which nobody sees more than one picture."""
 AGAIN: Final = "ctrl+l"
 """The key that paints everything again, as in every program of a terminal."""
 
@@ -63,6 +66,8 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self._surveying = Behind(self, self._surveyed)
         self._asking: Behind[object] = Behind(self, self._answered)
         self._asked: Question | None = None
+        self._late = False
+        self._painted = 0.0
 
     @property
     def shown(self) -> Session:
@@ -122,12 +127,38 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
             self.exit(0)
             return
         self._derive()
+        if self._hurried():
+            self.trial = None
+            if not self._late:
+                self._late = True
+                self.screen.call_later(self._caught_up)
+            return
+        self._proceed()
+
+    def _hurried(self) -> bool:
+        """Whether the next key waits already, and what was painted last has hardly been seen.
+
+        Keys that come at once, pasted or over a link that held them back, are painted together: a slow link would
+        carry every screen between them.
+        """
+        waiting = self.message_queue_size + self.screen.message_queue_size
+        return waiting > 0 and perf_counter() - self._painted < FRAME
+
+    def _caught_up(self) -> None:
+        """Behind the keys that waited."""
+        if self._late and not self.desk.exit:
+            self._proceed()
+
+    def _proceed(self) -> None:
+        """What follows from the program as it is, and its picture."""
+        self._late = False
         self._try()
         self._tabulate()
         self._need()
         self._survey()
         self._ask()
         self.refresh_screen()
+        self._painted = perf_counter()
 
     def _loaded(self, derived: Derived) -> None:
         self.engine.ready = True

@@ -6,12 +6,13 @@ import gc
 from math import inf
 
 import pytest
+from textual.events import Key
 
 from app.application import CutcompApp
 from app.engine import Known
 from app.screens.frame import Frame, picture
 from app.widgets.painted import Rows
-from app.widgets.rows import text_of
+from app.widgets.rows import Row, text_of
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
 from core.program.model import Entry, Program
@@ -109,6 +110,30 @@ async def test_what_was_tried_out_while_it_was_typed_is_not_derived_again(
         assert app.desk.session.found.known
         assert app.desk.session.found.block is app.desk.session.block
         assert "GOUGE   0.2500" in shown(app, "GOUGE")
+
+
+async def test_keys_that_come_at_once_are_painted_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    app, painted = app_on("pocket"), list[str]()
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        await pilot.press(*["tab"] * 4)
+        show = Frame.show
+
+        def counted(frame: Frame, rows: tuple[Row, ...]) -> None:
+            show(frame, rows)
+            painted.append(shown(app, "X START"))
+
+        monkeypatch.setattr(Frame, "show", counted)
+        app._painted = inf
+        for key in "2.125":
+            app.screen.post_message(Key(key, key))
+        await pilot.pause()
+        assert len(painted) == 1
+        assert painted[0].split()[2] == "2.125"
+        assert app.trial is not None
+        assert app.trial.block.x_start == Entry(2.125)
+        fresh = Known(app.engine.known(app.shown.found, None).table, ready=True, trial=app.trial)
+        assert app.screen.query_one(Rows).rows == picture(app.desk, fresh, FROZEN, 80, 24)
 
 
 async def test_nothing_takes_the_focus_and_the_screen_is_never_changed() -> None:
