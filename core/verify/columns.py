@@ -1,13 +1,13 @@
 """Columns: pieces as plain columns of numbers, and the least distance of many pairs of them without trigonometry.
 
-A line needs its start and vector; an arc also its centre, its radius, the direction of its middle and the cosine of
-half its angle: a direction lies within the arc when it is no farther from the middle's than that.
+A line needs its start and vector; an arc also its centre, its radius, the direction of its middle and which way and how
+far it turns: a direction lies within the arc when it is not on the wrong side of its ends'.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import tau
+from math import pi
 from typing import Final
 
 import numpy as np
@@ -17,14 +17,11 @@ from core.geometry.measured import Flags, Floats, Measured, Rows
 SHORT: Final = 1e-3
 """Chords shorter than this part of the radius do not say where an arc's middle is to the last digit."""
 
-WHOLE: Final = 1e-12
-"""Radians short of a full turn at which every direction counts as within the arc."""
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Columns:
-    """n pieces: start, vector and squared length of the chord; of arcs the centre, the radius, the middle's direction
-    and the cosine of half the angle (-2 for a full circle)."""
+    """n pieces: start, vector and squared length of the chord; of arcs the centre, the radius, the middle's direction,
+    the turn, and whether they are more than half a circle."""
 
     x: Floats
     y: Floats
@@ -36,16 +33,18 @@ class Columns:
     radius: Floats
     middle_x: Floats
     middle_y: Floats
-    cosine: Floats
+    turn: Floats
+    large: Flags
 
     def take(self, rows: Rows, *, arcs: bool) -> Columns:
         """The pieces of these indices; where no `arcs` are asked for, those columns are left as they are."""
-        bent = tuple(
-            column.take(rows) if arcs else column
-            for column in (self.centre_x, self.centre_y, self.radius, self.middle_x, self.middle_y, self.cosine)
-        )
-        straight = (column.take(rows) for column in (self.x, self.y, self.along, self.up, self.square))
-        return Columns(*straight, *bent)
+        straight = [column.take(rows) for column in (self.x, self.y, self.along, self.up, self.square)]
+        bent = [self.centre_x, self.centre_y, self.radius, self.middle_x, self.middle_y, self.turn]
+        if arcs:
+            bent = [column.take(rows) for column in bent]
+        x, y, along, up, square, centre_x, centre_y, radius, middle_x, middle_y, turn = straight + bent
+        large = self.large.take(rows) if arcs else self.large
+        return Columns(x, y, along, up, square, centre_x, centre_y, radius, middle_x, middle_y, turn, large)
 
 
 def columns(pieces: Measured) -> Columns:
@@ -56,7 +55,7 @@ def columns(pieces: Measured) -> Columns:
     square[square == 0.0] = 1.0
     if not pieces.turn.any():
         none = np.zeros(0)
-        return Columns(x, y, along, up, square, none, none, none, none, none, none)
+        return Columns(x, y, along, up, square, none, none, none, none, none, none, np.zeros(0, np.bool_))
     size = np.sqrt(square)
     size[size == 0.0] = 1.0
     middle_x, middle_y = pieces.turn * up / size, -pieces.turn * along / size
@@ -65,10 +64,10 @@ def columns(pieces: Measured) -> Columns:
         arc = pieces.take(short)
         middle = arc.arm / np.where(arc.radius == 0.0, 1.0, arc.radius) * np.exp(0.5j * arc.turn * arc.angle)
         middle_x[short], middle_y[short] = middle.real, middle.imag
-    cosine = np.cos(0.5 * pieces.angle)
-    cosine[pieces.angle > tau - WHOLE] = -2.0
+    large = pieces.angle > pi
     centre_x, centre_y = x - pieces.arm.real, y - pieces.arm.imag
-    return Columns(x, y, along, up, square, centre_x, centre_y, pieces.radius, middle_x, middle_y, cosine)
+    radius, turn = pieces.radius, pieces.turn
+    return Columns(x, y, along, up, square, centre_x, centre_y, radius, middle_x, middle_y, turn, large)
 
 
 def middle(pieces: Columns, *, arc: bool) -> tuple[Floats, Floats]:
@@ -95,16 +94,27 @@ def to_line(x: Floats, y: Floats, line: Columns) -> tuple[Floats, Floats]:
     return x, t
 
 
-def inside(x: Floats, y: Floats, arc: Columns) -> tuple[Flags, Floats]:
-    """Which directions from the centres lie within the arcs, and how long they are."""
-    size = np.sqrt(x * x + y * y)
-    within: Flags = x * arc.middle_x + y * arc.middle_y >= arc.cosine * size
-    return within, size
+def inside(x: Floats, y: Floats, arc: Columns) -> Flags:
+    """Which directions from the centres lie within the arcs.
+
+    An arc of no more than half a circle is behind its first end's direction and before its last one's, both times by
+    the sign of a cross product, which keeps its digits in arcs however flat; a larger one leaves out what is neither.
+    Without an angle to speak of an arc has no such sides, and its opposite is kept off.
+    """
+    first_x, first_y = arc.x - arc.centre_x, arc.y - arc.centre_y
+    behind = (first_x * y - first_y * x) * arc.turn >= 0.0
+    first_x += arc.along
+    first_y += arc.up
+    before = (first_y * x - first_x * y) * arc.turn >= 0.0
+    ahead = x * arc.middle_x + y * arc.middle_y >= -0.5 * (np.abs(x) + np.abs(y))
+    within: Flags = (arc.large & (behind | before)) | (behind & before & ahead)
+    return within
 
 
 def to_arc(x: Floats, y: Floats, arc: Columns) -> Floats:
     """Distances of points from their arcs."""
-    within, size = inside(x - arc.centre_x, y - arc.centre_y, arc)
+    off_x, off_y = x - arc.centre_x, y - arc.centre_y
+    size, within = np.sqrt(off_x * off_x + off_y * off_y), inside(off_x, off_y, arc)
     x, y = x - arc.x, y - arc.y
     first = x * x + y * y
     x -= arc.along
@@ -122,14 +132,14 @@ def line_to_arc(line: Columns, arc: Columns) -> tuple[Floats, Floats]:
     x, y = arc.centre_x - line.x, arc.centre_y - line.y
     t = (x * line.along + y * line.up) / line.square
     off_x, off_y = t * line.along - x, t * line.up - y
-    within, height = inside(off_x, off_y, arc)
+    within, height = inside(off_x, off_y, arc), np.sqrt(off_x * off_x + off_y * off_y)
     apart = np.where(within & (t >= 0.0) & (t <= 1.0), np.abs(height - arc.radius), np.inf)
     cut = np.flatnonzero(height < arc.radius)
     if len(cut):
         arc_, along, up = _cut(arc, cut), line.along[cut], line.up[cut]
         half = np.sqrt((arc_.radius - height[cut]) * (arc_.radius + height[cut]) / line.square[cut])
         for step in (-half, half):
-            met, _ = inside(off_x[cut] + step * along, off_y[cut] + step * up, arc_)
+            met = inside(off_x[cut] + step * along, off_y[cut] + step * up, arc_)
             met &= (t[cut] + step >= 0.0) & (t[cut] + step <= 1.0)
             apart[cut[met]] = 0.0
     return apart, t
@@ -139,9 +149,8 @@ def arc_to_arc(one: Columns, other: Columns) -> Floats:
     """Distances of pairs of arcs on the line through their centres, 0 where they cross, infinite where neither is."""
     x, y = other.centre_x - one.centre_x, other.centre_y - one.centre_y
     size = np.sqrt(x * x + y * y)
-    seen_one, seen_other = x * one.middle_x + y * one.middle_y, x * other.middle_x + y * other.middle_y
-    ahead_one, behind_one = seen_one >= one.cosine * size, -seen_one >= one.cosine * size
-    ahead_other, behind_other = seen_other >= other.cosine * size, -seen_other >= other.cosine * size
+    ahead_one, behind_one = inside(x, y, one), inside(-x, -y, one)
+    ahead_other, behind_other = inside(x, y, other), inside(-x, -y, other)
     apart = np.full(len(x), np.inf)
     for within, gap in (
         (ahead_one & behind_other, size - other.radius - one.radius),
@@ -162,7 +171,7 @@ def _arcs_cross(one: Columns, other: Columns, x: Floats, y: Floats, size: Floats
     crossed = np.zeros(len(x), np.bool_)
     for off in (height, -height):
         at_x, at_y = share * x - off * y, share * y + off * x
-        crossed |= inside(at_x, at_y, one)[0] & inside(at_x - x, at_y - y, other)[0]
+        crossed |= inside(at_x, at_y, one) & inside(at_x - x, at_y - y, other)
     return crossed
 
 
