@@ -79,8 +79,8 @@ def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
             tested = joint | (a > 0) | (b < len(chain) - 1)
             a, b, joint = a[tested], b[tested], joint[tested]
         found, is_joint = _meet(chain, a, b, joint)
-        joints.append(found.chosen(is_joint))
-        others.append(found.chosen(~is_joint))
+        joints.append(found if is_joint.all() else found.chosen(is_joint))
+        others.append(found.chosen(~is_joint) if is_joint.any() else found)
     far = _all(others)
     return Candidates(_all(joints), far, chain.places[far.b] - chain.places[far.a])
 
@@ -96,6 +96,10 @@ def _all(parts: list[Crossings]) -> Crossings:
 
 def _meet(chain: Chain, a: Indices, b: Indices, joint: Masks) -> tuple[Crossings, Masks]:
     """The crossings of candidate pairs, and which of them are joints."""
+    if not len(a):
+        none = np.empty(0)
+        rows, masks = np.empty(0, np.int32), np.empty(0, np.bool_)
+        return Crossings(rows, rows, none, none, masks, masks, np.empty(0, np.complex128)), masks
     met = meet(chain.raw, a, chain.raw, b)
     counts = (met.kinds == Meeting.CROSS.value) | joint
     kept = counts[met.pair]

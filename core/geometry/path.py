@@ -58,9 +58,12 @@ class Path:
         """The path of pieces that join end to start; each start is taken from the end before it."""
         if not pieces:
             return EMPTY
-        points = [pieces[0].start, *(piece.end for piece in pieces)]
-        centres = [piece.centre if isinstance(piece, Arc) else piece.start for piece in pieces]
-        turns = [int(piece.turn) if isinstance(piece, Arc) else 0 for piece in pieces]
+        # plain numbers one behind the other become an array in half the time of pairs
+        points, centres, turns = [*pieces[0].start], list[float](), list[int]()
+        for piece in pieces:
+            points += piece.end
+            centres += piece.centre if isinstance(piece, Arc) else piece.start
+            turns.append(piece.turn if isinstance(piece, Arc) else 0)
         given = None if numbers is None else np.array(numbers, np.float64)
         return Path.of(np.array(points), np.array(centres), np.array(turns, np.int8), given)
 

@@ -6,10 +6,12 @@ begins; a segment's *floor* is the height its Z START and Z END give it.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
+from core import records
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path, joined
 from core.geometry.piece import Point
-from core.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +44,7 @@ class Run:
         return (float(whole.points[0, 0]), float(whole.points[0, 1])) if len(whole) else None
 
 
-@dataclass(frozen=True, slots=True)
+@records.dataclass(frozen=True, slots=True)
 class Floor:
     """Segment `number`: its height at its start and at its end (mm) and its feed (mm a minute), None if not known."""
 
@@ -50,6 +52,10 @@ class Floor:
     z_start: float
     z_end: float
     feed: float | None
+
+
+Level = tuple[float, float, float | None]
+"""Z START, Z END and feed of a floor."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -66,7 +72,8 @@ class Job:
 
     `finish_z` is the stock roughing leaves on the floor when a finish tool follows.  `peck_depth` 0 is full depth in
     one pass.  `lookahead` is text such as "CAL 8", empty for ON.  `findings` are all of the block's; any error among
-    them blocks posting.  `notes` are further sentences for the posted header.
+    them blocks posting.  `notes` are further sentences for the posted header.  `levels` are the heights and feeds that
+    floors have, each triple once.
     """
 
     block: int
@@ -91,11 +98,11 @@ class Job:
     lookahead: str = ""
     findings: tuple[Finding, ...] = ()
     notes: tuple[str, ...] = ()
+    levels: frozenset[Level] = field(init=False)
 
-    @property
-    def levels(self) -> frozenset[tuple[float, float, float | None]]:
-        """The heights and feeds that floors have, each triple once: Z START, Z END, feed."""
-        return frozenset((floor.z_start, floor.z_end, floor.feed) for floor in self.floors)
+    def __post_init__(self) -> None:
+        levels = frozenset((floor.z_start, floor.z_end, floor.feed) for floor in self.floors)
+        object.__setattr__(self, "levels", levels)
 
     @property
     def errors(self) -> tuple[Finding, ...]:

@@ -55,6 +55,7 @@ def solve_block(block: Block, program: Program, before: SolvedBlock | None = Non
         speed=known.get("speed"),
         peck_depth=known.get("peck_depth", 0.0),
         findings=start.findings,
+        pieces=tuple((one.number, one.piece) for one in segments[:determined] if one.piece is not None),
         drafts=tuple(drafts),
     )
 

@@ -75,14 +75,10 @@ class SolvedBlock:
     speed: float | None
     peck_depth: float
     findings: tuple[Finding, ...]
+    pieces: tuple[tuple[int, Piece], ...] = ()
+    """(segment number, piece) of the determined surface from START on; segments without length are passed over."""
     drafts: tuple[Draft, ...] = field(default=(), compare=False)
     """What each segment is by itself, for the block that an edit makes of this one."""
-
-    @property
-    def pieces(self) -> tuple[tuple[int, Piece], ...]:
-        """(segment number, piece) of the determined surface from START on; segments without length are passed over."""
-        known = self.segments[: self.determined]
-        return tuple((segment.number, segment.piece) for segment in known if segment.piece is not None)
 
     @property
     def every_finding(self) -> tuple[Finding, ...]:
