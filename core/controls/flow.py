@@ -14,7 +14,10 @@ from core.controls.words import Block, whole
 from core.finding import Severity
 
 MOST_BLOCKS: Final = 400_000
-"""Blocks that subprograms and loops may add to those of the file; beyond it the run stops."""
+"""Blocks that subprograms and loops may run again; beyond it the run stops."""
+
+SIGNS: Final = 4
+"""A line that is more than a move counts as two blocks, and so many signs of it as one more: expressions take time."""
 
 MOST_OWORDS: Final = 15_000
 """O-words that may run."""
@@ -45,7 +48,8 @@ class Flow:
         self.log = log
         self.at = 0
         self.calls: list[_Call] = []
-        self.budget = len(lines) + MOST_BLOCKS
+        self.budget = MOST_BLOCKS
+        self.ran = bytearray(len(lines))
         self.words_left = MOST_OWORDS
         self.labels: dict[int, int] | None = None
         self.percents = 0
@@ -138,12 +142,22 @@ class Flow:
                     self.labels.setdefault(int(match[1]), index)
         return self.labels
 
-    def next_line(self, line: int) -> None:
-        """Counts a line that is about to run."""
-        self.budget -= 1
+    def next_line(self, line: int, *, plain: bool) -> None:
+        """Counts a line that is about to run, if it ran before: `plain` where it is nothing but a move."""
+        if not self.ran[line - 1]:
+            self.ran[line - 1] = True
+            return
+        self.budget -= 1 if plain else 2 + len(self.lines[line - 1]) // SIGNS
         if self.budget < 0:
-            text = f"The program has run more than {MOST_BLOCKS} blocks of subprograms or loops and is given up."
-            self.log.stop("LIMIT", text, line, 1)
+            text = f"Subprograms or loops run more than {MOST_BLOCKS} blocks again, of which long ones count several"
+            self.log.stop("LIMIT", f"{text} times; the run is given up. A loop may have no end.", line, 1)
+
+    def passed(self, count: int) -> None:
+        """Counts so many plain lines that have run from here on, at most as many as `budget`, and goes behind them."""
+        rows = slice(self.at, self.at + count)
+        self.budget -= self.ran[rows].count(True)
+        self.ran[rows] = b"\1" * count
+        self.at += count
 
     def ended(self) -> None:
         """The file is at its end; what is not closed by then is told."""

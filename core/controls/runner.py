@@ -46,13 +46,13 @@ def _run(flow: Flow, machine: Machine) -> None:
     road = Road()
     while road.ahead(flow, machine):
         line = flow.at = flow.at + 1
-        flow.next_line(line)
-        if flow.owords is not None and flow.follow(line - 1):
-            continue
         text = lines[line - 1]
         move = plain_move(text, line)
+        flow.next_line(line, plain=move is not None)
         if move is not None:
             machine.step(move)
+            continue
+        if flow.owords is not None and flow.follow(line - 1):
             continue
         for block in read_line(text, line, log, dialect.syntax, values):
             machine.step(block)

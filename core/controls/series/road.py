@@ -66,6 +66,5 @@ class Road:
             return 0
         count = machine.follower.travel_all(course.elements)
         course.settle(machine, count)
-        flow.at += count
-        flow.budget -= count
+        flow.passed(count)
         return count

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core.controls import flow
 from core.controls.expressions import Reader
 from core.controls.owords import found_in
 from core.controls.parameters import FaultError, Kept, Parameters
@@ -159,3 +160,35 @@ def test_any_expression_is_a_number_or_a_fault(text: str) -> None:
 
 def test_brackets_that_never_close_are_read_once() -> None:
     assert found_in(["o1 sub (", "o1 " + "(" * 200_000, "o2 sub (a ; b)", "o3 sub ; (", "(o4 sub"]).keys() == {2, 3}
+
+
+def looped(line: str, kind: str) -> str:
+    """A hundred such lines again and again, without end or nearly so."""
+    body = "\n".join([line] * 100)
+    if kind == "while":
+        return f"G20 F9\no1 while [1]\n{body}\no1 endwhile\nM2\n"
+    return f"G20 F9\nM98 P1 L999999\nM2\nO1\n{body}\nM99\n"
+
+
+@pytest.mark.parametrize("kind", ["while", "M98"])
+def test_what_takes_long_to_work_out_is_given_up_sooner(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flow, "MOST_BLOCKS", 20_000)
+    plain, long = "G1 X1 Y2", "G1 X[1+2*sin[30]/2.5] Y[2+3*[3+4]-5] F[100+2*2]"
+    few, many = (ran(looped(line, kind), "linuxcnc") for line in (long, plain))
+    assert told(few, "LIMIT")
+    assert told(many, "LIMIT")
+    assert len(many.moves) > 18_000
+    assert 1_000 < len(few.moves) < 3_000
+
+
+def test_blocks_that_run_once_are_no_repeats(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flow, "MOST_BLOCKS", 10)
+    lines = "\n".join(f"G1 X[{index}+1]\nG1 X{index}" for index in range(200))
+    assert not told(ran(f"G20 F9\n{lines}\nM98 P1\nM2\nO1\n{lines}\nM99\n", "linuxcnc"), "LIMIT")
+
+
+def test_a_long_subprogram_may_run_often() -> None:
+    body = "\n".join(f"G1 X{index % 7} Y{index}" for index in range(1000))
+    done = ran(f"G20 F9\nM98 P1 L300\nM2\nO1\n{body}\nM99\n", "linuxcnc")
+    assert done.stopped_at is None
+    assert len(done.moves) == 300_001
