@@ -28,7 +28,10 @@ def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     touch = pairs.touch
     wide = (touch.last - touch.first) * pairs.surface.length.take(pairs.j) > POINT
     row, way = pairs.i, np.zeros(len(pairs.i), np.intp)
-    sure, unsure = np.flatnonzero(wide & ~touch.unsure), np.flatnonzero(touch.unsure)
+    unsure = np.flatnonzero(touch.unsure)
+    known = wide & ~touch.unsure
+    known[unsure] = _about_one_centre(pairs, unsure, radius)
+    sure, unsure = np.flatnonzero(known), unsure[~known[unsure]]
     way[sure] = _way(pairs, sure)
     if len(unsure):
         way[unsure] = _way_in_the_middle(pairs, unsure, radius)
@@ -38,6 +41,16 @@ def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     own = pairs.own
     against[own.piece[(own.last - own.first) * pairs.surface.length[: len(own.piece)] > POINT]] = False
     return tuple(pairs.centre.rows[against].tolist())
+
+
+def _about_one_centre(pairs: Pairs, chosen: Rows, radius: float) -> Flags:
+    """Pairs of arcs about one centre, a radius apart, that have more than a point beside each other: they run one way
+    or the other wherever they do."""
+    piece, other = pairs.centre.take(pairs.i[chosen]), pairs.surface.take(pairs.j[chosen])
+    wide = (pairs.touch.last[chosen] - pairs.touch.first[chosen]) * other.length > POINT
+    off = np.abs(piece.centre - other.centre) + np.abs(np.abs(piece.radius - other.radius) - radius)
+    about: Flags = wide & piece.arcs & other.arcs & (off <= pairs.grant[chosen])
+    return about
 
 
 def _way(pairs: Pairs, chosen: Rows) -> Rows:

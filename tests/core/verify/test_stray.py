@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf, pi, sqrt
+from math import cos, inf, pi, sin, sqrt
 
 import pytest
 
@@ -54,6 +54,16 @@ def test_an_arc_the_other_way_round_is_backwards() -> None:
     hole = circle((0, 0), 5.0)
     assert stray(hole, 1.0, circle((0, 0), 4.0)).backwards == ()
     assert stray(hole, 1.0, circle((0, 0), 4.0, Turn.CW)).backwards == (0,)
+
+
+@pytest.mark.parametrize("sweep", [0.3, pi / 2.0, 3.0, 6.0])
+@pytest.mark.parametrize("start", [0.0, 1.0, pi, 4.0])
+def test_a_whole_circle_round_a_part_of_one_runs_one_way_wherever_it_starts(sweep: float, start: float) -> None:
+    ends = [(5.0 * cos(angle), 5.0 * sin(angle)) for angle in (0.0, sweep)]
+    wall = Path.from_pieces([Arc(ends[0], ends[1], (0.0, 0.0), Turn.CCW)])
+    place = (4.0 * cos(start), 4.0 * sin(start))
+    for turn, told in ((Turn.CCW, ()), (Turn.CW, (0,))):
+        assert stray(wall, 1.0, Path.from_pieces([Arc(place, place, (0.0, 0.0), turn)])).backwards == told
 
 
 def test_in_a_slot_as_wide_as_the_cutter_one_wall_is_passed_the_right_way() -> None:
