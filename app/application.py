@@ -141,8 +141,8 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         Keys that come at once, pasted or over a link that held them back, are painted together: a slow link would
         carry every screen between them.
         """
-        waiting = self.message_queue_size + self.screen.message_queue_size
-        return waiting > 0 and perf_counter() - self._painted < FRAME
+        waiting = any(one.message_queue_size for one in (self, *self.screen_stack[-1:]))
+        return waiting and perf_counter() - self._painted < FRAME
 
     def _caught_up(self) -> None:
         """Behind the keys that waited."""
