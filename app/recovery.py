@@ -114,8 +114,12 @@ def restored(keeping: Keeping, desk: Desk, path: Path, found: Recovered) -> Desk
 
 
 def _taken(keeping: Keeping, session: Session, path: Path, found: Recovered) -> JournalFile:
-    """The journal of a dead program goes on; of one that may still write it, a copy does."""
+    """The journal of a dead program goes on; of one that may still write it, or has just removed it, a copy does."""
     head, cursor = keeping.head(session), keeping.cursor(session)
+    if not path.exists():
+        journal = JournalFile(path)
+        journal.add(history_records(head, session.history, cursor))
+        return journal
     if not alive(found.head.owner):
         if found.damaged:
             shutil.copyfile(path, path.with_name(f"{path.name}.damaged-{times.stamp(keeping.clock())}"))
@@ -132,6 +136,9 @@ def discarded(desk: Desk, path: Path) -> Desk:
     """The saved program; the work is kept under a name that is not offered again."""
     try:
         aside = set_aside(path, "discarded")
+    except FileNotFoundError:
+        told = "Nothing is left to discard: whoever typed it has saved it or given it up meanwhile."
+        return desk.take(Say(f"{told} Ctrl+O opens the file as it is now.", Tone.WARNING))
     except OSError as error:
         return desk.take(Say(f"The work left behind cannot be put away: {_reason(error)}", Tone.WARNING))
     return desk.take(Say(f"Discarded. A copy is in {aside.name}."))

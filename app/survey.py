@@ -7,9 +7,11 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from app import places
 from app.patience import FILE, within
 from app.widgets.header import printable
 from app.widgets.rows import Look
+from core.program.lock import alive
 from core.program.model import Entry, Program
 from core.program.store import StoreError, load
 from core.records import dataclass
@@ -22,7 +24,10 @@ GRAVEST: Final = (Look.ERROR, Look.WARNING, Look.DIM, Look.GOOD)
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """One file.  `stamp` is its time and size: while it stays, so does what is known.  `trouble` is a sentence."""
+    """One file.  `stamp` is its time and size: while it stays, so does what is known.  `trouble` is a sentence.
+
+    `left`: a program that died has left unsaved work on it behind.
+    """
 
     path: Path
     stamp: tuple[int, int] = (0, 0)
@@ -32,6 +37,7 @@ class Facts:
     word: str = "..."
     look: Look = Look.DIM
     trouble: str = ""
+    left: bool = False
 
 
 def facts_of(path: Path, known: Facts | None = None) -> Facts:
@@ -50,14 +56,26 @@ def _read(path: Path, known: Facts | None) -> tuple[Facts, Program | None]:
     except (OSError, ValueError):
         return Facts(path, word="gone", trouble="This file is not there any more, or its folder cannot be read."), None
     stamp = (status.st_mtime_ns, status.st_size)
-    if known is not None and known.stamp == stamp:
+    works = [found for _, found in places.left(path, places.own_folder()) if not alive(found.head.owner)]
+    if known is not None and known.stamp == stamp and not works and not known.left:
         return known, None
     date = datetime.fromtimestamp(status.st_mtime).astimezone().strftime("%Y-%m-%d")
     facts = Facts(path, stamp, date)
     try:
-        return facts, load(path)
+        program = load(path)
     except StoreError as error:
-        return replace(facts, word="unreadable", look=Look.DIM, trouble=printable(str(error))), None
+        facts = replace(facts, word="unreadable", look=Look.DIM, trouble=printable(str(error)))
+        return (_left(facts) if works else facts), None
+    if any(found.damaged or found.history.program != program for found in works):
+        counted = replace(facts, blocks=str(len(program.blocks)), tools=_tools(program))
+        return _left(counted), None
+    return facts, program
+
+
+def _left(facts: Facts) -> Facts:
+    """Of a file with unsaved work: that comes before the verdict on what was saved."""
+    told = "Unsaved work on this program was left behind. Opening it asks whether you want it back."
+    return replace(facts, word="not saved", look=Look.WARNING, trouble=told, left=True)
 
 
 def _judged(facts: Facts, program: Program) -> Facts:

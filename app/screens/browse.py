@@ -14,7 +14,7 @@ from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
 from app.widgets.field import Editing
 from app.widgets.header import printable
-from app.widgets.rows import Look, Row, Span, plain
+from app.widgets.rows import Look, Row, Span, plain, shortened
 from core.records import dataclass
 
 
@@ -82,7 +82,7 @@ class BrowsePage(EntryPage):
 
 
 def _item(item: Item, *, on_it: bool) -> Row:
-    text = f"{printable(item.name)[:50]}{'/' if item.folder else ''}"
+    text = shortened(f"{printable(item.name)}{'/' if item.folder else ''}", 50)
     return (Span(" > " if on_it else "   ", Look.TAG), Span(text, Look.CURSOR if on_it else Look.TYPED))
 
 

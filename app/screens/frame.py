@@ -14,7 +14,7 @@ from app.screens.plan import NATIVE, Plan, plan
 from app.session import Said, Session
 from app.surroundings import Surroundings
 from app.widgets.painted import Rows
-from app.widgets.prompt import prompt_rows
+from app.widgets.prompt import needed, prompt_rows
 from app.widgets.rows import Look, Part, Row, composed, plain
 from app.widgets.softkeys import softkey_rows
 from app.widgets.status import status_row
@@ -65,7 +65,8 @@ def parts(desk: Desk, known: Known, around: Surroundings, width: int, height: in
     """The parts of the picture by their names in the plan."""
     session = known.trial or desk.session
     layout = desk.page.layout
-    areas = plan(width, height, layout)
+    said = desk.session.said
+    areas = plan(width, height, layout, 0 if said is None else needed(said, width))
     view = desk.page.view(session, _surface(areas, known))
     drawn = areas.drawing
     status = next((page.status for page in reversed(desk.pages) if page.status is not None), None)
@@ -76,7 +77,7 @@ def parts(desk: Desk, known: Known, around: Surroundings, width: int, height: in
         "verdict": Part(areas.verdict, _verdict(session, known, view, layout, areas)),
         "drawing": Part(drawn, known.drawing(desk, view.sketch, drawn.width, drawn.height, view.drawn)),
         "softkeys": Part(areas.softkeys, softkey_rows(desk.page.softkeys(desk.session), areas.softkeys.height)),
-        "prompt": Part(areas.prompt, prompt_rows(_prompt(desk, view), areas.prompt.width)),
+        "prompt": Part(areas.prompt, _prompt_rows(said or _guide(desk) or view.prompt, areas)),
         "status": Part(areas.status, (status_row(desk.session, around.clock(), around.free(), width, status),)),
     }
 
@@ -86,9 +87,9 @@ def _surface(areas: Plan, known: Known) -> Surface:
     return Surface(areas.header.width, body.height, known.table, body.width, told.height, told.width)
 
 
-def _prompt(desk: Desk, view: View) -> Said:
+def _prompt_rows(said: Said, areas: Plan) -> tuple[Row, ...]:
     """What was said about the last key, else the guide, else the screen's own prompt."""
-    return desk.session.said or _guide(desk) or view.prompt
+    return prompt_rows(said, areas.prompt.width, max(areas.prompt.height, 1))
 
 
 def _guide(desk: Desk) -> Said | None:

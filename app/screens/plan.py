@@ -34,12 +34,18 @@ class Plan:
     status: Area = NOWHERE
 
 
-def plan(width: int, height: int, layout: Layout) -> Plan:
-    """The plan for a terminal of width x height cells; any size is allowed."""
+def plan(width: int, height: int, layout: Layout, told: int = 0) -> Plan:
+    """The plan for a terminal of width x height cells; any size is allowed.
+
+    On a small one what is told of the last key takes as many lines as it needs, until the next key.
+    """
     small = width < NATIVE[0] or height < NATIVE[1]
     top = 1 if small and height > 1 else 0
     status = 1 if height >= 6 else 0
     prompt = 2 if height >= 8 else 1 if height >= 4 else 0
+    if small and told > prompt:
+        prompt = min(told, height)
+        top, status = min(top, height - prompt), min(status, max(height - prompt - top, 0))
     room = max(height - top - status - prompt, 0)
     keys = softkeys.WIDTH if width >= NATIVE[0] else 0
     left = max(width - keys, 0)

@@ -14,7 +14,7 @@ from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, V
 from app.session import Said, Session, Tone
 from app.survey import Facts
 from app.widgets.header import printable
-from app.widgets.rows import Look, Row, Span, plain
+from app.widgets.rows import Look, Row, Span, plain, shortened
 from core.records import dataclass, field
 from core.units import Unit
 
@@ -128,7 +128,8 @@ class StartPage(Page):
             "Programs that were open lately, the programs of a folder, and example parts.",
             "Enter opens a program or goes into a folder; left arrow or Backspace goes to the folder above.",
             "VERDICT is that of the whole program: clean, uncut (material stays), warning, GOUGE, open (something is "
-            "missing), unreadable (no program of this kind), gone. It appears when it is calculated.",
+            "missing), not saved (work on it was left behind), unreadable (no program of this kind), gone. It appears "
+            "when it is calculated.",
             "F2 begins a new program, F7 leads through a first part key by key.",
         )
 
@@ -173,7 +174,7 @@ def _name(width: int) -> int:
 def _entry_row(entry: Entry, facts: Facts | None, width: int, *, on_it: bool) -> Row:
     room = _name(width)
     name = printable(entry.name) + ("/" if entry.folder else "")
-    name = name if len(name) <= room else f"{name[: room - 1]}…"
+    name = shortened(name, room)
     mark = Span("> " if on_it else "  ", Look.TAG)
     look = Look.CURSOR if on_it else Look.TYPED
     if entry.folder:

@@ -15,12 +15,20 @@ _LOOKS: Final = {Tone.PLAIN: Look.PLAIN, Tone.WARNING: Look.WARNING, Tone.ERROR:
 
 
 @lru_cache(64)
-def prompt_rows(said: Said, width: int) -> tuple[Row, ...]:
-    """The sentence on two lines, marked by !! and a colour when it is an error; what is longer ends in an ellipsis."""
-    text = "".join(character if character.isprintable() else "?" for character in said.text)
-    room = max(width - 2, 1)
-    lines = wrap(_MARKS[said.tone] + text, room, break_on_hyphens=False) or [""]
-    if len(lines) > LINES:
-        lines = [*lines[: LINES - 1], f"{lines[LINES - 1][: room - 1]}…"]
+def prompt_rows(said: Said, width: int, height: int = LINES) -> tuple[Row, ...]:
+    """The sentence on its lines, marked by !! and a colour when it is an error; what is longer ends in an ellipsis."""
+    lines = _lines(said, width)
+    if len(lines) > height > 0:
+        lines = [*lines[: height - 1], f"{lines[height - 1][: max(width - 3, 0)]}…"]
     rows = [(Span(f" {line}", _LOOKS[said.tone]),) for line in lines]
-    return (*rows, *[()] * (LINES - len(rows)))
+    return (*rows, *[()] * (height - len(rows)))
+
+
+def needed(said: Said, width: int) -> int:
+    """Lines that the whole sentence takes."""
+    return len(_lines(said, width))
+
+
+def _lines(said: Said, width: int) -> list[str]:
+    text = "".join(character if character.isprintable() else "?" for character in said.text)
+    return wrap(_MARKS[said.tone] + text, max(width - 2, 1), break_on_hyphens=False) or [""]

@@ -81,6 +81,15 @@ def padded(row: Row, width: int) -> Row:
     return (*spans, Span(" " * left)) if left > 0 else tuple(spans)
 
 
+def shortened(text: str, room: int) -> str:
+    """A name in so many cells: what is too long loses its middle, since names of one shop begin alike."""
+    if len(text) <= room:
+        return text
+    head = max(room - 1, 0) // 2
+    tail = max(room - 1 - head, 0)
+    return f"{text[:head]}…{text[len(text) - tail :]}"
+
+
 def single(text: str) -> str:
     """The text with a question mark for every character that does not take exactly one cell."""
     if text.isascii() and text.isprintable():

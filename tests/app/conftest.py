@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
+
+import pytest
 
 KEPT = "TEXTUAL_SNAPSHOT_"
 """The snapshot plugin's own, set before this is read when the tests are named by their top folder."""
@@ -11,3 +14,22 @@ for name in list(os.environ):
     if (name.startswith("TEXTUAL_") and not name.startswith(KEPT)) or name in ("NO_COLOR", "FORCE_COLOR"):
         del os.environ[name]
 os.environ["COLUMNS"], os.environ["LINES"] = "80", "24"
+
+
+@pytest.fixture
+def own(tmp_path: Path) -> Path:
+    """A person's folder for journals."""
+    return tmp_path / "own"
+
+
+@pytest.fixture
+def part(tmp_path: Path) -> Path:
+    """The pocket example in a folder of its own."""
+    # not before the environment is clear
+    from app.files import example
+    from core.program.store import load, save
+
+    path = tmp_path / "shop" / "part.toml"
+    path.parent.mkdir()
+    save(load(example("pocket")), path)
+    return path

@@ -18,19 +18,6 @@ from core.program.store import load, save
 from tests.app.kept import DEAD, asked, names, started
 
 
-@pytest.fixture
-def own(tmp_path: Path) -> Path:
-    return tmp_path / "own"
-
-
-@pytest.fixture
-def part(tmp_path: Path) -> Path:
-    path = tmp_path / "shop" / "part.toml"
-    path.parent.mkdir()
-    save(load(example("pocket")), path)
-    return path
-
-
 def equal(one: Session, other: Session) -> bool:
     return (one.history, one.where, one.field) == (other.history, other.where, other.field)
 

@@ -13,19 +13,6 @@ from core.program.store import dumps, load, save
 from tests.app.kept import DEAD, ELSEWHERE, asked, names, started
 
 
-@pytest.fixture
-def own(tmp_path: Path) -> Path:
-    return tmp_path / "own"
-
-
-@pytest.fixture
-def part(tmp_path: Path) -> Path:
-    path = tmp_path / "shop" / "part.toml"
-    path.parent.mkdir()
-    save(load(example("pocket")), path)
-    return path
-
-
 def test_a_file_written_by_another_since_the_crash_is_told_and_kept(own: Path, part: Path) -> None:
     started(own, part).press("tab").type("7").killed()
     part.write_text(dumps(load(example("notch"))))
@@ -68,6 +55,26 @@ def test_the_second_opener_may_take_over_with_the_work_of_the_first(own: Path, p
     assert "SAVE AS keeps your work." in first.said
     second.press("ctrl+s")
     assert load(part).blocks[0].tool == Entry(7.0)
+
+
+def test_discarding_what_its_owner_has_saved_meanwhile_says_so(own: Path, part: Path) -> None:
+    first = started(own, part, ELSEWHERE).press("tab").type("7")
+    second = started(own, part, DEAD).press("t")
+    first.press("ctrl+s", "w")
+    second.press("d")
+    assert "Nothing is left to discard: whoever typed it has saved it" in second.said
+    assert "Ctrl+O opens the file as it is now." in second.said
+
+
+def test_restoring_it_then_keeps_it_in_a_journal_of_its_own(own: Path, part: Path) -> None:
+    first = started(own, part, ELSEWHERE).press("tab").type("7")
+    second = started(own, part, DEAD).press("t")
+    first.press("ctrl+s", "w")
+    second.press("r")
+    assert "Your work is back as it was." in second.said
+    assert second.keeping.journal is not None
+    second.killed()
+    assert started(own, part).session.history.program == second.session.program
 
 
 def test_the_first_one_notices_before_it_saves(own: Path, part: Path) -> None:

@@ -99,6 +99,15 @@ def test_back_over_that_enter_stays_on_the_field_and_only_then_leaves_it(back: s
     assert square().press("ctrl+end", "right", "l", "enter", "enter", back).session.field == "x_end"
 
 
+@pytest.mark.parametrize(("width", "height"), [(20, 5), (30, 4), (40, 10), (79, 24)])
+def test_on_a_small_terminal_a_message_is_told_in_full_until_the_next_key(width: int, height: int) -> None:
+    operator = square().press("9", "9", "enter")
+    told = "!! There is no segment 99: the last one is 4. Right arrow past the last adds one."
+    assert told in " ".join(" ".join(operator.screen(width, height)).split())
+    assert told not in " ".join(" ".join(operator.press("tab").screen(width, height)).split())
+    assert len(operator.screen(width, height)) == height
+
+
 def test_an_enter_behind_something_typed_goes_on() -> None:
     operator = square().press("ctrl+end", "right", "l").type("2")
     assert operator.session.field == "y_end"

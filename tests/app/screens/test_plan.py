@@ -22,11 +22,12 @@ def overlap(one: Area, other: Area) -> bool:
     return not (beside or one.y + one.height <= other.y or other.y + other.height <= one.y)
 
 
+@pytest.mark.parametrize("told", [0, 1, 4, 40])
 @pytest.mark.parametrize("layout", Layout)
-def test_no_parts_overlap_and_none_leaves_the_terminal(layout: Layout) -> None:
+def test_no_parts_overlap_and_none_leaves_the_terminal(layout: Layout, told: int) -> None:
     for width in (1, 2, 19, 20, 40, 59, 60, 79, 80, 81, 109, 110, 132, 200):
         for height in (*range(1, 30), 43, 60):
-            found = areas(plan(width, height, layout))
+            found = areas(plan(width, height, layout, told))
             assert not any(overlap(one, other) for one, other in combinations(found, 2))
             assert all(area.x >= 0 and area.x + area.width <= width for area in found)
             assert all(area.y >= 0 and area.y + area.height <= height for area in found)
@@ -59,6 +60,9 @@ def test_a_terminal_that_is_too_small_is_told_so(width: int, height: int) -> Non
 
 
 def test_a_tiny_terminal_still_has_a_line_for_the_field_and_one_for_the_prompt() -> None:
+    assert plan(20, 5, Layout.FORM, 4).prompt.height == 4
+    assert plan(20, 5, Layout.FORM, 9).prompt == Area(0, 0, 20, 5)
+    assert plan(80, 24, Layout.FORM, 9) == plan(80, 24, Layout.FORM)
     places = plan(20, 5, Layout.FORM)
     assert places.body.height >= 1
     assert places.prompt.height == 1

@@ -19,6 +19,7 @@ from app.starting import begun, first_folder
 from app.survey import Facts, facts_of
 from core.program.store import load, save
 from core.units import Unit
+from tests.app.kept import ELSEWHERE, started
 from tests.app.operator import Operator
 
 
@@ -167,6 +168,38 @@ def test_a_known_file_is_not_derived_again_until_it_changes(folder: Path) -> Non
     save(load(example("pocket")), folder / "notch.toml")
     assert facts_of(folder / "notch.toml", first).word == "uncut"
     assert facts_of(folder / "none.toml").word == "gone"
+
+
+def test_work_left_behind_on_a_named_file_stands_in_the_list(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own = tmp_path / "own"
+    monkeypatch.setattr("app.places.own_folder", lambda: own)
+    path = folder / "notch.toml"
+    started(own, path).press("tab").type("7").killed()
+    operator = looked(at_start())
+    assert next(line for line in lines(operator) if line.startswith("notch")).endswith(" 1 1       not saved")
+    assert "Opening it asks whether you want it back" in operator.said
+    left = facts_of(path)
+    assert facts_of(path, left) == left
+    started(own, path).press("d").keeping.leave()
+    assert facts_of(path, left).word == "GOUGE"
+
+
+def test_work_that_goes_on_elsewhere_is_none_that_was_left(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    own = folder / "own"
+    monkeypatch.setattr("app.places.own_folder", lambda: own)
+    started(own, folder / "notch.toml", ELSEWHERE).press("tab").type("7")
+    assert facts_of(folder / "notch.toml").word == "GOUGE"
+
+
+def test_long_names_keep_what_tells_them_apart(folder: Path) -> None:
+    for end in ("left", "right"):
+        save(load(example("notch")), folder / f"customer-4711-bracket-pocket-{end}.toml")
+    assert len({line[:22] for line in lines(at_start()) if line.startswith("customer")}) == 2
+    listing = at_start().press("f4").part("body")
+    assert "pocket-left.toml" in listing
+    assert "pocket-right.toml" in listing
 
 
 def test_facts_of_a_screen_that_is_gone_are_dropped() -> None:

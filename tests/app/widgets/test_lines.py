@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.files import empty_program
 from app.screens.page import Softkey
 from app.session import Said, Session, Tone
-from app.widgets.prompt import prompt_rows
+from app.widgets.prompt import needed, prompt_rows
 from app.widgets.rows import text_of
 from app.widgets.softkeys import softkey_rows
 from app.widgets.status import status_row
@@ -32,6 +32,12 @@ def test_a_long_sentence_takes_two_lines_and_then_an_ellipsis() -> None:
     assert len(rows) == 2
     assert text_of(rows[1]).endswith("…")
     assert all(len(text_of(row)) <= 40 for row in rows)
+
+
+def test_where_there_is_room_for_all_of_it_none_is_cut() -> None:
+    said = Said("word " * 12)
+    rows = prompt_rows(said, 20, needed(said, 20))
+    assert " ".join(" ".join(map(text_of, rows)).split()) == said.text.strip()
 
 
 def test_control_characters_of_a_files_name_do_not_reach_the_terminal() -> None:
