@@ -5,11 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
+
 from app.desk import Desk
 from app.files import empty_program
 from app.messages import Load
+from app.screens.program import ProgramPage
 from app.screens.proof import ProofPage
-from app.screens.proof_files import opening
+from app.screens.proof_files import ProofBrowse, opening
 from app.session import Session
 from tests.app.prover import SQUARE, Prover, square
 
@@ -73,6 +76,24 @@ def test_a_file_is_chosen_from_a_folder(tmp_path: Path) -> None:
     assert "a.toml" not in text
     assert isinstance(prover.press("down", "enter").desk.page, ProofPage)
     assert "line 3" not in prover.said
+
+
+@pytest.mark.parametrize("keys", [("f8",), ("escape", "8"), ("x", "f8"), ("down", "f8")])
+def test_nothing_is_opened_where_the_choice_is_given_up(tmp_path: Path, keys: tuple[str, ...]) -> None:
+    (tmp_path / "b.nc").write_bytes(SQUARE)
+    session = replace(Session.of(empty_program()), file=tmp_path / "a.toml")
+    prover = Prover(Desk(session)).press("f8", "f7", "f7", "f5")
+    assert isinstance(prover.desk.page, ProofBrowse)
+    assert "F8 CANCEL" in "\n".join(prover.screen())
+    assert isinstance(prover.press(*keys).desk.page, ProgramPage)
+    assert prover.session == session
+
+
+def test_its_first_softkey_opens(tmp_path: Path) -> None:
+    (tmp_path / "b.nc").write_bytes(SQUARE)
+    session = replace(Session.of(empty_program()), file=tmp_path / "a.toml")
+    prover = Prover(Desk(session)).press("f8", "f7", "f7", "f5", "down", "f1")
+    assert prover.page.file == tmp_path / "b.nc"
 
 
 def test_what_is_no_file_is_a_sentence(tmp_path: Path) -> None:
