@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Final
 
 from app import files
-from app.messages import Load, Message, Post
+from app.messages import Load, Message, Post, Save
 from app.screens.ask import Ask
 from app.screens.contour import Contour
 from app.screens.contour_cells import fields_at
@@ -80,6 +80,9 @@ def after(before: Desk, desk: Desk, message: Message) -> Desk:
     if isinstance(message, Load) and desk.session.saved is not before.session.saved:
         return replace(desk, guided=False)
     said = desk.session.said
+    if isinstance(message, Save) and desk.session.saved is not before.session.saved and hint(desk) is not None:
+        # that it is saved, and what comes next, are the guide's own words
+        return replace(desk, session=desk.session.quiet())
     if isinstance(message, Post) and len(desk.pages) < len(before.pages) and said is not None:
         text = f"{said.text} Typed, proved, saved, posted: that is the whole way."
         return replace(desk, guided=False, session=desk.session.saying(text))

@@ -100,6 +100,14 @@ def test_no_wrong_key_loses_the_guide(astray: tuple[str, ...], tmp_path: Path, m
     assert Path("plate.nc").exists()
 
 
+def test_a_save_leaves_no_one_without_the_next_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    operator = begun()
+    while operator.session.file is None:
+        obey(known(operator))
+    assert operator.said == "GUIDE Saved. F8 goes to the list of blocks (or Esc, then 8)."
+
+
 def test_the_guide_asks_before_unsaved_work_is_given_up() -> None:
     from app.guide import begin
 
