@@ -112,7 +112,8 @@ def importing(name: str, unit: Unit) -> Callable[[Desk], Desk]:
             return desk.take(Open(FaultsPage(findings=table.findings)))
         edit = Edit(merged(program, table.tools), "IMPORT TOOL TABLE")
         lines = (*_changes(program, table.tools), *(_told(one) for one in table.findings[:3]))
-        return desk.take(Open(Ask("IMPORT?", lines, (("i", "IMPORT", (Close(), Close(), edit)),))))
+        done = Say(f"Imported: {name.strip()}. Ctrl+Z brings the tools back that were here before.")
+        return desk.take(Open(Ask("IMPORT?", lines, (("i", "IMPORT", (Close(), Close(), edit, done)),))))
 
     return work
 
@@ -124,7 +125,7 @@ def _changes(program: Program, tools: tuple[Tool, ...]) -> tuple[str, ...]:
     known = {tool.number: tool for tool in program.tools}
     new = [tool for tool in tools if tool.number not in known]
     other = [tool for tool in tools if tool.number in known and known[tool.number] != tool]
-    lines = [f"{len(tools)} tools: {len(new)} are new, {len(other)} replace a tool that differs."]
+    lines = [f"Tools in the file: {len(tools)}. New: {len(new)}. In place of one that differs: {len(other)}."]
     for tool in other[:2]:
         before, after = told(known[tool.number], program.unit), told(tool, program.unit)
         lines.append(f"{' '.join(before.split())} becomes {' '.join(after.split()[1:])}")

@@ -88,13 +88,14 @@ def importing(text: str, folder: Path) -> Operator:
 def test_the_screen_asks_before_it_imports_and_undo_takes_it_back(tmp_path: Path) -> None:
     operator = importing("T1 D.375\nT2 D.25 ;DRILL", tmp_path)
     assert isinstance(operator.desk.page, Ask)
-    assert "2 tools: 1 are new, 1 replace" in operator.part("body")
+    assert "Tools in the file: 2. New: 1. In place of one that differs: 1." in operator.part("body")
     assert "T1 0.5000 IN END MILL becomes 0.3750 IN" in " ".join(operator.part("body").split())
     operator.press("escape")
     assert operator.session.program.tools == (Tool(1, "END MILL", Entry(0.5)),)
     operator.press("enter", "i")
     assert list(operator.session.program.tools) == [Tool(1, "END MILL", Entry(0.375)), Tool(2, "DRILL", Entry(0.25))]
     assert isinstance(operator.desk.page, ToolsPage)
+    assert operator.said.startswith("Imported: ")
     assert operator.press("ctrl+z").session.program.tools == (Tool(1, "END MILL", Entry(0.5)),)
 
 
