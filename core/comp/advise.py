@@ -26,8 +26,8 @@ class Outcome(Protocol):
 
 def recommended(outcomes: Sequence[Outcome]) -> int | None:
     """The clean value that leaves least uncut, of those the smallest; None when no value is clean."""
-    clean = [outcome for outcome in outcomes if outcome.clean]
+    clean = [(outcome.uncut, outcome.value) for outcome in outcomes if outcome.clean]
     if not clean:
         return None
-    least = min(outcome.uncut for outcome in clean)
-    return min(outcome.value for outcome in clean if outcome.uncut <= least + JOINED)
+    least, _ = min(clean)
+    return min(value for uncut, value in clean if uncut <= least + JOINED)

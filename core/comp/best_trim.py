@@ -21,6 +21,9 @@ from core.tolerance import CROWDED, JOINED
 PROBES: Final = 4096
 """So many pieces, spread evenly, are tried first: what cuts none of them is not tried on the others."""
 
+FEW: Final = 1000
+"""So few pieces are held against all joints at once: that costs little memory, and a tenth of the calls."""
+
 _SPREAD: Final = 0.6180339887498949
 """Multiples of the golden section, less their whole numbers, are spread evenly and follow no pattern of a contour."""
 
@@ -82,13 +85,48 @@ def _mitred(chain: Untrimmed, left: _Left, sign: int, radius: float) -> tuple[In
 def _narrowed(chain: Untrimmed, left: _Left, radius: float) -> None:
     """Cut from `left` what the joints of the surface ahead and behind have inside their circles."""
     limit = radius - max(_INSIDE * radius, 2.0 * CROWDED)
+    if limit <= 0.0:
+        return
+    if len(chain.raw) <= FEW:
+        _narrowed_at_once(chain, left, radius, limit)
+    else:
+        _narrowed_by_steps(chain, left, radius, limit)
+
+
+def _narrowed_at_once(chain: Untrimmed, left: _Left, radius: float, limit: float) -> None:
+    """All joints that `_narrowed_by_steps` tries, in its order: the stretches to cut depend on no cut before them."""
+    raw, rows = chain.raw, np.arange(len(chain.raw))
+    steps = [1 << power for power in range(max(len(chain.joints) - 1, 0).bit_length())]
+    if not steps or not len(raw):
+        return
+    spots = np.stack([_joints(chain, rows, step, ahead=ahead) for step in steps for ahead in (True, False)])
+    apart = np.abs(spots - raw.start)
+    far = apart.min(axis=1).reshape(-1, 2).min(axis=1) >= 2.0 * radius
+    tried = 2 * (int(far.argmax()) + 1) if far.any() else len(spots)
+    near = apart[:tried] < limit + raw.lengths
+    begin, end = np.full((2, tried, len(raw)), np.nan)
+    arcs = raw.turns != 0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for some, within in (((~arcs).nonzero()[0], _within_lines), (arcs.nonzero()[0], _within_arcs)):
+            begin[:, some], end[:, some] = within(raw, some, spots[:tried, some], limit)
+    begin[~near] = np.nan
+    low, high = left.low, left.high
+    for row in np.flatnonzero(near.any(axis=1)).tolist():
+        first, last, alive = begin[row], end[row], low < high
+        at_low, at_high = alive & (first <= low) & (last > low), alive & (last >= high) & (first < high)
+        low[at_low] = last[at_low]
+        high[at_high] = first[at_high]
+
+
+def _narrowed_by_steps(chain: Untrimmed, left: _Left, radius: float, limit: float) -> None:
+    """Joints ever farther off, until none is near; first of some pieces, then of all where that cuts anything."""
     raw, joints = chain.raw, chain.joints
     count, step = len(raw), 1
     probes = np.arange(count)
     if count > PROBES:
         probes = np.unique((np.arange(PROBES) * _SPREAD % 1.0 * count).astype(np.intp))
     close = True
-    while close and limit > 0.0 and step < len(joints):
+    while close and step < len(joints):
         close = False
         for ahead in (True, False):
             spots = _joints(chain, probes, step, ahead=ahead)

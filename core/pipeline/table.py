@@ -131,7 +131,12 @@ def table_of(trial: Trial, judged: Judged | None = None) -> Table:
     passes = [_all(trial, rougher + stock, rougher)[1] for stock in trial.stocks]
     rough = list(zip(*passes, strict=True)) or [()] * len(values)
     rows = [Row(*row) for row in zip(values, every, verdicts, rough, strict=True)]
-    return Table(tuple(rows), recommended(rows))
+    return Table(tuple(rows), recommended(_fates(rows)))
+
+
+def _fates(rows: Sequence[Row]) -> list[Row]:
+    """Of rows with the same verdicts the first, whose value is the smallest."""
+    return list({(id(row.verdict), *map(id, row.rough)): row for row in reversed(rows)}.values())
 
 
 def _all(
@@ -143,7 +148,7 @@ def _all(
         trial.surface, trial.side, radius, values, closed=trial.closed, blend=trial.blend, overlap=trial.overlap
     )
     # values that test the same crossings have one path between them
-    wholes = {id(one.path): one.whole for one in every}
+    wholes = {key: one.whole for key, one in {id(one.path): one for one in every}.items()}
     known = {} if judged is None else {key: judged.verdict for key, one in wholes.items() if _same(one, judged.whole)}
     rest = {key: one for key, one in wholes.items() if key not in known}
     told = judge_all(trial.surface, trial.side, cutter, list(rest.values())) if rest else ()
