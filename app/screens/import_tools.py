@@ -125,7 +125,7 @@ def _changes(program: Program, tools: tuple[Tool, ...]) -> tuple[str, ...]:
     known = {tool.number: tool for tool in program.tools}
     new = [tool for tool in tools if tool.number not in known]
     other = [tool for tool in tools if tool.number in known and known[tool.number] != tool]
-    lines = [f"Tools in the file: {len(tools)}. New: {len(new)}. In place of one that differs: {len(other)}."]
+    lines = [f"Tools: {len(tools)}. New: {len(new)}. In place of one that differs: {len(other)}."]
     for tool in other[:2]:
         before, after = told(known[tool.number], program.unit), told(tool, program.unit)
         lines.append(f"{' '.join(before.split())} becomes {' '.join(after.split()[1:])}")

@@ -88,7 +88,7 @@ def importing(text: str, folder: Path) -> Operator:
 def test_the_screen_asks_before_it_imports_and_undo_takes_it_back(tmp_path: Path) -> None:
     operator = importing("T1 D.375\nT2 D.25 ;DRILL", tmp_path)
     assert isinstance(operator.desk.page, Ask)
-    assert "Tools in the file: 2. New: 1. In place of one that differs: 1." in operator.part("body")
+    assert "Tools: 2. New: 1. In place of one that differs: 1." in operator.part("body")
     assert "T1 0.5000 IN END MILL becomes 0.3750 IN" in " ".join(operator.part("body").split())
     operator.press("escape")
     assert operator.session.program.tools == (Tool(1, "END MILL", Entry(0.5)),)
