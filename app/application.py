@@ -203,7 +203,7 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         before = session.derived
         if (held := self.engine.held(program)) is not None:
             self.trial = session.trying(held)
-        elif self.engine.fast("derive", "trial"):
+        elif self.engine.fast("derive"):
             self.trial = session.trying(self.engine.derive(program, before))
         elif self._trying.doing != program:
             self._trying.ask(lambda: self.engine.derive(program, before), program)
