@@ -7,7 +7,6 @@ from typing import Self
 
 from app.messages import Edit, Say
 from app.screens.page import Answer, Page
-from app.screens.topics import topic_of
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing, press
 from app.widgets.form import Cell, State
@@ -226,6 +225,8 @@ def cell_of(one: Field, held: Value | str, unit: Unit, column: int, line: int, *
 
 def field_help(one: Field, unit: Unit) -> tuple[str, ...]:
     """What a field means and what may be typed into it, in sentences, then its picture."""
+    from app.screens.topics import topic_of
+
     lines = [one.label, one.prompt]
     if one.choices:
         lines.append(f"Choices: {', '.join(one.choices)}. Space, left and right step; letters spell one.")

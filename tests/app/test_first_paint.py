@@ -63,7 +63,7 @@ guarded()
 """
 ROOT = Path(__file__).parents[2]
 COMPILED = re.compile(r"^from dataclasses import .*\bdataclass\b", re.MULTILINE)
-FORM = {"contour", "contour_cells", "contour_keys", "doors", "forms", "frame", "page", "plan", "program", "topics"}
+FORM = {"contour", "contour_cells", "contour_keys", "doors", "forms", "frame", "page", "plan", "program"}
 LATER = {
     "app.filing",
     "app.guide",
