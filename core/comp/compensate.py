@@ -76,7 +76,12 @@ def compensate_all(
         if found.count(value) not in made:
             pruned = prune(chain, found.joints, found.within(value), last_wins=closed and len(surface) == 2)
             made[found.count(value)] = _compensated(asked, value, chain, pruned, common)
-    return tuple(replace(made[found.count(value)], lookahead=value) for value in values)
+    return tuple(_at(made[found.count(value)], value) for value in values)
+
+
+def _at(one: Compensated, lookahead: int) -> Compensated:
+    """What another look-ahead has made as well."""
+    return one if one.lookahead == lookahead else replace(one, lookahead=lookahead)
 
 
 class _Asked(NamedTuple):
