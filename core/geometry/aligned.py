@@ -67,7 +67,7 @@ def aligned_pairs(
     """
     if first.shape[1] <= FEW:
         i, j = near_pairs(first, second, reach)
-        keep = np.flatnonzero((np.abs(i - j) if both else j - i) >= apart)
+        keep = ((np.abs(i - j) if both else j - i) >= apart).nonzero()[0]
         return i[keep], j[keep]
     grown = first.copy()
     grown[:2] -= reach
@@ -83,7 +83,7 @@ def aligned_pairs(
         i, j = _opened(i, j, one, other)
         beside = _shifted(one, other, 2 if depth else apart, proved, both=both)
         i, j = np.concatenate((beside[0], i)), np.concatenate((beside[1], j))
-    keep = np.flatnonzero(reaching(first.take(i, axis=1), second.take(j, axis=1), reach))
+    keep = (reaching(first.take(i, axis=1), second.take(j, axis=1), reach)).nonzero()[0]
     return i[keep], j[keep]
 
 
@@ -92,9 +92,9 @@ def _opened(i: Rows, j: Rows, one: Floats, other: Floats) -> tuple[Rows, Rows]:
     if not len(i):
         return i, j
     i, j = children(i, j, one.shape[1], other.shape[1])
-    far = np.flatnonzero(np.abs(i - j) >= SHIFTS)
+    far = (np.abs(i - j) >= SHIFTS).nonzero()[0]
     i, j = i[far], j[far]
-    met = np.flatnonzero(meeting(one.take(i, axis=1), other.take(j, axis=1)))
+    met = (meeting(one.take(i, axis=1), other.take(j, axis=1))).nonzero()[0]
     return i[met], j[met]
 
 
@@ -115,8 +115,8 @@ def _shifted(one: Floats, other: Floats, apart: int, runs: Runs | None, *, both:
 def _met(one: Floats, other: Floats, proved: Flags | None) -> Rows:
     """Indices of boxes that meet and of which nothing is proved; few are looked at alone."""
     if proved is None:
-        return np.flatnonzero(meeting(one, other))
-    rows = np.flatnonzero(~proved)
+        return meeting(one, other).nonzero()[0]
+    rows = (~proved).nonzero()[0]
     if 4 * len(rows) > len(proved):
-        return np.flatnonzero(meeting(one, other) & ~proved)
+        return (meeting(one, other) & ~proved).nonzero()[0]
     return rows[meeting(one.take(rows, axis=1), other.take(rows, axis=1))]

@@ -291,7 +291,9 @@ def _quarters(arc: Measured) -> tuple[Flags, ...]:
 
 def place(pieces: Measured, stations: Floats, s: Floats) -> tuple[Rows, Floats]:
     """Piece index and fraction of the places `s` along the whole path; at a joint the piece that begins there."""
-    index = np.clip(np.searchsorted(stations, s, side="right") - 1, 0, len(pieces) - 1)
+    index = stations.searchsorted(s, side="right")
+    index -= 1
+    np.minimum(np.maximum(index, 0, out=index), len(pieces) - 1, out=index)
     length = pieces.length[index]
     t = (s - stations[index]) / np.where(length == 0.0, 1.0, length)
-    return index, np.clip(t, 0.0, 1.0)
+    return index, np.minimum(np.maximum(t, 0.0), 1.0)

@@ -85,10 +85,10 @@ def beside(centre: Measured, likely: Rows, surface: Measured, sign: int, radius:
     """
     given, count = _Given(centre, surface, sign, radius, grant), len(surface)
     piece = np.full(count, -1)
-    rows = np.flatnonzero(likely >= 0) if radius >= LEAST else np.zeros(0, np.intp)
+    rows = (likely >= 0).nonzero()[0] if radius >= LEAST else np.zeros(0, np.intp)
     piece[likely[rows]] = rows
     own, begin, end, apart = np.zeros(count, np.bool_), np.zeros(count), np.zeros(count), np.full(count, np.inf)
-    chosen = np.flatnonzero(piece >= 0)
+    chosen = (piece >= 0).nonzero()[0]
     bent = 2 * (surface.turn[chosen] != 0.0) + (centre.turn[piece[chosen]] != 0.0)
     for kind, runs in ((0, _lines), (3, _arcs)):
         j = chosen if (bent == kind).all() else chosen[bent == kind]
@@ -135,7 +135,7 @@ def _joints(given: _Given, piece: Rows, from_start: Flags, to_end: Flags) -> tup
     """
     centre, surface, grant = given.centre, given.surface, given.grant
     proved, corner = np.zeros(max(len(surface) - 1, 0), np.bool_), np.full(len(surface), -1)
-    j = np.flatnonzero((piece[:-1] >= 0) & (piece[1:] >= 0))
+    j = ((piece[:-1] >= 0) & (piece[1:] >= 0)).nonzero()[0]
     meeting = np.zeros(len(proved), np.bool_)
     if not len(j):
         return proved, meeting, corner
@@ -144,10 +144,10 @@ def _joints(given: _Given, piece: Rows, from_start: Flags, to_end: Flags) -> tup
     linked = (k == i + 1) & (np.abs(centre.start[i] + centre.vector[i] - centre.start[k]) <= grant)
     whole = to_end[j] & from_start[j + 1] & met
     straight = (surface.turn[j] == 0.0) & (surface.turn[j + 1] == 0.0)
-    sharp, smooth = np.flatnonzero(straight & met), np.flatnonzero(~straight & linked & whole)
+    sharp, smooth = (straight & met).nonzero()[0], (~straight & linked & whole).nonzero()[0]
     proved[j[sharp]] = _apart(given, j[sharp], i[sharp], k[sharp], linked[sharp])
     proved[j[smooth]] = _tangent(given, j[smooth], i[smooth], k[smooth])
-    about = np.flatnonzero(straight & whole & (k == i + 2))
+    about = (straight & whole & (k == i + 2)).nonzero()[0]
     about = about[_about(given, j[about], i[about] + 1) & proved[j[about]]]
     corner[j[about]] = i[about] + 1
     meeting[j] = linked

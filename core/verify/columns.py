@@ -59,7 +59,7 @@ def columns(pieces: Measured) -> Columns:
     size = np.sqrt(square)
     size[size == 0.0] = 1.0
     middle_x, middle_y = pieces.turn * up / size, -pieces.turn * along / size
-    short = np.flatnonzero((size < SHORT * pieces.radius) & (pieces.turn != 0.0))
+    short = ((size < SHORT * pieces.radius) & (pieces.turn != 0.0)).nonzero()[0]
     if len(short):
         arc = pieces.take(short)
         middle = arc.arm / np.where(arc.radius == 0.0, 1.0, arc.radius) * np.exp(0.5j * arc.turn * arc.angle)
@@ -134,7 +134,7 @@ def line_to_arc(line: Columns, arc: Columns) -> tuple[Floats, Floats]:
     off_x, off_y = t * line.along - x, t * line.up - y
     within, height = inside(off_x, off_y, arc), np.sqrt(off_x * off_x + off_y * off_y)
     apart = np.where(within & (t >= 0.0) & (t <= 1.0), np.abs(height - arc.radius), np.inf)
-    cut = np.flatnonzero(height < arc.radius)
+    cut = (height < arc.radius).nonzero()[0]
     if len(cut):
         arc_, along, up = _cut(arc, cut), line.along[cut], line.up[cut]
         half = np.sqrt((arc_.radius - height[cut]) * (arc_.radius + height[cut]) / line.square[cut])
@@ -158,7 +158,7 @@ def arc_to_arc(one: Columns, other: Columns) -> Floats:
         (behind_one & behind_other, size - other.radius + one.radius),
     ):
         np.minimum(apart, np.where(within, np.abs(gap), np.inf), out=apart)
-    cut = np.flatnonzero((size > np.abs(one.radius - other.radius)) & (size < one.radius + other.radius))
+    cut = ((size > np.abs(one.radius - other.radius)) & (size < one.radius + other.radius)).nonzero()[0]
     if len(cut):
         apart[cut[_arcs_cross(_cut(one, cut), _cut(other, cut), x[cut], y[cut], size[cut])]] = 0.0
     return apart

@@ -28,10 +28,10 @@ def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     touch = pairs.touch
     wide = (touch.last - touch.first) * pairs.surface.length.take(pairs.j) > POINT
     row, way = pairs.i, np.zeros(len(pairs.i), np.intp)
-    unsure = np.flatnonzero(touch.unsure)
+    unsure = touch.unsure.nonzero()[0]
     known = wide & ~touch.unsure
     known[unsure] = _about_one_centre(pairs, unsure, radius)
-    sure, unsure = np.flatnonzero(known), unsure[~known[unsure]]
+    sure, unsure = known.nonzero()[0], unsure[~known[unsure]]
     way[sure] = _way(pairs, sure)
     if len(unsure):
         way[unsure] = _way_in_the_middle(pairs, unsure, radius)

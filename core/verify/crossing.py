@@ -51,12 +51,12 @@ def crossings(surface: Measured, stations: Floats, bounds: Floats, *, closed: bo
 def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Rows, Rows]:
     """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbours that come back."""
     i, j = aligned_pairs(bounds, bounds, JOINED, 2, both=False)
-    again = np.flatnonzero(_overlapping(bounds))
+    again = _overlapping(bounds).nonzero()[0]
     again = again[_turned(surface, again) > pi - TURN]
     i, j = np.concatenate((i, again)), np.concatenate((j, again + 1))
     if closed and len(surface) > 2:
         seam = (i == 0) & (j == len(surface) - 1)
-        keep = np.flatnonzero(~seam | _turns_half_round(surface))
+        keep = (~seam | _turns_half_round(surface)).nonzero()[0]
         i, j = i[keep], j[keep]
     return i, j
 

@@ -65,7 +65,7 @@ class _Search:
     def look_or_measure(self, s: Floats, near: Rows, known: Floats) -> tuple[Floats, Rows]:
         """The same, where `near` is -1; elsewhere the nearest piece is `near`."""
         apart, near = np.empty(len(s)), near.copy()
-        new, old = np.flatnonzero(near < 0), np.flatnonzero(near >= 0)
+        new, old = (near < 0).nonzero()[0], (near >= 0).nonzero()[0]
         apart[old] = distance(self.other.take(near[old]), self.points(s[old]))
         if len(new):
             apart[new], near[new] = self.look(s[new], known[new])
@@ -108,7 +108,7 @@ def _begin(search: _Search, stretches: Stretches, near: Rows, ends: float) -> tu
     owners, s = owners[order], s[order]
     most = ends + _from_ends(stretches, near, owners, s)
     apart, near = search.look_or_measure(s, known, most)
-    pairs = np.flatnonzero((owners[1:] == owners[:-1]) & (s[1:] > s[:-1]))
+    pairs = ((owners[1:] == owners[:-1]) & (s[1:] > s[:-1])).nonzero()[0]
     both = np.stack((pairs, pairs + 1))
     none = Farthest(np.zeros(len(each)), np.full(len(each), -np.inf))
     return _Spans(owners[pairs], s[both], apart[both], near[both]), _better(none, owners, s, apart)
@@ -126,7 +126,7 @@ def _better(best: Farthest, owner: Rows, s: Floats, apart: Floats) -> Farthest:
     """`best` with the places `s` of stretches `owner` where these are farther."""
     where, size = best.place.copy(), best.apart.copy()
     order = np.lexsort((apart, owner))
-    last = order[np.flatnonzero(np.append(owner[order][1:] != owner[order][:-1], True))]
+    last = order[np.append(owner[order][1:] != owner[order][:-1], True).nonzero()[0]]
     last = last[apart[last] > size[owner[last]]]
     where[owner[last]], size[owner[last]] = s[last], apart[last]
     return Farthest(where, size)

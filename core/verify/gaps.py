@@ -18,7 +18,7 @@ from core.geometry.measured import Flags, Floats, Points, Rows, at, place, trave
 from core.tolerance import ON_PATH
 from core.verify.farthest import FINE, Farthest, farthest
 from core.verify.pairs import Pairs
-from core.verify.reach import Stretches
+from core.verify.reach import Stretches, changes
 
 WIDE: Final = 4.0
 """Gaps farther from the path than so many radii are few, and left to `farthest`."""
@@ -56,8 +56,8 @@ def bounds(pairs: Pairs, gaps: Stretches, near: Rows, radius: float) -> Bound:
     sector[_off(parts, apart, near, radius)] = np.nan
     _to_arcs(pairs, parts, corner, apart)
     most = np.maximum.reduceat(apart, parts.begins)
-    where = np.flatnonzero(apart == most[parts.owner])
-    first = where[np.flatnonzero(np.diff(parts.owner[where], prepend=-1))]
+    where = (apart == most[parts.owner]).nonzero()[0]
+    first = where[changes(parts.owner[where])]
     return Bound(corner, parts.s[first], most, sector)
 
 
@@ -75,9 +75,13 @@ class _Parts:
 
 def _parts(pairs: Pairs, gaps: Stretches) -> _Parts:
     stations = pairs.surface_stations
-    low, one = place(pairs.surface, stations, gaps.first + ON_PATH)
-    high, other = place(pairs.surface, stations, gaps.last - ON_PATH)
-    high = np.maximum(low, high)
+    count = len(gaps)
+    places = np.concatenate((gaps.first, gaps.last))
+    places[:count] += ON_PATH
+    places[count:] -= ON_PATH
+    index, t = place(pairs.surface, stations, places)
+    low, high = index[:count], index[count:]
+    np.maximum(low, high, out=high)
     counts = high - low + 2
     ends = np.cumsum(counts)
     begins = ends - counts
@@ -85,24 +89,30 @@ def _parts(pairs: Pairs, gaps: Stretches) -> _Parts:
     j = np.arange(len(owner)) - (begins - low)[owner]
     j[ends - 1] = high
     s, points = stations[j], pairs.surface.start[j]
-    for rows, index, t, place_ in ((begins, low, one, gaps.first), (ends - 1, high, other, gaps.last)):
-        s[rows], points[rows] = place_, at(pairs.surface.take(index), t)
+    found = at(pairs.surface.take(index), t)
+    s[begins], s[ends - 1] = gaps.first, gaps.last
+    points[begins], points[ends - 1] = found[:count], found[count:]
     return _Parts(owner, j, s, points, begins)
 
 
 def _corner(pairs: Pairs, near: Rows, parts: _Parts) -> Points:
     """(k,) of the ends of the pieces at each gap's ends the one nearest to that of these which is farther from it."""
     known = np.where(near < 0, near[::-1], near)
-    ends = np.concatenate((pairs.centre.start[known], pairs.centre.end[known]))
+    start = pairs.centre.start[known]
+    ends = np.concatenate((start, start + pairs.centre.vector[known]))
     first, last = parts.points[parts.begins], parts.points[np.append(parts.begins[1:], len(parts.s)) - 1]
     apart = np.maximum(np.abs(ends - first), np.abs(ends - last))
-    best: Points = ends[np.argmin(apart, axis=0), np.arange(ends.shape[1])]
+    best: Points = ends[0]
+    least = apart[0]
+    for end, far in zip(ends[1:], apart[1:], strict=True):
+        nearer = far < least
+        best, least = np.where(nearer, end, best), np.where(nearer, far, least)
     return best
 
 
 def _to_arcs(pairs: Pairs, parts: _Parts, corner: Points, apart: Floats) -> None:
     """Parts on arcs that have their farthest place within them: it replaces the first one."""
-    rows = np.flatnonzero(pairs.surface.turn[parts.j[:-1]] * (parts.owner[1:] == parts.owner[:-1]))
+    rows = (pairs.surface.turn[parts.j[:-1]] * (parts.owner[1:] == parts.owner[:-1])).nonzero()[0]
     if not len(rows):
         return
     arc, p = pairs.surface.take(parts.j[rows]), corner[parts.owner[rows]]
@@ -116,7 +126,7 @@ def _sectors(pairs: Pairs, parts: _Parts, seen: Points, radius: float) -> Floats
     """(k,) area between each gap and the circle about the point from which its parts begin at `seen`."""
     turned = np.conj(seen[:-1]) * seen[1:]
     angle, area = np.angle(turned), 0.5 * turned.imag
-    rows = np.flatnonzero(pairs.surface.turn[parts.j[:-1]])
+    rows = pairs.surface.turn[parts.j[:-1]].nonzero()[0]
     if len(rows):
         arc = pairs.surface.take(parts.j[rows])
         sweep = (parts.s[rows + 1] - parts.s[rows]) / arc.radius
@@ -141,7 +151,7 @@ def _off(parts: _Parts, apart: Floats, near: Rows, radius: float) -> Flags:
 def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: float) -> Farthest:
     """The largest distance from the path, within FINE, on each gap."""
     proved = _proved(pairs, bound, radius)
-    rest = np.flatnonzero(~proved)
+    rest = (~proved).nonzero()[0]
     if not len(rest):
         return Farthest(bound.place, bound.apart)
     known = np.zeros(len(gaps), np.bool_)
@@ -156,7 +166,7 @@ def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: fl
 def _proved(pairs: Pairs, bound: Bound, radius: float) -> Flags:
     """Gaps whose bound is the distance of its place from the path."""
     proved = bound.apart <= WIDE * radius
-    rows = np.flatnonzero(proved)
+    rows = proved.nonzero()[0]
     index, t = place(pairs.surface, pairs.surface_stations, bound.place[rows])
     points, apart = at(pairs.surface.take(index), t), bound.apart[rows]
     around = np.stack((points.real - apart, points.imag - apart, points.real + apart, points.imag + apart))

@@ -11,7 +11,7 @@ from core.geometry.measured import Floats, Rows, at
 from core.geometry.path import Path
 from core.tolerance import JOINED, ON_PATH
 from core.verify.pairs import Approaches, Pairs
-from core.verify.reach import Parts, Stretches, joined, union, within
+from core.verify.reach import Parts, Stretches, changes, joined, union, within
 from core.verify.verdict import Gouge
 
 
@@ -28,6 +28,8 @@ class Gouging:
 
 def gouging(pairs: Pairs, near: Approaches) -> Gouging:
     """Where the centre path is nearer to the surface than the limits of `near`."""
+    if not len(near.i):
+        return Gouging(Stretches(near.limit, near.limit), near.limit, near.limit, near.i, near.j)
     parts = within(pairs.centre, near.i, pairs.surface, near.j, near.limit)
     k, pair = np.nonzero(near.apart < near.limit)
     spots = pairs.centre_stations[near.i[pair]] + near.places[k, pair] * pairs.centre.length[near.i[pair]]
@@ -40,7 +42,7 @@ def _deepest(parts: Parts, i: Rows, j: Rows) -> Gouging:
     stretches = union(parts.first, parts.last)
     owner = stretches.index(parts.middle)
     order = np.lexsort((parts.pair, np.round(parts.apart / ON_PATH), owner))
-    best = order[np.flatnonzero(np.diff(owner[order], prepend=-1))]
+    best = order[changes(owner[order])]
     pair = parts.pair[best]
     return Gouging(stretches, parts.middle[best], parts.apart[best], i[pair], j[pair])
 

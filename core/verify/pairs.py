@@ -55,7 +55,7 @@ def pairs_of(
         i, j = near_pairs(around, bounds, reach)
     grant = granted(surface) + _slack(centre, i) + _slack(surface, j)
     touch = touches(centre, i, surface, j, radius, grant)
-    near = np.flatnonzero(touch.apart <= reach)
+    near = (touch.apart <= reach).nonzero()[0]
     if len(near) < len(i):
         i, j, grant, touch = i[near], j[near], grant[near], touch.take(near)
     return Pairs(centre, surface, centre.stations, stations, around, bounds, i, j, grant, touch, own)
@@ -90,7 +90,7 @@ class Approaches:
 
 def approaches(pairs: Pairs, limit: float) -> Approaches:
     """All pairs nearer than `limit` less the slack of both."""
-    deep = np.flatnonzero(pairs.touch.apart < limit)
+    deep = (pairs.touch.apart < limit).nonzero()[0]
     near = _measure(pairs, pairs.i[deep], pairs.j[deep], limit)
     least = min(pairs.touch.apart.min(initial=np.inf), pairs.own.apart.min(initial=np.inf))
     return replace(near, least=float(least))

@@ -79,13 +79,20 @@ def _within_block(pieces: Measured, others: Measured, starts: Floats, reach: Flo
     return Parts(start + first * length, start + last * length, start + middle * length, apart[part, pair], rows[pair])
 
 
+def changes(owner: Rows) -> Rows:
+    """Where each run of equal values begins."""
+    begins = np.ones(len(owner), np.bool_)
+    np.not_equal(owner[1:], owner[:-1], out=begins[1:])
+    return begins.nonzero()[0]
+
+
 def union(first: Floats, last: Floats) -> Stretches:
     """Overlapping and touching parts as stretches."""
     order = np.argsort(first, kind="stable")
     first, furthest = first[order], np.maximum.accumulate(last[order])
     begins = np.ones(len(first), np.bool_)
     begins[1:] = first[1:] > furthest[:-1] + ON_PATH
-    starts = np.flatnonzero(begins)
+    starts = begins.nonzero()[0]
     ends = np.append(starts[1:], len(first)) - 1
     return Stretches(first[starts], furthest[ends[: len(starts)]])
 

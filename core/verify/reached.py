@@ -36,14 +36,14 @@ def reached(pairs: Pairs, radius: float) -> Reached:
     settled with the radius alone.
     """
     touch = pairs.touch
-    sure = np.flatnonzero(~touch.unsure & (touch.first <= touch.last))
+    sure = (~touch.unsure & (touch.first <= touch.last)).nonzero()[0]
     start, length = pairs.surface_stations[pairs.j[sure]], pairs.surface.length[pairs.j[sure]]
     first, last = start + touch.first[sure] * length, start + touch.last[sure] * length
     parts = Parts(first, last, first, first, sure)
-    walls = np.flatnonzero(pairs.own.piece >= 0)
+    walls = (pairs.own.piece >= 0).nonzero()[0]
     if len(walls):
         parts = joined((_by_own(pairs, walls), parts))
-    unsure = np.flatnonzero(touch.unsure)
+    unsure = touch.unsure.nonzero()[0]
     if len(unsure):
         more = within(pairs.surface, pairs.j[unsure], pairs.centre, pairs.i[unsure], radius + pairs.grant[unsure])
         parts = joined((parts, replace(more, pair=unsure[more.pair])))
@@ -64,14 +64,14 @@ def _settled(pairs: Pairs, parts: Parts, radius: float) -> Reached:
     furthest = np.maximum.accumulate(last)
     begins = np.ones(len(first), np.bool_)
     begins[1:] = first[1:] > furthest[:-1]
-    begin = np.flatnonzero(begins)
+    begin = begins.nonzero()[0]
     if not len(begin):
         return Reached(Stretches(first, last), order, order)
     holder = np.maximum.accumulate(np.where(last == furthest, np.arange(len(last)), 0))
     end = holder[np.append(begin[1:], len(first)) - 1]
     pair = parts.pair[order[np.concatenate((begin, end))]]
     ends = np.concatenate((first[begin], last[end]))
-    measured = np.flatnonzero(pair < len(pairs.i))
+    measured = (pair < len(pairs.i)).nonzero()[0]
     loose = measured[pairs.touch.unsure[pair[measured]]]
     if len(loose):
         inward = np.repeat((1.0, -1.0), len(begin))

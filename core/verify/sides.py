@@ -14,7 +14,7 @@ from core.tolerance import JOINED, ON_PATH
 from core.verify.crossing import Crossings
 from core.verify.gouge import Gouging
 from core.verify.pairs import Pairs
-from core.verify.reach import Nearest, least_of, nearest
+from core.verify.reach import Nearest, changes, least_of, nearest
 
 CLEARLY: Final = 1e-6
 """Sine of an angle to the surface's tangent below which a point is on neither side."""
@@ -59,13 +59,13 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float) -> tu
         return ()
     tie = _tie(pairs.surface, surface)
     contact = _contact(pairs, reach, tie)
-    rows = contact.k[np.flatnonzero(np.diff(contact.k, prepend=-1))]
+    rows = contact.k[changes(contact.k)]
     s = (pairs.centre_stations[rows] + pairs.centre_stations[rows + 1]) / 2.0
     spots = at(pairs.centre.take(rows), np.full(len(rows), 0.5))
     wrong = [rows[_wrong(pairs, s, spots, replace(contact, k=_counted(contact.k)), surface, found)]]
     known = pairs.own.settled(len(pairs.centre))
     known[rows] = True
-    more = _samples(pairs, np.flatnonzero(~known), found)
+    more = _samples(pairs, (~known).nonzero()[0], found)
     if len(more):
         index, t = place(pairs.centre, pairs.centre_stations, more)
         points = at(pairs.centre.take(index), t)
@@ -87,7 +87,7 @@ def _contact(pairs: Pairs, reach: float, tie: float) -> Nearest:
     i, j, middle = _as_near_as_own(pairs, reach, tie)
     if not len(i):
         return Nearest(i, i, np.zeros(0))
-    rows = i[np.flatnonzero(np.diff(i, prepend=-1))]
+    rows = i[changes(i)]
     near = least_of(_counted(i), j, middle, len(rows), tie)
     return Nearest(rows[near.k], near.j, near.apart)
 
@@ -98,8 +98,8 @@ def _as_near_as_own(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Rows,
     A piece that has walls of its own is there, with these too, if another wall is as near.
     """
     own, middle = pairs.own, pairs.touch.middle
-    close = np.flatnonzero(middle <= reach)
-    walls, bent = np.flatnonzero(own.piece >= 0), np.flatnonzero(own.corner >= 0)
+    close = (middle <= reach).nonzero()[0]
+    walls, bent = (own.piece >= 0).nonzero()[0], (own.corner >= 0).nonzero()[0]
     if not len(walls):
         return pairs.i[close], pairs.j[close], middle[close]
     piece = np.concatenate((own.piece[walls], own.corner[bent], own.corner[bent]))
@@ -110,7 +110,7 @@ def _as_near_as_own(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Rows,
     close = close[middle[close] <= nearest[pairs.i[close]] + tie]
     asked = np.zeros(len(pairs.centre), np.bool_)
     asked[pairs.i[close]] = True
-    chosen = np.flatnonzero(asked[piece])
+    chosen = asked[piece].nonzero()[0]
     i, j = np.concatenate((pairs.i[close], piece[chosen])), np.concatenate((pairs.j[close], wall[chosen]))
     order = np.argsort(i, kind="stable")
     return i[order], j[order], np.concatenate((middle[close], apart[chosen]))[order]

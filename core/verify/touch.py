@@ -86,7 +86,7 @@ def _blocks(one: Flags, i: Rows, other: Flags, j: Rows) -> Iterator[tuple[Rows, 
     """Indices of pairs, parted by which of the two pieces are arcs, at most BLOCK at a time."""
     kinds = 2 * one.view(np.int8)[i] + other.view(np.int8)[j]
     for kind in range(4):
-        rows = np.flatnonzero(kinds == kind)
+        rows = (kinds == kind).nonzero()[0]
         for start in range(0, len(rows), BLOCK):
             yield rows[start : start + BLOCK], (kind > 1, kind % 2 > 0)
 
@@ -167,7 +167,7 @@ def _on_arcs(
     first, last = np.where(within[3], 1.0, NONE), np.where(within[2], 0.0, -NONE)
     first[within[2]], last[within[3]] = 0.0, 1.0
     for end, near in enumerate(within[:2]):
-        need = np.flatnonzero(near & ((first > 0.0) | (last < 1.0)))
+        need = (near & ((first > 0.0) | (last < 1.0))).nonzero()[0]
         if not len(need):
             continue
         arc = surface.take(j[need])
@@ -181,7 +181,7 @@ def _unsure(found: Touches, rows: Rows, centre: Measured, i: Rows, surface: Meas
     """Touches with arcs that are more than a point, unless both arcs are about one centre and overlap but once."""
     width = (found.last[rows] - found.first[rows]) * surface.length[j]
     unsure = width > POINT
-    wide = np.flatnonzero(unsure)
+    wide = unsure.nonzero()[0]
     if len(wide):
         one, other = centre.take(i[wide]), surface.take(j[wide])
         about = one.arcs & other.arcs & (np.abs(one.centre - other.centre) <= ON_PATH)

@@ -57,9 +57,9 @@ def _area_over_start(bound: Bound, sign: int) -> float:
 
 
 def _told(pairs: Pairs, gaps: Stretches, far: Farthest, radius: float, surface: Path, area: Floats) -> UncutStretches:
-    start, first = _points(pairs, gaps.first, ON_PATH)
-    end, last = _points(pairs, gaps.last, -ON_PATH)
-    thickest, _ = _points(pairs, far.place, 0.0)
+    inward = np.repeat((ON_PATH, -ON_PATH, 0.0), len(gaps))
+    points, rows = _points(pairs, np.concatenate((gaps.first, gaps.last, far.place)), inward)
+    (start, end, thickest), (first, last, _) = points.reshape(3, -1), rows.reshape(3, -1)
     return UncutStretches(
         surface.numbers[first],
         surface.numbers[last],
@@ -72,9 +72,9 @@ def _told(pairs: Pairs, gaps: Stretches, far: Farthest, radius: float, surface: 
     )
 
 
-def _points(pairs: Pairs, s: Floats, inward: float) -> tuple[Points, Rows]:
+def _points(pairs: Pairs, s: Floats, inward: Floats) -> tuple[Points, Rows]:
     """Points of the surface at places along it, and the contour's rows they are on, at a joint the one `inward`."""
     index, _ = place(pairs.surface, pairs.surface_stations, s + inward)
     piece = pairs.surface.take(index)
     t = (s - pairs.surface_stations[index]) / np.where(piece.length == 0.0, 1.0, piece.length)
-    return at(piece, np.clip(t, 0.0, 1.0)), piece.rows
+    return at(piece, np.minimum(np.maximum(t, 0.0), 1.0)), piece.rows

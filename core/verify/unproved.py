@@ -28,7 +28,7 @@ def unproved_pairs(
     `far` from a straight own piece.  `around` and `bounds` are the boxes of both.
     """
     settled = own.settled(len(centre))
-    loose = np.flatnonzero(~settled)
+    loose = (~settled).nonzero()[0]
     one, other = near_pairs(around[:, loose], bounds, reach)
     i, j = _of_company(around, bounds, own, reach)
     i, j = i[near := reaching(around.take(i, axis=1), bounds.take(j, axis=1), reach)], j[near]
@@ -41,7 +41,7 @@ def unproved_pairs(
 def _of_company(around: Floats, bounds: Floats, own: Beside, reach: float) -> tuple[Rows, Rows]:
     """Company and walls, but for proved joints: near boxes, and neighbours whether they are near or not."""
     wall, j = aligned_pairs(_boxes(around, own), bounds, reach, 2, runs=own.runs)
-    before, behind = np.flatnonzero(~own.proved), np.flatnonzero(~own.proved) + 1
+    before, behind = (~own.proved).nonzero()[0], (~own.proved).nonzero()[0] + 1
     corner = _turning_back(own)
     i = np.concatenate((own.piece[wall], own.corner[wall], own.piece[before], own.piece[behind], own.corner[corner]))
     j = np.concatenate((j, j, behind, before, corner - 1))
@@ -54,14 +54,14 @@ def _turning_back(own: Beside) -> Rows:
     corner = own.corner[1:] >= 0
     if own.runs:
         corner &= ~own.runs.behind(1)
-    return np.flatnonzero(corner) + 1
+    return corner.nonzero()[0] + 1
 
 
 def _boxes(around: Floats, own: Beside) -> Floats:
     """(4, n) boxes of each wall's company; without any it is nowhere."""
     boxes = around.take(own.piece, axis=1)
     boxes[:2, own.piece < 0], boxes[2:, own.piece < 0] = np.inf, -np.inf
-    rows = np.flatnonzero(own.corner >= 0)
+    rows = (own.corner >= 0).nonzero()[0]
     if len(rows):
         corner = around.take(own.corner[rows], axis=1)
         boxes[:2, rows] = np.minimum(boxes[:2, rows], corner[:2])
@@ -72,7 +72,7 @@ def _boxes(around: Floats, own: Beside) -> Floats:
 def _clear(centre: Measured, i: Rows, surface: Measured, j: Rows, far: float) -> Flags:
     """Pairs of two lines of which one is wholly on one side of the other's endless line, and farther than `far`."""
     clear = np.zeros(len(i), np.bool_)
-    lines = np.flatnonzero((centre.turn[i] == 0.0) & (surface.turn[j] == 0.0))
+    lines = ((centre.turn[i] == 0.0) & (surface.turn[j] == 0.0)).nonzero()[0]
     i, j = i[lines], j[lines]
     between = surface.start[j] - centre.start[i]
     piece, wall = centre.vector[i], surface.vector[j]
