@@ -52,6 +52,8 @@ def events(raw: Raw, sign: int) -> Events | None:
     """All meetings of side pieces with raw pieces but at their joints; None if there are too many to be a part's."""
     found, pairs, count = [], 0, 0
     for i, j in _pairs(raw):
+        if not len(i):
+            continue
         pairs += len(i)
         if pairs > MOST_PAIRS or count > MOST_EVENTS:
             return None

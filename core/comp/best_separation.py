@@ -54,6 +54,8 @@ def _unfollowed(control: Path, loop: Path, limit: float) -> list[tuple[float, fl
     stations = np.concatenate((np.zeros(1), np.cumsum(size)))
     first, last = [np.zeros(1), stations[-1:]], [np.zeros(1), stations[-1:]]
     for i, j in _near(loop, control, limit):
+        if not len(i):
+            continue
         for begin, end in _along(loop, i, control, j):
             begin, end = (np.minimum(np.maximum(one, 0.0), size[i]) for one in (begin, end))
             on = _follows(loop, i, control, j, (begin, (begin + end) / 2.0, end), limit) & (end > begin)

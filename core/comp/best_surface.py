@@ -120,6 +120,8 @@ def crosses_itself(surface: Surface, *, closed: bool) -> tuple[float, float] | N
         if closed and parted[-1]:
             keep = j - i < len(path) - 1
             i, j = i[keep], j[keep]
+        if not len(i):
+            continue
         met = meet(path, i, path, j)
         hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], planes(met.points))]
         hit = np.concatenate((hit, (met.kinds == Meeting.OVERLAP).nonzero()[0]))
