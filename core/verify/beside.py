@@ -227,11 +227,11 @@ def _runs(given: _Given, corner: Rows, proved: Flags, linked: Flags) -> Runs | N
     surface = given.surface
     straight = surface.turn == 0.0
     plain = proved & straight[:-1] & straight[1:]
-    if 2 * np.count_nonzero(plain) < len(plain):
-        return None
     unit = surface.vector / surface.length
     bend = np.conj(unit[:-1]) * unit[1:]
     plain &= bend.real > 0.0
+    if 2 * np.count_nonzero(plain) < len(plain):
+        return None
     rise = given.sign * bend.imag
     sines = np.where((plain & (rise <= 0.0), plain & linked & (rise >= 0.0)), np.abs(rise) + STEP, END)
     sums = np.zeros((2, len(surface) + 1))

@@ -51,7 +51,7 @@ def crossings(surface: Measured, stations: Floats, bounds: Floats, *, closed: bo
 def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Rows, Rows]:
     """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbours that come back."""
     i, j = aligned_pairs(bounds, bounds, JOINED, 2, both=False)
-    again = _overlapping(bounds).nonzero()[0]
+    again = (_overlapping(bounds) & _may_come_back(surface)).nonzero()[0]
     again = again[_turned(surface, again) > pi - TURN]
     i, j = np.concatenate((i, again)), np.concatenate((j, again + 1))
     if closed and len(surface) > 2:
@@ -59,6 +59,14 @@ def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Row
         keep = (~seam | _turns_half_round(surface)).nonzero()[0]
         i, j = i[keep], j[keep]
     return i, j
+
+
+def _may_come_back(surface: Measured) -> Flags:
+    """(n - 1,) pieces and the next ones that are not both straight, or that go back by all but half a turn."""
+    vector, length, bent = surface.vector, surface.length, surface.arcs
+    back: Flags = (np.conj(vector[:-1]) * vector[1:]).real < -0.99 * length[:-1] * length[1:]
+    back |= bent[:-1] | bent[1:]
+    return back
 
 
 def _turned(surface: Measured, rows: Rows) -> Floats:

@@ -12,6 +12,7 @@ from typing import Final
 
 import numpy as np
 
+from core.geometry.aligned import aligned_pairs
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import distance
 from core.geometry.measured import Flags, Floats, Points, Rows, at, place, travelled
@@ -19,6 +20,7 @@ from core.tolerance import ON_PATH
 from core.verify.farthest import FINE, Farthest, farthest
 from core.verify.pairs import Pairs
 from core.verify.reach import Stretches, changes
+from core.verify.unproved import company_boxes
 
 WIDE: Final = 4.0
 """Gaps farther from the path than so many radii are few, and left to `farthest`."""
@@ -150,7 +152,7 @@ def _off(parts: _Parts, apart: Floats, near: Rows, radius: float) -> Flags:
 
 def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: float) -> Farthest:
     """The largest distance from the path, within FINE, on each gap."""
-    proved = _proved(pairs, bound, radius)
+    proved = _proved(pairs, near, bound, radius)
     rest = (~proved).nonzero()[0]
     if not len(rest):
         return Farthest(bound.place, bound.apart)
@@ -163,14 +165,54 @@ def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: fl
     return Farthest(where, apart)
 
 
-def _proved(pairs: Pairs, bound: Bound, radius: float) -> Flags:
+def _proved(pairs: Pairs, near: Rows, bound: Bound, radius: float) -> Flags:
     """Gaps whose bound is the distance of its place from the path."""
     proved = bound.apart <= WIDE * radius
     rows = proved.nonzero()[0]
     index, t = place(pairs.surface, pairs.surface_stations, bound.place[rows])
     points, apart = at(pairs.surface.take(index), t), bound.apart[rows]
     around = np.stack((points.real - apart, points.imag - apart, points.real + apart, points.imag + apart))
-    k, i = near_pairs(around, pairs.centre_boxes, 0.0)
+    k, i = _moves_about(pairs, around, _at_joints(pairs, near[:, rows], bound.keep(proved), index))
     nearer = distance(pairs.centre.take(i), points[k]) < apart[k] - FINE
     proved[rows[k[nearer]]] = False
     return proved
+
+
+def _at_joints(pairs: Pairs, near: Rows, bound: Bound, index: Rows) -> Rows:
+    """The wall behind each gap whose place is the joint of two straight walls with own pieces that meet at its corner.
+
+    Those pieces run beside their walls up to the corner, whose feet are not beyond the joint: no other place of them
+    is nearer to it.  -1 for any other gap.
+    """
+    own, surface, centre = pairs.own, pairs.surface, pairs.centre
+    if not len(own.piece):
+        return np.full(len(index), -1)
+    before = np.maximum(index - 1, 0)
+    joint = (index > 0) & (near[0] >= 0) & (near[1] == near[0] + 1)
+    joint &= (own.piece[before] == near[0]) & (own.piece[index] == near[1])
+    joint &= (surface.turn[before] == 0.0) & (surface.turn[index] == 0.0)
+    joint &= np.abs(bound.place - pairs.surface_stations[index]) <= ON_PATH
+    joint &= np.abs(centre.start[near[1]] - bound.corner) <= ON_PATH
+    joint &= np.abs(centre.start[near[0]] + centre.vector[near[0]] - bound.corner) <= ON_PATH
+    return np.where(joint, before, -1)
+
+
+def _moves_about(pairs: Pairs, around: Floats, joint: Rows) -> tuple[Rows, Rows]:
+    """Boxes k and pieces i of the path that meet, but for the two that belong to the joints."""
+    own, one, rest = pairs.own, (joint >= 0).nonzero()[0], (joint < 0).nonzero()[0]
+    k, i = near_pairs(around[:, rest], pairs.centre_boxes, 0.0)
+    if not len(one):
+        return rest[k], i
+    loose = (~own.settled(len(pairs.centre))).nonzero()[0]
+    boxes = around[:, one]
+    other, stray = near_pairs(boxes, pairs.centre_boxes[:, loose], 0.0)
+    spread = np.full((4, len(own.piece)), np.inf)
+    spread[2:] = -np.inf
+    spread[:, joint[one]] = boxes
+    back = np.zeros(len(own.piece), np.intp)
+    back[joint[one]] = one
+    wall, company = aligned_pairs(spread, company_boxes(pairs.centre_boxes, own), 0.0, 1)
+    pieces = np.where(company == wall + 1, -1, own.piece[company]), own.corner[company]
+    walls, moves = np.concatenate((wall, wall)), np.concatenate(pieces)
+    there = moves >= 0
+    return np.concatenate((rest[k], one[other], back[walls[there]])), np.concatenate((i, loose[stray], moves[there]))

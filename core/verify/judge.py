@@ -139,7 +139,8 @@ def _own(moves: Measured, numbers: Floats, walls: Measured, segments: Floats, si
         return NOBODY
     mine = numbers[moves.rows]
     wall = np.minimum(np.searchsorted(known, mine), len(known) - 1)
-    return beside(moves, np.where(known[wall] == mine, wall, -1), walls, side.sign, radius, granted(walls))
+    own = beside(moves, np.where(known[wall] == mine, wall, -1), walls, side.sign, radius, granted(walls))
+    return own if 4 * np.count_nonzero(own.piece >= 0) > len(known) else NOBODY
 
 
 def _first(crossed: Crossings) -> tuple[float, float] | None:

@@ -40,7 +40,7 @@ def unproved_pairs(
 
 def _of_company(around: Floats, bounds: Floats, own: Beside, reach: float) -> tuple[Rows, Rows]:
     """Company and walls, but for proved joints: near boxes, and neighbours whether they are near or not."""
-    wall, j = aligned_pairs(_boxes(around, own), bounds, reach, 2, runs=own.runs)
+    wall, j = aligned_pairs(company_boxes(around, own), bounds, reach, 2, runs=own.runs)
     before, behind = (~own.proved).nonzero()[0], (~own.proved).nonzero()[0] + 1
     corner = _turning_back(own)
     i = np.concatenate((own.piece[wall], own.corner[wall], own.piece[before], own.piece[behind], own.corner[corner]))
@@ -57,7 +57,7 @@ def _turning_back(own: Beside) -> Rows:
     return corner.nonzero()[0] + 1
 
 
-def _boxes(around: Floats, own: Beside) -> Floats:
+def company_boxes(around: Floats, own: Beside) -> Floats:
     """(4, n) boxes of each wall's company; without any it is nowhere."""
     boxes = around.take(own.piece, axis=1)
     boxes[:2, own.piece < 0], boxes[2:, own.piece < 0] = np.inf, -np.inf

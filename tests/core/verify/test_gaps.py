@@ -94,7 +94,7 @@ def odd_outlines() -> list[tuple[Path, Path]]:
 @pytest.mark.parametrize(("surface", "centre"), odd_outlines())
 def test_the_bound_proves_what_the_search_finds(surface: Path, centre: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     short = uncut(surface, centre)
-    monkeypatch.setattr(gaps, "_proved", lambda _pairs, bound, _radius: np.zeros(len(bound.apart), np.bool_))
+    monkeypatch.setattr(gaps, "_proved", lambda _pairs, _near, bound, _radius: np.zeros(len(bound.apart), np.bool_))
     searched = uncut(surface, centre)
     assert len(short) == len(searched) > 0
     for one, other in zip(short, searched, strict=True):
