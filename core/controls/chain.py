@@ -30,6 +30,13 @@ class Joint:
     through: tuple[Point, ...] = ()
     centre: Point | None = None
 
+    @property
+    def moves(self) -> int:
+        """How many moves lead from the end to the start."""
+        last = self.through[-1] if self.through else self.end
+        apart = abs(last[0] - self.start[0]) > SAME or abs(last[1] - self.start[1]) > SAME
+        return len(self.through) + (1 if self.centre is not None or apart else 0)
+
 
 class Chain(Follower):
     """Offset elements being joined; `offset` is the tool radius in millimetres, positive with the tool on the left."""

@@ -150,7 +150,9 @@ class Flow:
         self.budget -= 1 if plain else 2 + len(self.lines[line - 1]) // SIGNS
         if self.budget < 0:
             text = f"Subprograms or loops run more than {MOST_BLOCKS} blocks again, of which long ones count several"
-            self.log.stop("LIMIT", f"{text} times; the run is given up. A loop may have no end.", line, 1)
+            self.log.stop(
+                "LIMIT", f"{text} times; the run is given up and not judged. A loop may have no end.", line, 1
+            )
 
     def passed(self, count: int) -> None:
         """Counts so many plain lines that have run from here on, at most as many as `budget`, and goes behind them."""

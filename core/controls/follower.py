@@ -7,14 +7,14 @@ writes moves to the tape and keeps, for the verdict, what was programmed under c
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from core.controls.corners import Element
 from core.controls.moves import Plane, Point3, Tape, flat, solid
-from core.controls.report import Log, Stretch
+from core.controls.report import Change, Log, Stretch
 from core.controls.series.elements import Elements, rows
 from core.controls.series.words import Words
 from core.controls.words import Block
@@ -36,6 +36,7 @@ class Span:
     programmed: Tape
     entry: int = 1
     exit: int = 0
+    changes: list[Change] = field(default_factory=list)
 
 
 class Follower:
@@ -141,6 +142,24 @@ class Follower:
         start = Tape(solid(element.start[0], element.start[1], element.low, self.plane))
         self._span = Span(side, abs(radius), self.plane, len(self.tape) - 1, start)
 
+    def change_span(self, side: Side, radius: float, before: int, across: int) -> None:
+        """From the element noted last on the stretch has this side and radius.
+
+        `before` moves are still to be made up to there with the old one, and `across` from there to the new one.
+        """
+        span = self._span
+        if span is None:
+            return
+        row = len(self.tape) - 1 + before
+        now = span.changes[-1] if span.changes else span
+        if (now.side, now.radius) != (side, abs(radius)):
+            span.changes.append(Change(len(span.programmed) - 1, row, row + across, side, abs(radius)))
+
+    def begin_span(self, side: Side, radius: float) -> None:
+        """The stretch has this side and radius from its first element on."""
+        if self._span is not None:
+            self._span.side, self._span.radius = side, abs(radius)
+
     def note(self, element: Element) -> None:
         """An element programmed under compensation."""
         if self._span is None:
@@ -178,4 +197,5 @@ class Follower:
             return
         moves, last = span.programmed.moves(), len(self.tape)
         entry, exits, first = span.entry, span.exit, span.first
-        self.stretches.append(Stretch(span.side, span.radius, span.plane, moves, entry, exits, first, last))
+        stretch = Stretch(span.side, span.radius, span.plane, moves, entry, exits, first, last)
+        self.stretches.append(replace(stretch, changes=tuple(span.changes)))

@@ -162,11 +162,15 @@ class NineSeries(NineWords):
             self.entering = False
             self.offset = self.coming
             self._interpreted(first, second)
-            return self._told(generated.entry(first, second, self.coming, self.corners, short=self.short), second)
+            joint = generated.entry(first, second, self.coming, self.corners, short=self.short)
+            self.goes_on(joint)
+            return self._told(joint, second)
         if self.coming != self.offset:
             text = "The side or the radius changes here; the way across is an interpretation."
             self.log.tell(Severity.INFO, "CHANGE", text, second.line, 1)
-            return generated.changed(first, second, self.offset, self.coming)
+            joint = generated.changed(first, second, self.offset, self.coming)
+            self.goes_on(joint)
+            return joint
         angle = generated.inward(first, second, self._sign)
         if abs(angle) < 1e-9 or self.offset == 0.0:
             end = square_end(first, self.offset)
@@ -179,7 +183,7 @@ class NineSeries(NineWords):
         """The joint; that its generated blocks are made however short they are is told."""
         if joint.through or joint.centre is not None or joint.end != joint.start:
             text = "the least length of a generated block (AMP) is taken as 0; the control drops a shorter one."
-            self._assumed("AMP", text, element.line)
+            self.assumed("AMP", text, element.line)
         return joint
 
     @property
@@ -220,16 +224,10 @@ class NineSeries(NineWords):
         """Inside an arc the surface keeps the feed; outside the centre does."""
         if not element.turn or element.turn * self.offset <= 0.0:
             return element.feed
-        self._assumed(
+        self.assumed(
             "MFR", "the least feed inside arcs (MFR) is taken as 0; the control may feed faster.", element.line
         )
         return element.feed * offset_radius(element, self.offset) / element.radius
-
-    def _assumed(self, rule: str, text: str, line: int) -> None:
-        """Tells once of a value that the machine builder sets."""
-        if rule not in self.log.counts:
-            words = f"The machine builder sets a value that counts here, and first here: {text}"
-            self.log.tell(Severity.INFO, rule, words, line, 1)
 
     def _circular_exit(self, line: int) -> None:
         text = "Block format error: the move that cancels compensation has to be straight; write G1."

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from core.controls.chain import Chain
+from core.controls.chain import Chain, Joint
 from core.controls.generated import Corners
 from core.controls.report import Log
 from core.controls.words import SWITCHES, Block, whole
@@ -89,3 +89,16 @@ class NineWords(Chain):
     def own(self, code: int, _: Block) -> None:
         """G39 and G39.1."""
         self.corners = Corners.ARC if code == 391 else Corners.LINES
+
+    def goes_on(self, joint: Joint) -> None:
+        """The stretch has the coming side and radius behind this joint; behind its entry it had no other one."""
+        if self.elements == 1:
+            self.begin_span(self.running, self.coming)
+        else:
+            self.change_span(self.running, self.coming, 1 + len(self.standing), joint.moves)
+
+    def assumed(self, rule: str, text: str, line: int) -> None:
+        """Tells once of a value that the machine builder sets."""
+        if rule not in self.log.counts:
+            words = f"The machine builder sets a value that counts here, and first here: {text}"
+            self.log.tell(Severity.INFO, rule, words, line, 1)

@@ -14,6 +14,21 @@ MOST: Final = 100
 """Findings of one rule that are told one by one; of the rest only the number is."""
 
 
+@dataclass(frozen=True, slots=True)
+class Change:
+    """Another side or radius within a stretch: from row `programmed` of what is programmed on.
+
+    Of the run's moves `row` is that at which the element before ends, and `start` that behind which the first element
+    with the new side or radius runs; between them is the way across.
+    """
+
+    programmed: int
+    row: int
+    start: int
+    side: Side
+    radius: float
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Stretch:
     """One run of compensated moves: from the move that turns compensation on to the one that leaves it.
@@ -22,7 +37,8 @@ class Stretch:
     surface.  `entry` and `exit` count the moves at its beginning and end that lead in and out and are no surface.
     `first` ... `last` - 1 are the rows of the run's moves that belong to it.  `radius` is in millimetres and
     positive: the side a negative one flips to is already in `side`.  `led_in` and `led_out`: it is entered and left
-    along leads that the control makes, not in programmed moves.
+    along leads that the control makes, not in programmed moves.  `changes`: where its side or
+    radius changes.
     """
 
     side: Side
@@ -35,6 +51,23 @@ class Stretch:
     last: int
     led_in: bool = False
     led_out: bool = False
+    changes: tuple[Change, ...] = ()
+
+    def parts(self) -> tuple[Stretch, ...]:
+        """The stretch in pieces of one side and radius each; a way across goes with the smaller radius of the two.
+
+        Anything larger does not fit there, whatever the control does: it stands square with the smaller one.
+        """
+        found, now, entry, first = list[Stretch](), (self.side, self.radius), self.entry, self.first
+        begin = 1
+        for one in self.changes:
+            last = one.row if one.radius <= now[1] else one.start
+            programmed = self.programmed.part(begin - 1, one.programmed)
+            found.append(Stretch(*now, self.plane, programmed, entry, 0, first, last + 1))
+            begin, now, entry, first = one.programmed, (one.side, one.radius), 0, last
+        programmed = self.programmed.part(begin - 1, len(self.programmed))
+        found.append(Stretch(*now, self.plane, programmed, entry, self.exit, first, self.last))
+        return tuple(found)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

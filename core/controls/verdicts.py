@@ -19,6 +19,8 @@ from core.verify.verdict import Gouge, Verdict
 MOST_GOUGES: Final = 20
 """Gouges of a stretch that are told one by one, deepest first."""
 
+GIVEN_UP: Final = "LIMIT"
+"""The rule by which a run ends that repeats too much to be followed."""
 
 FINE: Final = 0.001
 """Millimetres under which a gouge's depth cannot be shown in digits."""
@@ -41,8 +43,14 @@ class Judged:
 
 
 def judged(run: Run) -> tuple[Judged, ...]:
-    """The verdict on every compensated stretch of a run, in its own plane; paths are numbered by lines."""
-    return tuple(_judged(run, stretch) for stretch in run.stretches)
+    """The verdict on every compensated stretch of a run, in its own plane; paths are numbered by lines.
+
+    There is none on a run that was given up as endless: it says so itself, and the same moves a thousand times over
+    would be judged against one another.
+    """
+    if any(finding.code == GIVEN_UP for finding in run.findings):
+        return ()
+    return tuple(result for stretch in run.stretches for result in _each(run, stretch))
 
 
 def surface_of(stretch: Stretch) -> Path:
@@ -51,9 +59,37 @@ def surface_of(stretch: Stretch) -> Path:
     return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
 
 
-def _judged(run: Run, stretch: Stretch) -> Judged:
+def _each(run: Run, stretch: Stretch) -> list[Judged]:
+    """The verdict on a stretch; where its side or radius changes, on each part with those that are in force there.
+
+    A part may also cut the surface of another one: that counts where the tool runs on the same side of both.
+    """
     whole = surface_of(stretch)
     first, last = closed_part(whole)
+    parts, results, row = stretch.parts(), list[Judged](), 0
+    for part in parts:
+        own = surface_of(part)
+        begin, end = max(first - row, 0), min(last - row, len(own))
+        row += len(own)
+        result = _judged(run, part, own, (begin, end) if begin < end else (0, len(own)))
+        if len(parts) > 1 and all(one.side is part.side for one in parts):
+            result = _beyond(result, whole.part(first, last))
+        results.append(result)
+    return results
+
+
+def _beyond(result: Judged, whole: Path) -> Judged:
+    """With what is cut of the other parts of the whole surface."""
+    part, lines = result.stretch, set(result.surface.numbers.tolist())
+    cut = judge(whole, part.side, part.radius, result.centre).gouges
+    more = tuple(gouge for gouge in cut if gouge.surface_number not in lines)
+    gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)
+    return replace(result, verdict=replace(result.verdict, gouges=tuple(gouges)))
+
+
+def _judged(run: Run, stretch: Stretch, whole: Path, contour: tuple[int, int]) -> Judged:
+    """The verdict on moves of one side and radius, of which a part of the surface is contour and the rest leads."""
+    first, last = contour
     surface = whole.part(first, last)
     centre = run.moves.part(stretch.first, stretch.last).path(stretch.plane)
     verdict = judge(surface, stretch.side, stretch.radius, centre)

@@ -97,7 +97,7 @@ def _run(state: State) -> None:
         state.next += 1
         limit -= 1
         if limit < 0:
-            state.stop("LIMIT", f"More than {JUMPED} blocks are repeated; this run is given up here.", block)
+            state.stop("LIMIT", f"More than {JUMPED} blocks are repeated; the run is given up and not judged.", block)
         if block.skip:
             state.tell(Severity.INFO, "SKIP", "The block is run: block skip is taken as switched off.", block)
         HEADS.get(block.head, setup.unknown)(state, block)

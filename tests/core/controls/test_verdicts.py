@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from core.controls import flow
 from core.controls.compare import Compared, OtherLanguage, compare, parting
 from core.controls.registry import compared, names, reads, resolve
 from core.controls.tools import ToolTable
@@ -127,3 +128,40 @@ def test_a_tool_that_is_not_loaded_is_told_of_where_it_is_the_only_one() -> None
 def test_a_real_wrong_side_with_a_radius_is_still_told() -> None:
     done = ran(POCKET.format(load="T1 M6 D1").replace("G41", "G42"), "nine-series:a", t1=0.5)
     assert "WRONG-SIDE" in {finding.code for finding in findings(judged(done))}
+
+
+def test_a_run_that_was_given_up_is_not_judged(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flow, "MOST_BLOCKS", 500)
+    done = ran("G21 F9\nG41 D1\nG1 X9\no1 while [1]\nX20\nY20\nX0\nY0\no1 endwhile\nM2\n", "linuxcnc", t1=1)
+    assert done.stretches
+    assert judged(done) == ()
+    assert "not judged" in told(done, "LIMIT")[0].text
+
+
+CHANGED = "G20 G17 G90\nT1 M6\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\nX0 Y2\n{word}\nX0 Y4\nG40 X-1 Y5\nM2\n"
+
+
+@pytest.mark.parametrize("word", ["D2", "G41 D2"])
+@pytest.mark.parametrize("sizes", [(0.5, 0.75), (0.75, 0.5)])
+def test_a_radius_that_changes_is_judged_where_it_is_in_force(word: str, sizes: tuple[float, float]) -> None:
+    results = judged(ran(CHANGED.format(word=word), "nine-series:a", t1=sizes[0], t2=sizes[1]))
+    assert [round(from_mm(one.stretch.radius, Unit.IN), 9) * 2 for one in results] == [*sizes]
+    assert [one.surface.numbers.tolist() for one in results] == [[6.0], [8.0]]
+    assert {finding.code for finding in findings(results)} <= {"UNCUT"}
+
+
+def test_a_radius_that_changes_before_the_first_element_is_that_of_the_stretch() -> None:
+    text = CHANGED.replace("X0 Y2\n{word}", "D2\nX0 Y2")
+    (result,) = judged(ran(text, "nine-series:a", t1=0.5, t2=0.75))
+    assert round(from_mm(result.stretch.radius, Unit.IN), 9) == 0.375
+    assert not findings((result,))
+
+
+def test_a_larger_radius_cuts_into_what_was_before_it() -> None:
+    """A slot .6 wide, down its second wall with a radius of .375: .225 from the first one, which it cuts by .15."""
+    text = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\nY2\nX-.6\nY1.5\nD2\nY0\nG40 X-.225 Y-1\nM2\n"
+    results = judged(ran(text, "nine-series:a", t1=0.4, t2=0.75))
+    deepest = {gouge.surface_number: gouge.depth for gouge in reversed(results[1].verdict.gouges)}
+    assert round(from_mm(deepest[6.0], Unit.IN), 9) == 0.15
+    assert 6.0 not in {gouge.surface_number for gouge in results[0].verdict.gouges}
+    assert any("surface of line 6" in finding.text for finding in findings(results))
