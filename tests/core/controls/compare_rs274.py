@@ -12,6 +12,7 @@ import tempfile
 import tracemalloc
 from collections import Counter
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 from resource import RUSAGE_CHILDREN, RUSAGE_SELF, getrusage
 from statistics import median
@@ -82,9 +83,14 @@ def compare_broken(count: int) -> int:
     return 0
 
 
+OTHERS = ("rosettacnc:nist", "rosettacnc:easy", "rosettacnc:normal", "nine-series:a", "nine-series:b-g39.1")
+"""Controls that run the long program to its end, beside LinuxCNC."""
+
+
 def compare_speed(runs: int) -> int:
     """Processor seconds for 100,000 blocks under compensation, the median of some runs in turn; and memory."""
-    text, ours, theirs, silent = long(100_000), [], [], []
+    text, theirs, silent = long(100_000), [], []
+    ours: dict[str, list[float]] = {"linuxcnc": [], **{name: [] for name in OTHERS}}
     tools = ToolTable.diameters({1: 1.0}, Unit.MM)
     with tempfile.TemporaryDirectory() as name:
         program, table = Path(name) / "long.ngc", Path(name) / "tools.tbl"
@@ -93,10 +99,13 @@ def compare_speed(runs: int) -> int:
         for _ in range(runs):
             theirs.append(_spent(RUSAGE_CHILDREN, lambda: process(program, table)))
             silent.append(_spent(RUSAGE_CHILDREN, lambda: process(program, table, DEVNULL)))
-            ours.append(_spent(RUSAGE_SELF, lambda: run(text.encode(), "linuxcnc", tools)))
-    here = median(ours)
-    for name, one in (("into a pipe", median(theirs)), ("into nothing", median(silent))):
-        print(f"rs274 {name} {one:.2f} s, here {here:.2f} s: {here / one:.2f} times as long")
+            for control, spent in ours.items():
+                spent.append(_spent(RUSAGE_SELF, partial(run, text.encode(), control, tools)))
+    pipe, nothing = median(theirs), median(silent)
+    print(f"rs274 into a pipe {pipe:.2f} s, into nothing {nothing:.2f} s; here")
+    for control, spent in ours.items():
+        here = median(spent)
+        print(f"{control:20} {here:.2f} s: {here / pipe:.2f} and {here / nothing:.2f} times as long")
     for count in (50_000, 100_000, 200_000):
         print(f"{count:7d} blocks: {_most_memory(long(count).encode(), tools) / 1e6:.0f} MB")
     return 0
