@@ -61,7 +61,7 @@ class Pen:
             return code, f" R{radius:.6f}"
         from_origin = self.absolute and not self.incremental
         i, j = (cx, cy) if from_origin else (cx - x, cy - y)
-        return code, f" I{i:.6f} J{j:.6f}"
+        return code, f" I{i:.6f} J{j:.6f}" + " K1." * (chance.random() < 0.02)
 
     def _styled(self, code: str, words: str) -> str:
         chance = self.random
