@@ -5,7 +5,8 @@ and nowhere beyond its ends.  A corner is an arc of the radius about the joint o
 one's own piece to the other's.  A joint is proved where neither own piece at it is nearer to the other's wall than the
 radius.  The path's numbers only say where to look; what is not proved here has to be measured.
 
-What is granted for rounding adds up to a few times `grant` in a proof: far less than a gouge.
+What is granted for rounding adds up to a few times `grant` in the proof of a joint, and to half of GOUGE in that of a
+run: where nothing is nearer than the radius, it may be so much nearer, and a gouge is not hidden by it.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import numpy as np
 
 from core.geometry.aligned import Runs
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows
+from core.tolerance import GOUGE
 
 HALF: Final = pi * (1.0 + 1e-12)
 """Radians up to which an arc stays on one side of the normal at its end."""
@@ -26,7 +28,10 @@ END: Final = 2.0
 """What a joint that ends a run adds to its sum, of which a run has no more than 1."""
 
 STEP: Final = 0.025
-"""What every joint adds to the sum of a run: no run has more than forty."""
+"""What every joint adds to the sum of a run, at the least: no run has more than forty."""
+
+GIVES: Final = 4.0 / GOUGE
+"""What every joint adds for each millimetre granted: it gives way by two grants, a run by half of GOUGE."""
 
 LEAST: Final = 1e-3
 """Millimetres of radius below which nothing is proved: what is granted must be next to nothing of it."""
@@ -139,9 +144,9 @@ def _joints(given: _Given, piece: Rows, from_start: Flags, to_end: Flags) -> tup
     meeting = np.zeros(len(proved), np.bool_)
     if not len(j):
         return proved, meeting, corner
-    met = np.abs(surface.start[j] + surface.vector[j] - surface.start[j + 1]) <= grant
+    met = _meeting(surface, j, j + 1, grant)
     i, k = piece[j], piece[j + 1]
-    linked = (k == i + 1) & (np.abs(centre.start[i] + centre.vector[i] - centre.start[k]) <= grant)
+    linked = (k == i + 1) & _meeting(centre, i, k, grant)
     whole = to_end[j] & from_start[j + 1] & met
     straight = (surface.turn[j] == 0.0) & (surface.turn[j + 1] == 0.0)
     sharp, smooth = (straight & met).nonzero()[0], (~straight & linked & whole).nonzero()[0]
@@ -152,6 +157,12 @@ def _joints(given: _Given, piece: Rows, from_start: Flags, to_end: Flags) -> tup
     corner[j[about]] = i[about] + 1
     meeting[j] = linked
     return proved, meeting, corner
+
+
+def _meeting(pieces: Measured, rows: Rows, following: Rows, grant: float) -> Flags:
+    """Which of these pieces end where the following ones begin; one path's last and the next one's first may not."""
+    meeting: Flags = np.abs(pieces.start[rows] + pieces.vector[rows] - pieces.start[following]) <= grant
+    return meeting
 
 
 def _apart(given: _Given, j: Rows, i: Rows, k: Rows, linked: Flags) -> Flags:
@@ -202,13 +213,15 @@ def _from_whole(pieces: Measured, rows: Rows, points: Points) -> Floats:
 def _about(given: _Given, j: Rows, rows: Rows) -> Flags:
     """Which of these pieces are corners about the end of the straight wall j.
 
-    All of a corner is ahead of the one wall and behind the other, so that both are nearest to it in their joint.
+    All of a corner is ahead of the one wall and behind the other, so that both are nearest to it in their joint: it
+    begins over the joint where the one's own piece ends, and ends there where the other's begins.
     """
     centre, surface, sign, radius, grant = given
     off = np.abs(centre.start[rows] - centre.arm[rows] - surface.start[j] - surface.vector[j])
     off += np.abs(centre.radius[rows] - radius)
     about: Flags = (off <= grant) & (centre.turn[rows] == -sign) & (centre.angle[rows] <= HALF)
-    about &= centre.slack[rows] == 0.0
+    about &= (centre.slack[rows] == 0.0) & _meeting(centre, rows - 1, rows, grant)
+    about &= _meeting(centre, rows, rows + 1, grant)
     return about
 
 
@@ -219,10 +232,12 @@ def _runs(given: _Given, corner: Rows, proved: Flags, linked: Flags) -> Runs | N
     joint between the directions of its two walls; an own piece runs a radius above its wall's line, and so does
     every place of a corner.  Where they turn towards the cutter and the own pieces meet at every joint, the path, seen
     from the line of any of the walls, comes down to that wall's own piece, a radius above it, and goes up from there:
-    each own piece runs on along its wall, which rises from that line, and gives way by two grants at the most.
+    each own piece runs on along its wall, which rises from that line, and gives way by a grant at the most, as the
+    joint between them does.
 
     The sums are those of the joints' sines, for each way, which are no less than the angles by pi / 2 up to a right
-    one; and of STEP each, for what is granted.  Any other joint ends a run; a corner belongs to the joint behind it.
+    one; and of STEP or GIVES each, for what is granted.  Any other joint ends a run; a corner belongs to the joint
+    behind it.
     """
     surface = given.surface
     straight = surface.turn == 0.0
@@ -233,7 +248,8 @@ def _runs(given: _Given, corner: Rows, proved: Flags, linked: Flags) -> Runs | N
     if 2 * np.count_nonzero(plain) < len(plain):
         return None
     rise = given.sign * bend.imag
-    sines = np.where((plain & (rise <= 0.0), plain & linked & (rise >= 0.0)), np.abs(rise) + STEP, END)
+    step = max(STEP, GIVES * given.grant)
+    sines = np.where((plain & (rise <= 0.0), plain & linked & (rise >= 0.0)), np.abs(rise) + step, END)
     sums = np.zeros((2, len(surface) + 1))
     np.cumsum(sines, axis=1, out=sums[:, 1:-1])
     sums[:, -1] = sums[:, -2] + END

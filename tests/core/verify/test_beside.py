@@ -11,13 +11,14 @@ import pytest
 
 from core.comp.compensate import compensate
 from core.geometry import aligned
-from core.geometry.measured import measured
+from core.geometry.measured import measured, stacked
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.geometry.side import Side
+from core.tolerance import GOUGE
 from core.verify import judge as module
 from core.verify.beside import Beside, beside
-from core.verify.judge import judge
+from core.verify.judge import judge, judge_together
 from core.verify.verdict import Verdict
 from tests.bench.families import FAMILIES, Work
 from tests.core.verify.brute import apart
@@ -128,6 +129,20 @@ def _clear(own: Beside, company: int, wall: int, surface: Path, path: Path, radi
     return len(pieces)
 
 
+@pytest.mark.parametrize("grant", [2e-9, 1e-8, 2e-8])
+def test_what_is_granted_at_every_joint_of_a_run_adds_up_to_half_a_gouge(grant: float) -> None:
+    """Walls that go straight on, each a grant lower than the one before, and moves that sink as much on top of it."""
+    give = 0.9 * grant
+    walls = stacked([lines((k, -k * give), (k + 1.0, -k * give)) for k in range(60)])
+    heights = [1.0 - k * give for k in range(60)]
+    moves = stacked([lines((k, y + give), (k + 1.0, y - give)) for k, y in enumerate(heights)])
+    own = beside(moves, np.arange(60), walls, 1, 1.0, grant)
+    assert own.runs
+    longest = max(step for step in range(1, 59) if own.runs.ahead(step).any() or own.runs.behind(step).any())
+    assert longest > 10
+    assert 2.0 * grant * longest <= GOUGE / 2.0
+
+
 def test_the_proofs_are_worth_a_test() -> None:
     counts = np.zeros((2, 4), np.intp)
     for seed in range(25):
@@ -204,3 +219,17 @@ def test_the_path_of_the_other_side_is_beside_nothing() -> None:
     assert (found(surface, Side.LEFT, 0.5, path).piece >= 0).all()
     for side, radius, moves in ((Side.RIGHT, 0.5, path), (Side.LEFT, 0.5001, path), (Side.LEFT, 0.5, path.reversed())):
         assert (found(surface, side, radius, moves).piece < 0).all()
+
+
+def test_a_loop_about_a_corner_is_no_corner_of_the_loops_beside_its_walls(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Loops follow each other as pieces do, but are not joined: an arc about a joint may begin or end in the wall."""
+    monkeypatch.setattr(module, "FEW", 0)
+    surface = lines((0.0, 0.0), (10.0, 0.0), (10.0, -10.0))
+    one = Path.from_pieces([Line((0.0, 1.0), (10.0, 1.0))], [1.0])
+    other = Path.from_pieces([Line((11.0, 0.0), (11.0, -10.0))], [2.0])
+    for start, end in (((9.0, 0.0), (11.0, 0.0)), ((10.0, 1.0), (10.0, -1.0))):
+        through = Path.from_pieces([Arc(start, end, (10.0, 0.0), Turn.CW)], [1.5])
+        verdict = judge_together(surface, Side.LEFT, 1.0, (one, through, other))
+        assert verdict.depth == pytest.approx(1.0, abs=1e-9)
+    right = Path.from_pieces([Arc((10.0, 1.0), (11.0, 0.0), (10.0, 0.0), Turn.CW)], [1.5])
+    assert judge_together(surface, Side.LEFT, 1.0, (one, right, other)).clean
