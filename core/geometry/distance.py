@@ -29,8 +29,7 @@ def distance(pieces: Measured, points: Points) -> Floats:
 
 def _line_foot(line: Measured, points: Points) -> Floats:
     size = np.where(line.length == 0.0, 1.0, line.length)
-    t: Floats = np.clip(((points - line.start) * np.conj(line.vector)).real / (size * size), 0.0, 1.0)
-    return t
+    return _clipped(((points - line.start) * np.conj(line.vector)).real / (size * size))
 
 
 def _line_distance(line: Measured, points: Points) -> Floats:
@@ -66,7 +65,7 @@ def on_circle(pieces: Measured, centre: Points, radius: Floats) -> Floats:
 
 def _line_on_line(line: Measured, through: Points, unit: Points) -> Floats:
     met = ((through - line.start) * np.conj(unit)).imag / (line.vector * np.conj(unit)).imag
-    return np.stack((met, met))
+    return np.array((met, met))
 
 
 def _arc_on_line(arc: Measured, through: Points, unit: Points) -> Floats:
@@ -79,7 +78,7 @@ def _line_on_circle(line: Measured, centre: Points, radius: Floats) -> Floats:
     unit = line.unit
     seen = (centre - line.start) * np.conj(unit)
     half = np.sqrt((radius - seen.imag) * (radius + seen.imag))
-    return np.stack((seen.real - half, seen.real + half)) / line.length
+    return np.array((seen.real - half, seen.real + half)) / line.length
 
 
 def _arc_on_circle(arc: Measured, centre: Points, radius: Floats) -> Floats:
@@ -94,7 +93,7 @@ def _fan(arc: Measured, axis: Points, share: Floats) -> Floats:
     `share`: near a touch, where the cosine is all but 1, this keeps the digits."""
     half = 2.0 * np.arcsin(np.sqrt(share))
     towards = np.angle(axis * np.conj(arc.arm)) * arc.turn
-    return np.mod(np.stack((towards - half, towards + half)), tau) / arc.angle
+    return np.mod(np.array((towards - half, towards + half)), tau) / arc.angle
 
 
 def nearest_places(pieces: Measured, other: Measured) -> Floats:
@@ -126,15 +125,15 @@ def band_places(pieces: Measured, other: Measured, reach: Floats) -> Floats:
 def _line_outline(pieces: Measured, line: Measured, reach: Floats) -> Floats:
     unit = line.unit
     off = 1j * reach * unit
-    sides = on_line(pieces, np.stack((line.start + off, line.start - off)), unit)
-    caps = on_circle(pieces, np.stack((line.start, line.end)), reach)
+    sides = on_line(pieces, np.array((line.start + off, line.start - off)), unit)
+    caps = on_circle(pieces, np.array((line.start, line.end)), reach)
     return np.concatenate((sides, caps)).reshape(8, -1)
 
 
 def _arc_outline(pieces: Measured, arc: Measured, reach: Floats) -> Floats:
     centre = arc.centre
-    centres = np.stack((arc.start, arc.end, centre, centre))
-    radii = np.stack((reach, reach, arc.radius + reach, np.abs(arc.radius - reach)))
+    centres = np.array((arc.start, arc.end, centre, centre))
+    radii = np.array((reach, reach, arc.radius + reach, np.abs(arc.radius - reach)))
     return on_circle(pieces, centres, radii).reshape(8, -1)
 
 
@@ -145,7 +144,11 @@ def _ends(pieces: Measured) -> Floats:
 
 
 def _inside(places: Floats) -> Floats:
-    return np.clip(np.where(np.isnan(places), 0.0, places), 0.0, 1.0)
+    return np.minimum(np.fmax(places, 0.0), 1.0)
+
+
+def _clipped(t: Floats) -> Floats:
+    return np.minimum(np.maximum(t, 0.0), 1.0)
 
 
 def _crossings(pieces: Measured, other: Measured) -> Floats:
@@ -169,17 +172,17 @@ def feet(pieces: Measured, other: Measured) -> Floats:
 
 def _line_feet(line: Measured, other: Measured) -> Floats:
     centre = other.centre
-    return _line_foot(line, np.stack((other.start, other.end, centre, centre)))
+    return _line_foot(line, np.array((other.start, other.end, centre, centre)))
 
 
 def _arc_feet(arc: Measured, other: Measured) -> Floats:
     normal = np.where(other.arcs, other.centre - arc.centre, 1j * other.vector)
-    towards = np.stack((other.start - arc.centre, other.end - arc.centre, normal, -normal))
+    towards = np.array((other.start - arc.centre, other.end - arc.centre, normal, -normal))
     return travelled(arc, towards) / arc.angle
 
 
 def _antipodes(arc: Measured, other: Measured) -> Floats:
-    towards = np.stack((arc.centre - other.start, arc.centre - other.end))
+    towards = np.array((arc.centre - other.start, arc.centre - other.end))
     return travelled(arc, towards) / arc.angle
 
 

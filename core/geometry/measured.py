@@ -169,25 +169,18 @@ def by_kind(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArra
 
     Few pieces get both formulas, which is quicker than parting them; either yields something for any piece.
     """
-    if len(chosen) <= FEW:
-        return _both(chosen, line, arc, *given)
-    if not chosen.any():
+    bent = np.count_nonzero(chosen)
+    if not bent:
         return line(*given)
-    if chosen.all():
+    if bent == len(chosen):
         return arc(*given)
+    if len(chosen) <= FEW:
+        return np.where(chosen, arc(*given), line(*given))
     rows_line, rows_arc = (~chosen).nonzero()[0], chosen.nonzero()[0]
     lines, arcs = line(*_pick(given, rows_line)), arc(*_pick(given, rows_arc))
     both = np.empty((*lines.shape[:-1], len(chosen)), lines.dtype)
     both[..., rows_line], both[..., rows_arc] = lines, arcs
     return both
-
-
-def _both(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArray[Any]:
-    if not chosen.any():
-        return line(*given)
-    if chosen.all():
-        return arc(*given)
-    return np.where(chosen, arc(*given), line(*given))
 
 
 def blocks(first: Flags, second: Flags) -> Iterator[Rows]:

@@ -6,9 +6,8 @@ far it turns: a direction lies within the arc when it is not on the wrong side o
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -18,64 +17,87 @@ SHORT: Final = 1e-3
 """Chords shorter than this part of the radius do not say where an arc's middle is to the last digit."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Columns:
-    """n pieces: start, vector and squared length of the chord; of arcs the centre, the radius, the middle's direction,
-    the turn, and whether they are more than half a circle."""
+STRAIGHT: Final = 5
+"""Columns of a line; an arc has all of them."""
+
+_NONE: Final = np.zeros(0)
+
+
+class Columns(NamedTuple):
+    """n pieces: start, vector and squared length of the chord.
+
+    Of arcs also the centre, the radius, where both ends lie as seen from the centre, negative in a clockwise arc, the
+    middle's direction, and 1 where they are more than half a circle.
+    """
 
     x: Floats
     y: Floats
     along: Floats
     up: Floats
     square: Floats
-    centre_x: Floats
-    centre_y: Floats
-    radius: Floats
-    middle_x: Floats
-    middle_y: Floats
-    turn: Floats
-    large: Flags
-
-    def take(self, rows: Rows, *, arcs: bool) -> Columns:
-        """The pieces of these indices; where no `arcs` are asked for, those columns are left as they are."""
-        straight = [column.take(rows) for column in (self.x, self.y, self.along, self.up, self.square)]
-        bent = [self.centre_x, self.centre_y, self.radius, self.middle_x, self.middle_y, self.turn]
-        if arcs:
-            bent = [column.take(rows) for column in bent]
-        x, y, along, up, square, centre_x, centre_y, radius, middle_x, middle_y, turn = straight + bent
-        large = self.large.take(rows) if arcs else self.large
-        return Columns(x, y, along, up, square, centre_x, centre_y, radius, middle_x, middle_y, turn, large)
+    centre_x: Floats = _NONE
+    centre_y: Floats = _NONE
+    radius: Floats = _NONE
+    begin_x: Floats = _NONE
+    begin_y: Floats = _NONE
+    end_x: Floats = _NONE
+    end_y: Floats = _NONE
+    middle_x: Floats = _NONE
+    middle_y: Floats = _NONE
+    large: Floats = _NONE
 
 
-def columns(pieces: Measured) -> Columns:
-    """The columns of these pieces; a line's arc columns mean nothing."""
-    x, y = pieces.start.real.copy(), pieces.start.imag.copy()
-    along, up = pieces.vector.real.copy(), pieces.vector.imag.copy()
+def columns(pieces: Measured) -> Floats:
+    """(15, n) the columns of these pieces, in order; a line's arc columns mean nothing.  (5, n) without any arcs."""
+    x, y, along, up = pieces.start.real, pieces.start.imag, pieces.vector.real, pieces.vector.imag
     square = along * along + up * up
     square[square == 0.0] = 1.0
     if not pieces.turn.any():
-        none = np.zeros(0)
-        return Columns(x, y, along, up, square, none, none, none, none, none, none, np.zeros(0, np.bool_))
+        return np.array((x, y, along, up, square))
+    turn, centre_x, centre_y = pieces.turn, x - pieces.arm.real, y - pieces.arm.imag
+    begin_x, begin_y = x - centre_x, y - centre_y
+    ends = begin_x * turn, begin_y * turn, (begin_x + along) * turn, (begin_y + up) * turn
+    large = pieces.angle > pi
+    return np.array(
+        (x, y, along, up, square, centre_x, centre_y, pieces.radius, *ends, *_middles(pieces, square), large)
+    )
+
+
+def _middles(pieces: Measured, square: Floats) -> tuple[Floats, Floats]:
+    """The directions of arcs' middles from their centres; `square` is the chords' squared length."""
     size = np.sqrt(square)
-    size[size == 0.0] = 1.0
-    middle_x, middle_y = pieces.turn * up / size, -pieces.turn * along / size
+    x, y = pieces.turn * pieces.vector.imag / size, -pieces.turn * pieces.vector.real / size
     short = ((size < SHORT * pieces.radius) & (pieces.turn != 0.0)).nonzero()[0]
     if len(short):
         arc = pieces.take(short)
         middle = arc.arm / np.where(arc.radius == 0.0, 1.0, arc.radius) * np.exp(0.5j * arc.turn * arc.angle)
-        middle_x[short], middle_y[short] = middle.real, middle.imag
-    large = pieces.angle > pi
-    centre_x, centre_y = x - pieces.arm.real, y - pieces.arm.imag
-    radius, turn = pieces.radius, pieces.turn
-    return Columns(x, y, along, up, square, centre_x, centre_y, radius, middle_x, middle_y, turn, large)
+        x[short], y[short] = middle.real, middle.imag
+    return x, y
 
 
-def middle(pieces: Columns, *, arc: bool) -> tuple[Floats, Floats]:
-    """The middles of pieces that are all arcs or all lines."""
-    if arc:
-        x = pieces.centre_x + pieces.radius * pieces.middle_x
-        return x, pieces.centre_y + pieces.radius * pieces.middle_y
-    return pieces.x + 0.5 * pieces.along, pieces.y + 0.5 * pieces.up
+def taken(block: Floats, rows: Rows, bent: Flags) -> Floats:
+    """The columns of these pieces of all; only those of lines where none of them is `bent`."""
+    return (block if np.count_nonzero(bent) else block[:STRAIGHT]).take(rows, axis=1)
+
+
+def middle(pieces: Columns, bent: Flags) -> tuple[Floats, Floats]:
+    """The middles of pieces, of which those that are `bent` are arcs."""
+    x, y = pieces.x + 0.5 * pieces.along, pieces.y + 0.5 * pieces.up
+    if not np.count_nonzero(bent):
+        return x, y
+    arc_x = pieces.centre_x + pieces.radius * pieces.middle_x
+    arc_y = pieces.centre_y + pieces.radius * pieces.middle_y
+    return np.where(bent, arc_x, x), np.where(bent, arc_y, y)
+
+
+def to_piece(x: Floats, y: Floats, pieces: Columns, bent: Flags) -> tuple[Floats, Floats]:
+    """Distances of points (k, m) from m pieces, and the fractions of those that are no arcs they are nearest to."""
+    arcs = np.count_nonzero(bent)
+    if arcs == len(bent):
+        return to_arc(x, y, pieces), x
+    square, t = to_line(x, y, pieces)
+    apart = np.sqrt(square, out=square)
+    return (np.where(bent, to_arc(x, y, pieces), apart) if arcs else apart), t
 
 
 def to_line(x: Floats, y: Floats, line: Columns) -> tuple[Floats, Floats]:
@@ -101,13 +123,12 @@ def inside(x: Floats, y: Floats, arc: Columns) -> Flags:
     the sign of a cross product, which keeps its digits in arcs however flat; a larger one leaves out what is neither.
     Without an angle to speak of an arc has no such sides, and its opposite is kept off.
     """
-    first_x, first_y = arc.x - arc.centre_x, arc.y - arc.centre_y
-    behind = (first_x * y - first_y * x) * arc.turn >= 0.0
-    first_x += arc.along
-    first_y += arc.up
-    before = (first_y * x - first_x * y) * arc.turn >= 0.0
+    behind = arc.begin_x * y - arc.begin_y * x >= 0.0
+    before = arc.end_y * x - arc.end_x * y >= 0.0
     ahead = x * arc.middle_x + y * arc.middle_y >= -0.5 * (np.abs(x) + np.abs(y))
-    within: Flags = (arc.large & (behind | before)) | (behind & before & ahead)
+    within: Flags = ahead & behind & before
+    if np.count_nonzero(arc.large):
+        within |= (behind | before) & (arc.large > 0.0)
     return within
 
 
@@ -124,8 +145,16 @@ def to_arc(x: Floats, y: Floats, arc: Columns) -> Floats:
     return apart
 
 
-def line_to_arc(line: Columns, arc: Columns) -> tuple[Floats, Floats]:
-    """Distances of pairs where the line passes the arc between all ends, 0 where they cross, and the line's fractions.
+def lines_cross(one: Columns, other: Columns) -> Floats:
+    """0 for pairs of lines that cross between their ends, infinite for all others."""
+    x, y = other.x - one.x, other.y - one.y
+    turn = one.along * other.up - one.up * other.along
+    start, end = one.along * y - one.up * x, other.along * y - other.up * x
+    return np.where((start * (start + turn) < 0.0) & (end * (end + turn) < 0.0), 0.0, np.inf)
+
+
+def line_to_arc(line: Columns, arc: Columns) -> Floats:
+    """Distances of pairs where the line passes the arc between all ends, 0 where they cross.
 
     Infinite where the foot of the centre is on neither.
     """
@@ -136,31 +165,28 @@ def line_to_arc(line: Columns, arc: Columns) -> tuple[Floats, Floats]:
     apart = np.where(within & (t >= 0.0) & (t <= 1.0), np.abs(height - arc.radius), np.inf)
     cut = (height < arc.radius).nonzero()[0]
     if len(cut):
-        arc_, along, up = _cut(arc, cut), line.along[cut], line.up[cut]
-        half = np.sqrt((arc_.radius - height[cut]) * (arc_.radius + height[cut]) / line.square[cut])
-        for step in (-half, half):
-            met = inside(off_x[cut] + step * along, off_y[cut] + step * up, arc_)
-            met &= (t[cut] + step >= 0.0) & (t[cut] + step <= 1.0)
-            apart[cut[met]] = 0.0
-    return apart, t
+        along, up, height = line.along[cut], line.up[cut], height[cut]
+        arc = _rows(arc, cut)
+        half = np.sqrt((arc.radius - height) * (arc.radius + height) / line.square[cut])
+        steps = np.array((-half, half))
+        met = inside(off_x[cut] + steps * along, off_y[cut] + steps * up, arc)
+        steps += t[cut]
+        met &= (steps >= 0.0) & (steps <= 1.0)
+        apart[cut[met[0] | met[1]]] = 0.0
+    return apart
 
 
 def arc_to_arc(one: Columns, other: Columns) -> Floats:
     """Distances of pairs of arcs on the line through their centres, 0 where they cross, infinite where neither is."""
     x, y = other.centre_x - one.centre_x, other.centre_y - one.centre_y
-    size = np.sqrt(x * x + y * y)
-    ahead_one, behind_one = inside(x, y, one), inside(-x, -y, one)
-    ahead_other, behind_other = inside(x, y, other), inside(-x, -y, other)
-    apart = np.full(len(x), np.inf)
-    for within, gap in (
-        (ahead_one & behind_other, size - other.radius - one.radius),
-        (ahead_one & ahead_other, size + other.radius - one.radius),
-        (behind_one & behind_other, size - other.radius + one.radius),
-    ):
-        np.minimum(apart, np.where(within, np.abs(gap), np.inf), out=apart)
+    size, both_x, both_y = np.sqrt(x * x + y * y), np.array((x, -x)), np.array((y, -y))
+    (ahead_one, behind_one), (ahead_other, behind_other) = inside(both_x, both_y, one), inside(both_x, both_y, other)
+    within = ahead_one & behind_other, ahead_one & ahead_other, behind_one & behind_other
+    gaps = size - other.radius - one.radius, size + other.radius - one.radius, size - other.radius + one.radius
+    apart: Floats = np.where(within, np.abs(gaps), np.inf).min(axis=0)
     cut = ((size > np.abs(one.radius - other.radius)) & (size < one.radius + other.radius)).nonzero()[0]
     if len(cut):
-        apart[cut[_arcs_cross(_cut(one, cut), _cut(other, cut), x[cut], y[cut], size[cut])]] = 0.0
+        apart[cut[_arcs_cross(_rows(one, cut), _rows(other, cut), x[cut], y[cut], size[cut])]] = 0.0
     return apart
 
 
@@ -168,12 +194,12 @@ def _arcs_cross(one: Columns, other: Columns, x: Floats, y: Floats, size: Floats
     """Whether arcs of crossing circles cross; (x, y) leads from centre to centre, `size` long."""
     share = (size * size + (one.radius - other.radius) * (one.radius + other.radius)) / (2.0 * size * size)
     height = np.sqrt(np.maximum((one.radius / size) ** 2 - share * share, 0.0))
-    crossed = np.zeros(len(x), np.bool_)
-    for off in (height, -height):
-        at_x, at_y = share * x - off * y, share * y + off * x
-        crossed |= inside(at_x, at_y, one) & inside(at_x - x, at_y - y, other)
-    return crossed
+    off = np.array((height, -height))
+    at_x, at_y = share * x - off * y, share * y + off * x
+    crossed = inside(at_x, at_y, one) & inside(at_x - x, at_y - y, other)
+    either: Flags = crossed[0] | crossed[1]
+    return either
 
 
-def _cut(pieces: Columns, rows: Rows) -> Columns:
-    return pieces.take(rows, arcs=True)
+def _rows(pieces: Columns, rows: Rows) -> Columns:
+    return Columns(*(column[rows] for column in pieces))

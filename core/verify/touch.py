@@ -9,14 +9,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import tau
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.geometry.distance import foot
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows
 from core.tolerance import ON_PATH, STOCK
-from core.verify.columns import Columns, arc_to_arc, columns, line_to_arc, middle, to_arc, to_line
+from core.verify.columns import Columns, arc_to_arc, columns, line_to_arc, lines_cross, middle, taken, to_piece
+
+FEW: Final = 1_000
+"""Pairs of which measuring all in one go, by the formulas of lines and of arcs, costs less than parting them."""
 
 BLOCK: Final = 8_000
 """Pairs worked out at a time: few enough to stay in a processor's cache."""
@@ -51,6 +55,17 @@ class Touches:
         return Touches(*columns, self.middle[rows], self.along[rows])
 
 
+class _Block(NamedTuple):
+    """m pairs worked out at once: their pieces, their columns, and which of them are arcs."""
+
+    i: Rows
+    j: Rows
+    one: Floats
+    other: Floats
+    bent_one: Flags
+    bent_other: Flags
+
+
 def touches(centre: Measured, i: Rows, surface: Measured, j: Rows, radius: float, grant: Floats) -> Touches:
     """The pairs of pieces `i` of the centre path and `j` of the surface, measured, and their touch.
 
@@ -59,135 +74,107 @@ def touches(centre: Measured, i: Rows, surface: Measured, j: Rows, radius: float
     limit = radius + grant
     one, other = columns(centre), columns(surface)
     found = _blank(len(i))
-    bent_one, bent_other = centre.arcs, surface.arcs
-    for rows, arcs in _blocks(bent_one, i, bent_other, j):
-        a, b = one.take(i[rows], arcs=arcs[0]), other.take(j[rows], arcs=arcs[1])
-        spots = _ends(a, b, arcs)
-        found.middle[rows], _ = _apart(*middle(a, arc=arcs[0]), b, arc=arcs[1])
-        farthest = np.maximum(np.maximum(*spots.mine), found.middle[rows])
-        found.along[rows] = farthest <= limit[rows] + STOCK
-        found.apart[rows], within = _measure(a, b, arcs, spots, limit[rows])
-        if arcs[1]:
-            _on_arcs(found, rows, centre, i[rows], surface, j[rows], within)
-        else:
-            found.first[rows], found.last[rows] = _hull(spots, within)
-        if any(arcs):
-            found.unsure[rows] = _unsure(found, rows, centre, i[rows], surface, j[rows])
+    bent_one, bent_other = centre.arcs[i], surface.arcs[j]
+    for rows in _blocks(bent_one, bent_other):
+        bent = bent_one[rows], bent_other[rows]
+        block = _Block(i[rows], j[rows], taken(one, i[rows], bent[0]), taken(other, j[rows], bent[1]), *bent)
+        within, places = _measure(found, rows, block, limit[rows])
+        found.first[rows], found.last[rows] = _hull(within, places, block, centre, surface)
+        found.unsure[rows] = _unsure(found, rows, block, centre, surface)
     found.unsure[found.apart < radius - grant] = True
     return found
 
 
 def _blank(count: int) -> Touches:
-    none = np.full(count, NONE)
-    return Touches(np.empty(count), none, -none, np.zeros(count, np.bool_), np.empty(count), np.empty(count, np.bool_))
+    flags = np.zeros((2, count), np.bool_)
+    apart, first, last, middle = np.empty((4, count))
+    return Touches(apart, first, last, flags[0], middle, flags[1])
 
 
-def _blocks(one: Flags, i: Rows, other: Flags, j: Rows) -> Iterator[tuple[Rows, tuple[bool, bool]]]:
-    """Indices of pairs, parted by which of the two pieces are arcs, at most BLOCK at a time."""
-    kinds = 2 * one.view(np.int8)[i] + other.view(np.int8)[j]
+def _blocks(one: Flags, other: Flags) -> Iterator[Rows]:
+    """Indices of pairs, parted by which of the two pieces are arcs, at most BLOCK at a time; few pairs all at once."""
+    if len(one) <= FEW:
+        yield np.arange(len(one))
+        return
+    kinds = _kinds(one, other)
     for kind in range(4):
         rows = (kinds == kind).nonzero()[0]
         for start in range(0, len(rows), BLOCK):
-            yield rows[start : start + BLOCK], (kind > 1, kind % 2 > 0)
+            yield rows[start : start + BLOCK]
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Ends:
-    """Distances of the centre pieces' ends from the surface pieces and the other way round, start and end of each.
+def _kinds(one: Flags, other: Flags) -> NDArray[np.int8]:
+    """(m,) 0 for two lines, 1 for a line and an arc, 2 for an arc and a line, 3 for two arcs."""
+    kinds: NDArray[np.int8] = 2 * one.view(np.int8) + other.view(np.int8)
+    return kinds
 
-    `places` are the fractions of a surface line that is nearest to the centre piece's ends.
+
+def _measure(found: Touches, rows: Rows, block: _Block, limit: Floats) -> tuple[Flags, Floats]:
+    """Distances of the pairs; (4, m) whether the surface pieces' ends and the centre pieces' ends, start and end of
+    each, are within the limit of the other piece; and (3, m) fractions of surface lines nearest to the latter."""
+    a, b = Columns(*block.one), Columns(*block.other)
+    middle_x, middle_y = middle(a, block.bent_one)
+    x, y = np.array((a.x, a.x + a.along, middle_x)), np.array((a.y, a.y + a.up, middle_y))
+    mine, places = to_piece(x, y, b, block.bent_other)
+    x, y = np.array((b.x, b.x + b.along)), np.array((b.y, b.y + b.up))
+    theirs, _ = to_piece(x, y, a, block.bent_one)
+    ends = np.concatenate((theirs, mine[:2]))
+    found.middle[rows] = mine[2]
+    found.along[rows] = mine.max(axis=0) <= limit + STOCK
+    found.apart[rows] = np.minimum(ends.min(axis=0), _between_ends(block))
+    return ends <= limit, places
+
+
+def _between_ends(block: _Block) -> Floats:
+    """Least distances that lie between the ends of both pieces; infinite where there is none."""
+    kinds = _kinds(block.bent_one, block.bent_other)
+    apart = np.empty(len(kinds))
+    for kind, measure in enumerate((lines_cross, line_to_arc, _arc_to_line, arc_to_arc)):
+        rows = (kinds == kind).nonzero()[0]
+        if len(rows) == len(kinds):
+            return measure(Columns(*block.one), Columns(*block.other))
+        if len(rows):
+            apart[rows] = measure(Columns(*block.one.take(rows, axis=1)), Columns(*block.other.take(rows, axis=1)))
+    return apart
+
+
+def _arc_to_line(arc: Columns, line: Columns) -> Floats:
+    return line_to_arc(line, arc)
+
+
+def _hull(within: Flags, places: Floats, block: _Block, centre: Measured, surface: Measured) -> tuple[Floats, Floats]:
+    """First and last fraction of a surface piece that is one of the ends within the limit.
+
+    The distance from a line is convex along another: what lies between is within too.  On arcs the feet are looked for
+    of those ends only that are not beside an end of the arc.
     """
-
-    mine: tuple[Floats, Floats]
-    theirs: tuple[Floats, Floats]
-    places: tuple[Floats, Floats] | None
-
-
-def _ends(a: Columns, b: Columns, arcs: tuple[bool, bool]) -> _Ends:
-    mine = [_apart(x, y, b, arc=arcs[1]) for x, y in ((a.x, a.y), (a.x + a.along, a.y + a.up))]
-    theirs = [_apart(x, y, a, arc=arcs[0])[0] for x, y in ((b.x, b.y), (b.x + b.along, b.y + b.up))]
-    places = None if arcs[1] else (mine[0][1], mine[1][1])
-    return _Ends((mine[0][0], mine[1][0]), (theirs[0], theirs[1]), places)
-
-
-def _apart(x: Floats, y: Floats, piece: Columns, *, arc: bool) -> tuple[Floats, Floats]:
-    if arc:
-        return to_arc(x, y, piece), x
-    square, t = to_line(x, y, piece)
-    return np.sqrt(square, out=square), t
-
-
-def _measure(
-    a: Columns, b: Columns, arcs: tuple[bool, bool], ends: _Ends, limit: Floats
-) -> tuple[Floats, tuple[Flags, ...]]:
-    """Least distances, and which of the four ends are within the limit of the other piece."""
-    apart = np.minimum(np.minimum(*ends.mine), np.minimum(*ends.theirs))
-    if arcs == (True, True):
-        np.minimum(apart, arc_to_arc(a, b), out=apart)
-    elif any(arcs):
-        line, arc = (b, a) if arcs[0] else (a, b)
-        np.minimum(apart, line_to_arc(line, arc)[0], out=apart)
-    else:
-        apart[_lines_cross(a, b)] = 0.0
-    return apart, tuple(end <= limit for end in (*ends.mine, *ends.theirs))
-
-
-def _lines_cross(a: Columns, b: Columns) -> Flags:
-    x, y = b.x - a.x, b.y - a.y
-    turn = a.along * b.up - a.up * b.along
-    start, end = a.along * y - a.up * x, b.along * y - b.up * x
-    across: Flags = (start * (start + turn) < 0.0) & (end * (end + turn) < 0.0)
-    return across
-
-
-def _hull(ends: _Ends, within: tuple[Flags, ...]) -> tuple[Floats, Floats]:
-    """First and last fraction of a surface line that is one of the ends within the limit.
-
-    The distance from a line is convex along another: what lies between is within too.
-    """
-    assert ends.places is not None
-    first, last = np.where(within[3], 1.0, NONE), np.where(within[2], 0.0, -NONE)
-    first[within[2]], last[within[3]] = 0.0, 1.0
-    for near, t in zip(within[:2], ends.places, strict=True):
-        np.minimum(first, np.where(near, t, NONE), out=first)
-        np.maximum(last, np.where(near, t, -NONE), out=last)
+    at_start, at_end, near = within[0], within[1], within[2:]
+    first, last = np.where(at_end, 1.0, NONE), np.where(at_start, 0.0, -NONE)
+    first[at_start], last[at_end] = 0.0, 1.0
+    places = places[:2]
+    if np.count_nonzero(block.bent_other):
+        near = near & ((first > 0.0) | (last < 1.0))
+        end, row = (near & block.bent_other).nonzero()
+        i, j = block.i[row], block.j[row]
+        places[end, row] = foot(surface.take(j), centre.start[i] + end * centre.vector[i])
+    np.minimum(first, np.where(near, places, NONE).min(axis=0), out=first)
+    np.maximum(last, np.where(near, places, -NONE).max(axis=0), out=last)
     return first, last
 
 
-def _on_arcs(
-    found: Touches,
-    rows: Rows,
-    centre: Measured,
-    i: Rows,
-    surface: Measured,
-    j: Rows,
-    within: tuple[Flags, ...],
-) -> None:
-    """The same for surface arcs: the feet of the centre pieces' ends that are not beside an end of the arc."""
-    first, last = np.where(within[3], 1.0, NONE), np.where(within[2], 0.0, -NONE)
-    first[within[2]], last[within[3]] = 0.0, 1.0
-    for end, near in enumerate(within[:2]):
-        need = (near & ((first > 0.0) | (last < 1.0))).nonzero()[0]
-        if not len(need):
-            continue
-        arc = surface.take(j[need])
-        piece = centre.take(i[need])
-        t = foot(arc, at(piece, np.full(len(need), float(end))))
-        first[need], last[need] = np.minimum(first[need], t), np.maximum(last[need], t)
-    found.first[rows], found.last[rows] = first, last
-
-
-def _unsure(found: Touches, rows: Rows, centre: Measured, i: Rows, surface: Measured, j: Rows) -> Flags:
+def _unsure(found: Touches, rows: Rows, block: _Block, centre: Measured, surface: Measured) -> Flags:
     """Touches with arcs that are more than a point, unless both arcs are about one centre and overlap but once."""
-    width = (found.last[rows] - found.first[rows]) * surface.length[j]
-    unsure = width > POINT
-    wide = unsure.nonzero()[0]
-    if len(wide):
-        one, other = centre.take(i[wide]), surface.take(j[wide])
-        about = one.arcs & other.arcs & (np.abs(one.centre - other.centre) <= ON_PATH)
+    unsure = block.bent_one | block.bent_other
+    if not np.count_nonzero(unsure):
+        return unsure
+    unsure &= (found.last[rows] - found.first[rows]) * surface.length[block.j] > POINT
+    both = (unsure & block.bent_one & block.bent_other).nonzero()[0]
+    if len(both):
+        one, other = centre.take(block.i[both]), surface.take(block.j[both])
+        about = np.abs(one.centre - other.centre) <= ON_PATH
         turned = np.abs(np.angle(_middle(one) * np.conj(_middle(other))))
         once = (one.angle + other.angle) / 2.0 + turned < tau - POINT
-        unsure[wide[about & once]] = False
+        unsure[both[about & once]] = False
     return unsure
 
 
