@@ -6,7 +6,7 @@ from app.screens.page import Surface
 from app.screens.text import TextPage, paragraph
 from app.session import Session
 from app.widgets.rows import Row, plain, text_of
-from app.widgets.verdict import deepest_gouge, nearest_place, verdict_rows
+from app.widgets.verdict import UNKNOWN, deepest_gouge, nearest_place, verdict_rows
 from core.records import dataclass
 
 
@@ -26,7 +26,7 @@ class FindingsPage(TextPage):
         uncut = next((place for place, row in enumerate(rows) if text_of(row).startswith(" UNCUT")), 0)
         rows[uncut + 1 : uncut + 1] = nearest_place(found, unit)
         told = [one for row in rows[1:] for one in _wrapped(row, surface.width)]
-        return (rows[0], (), *(told or [plain(" Nothing to report.")]))
+        return (rows[0], (), *(told or [plain(" Nothing to report.") if found.known else UNKNOWN]))
 
 
 def _wrapped(row: Row, width: int) -> tuple[Row, ...]:

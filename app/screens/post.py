@@ -15,10 +15,11 @@ from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, plain
+from app.widgets.verdict import UNKNOWN
 from app.widgets.words import length, number, numbers
 from core.finding import Finding
 from core.records import dataclass
-from core.units import Unit, sentence
+from core.units import sentence
 
 OVERRIDE: Final = "POST WITH GOUGE"
 """What must be typed to post in spite of the verdict; `core.output.ready` demands the same, and a test compares."""
@@ -99,7 +100,7 @@ class PostPage(EntryPage):
             )
         elif against:
             said = Said("Enter the name of the NC file. The findings stand against posting.", Tone.WARNING)
-        told = _against(against, session.program.unit, surface.width)
+        told = _against(against, session, surface.width)
         body = ((), *rows, (), *_unsaved(session), *_left(session), *told)
         return View(header("POST NC", plain(""), session, surface.width), body, said, 1)
 
@@ -137,10 +138,11 @@ def _left(session: Session) -> tuple[Row, ...]:
     return tuple(plain(f" {word:<8}{', '.join(texts)}", Look.WARNING) for word, texts in told if texts)
 
 
-def _against(against: tuple[tuple[int, Finding], ...], unit: Unit, width: int) -> tuple[Row, ...]:
-    if not against:
+def _against(against: tuple[tuple[int, Finding], ...], session: Session, width: int) -> tuple[Row, ...]:
+    known, unit = all(found.known for found in session.derived.blocks), session.program.unit
+    if known and not against:
         return (plain(" Nothing stands against posting.", Look.GOOD),)
-    rows: list[Row] = []
+    rows = [] if known else [UNKNOWN]
     for block, finding in against:
         where = f"block {block}" + (f", segment {number(finding.segment)}" if finding.segment else "")
         for line in wrap(f"!! {where}: {sentence(finding, unit)}", max(width - 2, 8), subsequent_indent="   "):

@@ -34,6 +34,8 @@ MARKS: Final = {Severity.ERROR: "!!", Severity.WARNING: "! ", Severity.INFO: "i 
 """What each weight of a finding begins with."""
 READ_ON: Final = "Ctrl+F"
 """The key that shows every finding in full, behind how many more there are and behind one that is cut."""
+UNKNOWN: Final = plain(" The verdict is being calculated.", Look.WARNING)
+"""Where no finding stands and none may be missed."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

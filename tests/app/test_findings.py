@@ -94,6 +94,18 @@ def test_the_dialog_says_what_is_left_and_what_is_not_saved() -> None:
     assert "The program is not saved: Esc, then Ctrl+S." in edited.part("body")
 
 
+def test_nothing_is_called_right_before_the_verdict_is_there() -> None:
+    operator = Operator.at(load(example("overrun-square"))).press("f8", "f6")
+    assert not operator.session.found.known
+    assert "Nothing stands against posting." not in operator.part("body")
+    assert "being calculated" in operator.part("body")
+    told = Operator.at(load(example("overrun-square"))).press("ctrl+f").part("body")
+    assert "Nothing to report." not in told
+    assert "being calculated" in told
+    assert "Nothing stands against posting." in derived("pocket").press("f8", "f6").part("body")
+    assert "being calculated" not in derived("pocket").press("f8", "f6").part("body")
+
+
 def test_how_near_the_path_comes_stands_beside_the_radius() -> None:
     operator = derived("notch")
     assert " UNCUT   0.0000 of 5.6000  NEAREST 0.0000" in verdict(operator)
