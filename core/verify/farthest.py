@@ -3,7 +3,7 @@
 The distance to a path is the least of the distances to its pieces, so along a span it is bounded from above by
 the largest distance to any one of them, which has a formula, and from below by its value anywhere.  A span
 whose bound exceeds the best value found on its stretch is divided where its two ends' nearest pieces are
-equally far, until both agree within `FINE`.
+equally far, until both agree within `FINE`: if no third piece is nearer there, that is at once.
 """
 
 from __future__ import annotations
@@ -25,6 +25,13 @@ ROUNDS: Final = 100
 """Divisions after which doubles cannot part a span of any size further."""
 
 
+SECTIONS: Final = np.linspace(0.0, 1.0, 17)[:, None]
+"""(17, 1) shares of a span at which both nearest pieces are compared."""
+
+NARROWINGS: Final = 3
+"""Times that a span is narrowed to the section in which the other piece becomes the nearer one."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Farthest:
     """(k,) for each stretch the place, in length travelled, that is farthest from the other path, and how far it is."""
@@ -35,15 +42,19 @@ class Farthest:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Spans:
-    """m parts of single pieces, each of stretch `owner`: places, distances and nearest pieces at both ends (2, m)."""
+    """m parts of single pieces, `index`, each of stretch `owner`: places, distances and nearest pieces at both ends
+    (2, m)."""
 
     owner: Rows
+    index: Rows
     s: Floats
     apart: Floats
     near: Rows
 
     def take(self, keep: Flags) -> _Spans:
-        return _Spans(self.owner[keep], self.s[:, keep], self.apart[:, keep], self.near[:, keep])
+        rows = keep.nonzero()[0]
+        s, apart, near = self.s.take(rows, axis=1), self.apart.take(rows, axis=1), self.near.take(rows, axis=1)
+        return _Spans(self.owner[rows], self.index[rows], s, apart, near)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -71,6 +82,11 @@ class _Search:
             apart[new], near[new] = self.look(s[new], known[new])
         return apart, near
 
+    def fractions(self, spans: _Spans) -> Floats:
+        """(2, m) fractions of the spans' ends on their pieces."""
+        length = self.walked.length[spans.index]
+        return (spans.s - self.stations[spans.index]) / np.where(length == 0.0, 1.0, length)
+
     def points(self, s: Floats) -> Points:
         """Points at places along the walked path."""
         index, t = place(self.walked, self.stations, s)
@@ -86,12 +102,11 @@ def farthest(walked: Measured, stretches: Stretches, other: Measured, near: Rows
     search = _Search(walked, walked.stations, other, boxes(other), GOUGE + 2.0 * float(walked.slack.max(initial=0.0)))
     spans, best = _begin(search, stretches, near, ends)
     for turn in range(ROUNDS):
-        bound, crossing = _bounds(search, spans)
-        open_still = bound > best.apart[spans.owner] + FINE
-        if not open_still.any():
+        spans = spans.take(_bounds(search, spans) > best.apart[spans.owner] + FINE)
+        if not len(spans.owner):
             break
-        share = np.clip(crossing[open_still], 0.01, 0.99) if turn % 3 < 2 else np.full(int(open_still.sum()), 0.5)
-        spans, best = _divide(search, spans.take(open_still), share, best)
+        share = _equally_far(search, spans) if turn % 3 < 2 else np.full(len(spans.owner), 0.5)
+        spans, best = _divide(search, spans, share, best)
     return best
 
 
@@ -111,7 +126,8 @@ def _begin(search: _Search, stretches: Stretches, near: Rows, ends: float) -> tu
     pairs = ((owners[1:] == owners[:-1]) & (s[1:] > s[:-1])).nonzero()[0]
     both = np.stack((pairs, pairs + 1))
     none = Farthest(np.zeros(len(each)), np.full(len(each), -np.inf))
-    return _Spans(owners[pairs], s[both], apart[both], near[both]), _better(none, owners, s, apart)
+    index, _ = place(search.walked, search.stations, (s[pairs] + s[pairs + 1]) / 2.0)
+    return _Spans(owners[pairs], index, s[both], apart[both], near[both]), _better(none, owners, s, apart)
 
 
 def _from_ends(stretches: Stretches, near: Rows, owner: Rows, s: Floats) -> Floats:
@@ -132,19 +148,33 @@ def _better(best: Farthest, owner: Rows, s: Floats, apart: Floats) -> Farthest:
     return Farthest(where, size)
 
 
-def _bounds(search: _Search, spans: _Spans) -> tuple[Floats, Floats]:
-    """What the distance cannot exceed on each span, and at what share of it both nearest pieces may be equally far."""
-    index, _ = place(search.walked, search.stations, spans.s.mean(axis=0))
-    length = search.walked.length[index]
-    t = (spans.s - search.stations[index]) / np.where(length == 0.0, 1.0, length)
-    count = len(index)
-    piece, near = search.walked.take(np.tile(index, 2)), search.other.take(spans.near.ravel())
+def _bounds(search: _Search, spans: _Spans) -> Floats:
+    """What the distance cannot exceed on each span."""
+    t, count = search.fractions(spans), len(spans.index)
+    twice = np.concatenate((spans.index, spans.index))
+    piece, near = search.walked.take(twice), search.other.take(spans.near.ravel())
     across = distance(near, at(piece, t[::-1].ravel()))
-    highest = np.maximum(_within_span(piece, near, np.tile(t, 2)), np.maximum(spans.apart.ravel(), across))
-    behind, ahead = across[count:] - spans.apart[0], across[:count] - spans.apart[1]
-    total = behind + ahead
-    share = np.where(total > 0.0, behind / np.where(total > 0.0, total, 1.0), 0.5)
-    return np.minimum(highest[:count], highest[count:]), share
+    highest = np.maximum(_within_span(piece, near, np.concatenate((t, t), axis=1)), across)
+    np.maximum(highest, spans.apart.ravel(), out=highest)
+    bounds: Floats = np.minimum(highest[:count], highest[count:])
+    return bounds
+
+
+def _equally_far(search: _Search, spans: _Spans) -> Floats:
+    """The share of each span at which the nearest pieces of its two ends are equally far, kept off both ends."""
+    piece, (one, other) = search.walked.take(spans.index), (search.other.take(near) for near in spans.near)
+    first, last = search.fractions(spans)
+    low, high, each = first, last, np.arange(len(first))
+    for _ in range(NARROWINGS):
+        places = low + SECTIONS * (high - low)
+        points = at(piece, places)
+        nearer = distance(other, points) - distance(one, points)
+        behind = np.maximum(np.argmax(nearer < 0.0, axis=0), 1)
+        (low, high), (before, after) = ((of[behind - 1, each], of[behind, each]) for of in (places, nearer))
+    met = low + (high - low) * np.where(before > after, before / (before - after), 0.5)
+    share: Floats = (met - first) / (last - first)
+    share[np.isnan(share)] = 0.5
+    return np.minimum(np.maximum(share, 1e-3), 1.0 - 1e-3)
 
 
 def _within_span(piece: Measured, near: Measured, t: Floats) -> Floats:
@@ -162,8 +192,9 @@ def _divide(search: _Search, spans: _Spans, share: Floats, best: Farthest) -> tu
     s = spans.s[0] + share * (spans.s[1] - spans.s[0])
     apart, near = search.look(s, (spans.apart + np.abs(s - spans.s)).min(axis=0))
     halves = [
-        np.hstack((np.stack((kept[0], new)), np.stack((new, kept[1]))))
+        np.array((np.concatenate((kept[0], new)), np.concatenate((new, kept[1]))))
         for kept, new in ((spans.s, s), (spans.apart, apart), (spans.near, near))
     ]
     best = _better(best, spans.owner, s, apart)
-    return _Spans(np.tile(spans.owner, 2), halves[0], halves[1], halves[2]), best
+    owner, index = np.concatenate((spans.owner, spans.owner)), np.concatenate((spans.index, spans.index))
+    return _Spans(owner, index, *halves), best
