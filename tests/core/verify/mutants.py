@@ -1,7 +1,7 @@
 """Mutants: correct centre paths spoiled in small ways, and whether the judge notices.
 
-`python -m tests.core.verify.mutants [contours]` prints the table.  Whether a mutant truly gouges or leaves stock is
-decided by dense points (`oracle`), not by the judge.
+`python -m tests.core.verify.mutants [contours]` prints a table for each road the judge may take.  Whether a mutant
+truly gouges or leaves stock is decided by dense points (`oracle`), not by the judge.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ import numpy as np
 
 from core.geometry.path import Path
 from core.geometry.side import Side
-from core.verify.judge import judge
 from core.verify.verdict import Verdict
 from tests.core.verify import oracle
 from tests.core.verify.corpus import MATTERS, STEP, Case, Chain, Truth, corpus
+from tests.core.verify.roads import ROADS, Road, proofs
 
 Mutation = Callable[[Random, Case], Chain]
 
@@ -139,7 +139,7 @@ MUTATIONS: tuple[Mutation, ...] = (
 
 @dataclass
 class Row:
-    """Counts of one mutation."""
+    """Counts of one mutation on one road; `proved` are walls with moves of their own, which are not measured."""
 
     mutants: int = 0
     gouging: int = 0
@@ -147,15 +147,18 @@ class Row:
     leaving: int = 0
     stock_caught: int = 0
     falsely_accused: int = 0
+    proved: int = 0
 
     @property
     def missed(self) -> int:
         return self.gouging - self.gouge_caught + self.leaving - self.stock_caught
 
-    def count(self, case: Case, path: Path) -> None:
+    def count(self, road: Road, case: Case, path: Path, truth: Truth) -> None:
         """Judge one mutant and compare."""
-        truth, verdict = Truth.of(case, path), judge(case.surface, case.side, case.radius, path)
+        with proofs() as found:
+            verdict = road.verdict(case.surface, case.side, case.radius, path)
         self.mutants += 1
+        self.proved += sum(int(np.count_nonzero(own.piece >= 0)) for own in found)
         self.gouging += truth.gouges
         self.gouge_caught += truth.gouges and not verdict.clean and verdict.depth > min(truth.depth, case.radius) - 1e-5
         self.leaving += truth.stock > MATTERS
@@ -183,27 +186,41 @@ def _falsely(truth: Truth, verdict: Verdict, case: Case, path: Path) -> bool:
     return False
 
 
-def table(seed: int, contours: int) -> dict[str, Row]:
-    """One row a mutation over a corpus of contours."""
-    rows = {mutation.__name__: Row() for mutation in MUTATIONS}
+Table = dict[str, Row]
+"""One row a mutation."""
+
+
+def tables(seed: int, contours: int) -> dict[str, Table]:
+    """One table a road over the same mutants of a corpus of contours."""
+    told = {road.name: {mutation.__name__: Row() for mutation in MUTATIONS} for road in ROADS}
     random = Random(seed)
     for case in corpus(seed, contours):
         for mutation in MUTATIONS:
             path = mutation(random, case).path()
             if len(path):
-                rows[mutation.__name__].count(case, path)
-    return rows
+                truth = Truth.of(case, path)
+                for road in ROADS:
+                    told[road.name][mutation.__name__].count(road, case, path, truth)
+    return told
 
 
 def main() -> None:
-    rows = table(1, int(sys.argv[1]) if len(sys.argv) > 1 else 100)
-    print(
-        f"{'mutation':22}{'mutants':>8}{'gouging':>9}{'caught':>8}{'stock':>8}{'caught':>8}{'missed':>8}{'falsely':>9}"
-    )
-    for name, row in rows.items():
-        counts = (row.gouge_caught, row.leaving, row.stock_caught, row.missed)
-        print(f"{name.replace('_', ' '):22}{row.mutants:8}{row.gouging:9}" + "".join(f"{n:8}" for n in counts), end="")
-        print(f"{row.falsely_accused:9}")
+    told = tables(1, int(sys.argv[1]) if len(sys.argv) > 1 else 100)
+    for road in ROADS:
+        print(f"{road.name}: {road.words}")
+        _print(told[road.name])
+
+
+def _print(table: Table) -> None:
+    words = ("mutants", "gouging", "caught", "stock", "caught", "missed", "falsely", "proved")
+    print(f"{'mutation':20}" + "".join(f"{word:>9}" for word in words))
+    sums = np.zeros(len(words), np.intp)
+    for name, row in table.items():
+        caught = (row.mutants, row.gouging, row.gouge_caught, row.leaving, row.stock_caught)
+        counts = (*caught, row.missed, row.falsely_accused, row.proved)
+        print(f"{name.replace('_', ' '):20}" + "".join(f"{count:9}" for count in counts))
+        sums += counts
+    print(f"{'all':20}" + "".join(f"{count:9}" for count in sums) + "\n")
 
 
 if __name__ == "__main__":
