@@ -68,15 +68,17 @@ class Known:
             return self.memory.recall("page-picture", own, lambda: picture_rows(*own))
         session = self.trial or desk.session
         found, segment, unit = session.found, session.where.segment, session.program.unit
-        if not found.known and (before := self.memory.last("picture", tuple)) is not None:
-            # while the new path is being calculated the old drawing stands; the verdict says that it is not known
+        place = (session.guard.origin, len(session.program.blocks), session.where.block)
+        if not found.known and (before := self.memory.last("picture", tuple, place)) is not None:
+            # while the new path is being calculated the block's old drawing stands, never that of another block or
+            # program: of these only the contour; the verdict says that it is not known
             return before
         # of the table no more is drawn than the path of one value: where none is asked for it may come later
         row = None if sketch.lookahead is None or self.table is None else self.table.row(sketch.lookahead)
         about = (*_seen(found, segment), row, segment, unit)
         scene = self.memory.recall("scene", about, lambda: block_scene(found, segment, unit, row))
         window = (scene, sketch, columns, rows, desk.mode)
-        return self.memory.recall("picture", window, lambda: picture_rows(*window))
+        return self.memory.recall("picture", (*place, *window), lambda: picture_rows(*window))
 
     def verdict(self, session: Session, look: int | None, height: int, width: int, first: int = 0) -> tuple[Row, ...]:
         """The verdict in its room from line `first` on, of the path in force or of that of a look-ahead value."""

@@ -16,10 +16,10 @@ class Memory:
 
     answers: dict[str, tuple[tuple[Any, ...], Any]] = field(default_factory=dict)
 
-    def last(self, name: str, kind: type[Result]) -> Result | None:
-        """The last answer whatever it was about; None when there is none."""
-        answer = self.answers[name][1] if name in self.answers else None
-        return answer if isinstance(answer, kind) else None
+    def last(self, name: str, kind: type[Result], begin: tuple[Any, ...]) -> Result | None:
+        """The last answer where what it was about begins like this, whatever follows; else None."""
+        about, answer = self.answers.get(name, ((), None))
+        return answer if about[: len(begin)] == begin and isinstance(answer, kind) else None
 
     def recall(self, name: str, about: tuple[Any, ...], make: Callable[[], Result]) -> Result:
         """The answer, made again when it was asked about something else last."""

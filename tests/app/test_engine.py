@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import pytest
 
-from app.engine import Engine
+from app.desk import Desk
+from app.engine import Engine, Known
 from app.files import example
+from app.screens.page import WHOLE
+from app.session import Session
+from app.widgets.rows import text_of
 from core.pipeline.derive import derive
 from core.pipeline.derived import DerivedBlock, Work
-from core.program.edit import Where, type_field
+from core.pipeline.outline import outline
+from core.program.edit import Where, copy_block, type_field
 from core.program.model import Entry, Program
 from core.program.store import load
 
@@ -99,3 +104,25 @@ def test_nothing_is_held_of_another_program() -> None:
     engine.derive(PART, derive(PART))
     assert engine.held(PART) is not None
     assert engine.held(changed(Where(1, 1), "x_end", 2.5)[1]) is None
+
+
+def drawn(known: Known, session: Session) -> str:
+    """The drawing's text in 40 x 12 cells."""
+    return "".join(text_of(row) for row in known.drawing(Desk(session), WHOLE, 40, 12)).strip()
+
+
+def test_until_the_new_path_is_there_the_drawing_of_this_block_stands_and_never_another_one() -> None:
+    known, program = Known(ready=True), copy_block(PART, 1)
+    assert isinstance(program, Program)
+    session = Session.of(program)
+    shown = drawn(known, session.knowing(derive(program)))
+    assert shown
+    edited = type_field(program, Where(1, 1), "x_end", Entry(2.5))
+    assert isinstance(edited, Program)
+    stale = session.apply(edited, "X END").knowing(outline(edited))
+    assert not stale.found.known
+    assert drawn(known, stale) == shown
+    for other in (stale.at(Where(2)), Session.of(edited)):
+        contour = drawn(Known(ready=True), other)
+        assert contour != shown
+        assert drawn(known, other) == contour
