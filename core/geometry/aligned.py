@@ -19,7 +19,7 @@ from core.geometry.measured import Flags, Floats, Rows
 SHIFTS: Final = 2 * FAN
 """From so many indices apart on, the groups of two boxes are no neighbours."""
 
-FEW: Final = 100
+FEW: Final = 200
 """Boxes of which comparing every pair costs less than shifting."""
 
 

@@ -28,8 +28,8 @@ RUNS_AT_ONCE: Final = 1_000
 def near_pairs(first: Floats, second: Floats, reach: float) -> tuple[Rows, Rows]:
     """Indices (i, j), in rising order of i, of all boxes no farther apart than `reach`."""
     if first.shape[1] * second.shape[1] <= AT_ONCE:
-        i, j = np.nonzero(_near(first[:, :, None], second[:, None, :], reach))
-        keep = reaching(first.take(i, axis=1), second.take(j, axis=1), reach)
+        i, j = np.divmod(np.flatnonzero(_near(first[:, :, None], second[:, None, :], reach)), second.shape[1])
+        keep = reaching(first.take(i, axis=1), second.take(j, axis=1), reach).nonzero()[0]
         return i[keep], j[keep]
     one, two = _runs(first), _runs(second)
     return _members(first, second, *_near_groups(_bounds(one), _bounds(two), reach), reach)
@@ -165,8 +165,10 @@ def _brood(keep: Rows, grow: Rows, count: int) -> tuple[Rows, Rows]:
 
 def _near(a: Floats, b: Floats, reach: float) -> Flags:
     """Boxes no farther apart than `reach` in x and in y."""
-    beside = (a[0] - reach <= b[2]) & (b[0] - reach <= a[2])
-    near: Flags = beside & (a[1] - reach <= b[3]) & (b[1] - reach <= a[3])
+    near: Flags = a[0] - reach <= b[2]
+    near &= b[0] - reach <= a[2]
+    near &= a[1] - reach <= b[3]
+    near &= b[1] - reach <= a[3]
     return near
 
 
