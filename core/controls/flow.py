@@ -10,17 +10,22 @@ from core.controls.dialect import Dialect
 from core.controls.owords import OWords, found_in
 from core.controls.parameters import Kept, Parameters
 from core.controls.report import Log
+from core.controls.series.words import is_plain
 from core.controls.words import Block, whole
 from core.finding import Severity
 
 MOST_BLOCKS: Final = 400_000
 """Blocks that subprograms and loops may run again; beyond it the run stops."""
 
-SIGNS: Final = 4
-"""A line that is more than a move counts as two blocks, and so many signs of it as one more: expressions take time."""
+LONG: Final = 64
+WORKED_OUT: Final = 4
+"""A line that is more than plain words counts as two blocks, and as one more for so many signs: reading takes time, and
+working out expressions a lot of it."""
 
 MOST_OWORDS: Final = 15_000
 """O-words that may run."""
+
+GIVEN_UP: Final = "The run is given up here and not judged: end the loop, or let it run less often."
 
 _LABEL: Final = re.compile(r"[ \t]*+(?:[Nn][ \t]*+[0-9]++)?[ \t]*+[Oo][ \t]*+([0-9]{1,9})(?![0-9])")
 
@@ -67,7 +72,7 @@ class Flow:
             self.log.stop("OWORD", text, index + 1, word.line.column(word.begin))
         self.words_left -= 1
         if self.words_left < 0:
-            text = f"The program has run more than {MOST_OWORDS} O-words and is given up; a loop may have no end."
+            text = f"The program has run more than {MOST_OWORDS} O-words. {GIVEN_UP}"
             self.log.stop("LIMIT", text, index + 1, word.line.column(word.begin))
         self.at = self.owords.run(word)
         return True
@@ -142,17 +147,17 @@ class Flow:
                     self.labels.setdefault(int(match[1]), index)
         return self.labels
 
-    def next_line(self, line: int, *, plain: bool) -> None:
-        """Counts a line that is about to run, if it ran before: `plain` where it is nothing but a move."""
+    def next_line(self, line: int) -> None:
+        """Counts a line that is about to run, if it ran before: a plain one as one block, any other as more."""
         if not self.ran[line - 1]:
             self.ran[line - 1] = True
             return
-        self.budget -= 1 if plain else 2 + len(self.lines[line - 1]) // SIGNS
+        text = self.lines[line - 1]
+        signs = WORKED_OUT if "#" in text or "[" in text else LONG
+        self.budget -= 1 if is_plain(text) else 2 + len(text) // signs
         if self.budget < 0:
-            text = f"Subprograms or loops run more than {MOST_BLOCKS} blocks again, of which long ones count several"
-            self.log.stop(
-                "LIMIT", f"{text} times; the run is given up and not judged. A loop may have no end.", line, 1
-            )
+            text = f"Subprograms or loops run more than {MOST_BLOCKS} blocks again, long ones counted several times"
+            self.log.stop("LIMIT", f"{text}. {GIVEN_UP}", line, 1)
 
     def passed(self, count: int) -> None:
         """Counts so many plain lines that have run from here on, at most as many as `budget`, and goes behind them."""

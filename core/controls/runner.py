@@ -47,8 +47,8 @@ def _run(flow: Flow, machine: Machine) -> None:
     while road.ahead(flow, machine):
         line = flow.at = flow.at + 1
         text = lines[line - 1]
+        flow.next_line(line)
         move = plain_move(text, line)
-        flow.next_line(line, plain=move is not None)
         if move is not None:
             machine.step(move)
             continue

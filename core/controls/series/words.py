@@ -23,7 +23,9 @@ Flags = NDArray[np.bool_]
 
 _LETTERS: Final = "GNXYZIJKRF"
 _GAP: Final = r"[ \t]*+"
-_PLAIN: Final = re.compile(rf"(?:{_GAP}(?:[{_LETTERS}{_LETTERS.lower()}]{_GAP}{NUMBER}{_GAP})++\n)*+")
+_WORDS: Final = rf"{_GAP}(?:[{_LETTERS}{_LETTERS.lower()}]{_GAP}{NUMBER}{_GAP})++"
+_LINE_OF_WORDS: Final = re.compile(_WORDS)
+_PLAIN: Final = re.compile(rf"(?:{_WORDS}\n)*+")
 _BLANKS: Final = bytes.maketrans((_LETTERS + "\n").encode(), b" " * (len(_LETTERS) + 1))
 _NUMBERS: Final = b"0123456789.+- \t"
 _LINE: Final = ord("\n")
@@ -70,6 +72,11 @@ class Words:
 def leading(fine: Flags) -> int:
     """How many there are before the first one that is not."""
     return len(fine) if fine.all() else int(np.argmin(fine))
+
+
+def is_plain(line: str) -> bool:
+    """Whether a line holds nothing but the words of moves; every line of `plain_words` does."""
+    return _LINE_OF_WORDS.fullmatch(line) is not None
 
 
 def plain_words(lines: Sequence[str]) -> Words:

@@ -179,12 +179,26 @@ def test_what_takes_long_to_work_out_is_given_up_sooner(kind: str, monkeypatch: 
     assert told(many, "LIMIT")
     assert len(many.moves) > 18_000
     assert 1_000 < len(few.moves) < 3_000
+    for given_up in (few, many):
+        assert "not judged: end the loop, or let it run less often." in told(given_up, "LIMIT")[0].text
 
 
 def test_blocks_that_run_once_are_no_repeats(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(flow, "MOST_BLOCKS", 10)
     lines = "\n".join(f"G1 X[{index}+1]\nG1 X{index}" for index in range(200))
     assert not told(ran(f"G20 F9\n{lines}\nM98 P1\nM2\nO1\n{lines}\nM99\n", "linuxcnc"), "LIMIT")
+
+
+def test_lines_with_more_than_moves_may_run_often(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flow, "MOST_BLOCKS", flow.MOST_BLOCKS // 20)
+    for line in ("G90 G1 X1.0000 Y2.0000 F100. (a note)", "N10 G1 X1.0000 Y2.0000 F1000 M8"):
+        body = "\n".join([line] * 200)
+        assert not told(ran(f"G20 F9\nM98 P1 L25\nM2\nO1\n{body}\nM99\n", "linuxcnc"), "LIMIT")
+
+
+def test_a_loop_of_o_words_that_is_given_up_says_what_to_do() -> None:
+    done = ran("G20 F9\no1 while [1]\no1 endwhile\nM2\n", "linuxcnc")
+    assert "not judged: end the loop, or let it run less often." in told(done, "LIMIT")[0].text
 
 
 def test_a_long_subprogram_may_run_often() -> None:

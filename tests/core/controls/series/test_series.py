@@ -6,6 +6,7 @@ from random import Random
 
 import pytest
 
+from core.controls import flow
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, names, run
 from core.controls.report import Log, Run
@@ -120,6 +121,17 @@ def test_a_subprogram_that_is_called_again_and_again(counted: type[Counted]) -> 
     for control in ("linuxcnc", "rosettacnc", "nine-series"):
         same(text, control, 1.0, (road.LEAST, road.FEW, road.MANY))
     assert counted.at_once > 300
+
+
+@pytest.mark.parametrize(
+    "line", ["G1 X{} Y{}", "N10 G1 X{} Y{} F100", "g1 x{} y{}", "G1 X{} Y{} (a)", "G90 G1 X{} Y{}"]
+)
+def test_what_repeats_too_often_is_given_up_at_the_same_line(line: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(flow, "MOST_BLOCKS", 2000)
+    body = "\n".join(line.format(index % 7, index % 5) for index in range(40))
+    for end in ("M99", "M8\nM99"):
+        text = f"G21 G90 F500\nG0 X-9 Y-9\nM98 P1 L9999\nM2\nO1\n{body}\n{end}\n".encode()
+        same(text, "linuxcnc", 1.0, (road.LEAST, road.FEW, road.MANY))
 
 
 PLAIN = ("G1 X1 Y2", "g01x.5y-.5", " N1 X 1 F2. ", "X+1", "X1.", "G3 X1 Y1 I1", "G1.0 X1", "X00001.50", "Y-0")
