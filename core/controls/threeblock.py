@@ -98,8 +98,7 @@ class ThreeBlock(ThreeBlockWords):
         if rises and element.turn:
             text = "Z goes with straight moves only under compensation; an arc with Z is an interpretation."
             self.log.tell(Severity.WARNING, "B12z-ZARC", text, element.line, 1)
-        lone = [index for index, (_, moved, flat) in enumerate(self.blocks) if moved and not flat]
-        if not element.moves and len(lone) > 1 and lone[-1] - lone[-2] < 3:
+        if not element.moves and any(moved and not flat for _, moved, flat in self.blocks[-3:-1]):
             text = "Between two blocks of Z alone there have to be two blocks with X or Y."
             self.log.stop("B13-ZSEP", text, element.line, 1)
 
