@@ -87,6 +87,15 @@ class Known:
         return self.memory.recall("verdict", (*about, *room), lambda: fitted(verdict_rows(*about)[first:], *room))
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Needing:
+    """Sentences on what a block needs: the paths they are about, and the calculated look-ahead they explain."""
+
+    work: Work
+    calculated: int
+    sentences: tuple[Finding, ...]
+
+
 @dataclass(slots=True)
 class Engine:
     """Remembers how long things took, what was derived last, and the look-ahead tables of the last paths asked for.
@@ -103,11 +112,10 @@ class Engine:
     """What was derived last, whether of the program or of one that was tried out; the newest first."""
     tables: tuple[tuple[Work, Table | None], ...] = ()
     """Paths and their tables, the newest first; changed as a whole, since screens look in from another thread."""
-    needs: tuple[Finding, ...] = ()
-    needs_of: tuple[Work, int] | None = None
-    """The paths they are about, and the calculated look-ahead they explain."""
-    told: tuple[Table, Table] | None = None
-    """The table as it was made, and with what its block needs."""
+    needs: Needing | None = None
+    """What was found out last; replaced as a whole too."""
+    told: tuple[Table, Needing, Table] | None = None
+    """The table as it was made, what its block needs, and the table with it."""
 
     def load(self, program: Program) -> Derived:
         """Fetch the numeric library and derive the program; for a thread."""
@@ -160,7 +168,7 @@ class Engine:
     def lacks_needs(self, found: DerivedBlock) -> bool:
         """Whether the table of this block is there, its calculated value is not clean, and nobody has said why."""
         table = self._made(found)
-        if table is None or self.needs_of == _needing(found):
+        if table is None or self._needing(found) is not None:
             return False
         return not table.row(found.lookahead.calculated).clean
 
@@ -168,12 +176,10 @@ class Engine:
         """Say with the table what the block needs; for a thread, since remedies are tried one after the other."""
         from core.pipeline.needs import needs
 
-        if self.needs_of == _needing(found):
+        if found.work is None or self._needing(found) is not None:
             return
         told = needs(found, program, self._made(found))
-        self.needs_of = None
-        self.needs = () if told is None else told.sentences
-        self.needs_of = _needing(found)
+        self.needs = Needing(found.work, found.lookahead.calculated, () if told is None else told.sentences)
 
     def known(self, found: DerivedBlock, trial: Session | None) -> Known:
         """What the screens may show of this block."""
@@ -185,12 +191,17 @@ class Engine:
 
     def _table(self, found: DerivedBlock) -> Table | None:
         """The table of a block, with what the block needs before its other notes once that is known."""
-        table = self._made(found)
-        if table is None or self.needs_of != _needing(found) or not self.needs:
+        table, needs = self._made(found), self._needing(found)
+        if table is None or needs is None or not needs.sentences:
             return table
-        if self.told is None or self.told[0] is not table:
-            self.told = (table, replace(table, notes=(*self.needs, *table.notes)))
-        return self.told[1]
+        if self.told is None or self.told[0] is not table or self.told[1] is not needs:
+            self.told = (table, needs, replace(table, notes=(*needs.sentences, *table.notes)))
+        return self.told[2]
+
+    def _needing(self, found: DerivedBlock) -> Needing | None:
+        """What a block needs, where that was found out last."""
+        needs, calculated = self.needs, found.lookahead.calculated
+        return needs if needs is not None and needs.work is found.work and needs.calculated == calculated else None
 
 
 def bearing(derived: Derived, program: Program) -> Derived:
@@ -200,10 +211,6 @@ def bearing(derived: Derived, program: Program) -> Derived:
     """
     both = zip(derived.blocks, program.blocks, strict=True)
     return Derived(program, tuple(replace(found, block=block) for found, block in both))
-
-
-def _needing(found: DerivedBlock) -> tuple[Work, int] | None:
-    return None if found.work is None else (found.work, found.lookahead.calculated)
 
 
 def _seen(found: DerivedBlock, segment: int) -> tuple[object, ...]:

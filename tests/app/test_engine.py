@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from app.desk import Desk
@@ -12,6 +14,7 @@ from app.session import Session
 from app.widgets.rows import text_of
 from core.pipeline.derive import derive
 from core.pipeline.derived import DerivedBlock, Work
+from core.pipeline.needs import needs
 from core.pipeline.outline import outline
 from core.program.edit import Where, copy_block, type_field
 from core.program.model import Entry, Program
@@ -126,3 +129,15 @@ def test_until_the_new_path_is_there_the_drawing_of_this_block_stands_and_never_
         contour = drawn(Known(ready=True), other)
         assert contour != shown
         assert drawn(known, other) == contour
+
+
+def test_what_is_said_of_one_calculated_value_is_never_said_of_another(engine: Engine) -> None:
+    found = derive(PART).blocks[0]
+    engine.keep_table(found, PART)
+    for calculated in (found.lookahead.calculated, 1, 5):
+        other = replace(found, lookahead=replace(found.lookahead, calculated=calculated))
+        engine.keep_needs(other, PART)
+        told, table = needs(other, PART), engine.known(other, None).table
+        assert told is not None
+        assert table is not None
+        assert table.notes[: len(told.sentences)] == told.sentences
