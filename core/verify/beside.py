@@ -33,6 +33,9 @@ STEP: Final = 0.025
 GIVES: Final = 4.0 / GOUGE
 """What every joint adds for each millimetre granted: it gives way by two grants, a run by half of GOUGE."""
 
+BACK: Final = -0.999999
+"""Cosine of the angle by which a wall turns back on the one before it."""
+
 LEAST: Final = 1e-3
 """Millimetres of radius below which nothing is proved: what is granted must be next to nothing of it."""
 
@@ -169,7 +172,8 @@ def _apart(given: _Given, j: Rows, i: Rows, k: Rows, linked: Flags) -> Flags:
     """Straight walls j and the next: neither of their own pieces i and k is nearer to the other wall than the radius.
 
     Either the wall lies below the line of the piece's own wall, a radius above which the piece runs; or the pieces
-    meet, a radius above both walls, and the piece comes down to there from above the other wall's line.
+    meet, a radius above both walls, and the piece comes down to there from above the other wall's line.  Walls that
+    turn back on each other are measured: a piece may be as near to the other side of the one as to the other.
     """
     centre, surface, sign, _, grant = given
     wall, following, one, other = surface.vector[j], surface.vector[j + 1], centre.vector[i], centre.vector[k]
@@ -179,6 +183,7 @@ def _apart(given: _Given, j: Rows, i: Rows, k: Rows, linked: Flags) -> Flags:
     down = sign * (np.conj(one) * next_unit).imag
     up = sign * (np.conj(unit) * other).imag
     proved: Flags = ((rise <= grant) | (linked & (down >= -grant))) & ((fall <= grant) | (linked & (up >= -grant)))
+    proved &= (np.conj(unit) * next_unit).real > BACK
     return proved
 
 

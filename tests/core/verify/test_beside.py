@@ -221,6 +221,15 @@ def test_the_path_of_the_other_side_is_beside_nothing() -> None:
         assert (found(surface, side, radius, moves).piece < 0).all()
 
 
+def test_walls_that_turn_back_on_each_other_are_measured(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Three walls one over the other: what runs on the right side of the middle one is on the wrong side of two."""
+    for back in (0.0, 1e-9, -1e-9):
+        surface = lines((0.0, 0.0), (4.0, 0.0), (1.0, back), (6.0, 0.0))
+        for side in Side:
+            path = compensate(surface, side, 0.5, 1, closed=False).path
+            both_ways(monkeypatch, surface, side, 0.5, path)
+
+
 def test_a_loop_about_a_corner_is_no_corner_of_the_loops_beside_its_walls(monkeypatch: pytest.MonkeyPatch) -> None:
     """Loops follow each other as pieces do, but are not joined: an arc about a joint may begin or end in the wall."""
     monkeypatch.setattr(module, "FEW", 0)
