@@ -34,7 +34,7 @@ def prepare() -> None:
 def import_without_tls() -> None:
     """Import asyncio as where Python has no TLS, which costs a thirtieth of the start: the screens talk to no network.
 
-    Whoever imports `ssl` for himself later gets it.
+    Whoever imports `ssl` for himself later gets it; asyncio's own connections stay without TLS, and say so when asked.
     """
     if "asyncio" in sys.modules or "ssl" in sys.modules:
         return

@@ -146,7 +146,7 @@ def _create(lock: Lock) -> None:
     handle = os.open(lock.path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o644)
     try:
         write_all(handle, json.dumps(asdict(lock.owner)).encode())
-        # nobody ever finds half a lock; that a power cut takes the whole of it away again, with its owner, is right
+        # half a lock has an unknown owner and is held for ever; that a power cut takes all of it away is right
         os.fsync(handle)
     finally:
         os.close(handle)
