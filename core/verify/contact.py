@@ -28,11 +28,14 @@ def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     touch = pairs.touch
     wide = (touch.last - touch.first) * pairs.surface.length.take(pairs.j) > POINT
     row, way = pairs.i, np.zeros(len(pairs.i), np.intp)
-    unsure = touch.unsure.nonzero()[0]
     known = wide & ~touch.unsure
-    known[unsure] = _about_one_centre(pairs, unsure, radius)
-    sure, unsure = known.nonzero()[0], unsure[~known[unsure]]
+    about = _about_one_centre(pairs, (wide & touch.unsure).nonzero()[0], radius)
+    known[about] = True
+    sure = known.nonzero()[0]
     way[sure] = _way(pairs, sure)
+    # twice what is granted there, since the distance of the middle is measured anew
+    held = np.abs(touch.middle - radius) <= 2.0 * (pairs.grant + ON_PATH)
+    unsure = (touch.unsure & held & ~known).nonzero()[0]
     if len(unsure):
         way[unsure] = _way_in_the_middle(pairs, unsure, radius)
     against = np.zeros(len(pairs.centre), np.bool_)
@@ -43,14 +46,16 @@ def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     return tuple(pairs.centre.rows[against].tolist())
 
 
-def _about_one_centre(pairs: Pairs, chosen: Rows, radius: float) -> Flags:
-    """Pairs of arcs about one centre, a radius apart, that have more than a point beside each other: they run one way
-    or the other wherever they do."""
-    piece, other = pairs.centre.take(pairs.i[chosen]), pairs.surface.take(pairs.j[chosen])
-    wide = (pairs.touch.last[chosen] - pairs.touch.first[chosen]) * other.length > POINT
+def _about_one_centre(pairs: Pairs, wide: Rows, radius: float) -> Rows:
+    """Those of these pairs, of more than a point beside each other, that are arcs about one centre, a radius apart:
+    they run one way or the other wherever they do."""
+    arcs = (pairs.centre.turn[pairs.i[wide]] * pairs.surface.turn[pairs.j[wide]]).nonzero()[0]
+    if not len(arcs):
+        return arcs
+    both = wide[arcs]
+    piece, other = pairs.centre.take(pairs.i[both]), pairs.surface.take(pairs.j[both])
     off = np.abs(piece.centre - other.centre) + np.abs(np.abs(piece.radius - other.radius) - radius)
-    about: Flags = wide & piece.arcs & other.arcs & (off <= pairs.grant[chosen])
-    return about
+    return both[off <= pairs.grant[both]]
 
 
 def _way(pairs: Pairs, chosen: Rows) -> Rows:

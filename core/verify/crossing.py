@@ -52,12 +52,13 @@ def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Row
     """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbours that come back."""
     i, j = aligned_pairs(bounds, bounds, JOINED, 2, both=False)
     again = (_overlapping(bounds) & _may_come_back(surface)).nonzero()[0]
-    again = again[_turned(surface, again) > pi - TURN]
-    i, j = np.concatenate((i, again)), np.concatenate((j, again + 1))
+    if len(again):
+        again = again[_turned(surface, again) > pi - TURN]
+        i, j = np.concatenate((i, again)), np.concatenate((j, again + 1))
     if closed and len(surface) > 2:
         seam = (i == 0) & (j == len(surface) - 1)
-        keep = (~seam | _turns_half_round(surface)).nonzero()[0]
-        i, j = i[keep], j[keep]
+        if seam.any() and not _turns_half_round(surface):
+            i, j = i[~seam], j[~seam]
     return i, j
 
 

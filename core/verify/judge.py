@@ -69,7 +69,8 @@ def judgeable(surface: Path, radius: float, centre: Path) -> bool:
 
 
 def _sound(path: Path) -> bool:
-    return all(bool(np.all(np.abs(array) <= LARGEST)) for array in (path.points, path.centres))
+    # what is not a number makes the largest one none, and no comparison holds
+    return all(bool(np.abs(array).max(initial=0.0) <= LARGEST) for array in (path.points, path.centres))
 
 
 def _key(path: Path) -> tuple[bytes, ...]:

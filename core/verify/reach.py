@@ -105,6 +105,11 @@ class Nearest:
     j: Rows
     apart: Floats
 
+    def followed(self, other: Nearest) -> Nearest:
+        """These pairs and then the other ones, whose points come behind."""
+        k, j = np.concatenate((self.k, other.k)), np.concatenate((self.j, other.j))
+        return Nearest(k, j, np.concatenate((self.apart, other.apart)))
+
 
 def nearest(
     points: Points, pieces: Measured, bounds: Floats, *, tie: float = 0.0, known: Floats | None = None

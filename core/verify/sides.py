@@ -61,17 +61,18 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float) -> tu
     contact = _contact(pairs, reach, tie)
     rows = contact.k[changes(contact.k)]
     s = (pairs.centre_stations[rows] + pairs.centre_stations[rows + 1]) / 2.0
-    spots = at(pairs.centre.take(rows), np.full(len(rows), 0.5))
-    wrong = [rows[_wrong(pairs, s, spots, replace(contact, k=_counted(contact.k)), surface, found)]]
+    points, near = at(pairs.centre.take(rows), np.full(len(rows), 0.5)), replace(contact, k=_counted(contact.k))
     known = pairs.own.settled(len(pairs.centre))
     known[rows] = True
     more = _samples(pairs, (~known).nonzero()[0], found)
     if len(more):
         index, t = place(pairs.centre, pairs.centre_stations, more)
-        points = at(pairs.centre.take(index), t)
-        near = nearest(points, pairs.surface, pairs.surface_boxes, tie=tie)
-        wrong.append(index[_wrong(pairs, more, points, near, surface, found)])
-    return tuple(pairs.centre.rows[np.unique(np.concatenate(wrong))].tolist())
+        spots = at(pairs.centre.take(index), t)
+        beyond = nearest(spots, pairs.surface, pairs.surface_boxes, tie=tie)
+        near = near.followed(replace(beyond, k=len(rows) + beyond.k))
+        s, points, rows = np.concatenate((s, more)), np.concatenate((points, spots)), np.concatenate((rows, index))
+    wrong = rows[_wrong(pairs, s, points, near, surface, found)]
+    return tuple(pairs.centre.rows[np.unique(wrong)].tolist()) if len(wrong) else ()
 
 
 def _tie(surface: Measured, sides: Sided) -> float:
