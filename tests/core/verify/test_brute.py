@@ -1,4 +1,4 @@
-"""The judge against a slow one over many contours of all kinds, and over their paths spoiled in all ways.
+"""Both roads of the judge against a slow one over many contours, and over their paths spoiled in all ways.
 
 `python -m tests.core.verify.test_brute [seeds]` compares as many more as wanted.
 """
@@ -19,9 +19,10 @@ from core.geometry.path import Path
 from core.geometry.piece import Arc, Turn
 from core.geometry.side import Side
 from core.tolerance import STOCK
-from core.verify.judge import judge
-from tests.core.verify.brute import point_to, slow
+from core.verify.verdict import Verdict
+from tests.core.verify.brute import Slow, point_to, slow
 from tests.core.verify.corpus import Chain
+from tests.core.verify.roads import measured, proved
 from tests.core.verify.shapes import circle, moved
 
 
@@ -129,7 +130,13 @@ def compared(family: Callable[[Random], Path], seed: int, contours: int) -> int:
 
 
 def agree(surface: Path, side: Side, radius: float, path: Path) -> None:
-    told, truth = judge(surface, side, radius, path), slow(surface, radius, path, STOCK)
+    """Both roads of the judge, by measuring every pair and by proving what can be, say what the slow judge finds."""
+    truth = slow(surface, radius, path, STOCK)
+    for verdict in (measured, proved):
+        _agree(verdict(surface, side, radius, path), truth, surface, radius, path)
+
+
+def _agree(told: Verdict, truth: Slow, surface: Path, radius: float, path: Path) -> None:
     assert told.judged
     assert told.clearance == pytest.approx(truth.clearance, abs=1e-9)
     assert told.depth == pytest.approx(radius - truth.clearance if truth.clearance < radius - 1e-6 else 0.0, abs=1e-9)
