@@ -93,12 +93,23 @@ class Follower:
 
     def travel_all(self, elements: Elements) -> int:
         """As many of these elements as can be taken, one by one or at once, with the same outcome; how many."""
-        if self.active or self._leaving:
-            for element in elements.each():
-                self.travel(element)
-        else:
+        if not self.active and not self._leaving:
             self.unchanged(elements)
+            return elements.size
+        for taken, element in enumerate(elements.each()):
+            if self.steady:
+                return taken + self.at_once(elements.part(taken, elements.size))
+            self.travel(element)
         return elements.size
+
+    @property
+    def steady(self) -> bool:
+        """Whether the elements from here on can be taken at once."""
+        return False
+
+    def at_once(self, _: Elements) -> int:
+        """As many of these elements as can be taken at once, while `steady`; how many."""
+        return 0
 
     def unchanged(self, elements: Elements) -> None:
         """Elements without compensation."""

@@ -28,6 +28,9 @@ from core.geometry.piece import Point
 RIGHT_ANGLE: Final = pi / 2 + 1e-9
 """Turns up to this are prolonged to one point."""
 
+STRAIGHT: Final = 1e-9
+"""Turns under this are none."""
+
 
 class Corners(StrEnum):
     """How sharp outside corners are gone round: generated lines (G39) or an arc (G39.1)."""

@@ -134,22 +134,12 @@ class LookAhead(Follower):
             self.note(element)
             self.queue.append(Held(element, square_end(self._front, self.offset)))
 
-    def travel_all(self, elements: Elements) -> int:
-        """One by one up to the first move behind the entry, then all corners at once."""
-        if not self.active or not self.offset:
-            return 0 if self.no_arc or self._leaving else super().travel_all(elements)
-        taken = 0
-        while taken < elements.size and not self._steady:
-            self.travel(elements.one(taken))
-            taken += 1
-        return taken + (self._at_once(elements.part(taken, elements.size)) if taken < elements.size else 0)
-
     @property
-    def _steady(self) -> bool:
+    def steady(self) -> bool:
         """Whether the next corner hangs on the held move and the next one alone."""
         return len(self.queue) == 1 and not (self.first or self.no_arc or self.lathe or self._leaving)
 
-    def _at_once(self, elements: Elements) -> int:
+    def at_once(self, elements: Elements) -> int:
         """All the leading elements whose corners stop nothing."""
         made = corners(self._front, self.started, elements, Terms(self.offset, TANGENT, self._slack))
         count = len(made.bends)

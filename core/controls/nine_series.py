@@ -8,7 +8,6 @@ the least length that the machine builder can set is taken as 0, and so is the l
 
 from __future__ import annotations
 
-from math import radians
 from typing import Final, NamedTuple
 
 from core.controls import generated
@@ -16,7 +15,7 @@ from core.controls.chain import Joint
 from core.controls.corners import Element, fits, meeting, offset_radius, square_end, square_start
 from core.controls.dialect import Dialect, Do, codes
 from core.controls.generated import Corners
-from core.controls.nine_words import NineWords
+from core.controls.nine_many import TANGENT, NineMany
 from core.controls.radius_zero import nothing_compensated
 from core.controls.report import Log, Run
 from core.controls.runner import execute
@@ -49,10 +48,6 @@ NON_MOTION: Final = 10
 """Blocks without motion in the plane that compensation looks across; the machine builder sets it, this is assumed."""
 
 
-TANGENT: Final = radians(0.05)
-"""Inside corners under this angle whose offsets miss each other are tangent; the control's own limit is not known."""
-
-
 class Before(NamedTuple):
     """What stood before the last element was taken in: rows on the tape, the element then held, its start, Z moves."""
 
@@ -62,14 +57,13 @@ class Before(NamedTuple):
     standing: tuple[Element, ...]
 
 
-class NineSeries(NineWords):
+class NineSeries(NineMany):
     """The compensation itself."""
 
     short = True
 
     def __init__(self, log: Log) -> None:
         super().__init__(log)
-        self.entering = False
         self.quiet = 0
         self.before = Before(0, None, None, ())
 
@@ -172,7 +166,7 @@ class NineSeries(NineWords):
             self.goes_on(joint)
             return joint
         angle = generated.inward(first, second, self._sign)
-        if abs(angle) < 1e-9 or self.offset == 0.0:
+        if abs(angle) < generated.STRAIGHT or self.offset == 0.0:
             end = square_end(first, self.offset)
             return Joint(end, end)
         if angle < 0.0:
@@ -182,8 +176,7 @@ class NineSeries(NineWords):
     def _told(self, joint: Joint, element: Element) -> Joint:
         """The joint; that its generated blocks are made however short they are is told."""
         if joint.through or joint.centre is not None or joint.end != joint.start:
-            text = "the least length of a generated block (AMP) is taken as 0; the control drops a shorter one."
-            self.assumed("AMP", text, element.line)
+            self.generates(element.line)
         return joint
 
     @property
@@ -224,9 +217,7 @@ class NineSeries(NineWords):
         """Inside an arc the surface keeps the feed; outside the centre does."""
         if not element.turn or element.turn * self.offset <= 0.0:
             return element.feed
-        self.assumed(
-            "MFR", "the least feed inside arcs (MFR) is taken as 0; the control may feed faster.", element.line
-        )
+        self.slows(element.line)
         return element.feed * offset_radius(element, self.offset) / element.radius
 
     def _circular_exit(self, line: int) -> None:

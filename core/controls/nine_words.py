@@ -97,7 +97,16 @@ class NineWords(Chain):
         else:
             self.change_span(self.running, self.coming, 1 + len(self.standing), joint.moves)
 
-    def assumed(self, rule: str, text: str, line: int) -> None:
+    def generates(self, line: int) -> None:
+        """A generated block, made however short it is."""
+        text = "the least length of a generated block (AMP) is taken as 0; the control drops a shorter one."
+        self._assumed("AMP", text, line)
+
+    def slows(self, line: int) -> None:
+        """The feed inside an arc, however small it is."""
+        self._assumed("MFR", "the least feed inside arcs (MFR) is taken as 0; the control may feed faster.", line)
+
+    def _assumed(self, rule: str, text: str, line: int) -> None:
         """Tells once of a value that the machine builder sets."""
         if rule not in self.log.counts:
             words = f"The machine builder sets a value that counts here, and first here: {text}"

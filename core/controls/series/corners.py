@@ -10,6 +10,7 @@ from core.controls.corners import WHOLE
 from core.controls.moves import Floats
 from core.controls.series.elements import Elements, Points, angles, hypots, squares
 from core.controls.series.words import Flags
+from core.geometry.piece import Point
 
 Meetings = tuple[Points, Points, Flags]
 """Of each two elements the first and the second meeting, of two lines the same one twice; and whether there is any."""
@@ -95,6 +96,12 @@ def _circle_circle(first: Points, radius: Floats, second: Points, other: Floats)
     reach = np.sqrt(np.where(met, half, 0.0))
     foot = _beyond(first, way, along)
     return squares(foot, way, reach), squares(foot, way, -reach), met
+
+
+def after(started: Point | None, starts: Points) -> Points:
+    """Where each element before a corner starts: the first one there, if known, the others behind the corner before."""
+    x, y = started or (np.nan, np.nan)
+    return np.concatenate(((x,), starts[0][:-1])), np.concatenate(((y,), starts[1][:-1]))
 
 
 def sweeps(start: Points, end: Points, centre: Points, turn: Floats) -> Floats:

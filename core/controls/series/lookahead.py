@@ -14,7 +14,7 @@ import numpy as np
 
 from core.controls.corners import Element
 from core.controls.moves import WIDTH, Floats, Plane
-from core.controls.series.corners import meetings, radii, square_ends, square_starts, sweeps, turnings
+from core.controls.series.corners import after, meetings, radii, square_ends, square_starts, sweeps, turnings
 from core.controls.series.elements import Elements, Points, rows
 from core.controls.series.words import Flags, leading
 from core.geometry.piece import Point
@@ -53,15 +53,9 @@ def corners(front: Element, started: Point | None, elements: Elements, terms: Te
     starts = np.where(outside, begin[0], ends[0]), np.where(outside, begin[1], ends[1])
     sound &= elements.moves & ~((elements.turn * offset > 0.0) & (radii(elements) - elements.turn * offset <= 0.0))
     checked = inside | (outside & ~bent)
-    sound &= ~(checked & _backwards(first, _after(started, starts), ends, terms.slack))
+    sound &= ~(checked & _backwards(first, after(started, starts), ends, terms.slack))
     count = leading(sound)
     return Corners(_cut(ends, count), _cut(starts, count), outside[:count])
-
-
-def _after(started: Point | None, starts: Points) -> Points:
-    """Where each element before a corner starts: the first one there, the others behind the corner before."""
-    x, y = started or (np.nan, np.nan)
-    return np.concatenate(((x,), starts[0][:-1])), np.concatenate(((y,), starts[1][:-1]))
 
 
 def _cut(points: Points, count: int) -> Points:

@@ -71,7 +71,17 @@ def columns(moves: Moves) -> tuple[list[float], ...]:
 def said(made: Run) -> list[object]:
     """Everything of a run."""
     stretches = [
-        (one.side, one.radius, one.plane, one.entry, one.exit, one.first, one.last, columns(one.programmed))
+        (
+            one.side,
+            one.radius,
+            one.plane,
+            one.entry,
+            one.exit,
+            one.first,
+            one.last,
+            one.changes,
+            columns(one.programmed),
+        )
         for one in made.stretches
     ]
     return [made.unit, made.stopped_at, made.findings, columns(made.moves), stretches]
@@ -101,10 +111,11 @@ def test_mutated_programs(control: str, counted: type[Counted]) -> None:
     assert counted.at_once > 50
 
 
-def test_corners_as_large_as_the_cutter(counted: type[Counted]) -> None:
-    for seed in range(500):
-        same(program(seed).encode(), "linuxcnc", 2 * RADIUS, (1, 1, 3))
-    assert counted.at_once > 300
+@pytest.mark.parametrize("control", ["linuxcnc", "nine-series:a", "nine-series:b-g39.1"])
+def test_corners_as_large_as_the_cutter(control: str, counted: type[Counted]) -> None:
+    for seed in range(500 if control == "linuxcnc" else 200):
+        same(program(seed).encode(), control, 2 * RADIUS, (1, 1, 3))
+    assert counted.at_once > 120
 
 
 @pytest.mark.parametrize("control", ISO)
