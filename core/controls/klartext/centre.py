@@ -29,6 +29,9 @@ NOT_AHEAD: Final = (
     "Under M120 only moves in the working plane without M97 and M98 are worked out here; end it with LA0."
 )
 LEFT_OUT: Final = "M120 leaves this block out: the tool of radius {0} does not reach it."
+ROUNDED: Final = 1e-11
+"""Millimetres by which rounding moves a line metres from the origin; its meeting with one that hardly turns, by this
+over the angle in radians."""
 INSIDE_CIRCLE: Final = "Here stands PS or PN inside the circle of radius {0} of the lead; move it out or shorten R."
 
 
@@ -249,7 +252,8 @@ class Centre:
     def _meeting(self, first: Element, second: Element, offset: float, *, inside: bool) -> Point:
         meeting = corners.meeting(ending(first), second, offset)
         end, begin = corners.square_end(first, offset), corners.square_start(second, offset)
-        if meeting is None or (inside and min(advance(first, meeting, end), advance(second, begin, meeting)) < -JOINED):
+        slack = max(JOINED, ROUNDED / max(abs(corners.turning(first, second)), corners.WHOLE))
+        if meeting is None or (inside and min(advance(first, meeting, end), advance(second, begin, meeting)) < -slack):
             self._too_large(second, "the tool of radius {0} cannot come into the corner before this block", abs(offset))
         return meeting
 

@@ -23,6 +23,12 @@ def test_entry_ends_square_to_the_next_element_and_exit_starts_square_to_the_las
     assert stretch.programmed.points[:, :2].tolist() == [[-20, 0], [0, 0], [8, 6], [40, -20]]
 
 
+def test_nearly_straight_corners_far_from_the_origin_are_no_alarm() -> None:
+    ends = ["L X+14218.3464 Y+5934.4881", "L X+14219.2301 Y+5935.3814", "L X+14219.2301 Y+6000"]
+    made = clean("L X+14210 Y+5930 R0 FMAX", "L X+14217.4626 Y+5933.5947 RL F100", *ends, "L X+0 R0", radius=0.5)
+    assert len(made.moves) == 7
+
+
 def test_entry_before_an_arc_is_radial() -> None:
     made = clean(START, "L X+0 Y+0 RR F100", "CC X+0 Y+20", "C X+20 Y+20 DR+", "L X+20 Y+60 R0", radius=5)
     assert flat(made) == [NEAR(want) for want in [(0, -5), (25, 20, 0, 20, 1), (20, 60)]]
