@@ -118,23 +118,27 @@ def band_places(pieces: Measured, other: Measured, reach: Floats) -> Floats:
     These are its meetings with the outline of all points within `reach` (n,) of the partner: the partner moved
     sideways both ways, and the circles about its ends; and its own ends.
     """
-    outline = by_kind(other.arcs, _line_outline, _arc_outline, pieces, other, reach)
-    return np.sort(_inside(np.concatenate((_ends(pieces), outline))), axis=0)
+    return np.sort(_inside(np.concatenate((_ends(pieces), _outline(pieces, other, reach)))), axis=0)
 
 
-def _line_outline(pieces: Measured, line: Measured, reach: Floats) -> Floats:
+def _outline(pieces: Measured, other: Measured, reach: Floats) -> Floats:
+    """(8, n) meetings with the circles about both ends, and with a line's two sides or an arc's two circles."""
+    bent, ends = other.arcs, (other.start, other.end)
+    arcs = np.count_nonzero(bent)
+    if not arcs:
+        caps = on_circle(pieces, np.array(ends), np.array((reach, reach)))
+        return np.concatenate((caps, _sides(pieces, other, reach)), axis=1).reshape(8, -1)
+    centre, radii = other.centre, (reach, reach, other.radius + reach, np.abs(other.radius - reach))
+    met = on_circle(pieces, np.array((*ends, centre, centre)), np.array(radii))
+    if arcs < len(bent):
+        met[:, 2:] = np.where(bent, met[:, 2:], _sides(pieces, other, reach))
+    return met.reshape(8, -1)
+
+
+def _sides(pieces: Measured, line: Measured, reach: Floats) -> Floats:
     unit = line.unit
     off = 1j * reach * unit
-    sides = on_line(pieces, np.array((line.start + off, line.start - off)), unit)
-    caps = on_circle(pieces, np.array((line.start, line.end)), reach)
-    return np.concatenate((sides, caps)).reshape(8, -1)
-
-
-def _arc_outline(pieces: Measured, arc: Measured, reach: Floats) -> Floats:
-    centre = arc.centre
-    centres = np.array((arc.start, arc.end, centre, centre))
-    radii = np.array((reach, reach, arc.radius + reach, np.abs(arc.radius - reach)))
-    return on_circle(pieces, centres, radii).reshape(8, -1)
+    return on_line(pieces, np.array((line.start + off, line.start - off)), unit)
 
 
 def _ends(pieces: Measured) -> Floats:

@@ -66,13 +66,14 @@ def bounds(pairs: Pairs, gaps: Stretches, near: Rows, radius: float) -> Bound:
 @dataclass(frozen=True, eq=False, slots=True)
 class _Parts:
     """What of each gap, `owner`, lies on one surface piece `j`, in order: its first place, and the gap's last place
-    as one more; `begins` counts where each gap's begin."""
+    as one more; `begins` and `ends` are the first and the last of each gap."""
 
     owner: Rows
     j: Rows
     s: Floats
     points: Points
     begins: Rows
+    ends: Rows
 
 
 def _parts(pairs: Pairs, gaps: Stretches) -> _Parts:
@@ -85,16 +86,16 @@ def _parts(pairs: Pairs, gaps: Stretches) -> _Parts:
     low, high = index[:count], index[count:]
     np.maximum(low, high, out=high)
     counts = high - low + 2
-    ends = np.cumsum(counts)
-    begins = ends - counts
+    ends = np.cumsum(counts) - 1
+    begins = ends - counts + 1
     owner = np.repeat(np.arange(len(low)), counts)
     j = np.arange(len(owner)) - (begins - low)[owner]
-    j[ends - 1] = high
+    j[ends] = high
     s, points = stations[j], pairs.surface.start[j]
     found = at(pairs.surface.take(index), t)
-    s[begins], s[ends - 1] = gaps.first, gaps.last
-    points[begins], points[ends - 1] = found[:count], found[count:]
-    return _Parts(owner, j, s, points, begins)
+    s[begins], s[ends] = gaps.first, gaps.last
+    points[begins], points[ends] = found[:count], found[count:]
+    return _Parts(owner, j, s, points, begins, ends)
 
 
 def _corner(pairs: Pairs, near: Rows, parts: _Parts) -> Points:
@@ -102,7 +103,7 @@ def _corner(pairs: Pairs, near: Rows, parts: _Parts) -> Points:
     known = np.where(near < 0, near[::-1], near)
     start = pairs.centre.start[known]
     ends = np.concatenate((start, start + pairs.centre.vector[known]))
-    first, last = parts.points[parts.begins], parts.points[np.append(parts.begins[1:], len(parts.s)) - 1]
+    first, last = parts.points[parts.begins], parts.points[parts.ends]
     apart = np.maximum(np.abs(ends - first), np.abs(ends - last))
     best: Points = ends[0]
     least = apart[0]
@@ -137,15 +138,14 @@ def _sectors(pairs: Pairs, parts: _Parts, seen: Points, radius: float) -> Floats
         middle = seen[rows] + at(arc, t + 0.5 * sweep / arc.angle) - parts.points[rows]
         angle[rows] = np.angle(np.conj(seen[rows]) * middle) + np.angle(np.conj(middle) * seen[rows + 1])
     area -= 0.5 * radius * radius * angle
-    last = np.append(parts.begins[1:], len(seen))[:-1] - 1
-    area[last] = 0.0
-    sums: Floats = np.add.reduceat(np.append(area, 0.0), parts.begins)
+    area[parts.ends[:-1]] = 0.0
+    sums: Floats = np.add.reduceat(np.concatenate((area, (0.0,))), parts.begins)
     return sums
 
 
 def _off(parts: _Parts, apart: Floats, near: Rows, radius: float) -> Flags:
     """Gaps of which an end that is reached is not as far from the point as the cutter's edge."""
-    ends = np.stack((parts.begins, np.append(parts.begins[1:], len(apart)) - 1))
+    ends = np.array((parts.begins, parts.ends))
     off: Flags = np.any((np.abs(apart[ends] - radius) > ON_EDGE) & (near >= 0), axis=0)
     return off
 
@@ -171,7 +171,7 @@ def _proved(pairs: Pairs, near: Rows, bound: Bound, radius: float) -> Flags:
     rows = proved.nonzero()[0]
     index, t = place(pairs.surface, pairs.surface_stations, bound.place[rows])
     points, apart = at(pairs.surface.take(index), t), bound.apart[rows]
-    around = np.stack((points.real - apart, points.imag - apart, points.real + apart, points.imag + apart))
+    around = np.array((points.real - apart, points.imag - apart, points.real + apart, points.imag + apart))
     k, i = _moves_about(pairs, around, _at_joints(pairs, near[:, rows], bound.keep(proved), index))
     nearer = distance(pairs.centre.take(i), points[k]) < apart[k] - FINE
     proved[rows[k[nearer]]] = False

@@ -53,7 +53,8 @@ def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: 
         return ()
     piece, other = pairs.centre.take(found.i), pairs.surface.take(found.j)
     length = np.where(piece.length == 0.0, 1.0, piece.length)
-    points = at(piece, np.clip((found.place - pairs.centre_stations[found.i]) / length, 0.0, 1.0))
+    t = (found.place - pairs.centre_stations[found.i]) / length
+    points = at(piece, np.minimum(np.maximum(t, 0.0), 1.0))
     touched = at(other, foot(other, points))
     told = [
         Gouge(depth, (p.real, p.imag), (q.real, q.imag), row, numbers.item(row), surface.numbers.item(wall), extent)

@@ -93,7 +93,7 @@ def union(first: Floats, last: Floats) -> Stretches:
     begins = np.ones(len(first), np.bool_)
     begins[1:] = first[1:] > furthest[:-1] + ON_PATH
     starts = begins.nonzero()[0]
-    ends = np.append(starts[1:], len(first)) - 1
+    ends = np.concatenate((starts[1:], (len(first),))) - 1
     return Stretches(first[starts], furthest[ends[: len(starts)]])
 
 

@@ -23,10 +23,12 @@ class Reached:
 
     def gaps(self, total: float) -> tuple[Stretches, Rows]:
         """What is not reached and longer than STOCK, and (2, k) the centre pieces at its ends, -1 at the contour's."""
-        before, behind = np.concatenate(([-1], self.end)), np.concatenate((self.begin, [-1]))
-        gaps = Stretches(np.append(0.0, self.stretches.last), np.append(self.stretches.first, total))
-        wide = gaps.last - gaps.first > STOCK
-        return gaps.keep(wide), np.stack((before, behind))[:, wide]
+        first, last = np.zeros((2, len(self.stretches) + 1))
+        first[1:], last[:-1], last[-1] = self.stretches.last, self.stretches.first, total
+        near = np.full((2, len(first)), -1)
+        near[0, 1:], near[1, :-1] = self.end, self.begin
+        wide = (last - first > STOCK).nonzero()[0]
+        return Stretches(first[wide], last[wide]), near.take(wide, axis=1)
 
 
 def reached(pairs: Pairs, radius: float) -> Reached:
@@ -68,7 +70,7 @@ def _settled(pairs: Pairs, parts: Parts, radius: float) -> Reached:
     if not len(begin):
         return Reached(Stretches(first, last), order, order)
     holder = np.maximum.accumulate(np.where(last == furthest, np.arange(len(last)), 0))
-    end = holder[np.append(begin[1:], len(first)) - 1]
+    end = holder[np.concatenate((begin[1:], (len(first),))) - 1]
     pair = parts.pair[order[np.concatenate((begin, end))]]
     ends = np.concatenate((first[begin], last[end]))
     measured = (pair < len(pairs.i)).nonzero()[0]

@@ -71,8 +71,9 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float) -> tu
         beyond = nearest(spots, pairs.surface, pairs.surface_boxes, tie=tie)
         near = near.followed(replace(beyond, k=len(rows) + beyond.k))
         s, points, rows = np.concatenate((s, more)), np.concatenate((points, spots)), np.concatenate((rows, index))
-    wrong = rows[_wrong(pairs, s, points, near, surface, found)]
-    return tuple(pairs.centre.rows[np.unique(wrong)].tolist()) if len(wrong) else ()
+    wrong = np.zeros(len(pairs.centre), np.bool_)
+    wrong[rows[_wrong(pairs, s, points, near, surface, found)]] = True
+    return tuple(pairs.centre.rows[wrong].tolist())
 
 
 def _tie(surface: Measured, sides: Sided) -> float:
@@ -119,7 +120,9 @@ def _as_near_as_own(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Rows,
 
 def _counted(rising: Rows) -> Rows:
     """Rising numbers replaced by 0, 1, 2 ... for their distinct values."""
-    return np.cumsum(np.diff(rising, prepend=rising[:1]) > 0)
+    counted = np.zeros(len(rising), np.intp)
+    np.not_equal(rising[1:], rising[:-1], out=counted[1:], casting="unsafe")
+    return counted.cumsum()
 
 
 def _samples(pairs: Pairs, rows: Rows, found: Gouging) -> Floats:

@@ -36,6 +36,8 @@ def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool, side: Sid
     thick = bound.apart > radius + STOCK
     if over and (thick[0] or thick[-1]):
         thick[0] = thick[-1] = True
+    if not thick.any():
+        return NOTHING
     gaps, near, bound = gaps.keep(thick), near[:, thick], bound.keep(thick)
     sign = 0 if side is None else side.sign
     area = _areas(np.where((near < 0).any(axis=0), nan, bound.sector), sign)
