@@ -110,6 +110,6 @@ def _verdict(session: Session, known: Known, view: View, layout: Layout, areas: 
         return ()
     if view.told is not None:
         return view.told[: area.height]
-    # the strip of all look-ahead values stands on the form alone
-    first = 0 if layout is Layout.FORM else 1
+    # the strip of all look-ahead values stands on the form alone, but that nothing is known yet beside every drawing
+    first = 0 if layout is Layout.FORM or not session.found.known else 1
     return known.verdict(session, view.sketch.lookahead, area.height, area.width, first)

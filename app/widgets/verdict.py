@@ -219,7 +219,8 @@ def _deleted(compensated: Compensated | None, unit: Unit) -> Iterator[Row]:
 
 def _strip(found: DerivedBlock, table: Table | None, unit: Unit) -> Row:
     if found.side is None:
-        return plain(" CUTTER COMP. ON: the tool's centre runs on the contour.", Look.LABEL)
+        told = ": the tool's centre runs on the contour." if found.known else "   calculating ..."
+        return plain(f" CUTTER COMP. ON{told}", Look.LABEL)
     if table is None:
         return plain(f" look-ahead [{found.lookahead.value}]{'' if found.known else '   calculating ...'}", Look.LABEL)
     here = found.lookahead.value

@@ -106,6 +106,16 @@ def test_nothing_is_called_right_before_the_verdict_is_there() -> None:
     assert "being calculated" not in derived("pocket").press("f8", "f6").part("body")
 
 
+@pytest.mark.parametrize("keys", [(), ("f7",)], ids=["form", "draw"])
+@pytest.mark.parametrize("comp", ["l", "o"], ids=["LEFT", "ON"])
+def test_every_drawing_says_so_while_its_path_is_being_calculated(keys: tuple[str, ...], comp: str) -> None:
+    operator = Operator.at(load(example("overrun-square"))).press("tab", "down", comp, "enter", *keys)
+    assert operator.session.block.cutter_comp.value == {"l": "LEFT", "o": "ON"}[comp]
+    assert "calculating ..." in operator.part("verdict")
+    operator.desk = operator.desk.knowing(derive(operator.session.program))
+    assert "calculating" not in operator.part("verdict")
+
+
 def test_how_near_the_path_comes_stands_beside_the_radius() -> None:
     operator = derived("notch")
     assert " UNCUT   0.0000 of 5.6000  NEAREST 0.0000" in verdict(operator)
