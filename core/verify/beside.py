@@ -102,9 +102,10 @@ def beside(centre: Measured, likely: Rows, surface: Measured, sign: int, radius:
         j = chosen if (bent == kind).all() else chosen[bent == kind]
         if len(j):
             own[j], begin[j], end[j], apart[j] = runs(given, piece[j], j)
-    piece[~own], apart[~own], end[~own] = -1, np.inf, begin[~own]
-    proved, linked, corner = _joints(given, piece, begin <= grant, end >= surface.length - grant)
-    first, last = (np.clip(place / surface.length, 0.0, 1.0) for place in (begin, end))
+    piece[~own], apart[~own], begin[~own], end[~own] = -1, np.inf, 0.0, 0.0
+    from_start, to_end = begin <= grant, own & (end >= surface.length - grant)
+    proved, linked, corner = _joints(given, piece, from_start, to_end)
+    first, last = np.where(from_start, 0.0, begin / surface.length), np.where(to_end, 1.0, end / surface.length)
     return Beside(piece, corner, first, last, apart, proved, _runs(given, corner, proved, linked))
 
 

@@ -106,6 +106,19 @@ def test_what_is_proved_is_no_nearer_than_the_radius(seed: int) -> None:
             assert apart(path[moves[i]], surface[rows[k]]) > radius - 20.0 * GRANT
 
 
+def test_an_own_piece_that_begins_and_ends_within_what_is_granted_reaches_its_whole_wall() -> None:
+    """Where it reaches all but a nanometre, the end of the reach would be another piece's, and settled by that."""
+    surface = Path.from_pieces([Line((0.0, 0.0), (4.0, 0.0)), Arc((4.0, 0.0), (8.0, 4.0), (4.0, 4.0), Turn.CCW)])
+    late, early = 5e-10, 4.0 - 5e-10
+    up, along = 3.0 * sin(late / 4.0), 3.0 * cos(late / 4.0)
+    ends = (4.0 + up, 4.0 - along), (4.0 + along, 4.0 - up)
+    moves = stacked([lines((late, 1.0), (early, 1.0)), Path.from_pieces([Arc(*ends, (4.0, 4.0), Turn.CCW)])])
+    own = beside(moves, np.arange(2), measured(surface), 1, 1.0, GRANT)
+    assert own.piece.tolist() == [0, 1]
+    assert own.first.tolist() == [0.0, 0.0]
+    assert own.last.tolist() == [1.0, 1.0]
+
+
 def test_nothing_in_a_run_is_nearer_than_the_radius() -> None:
     random, pairs = Random(1), 0
     for _ in range(30):
