@@ -25,7 +25,16 @@ from core.units import Unit
 from tests.core.controls.cycle_programs import drilled, timed
 from tests.core.controls.distribution import COMPENSATED, LIBRARY, SAMPLES, TOOLS, called, sample
 from tests.core.controls.macro_programs import SAME, generated, whole
-from tests.core.controls.programs import MODAL, RADIUS, broken, long, program, turned_to_zx
+from tests.core.controls.programs import (
+    MODAL,
+    RADIUS,
+    broken,
+    long,
+    long_klartext,
+    long_threeblock,
+    program,
+    turned_to_zx,
+)
 from tests.core.controls.rs274 import Witnessed, difference, printed, table_text, witness
 from tests.rs274 import process
 
@@ -83,24 +92,30 @@ def compare_broken(count: int) -> int:
     return 0
 
 
-OTHERS = ("rosettacnc:nist", "rosettacnc:easy", "rosettacnc:normal", "nine-series:a", "nine-series:b-g39.1")
-"""Controls that run the long program to its end, beside LinuxCNC."""
+LONG: dict[str, Callable[[int], str]] = {
+    **dict.fromkeys(("linuxcnc", "rosettacnc:nist", "rosettacnc:easy", "rosettacnc:normal"), long),
+    **dict.fromkeys(("nine-series:a", "nine-series:b-g39.1"), long),
+    "threeblock": long_threeblock,
+    "klartext": long_klartext,
+}
+"""The controls and the long program that each of them runs to its end: all the same but for the way of writing."""
 
 
 def compare_speed(runs: int) -> int:
     """Processor seconds for 100,000 blocks under compensation, the median of some runs in turn; and memory."""
-    text, theirs, silent = long(100_000), [], []
-    ours: dict[str, list[float]] = {"linuxcnc": [], **{name: [] for name in OTHERS}}
+    theirs, silent = list[float](), list[float]()
+    ours: dict[str, list[float]] = {name: [] for name in LONG}
+    texts = {name: make(100_000).encode() for name, make in LONG.items()}
     tools = ToolTable.diameters({1: 1.0}, Unit.MM)
     with tempfile.TemporaryDirectory() as name:
         program, table = Path(name) / "long.ngc", Path(name) / "tools.tbl"
-        program.write_text(text)
+        program.write_text(long(100_000))
         table.write_text(table_text({1: 1.0}, Unit.MM))
         for _ in range(runs):
             theirs.append(_spent(RUSAGE_CHILDREN, lambda: process(program, table)))
             silent.append(_spent(RUSAGE_CHILDREN, lambda: process(program, table, DEVNULL)))
             for control, spent in ours.items():
-                spent.append(_spent(RUSAGE_SELF, partial(run, text.encode(), control, tools)))
+                spent.append(_spent(RUSAGE_SELF, partial(_whole, texts[control], control, tools)))
     pipe, nothing = median(theirs), median(silent)
     print(f"rs274 into a pipe {pipe:.2f} s, into nothing {nothing:.2f} s; here")
     for control, spent in ours.items():
@@ -109,6 +124,13 @@ def compare_speed(runs: int) -> int:
     for count in (50_000, 100_000, 200_000):
         print(f"{count:7d} blocks: {_most_memory(long(count).encode(), tools) / 1e6:.0f} MB")
     return 0
+
+
+def _whole(text: bytes, control: str, tools: ToolTable) -> None:
+    """Runs a program, to its end."""
+    made = run(text, control, tools)
+    assert not isinstance(made, UnknownControl)
+    assert made.stopped_at is None, (control, made.findings[-1])
 
 
 def _spent(who: int, work: Callable[[], object]) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, hypot, pi, radians, sin
+from math import cos, hypot, pi, radians, sin, sqrt
 from random import Random
 
 RADIUS = 100.0
@@ -138,11 +138,37 @@ def broken(seed: int) -> str:
     return text
 
 
+def _round(count: int) -> list[tuple[float, float]]:
+    """Points all round a large circle, from the second one on."""
+    angles = (2 * pi * index / count for index in range(1, count))
+    return [(20_000 * sin(angle), 20_000 * (1 - cos(angle))) for angle in angles]
+
+
 def long(count: int) -> str:
     """A program of so many blocks of lines and arcs under compensation, all round a large circle."""
-    radius, lines = 20_000.0, ["G21 G17 G90 F500", "G0 X-10 Y-10", "G41 D1", "G1 X0 Y0"]
-    for index in range(1, count):
-        angle = 2 * pi * index / count
-        point = f"X{radius * sin(angle):.4f} Y{radius * (1 - cos(angle)):.4f}"
+    lines = ["G21 G17 G90 F500", "G0 X-10 Y-10", "G41 D1", "G1 X0 Y0"]
+    for index, (x, y) in enumerate(_round(count), 1):
+        point = f"X{x:.4f} Y{y:.4f}"
         lines.append(f"G1 {point}" if index % 3 else f"G3 {point} R400")
     return "\n".join((*lines, "G40", "G1 X0 Y-20", "M2", ""))
+
+
+def long_klartext(count: int) -> str:
+    """The same in Klartext."""
+    lines = ["BEGIN PGM LONG MM", "TOOL CALL 1 Z S1000", "L X-10 Y-10 R0 FMAX", "L X+0 Y+0 RL F500"]
+    for index, (x, y) in enumerate(_round(count), 1):
+        point = f"X{x:+.4f} Y{y:+.4f}"
+        lines.append(f"L {point}" if index % 3 else f"CR {point} R+400 DR+")
+    return "\n".join((*lines, "L X+0 Y-20 R0", "END PGM LONG MM", ""))
+
+
+def long_threeblock(count: int) -> str:
+    """As long for `threeblock`, with absolute centres, and each other block an arc: it refuses lines on one line."""
+    lines, x, y = ["G71G17G90F500.", "T1M6", "G0X-10.Y-10.", "G1G41X-5.Y-5.", "X0Y0"], 0.0, 0.0
+    for index, (end_x, end_y) in enumerate(_round(count), 1):
+        dx, dy = end_x - x, end_y - y
+        away = sqrt(400.0**2 / (dx * dx + dy * dy) - 0.25)
+        centre = f"I{(x + end_x) / 2 - away * dy:.4f}J{(y + end_y) / 2 + away * dx:.4f}"
+        lines.append(f"G1X{end_x:.4f}Y{end_y:.4f}" if index % 2 else f"G3X{end_x:.4f}Y{end_y:.4f}{centre}")
+        x, y = end_x, end_y
+    return "\n".join((*lines, "G40", "G1X0Y-20.", "M2", ""))
