@@ -22,7 +22,7 @@ from core.verify.columns import Columns, arc_to_arc, columns, line_to_arc, lines
 FEW: Final = 1_000
 """Pairs of which measuring all in one go, by the formulas of lines and of arcs, costs less than parting them."""
 
-BLOCK: Final = 8_000
+BLOCK: Final = 4_000
 """Pairs worked out at a time: few enough to stay in a processor's cache."""
 
 POINT: Final = 1e-6
