@@ -31,7 +31,8 @@ class Judged:
     """A compensated stretch, the surface it cuts, the centre path with its leads, and the verdict on them.
 
     `leads` are programmed moves taken for leads because a closed contour begins behind them or ends before them, and
-    `lead_gouges` what is cut of them: they may be surface after all.
+    `lead_gouges` what is cut of them: they may be surface after all.  `alone`: the side changed where it begins, and
+    what is cut on the other side is not asked about.
     """
 
     stretch: Stretch
@@ -40,6 +41,7 @@ class Judged:
     verdict: Verdict
     leads: tuple[int, ...] = ()
     lead_gouges: tuple[Gouge, ...] = ()
+    alone: bool = False
 
 
 def judged(run: Run) -> tuple[Judged, ...]:
@@ -62,7 +64,8 @@ def surface_of(stretch: Stretch) -> Path:
 def _each(run: Run, stretch: Stretch) -> list[Judged]:
     """The verdict on a stretch; where its side or radius changes, on each part with those that are in force there.
 
-    A part may also cut the surface of another one: that counts where the tool runs on the same side of both.
+    A part may also cut the surface of another one: that counts where the tool runs on one side of all of them; where
+    the side changes it is not asked for, which is told.
     """
     whole = surface_of(stretch)
     first, last = closed_part(whole)
@@ -72,17 +75,20 @@ def _each(run: Run, stretch: Stretch) -> list[Judged]:
         begin, end = max(first - row, 0), min(last - row, len(own))
         row += len(own)
         result = _judged(run, part, own, (begin, end) if begin < end else (0, len(own)))
-        if len(parts) > 1 and all(one.side is part.side for one in parts):
-            result = _beyond(result, whole.part(first, last))
+        if any(one.side is not part.side for one in parts):
+            result = replace(result, alone=bool(results))
+        elif len(parts) > 1:
+            result = _beyond(result, whole.part(first, last), row - len(own) - first, row - first)
         results.append(result)
     return results
 
 
-def _beyond(result: Judged, whole: Path) -> Judged:
-    """With what is cut of the other parts of the whole surface."""
-    part, lines = result.stretch, set(result.surface.numbers.tolist())
-    cut = judge(whole, part.side, part.radius, result.centre).gouges
-    more = tuple(gouge for gouge in cut if gouge.surface_number not in lines)
+def _beyond(result: Judged, whole: Path, begin: int, end: int) -> Judged:
+    """With what is cut of the whole surface besides the part's own rows; a subprogram's lines may be in several."""
+    part, rows = result.stretch, np.arange(len(whole), dtype=np.float64)
+    cut = judge(replace(whole, numbers=rows), part.side, part.radius, result.centre).gouges
+    others = [(gouge, int(gouge.surface_number)) for gouge in cut if not begin <= gouge.surface_number < end]
+    more = (replace(gouge, surface_number=float(whole.numbers[at])) for gouge, at in others)
     gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)
     return replace(result, verdict=replace(result.verdict, gouges=tuple(gouges)))
 
@@ -119,7 +125,9 @@ def closed_part(path: Path) -> tuple[int, int]:
 def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
     """The verdicts as findings with lines: gouges and the wrong side are errors, the rest is a warning."""
     return tuple(
-        finding for result in results for finding in (*_cuts(result), *_leads(result), *_strays(result), *_rest(result))
+        finding
+        for result in results
+        for finding in (*_alone(result), *_cuts(result), *_leads(result), *_strays(result), *_rest(result))
     )
 
 
@@ -151,6 +159,18 @@ def _cuts(result: Judged) -> list[Finding]:
             text = "The cutter runs on the wrong side of the contour; exchange G41 and G42, or RL and RR."
         found.append(Finding("WRONG-SIDE", Severity.ERROR, text, line=line))
     return found
+
+
+def _alone(result: Judged) -> list[Finding]:
+    """That a part is judged by itself."""
+    if not result.alone:
+        return []
+    text = (
+        "The side changes here, and each part is judged by its own side alone: whether the cutter gouges here what it "
+        "cuts on the other side, or there what it cuts here, is not judged; write G40 between them to be sure."
+    )
+    line = int(result.surface.numbers[0]) if len(result.surface) else None
+    return [Finding("SIDES", Severity.WARNING, text, line=line)]
 
 
 def _leads(result: Judged) -> list[Finding]:

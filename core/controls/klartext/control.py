@@ -97,7 +97,8 @@ def _run(state: State) -> None:
         state.next += 1
         limit -= 1
         if limit < 0:
-            state.stop("LIMIT", f"More than {JUMPED} blocks are repeated; the run is given up and not judged.", block)
+            text = f"More than {JUMPED} blocks are repeated. The run is given up here and not judged: repeat them less often."
+            state.stop("LIMIT", text, block)
         if block.skip:
             state.tell(Severity.INFO, "SKIP", "The block is run: block skip is taken as switched off.", block)
         HEADS.get(block.head, setup.unknown)(state, block)

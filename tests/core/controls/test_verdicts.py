@@ -12,6 +12,7 @@ from core.controls.compare import Compared, OtherLanguage, compare, parting
 from core.controls.registry import compared, names, reads, resolve
 from core.controls.tools import ToolTable
 from core.controls.verdicts import closed_part, depth, findings, judged
+from core.finding import Severity
 from core.geometry.path import Path
 from core.units import Unit, from_mm, sentence
 from core.verify.judge import judge
@@ -165,3 +166,23 @@ def test_a_larger_radius_cuts_into_what_was_before_it() -> None:
     assert round(from_mm(deepest[6.0], Unit.IN), 9) == 0.15
     assert 6.0 not in {gouge.surface_number for gouge in results[0].verdict.gouges}
     assert any("surface of line 6" in finding.text for finding in findings(results))
+
+
+def test_what_a_subprogram_cuts_with_another_radius_is_judged_against_its_other_calls() -> None:
+    """The second call runs .3 beside the first, into its material."""
+    head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\n"
+    text = f"{head}M98 P1\nX5 Y2\nY-1\nX.3\nD2\nY0\nM98 P1\nG40 X-5 Y3\nM2\nO1\nG91 Y2\nG90\nM99\n"
+    results = judged(ran(text, "nine-series:a", t1=0.4, t2=0.75))
+    line = float(1 + text.split("\n").index("G91 Y2"))
+    cut = [gouge.depth for gouge in results[-1].verdict.gouges if gouge.surface_number == line]
+    assert any(abs(from_mm(depth, Unit.IN) - 0.3) < 1e-6 for depth in cut)
+
+
+@pytest.mark.parametrize("control", ["nine-series:a", "nine-series:b"])
+def test_parts_on_two_sides_say_that_they_are_judged_each_by_itself(control: str) -> None:
+    """Behind the change the tool cuts 2 into the first wall; nothing asks for that, so it is said."""
+    head = "G21 G90 F100\nT1 M6\nG0 X-20 Y-20\nG41 D1 G1 X0 Y0\nX0 Y100\n"
+    text = f"{head}{{side}}X50 Y100\nX50 Y50\nX2 Y50\nX2 Y20\nG40 X-40 Y20\nM2\n"
+    changed = findings(judged(ran(text.format(side="G42 "), control, t1=10)))
+    assert [(one.line, one.severity) for one in changed if one.code == "SIDES"] == [(6, Severity.WARNING)]
+    assert "SIDES" not in {one.code for one in findings(judged(ran(text.format(side=""), control, t1=10)))}
