@@ -151,7 +151,10 @@ def _off(parts: _Parts, apart: Floats, near: Rows, radius: float) -> Flags:
 
 
 def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: float) -> Farthest:
-    """The largest distance from the path, within FINE, on each gap."""
+    """The largest distance from the path, within FINE, on each gap.
+
+    Uneven arcs leave open which piece is the nearest at the end of a gap.
+    """
     proved = _proved(pairs, near, bound, radius)
     rest = (~proved).nonzero()[0]
     if not len(rest):
@@ -159,7 +162,8 @@ def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: fl
     known = np.zeros(len(gaps), np.bool_)
     known[rest] = True
     grant = float(pairs.grant.max(initial=0.0))
-    far = farthest(pairs.surface, gaps.keep(known), pairs.centre, near[:, rest], radius + grant)
+    at_ends = np.where(pairs.centre.slack.any() or pairs.surface.slack.any(), -1, near[:, rest])
+    far = farthest(pairs.surface, gaps.keep(known), pairs.centre, at_ends, radius + grant)
     where, apart = bound.place.copy(), bound.apart.copy()
     where[rest], apart[rest] = far.place, far.apart
     return Farthest(where, apart)

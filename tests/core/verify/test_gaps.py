@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import asin, cos, hypot, pi, sin, sqrt, tan, tau
+from random import Random
 
 import numpy as np
 import pytest
@@ -15,8 +16,10 @@ from core.tolerance import STOCK
 from core.verify import gaps
 from core.verify.judge import judge
 from core.verify.verdict import UncutStretches
+from tests.core.verify import oracle
 from tests.core.verify.corpus import Chain
 from tests.core.verify.shapes import circle, lines, square
+from tests.core.verify.test_brute import spiral, waves
 
 RADIUS = 0.25
 
@@ -149,3 +152,21 @@ def test_no_area_is_told_where_it_has_no_bound() -> None:
     assert [one.area for one in uncut(wall, lines((1, RADIUS), (4, RADIUS), (5, 2), (6, RADIUS), (9, RADIUS)))] == [
         None
     ] * 3
+
+
+def test_nothing_is_told_thicker_than_it_is_where_rounded_coordinates_make_arcs_uneven() -> None:
+    """The arc at the end of a gap reaches that end by what its two radii leave open; another move may be nearer."""
+    told = 0
+    for seed in range(30):
+        random = Random(seed)
+        for family in (waves, spiral):
+            surface = family(random)
+            path = compensate(surface, Side.LEFT, 1.5, 20, closed=False).path
+            if not len(path):
+                continue
+            rounded = Path.of(np.round(path.points, 3), np.round(path.centres, 3), path.turns, path.numbers)
+            for stretch in uncut(surface, rounded, 1.5):
+                told += 1
+                apart = oracle.apart(np.array([stretch.thickest]), rounded)[0]
+                assert stretch.thickness == pytest.approx(apart - 1.5, abs=3e-3)
+    assert told > 30
