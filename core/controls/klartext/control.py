@@ -97,8 +97,8 @@ def _run(state: State) -> None:
         state.next += 1
         limit -= 1
         if limit < 0:
-            text = f"More than {JUMPED} blocks are repeated. The run is given up here and not judged: repeat them less often."
-            state.stop("LIMIT", text, block)
+            text = f"More than {JUMPED} blocks are repeated. The run is given up here and not judged"
+            state.stop("LIMIT", f"{text}: repeat them less often.", block)
         if block.skip:
             state.tell(Severity.INFO, "SKIP", "The block is run: block skip is taken as switched off.", block)
         HEADS.get(block.head, setup.unknown)(state, block)
