@@ -85,6 +85,14 @@ class TerminalDriver(LinuxDriver):
 
         signal.signal(signal.SIGWINCH, changed)
 
+    def _sigtstp_application(self, *_: object) -> None:
+        """Stop between two tasks: a signal that comes in the middle of a write would wait for ever for its end."""
+        self._loop.call_soon_threadsafe(super()._sigtstp_application)
+
+    def _sigcont_application(self, *_: object) -> None:
+        """Go on between two tasks too."""
+        self._loop.call_soon_threadsafe(super()._sigcont_application)
+
     def suspend_application_mode(self) -> None:
         """The terminal is given back for a while."""
         self.suspended = True

@@ -1,0 +1,36 @@
+"""Stopped and continued in the middle of anything, the screens go on."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+
+import pytest
+
+from app.driver import TerminalDriver
+
+
+class Loop:
+    """An event loop that only notes what it is to do between two tasks."""
+
+    def __init__(self) -> None:
+        self.later: list[Callable[[], None]] = []
+
+    def call_soon_threadsafe(self, work: Callable[[], None]) -> None:
+        self.later.append(work)
+
+
+def test_a_signal_in_the_middle_of_a_write_waits_for_its_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    done: list[str] = []
+    monkeypatch.setattr(os, "kill", lambda *_: done.append("stop"))
+    monkeypatch.setattr(TerminalDriver, "suspend_application_mode", lambda _: done.append("suspend"))
+    monkeypatch.setattr(TerminalDriver, "resume_application_mode", lambda _: done.append("resume"))
+    driver = object.__new__(TerminalDriver)
+    loop = Loop()
+    driver._loop, driver._auto_restart = loop, True  # type: ignore[assignment]  # as much of a loop as is needed
+    driver._sigtstp_application()
+    driver._sigcont_application()
+    assert done == []
+    for work in loop.later:
+        work()
+    assert done == ["suspend", "stop", "resume"]
