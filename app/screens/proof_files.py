@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from os.path import realpath
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
@@ -49,9 +50,20 @@ def opening(path: Path) -> Callable[[Desk], Desk]:
         except StoreError as error:
             return desk.take(Say(str(error), Tone.ERROR))
         pages = desk.pages[:-1] if isinstance(desk.page, BrowsePage) else desk.pages
+        if (open_already := _standing(desk, path)) is not None:
+            where = "here it is" if open_already is pages[-1] else "it lies below this screen, F8 goes back"
+            return replace(desk, pages=pages).take(Say(f"{printable(path.name)} is open already: {where}."))
         return replace(desk, pages=(*pages, page)).take(Say(f"Tried on {page.control}: c takes the next control."))
 
     return work
+
+
+def _standing(desk: Desk, path: Path) -> ProofPage | None:
+    """The page on the desk that has this file: two of them would write into one journal."""
+    from app.screens.proof import ProofPage
+
+    here = (page for page in desk.pages if isinstance(page, ProofPage) and page.file is not None)
+    return next((page for page in here if realpath(page.file or path) == realpath(path)), None)
 
 
 def saving(path: Path | None = None, *, agreed: bool = False) -> Do:
@@ -66,6 +78,9 @@ def _saved(desk: Desk, path: Path | None, *, agreed: bool) -> Desk:
         return desk.take(Open(SaveListing.of(page)))
     if page.looking and target == page.file:
         return desk.take(Say(f"{page.looking} S saves a copy under another name.", Tone.ERROR))
+    if _standing(desk, target) not in (None, page):
+        said = f"{printable(target.name)} is open below this screen. Type another name."
+        return desk.take(Say(said, Tone.ERROR))
     if not agreed and (question := _question(page, target)) is not None:
         replaced = (("r", "REPLACE", (Close(), saving(path, agreed=True))),)
         return desk.take(Open(Ask(question[0], (question[1],), replaced, target.name)))

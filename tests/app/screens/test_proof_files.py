@@ -12,7 +12,7 @@ from app.files import empty_program
 from app.messages import Load
 from app.screens.program import ProgramPage
 from app.screens.proof import ProofPage
-from app.screens.proof_files import ProofBrowse, opening
+from app.screens.proof_files import ProofBrowse, browsing, opening
 from app.session import Session
 from tests.app.prover import SQUARE, Prover, square
 
@@ -94,6 +94,35 @@ def test_its_first_softkey_opens(tmp_path: Path) -> None:
     session = replace(Session.of(empty_program()), file=tmp_path / "a.toml")
     prover = Prover(Desk(session)).press("f8", "f7", "f7", "f5", "down", "f1")
     assert prover.page.file == tmp_path / "b.nc"
+
+
+def below(tmp_path: Path) -> Prover:
+    """Two files under proof, the one with a change over the other, which has one too."""
+    (tmp_path / "b.nc").write_bytes(SQUARE)
+    (tmp_path / "c.nc").write_bytes(SQUARE)
+    prover = Prover(Desk(Session.of(empty_program())))
+    for name in ("b.nc", "c.nc"):
+        prover.desk = opening(tmp_path / name)(prover.desk)
+        prover.press("x")
+    return prover
+
+
+@pytest.mark.parametrize(("name", "said"), [("c.nc", "here it is"), ("b.nc", "F8 goes back")])
+def test_a_file_stands_on_the_desk_once(tmp_path: Path, name: str, said: str) -> None:
+    (tmp_path / "deeper").mkdir()
+    prover = below(tmp_path)
+    before = prover.desk.pages
+    prover.desk = browsing(tmp_path)(prover.desk)
+    prover.desk = opening(tmp_path / "deeper" / ".." / name)(prover.desk)
+    assert prover.desk.pages == before
+    assert f"{name} is open already" in prover.said
+    assert said in prover.said
+
+
+def test_nothing_is_saved_over_a_file_that_stands_below(tmp_path: Path) -> None:
+    prover = below(tmp_path).press("S", *["backspace"] * 80, *str(tmp_path / "b.nc"), "enter")
+    assert (tmp_path / "b.nc").read_bytes() == SQUARE
+    assert "b.nc is open below this screen" in prover.said
 
 
 def test_what_is_no_file_is_a_sentence(tmp_path: Path) -> None:
