@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import string
 from collections import Counter
 from dataclasses import dataclass, field
@@ -30,35 +31,47 @@ WEIGHTS: Final = {
     "letter": 10,
     "garbage": 3,
 }
-UNTRIED: Final = 0.3
+UNTRIED: Final = 0.5
 """How often a softkey that was never pressed is preferred to everything else."""
 ACTING: Final = frozenset({"enter", "right", "left", *(f"f{number}" for number in range(1, 9)), *EVERYWHERE})
 """Keys that may write or open what a name says."""
+WORD: Final = re.compile(r"[A-Z]{2,}")
+"""What stays of a softkey's label; numbers and letters between them are values."""
 LAST: Final = ("ProgramPage", "StartPage", "ProofPage")
 """Screens whose EXIT may leave the program: lives would be short."""
 
 
+Key = tuple[str, int, str]
+"""A softkey: the screen, its number, and the words on it without values, since one number may mean several things."""
+
+
+def keys_of(desk: Desk) -> dict[int, Key]:
+    """The softkeys of the screen that stands, by number."""
+    name, keys = type(desk.page).__name__, desk.page.softkeys(desk.session)
+    return {number: (name, number, " ".join(WORD.findall(key.label))) for number, key in keys.items()}
+
+
 @dataclass
 class Coverage:
-    """Screens that stood, and softkeys that were there and were pressed, by screen and number."""
+    """Screens that stood, and softkeys that were there and were pressed."""
 
     screens: Counter[str] = field(default_factory=Counter)
-    seen: set[tuple[str, int]] = field(default_factory=set)
-    pressed: Counter[tuple[str, int]] = field(default_factory=Counter)
+    seen: set[Key] = field(default_factory=set)
+    pressed: Counter[Key] = field(default_factory=Counter)
 
     def look(self, desk: Desk) -> None:
         """Take notice of the screen that stands."""
-        name = type(desk.page).__name__
-        self.screens[name] += 1
-        self.seen |= {(name, number) for number in desk.page.softkeys(desk.session)}
+        self.screens[type(desk.page).__name__] += 1
+        self.seen.update(keys_of(desk).values())
 
     def press(self, desk: Desk, key: str) -> None:
         """A key is about to be pressed."""
         digit = key if desk.armed else key.removeprefix("f") if key.startswith("f") else ""
-        if digit in set("12345678") and int(digit) in desk.page.softkeys(desk.session):
-            self.pressed[type(desk.page).__name__, int(digit)] += 1
+        here = keys_of(desk)
+        if digit in set("12345678") and int(digit) in here:
+            self.pressed[here[int(digit)]] += 1
 
-    def missing(self) -> list[tuple[str, int]]:
+    def missing(self) -> list[Key]:
         """Softkeys that nobody has pressed."""
         return sorted(self.seen - set(self.pressed))
 
@@ -78,10 +91,7 @@ class Monkey:
 
     def keys(self, desk: Desk) -> list[str]:
         """What it does next; on a screen with softkeys that it has never pressed, one of these sooner."""
-        name = type(desk.page).__name__
-        if self.chance.random() < UNTRIED and any(
-            not self.coverage.pressed[name, number] for number in desk.page.softkeys(desk.session)
-        ):
+        if self.chance.random() < UNTRIED and any(map(self._untried, keys_of(desk).values())):
             return self._softkey(desk)
         kind = self.chance.choices(list(WEIGHTS), list(WEIGHTS.values()))[0]
         match kind:
@@ -109,13 +119,17 @@ class Monkey:
 
     def _softkey(self, desk: Desk) -> list[str]:
         """One that is there, sooner one that was never pressed; by its function key or by Esc and the digit."""
-        name = type(desk.page).__name__
-        here = sorted(desk.page.softkeys(desk.session)) or [8]
-        untried = [number for number in here if not self.coverage.pressed[name, number]]
-        number = self.chance.choice(untried if untried and self.chance.random() < 0.6 else here)
-        if number == 8 and name in LAST and self.chance.random() < 0.8:
+        known = keys_of(desk)
+        here = sorted(known) or [8]
+        untried = [number for number, key in sorted(known.items()) if self._untried(key)]
+        number = self.chance.choice(untried if untried and self.chance.random() < 0.8 else here)
+        if number == 8 and type(desk.page).__name__ in LAST and self.chance.random() < 0.8:
             number = here[0]
         return [f"f{number}"] if self.chance.random() < 0.7 else ["ctrl+k", str(number)]
+
+    def _untried(self, key: Key) -> bool:
+        """Whether a softkey was never pressed, or leads to others."""
+        return not self.coverage.pressed[key] or key[2] == "MORE"
 
     def caged(self, desk: Desk, key: str) -> str:
         """The key, or Esc where it could act on a name outside the cage."""

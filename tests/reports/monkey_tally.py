@@ -53,7 +53,7 @@ def report(tally: Tally, seconds: float) -> Iterator[str]:
     yield f"{1000 * seconds / max(tally.keys, 1):.2f} ms a key"
     yield f"screens {len(reached)} of {len(every)}{_named(every - reached)}"
     pressed = tally.coverage.seen - set(tally.coverage.missing())
-    missing = {f"{name} F{number}" for name, number in tally.coverage.missing()}
+    missing = {f"{name} F{number} {words}".rstrip() for name, number, words in tally.coverage.missing()}
     yield f"softkeys {len(pressed)} of {len(tally.coverage.seen)}{_named(missing)}"
     quarter = max(len(tally.memory) // 4, 1)
     first, last = (
