@@ -118,6 +118,29 @@ def test_corners_as_large_as_the_cutter(control: str, counted: type[Counted]) ->
     assert counted.at_once > 120
 
 
+@pytest.mark.parametrize("side", ["G41", "G42"])
+@pytest.mark.parametrize("control", ["linuxcnc", "nine-series:a", "nine-series:b-g39.1"])
+def test_exact_reversals(control: str, side: str, counted: type[Counted]) -> None:
+    ways = ("X9\nX5\nX20", "X9\nG3 X4 Y-5 J-5\nG1 X4 Y-9", "X9\nG2 X4 Y5 J5\nG1 X4 Y9", "G3 X10 Y10 J5\nG1 X15\nX3")
+    for way in ways:
+        same(f"G21 G90 F9\nG0 X-9 Y0\n{side} D1\nG1 X-3\nX0\n{way}\nG40\nY99\nM2\n".encode(), control, 1.0, (1, 1, 3))
+    assert counted.at_once > 4
+
+
+@pytest.mark.parametrize(
+    "between", ["G1 Z-1.", "G1 Z-1.\nZ-2.", "D2", "G42 D1", "G42 D2", "G54", "G4 P1", "G1 X9. Y3."]
+)
+@pytest.mark.parametrize("control", ISO)
+def test_what_stands_before_a_run(control: str, between: str) -> None:
+    """Moves of Z that wait, another radius or side, an entry anew."""
+    tools = ToolTable.diameters({1: 0.2, 2: 0.5}, Unit.MM)
+    points = [f"G1 X{x}. Y{y}." for x, y in ((0, 9), (9, 12), (12, 4), (20, 0), (30, 4), (33, -9), (20, -20), (9, -9))]
+    head = "G21 G90 F9.\nT1\nG0 X-9. Y-9.\nG41 D1\nG1 X-3. Y-3.\nX0. Y0."
+    text = "\n".join((head, *points[:2], between, *points[2:], "G40", "G1 X-50. Y-50.", "M2")).encode()
+    for lengths in LENGTHS:
+        assert said(one_by_one(text, control, tools)) == said(at_once(text, control, tools, lengths))
+
+
 @pytest.mark.parametrize("control", ISO)
 def test_long_programs_are_run_at_once(control: str, counted: type[Counted]) -> None:
     text = long(900).replace("G41 D1", "T1\nG41 D1").encode()
