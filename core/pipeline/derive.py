@@ -15,7 +15,7 @@ from core.pipeline.derived import Derived, DerivedBlock, Loop, RoughPass, Work
 from core.pipeline.jobs import job
 from core.pipeline.outline import former, outline_block
 from core.pipeline.steps import step_findings
-from core.pipeline.trouble import better_findings, by_weight, path_findings, size_warning
+from core.pipeline.trouble import better_findings, by_weight, open_finding, path_findings, size_warning
 from core.program.model import Block, PathChoice, Program
 from core.verify.judge import judge_together
 
@@ -75,6 +75,7 @@ def _told(found: DerivedBlock, work: Work, program: Program) -> DerivedBlock:
     trouble: tuple[Finding, ...] = ()
     if work.verdict is not None:
         trouble = (*path_findings(work), *size_warning(found.radius, work.surface))
+    trouble += open_finding(work.surface, 2 * found.radius, closed=found.solved.closed)
     return _checked(replace(found, work=work, findings=by_weight((*found.findings, *trouble))), program)
 
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import inf
+from typing import Final
+
+import numpy as np
 
 from core.comp.best import BestPath, Separation
 from core.comp.result import Compensated
@@ -17,6 +20,9 @@ from core.verify.report import findings as verdict_findings
 from core.verify.report import stray_findings
 from core.verify.stray import Away, Stray, stray
 from core.verify.verdict import Gouge, Verdict
+
+FEWEST: Final = 3
+"""Segments with which a contour can come back to where it began, but for two arcs."""
 
 
 def path_findings(work: Work) -> tuple[Finding, ...]:
@@ -176,6 +182,23 @@ def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
         return ()
     text = "The tool is {value} across, larger than the whole contour ({0}). Check TOOL and TOOL SETUP."
     return (Finding("TOOL_LARGE", Severity.WARNING, text, field="tool", value=2 * radius, lengths=(extent,)),)
+
+
+def open_finding(surface: Path, diameter: float, *, closed: bool) -> tuple[Finding, ...]:
+    """That a contour is open: a warning where START and the end are no farther apart than the tool is wide.
+
+    Such a gap is seldom meant, and no look at the path shows it.  Fewer than three segments enclose nothing.
+    """
+    if closed or len(surface) < FEWEST:
+        return ()
+    gap = surface.points[0] - surface.points[-1]
+    apart = float(np.hypot(*gap))
+    number, place = float(surface.numbers[-1]), tuple(surface.points[-1].tolist())
+    if apart > diameter:
+        text = "The contour is open: it ends {value} from START."
+        return (Finding("OPEN", Severity.INFO, text, number, None, place, apart),)
+    text = "The contour is not closed: it ends at X {x} Y {y}, {value} from START. Check START and the last segment."
+    return (Finding("NEARLY_CLOSED", Severity.WARNING, text, number, None, place, apart),)
 
 
 def by_weight(found: tuple[Finding, ...]) -> tuple[Finding, ...]:
