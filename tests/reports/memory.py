@@ -37,6 +37,8 @@ LIFE: Final = 400
 """Keys until another program is opened."""
 SILENCE: Final = 1.0
 """Seconds after which the next key comes although the last one has done nothing."""
+LAST_WORDS: Final = 20_000
+"""Bytes of the program's output that are kept."""
 EXTRA: Final = {
     "insert": b"\x1b[2~",
     "ctrl+home": b"\x1b[1;5H",
@@ -138,12 +140,16 @@ def _told(kind: type[Any], told: Told) -> type[Any]:
 
 @dataclass
 class Watch:
-    """What was seen from outside: keys pressed, screens and softkeys reached, memory by the minute in megabytes."""
+    """What was seen from outside: keys pressed, screens and softkeys reached, memory by the minute in megabytes.
+
+    `last` is the end of what the program wrote: what it says when it dies.
+    """
 
     rate: float
     keys: int = 0
     screens: int = 0
     softkeys: int = 0
+    last: bytes = b""
     memory: list[float] = field(default_factory=list)
 
 
@@ -158,7 +164,7 @@ def haunted(terminal: Terminal, pipe: int, watch: Watch, until: float) -> None:
     rest, free = b"", 0.0
     while time.monotonic() < until:
         ready, _, _ = select.select([terminal.fd, pipe], [], [], 0.5)
-        if terminal.fd in ready and not _drained(terminal.fd):
+        if terminal.fd in ready and not _drained(terminal.fd, watch):
             return
         if pipe in ready:
             *lines, rest = (rest + os.read(pipe, 65536)).split(b"\n")
@@ -171,12 +177,14 @@ def haunted(terminal: Terminal, pipe: int, watch: Watch, until: float) -> None:
                 terminal.send(EXTRA.get(key) or sent(key))
 
 
-def _drained(handle: int) -> bool:
-    """What came is thrown away; no when nothing comes any more."""
+def _drained(handle: int, watch: Watch) -> bool:
+    """What came is thrown away but for its end; no when nothing comes any more."""
     try:
-        return bool(os.read(handle, 65536))
+        came = os.read(handle, 65536)
     except OSError:
         return False
+    watch.last = (watch.last + came)[-LAST_WORDS:]
+    return bool(came)
 
 
 def report(minutes: float, seed: int, rate: float) -> Iterator[str]:
@@ -203,8 +211,9 @@ def watched(terminal: Terminal, pipe: int, minutes: float, watch: Watch) -> Iter
     begun = time.monotonic()
     while len(watch.memory) < minutes:
         haunted(terminal, pipe, watch, min(begun + 60 * (len(watch.memory) + 1), begun + 60 * minutes))
-        if terminal.ended() is not None:
-            yield f"WRONG: the program has ended after {watch.keys} keys\n{terminal.text}"
+        if (status := terminal.ended()) is not None:
+            said = watch.last.decode(errors="replace")
+            yield f"WRONG: the program has ended with {status} after {watch.keys} keys\n{said}"
             yield "failures 1"
             return
         watch.memory.append(resident(terminal.pid))
