@@ -22,9 +22,13 @@ from core.pipeline.derived import Derived
 from core.pipeline.outline import outline
 
 if TYPE_CHECKING:
+    from textual.timer import Timer
+
     from app.survey import Facts
 
 MINUTE: Final = 60.0
+ARMED_FOR: Final = 2.0
+"""Seconds in which a digit behind a lone Esc is a softkey; slow links part the two by some 0.3."""
 FRAME: Final = 1 / 60
 """Seconds in which nobody sees more than one picture."""
 AGAIN: Final = "ctrl+l"
@@ -66,6 +70,7 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self._surveying = Behind(self, self._surveyed)
         self._asking: Behind[object] = Behind(self, self._answered)
         self._asked: Question | None = None
+        self._arming: Timer | None = None
         self._late = False
         self._painted = 0.0
 
@@ -94,12 +99,23 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
             self.paint_again()
             return
         self.desk = self.keep(self.desk.press(key, character))
+        self._wait_for_digit()
         self._advance()
 
     def paste(self, text: str) -> None:
         """Text was pasted."""
         self.desk = self.keep(self.desk.paste(text))
         self._advance()
+
+    def _wait_for_digit(self) -> None:
+        """Behind a lone Esc, so long and no longer."""
+        if self._arming is not None:
+            self._arming.stop()
+        self._arming = self.set_timer(ARMED_FOR, self._disarm) if self.desk.armed else None
+
+    def _disarm(self) -> None:
+        self.desk = self.desk.disarmed()
+        self.refresh_screen()
 
     def paint_again(self) -> None:
         """All of the terminal, whatever others have written on it."""

@@ -29,7 +29,7 @@ from app.messages import (
 )
 from app.screens import doors
 from app.screens.contour import Contour
-from app.screens.page import Answer, Layout, Page
+from app.screens.page import UNANSWERED, Answer, Layout, Page
 from app.screens.program import ProgramPage
 from app.session import Session, Tone
 from app.settings import Settings
@@ -38,6 +38,12 @@ from core.program.edit import Refused
 from core.records import dataclass, field
 
 FUNCTION_KEYS: Final = {f"f{number}": number for number in range(1, 9)}
+AT_ONCE: Final = {f"alt+{number}": number for number in range(1, 9)}
+"""Esc and a digit in one packet: Alt and the digit, or both keys over a link that held the first one back."""
+DIGITS: Final = frozenset("12345678")
+WRITING: Final = frozenset({"ctrl+s", "ctrl+o", "ctrl+z", "ctrl+y"})
+"""Keys that change the program or a file."""
+ARMED: Final = "1 to 8 press the softkey now, for 2 seconds. Anything else goes on typing, Esc ends it."
 EVERYWHERE: Final = frozenset(
     {"ctrl+z", "ctrl+y", "ctrl+s", "ctrl+o", "ctrl+q", "ctrl+c", "ctrl+k", "ctrl+g", "ctrl+f"}
 )
@@ -52,7 +58,8 @@ ONE_MODE: Final = (
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Desk:
-    """`pages` lie on each other, the last one is seen.  `armed`: Esc was pressed, a digit is a softkey now.
+    """`pages` lie on each other, the last one is seen.  `armed`: Esc was pressed, a digit is a softkey until the
+    next key, and until `disarmed` is asked for because it took too long.
 
     `modes` are the sets of characters the terminal can draw with, `mode` is the one in use.
     `settings` are what stays from one time to the next; `guided` while the guide sits on the prompt lines.
@@ -81,12 +88,14 @@ class Desk:
 
     def _pressed(self, key: str, character: str | None) -> Desk:
         armed, desk = self.armed, replace(self, session=self.session.quiet(), armed=False)
-        if armed and key in "12345678":
+        if key in AT_ONCE:
+            return desk._at_once(AT_ONCE[key])
+        if armed and key in DIGITS and desk._labelled(int(key)):
             return desk._softkey(int(key))
         if key in FUNCTION_KEYS:
             return desk._softkey(FUNCTION_KEYS[key])
         if key == "escape":
-            return desk._escape(armed=armed)
+            return desk if armed else desk._escape()
         if key in EVERYWHERE:
             own = desk.page.everywhere(key, desk.session)
             return desk._everywhere(key) if own is None else desk._answered(own)
@@ -94,6 +103,13 @@ class Desk:
         if answer is None and character == "?":
             return desk._helped()
         return desk if answer is None else desk._answered(answer)
+
+    def disarmed(self) -> Desk:
+        """The desk after the time for a digit is over: digits are typed again, and nothing says otherwise."""
+        if not self.armed:
+            return self
+        ours = self.session.said is not None and self.session.said.text == ARMED
+        return replace(self, armed=False, session=self.session.quiet() if ours else self.session)
 
     def told(self, answer: object) -> Desk:
         """The desk with the answer to a page's question."""
@@ -108,7 +124,7 @@ class Desk:
         own = self.page.pasted(text, self.session)
         if own is not None:
             return self._answered(own)
-        desk = self
+        desk = replace(self, armed=False)
         for character in (text.splitlines() or [""])[0][:200]:
             desk = desk.press("space" if character == " " else character, character)
         return desk
@@ -192,12 +208,25 @@ class Desk:
             return desk
         return desk._answered(desk.page.softkeyed(desk.session, number, softkeys[number].messages))
 
-    def _escape(self, *, armed: bool) -> Desk:
+    def _labelled(self, number: int) -> bool:
+        """Whether a softkey can be seen: a digit without one is typed, never swallowed."""
+        softkey = self.page.softkeys(self.session).get(number)
+        return softkey is not None and bool(softkey.label)
+
+    def _at_once(self, number: int) -> Desk:
+        """Esc and a digit that came together; where there is no such softkey, what Esc takes back, then the digit."""
+        if self._labelled(number):
+            return self._softkey(number)
+        back = self.page.escape(self.session)
+        desk = self if back is None or back.messages else self._answered(back)
+        return desk._pressed(str(number), str(number))
+
+    def _escape(self) -> Desk:
         answer = self.page.escape(self.session)
-        if answer is not None:
-            return self._answered(answer)
-        desk = replace(self, armed=not armed)
-        return desk.take(Say("Esc: now 1 to 8 is the softkey F1 to F8.")) if desk.armed else desk
+        return self._arming() if answer is None else self._answered(answer)
+
+    def _arming(self) -> Desk:
+        return replace(self, armed=True).take(Say(ARMED))
 
     def _next_mode(self) -> Desk:
         if len(self.modes) == 1:
@@ -214,7 +243,9 @@ class Desk:
         return desk if any(isinstance(one, Say) for one in settled.messages) else desk.take(message)
 
     def _everywhere(self, key: str) -> Desk:
-        """The keys that mean the same on every page."""
+        """The keys that mean the same on every page; help may lie on a question that is to be answered first."""
+        if key in WRITING and any(page.asks for page in self.pages):
+            return self.take(Say(UNANSWERED, Tone.ERROR))
         match key:
             case "ctrl+z":
                 return self._undo()
@@ -227,7 +258,7 @@ class Desk:
             case "ctrl+q":
                 return self._settled(Leave())
             case "ctrl+k":
-                return replace(self, armed=True).take(Say("Now 1 to 8 is the softkey F1 to F8."))
+                return self._arming()
             case "ctrl+f":
                 return self._findings()
             case "ctrl+g":

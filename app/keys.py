@@ -6,6 +6,7 @@ into a pseudo-terminal.
 
 from __future__ import annotations
 
+from enum import StrEnum
 from typing import Final, cast
 
 from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
@@ -20,11 +21,25 @@ SCO: Final = {"N": Keys.F2, "P": Keys.F4, "Q": Keys.F5, "R": Keys.F6, "S": Keys.
 terminals send when their window is left: these two stay Esc and the digit."""
 
 
+class AtOnce(StrEnum):
+    """Esc and a digit in one packet, by the name that terminals with a newer protocol have Alt and the digit under."""
+
+    ALT_1 = "alt+1"
+    ALT_2 = "alt+2"
+    ALT_3 = "alt+3"
+    ALT_4 = "alt+4"
+    ALT_5 = "alt+5"
+    ALT_6 = "alt+6"
+    ALT_7 = "alt+7"
+    ALT_8 = "alt+8"
+
+
 def teach() -> None:
     """Add the sequences."""
-    table = cast("dict[str, tuple[Keys, ...]]", ANSI_SEQUENCES_KEYS)
-    for number, (key, letter) in enumerate(zip(SOFTKEYS, VT100_PLUS, strict=True), 1):
-        table[f"\x1b{number}"] = (key,)
+    table = cast("dict[str, tuple[StrEnum | Keys, ...]]", ANSI_SEQUENCES_KEYS)
+    for number, both in enumerate(AtOnce, 1):
+        table[f"\x1b{number}"] = (both,)
+    for key, letter in zip(SOFTKEYS, VT100_PLUS, strict=True):
         table[f"\x1bO{letter}"] = (key,)
     for letter, key in SCO.items():
         table[f"\x1b[{letter}"] = (key,)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from textwrap import wrap
+from typing import ClassVar
 
 from app.messages import Close, Message
 from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View, unseen
@@ -22,6 +23,7 @@ class Ask(Page):
     `about` is a file's name where the question is not about the program's own file.
     """
 
+    asks: ClassVar[bool] = True
     title: str
     lines: tuple[str, ...]
     options: tuple[Option, ...]
@@ -44,7 +46,7 @@ class Ask(Page):
         return Answer(self, (Close(),))
 
     def everywhere(self, key: str, session: Session) -> Answer | None:
-        """The program behind is not to change unseen."""
+        """The program behind is neither changed nor saved unseen."""
         return unseen(self, key)
 
     def view(self, session: Session, surface: Surface) -> View:

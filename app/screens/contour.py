@@ -21,7 +21,7 @@ from core.program.edit import Where, choose, read, type_field
 from core.program.fields import SEGMENT_PROMPT, Field
 from core.program.solved import Value
 from core.records import dataclass
-from core.units import sentence
+from core.units import Kind, sentence
 
 WALK: Final = {"pageup": -1, "pagedown": 1, "left": -1, "right": 1}
 FIRST_SEGMENT: Final = "Use ENTER to edit START, then right arrow or Page Down for the first segment."
@@ -34,6 +34,7 @@ class Contour(FormPage):
     `added`: the segment was made by the last key, a letter.  Who ends that letter with Enter, as everything else here,
     would be on the second field without knowing it, and the next number would become Y END instead of X END: a wrong
     path that nobody sees.  So this one Enter goes nowhere and says so; whoever meant to go on presses it again.
+    On DIRECTION, which shows its choice and takes no number, Enter takes what is shown as anywhere else.
     `held`: it has just done so.  Up then stays as well: it goes back over the Enter that was not taken.
     """
 
@@ -56,6 +57,11 @@ class Contour(FormPage):
         """What the field holds."""
         return value_at(session, name)
 
+    def typed(self, session: Session, name: str) -> Value | str:
+        """What was typed there, whatever was calculated."""
+        held: Value | str = getattr(session.block if session.segment is None else session.segment, name)
+        return held
+
     def edit(self, session: Session, one: Field, text: str) -> Edit:
         """The text read and put into the field."""
         typed = read(text, one, session.program.unit)
@@ -69,7 +75,7 @@ class Contour(FormPage):
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
         """The first keys behind a new segment, then any key."""
         page, one = replace(self, added=False, held=False), self.field(session)
-        if one is not None and self.added and key == "enter":
+        if one is not None and self.added and key == "enter" and one.kind is not Kind.CHOICE:
             told = f"The cursor is still on {one.label}: type it, or Enter again goes on."
             return Answer(replace(page, held=True), (Say(told),))
         if one is not None and self.held and key in ("up", "shift+tab"):

@@ -39,6 +39,10 @@ class Decide(Ask):
         asked: tuple[Message, ...] = (Say(f"Press {' or '.join(one[0].upper() for one in self.options)}."),)
         return Answer(self, asked)
 
+    def everywhere(self, key: str, session: Session) -> Answer | None:
+        """Nothing of its own: Esc does not leave this question."""
+        return None
+
     def view(self, session: Session, surface: Surface) -> View:
         """The question, what it is about, and the answers."""
         width = surface.width

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Self
 
 from app.messages import Edit, Say
+from app.screens.earlier import last_good
 from app.screens.page import Answer, Page
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing, press
@@ -20,6 +21,8 @@ from core.units import Kind, Unit, show
 
 FORWARD = ("enter", "tab", "down")
 BACK = ("shift+tab", "up")
+SHORT = 20
+"""Characters of a text that is quoted."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -47,6 +50,10 @@ class FormPage(Page):
     def value(self, session: Session, name: str) -> Value | str:
         """What a field holds: a number typed or calculated, or a choice's or a text's words."""
         raise NotImplementedError
+
+    def typed(self, session: Session, name: str) -> Value | str:
+        """What was typed into a field, of a program that nothing was derived from."""
+        return self.value(session, name)
 
     def edit(self, session: Session, one: Field, text: str) -> Edit:
         """The edit that puts an accepted text into a field."""
@@ -107,8 +114,8 @@ class FormPage(Page):
         return None if isinstance(outcome, Refused) else outcome
 
     def escape(self, session: Session) -> Answer | None:
-        """The half-typed text forgotten: the field shows what it held."""
-        return None if self.editing is None else Answer(self._without_text())
+        """The half-typed text forgotten: the field shows what it held.  Without one: what cannot be read taken back."""
+        return self._reread(session) if self.editing is None else Answer(self._without_text())
 
     def forgetting(self) -> Self:
         """A number typed into one field never becomes that of another."""
@@ -140,6 +147,19 @@ class FormPage(Page):
             return Answer(self._without_text(), (Say(told, Tone.ERROR),))
         return None if chosen is None else replace(self, spelled=spelled).pick(session, one, chosen)
 
+    def _reread(self, session: Session) -> Answer | None:
+        """A field marked ERR as it was before, or blank where nobody knows; None for any other field."""
+        one = self.field(session)
+        bad = None if one is None else self.typed(session, one.name)
+        if one is None or not isinstance(bad, Unread) or session.guard.looking:
+            return None
+        text = last_good(session, one, self.typed)
+        edit = self.edit(session, one, text)
+        if isinstance(edit.outcome, Refused):
+            return None
+        now = f"{text} stands again" if text else "the field is blank"
+        return Answer(self._without_text(), (edit, Say(f"{one.label}: {_short(bad.text)} is taken back, {now}.")))
+
     def reason(self, session: Session) -> Said | None:
         """Why the field with the cursor cannot be used as it stands."""
         one = self.field(session)
@@ -159,6 +179,11 @@ def prompt_of(one: Field) -> str:
     if one == SOLUTION:
         return f"{one.prompt} Space steps, F1 and F2 pick."
     return f"{one.prompt} Space steps, letters spell: {', '.join(one.choices)}."
+
+
+def _short(text: str) -> str:
+    """What was typed, for a sentence that has to say more."""
+    return text.strip() if len(text.strip()) <= SHORT else f"{text.strip()[:SHORT]}..."
 
 
 def _unread_sentence(unread: Unread) -> str:

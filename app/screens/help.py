@@ -13,7 +13,8 @@ from core.records import dataclass
 KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Enter", "take the field and go on"),
     ("Tab, up, down", "from field to field"),
-    ("Esc", "the old value back; out of a dialog"),
+    ("Esc", "the old value back, also of one marked ERR"),
+    ("", "out of a dialog"),
     ("left, right", "change the text; step a choice; walk"),
     ("Del, Backspace", "empty the field; Enter makes it blank"),
     ("Page Up, Down", "segment before, next or new segment"),
@@ -23,8 +24,10 @@ KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Ctrl+S, Ctrl+O", "save, open"),
     ("Ctrl+Q", "leave the program"),
     ("Ctrl+L", "paint the screen again if it was spoilt"),
-    ("F1 to F8", "the softkeys; also Esc, then the digit,"),
-    ("", "or Ctrl+K, then the digit (on any screen)"),
+    ("F1 to F8", "the softkeys; also Esc, then the digit"),
+    ("", "within 2 seconds; a digit without a"),
+    ("", "softkey is typed. Ctrl+K does the same"),
+    ("", "on any screen"),
     ("? or Ctrl+G", "this help (Ctrl+G in the middle of a text)"),
 )
 """Key and what it does, each short enough for one line."""

@@ -116,6 +116,8 @@ class Page:
     """A screen: frozen, its own state is no more than a half-typed text, a cursor, a window."""
 
     layout: ClassVar[Layout] = Layout.FORM
+    asks: ClassVar[bool] = False
+    """A question: nothing is saved, opened or changed from elsewhere before it is answered."""
 
     @property
     def opening(self) -> object | None:
@@ -192,6 +194,9 @@ class Page:
     def about_file(self) -> str:
         """The name of the file that the page is about, where that is not the session's program."""
         return ""
+
+
+UNANSWERED: Final = "Answer the question first."
 
 
 def unseen(page: Page, key: str) -> Answer | None:

@@ -81,7 +81,7 @@ def pocket() -> Operator:
             if text == "ccw":
                 operator.press("right", "enter")
             elif text == "cw":
-                operator.press("enter", "enter")
+                operator.press("enter")
             else:
                 operator.type(text)
         operator.press("pagedown")
@@ -132,3 +132,15 @@ def test_a_letter_that_begins_no_choice_is_told_and_changes_nothing(key: str) ->
 def test_letters_are_forgotten_where_the_cursor_goes_elsewhere() -> None:
     operator = Operator.at().press("enter", "tab", "p", "tab", "shift+tab", "r")
     assert operator.block.cutter_comp == CutterComp.RIGHT
+
+
+def test_enter_behind_the_letter_of_an_arc_takes_the_direction_that_is_shown() -> None:
+    operator = square().press("ctrl+end", "pagedown", "a", "enter").type("4.75", "1.0")
+    segment = operator.block.segments[-1]
+    assert isinstance(segment, ArcSegment)
+    assert (segment.direction, segment.x_end, segment.y_end) == (Direction.CW, Entry(4.75), Entry(1.0))
+
+
+def test_enter_behind_the_letter_of_a_line_still_goes_nowhere() -> None:
+    operator = square().press("ctrl+end", "pagedown", "l", "enter")
+    assert "The cursor is still on X END" in operator.said

@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import pytest
 
+from app.messages import Close, Open
+from app.screens.decide import Decide
 from app.screens.help import HelpPage
 from app.screens.new_segment import NewSegment
 from app.screens.post import PostPage
@@ -68,3 +73,30 @@ def test_a_question_mark_in_the_first_place_of_a_text_asks_for_help(keys: tuple[
     operator.press("escape", "a", "?")
     assert not isinstance(operator.desk.page, HelpPage)
     assert "a?" in "\n".join(operator.screen())
+
+
+@pytest.mark.parametrize("question", [("f4", "right"), ("ctrl+q",)])
+@pytest.mark.parametrize("over", [(), ("ctrl+g",)])
+@pytest.mark.parametrize("key", ["ctrl+s", "ctrl+o"])
+def test_nothing_is_saved_or_opened_before_a_question_is_answered(
+    question: tuple[str, ...], over: tuple[str, ...], key: str, tmp_path: Path
+) -> None:
+    operator = Operator.at().press("tab", "down", "down", "down").type("2.5").press("ctrl+home")
+    file = tmp_path / "part.toml"
+    operator.desk = replace(operator.desk, session=replace(operator.session, file=file))
+    operator.press(*question, *over)
+    pages = operator.desk.pages
+    operator.press(key)
+    assert operator.said == "!! Answer the question first."
+    assert operator.desk.pages == pages
+    assert not file.exists()
+
+
+def test_a_question_without_a_way_around_is_answered_before_anything_else() -> None:
+    operator = Operator.at().press("tab", "down", "down", "down").type("2.5")
+    question = Decide("WORK THAT WAS NOT SAVED", (), (("k", "KEEP", (Close(),)),))
+    operator.desk = operator.desk.take(Open(question))
+    for key in ("ctrl+s", "ctrl+o", "ctrl+z", "ctrl+y"):
+        assert operator.press(key).said == "!! Answer the question first."
+    assert operator.desk.page is question
+    assert operator.block.x_start == Entry(2.5)

@@ -84,7 +84,7 @@ def test_f3_as_xterm_sends_it_and_the_notes_own_screen(tmp_path: Path) -> None:
 def test_esc_and_a_digit_typed_slowly(tmp_path: Path) -> None:
     with cutcomp(tmp_path) as terminal:
         terminal.send(ESC)
-        terminal.until("now 1 to 8 is the softkey")
+        terminal.until("1 to 8 press the softkey now")
         terminal.send(b"6")
         terminal.until("TOOL SETUP")
         terminal.until("DIAMETER")

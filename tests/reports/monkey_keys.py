@@ -68,7 +68,7 @@ class Coverage:
         """A key is about to be pressed."""
         digit = key if desk.armed else key.removeprefix("f") if key.startswith("f") else ""
         here = keys_of(desk)
-        if digit in set("12345678") and int(digit) in here:
+        if digit in set("12345678") and int(digit) in here and not (desk.armed and not here[int(digit)][2]):
             self.pressed[here[int(digit)]] += 1
 
     def missing(self) -> list[Key]:

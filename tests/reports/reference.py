@@ -33,6 +33,9 @@ class Reference(CutcompApp):
     def refresh_screen(self, width: int = 0, height: int = 0) -> None:
         del width, height
 
+    def _wait_for_digit(self) -> None:
+        """Nothing runs out here: the digit behind Esc is the next key."""
+
     def exit(self, *_: Any, **__: Any) -> None:
         self.left = True
 

@@ -110,6 +110,11 @@ def test_no_softkey_needs_a_function_key(
     by_key = desk.press(f"f{number}")
     monkeypatch.chdir(tmp_path / "twin")
     by_twin = desk.press("ctrl+k").press(str(number))
+    shown = page.softkeys(desk.session).get(number)
+    if shown is not None and not shown.label:
+        # the digit is typed, as one sees no softkey; the function key then only says that nothing is to be done
+        assert by_key.session.program == desk.session.program
+        return
     assert [type(one) for one in by_key.pages] == [type(one) for one in by_twin.pages]
     assert (by_key.session.program, by_key.session.said) == (by_twin.session.program, by_twin.session.said)
     assert by_key.exit == by_twin.exit
