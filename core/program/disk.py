@@ -29,7 +29,7 @@ def why(error: OSError | ValueError) -> str:
     """The reason why a file cannot be read or written, and the remedy."""
     match error.errno if isinstance(error, OSError) else None:
         case errno.ENOSPC | errno.EDQUOT:
-            return "the disk is full. Make room or save elsewhere; nothing is lost."
+            return "the disk is full. Make room or save elsewhere."
         case errno.EISDIR | errno.ENOTDIR:
             return "this is not a file. Choose the name of a file."
         case errno.ENOENT:

@@ -185,6 +185,7 @@ def test_a_full_disk_is_told_and_the_work_goes_on(own: Path, part: Path, monkeyp
         patch.setattr(os, "fsync", full)
         operator.press("up").type("8")
         assert "A crash would lose this: it is not on the disk, the disk is full." in operator.said
+        assert "nothing is lost" not in operator.said
         operator.press("up").type("9")
         assert "the disk is full" in operator.said
         assert operator.block.tool == Entry(9.0)
