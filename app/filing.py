@@ -10,7 +10,7 @@ from app.files import empty_program, examples, is_nc, opened
 from app.messages import Browse, Close, Do, Leave, Load, Open, Post, Save, Say, Swap
 from app.patience import FILE, within
 from app.saving import asked, put_theirs_aside, replacing, there
-from app.screens.ask import Ask
+from app.screens.ask import Ask, Option
 from app.screens.browse import BrowsePage, listed
 from app.screens.save import SaveAsPage
 from app.session import Session, Tone
@@ -142,11 +142,21 @@ def _leave(desk: Desk, message: Leave) -> Desk:
         return replace(desk, exit=True)
     if listing:
         too = " So has the program." if desk.session.unsaved else ""
-        lines = (f"The NC file under proof has changes that are not saved.{too} Ctrl+S on its screen saves them.",)
-        name = _name_of_listing(desk)
-        return desk.take(Open(Ask("LEAVE?", lines, (("l", "LEAVE WITHOUT", (Leave(unsaved=True),)),), name)))
+        saves = _listing_saved(desk)
+        how = "" if saves else " Ctrl+S on its screen saves them."
+        lines = (f"The NC file under proof has changes that are not saved.{too}{how}",)
+        without = ("l", "LEAVE WITHOUT", (Leave(unsaved=True),))
+        return desk.take(Open(Ask("LEAVE?", lines, (*saves, without), _name_of_listing(desk))))
     options = (("s", "SAVE AND LEAVE", (Close(), Save(leave=True))), ("l", "LEAVE WITHOUT", (Leave(unsaved=True),)))
     return desk.take(Open(Ask("LEAVE?", ("The program has changes that are not saved.",), options)))
+
+
+def _listing_saved(desk: Desk) -> tuple[Option, ...]:
+    """The answer that saves the NC file on top; none where it is another one, below, that is not saved."""
+    from app.screens.proof_files import saving_and_leaving
+    from app.screens.proof_tool import proof_page
+
+    return (("s", "SAVE AND LEAVE", (Close(), saving_and_leaving())),) if proof_page(desk).unsaved else ()
 
 
 def _name_of_listing(desk: Desk) -> str:

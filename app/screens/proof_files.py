@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 from app.listing import LARGEST, SUFFIXES, Listing
-from app.messages import Close, Do, Message, Open, Say
+from app.messages import Close, Do, Leave, Message, Open, Say
 from app.naming import is_folder, typed
 from app.screens.ask import Ask
 from app.screens.browse import BrowsePage, Item
@@ -69,6 +69,17 @@ def _standing(desk: Desk, path: Path) -> ProofPage | None:
 def saving(path: Path | None = None, *, agreed: bool = False) -> Do:
     """The listing written, under its own name or another; `agreed`: what stands there may be replaced."""
     return Do(lambda desk: _saved(desk, path, agreed=agreed))
+
+
+def saving_and_leaving() -> Do:
+    """The listing written, and the program left; what else is not saved, or is in the way, is asked about."""
+
+    def work(desk: Desk) -> Desk:
+        written = _saved(desk, None, agreed=False)
+        asked = len(written.pages) > len(desk.pages) or proof_page(written).unsaved
+        return written if asked else written.take(Leave())
+
+    return Do(work)
 
 
 def _saved(desk: Desk, path: Path | None, *, agreed: bool) -> Desk:

@@ -57,6 +57,15 @@ def test_leaving_with_changes_is_asked_about() -> None:
     assert prover.press("ctrl+q", "l").desk.exit
 
 
+def test_leaving_offers_to_save_the_file_on_top_alone_and_asks_about_the_others(tmp_path: Path) -> None:
+    prover = below(tmp_path).press("ctrl+q", "s")
+    assert (tmp_path / "c.nc").read_bytes() != SQUARE
+    assert not prover.desk.exit
+    assert "LEAVE?" in "\n".join(prover.screen())
+    assert "SAVE AND LEAVE" not in "\n".join(prover.screen())
+    assert "Ctrl+S on its screen" in " ".join("\n".join(prover.screen()).split())
+
+
 def test_the_program_screens_open_an_nc_file(tmp_path: Path) -> None:
     file = tmp_path / "part.nc"
     file.write_bytes(b"0 BEGIN PGM P MM\n1 END PGM P MM\n")
