@@ -175,11 +175,29 @@ def _other_kind(session: Session, step: Step) -> str:
 
 
 def _to_segment(session: Session, step: Step) -> str:
+    why = _difference(session, step)
     if step.segment == 0:
-        return "START is next: Ctrl+Home goes there (or 0 and Enter on the SEGMENT line)."
-    return (
-        f"Segment {step.segment} is next: Page {'Down' if session.where.segment < step.segment else 'Up'} goes there."
-    )
+        return f"START is next{why}: Ctrl+Home goes there (or 0 and Enter on the SEGMENT line)."
+    key = "Down" if session.where.segment < step.segment else "Up"
+    return f"Segment {step.segment} is next{why}: Page {key} goes there."
+
+
+def _difference(session: Session, step: Step) -> str:
+    """Which field there is not as the plate wants it; nothing to say of a segment of another kind."""
+    block = session.program.blocks[0]
+    held = block.segments[step.segment - 1] if step.segment else block
+    if step.segment and not isinstance(held, LineSegment):
+        return ""
+    label = field(Form.LINE if step.segment else Form.START, step.name).label.rstrip(".")
+    match getattr(held, step.name):
+        case Entry(value):
+            return f", its {label} is {value:g} instead of {step.text}"
+        case CutterComp() as side:
+            return f", its {label} is {side} instead of {step.text}"
+        case None:
+            return f", its {label} is blank"
+        case _:
+            return f", its {label} cannot be read"
 
 
 def _on_field(session: Session, step: Step) -> str:

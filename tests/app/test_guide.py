@@ -10,9 +10,12 @@ import pytest
 from app.desk import Desk
 from app.files import empty_program
 from app.guide import STEPS, hint, next_step
+from app.messages import Edit, Move
 from app.screens.post import PostPage
 from app.session import Session
 from core.pipeline.derive import derive
+from core.program.edit import Where, read, type_field
+from core.program.fields import Form, field
 from core.program.model import CutterComp, Entry
 from core.program.store import load, save
 from tests.app.operator import Operator
@@ -145,3 +148,22 @@ def test_the_next_step_is_the_first_field_that_differs() -> None:
 def test_posting_with_findings_leaves_the_words_to_the_screen() -> None:
     desk = Desk(Session.of(Operator.at().session.program), (PostPage(path=Path("x.nc")),), guided=True)
     assert hint(desk) is None
+
+
+@pytest.mark.parametrize(("typed", "why"), [("20", "is 20 instead of 10"), ("2o", "cannot be read"), ("", "is blank")])
+def test_what_is_to_be_changed_on_another_segment_is_named(typed: str, why: str) -> None:
+    operator = begun()
+    while len(operator.segments) < 2:
+        obey(known(operator))
+    feed = read(typed, field(Form.LINE, "feed"), operator.session.program.unit)
+    edit = Edit(type_field(operator.session.program, Where(1, 1), "feed", feed), "FEED")
+    operator.desk = operator.desk.take(edit).take(Move(Where(1, 2), "x_end"))
+    assert operator.said == f"GUIDE Segment 1 is next, its FEED {why}: Page Up goes there."
+
+
+def test_what_is_to_be_changed_on_start_is_named() -> None:
+    operator = begun()
+    while len(operator.segments) < 1:
+        obey(known(operator))
+    operator.press("ctrl+home", "tab", "tab", "r", "pagedown")
+    assert operator.said.startswith("GUIDE START is next, its CUTTER COMP is RIGHT instead of LEFT: Ctrl+Home goes")
