@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import Self
 
 from app.messages import Edit, Say
-from app.screens.earlier import last_good
 from app.screens.page import Answer, Page
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing, press
@@ -153,6 +152,8 @@ class FormPage(Page):
         bad = None if one is None else self.typed(session, one.name)
         if one is None or not isinstance(bad, Unread) or session.guard.looking:
             return None
+        from app.screens.earlier import last_good
+
         text = last_good(session, one, self.typed)
         edit = self.edit(session, one, text)
         if isinstance(edit.outcome, Refused):
