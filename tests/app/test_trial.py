@@ -80,7 +80,7 @@ def test_the_drawing_names_the_kind_of_the_segment() -> None:
     assert "SEGMENT     3   LINE" in square().press("3", "enter", "f7").part("header")
 
 
-@pytest.mark.parametrize(("letter", "field"), [("l", "x_end"), ("a", "direction"), ("b", "radius")])
+@pytest.mark.parametrize(("letter", "field"), [("l", "x_end"), ("b", "radius")])
 def test_an_enter_directly_behind_the_letter_skips_no_field(letter: str, field: str) -> None:
     operator = square().press("3", "enter", "pageup", "right", "ctrl+end", "right", letter, "enter")
     assert operator.session.field == field
