@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
 
+from core.controls.laps import unlapped
 from core.controls.report import Run, Stretch
 from core.finding import Finding, Severity
-from core.geometry.path import Path
+from core.geometry.path import Path, joined
 from core.tolerance import CLOSED, GOUGE
 from core.verify.judge import judge
 from core.verify.report import stray_findings
@@ -30,6 +32,8 @@ FINE: Final = 0.001
 class Judged:
     """A compensated stretch, the surface it cuts, the centre path with its leads, and the verdict on them.
 
+    Surface and centre path are without the laps that they repeat, each by itself; `lines` are those of the whole
+    surface, since of two laps written out the one may be kept of the surface and the other of the path.
     `leads` are programmed moves taken for leads because a closed contour begins behind them or ends before them, and
     `lead_gouges` what is cut of them: they may be surface after all.  `alone`: the side changed where it begins, and
     what is cut on the other side is not asked about.
@@ -39,6 +43,7 @@ class Judged:
     surface: Path
     centre: Path
     verdict: Verdict
+    lines: frozenset[float]
     leads: tuple[int, ...] = ()
     lead_gouges: tuple[Gouge, ...] = ()
     alone: bool = False
@@ -86,7 +91,11 @@ def _each(run: Run, stretch: Stretch) -> list[Judged]:
 def _beyond(result: Judged, whole: Path, begin: int, end: int) -> Judged:
     """With what is cut of the whole surface besides the part's own rows; a subprogram's lines may be in several."""
     part, rows = result.stretch, np.arange(len(whole), dtype=np.float64)
-    cut = judge(replace(whole, numbers=rows), part.side, part.radius, result.centre).gouges
+    surface = replace(whole, numbers=rows)
+    edges = np.clip((0, begin, end, len(whole)), 0, len(whole)).tolist()
+    # each by itself, for a lap of another part is no repetition of the part's own one
+    surface = joined([unlapped(surface.part(*both)) for both in pairwise(edges)])
+    cut = judge(surface, part.side, part.radius, result.centre).gouges
     others = [(gouge, int(gouge.surface_number)) for gouge in cut if not begin <= gouge.surface_number < end]
     more = (replace(gouge, surface_number=float(whole.numbers[at])) for gouge, at in others)
     gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)
@@ -96,19 +105,18 @@ def _beyond(result: Judged, whole: Path, begin: int, end: int) -> Judged:
 def _judged(run: Run, stretch: Stretch, whole: Path, contour: tuple[int, int]) -> Judged:
     """The verdict on moves of one side and radius, of which a part of the surface is contour and the rest leads."""
     first, last = contour
-    surface = whole.part(first, last)
-    centre = run.moves.part(stretch.first, stretch.last).path(stretch.plane)
+    surface, lines = unlapped(whole.part(first, last)), frozenset(whole.numbers[first:last].tolist())
+    centre = unlapped(run.moves.part(stretch.first, stretch.last).path(stretch.plane))
     verdict = judge(surface, stretch.side, stretch.radius, centre)
     if stretch.radius <= GOUGE:
         # a centre on the contour itself is on neither side of it, whatever its leads cross; a later offset may not be 0
-        lines = set(surface.numbers.tolist())
         verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if centre.numbers[row] in lines))
     leads = (*whole.numbers[:first].tolist(), *whole.numbers[last:].tolist())
     if not leads:
-        return Judged(stretch, surface, centre, verdict)
-    cut = judge(whole, stretch.side, stretch.radius, centre).gouges
+        return Judged(stretch, surface, centre, verdict, lines)
+    cut = judge(unlapped(whole), stretch.side, stretch.radius, centre).gouges
     cut_leads = tuple(gouge for gouge in cut if gouge.surface_number in leads)
-    return Judged(stretch, surface, centre, verdict, tuple(int(line) for line in leads), cut_leads)
+    return Judged(stretch, surface, centre, verdict, lines, tuple(int(line) for line in leads), cut_leads)
 
 
 def closed_part(path: Path) -> tuple[int, int]:
@@ -188,7 +196,7 @@ def _leads(result: Judged) -> list[Finding]:
 
 def _strays(result: Judged) -> list[Finding]:
     """Moves between the leads that leave the surface by more than the radius, or run against it."""
-    numbers, lines = result.centre.numbers, set(result.surface.numbers.tolist())
+    numbers, lines = result.centre.numbers, result.lines
     against = tuple(row for row in result.verdict.backwards if numbers[row] in lines)
     away: tuple[Away, ...] = ()
     if any(numbers[row] in lines for row in result.verdict.loose):
@@ -199,7 +207,7 @@ def _strays(result: Judged) -> list[Finding]:
     return [replace(finding, segment=None, line=line) for finding, line in zip(told, begun, strict=True)]
 
 
-def _between_leads(away: Away, centre: Path, lines: set[float]) -> bool:
+def _between_leads(away: Away, centre: Path, lines: frozenset[float]) -> bool:
     """Leads are at a path's two ends, or have lines of their own."""
     ends = {tuple(centre.points[0].tolist()), tuple(centre.points[-1].tolist())}
     return {away.first_number, away.last_number} <= lines and not ends & {away.start, away.end}

@@ -1,0 +1,114 @@
+"""Laps: a path without the whole laps that it repeats, piece by piece, one right behind the other.
+
+What a path does to a surface, and what of the surface is in the way of a path, is a matter of the places they cover,
+not of how often: each piece left out lies where a piece that is kept does.  Forty depths of one ring are judged as one.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.geometry.path import Path
+from core.tolerance import GOUGE, LARGEST, ON_PATH
+
+Rows = NDArray[np.intp]
+
+SWEPT: Final = 3
+"""Decimals of a radian to which arcs of the same two ends are told apart: a full circle from an arc of no length."""
+
+SELDOM: Final = 4
+"""A period is tried when at least one in so many pieces of its lap was last seen a period before."""
+
+
+def unlapped(path: Path) -> Path:
+    """The path without repeated laps: the first of them stays with its numbers, in the path's order.
+
+    A lap is as many pieces as the whole path keeps repeating with the same ends, centres and turns to ON_PATH, since
+    the sums of incremental programs differ in the last digit.  One that differs in a single piece stays.  The same
+    path is returned when nothing is repeated, or when it has coordinates that no machine could have.
+    """
+    if len(path) < 2 or not all(bool(np.abs(one).max() <= LARGEST) for one in (path.points, path.centres)):
+        return path
+    names, rows = _names(path), np.arange(len(path))
+    while len(rows) > len(kept := _once(path, names, rows)):
+        rows = kept
+    return path if len(rows) == len(path) else _of(path, rows)
+
+
+def _of(path: Path, rows: Rows) -> Path:
+    """These pieces, joined: a start is where the piece before ends, which may move it by rounding."""
+    points, turns = np.concatenate((path.points[:1], path.ends[rows])), path.turns[rows]
+    centres = np.where(turns[:, None] == 0, points[:-1], path.centres[rows])
+    return Path.of(points, centres, turns, path.numbers[rows])
+
+
+def _names(path: Path) -> Rows:
+    """(n,) the same number for pieces that are one piece to ON_PATH."""
+    places, at = _alike(path.points)
+    if len(at) - places < 2:
+        # a piece that comes again brings both its ends again
+        return np.arange(len(path))
+    swept = np.round(path.sweeps, SWEPT)
+    columns = (at[:-1], at[1:], _alike(path.centres)[1], path.turns, swept)
+    order = np.lexsort(columns)
+    new = np.zeros(len(path), np.bool_)
+    for column in columns:
+        new[1:] |= column[order[1:]] != column[order[:-1]]
+    names = np.empty(len(path), np.intp)
+    names[order] = new.cumsum()
+    return names
+
+
+def _alike(points: NDArray[np.float64]) -> tuple[int, Rows]:
+    """How many places these points (n, 2) are to ON_PATH, and of each point (n,) which one."""
+    grid = np.round(points / ON_PATH)
+    places, at = np.unique(grid[:, 0] + 1j * grid[:, 1], return_inverse=True)
+    return len(places), at.reshape(-1)
+
+
+def _once(path: Path, names: Rows, rows: Rows) -> Rows:
+    """The rows left of `rows` when each period that they have is cut once, the shortest first."""
+    for period in _periods(names[rows]):
+        rows = _cut(path, names, rows, period)
+    return rows
+
+
+def _periods(names: Rows) -> list[int]:
+    """How many pieces ago pieces were last seen, rising; those that cannot be a lap's length left out."""
+    order = np.argsort(names, kind="stable")
+    same = names[order[1:]] == names[order[:-1]]
+    ago, counts = np.unique((order[1:] - order[:-1])[same], return_counts=True)
+    periods: list[int] = ago[SELDOM * counts >= ago].tolist()
+    return periods
+
+
+def _cut(path: Path, names: Rows, rows: Rows, period: int) -> Rows:
+    """Rows without the whole laps of this many pieces that are the same as the pieces a lap before them.
+
+    A run of pieces that are all named as the piece a period before, at least a period long, is closed: it ends with
+    the piece before it, and so where it begins.  What is over of a last lap that is not whole stays.
+    """
+    own, again = names[rows], np.zeros(len(rows) + 2, np.bool_)
+    again[period + 1 : -1] = own[period:] == own[:-period]
+    edges = np.flatnonzero(again[1:] != again[:-1])
+    first, whole = edges[::2], (edges[1::2] - edges[::2]) // period * period
+    keep = np.ones(len(rows), np.bool_)
+    for begin, count in zip(first[whole > 0].tolist(), whole[whole > 0].tolist(), strict=True):
+        if _joins(path, rows, begin, begin + count):
+            keep[begin : begin + count] = False
+    return rows[keep]
+
+
+def _joins(path: Path, rows: Rows, begin: int, behind: int) -> bool:
+    """Whether the piece `behind` starts where the one before `begin` ends; it is not moved if that could bend it.
+
+    An arc is a full circle only where its two points are the same to the last digit.
+    """
+    if behind == len(rows):
+        return bool(np.abs(path.points[-1] - path.ends[rows[begin - 1]]).max() <= 2.0 * ON_PATH)
+    start, end = path.points[rows[behind]], path.ends[rows[behind]]
+    moved = np.abs(start - path.ends[rows[begin - 1]]).max()
+    return bool(moved == 0.0 or (moved <= 2.0 * ON_PATH and np.abs(end - start).max() > GOUGE))

@@ -1,0 +1,190 @@
+"""Laps that a program repeats within one compensation are judged once, and nothing that they cut is lost."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.controls.laps import unlapped
+from core.controls.report import Run
+from core.controls.verdicts import depth, findings, judged
+from core.geometry.path import Path
+from core.geometry.side import Side
+from core.tolerance import ON_PATH
+from core.verify.judge import judge
+from core.verify.verdict import Verdict
+from tests.core.controls.hand import ran
+
+RING = """G21 G17 G90 F100
+T1 M6
+G0 X-30 Y-30 Z5
+G41 D1 G1 X0 Y-10
+{calls}
+G1 Y0
+G40 X-40 Y20
+M2
+O7
+{lap}
+M99
+"""
+LAP = "G1 Y0\nY30\nX40\nY0\nG2 X20 Y0 I-10 J0\nG1 X0"
+STEPS = ((0.0, 30.0), (40.1, 0.0), (0.0, -30.0), (-40.1, 0.0))
+
+
+def _ring(calls: str, lap: str = LAP, control: str = "linuxcnc") -> Run:
+    return ran(RING.format(calls=calls, lap=lap), control, t1=6)
+
+
+def _chain(corners: Sequence[tuple[float, float]], turns: Sequence[int] | None = None) -> Path:
+    """Pieces from corner to corner; those that turn are half circles, or full ones about a centre 2 to the right."""
+    points = np.array(corners, np.float64)
+    way = np.zeros(len(points) - 1, np.int8) if turns is None else np.array(turns, np.int8)
+    centres = np.where(way[:, None] == 0, points[:-1], (points[:-1] + points[1:]) / 2.0)
+    full = (way != 0) & (points[:-1] == points[1:]).all(axis=1)
+    centres[full] += (2.0, 0.0)
+    return Path.of(points, centres, way)
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "rosettacnc:normal"])
+def test_forty_laps_are_judged_as_one_with_the_same_findings(control: str) -> None:
+    (one,), (forty,) = judged(_ring("M98 P7", control=control)), judged(_ring("M98 P7 L40", control=control))
+    assert len(forty.surface) == len(one.surface) == 5
+    # the first lap comes in from the lead, so that a second one differs from it
+    assert len(forty.centre) <= 2 * len(one.centre)
+    assert findings((forty,)) == findings((one,))
+    assert {finding.code for finding in findings((one,))} == {"GOUGE", "LEADS", "LEAD-GOUGE", "UNCUT"}
+
+
+def test_the_pieces_judged_are_as_many_for_any_number_of_laps_and_controls() -> None:
+    for control in ("linuxcnc", "nine-series:a", "nine-series:b"):
+        few, many = ((judged(_ring(f"M98 P7 L{laps}", control=control))) for laps in (3, 200))
+        assert [len(one.centre) for one in few] == [len(one.centre) for one in many]
+        assert findings(few) == findings(many)
+
+
+def test_depths_that_are_written_out_are_judged_by_the_first_ones_lines() -> None:
+    laps = "\n".join(f"G1 Z{-depth}\n{LAP}" for depth in range(1, 10))
+    (result,) = judged(_ring(laps))
+    assert result.surface.numbers.tolist() == [7.0, 8.0, 9.0, 10.0, 11.0]
+    assert len(result.lines) == 45
+    assert {finding.line for finding in findings((result,)) if finding.code == "UNCUT"} == {10}
+
+
+def test_a_gouge_in_the_seventh_lap_alone_is_told() -> None:
+    """Its notch goes down through what all the other laps leave as the part's top."""
+    lap = "G1 X0 Y30\nX40\nY0\nX0"
+    notched = lap.replace("X40", "X20\nY22\nX22\nY30\nX40")
+    laps = [lap] * 6 + [notched] + [lap] * 3
+    even, cut = (judged(_ring("G1 Y0\n" + "\n".join(all_of), control="nine-series:b")) for all_of in ([lap] * 10, laps))
+    seventh = range(6 + 6 * 4, 6 + 6 * 4 + 8)
+    assert depth(even)[0] < 0.1
+    assert depth(cut) == (3.0, seventh[2])
+    assert {gouge.surface_number for gouge in cut[0].verdict.gouges if gouge.depth == 3.0} == {7.0}
+
+
+def test_a_lap_that_differs_in_one_piece_stays() -> None:
+    lap = [(0.0, 30.0), (40.0, 30.0), (40.0, 0.0), (0.0, 0.0)]
+    other = [*lap[:1], (40.0, 29.0), *lap[2:]]
+    found = unlapped(_chain([(-5.0, 0.0), (0.0, 0.0), *lap * 6, *other, *lap * 5, (-5.0, 0.0)]))
+    assert [40.0, 29.0] in found.points.tolist()
+    assert found.numbers[:5].tolist() == [1.0, 2.0, 3.0, 4.0, 5.0]
+    assert found.points[[0, -1]].tolist() == [[-5.0, 0.0], [-5.0, 0.0]]
+    # the first lap and the seventh; the eighth is cut from behind the seventh's last difference on
+    assert len(found) <= 2 + 4 + 4 + 4
+
+
+def test_what_goes_back_and_forth_or_on_is_no_lap() -> None:
+    back = _chain([(0.0, 0.0), (9.0, 0.0), (0.0, 0.0)])
+    assert unlapped(back) is back
+    stairs = _chain([(float(step // 2), float((step + 1) // 2)) for step in range(40)])
+    assert unlapped(stairs) is stairs
+    # its two pieces come again two pieces later, but only one of them: no whole lap
+    again = _chain([(0.0, 0.0), (9.0, 0.0), (0.0, 0.0), (9.0, 0.0), (9.0, 5.0)])
+    assert unlapped(again) is again
+    whole = unlapped(_chain([(0.0, 0.0), (9.0, 0.0), (0.0, 0.0), (9.0, 0.0), (0.0, 0.0), (0.0, 5.0)]))
+    assert whole.points.tolist() == [[0.0, 0.0], [9.0, 0.0], [0.0, 0.0], [0.0, 5.0]]
+
+
+def test_the_other_turn_and_the_other_centre_are_other_pieces() -> None:
+    both_ways = _chain([(0.0, 0.0)] * 3, [1, -1])
+    assert unlapped(both_ways) is both_ways
+    circles = _chain([(0.0, 0.0)] * 5, [1] * 4)
+    assert unlapped(circles).numbers.tolist() == [1.0]
+    centres = circles.centres + np.arange(4.0)[:, None] * (1.0, 0.0)
+    beside = Path.of(circles.points, centres, circles.turns)
+    assert unlapped(beside) is beside
+
+
+def test_laps_within_laps_are_cut_too() -> None:
+    inner, outer = [(1.0, 0.0), (1.0, 1.0), (0.0, 0.0)], [(0.0, 9.0), (0.0, 0.0)]
+    found = unlapped(_chain([(0.0, 0.0), *(inner * 5 + outer) * 6]))
+    assert found.numbers.tolist() == [1.0, 2.0, 3.0, 16.0, 17.0]
+
+
+def test_sums_that_differ_in_the_last_digit_are_one_lap_with_the_first_ones_numbers() -> None:
+    steps = [(0.1, 0.2), *((x / 3.0, y / 7.0) for x, y in STEPS * 50)]
+    points = np.vstack((np.cumsum(steps, axis=0), [(-5.0, 0.0)]))
+    assert len(np.unique(points[:-1], axis=0)) > 4
+    found = unlapped(_chain([tuple(point) for point in points.tolist()]))
+    assert found.numbers.tolist() == [1.0, 2.0, 3.0, 4.0, 201.0]
+    assert np.array_equal(found.points[:5], points[:5])
+    # a line has its own start for a centre
+    assert np.array_equal(found.centres, found.points[:-1])
+
+
+def test_a_full_circle_is_never_bent_by_a_start_that_rounding_moved() -> None:
+    """Moved by the last digit its two points would no longer be one, and it an arc of no length or nearly full."""
+    lap = [(0.0, 30.0), (40.0, 30.0), (0.0, 0.0)]
+    near = [(0.0, 30.0), (40.0, 30.0), (ON_PATH / 10.0, 0.0)]
+    corners = [(0.0, 0.0), *lap, *near, near[-1], (9.0, 9.0)]
+    path = _chain(corners, [0] * 6 + [1] + [0])
+    found = unlapped(path)
+    assert np.abs(found.sweeps).max() == np.abs(path.sweeps).max() == 2.0 * np.pi
+
+
+def test_an_arc_of_no_length_is_no_full_circle() -> None:
+    points = [(0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (ON_PATH / 10.0, 0.0), (ON_PATH / 10.0, 0.0)]
+    centres = np.full((4, 2), (2.0, 0.0))
+    path = Path.of(np.array(points), centres, np.full(4, -1, np.int8))
+    assert np.abs(unlapped(path).sweeps).min() < 1e-6
+
+
+def test_numbers_that_are_none_are_left_to_the_judge() -> None:
+    for bad in (np.nan, np.inf, 1e300):
+        path = _chain([(0.0, 0.0), (bad, 0.0), (0.0, 0.0), (bad, 0.0), (0.0, 0.0)])
+        assert unlapped(path) is path
+
+
+corner = st.tuples(st.integers(0, 4), st.integers(0, 4)).map(lambda at: (4.0 * at[0], 4.0 * at[1]))
+pieces = st.lists(st.tuples(corner, st.sampled_from((0, 0, 0, 1, -1))), min_size=1, max_size=4)
+block = st.tuples(pieces, st.integers(1, 5))
+
+
+@st.composite
+def lapped(draw: st.DrawFn) -> Path:
+    """Blocks of moves, some of them several times over: closed after their first move, since they end where it did."""
+    blocks = draw(st.lists(block, min_size=1, max_size=4))
+    way = [piece for moves, times in blocks for piece in moves * times]
+    return _chain([draw(corner), *(at for at, _ in way)], [turn for _, turn in way])
+
+
+def _told(verdict: Verdict) -> tuple[object, ...]:
+    """What does not depend on how often a place is passed."""
+    uncut = {(*np.round(one.thickest, 6), round(one.thickness, 6)) for one in verdict.uncut}
+    thickest = max((one[2] for one in uncut), default=0.0)
+    return verdict.judged, verdict.clean, round(verdict.depth, 9), round(verdict.clearance, 9), thickest
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(lapped(), lapped(), st.sampled_from((Side.LEFT, Side.RIGHT)), st.sampled_from((1.0, 2.0, 3.0)))
+def test_the_verdict_is_that_on_all_the_laps(surface: Path, shape: Path, side: Side, radius: float) -> None:
+    moved = shape.points * 1.1 - 3.0
+    centre = Path.of(moved, shape.centres * 1.1 - 3.0, shape.turns)
+    whole = judge(surface, side, radius, centre)
+    assert _told(judge(unlapped(surface), side, radius, unlapped(centre))) == _told(whole)
+    kept = {tuple(point) for point in unlapped(surface).points.tolist()}
+    assert kept == {tuple(point) for point in surface.points.tolist()}
