@@ -151,6 +151,13 @@ class Watch:
     softkeys: int = 0
     last: bytes = b""
     memory: list[float] = field(default_factory=list)
+    dead: bool = False
+
+    def status(self, terminal: Terminal) -> int | None:
+        """The exit status once the program has ended; one whose terminal is closed is waited for."""
+        while (status := terminal.ended()) is None and self.dead:
+            time.sleep(0.1)
+        return status
 
 
 def resident(pid: int, name: str = "VmRSS") -> float:
@@ -165,6 +172,7 @@ def haunted(terminal: Terminal, pipe: int, watch: Watch, until: float) -> None:
     while time.monotonic() < until:
         ready, _, _ = select.select([terminal.fd, pipe], [], [], 0.5)
         if terminal.fd in ready and not _drained(terminal.fd, watch):
+            watch.dead = True
             return
         if pipe in ready:
             *lines, rest = (rest + os.read(pipe, 65536)).split(b"\n")
@@ -211,7 +219,7 @@ def watched(terminal: Terminal, pipe: int, minutes: float, watch: Watch) -> Iter
     begun = time.monotonic()
     while len(watch.memory) < minutes:
         haunted(terminal, pipe, watch, min(begun + 60 * (len(watch.memory) + 1), begun + 60 * minutes))
-        if (status := terminal.ended()) is not None:
+        if (status := watch.status(terminal)) is not None:
             said = watch.last.decode(errors="replace")
             yield f"WRONG: the program has ended with {status} after {watch.keys} keys\n{said}"
             yield "failures 1"
