@@ -12,7 +12,7 @@ from app.widgets.rows import Look, Row, Span, padded, plain
 from app.widgets.verdict import mark_of
 from app.widgets.words import length, numbers
 from core.comp.lookahead import HIGHEST, LOWEST
-from core.program.edit import recalculate_lookahead, type_field
+from core.program.edit import Where, recalculate_lookahead, type_field
 from core.program.model import Entry
 from core.records import dataclass
 from core.units import Unit
@@ -45,11 +45,11 @@ class LookaheadTable(Page):
 
     def softkeys(self, session: Session) -> Softkeys:
         """Taking the value, or going back to CAL."""
-        where = session.where
-        taken = Edit(
-            type_field(session.program, where, "lookahead", Entry(float(self.at))), f"CUTCOMP LOOKAHEAD {self.at}"
-        )
-        cal = Edit(recalculate_lookahead(session.program, where.block), "RECALCULATE LOOKAHEAD")
+        program, block = session.program, session.where.block
+        # an undo made here may have gone to a segment, which has no such field
+        usr = type_field(program, Where(block), "lookahead", Entry(float(self.at)))
+        taken = Edit(usr, f"CUTCOMP LOOKAHEAD {self.at}")
+        cal = Edit(recalculate_lookahead(program, block), "RECALCULATE LOOKAHEAD")
         return {
             1: Softkey(f"TAKE {self.at} AS USR", (taken, Close())),
             3: Softkey("RECALCULATE LOOKAHEAD", (cal, Close())),

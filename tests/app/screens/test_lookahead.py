@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from app.messages import Open
 from app.screens.lookahead import LookaheadTable
 from app.screens.page import Surface
 from app.widgets.rows import text_of
@@ -40,3 +41,14 @@ def test_deleted_segments_that_have_no_room_are_marked_as_cut_short() -> None:
     last = told[-1][29:].split()
     assert (last[0], last[3]) == ("20*", "12-…")
     assert all(len(line) <= 59 for line in told)
+
+
+def test_a_value_is_taken_though_an_undo_in_the_table_has_gone_to_a_segment() -> None:
+    operator = square()
+    operator.press("pagedown", "tab").type("2.5").press("ctrl+home")
+    operator.desk = operator.desk.take(Open(LookaheadTable(2)))
+    operator.press("ctrl+z")
+    assert isinstance(operator.desk.page, LookaheadTable)
+    assert operator.session.where.segment == 1
+    operator.press("down", "enter")
+    assert operator.block.lookahead == Entry(3.0)
