@@ -29,6 +29,8 @@ from tests.bench.keys import gear as typed_gear
 LOOKAHEAD: Final = 8
 SIZES: Final = (10, 100, 1_000, 10_000, 100_000)
 OURS: Final = ("control path", "verdict", "best path")
+RS274_SECONDS: Final = 0.7
+"""What rs274 took for the gear of 100,000 segments where the bars in milliseconds were set."""
 LEAST_SECONDS: Final = 0.002
 """A measurement repeats what is quicker until it has taken so long."""
 
@@ -98,13 +100,17 @@ def families(sizes: tuple[int, ...], rounds: int) -> dict[tuple[str, int], dict[
     return found
 
 
-def beside_peers(sizes: tuple[int, ...], rounds: int) -> None:
-    """The gear, by us and by the peers; a peer is left out where its chords are too many."""
+def beside_peers(sizes: tuple[int, ...], rounds: int) -> dict[str, float]:
+    """The gear, by us and by the peers; a peer is left out where its chords are too many.
+
+    Returned are the times of the largest size.
+    """
     print(f"\nthe gear at look-ahead {LOOKAHEAD}, milliseconds; in brackets how many times our control path")
     print(f"peers offset chords within {peers.CHORD} mm, at most {peers.MOST_CHORDS} of them;")
     print(
         f"rs274 runs it at radius {gear(10).accepted}, which it accepts, the others at {gear(10).radius} with deletions"
     )
+    row: dict[str, float] = {}
     for count in sizes:
         work = gear(count)
         with tempfile.TemporaryDirectory() as folder:
@@ -112,6 +118,7 @@ def beside_peers(sizes: tuple[int, ...], rounds: int) -> None:
             row = medians(runs, rounds if count < 100_000 else 3)
         own = row["control path"]
         print(f"{count:>9}  " + "  ".join(f"{name} {value:.2f} ({value / own:.1f}x)" for name, value in row.items()))
+    return row
 
 
 def _peers(work: Work, folder: File) -> dict[str, Callable[[], object]]:
@@ -135,8 +142,11 @@ def accepted(process: Callable[[], subprocess.CompletedProcess[str]]) -> Callabl
     return run
 
 
-def small(rounds: int) -> None:
-    """What stands beside the form: the look-ahead table, and everything derived of a program of ten segments."""
+def small(rounds: int, slower: float | None) -> None:
+    """What stands beside the form: the look-ahead table, and everything derived of a program of ten segments.
+
+    `slower` is how many times slower this machine is than the one the bars were set on, None where nobody knows.
+    """
     large, ten = typed_gear(200), typed_gear(12)
     ten = replace(ten, blocks=(replace(ten.blocks[0], segments=ten.blocks[0].segments[:10]),))
     (block,) = derive(large).blocks
@@ -148,27 +158,41 @@ def small(rounds: int) -> None:
         "all derived, 10 segments": lambda: derive(ten),
     }
     print()
+    if slower is not None:
+        print(f"rs274 took {slower:.1f} times the {RS274_SECONDS} s of the machine the bars were set on")
     for name, value in medians(runs, 4 * rounds).items():
-        print(f"{name}: {value:.2f} ms")
+        there = "" if slower is None else f", there {value / slower:.2f} ms"
+        print(f"{name}: {value:.2f} ms{there}")
 
 
-def ratios(found: Mapping[tuple[str, int], Mapping[str, float]], sizes: tuple[int, ...]) -> None:
+def slowness(row: Mapping[str, float], count: int) -> float | None:
+    """How many times slower than there this machine is, by rs274's own time for the gear; None where it did not run."""
+    if count != SIZES[-1] or "rs274" not in row:
+        return None
+    return row["rs274"] / (1000.0 * RS274_SECONDS)
+
+
+def ratios(found: Mapping[tuple[str, int], Mapping[str, float]], sizes: tuple[int, ...], rounds: int) -> None:
     """The families against one another, and growth from the second largest size to the largest, if there are two."""
     most = sizes[-1]
     times = {name: row["control path"] for (name, count), row in found.items() if count == most}
     middle = statistics.median(times.values())
     print(f"\nat {most} segments the median family takes {middle:.1f} ms")
     for name, value in times.items():
-        print(f"{name:<10}{value / middle:>6.2f} x the median{grown(found, name, sizes)}")
+        print(f"{name:<10}{value / middle:>6.2f} x the median{grown(name, sizes, rounds)}")
 
 
-def grown(found: Mapping[tuple[str, int], Mapping[str, float]], name: str, sizes: tuple[int, ...]) -> str:
-    """How the time per segment of a family grew to the largest size; nothing if only one was measured."""
+def grown(name: str, sizes: tuple[int, ...], rounds: int) -> str:
+    """How the time per segment of a family grows to the largest size; nothing if only one is measured.
+
+    The two sizes take turns: minutes apart they would not see the same machine.
+    """
     if len(sizes) < 2:
         return ""
+    family = next(one for one in FAMILIES if one.__name__ == name)
     before, most = sizes[-2:]
-    each, former = (found[name, count]["control path"] / count for count in (most, before))
-    return f"   time per segment {each / former:.2f} x that at {before}"
+    row = medians({str(count): control(family(count)) for count in (before, most)}, rounds)
+    return f"   time per segment {row[str(most)] / row[str(before)] * before / most:.2f} x that at {before}"
 
 
 def main(arguments: list[str]) -> None:
@@ -181,13 +205,13 @@ def main(arguments: list[str]) -> None:
     if not sizes:
         parser.error(f"--most is at least {SIZES[0]}")
     found = families(sizes, options.rounds)
-    ratios(found, sizes)
+    ratios(found, sizes, options.rounds)
     print("\npeak above the input, bytes a segment (tracemalloc):")
     for name, path in (("control path", control), ("best path", best)):
         works = [(family.__name__, family(sizes[-1])) for family in FAMILIES]
         print(f"{name}: " + "  ".join(f"{family} {bytes_a_segment(work, path(work)):.0f}" for family, work in works))
-    beside_peers(sizes, options.rounds)
-    small(options.rounds)
+    peers_at_most = beside_peers(sizes, options.rounds)
+    small(options.rounds, slowness(peers_at_most, sizes[-1]))
 
 
 if __name__ == "__main__":
