@@ -16,7 +16,7 @@ from pathlib import Path
 from signal import SIG_IGN, SIGINT, signal
 from typing import Final
 
-from app.checking import Answer, Asked, answer, answer_all, lines, same_contours
+from app.checking import Answer, Asked, answer, answer_all, lines, reasons, same_contours
 from app.control_options import Unusable, add_options, bytes_of, control_of, name_of, tools_of, unit_of
 from app.listing import SUFFIXES
 from core.controls.registry import names
@@ -188,6 +188,8 @@ def _print_table(answers: tuple[Answer, ...]) -> None:
     outcome = max(len(one.outcome) for one in answers)
     for one in answers:
         print(f"{one.control:<{width}}  {one.outcome:<{outcome}}  {one.parts}".rstrip())
+    for reason in reasons(answers):
+        print(reason)
     missing = sorted({one.missing for one in answers if one.missing is not None})
     if missing:
         told = " and ".join(map(str, missing))

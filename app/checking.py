@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Final
 
 from core.controls import shoprules
@@ -40,7 +41,7 @@ class Asked:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Answer:
-    """A program on a control, told."""
+    """A program on a control, told; `why` is what it stops for."""
 
     control: str
     unit: Unit
@@ -50,6 +51,7 @@ class Answer:
     outcome: str
     stretches: int = 0
     parts: str = ""
+    why: Finding | None = None
 
     @property
     def errors(self) -> bool:
@@ -60,6 +62,11 @@ class Answer:
     def uncompensated(self) -> bool:
         """Whether compensation is asked for somewhere with radius 0."""
         return any(finding.code in RADIUS_ZERO for finding in self.findings)
+
+    @property
+    def why_said(self) -> str:
+        """What the control stops for as a sentence, empty where it does not."""
+        return "" if self.why is None else sentence(self.why, self.unit)
 
     @property
     def missing(self) -> int | None:
@@ -130,22 +137,21 @@ def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
 
 def _answer(done: Run, results: tuple[Judged, ...], before: tuple[Finding, ...], parts: str, *, shop: bool) -> Answer:
     told = (*before, *done.findings, *findings(results), *(shoprules.check(done) if shop else ()))
-    outcome = _outcome(done, results)
-    return Answer(
-        done.control, done.unit, done.moves, _by_line(told), done.stopped_at, outcome, len(done.stretches), parts
-    )
+    why = None if done.stopped_at is None else _last_error(done.findings)
+    row = Answer(done.control, done.unit, done.moves, _by_line(told), done.stopped_at, _outcome(done, results, why))
+    return replace(row, stretches=len(done.stretches), parts=parts, why=why)
 
 
 def _by_line(told: tuple[Finding, ...]) -> tuple[Finding, ...]:
     return tuple(sorted(told, key=lambda finding: finding.line or 0))
 
 
-def _outcome(done: Run, results: tuple[Judged, ...]) -> str:
+def _outcome(done: Run, results: tuple[Judged, ...], why: Finding | None) -> str:
     cut, line = depth(results)
     place = f"at line {line}" if line else "in a lead"
     gouges = f"gouges by {_length(cut, done.unit)} {place}" if cut else ""
     if done.stopped_at is not None:
-        rule = next((one.code for one in reversed(done.findings) if one.severity is Severity.ERROR), "")
+        rule = "" if why is None else why.code
         stops = "cannot be followed behind" if rule in NOT_FOLLOWED else "alarms at"
         return f"{stops} line {done.stopped_at} ({rule})" + (f", {gouges} before" if gouges else "")
     if gouges:
@@ -156,6 +162,10 @@ def _outcome(done: Run, results: tuple[Judged, ...]) -> str:
     if not any(one.code in RADIUS_ZERO for one in done.findings):
         return "runs"
     return f"runs, {'not all' if any(one.radius for one in done.stretches) else 'nothing'} compensated"
+
+
+def _last_error(told: tuple[Finding, ...]) -> Finding | None:
+    return next((one for one in reversed(told) if one.severity is Severity.ERROR), None)
 
 
 def _parting(parts: Parting, of: str, unit: Unit) -> str:
@@ -201,6 +211,11 @@ def lines(one: Answer) -> Iterator[str]:
         place = "" if finding.line is None else f"{finding.line}:{finding.column or 1}"
         yield f"{place:>9}  {finding.severity.value:<7}  {finding.code:<13}  {sentence(finding, one.unit)}"
     yield f"{one.control}: {one.outcome}; {one.count} moves, {one.stretches} compensated stretches, {one.unit.value}."
+
+
+def reasons(answers: tuple[Answer, ...]) -> Iterator[str]:
+    """What the controls stop for, a sentence once for a rule and line."""
+    yield from dict.fromkeys(f"Line {one.stopped_at} ({one.why.code}): {one.why_said}" for one in answers if one.why)
 
 
 def same_contours(first: bytes, second: bytes, asked: Asked) -> tuple[bool, tuple[str, ...]]:

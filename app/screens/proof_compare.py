@@ -68,9 +68,8 @@ class ComparePage(Page):
         told = [self._row(index, surface.across) for index in range(len(self.rows))]
         body = [row for rows in told for row in rows]
         one = self.rows[self.at]
-        parts = f"; {one.parts}" if one.parts else ""
         focus = 1 + sum(len(rows) for rows in told[: self.at])
-        return View(title, ((), *body), Said(f"Enter tries {one.control}: {one.outcome}{parts}."), focus)
+        return View(title, ((), *body), Said(f"Enter tries {one.control}: {_said(one)}"), focus)
 
     def _row(self, index: int, width: int) -> tuple[Row, ...]:
         """A control's lines, wrapped between words: no number is cut."""
@@ -82,6 +81,13 @@ class ComparePage(Page):
         rest = [plain(f"{'':21}{line}", _look(one)) for line in more]
         parts = wrap(one.parts, max(width - 6, 8), subsequent_indent="  ")
         return (first, *rest, *(plain(f"{'':5}{line}", Look.LABEL) for line in parts))
+
+
+def _said(one: Fate) -> str:
+    """What a control stops for, in a sentence; else what the row says."""
+    if one.why is not None:
+        return one.why_said
+    return f"{one.outcome}; {one.parts}." if one.parts else f"{one.outcome}."
 
 
 def _look(one: Fate) -> Look:

@@ -72,6 +72,14 @@ def test_all_controls_in_a_table(capsys: pytest.CaptureFixture[str]) -> None:
     assert "by the contour" in rows["klartext"]
 
 
+def test_the_table_says_in_a_sentence_what_each_control_stops_for(capsys: pytest.CaptureFixture[str]) -> None:
+    _, out, _ = output(capsys, NC / "rosettacnc-square.ngc", "--control", "all", "--tool", "1=6")
+    said = [line for line in out.splitlines() if line.startswith("Line 15 (C6): ")]
+    assert said == [
+        "Line 15 (C6): An inside corner is an error with this entry; round it in the program or use the normal entry."
+    ]
+
+
 def test_a_tool_nobody_gave_is_told_once_with_what_to_add(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     file = tmp_path / "w.nc"
     file.write_text("G20 G90\nT3 M6\nG0 X0 Y0\nG1 F10.\nG41 D3 X1. Y0\nX3.\nY2.\nG40 X5. Y2.\nM2\n")
