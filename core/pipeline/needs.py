@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import ceil
 from typing import Final
@@ -12,6 +13,8 @@ from core.pipeline.derived import DerivedBlock
 from core.pipeline.remedies import (
     StartMoved,
     ToolFits,
+    Unwanted,
+    always,
     largest_tool,
     longest,
     start_mid_side,
@@ -43,14 +46,27 @@ class Needs:
     sentences: tuple[Finding, ...] = ()
 
 
-def needs(found: DerivedBlock, program: Program, table: Table | None = None) -> Needs | None:
-    """What a derived block needs; `table` is its look-ahead table where that is known.  None where there is none."""
+def needs(
+    found: DerivedBlock, program: Program, table: Table | None = None, *, wanted: Callable[[], bool] = always
+) -> Needs | None:
+    """What a derived block needs; `table` is its look-ahead table where that is known.  None where there is none.
+
+    `wanted` is asked before each remedy is tried: where it says no, the rest is not tried and the answer is None.
+    """
     trial = trial_of(found, program)
-    return None if trial is None else needs_of(trial, found.lookahead.calculated, table or table_of(trial))
+    if trial is None:
+        return None
+    try:
+        return needs_of(trial, found.lookahead.calculated, table or table_of(trial), wanted)
+    except Unwanted:
+        return None
 
 
-def needs_of(trial: Trial, calculated: int, table: Table) -> Needs:
-    """What a contour needs whose look-ahead table is known; nothing where it could not be offset at all."""
+def needs_of(trial: Trial, calculated: int, table: Table, wanted: Callable[[], bool] = always) -> Needs:
+    """What a contour needs whose look-ahead table is known; nothing where it could not be offset at all.
+
+    Raises Unwanted where `wanted` says no before a remedy is tried.
+    """
     if not len(table.rows[0].compensated.raw):
         return Needs(())
     why = why_not_clean(table, calculated)
@@ -58,19 +74,21 @@ def needs_of(trial: Trial, calculated: int, table: Table) -> Needs:
         return Needs(why, sentences=why)
     nearest = min(table.rows, key=lambda row: (row.gouge, row.value))
     small = _small(nearest, trial.radius)
-    blendless, start = without_blends(trial), start_mid_side(trial)
-    tool, where = (None, "") if start is not None or blendless is not None else _tool(trial, nearest, small)
+    blendless, start = without_blends(trial, wanted), start_mid_side(trial, wanted)
+    tool, where = (None, "") if start is not None or blendless is not None else _tool(trial, nearest, small, wanted)
     remedies = (*_blends_said(blendless), *_start_said(start), *_tool_said(tool, where)) or (_nothing(),)
     return Needs(why, small, tool, start, blendless, (*why, *_some(small), *remedies))
 
 
-def _tool(trial: Trial, nearest: Row, small: tuple[Finding, ...]) -> tuple[ToolFits | None, str]:
+def _tool(
+    trial: Trial, nearest: Row, small: tuple[Finding, ...], wanted: Callable[[], bool]
+) -> tuple[ToolFits | None, str]:
     """The largest tool, and where the contour has to be started for it where its own start is an inside corner."""
     hint = min((one.value for one in small if one.value is not None), default=None)
     if not any(one.code == "START_INSIDE_CORNER" for one in nearest.compensated.findings):
-        return largest_tool(trial, hint), ""
+        return largest_tool(trial, hint, wanted), ""
     row = longest(trial.surface)[0]
-    found = largest_tool(replace(trial, surface=started(trial.surface, row)), hint)
+    found = largest_tool(replace(trial, surface=started(trial.surface, row)), hint, wanted)
     return found, f" when the contour is started in the middle of segment {trial.surface.numbers[row]:g}"
 
 

@@ -5,6 +5,7 @@ The number of trials is bounded, so that a remedy that exists may not be found; 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import cos, sin
 from typing import Final
@@ -44,7 +45,21 @@ class StartMoved:
     value: int
 
 
-def largest_tool(trial: Trial, hint: float | None = None) -> ToolFits | None:
+class Unwanted(Exception):
+    """Nobody waits for the remedies any more."""
+
+
+def always() -> bool:
+    """Somebody waits to the end."""
+    return True
+
+
+def _still(wanted: Callable[[], bool]) -> None:
+    if not wanted():
+        raise Unwanted
+
+
+def largest_tool(trial: Trial, hint: float | None = None, wanted: Callable[[], bool] = always) -> ToolFits | None:
     """The largest clean diameter below the cutter's, a multiple of STEP, rounded down; by halving what is left.
 
     `hint` is a radius that may be the limit, such as that of the smallest inside arc: it is tried first.
@@ -54,7 +69,9 @@ def largest_tool(trial: Trial, hint: float | None = None) -> ToolFits | None:
     while fails - known > 1:
         size = tries.pop(0) if tries else (known + fails) // 2
         if known < size < fails:
+            _still(wanted)
             known, fails = (size, fails) if _clean(_with_tool(trial, size)) else (known, size)
+    _still(wanted)
     value = table_of(_with_tool(trial, known)).recommended if known else None
     return None if value is None else ToolFits(known * STEP, value)
 
@@ -77,9 +94,10 @@ def _steps(diameter: float) -> int:
     return int(diameter / STEP + 1e-6)
 
 
-def start_mid_side(trial: Trial) -> StartMoved | None:
+def start_mid_side(trial: Trial, wanted: Callable[[], bool] = always) -> StartMoved | None:
     """The longest side of a closed contour whose middle is a clean start."""
     for row in longest(trial.surface)[:MOST_STARTS] if trial.closed else ():
+        _still(wanted)
         value = table_of(replace(trial, surface=started(trial.surface, row))).recommended
         if value is not None:
             return StartMoved(float(trial.surface.numbers[row]), middle(trial.surface[row]), value)
@@ -92,9 +110,12 @@ def longest(contour: Path) -> list[int]:
     return rows
 
 
-def without_blends(trial: Trial) -> int | None:
+def without_blends(trial: Trial, wanted: Callable[[], bool] = always) -> int | None:
     """The value that is clean when the blend moves are left out."""
-    return table_of(replace(trial, blend=0.0, overlap=0.0)).recommended if trial.blend > 0.0 else None
+    if trial.blend <= 0.0:
+        return None
+    _still(wanted)
+    return table_of(replace(trial, blend=0.0, overlap=0.0)).recommended
 
 
 def middle(piece: Piece) -> Point:

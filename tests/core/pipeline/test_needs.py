@@ -21,6 +21,7 @@ from core.pipeline.table import Trial, table_of
 from core.program.model import CutterComp
 from core.units import Unit, sentence
 from tests.bench.families import gear
+from tests.bench.keys import gear as typed_gear
 from tests.core.comp.contours import lines, mixed, shut
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OUTSIDE_SQUARE, block, program
 
@@ -166,6 +167,22 @@ def test_where_nothing_helps_it_says_so():
     assert codes(found)[-1] == "NOTHING_HELPS"
 
 
+@pytest.mark.parametrize("tries", range(9))
+def test_remedies_nobody_waits_for_are_given_up_at_the_next_one(tries):
+    """The gear tries six starts and then tools: it is asked before each, and not again when the answer was no."""
+    part = typed_gear(200)
+    found = derive(part).blocks[0]
+    asked: list[bool] = []
+
+    def wanted() -> bool:
+        still = bool(len(asked) < tries)
+        asked.append(still)
+        return still
+
+    assert needs(found, part, wanted=wanted) is None
+    assert asked == [True] * tries + [False]
+
+
 def test_many_places_are_counted():
     work = gear(50)
     found = of(trial(work.contour, work.side, 6.0, closed=True))
@@ -202,5 +219,5 @@ def test_every_remedy_holds(contour, side, radius, closed):
         assert table_of(replace(asked, surface=started(asked.surface, row))).row(found.start.value).clean
     if found.tool is not None:
         small = replace(asked, radius=found.tool.diameter / 2)
-        moved = [small, *(replace(small, surface=started(small.surface, row)) for row in range(len(contour)))]
+        moved = [small, *(replace(small, surface=started(small.surface, row)) for row in range(len(asked.surface)))]
         assert any(table_of(one).row(found.tool.value).clean for one in (moved if closed else moved[:1]))
