@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, ClassVar, Final
 
 from textual.app import App
 
+from app.advice import Advice
 from app.behind import Behind
 from app.desk import Desk
 from app.engine import Engine, bearing
@@ -62,11 +63,12 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self.trial: Session | None = None
         self.around = around or real()
         self.engine = engine or Engine()
+        self.advice = Advice.of(self)
+        # when the last key came, and the surroundings then
+        self.touched, self.then = 0.0, self.around.now()
         self._loading = Behind(self, self._loaded)
         self._deriving = Behind(self, self._derived)
         self._trying = Behind(self, self._tried)
-        self._tabling = Behind(self, self._tabled)
-        self._needing = Behind(self, self._needed)
         self._surveying = Behind(self, self._surveyed)
         self._asking: Behind[object] = Behind(self, self._answered)
         self._asked: Question | None = None
@@ -88,13 +90,14 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         # what came with the imports stays: the collector need not look through it ever again
         gc.freeze()
         gc.enable()
-        self.set_interval(MINUTE, self.refresh_screen)
+        self.set_interval(MINUTE, self._tick)
         self.desk = self.keep(self.desk)
         program = self.desk.session.program
         self._loading.ask(lambda: self.engine.load(program))
 
     def key(self, key: str, character: str | None) -> None:
         """A key was pressed."""
+        self._touch()
         if key == AGAIN:
             self.paint_again()
             return
@@ -104,8 +107,17 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
 
     def paste(self, text: str) -> None:
         """Text was pasted."""
+        self._touch()
         self.desk = self.keep(self.desk.paste(text))
         self._advance()
+
+    def _touch(self) -> None:
+        self.touched, self.then = perf_counter(), self.around.now()
+
+    def _tick(self) -> None:
+        """The clock goes on."""
+        self.then = self.around.now()
+        self.refresh_screen()
 
     def _wait_for_digit(self) -> None:
         """Behind a lone Esc, so long and no longer."""
@@ -134,8 +146,8 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
 
     def picture(self, width: int, height: int) -> tuple[Row, ...]:
         """The terminal as it is now."""
-        known = self.engine.known(self.shown.found, self.trial)
-        return picture(self.desk, known, self.around, width, height)
+        known = self.engine.known(self.shown.found, self.trial, self.desk.session.found)
+        return picture(self.desk, known, self.then, width, height)
 
     def _advance(self) -> None:
         """After every change of the desk: derive what is stale, paint, or leave."""
@@ -169,8 +181,7 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         """What follows from the program as it is, and its picture."""
         self._late = False
         self._try()
-        self._tabulate()
-        self._need()
+        self.advice.seek()
         self._survey()
         self._ask()
         self.refresh_screen()
@@ -204,8 +215,7 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         """A result from a thread; one for another program than that of now is dropped."""
         program = self.desk.session.program
         self.desk = self.desk.knowing(bearing(derived, program) if derived.program == program else derived)
-        self._tabulate()
-        self._need()
+        self.advice.seek()
         self.refresh_screen()
 
     def _try(self) -> None:
@@ -230,24 +240,8 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
             self._derived(derived)
         if self.desk.page.preview(self.desk.session) == derived.program:
             self.trial = self.desk.session.trying(derived)
-            self._tabulate()
+            self.advice.seek()
             self.refresh_screen()
-
-    def _tabulate(self) -> None:
-        """The look-ahead table of the block shown, kept until the block changes."""
-        found, program = self.shown.found, self.shown.program
-        if self.engine.tabulated(found):
-            return
-        if self.engine.fast("derive", "table"):
-            self.engine.keep_table(found, program)
-        else:
-            self._tabling.ask(lambda: self.engine.keep_table(found, program))
-
-    def _need(self) -> None:
-        """What the contour needs where CAL is not clean: why, and what would help."""
-        session = self.desk.session
-        if self.trial is None and self.engine.lacks_needs(session.found):
-            self._needing.ask(lambda: self.engine.keep_needs(session.found, session.program))
 
     def _survey(self) -> None:
         """The start screen's files, one after the other, once the numeric library is there."""
@@ -287,11 +281,4 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
     def _answered(self, answer: object) -> None:
         """An answer from a thread; pages that ask something else by now drop it."""
         self.desk = self.desk.told(answer)
-        self.refresh_screen()
-
-    def _tabled(self, _: None) -> None:
-        self._need()
-        self.refresh_screen()
-
-    def _needed(self, _: None) -> None:
         self.refresh_screen()

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from importlib import import_module
 from time import thread_time
-from typing import TYPE_CHECKING, Final, TypeVar
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeVar
 
 from app.memory import Memory
 from app.screens.page import Drawn, Sketch
@@ -87,8 +87,7 @@ class Known:
         return self.memory.recall("verdict", (*about, *room), lambda: fitted(verdict_rows(*about)[first:], *room))
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Needing:
+class Needing(NamedTuple):
     """Sentences on what a block needs: the paths they are about, and the calculated look-ahead they explain."""
 
     work: Work
@@ -112,10 +111,10 @@ class Engine:
     """What was derived last, whether of the program or of one that was tried out; the newest first."""
     tables: tuple[tuple[Work, Table | None], ...] = ()
     """Paths and their tables, the newest first; changed as a whole, since screens look in from another thread."""
-    needs: Needing | None = None
-    """What was found out last; replaced as a whole too."""
-    told: tuple[Table, Needing, Table] | None = None
-    """The table as it was made, what its block needs, and the table with it."""
+    notes: tuple[tuple[Work, tuple[Finding, ...]], ...] = ()
+    """Paths and what a better one would cut, the newest first; changed as a whole too."""
+    needs: tuple[Needing, ...] = ()
+    """What was found out last, the newest first; changed as a whole too."""
 
     def load(self, program: Program) -> Derived:
         """Fetch the numeric library and derive the program; for a thread."""
@@ -127,9 +126,9 @@ class Engine:
         # measured when everything is warm
         return self.derive(program, first)
 
-    def fast(self, *tasks: str) -> bool:
-        """Whether these tasks may all be done before the next picture."""
-        return self.ready and sum(self.took.get(task, 0.0) for task in tasks) <= self.limit
+    def fast(self, *tasks: str, part: float = 1.0) -> bool:
+        """Whether these tasks may all be done before the next picture, or in a part of that time."""
+        return self.ready and sum(self.took.get(task, 0.0) for task in tasks) <= part * self.limit
 
     def timed(self, task: str, work: Callable[[], Result]) -> Result:
         """Do a task and remember how much work it was: waiting for a busy machine does not count."""
@@ -165,6 +164,18 @@ class Engine:
         """Whether the table of a block is there, or the block can have none."""
         return found.work is None or any(work is found.work for work, _ in self.tables)
 
+    def lacks_notes(self, found: DerivedBlock) -> bool:
+        """Whether the table of this block is there, and not yet what a better path would cut."""
+        return self._made(found) is not None and self._notes(found) is None
+
+    def keep_notes(self, found: DerivedBlock) -> None:
+        """Find out what a better path would cut."""
+        from core.pipeline.derive import better
+
+        if found.work is not None and self._notes(found) is None:
+            notes = self.timed("notes", lambda: better(found))
+            self.notes = ((found.work, notes), *self.notes)[:KEPT]
+
     def lacks_needs(self, found: DerivedBlock) -> bool:
         """Whether the table of this block is there, its calculated value is not clean, and nobody has said why."""
         table = self._made(found)
@@ -172,36 +183,50 @@ class Engine:
             return False
         return not table.row(found.lookahead.calculated).clean
 
-    def keep_needs(self, found: DerivedBlock, program: Program) -> None:
-        """Say with the table what the block needs; for a thread, since remedies are tried one after the other."""
+    def keep_needs(self, found: DerivedBlock, program: Program, wanted: Callable[[], bool] = lambda: True) -> None:
+        """Find out what the block needs; for a thread, since remedies are tried one after the other.
+
+        `wanted` is asked between two of them: where nobody wants them any more, nothing is kept.
+        """
         from core.pipeline.needs import needs
 
         if found.work is None or self._needing(found) is not None:
             return
-        told = needs(found, program, self._made(found))
-        self.needs = Needing(found.work, found.lookahead.calculated, () if told is None else told.sentences)
+        told = needs(found, program, self._made(found), wanted=wanted)
+        if told is not None:
+            self.needs = (Needing(found.work, found.lookahead.calculated, told.sentences), *self.needs)[:KEPT]
 
-    def known(self, found: DerivedBlock, trial: Session | None) -> Known:
-        """What the screens may show of this block."""
-        return Known(self._table(found), self.ready, self.memory, trial)
+    def known(self, found: DerivedBlock, trial: Session | None, accepted: DerivedBlock | None = None) -> Known:
+        """What the screens may show of this block; `accepted` is it without the half-typed number, where there is one.
+
+        What a block needs is told of what has been accepted, even if it has been found out before.
+        """
+        own = accepted is None or accepted.work is found.work
+        return Known(self._table(found, own=own), self.ready, self.memory, trial)
 
     def _made(self, found: DerivedBlock) -> Table | None:
         """The table of a block as it was made; None before that, and where the block has none."""
         return next((table for work, table in self.tables if work is found.work), None)
 
-    def _table(self, found: DerivedBlock) -> Table | None:
-        """The table of a block, with what the block needs before its other notes once that is known."""
-        table, needs = self._made(found), self._needing(found)
-        if table is None or needs is None or not needs.sentences:
-            return table
-        if self.told is None or self.told[0] is not table or self.told[1] is not needs:
-            self.told = (table, needs, replace(table, notes=(*needs.sentences, *table.notes)))
-        return self.told[2]
+    def _notes(self, found: DerivedBlock) -> tuple[Finding, ...] | None:
+        """What a better path would cut; None while that is not known."""
+        return next((notes for work, notes in self.notes if work is found.work), None)
+
+    def _table(self, found: DerivedBlock, *, own: bool) -> Table | None:
+        """The table of a block with its notes as far as they are known, what the block needs before the others."""
+        table, notes = self._made(found), self._notes(found)
+        if table is None:
+            return None
+        needs = self._needing(found) if own else None
+        complete = notes is not None and not (own and self.lacks_needs(found))
+        every = (*(() if needs is None else needs.sentences), *(notes or ()))
+        about = (table, notes, needs, complete)
+        return self.memory.recall("table", about, lambda: replace(table, notes=every, complete=complete))
 
     def _needing(self, found: DerivedBlock) -> Needing | None:
-        """What a block needs, where that was found out last."""
-        needs, calculated = self.needs, found.lookahead.calculated
-        return needs if needs is not None and needs.work is found.work and needs.calculated == calculated else None
+        """What a block needs, where that was found out lately."""
+        calculated = found.lookahead.calculated
+        return next((one for one in self.needs if one.work is found.work and one.calculated == calculated), None)
 
 
 def bearing(derived: Derived, program: Program) -> Derived:

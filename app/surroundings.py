@@ -16,6 +16,11 @@ class Surroundings:
     clock: Callable[[], str]
     free: Callable[[], int]
 
+    def now(self) -> Surroundings:
+        """They as they are at this moment, whenever they are asked: what is painted twice for a key has them once."""
+        clock, free = self.clock(), self.free()
+        return Surroundings(lambda: clock, lambda: free)
+
 
 def real() -> Surroundings:
     """This machine's."""

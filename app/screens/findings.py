@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from app.screens.page import Surface
 from app.screens.text import TextPage, paragraph
 from app.session import Session
-from app.widgets.rows import Row, plain, text_of
+from app.widgets.rows import Look, Row, plain, text_of
 from app.widgets.verdict import UNKNOWN, deepest_gouge, nearest_place, verdict_rows
 from core.records import dataclass
+
+MORE: Final = plain(" Whether there is more to say is being calculated.", Look.WARNING)
+"""Where a better path has not been looked for yet, nor what the contour needs."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -26,6 +31,8 @@ class FindingsPage(TextPage):
         uncut = next((place for place, row in enumerate(rows) if text_of(row).startswith(" UNCUT")), 0)
         rows[uncut + 1 : uncut + 1] = nearest_place(found, unit)
         told = [one for row in rows[1:] for one in _wrapped(row, surface.width)]
+        if found.work is not None and found.side is not None and (surface.table is None or not surface.table.complete):
+            told.append(MORE)
         return (rows[0], (), *(told or [plain(" Nothing to report.") if found.known else UNKNOWN]))
 
 

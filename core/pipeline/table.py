@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +16,7 @@ from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.side import Side
 from core.pipeline.compensation import parameter
-from core.pipeline.derive import better, stocks
+from core.pipeline.derive import stocks
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
 from core.verify.judge import judge_all
@@ -55,11 +55,16 @@ class Row:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Table:
-    """All rows, the value the operator is advised to use if any is clean, and what else is to be said."""
+    """All rows, the value the operator is advised to use if any is clean, and what else is to be said.
+
+    `notes` are left to whoever shows the table: what a better path would cut (`core.pipeline.derive.better`) and what
+    the contour needs (`core.pipeline.needs`) take longer than all rows.  Until `complete` there may be more of them.
+    """
 
     rows: tuple[Row, ...]
     recommended: int | None
     notes: tuple[Finding, ...] = ()
+    complete: bool = False
 
     def row(self, value: int) -> Row:
         """The row of a look-ahead value."""
@@ -102,7 +107,7 @@ def trial_of(found: DerivedBlock, program: Program) -> Trial | None:
 def look_ahead_table(found: DerivedBlock, program: Program) -> Table | None:
     """The table of a derived block; None for ON and while there is nothing to compensate."""
     trial = trial_of(found, program)
-    return None if trial is None else replace(table_of(trial, _judged(found)), notes=better(found))
+    return None if trial is None else table_of(trial, _judged(found))
 
 
 def _judged(found: DerivedBlock) -> Judged | None:

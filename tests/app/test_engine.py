@@ -19,6 +19,7 @@ from core.pipeline.outline import outline
 from core.program.edit import Where, copy_block, type_field
 from core.program.model import Entry, Program
 from core.program.store import load
+from tests.bench.keys import gear
 
 PART = load(example("overrun-square"))
 
@@ -129,6 +130,43 @@ def test_until_the_new_path_is_there_the_drawing_of_this_block_stands_and_never_
         contour = drawn(Known(ready=True), other)
         assert contour != shown
         assert drawn(known, other) == contour
+
+
+def test_nothing_is_complete_before_the_notes_and_the_needs_are_known() -> None:
+    engine, found = Engine(ready=True), derive(PART).blocks[0]
+    assert not engine.lacks_notes(found)
+    engine.keep_table(found, PART)
+    complete = []
+    for keep in (lambda: engine.keep_notes(found), lambda: engine.keep_needs(found, PART)):
+        table = engine.known(found, None).table
+        assert table is not None
+        complete.append(table.complete)
+        keep()
+    table = engine.known(found, None).table
+    assert table is not None
+    assert [*complete, table.complete] == [False, False, True]
+    assert table is engine.known(found, None).table
+
+
+def test_needs_that_were_given_up_are_not_known(engine: Engine) -> None:
+    program = gear(24)
+    found = derive(program).blocks[0]
+    engine.keep_table(found, program)
+    engine.keep_needs(found, program, lambda: False)
+    assert engine.lacks_needs(found)
+    engine.keep_needs(found, program)
+    assert not engine.lacks_needs(found)
+
+
+def test_needs_are_remembered_and_told_of_what_is_accepted_alone(engine: Engine) -> None:
+    accepted, tried = derive(PART).blocks[0], changed(Where(1, 1), "x_end", 2.5)
+    engine.keep_table(*tried)
+    engine.keep_needs(*tried)
+    for found, before, told in ((tried[0], accepted, False), (tried[0], tried[0], True), (tried[0], None, True)):
+        table = engine.known(found, None, before).table
+        assert table is not None
+        assert any(one.code == "CAL_NOT_CLEAN" for one in table.notes) is told
+    assert not engine.lacks_needs(tried[0])
 
 
 def test_what_is_said_of_one_calculated_value_is_never_said_of_another(engine: Engine) -> None:

@@ -33,8 +33,8 @@ class Reference(CutcompApp):
     def refresh_screen(self, width: int = 0, height: int = 0) -> None:
         del width, height
 
-    def _wait_for_digit(self) -> None:
-        """Nothing runs out here: the digit behind Esc is the next key."""
+    def set_timer(self, *_: Any, **__: Any) -> Any:
+        """Nothing runs out here: the digit behind Esc is the next key, and nobody rests while a number is typed."""
 
     def exit(self, *_: Any, **__: Any) -> None:
         self.left = True
@@ -68,8 +68,7 @@ class Reference(CutcompApp):
         """
         self._derive()
         self.trial = None
-        self._tabulate()
-        self._need()
+        self.advice.seek()
         self._advance()
 
 

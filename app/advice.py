@@ -1,0 +1,107 @@
+"""Advice: what is said beside a path and its verdict, after them and never late for a key.
+
+The look-ahead table comes with the path while both are fast.  What a better path would cut and what the contour needs
+take longer: they follow in threads, and where they have nothing to say the screen stays as it is.
+"""
+
+from __future__ import annotations
+
+from time import perf_counter, sleep
+from typing import TYPE_CHECKING, Final
+
+from app.behind import Behind
+from core.records import dataclass
+
+if TYPE_CHECKING:
+    from textual.timer import Timer
+
+    from app.application import CutcompApp
+    from core.pipeline.derived import DerivedBlock, Work
+
+QUIET: Final = 0.05
+"""Seconds without a key behind which remedies are tried: one try takes as long as a picture."""
+SMALL: Final = 0.25
+"""The part of the engine's limit in which path, table and notes of a small contour are there together."""
+
+About = tuple["Work | None", int]
+"""The paths and the calculated look-ahead that needs are about."""
+
+
+@dataclass(slots=True)
+class Advice:
+    """The desks of the table, the notes and the needs of the block that is shown."""
+
+    app: CutcompApp
+    tabling: Behind[None]
+    noting: Behind[None]
+    needing: Behind[None]
+    resting: Timer | None = None
+
+    @staticmethod
+    def of(app: CutcompApp) -> Advice:
+        """Nothing asked for yet."""
+
+        def followed(_: None) -> None:
+            app.advice.seek()
+            app.refresh_screen()
+
+        return Advice(app, Behind(app, followed), Behind(app, followed), Behind(app, followed))
+
+    def seek(self) -> None:
+        """Whatever is not known yet of the block that is shown."""
+        self._tabulate()
+        self._note()
+        self._need()
+
+    def _tabulate(self) -> None:
+        """The look-ahead table, kept until the block changes."""
+        engine, found, program = self.app.engine, self.app.shown.found, self.app.shown.program
+        if engine.tabulated(found):
+            self.tabling.forget()
+        elif engine.fast("derive", "table"):
+            engine.keep_table(found, program)
+        elif self.tabling.doing is not found.work:
+            self.tabling.ask(lambda: engine.keep_table(found, program), found.work)
+
+    def _note(self) -> None:
+        """What a better path would cut: together with the table where that is small, else behind it."""
+        engine, found = self.app.engine, self.app.shown.found
+        if not engine.lacks_notes(found):
+            self.noting.forget()
+        elif engine.fast("derive", "table", "notes", part=SMALL):
+            engine.keep_notes(found)
+        elif self.noting.doing is not found.work:
+            self.noting.ask(lambda: engine.keep_notes(found), found.work)
+
+    def _need(self) -> None:
+        """What the contour needs where CAL is not clean: why, and what would help.
+
+        Of a half-typed number it is found out too, once no key has come for a while, and told when it is accepted.
+        """
+        if self.resting is not None:
+            self.resting.stop()
+        self.needing.forget()
+        if self.app.return_code is not None or not self.app.engine.lacks_needs(self.app.shown.found):
+            return
+        if self.app.trial is None:
+            self._try()
+        else:
+            self.resting = self.app.set_timer(QUIET, self._try)
+
+    def _try(self) -> None:
+        """Remedies, one after the other."""
+        engine, found, program = self.app.engine, self.app.shown.found, self.app.shown.program
+        about, since = about_of(found), self.app.touched
+        if self.needing.doing != about:
+            self.needing.ask(lambda: engine.keep_needs(found, program, lambda: self._wanted(about, since)), about)
+
+    def _wanted(self, about: About, since: float) -> bool:
+        """Asked by the thread between two tries: it waits while keys come, and ends when another path is shown."""
+        while self.app.touched != since and (left := self.app.touched + QUIET - perf_counter()) > 0:
+            sleep(left)
+        return self.app.return_code is None and about_of(self.app.shown.found) == about
+
+
+def about_of(found: DerivedBlock) -> About:
+    """What tells the needs of one block from those of another."""
+    return found.work, found.lookahead.calculated
