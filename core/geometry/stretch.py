@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from core.geometry.path import Path
+import numpy as np
+from numpy.typing import NDArray
+
+from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Point
 
 
@@ -11,23 +14,33 @@ def stretch(surface: Path, first: float, start: Point, last: float, end: Point) 
 
     Empty if there are no such segments; it runs past a closed contour's start if `last` lies before `first`.
     """
-    found = stretch_pieces(surface, first, start, last, end)
-    return Path.from_pieces([piece for _, piece in found], [number for number, _ in found])
+    rows = _rows(surface, first, start, last, end)
+    if not len(rows):
+        return EMPTY
+    points = np.concatenate((surface.points[rows[:1]], surface.points[rows + 1]))
+    points[0], points[-1] = start, end
+    centres, turns = surface.centres[rows], surface.turns[rows]
+    if not turns[0]:
+        centres[0] = start
+    return Path.of(points, centres, turns, surface.numbers[rows])
 
 
 def stretch_pieces(surface: Path, first: float, start: Point, last: float, end: Point) -> list[tuple[float, Piece]]:
     """`stretch` as pieces, each with the number of its segment."""
+    part = stretch(surface, first, start, last, end)
+    return list(zip(part.numbers.tolist(), part, strict=True))
+
+
+def _rows(surface: Path, first: float, start: Point, last: float, end: Point) -> NDArray[np.intp]:
+    """The rows of the segments, in the order in which the stretch runs over them."""
     begins, ends = (surface.numbers == first).nonzero()[0], (surface.numbers == last).nonzero()[0]
     if not len(begins) or not len(ends):
-        return []
-    row, count = int(begins[0]), len(surface)
-    backwards = ends[-1] < row or (ends[-1] == row and _before(surface[row], end, start))
-    steps = (int(ends[-1]) - row) % count + (count if backwards and ends[-1] == row else 0)
-    pieces = [surface[(row + step) % count] for step in range(steps + 1)]
-    pieces[0] = _cut(pieces[0], start, pieces[0].end)
-    pieces[-1] = _cut(pieces[-1], pieces[-1].start, end)
-    numbers = [float(surface.numbers[(row + step) % count]) for step in range(steps + 1)]
-    return list(zip(numbers, pieces, strict=True))
+        return begins[:0]
+    row, there, count = int(begins[0]), int(ends[-1]), len(surface)
+    around = there == row and _before(surface[row], end, start)
+    steps = (there - row) % count + (count if around else 0)
+    rows: NDArray[np.intp] = np.arange(row, row + steps + 1) % count
+    return rows
 
 
 def _cut(piece: Piece, start: Point, end: Point) -> Piece:

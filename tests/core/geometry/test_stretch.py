@@ -1,3 +1,7 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
 from core.geometry.stretch import stretch
@@ -38,3 +42,19 @@ def test_its_pieces_keep_their_segments_numbers():
 
 def test_a_stretch_of_unknown_segments_is_empty():
     assert len(stretch(SQUARE, 7, (0, 0), 8, (1, 1))) == 0
+
+
+def test_the_first_line_of_a_stretch_begins_in_its_own_centre():
+    found = stretch(SQUARE, 4, (0, 1), 1, (3, 0))
+    assert found.centres.tolist() == found.starts.tolist()
+
+
+@given(st.integers(0, 3), st.integers(0, 3), st.floats(0.1, 0.9), st.floats(0.1, 0.9))
+def test_a_stretch_is_as_long_as_what_lies_between_its_ends(first, last, begin, end):
+    """On a square of side 4 the way from one point to another is what their distances from its start tell."""
+    at, to = 4.0 * (first + begin), 4.0 * (last + end)
+    (x0, y0), (x1, y1) = (
+        SQUARE.points[row] + part * (SQUARE.ends - SQUARE.starts)[row] for row, part in ((first, begin), (last, end))
+    )
+    found = stretch(SQUARE, first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))
+    assert found.lengths.sum() == pytest.approx((to - at) % 16.0)
