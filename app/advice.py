@@ -20,8 +20,10 @@ if TYPE_CHECKING:
 
 QUIET: Final = 0.05
 """Seconds without a key behind which remedies are tried: one try takes as long as a picture."""
+ONE_PICTURE: Final = 0.5
+"""The part of the engine's limit in which path and table come together; else the path does not wait for the table."""
 SMALL: Final = 0.25
-"""The part of the engine's limit in which path, table and notes of a small contour are there together."""
+"""The part of it in which a small contour's notes come with them."""
 
 About = tuple["Work | None", int]
 """The paths and the calculated look-ahead that needs are about."""
@@ -58,7 +60,7 @@ class Advice:
         engine, found, program = self.app.engine, self.app.shown.found, self.app.shown.program
         if engine.tabulated(found):
             self.tabling.forget()
-        elif engine.fast("derive", "table"):
+        elif engine.fast("derive", "table", part=ONE_PICTURE):
             engine.keep_table(found, program)
         elif self.tabling.doing is not found.work:
             self.tabling.ask(lambda: engine.keep_table(found, program), found.work)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from importlib import import_module
 from time import thread_time
 from typing import TYPE_CHECKING, Final, NamedTuple, TypeVar
@@ -82,9 +83,12 @@ class Known:
 
     def verdict(self, session: Session, look: int | None, height: int, width: int, first: int = 0) -> tuple[Row, ...]:
         """The verdict in its room from line `first` on, of the path in force or of that of a look-ahead value."""
-        about = (session.found, self.table, session.program.unit, look, first + height)
-        room = (height, width)
-        return self.memory.recall("verdict", (*about, *room), lambda: fitted(verdict_rows(*about)[first:], *room))
+        told, room = (session.program.unit, look, first + height), (height, width)
+        # whether there may be more to say is not said here
+        read = None if self.table is None else (self.table.rows, self.table.notes)
+        about = (session.found, read, *told, *room)
+        rows = partial(verdict_rows, session.found, self.table, *told)
+        return self.memory.recall("verdict", about, lambda: fitted(rows()[first:], *room))
 
 
 class Needing(NamedTuple):

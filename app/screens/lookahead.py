@@ -9,7 +9,7 @@ from app.messages import Close, Edit
 from app.screens.page import Answer, Layout, Page, Sketch, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
 from app.widgets.rows import Look, Row, Span, padded, plain
-from app.widgets.verdict import mark_of
+from app.widgets.strip import mark_of
 from app.widgets.words import length, numbers
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.program.edit import Where, recalculate_lookahead, type_field

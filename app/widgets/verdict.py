@@ -11,6 +11,7 @@ from textwrap import wrap
 from typing import TYPE_CHECKING, Final
 
 from app.widgets.rows import Look, Row, Span, padded, plain, text_of
+from app.widgets.strip import STRIP, strip
 from app.widgets.words import length, number, numbers, place, segment
 from core.finding import Finding, Severity
 from core.pipeline.derived import DerivedBlock
@@ -19,13 +20,8 @@ from core.units import Unit, sentence
 
 if TYPE_CHECKING:
     from core.comp.result import Compensated
-    from core.pipeline.table import Row as Fate
     from core.pipeline.table import Table
     from core.verify.verdict import Verdict
-
-
-STRIP: Final = 59
-"""Cells of the strip: it stands above the form's drawing."""
 
 
 NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
@@ -49,6 +45,18 @@ class Case:
     verdict: Verdict
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Erased:
+    """Segments that a pair of pieces has erased: the numbers of the two, and where they meet."""
+
+    pair: tuple[float, float, float, float]
+    segments: list[float]
+
+
+Line = Row | Finding | Erased
+"""A line of the verdict, in words or still to be put into words."""
+
+
 def verdict_rows(
     found: DerivedBlock, table: Table | None, unit: Unit, look: int | None, most: int | None = None
 ) -> list[Row]:
@@ -58,14 +66,20 @@ def verdict_rows(
     """
     lines = _lines(found, table, unit, look)
     read = lines if most is None else lines[:most]
-    told = [_sentence(one, unit) if isinstance(one, Finding) else one for one in read]
-    return [*told, *[()] * (len(lines) - len(read))]
+    return [*(_worded(one, unit) for one in read), *[()] * (len(lines) - len(read))]
 
 
-def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | None) -> list[Row | Finding]:
-    """The lines in their order, the findings still to be put into words."""
+def _worded(line: Line, unit: Unit) -> Row:
+    """A line in words."""
+    if isinstance(line, Finding):
+        return _sentence(line, unit)
+    return _erasing(line, unit) if isinstance(line, Erased) else line
+
+
+def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | None) -> list[Line]:
+    """The lines in their order, most still to be put into words."""
     case = _case(found, table, look)
-    first = _strip(found, table, unit)
+    first = strip(found, table, unit)
     if hint := _beginning(found):
         return [first, plain(f" {hint}", Look.LABEL)]
     if look is not None and case is not None:
@@ -73,7 +87,7 @@ def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | Non
     findings = _untold(found.findings, case)
     errors = [one for one in findings if one.severity is Severity.ERROR]
     rest = [one for one in findings if one.severity is not Severity.ERROR]
-    lines = [] if case is None else list(_case_lines(case, unit))
+    lines: list[Row | Erased] = [] if case is None else list(_case_lines(case, unit))
     notes = () if table is None else table.notes
     gravest = 1 if case is not None and case.verdict.gouges else 0
     return [first, *lines[:gravest], *errors, *lines[gravest:], *notes, *rest]
@@ -175,11 +189,11 @@ def _sentence(finding: Finding, unit: Unit) -> Row:
     return plain(f" {mark} {where}{sentence(finding, unit)}", look)
 
 
-def _case_lines(case: Case, unit: Unit) -> Iterator[Row]:
+def _case_lines(case: Case, unit: Unit) -> Iterator[Row | Erased]:
     verdict = case.verdict
     if verdict.gouges:
         yield _gouge(verdict, unit)
-    yield from _deleted(case.compensated, unit)
+    yield from _deleted(case.compensated)
     uncut = f"{length(verdict.uncut_length, unit)} of {length(verdict.surface_length, unit)}"
     row: Row = (Span(" UNCUT   ", Look.LABEL), Span(uncut, Look.WARNING if verdict.uncut else Look.TYPED))
     if not verdict.gouges:
@@ -206,81 +220,17 @@ def _gouge(verdict: Verdict, unit: Unit) -> Row:
     return plain(f" GOUGE   {length(deepest.depth, unit)} at {where}", Look.ERROR)
 
 
-def _deleted(compensated: Compensated | None, unit: Unit) -> Iterator[Row]:
+def _deleted(compensated: Compensated | None) -> Iterator[Erased]:
     """One line for every pair of pieces that erased segments, corner arcs left out."""
     groups: dict[tuple[float, float, float, float], list[float]] = {}
     for one in () if compensated is None else compensated.deleted:
         groups.setdefault((*one.by, *one.at), []).append(one.segment)
-    for (first, second, x, y), segments in groups.items():
-        if erased := numbers(segments):
-            by = f"by {number(first)} and {number(second)} at {place((x, y), unit)}"
-            yield (Span(" DELETED ", Look.LABEL), Span(f"{erased}  {by}", Look.WARNING))
+    for pair, segments in groups.items():
+        if any(segment.is_integer() for segment in segments):
+            yield Erased(pair, segments)
 
 
-def _strip(found: DerivedBlock, table: Table | None, unit: Unit) -> Row:
-    if found.side is None:
-        told = ": the tool's centre runs on the contour." if found.known else "   calculating ..."
-        return plain(f" CUTTER COMP. ON{told}", Look.LABEL)
-    if table is None:
-        return plain(f" look-ahead [{found.lookahead.value}]{'' if found.known else '   calculating ...'}", Look.LABEL)
-    here = found.lookahead.value
-    spans = [Span(" look-ahead", Look.LABEL)]
-    for first, last, mark in _runs(table, here):
-        spans.append(_run(first, last, mark, here=first == here == last))
-    advice = _advice(table, here)
-    left = STRIP - sum(len(span.text) for span in spans)
-    if (price := _price(table, here, unit)) and left >= len(advice) + len(price) + 4:
-        advice = f"{advice} {price}"
-    if left < len(advice) + 2:
-        spans = _shortened(spans, STRIP - len(advice) - 6)
-    return (*spans, Span(f"   {advice}", Look.LABEL))
-
-
-def _run(first: int, last: int, mark: str, *, here: bool) -> Span:
-    text = f"{first}{mark}" if first == last else f"{first}-{last}{mark}"
-    look = Look.ERROR if mark == "!" else Look.WARNING if mark == "*" else Look.GOOD
-    return Span(f" [{text}]" if here else f" {text}", look)
-
-
-def _runs(table: Table, here: int) -> list[tuple[int, int, str]]:
-    """Neighbouring values of one fate; the value in force stands alone."""
-    runs: list[tuple[int, int, str]] = []
-    for row in table.rows:
-        mark = mark_of(row)
-        joins = runs and runs[-1][2] == mark and here not in (row.value, runs[-1][1])
-        runs[-1:] = [(runs[-1][0], row.value, mark)] if joins else [*runs[-1:], (row.value, row.value, mark)]
-    return runs
-
-
-def mark_of(fate: Fate) -> str:
-    """! for a value that gouges, * for one that erases segments, nothing for a clean one."""
-    if not fate.clean:
-        return "!"
-    return "*" if numbers(fate.deleted) else ""
-
-
-def _advice(table: Table, here: int) -> str:
-    if table.recommended is None:
-        return "none is clean"
-    return "this is best" if table.recommended == here else f"best {table.recommended}"
-
-
-def _price(table: Table, here: int, unit: Unit) -> str:
-    """What the recommended value costs: surface it leaves beyond that of the one in force, segments it deletes."""
-    if table.recommended is None or table.recommended == here:
-        return ""
-    best, held = table.row(table.recommended), table.row(here)
-    left = length(best.uncut, unit)
-    if best.uncut > held.uncut and left != length(held.uncut, unit):
-        return f"(uncut {left})"
-    erased = numbers(best.deleted)
-    return f"(deletes {erased})" if erased else ""
-
-
-def _shortened(spans: list[Span], room: int) -> list[Span]:
-    kept: list[Span] = []
-    for span in spans:
-        if sum(len(one.text) for one in kept) + len(span.text) > room:
-            return [*kept, Span(" ...", Look.LABEL)]
-        kept.append(span)
-    return kept
+def _erasing(line: Erased, unit: Unit) -> Row:
+    first, second, x, y = line.pair
+    by = f"by {number(first)} and {number(second)} at {place((x, y), unit)}"
+    return (Span(" DELETED ", Look.LABEL), Span(f"{numbers(line.segments)}  {by}", Look.WARNING))

@@ -155,8 +155,9 @@ class Path:
 
     def part(self, first: int, last: int) -> Path:
         """Pieces first ... last - 1."""
+        # rows of contiguous arrays are contiguous: nothing is copied
         keep = slice(first, last)
-        return Path.of(self.points[first : last + 1], self.centres[keep], self.turns[keep], self.numbers[keep])
+        return Path(self.points[first : last + 1], self.centres[keep], self.turns[keep], self.numbers[keep])
 
 
 def joined(parts: Sequence[Path]) -> Path:

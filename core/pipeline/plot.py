@@ -7,7 +7,7 @@ from core.draw.build import contour_scene
 from core.draw.scene import Scene, joined_scenes
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Piece, Point
-from core.geometry.stretch import stretch
+from core.geometry.stretch import stretches
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock, Loop, Work
 from core.pipeline.table import Row
@@ -85,7 +85,7 @@ def _deleted(one: Compensated) -> list[Path]:
 
 
 def _uncut(surface: Path, verdict: Verdict) -> list[Path]:
-    return [stretch(surface, one.first_number, one.start, one.last_number, one.end) for one in verdict.uncut]
+    return stretches(surface, [(one.first_number, one.start, one.last_number, one.end) for one in verdict.uncut])
 
 
 def _current(found: DerivedBlock, segment: int | None) -> Path | None:

@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
-from core.geometry.stretch import stretch
+from core.geometry.stretch import stretch, stretch_pieces, stretches
 
 SQUARE = Path.from_pieces([Line((0, 0), (4, 0)), Line((4, 0), (4, 4)), Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
 
@@ -42,6 +42,8 @@ def test_its_pieces_keep_their_segments_numbers():
 
 def test_a_stretch_of_unknown_segments_is_empty():
     assert len(stretch(SQUARE, 7, (0, 0), 8, (1, 1))) == 0
+    assert [len(one) for one in stretches(SQUARE, [(7, (0, 0), 8, (1, 1)), (1, (1, 0), 2, (4, 1))])] == [0, 2]
+    assert stretches(SQUARE, []) == []
 
 
 def test_the_first_line_of_a_stretch_begins_in_its_own_centre():
@@ -57,4 +59,8 @@ def test_a_stretch_is_as_long_as_what_lies_between_its_ends(first, last, begin, 
         SQUARE.points[row] + part * (SQUARE.ends - SQUARE.starts)[row] for row, part in ((first, begin), (last, end))
     )
     found = stretch(SQUARE, first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))
+    (same,) = stretches(SQUARE, [(first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))])
+    assert (same.points.tolist(), same.numbers.tolist()) == (found.points.tolist(), found.numbers.tolist())
+    pieces = stretch_pieces(SQUARE, first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))
+    assert pieces == list(zip(found.numbers.tolist(), found, strict=True))
     assert found.lengths.sum() == pytest.approx((to - at) % 16.0)
