@@ -7,22 +7,30 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import cos, sin
 from typing import Final
 
 import numpy as np
 
+from core.comp.advise import recommended
 from core.comp.compensate import compensate_all
+from core.comp.lookahead import HIGHEST, LOWEST
+from core.comp.result import Compensated
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Point
-from core.pipeline.table import Trial, table_of
-from core.verify.judge import judge
+from core.pipeline.beginning import Walls, gouge_at_once, gouging
+from core.pipeline.table import Row, Trial, table_of
+from core.verify.judge import judge_all
 
 STEP: Final = 0.001
 """Millimetres to which the largest diameter is found."""
 
 MOST_STARTS: Final = 6
 """So many of the longest sides are tried as the start."""
+
+PARTS: Final = 7
+"""So many diameters are looked at together when it is only asked how their path begins."""
 
 USUAL: Final = (8, 3, 1, 20)
 """Look-aheads tried while a tool is looked for; the one it is then told with is chosen from all."""
@@ -63,30 +71,121 @@ def largest_tool(trial: Trial, hint: float | None = None, wanted: Callable[[], b
     """The largest clean diameter below the cutter's, a multiple of STEP, rounded down; by halving what is left.
 
     `hint` is a radius that may be the limit, such as that of the smallest inside arc: it is tried first.
+
+    Mostly the limit is where the path begins, which is known before there is one.  So the halving first goes by that
+    alone, and what it finds is then cut and judged; only if that is not clean, every half is.
     """
-    known, fails = 0, _steps(2.0 * trial.radius)
-    tries = [_steps(2.0 * hint), _steps(2.0 * hint) + 1] if hint is not None else []
-    while fails - known > 1:
-        size = tries.pop(0) if tries else (known + fails) // 2
-        if known < size < fails:
-            _still(wanted)
-            known, fails = (size, fails) if _clean(_with_tool(trial, size)) else (known, size)
-    _still(wanted)
-    value = table_of(_with_tool(trial, known)).recommended if known else None
+    search = _Search(trial, hint, wanted)
+    guess = search.guess()
+    known = guess if search.clean(guess) else search.halved(search.clean)
+    value = search.cuts(known).recommended if known else None
     return None if value is None else ToolFits(known * STEP, value)
+
+
+class _Search:
+    """The search between a diameter that is clean and one that is not, in STEPs."""
+
+    def __init__(self, trial: Trial, hint: float | None, wanted: Callable[[], bool]) -> None:
+        self._trial, self._walls, self._wanted = trial, Walls.of(trial.surface), wanted
+        self._hints = () if hint is None else (_steps(2.0 * hint), _steps(2.0 * hint) + 1)
+        self._fails = _steps(2.0 * trial.radius)
+        self._hopeless: dict[int, bool] = {}
+        self._cuts: dict[int, Cuts] = {}
+
+    def guess(self) -> int:
+        """The largest diameter with which the path begins well, or a hint that turns out to be the limit."""
+        known, fails = 0, self._fails
+        while fails - known > 1:
+            sizes = sorted({known + (fails - known) * part // (PARTS + 1) for part in range(1, PARTS + 1)} - {known})
+            self._begin(sizes)
+            known = max((size for size in sizes if not self._hopeless[size]), default=known)
+            fails = min((size for size in sizes if size > known), default=fails)
+        return self.halved(lambda size: self.clean(size) if size in self._hints else size <= known)
+
+    def halved(self, clean: Callable[[int], bool]) -> int:
+        """The diameter at which `clean` ends."""
+        known, fails = 0, self._fails
+        tries = list(self._hints)
+        while fails - known > 1:
+            size = tries.pop(0) if tries else (known + fails) // 2
+            if known < size < fails:
+                known, fails = (size, fails) if clean(size) else (known, size)
+        return known
+
+    def clean(self, size: int) -> bool:
+        """Whether a value of the usual ones is clean with this diameter, judged from its finish path; 0 is."""
+        if not size:
+            return True
+        if size not in self._hopeless:
+            self._begin([size])
+        return not self._hopeless[size] and self.cuts(size).usual
+
+    def cuts(self, size: int) -> Cuts:
+        """What becomes of the contour with this diameter."""
+        if size not in self._cuts:
+            _still(self._wanted)
+            self._cuts[size] = Cuts(_with_tool(self._trial, size), self._walls)
+        return self._cuts[size]
+
+    def _begin(self, sizes: list[int]) -> None:
+        """Find out which diameters gouge where the path begins."""
+        own = (0, len(self._trial.surface) - 1)
+        found = gouge_at_once([_with_tool(self._trial, size) for size in sizes], self._walls, [own] * len(sizes))
+        self._hopeless |= dict(zip(sizes, found, strict=True))
 
 
 def _with_tool(trial: Trial, size: int) -> Trial:
     return replace(trial, radius=size * STEP / 2.0)
 
 
-def _clean(trial: Trial) -> bool:
-    """Whether a value of the usual ones is clean."""
-    every = compensate_all(
-        trial.surface, trial.side, trial.radius, USUAL, closed=trial.closed, blend=trial.blend, overlap=trial.overlap
-    )
-    wholes = {id(one.path): one.whole for one in every if len(one.path)}
-    return any(judge(trial.surface, trial.side, trial.radius, whole).clean for whole in wholes.values())
+class Cuts:
+    """What becomes of a contour at all look-aheads, judged no further than a remedy has to know."""
+
+    def __init__(self, trial: Trial, walls: Walls) -> None:
+        self._trial = trial
+        every = compensate_all(
+            trial.surface,
+            trial.side,
+            trial.radius,
+            range(LOWEST, HIGHEST + 1),
+            closed=trial.closed,
+            blend=trial.blend,
+            overlap=trial.overlap,
+        )
+        # values that test the same crossings have one path between them, and the first of them stands for all
+        distinct = {id(one.path): one for one in reversed(every) if len(one.path)}
+        usual = {id(every[value - LOWEST].path) for value in USUAL}
+        every = tuple(reversed(distinct.values()))
+        gouges = gouging([one.whole for one in every], trial.radius, walls)
+        hopeful = [one for one, no in zip(every, gouges, strict=True) if not no]
+        self._usual = [one for one in hopeful if id(one.path) in usual]
+        self._rest = [one for one in hopeful if id(one.path) not in usual]
+
+    @cached_property
+    def usual(self) -> bool:
+        """Whether the finish path of one of the usual values is clean."""
+        return any(row.clean for row in self._judged)
+
+    @cached_property
+    def recommended(self) -> int | None:
+        """The value that the look-ahead table recommends.
+
+        What gouges beyond doubt need not be judged for that, nor the roughing passes where all finish paths do.
+        """
+        if not self._usual and not self._rest:
+            return None
+        if self._trial.stocks:
+            return table_of(self._trial).recommended
+        return recommended([*self._judged, *self._rows(self._rest)])
+
+    @cached_property
+    def _judged(self) -> list[Row]:
+        return self._rows(self._usual)
+
+    def _rows(self, paths: list[Compensated]) -> list[Row]:
+        trial = self._trial
+        verdicts = judge_all(trial.surface, trial.side, trial.radius, [one.whole for one in paths]) if paths else ()
+        return [Row(one.lookahead, one, verdict) for one, verdict in zip(paths, verdicts, strict=True)]
 
 
 def _steps(diameter: float) -> int:
@@ -96,9 +195,14 @@ def _steps(diameter: float) -> int:
 
 def start_mid_side(trial: Trial, wanted: Callable[[], bool] = always) -> StartMoved | None:
     """The longest side of a closed contour whose middle is a clean start."""
-    for row in longest(trial.surface)[:MOST_STARTS] if trial.closed else ():
+    if not trial.closed:
+        return None
+    walls, rows = Walls.of(trial.surface), longest(trial.surface)[:MOST_STARTS]
+    moved = [replace(trial, surface=started(trial.surface, row)) for row in rows]
+    hopeless = gouge_at_once(moved, walls, [(row, row) for row in rows])
+    for row, one, no in zip(rows, moved, hopeless, strict=True):
         _still(wanted)
-        value = table_of(replace(trial, surface=started(trial.surface, row))).recommended
+        value = None if no else Cuts(one, walls).recommended
         if value is not None:
             return StartMoved(float(trial.surface.numbers[row]), middle(trial.surface[row]), value)
     return None
@@ -115,7 +219,9 @@ def without_blends(trial: Trial, wanted: Callable[[], bool] = always) -> int | N
     if trial.blend <= 0.0:
         return None
     _still(wanted)
-    return table_of(replace(trial, blend=0.0, overlap=0.0)).recommended
+    bare, walls = replace(trial, blend=0.0, overlap=0.0), Walls.of(trial.surface)
+    (hopeless,) = gouge_at_once([bare], walls, [(0, len(bare.surface) - 1)])
+    return None if hopeless else Cuts(bare, walls).recommended
 
 
 def middle(piece: Piece) -> Point:

@@ -167,7 +167,7 @@ def test_where_nothing_helps_it_says_so():
     assert codes(found)[-1] == "NOTHING_HELPS"
 
 
-@pytest.mark.parametrize("tries", range(9))
+@pytest.mark.parametrize("tries", range(8))
 def test_remedies_nobody_waits_for_are_given_up_at_the_next_one(tries):
     """The gear tries six starts and then tools: it is asked before each, and not again when the answer was no."""
     part = typed_gear(200)
