@@ -143,13 +143,20 @@ def release(lock: Lock) -> None:
 
 
 def _create(lock: Lock) -> None:
+    """Make the lock's file, whole or not at all: half a lock has an unknown owner and is held for ever."""
     handle = os.open(lock.path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o644)
     try:
-        write_all(handle, json.dumps(asdict(lock.owner)).encode())
-        # half a lock has an unknown owner and is held for ever; that a power cut takes all of it away is right
-        os.fsync(handle)
-    finally:
-        os.close(handle)
+        try:
+            write_all(handle, json.dumps(asdict(lock.owner)).encode())
+            # that a power cut takes all of a lock away is right
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+    except BaseException:
+        # it is this process's own file: O_EXCL made it
+        with suppress(OSError):
+            lock.path.unlink()
+        raise
 
 
 def _owner(path: Path) -> Owner | None:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -156,3 +159,23 @@ def test_a_stamp_changes_with_the_content_only(part: Path) -> None:
 def test_no_file_no_stamp(tmp_path: Path) -> None:
     assert stamp_of(tmp_path / "none") is None
     assert stamp_of(tmp_path) is None
+
+
+@pytest.mark.parametrize("call", ["write", "fsync", "close"])
+@pytest.mark.parametrize("make", [take, take_over])
+def test_a_full_disk_keeps_no_half_lock(
+    part: Path, monkeypatch: pytest.MonkeyPatch, make: Callable[[Path, Owner], object], call: str
+) -> None:
+    real = getattr(os, call)
+
+    def full(*args: object) -> None:
+        if call == "close":
+            real(*args)
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, call, full)
+        with pytest.raises(OSError, match="No space"):
+            make(part, ME)
+    assert [one.name for one in part.parent.iterdir()] == ["part.toml"]
+    assert isinstance(take(part, ME), Lock)
