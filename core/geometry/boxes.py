@@ -165,40 +165,43 @@ def _brood(keep: Rows, grow: Rows, count: int) -> tuple[Rows, Rows]:
 
 def _near(a: Floats, b: Floats, reach: float) -> Flags:
     """Boxes no farther apart than `reach` in x and in y."""
-    near: Flags = a[0] - reach <= b[2]
-    near &= b[0] - reach <= a[2]
-    near &= a[1] - reach <= b[3]
-    near &= b[1] - reach <= a[3]
-    return near
+    near = a[:2] - reach <= b[2:]
+    near &= b[:2] - reach <= a[2:]
+    both: Flags = near[0] & near[1]
+    return both
 
 
 def _apart(a: Floats, b: Floats) -> Floats:
     """Distance between boxes, 0 where they meet."""
-    x, y = np.maximum(a[0] - b[2], b[0] - a[2]), np.maximum(a[1] - b[3], b[1] - a[3])
-    gap: Floats = np.hypot(np.maximum(x, 0.0), np.maximum(y, 0.0))
+    x, y = _between(a, b)
+    gap: Floats = np.hypot(x, y)
     return gap
+
+
+def _between(a: Floats, b: Floats) -> Floats:
+    """(2, ...) distances between boxes along x and y, 0 where they meet."""
+    gaps = np.maximum(a[:2] - b[2:], b[:2] - a[2:])
+    return np.maximum(gaps, 0.0, out=gaps)
 
 
 def meeting(a: Floats, b: Floats) -> Flags:
     """Boxes that have a point in common."""
-    met: Flags = a[0] <= b[2]
-    met &= b[0] <= a[2]
-    met &= a[1] <= b[3]
-    met &= b[1] <= a[3]
-    return met
+    met = a[:2] <= b[2:]
+    met &= b[:2] <= a[2:]
+    both: Flags = met[0] & met[1]
+    return both
 
 
 def reaching(a: Floats, b: Floats, reach: float) -> Flags:
     """Boxes no farther apart than `reach`."""
-    x, y = np.maximum(a[0] - b[2], b[0] - a[2]), np.maximum(a[1] - b[3], b[1] - a[3])
-    np.maximum(x, 0.0, out=x)
-    np.maximum(y, 0.0, out=y)
-    near: Flags = x * x + y * y <= reach * reach
+    gaps = _between(a, b)
+    gaps *= gaps
+    near: Flags = gaps[0] + gaps[1] <= reach * reach
     return near
 
 
 def _span(a: Floats, b: Floats) -> Floats:
     """Greatest distance between a point of one box and a point of the other."""
-    x, y = np.maximum(a[2] - b[0], b[2] - a[0]), np.maximum(a[3] - b[1], b[3] - a[1])
+    x, y = np.maximum(a[2:] - b[:2], b[2:] - a[:2])
     span: Floats = np.hypot(x, y)
     return span

@@ -14,8 +14,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import EMPTY, Path
+from core.geometry.path import Path
 from core.geometry.piece import SLIVER
+from core.geometry.planes import planes
 from core.tolerance import ARC_RADII, ON_PATH
 
 FEW: Final = 300
@@ -56,7 +57,7 @@ class Measured:
     def __len__(self) -> int:
         return len(self.rows)
 
-    def take(self, rows: Rows | Flags) -> Measured:
+    def take(self, rows: Rows | Flags | slice) -> Measured:
         """The pieces of these indices, repeated and ordered as they come."""
         return Measured(
             self.rows[rows],
@@ -99,43 +100,52 @@ class Measured:
         return np.concatenate(([0.0], np.cumsum(self.length)))
 
 
+_NO_POINTS: Final = np.zeros(0, np.complex128)
+_NO_TURNS: Final = np.zeros(0, np.float64)
 Given = Measured | Floats | Points
 Formula = Callable[..., NDArray[Any]]
 
 
 def stacked(paths: Sequence[Path]) -> Measured:
-    """The pieces of several paths that have a length as those of one path; rows count all pieces of all paths."""
-    parts = [measured(path) for path in paths]
-    if len(parts) == 1:
-        return parts[0]
-    counts = np.cumsum([0, *(len(path) for path in paths)])
-    rows = [part.rows + count for part, count in zip(parts, counts.tolist(), strict=False)]
-    names = ("start", "vector", "arm", "turn", "angle", "radius", "length", "slack")
-    empty = measured(EMPTY)
-    columns = {name: np.concatenate([getattr(part, name) for part in (empty, *parts)]) for name in names}
-    return Measured(np.concatenate((empty.rows, *rows)), **columns)
+    """The pieces of several paths that have a length as those of one path, and of a path of which none has the first.
+
+    Rows count all pieces of all paths.
+    """
+    corners = [planes(path.points) for path in paths]
+    start = np.concatenate([_NO_POINTS, *(points[:-1] for points in corners)])
+    end = np.concatenate([_NO_POINTS, *(points[1:] for points in corners)])
+    centre = np.concatenate([_NO_POINTS, *(planes(path.centres) for path in paths)])
+    turn = np.concatenate([_NO_TURNS, *(path.turns for path in paths)])
+    whole = _measured(start, end, centre, turn)
+    keep = whole.length > ON_PATH
+    if keep.all():
+        return whole
+    first = 0
+    for path in paths:
+        if len(path) and not keep[first : first + len(path)].any():
+            keep[first] = True
+        first += len(path)
+    return whole.take(keep.nonzero()[0])
 
 
 def measured(path: Path) -> Measured:
     """The pieces of `path` that have a length; the first alone if none has."""
-    corners = path.points[:, 0] + 1j * path.points[:, 1]
-    start, end = corners[:-1], corners[1:]
-    centre, turn = path.centres[:, 0] + 1j * path.centres[:, 1], path.turns.astype(np.float64)
-    arc = turn != 0.0
-    arm, angle, radius = np.ones_like(start), np.zeros(len(turn)), np.zeros(len(turn))
-    slack, vector = np.zeros(len(turn)), end - start
+    return stacked((path,))
+
+
+def _measured(start: Points, end: Points, centre: Points, turn: Floats) -> Measured:
+    arc = turn.nonzero()[0]
+    arm, vector = np.ones_like(start), end - start
+    angle, radius, slack = np.zeros((3, len(turn)))
     length = np.abs(vector)
-    if arc.any():
-        middle, off = _one_radius(start[arc], end[arc], centre[arc])
-        arm[arc], slack[arc] = start[arc] - middle, off
-        radius[arc] = np.abs(arm[arc])
-        angle[arc] = _angles(arm[arc], end[arc] - middle, turn[arc], start[arc] == end[arc])
-        length[arc] = radius[arc] * angle[arc]
-    whole = Measured(np.arange(len(turn)), start, vector, arm, turn, angle, radius, length, slack)
-    keep = length > ON_PATH
-    if keep.all():
-        return whole
-    return whole.take(keep.nonzero()[0] if keep.any() else np.arange(min(1, len(turn))))
+    if len(arc):
+        first, last = start[arc], end[arc]
+        middle, slack[arc] = _one_radius(first, last, centre[arc])
+        arm[arc] = from_middle = first - middle
+        radius[arc] = bend = np.abs(from_middle)
+        angle[arc] = swept = _angles(from_middle, last - middle, turn[arc], first == last)
+        length[arc] = bend * swept
+    return Measured(np.arange(len(turn)), start, vector, arm, turn, angle, radius, length, slack)
 
 
 def _one_radius(start: Points, end: Points, centre: Points) -> tuple[Points, Floats]:
@@ -250,36 +260,32 @@ def boxes(pieces: Measured) -> Floats:
     if not len(rows):
         return box
     arc = pieces if len(rows) == len(pieces) else pieces.take(rows)
-    centre = arc.centre
-    sides = (centre.real - arc.radius, centre.imag - arc.radius, centre.real + arc.radius, centre.imag + arc.radius)
-    for row, (passed, limit) in enumerate(zip(_quarters(arc), sides, strict=True)):
+    centre, out = arc.centre, (1.0 + 1.0j) * arc.radius
+    low, high = centre - out, centre + out
+    for row, (passed, limit) in enumerate(zip(_quarters(arc), (low.real, low.imag, high.real, high.imag), strict=True)):
         through = passed.nonzero()[0]
         box[row, rows[through]] = limit[through]
     return box
 
 
-def _quarters(arc: Measured) -> tuple[Flags, ...]:
-    """Four times (n,) whether the arcs pass the directions -x, -y, x and y seen from their centres.
+def _quarters(arc: Measured) -> Flags:
+    """(4, n) whether the arcs pass the directions -x, -y, x and y seen from their centres.
 
     Counter-clockwise from `a` to `b` an arc of no more than half a turn passes a direction q where neither the cross
-    product of a and q nor that of q and b is negative; a larger one where q is not within what is left of the circle.
+    product of a and q nor that of q and b is negative; a larger one where q is not within what is left of the circle,
+    from b to a.
     What doubles cannot tell, at the ends and at half a turn, moves no box by more than their last digit.
     """
     first, last = arc.arm, arc.arm + arc.vector
-    swap = arc.turn < 0.0
-    a, b = np.where(swap, last, first), np.where(swap, first, last)
     large = arc.angle > pi
-    a, b = np.where(large, b, a), np.where(large, a, b)
-    x, y, u, v = a.real, a.imag, b.real, b.imag
-    some = arc.angle > FLAT
-    plus, minus = (x > 0.0, y > 0.0, u > 0.0, v > 0.0), (x < 0.0, y < 0.0, u < 0.0, v < 0.0)
-    within = (
-        np.where(large, ~(plus[1] & minus[3]), ~(minus[1] | plus[3])),
-        np.where(large, ~(minus[0] & plus[2]), ~(plus[0] | minus[2])),
-        np.where(large, ~(minus[1] & plus[3]), ~(plus[1] | minus[3])),
-        np.where(large, ~(plus[0] & minus[2]), ~(minus[0] | plus[2])),
-    )
-    return tuple(passed & some for passed in within)
+    swap = (arc.turn < 0.0) != large
+    a, b = np.where(swap, last, first), np.where(swap, first, last)
+    behind, before = np.array((a.imag, -a.real)), np.array((-b.imag, b.real))
+    least, most = np.minimum(behind, before), np.maximum(behind, before)
+    none = arc.angle <= FLAT
+    back = np.where(large, least > 0.0, least < 0.0) | none
+    ahead = np.where(large, most < 0.0, most > 0.0) | none
+    return np.concatenate((~back, ~ahead))
 
 
 def place(pieces: Measured, stations: Floats, s: Floats) -> tuple[Rows, Floats]:

@@ -17,6 +17,9 @@ SHORT: Final = 1e-3
 """Chords shorter than this part of the radius do not say where an arc's middle is to the last digit."""
 
 
+THIN: Final = 1e-6
+"""Radians below which an arc's ends might be told apart by rounding alone."""
+
 STRAIGHT: Final = 5
 """Columns of a line; an arc has all of them."""
 
@@ -27,7 +30,7 @@ class Columns(NamedTuple):
     """n pieces: start, vector and squared length of the chord.
 
     Of arcs also the centre, the radius, where both ends lie as seen from the centre, negative in a clockwise arc, the
-    middle's direction, and 1 where they are more than half a circle.
+    middle's direction, and `size`: 1 where they are more than half a circle, -1 where they are THIN, else 0.
     """
 
     x: Floats
@@ -44,7 +47,7 @@ class Columns(NamedTuple):
     end_y: Floats = _NONE
     middle_x: Floats = _NONE
     middle_y: Floats = _NONE
-    large: Floats = _NONE
+    size: Floats = _NONE
 
 
 def columns(pieces: Measured) -> Floats:
@@ -57,17 +60,18 @@ def columns(pieces: Measured) -> Floats:
     turn, centre_x, centre_y = pieces.turn, x - pieces.arm.real, y - pieces.arm.imag
     begin_x, begin_y = x - centre_x, y - centre_y
     ends = begin_x * turn, begin_y * turn, (begin_x + along) * turn, (begin_y + up) * turn
-    large = pieces.angle > pi
+    sizes = np.where(pieces.angle > pi, 1.0, -1.0 * ((pieces.angle < THIN) & (turn != 0.0)))
     return np.array(
-        (x, y, along, up, square, centre_x, centre_y, pieces.radius, *ends, *_middles(pieces, square), large)
+        (x, y, along, up, square, centre_x, centre_y, pieces.radius, *ends, *_middles(pieces, square), sizes)
     )
 
 
 def _middles(pieces: Measured, square: Floats) -> tuple[Floats, Floats]:
-    """The directions of arcs' middles from their centres; `square` is the chords' squared length."""
+    """The directions of arcs' middles from their centres; `square` is the chords' squared length, or 1."""
     size = np.sqrt(square)
     x, y = pieces.turn * pieces.vector.imag / size, -pieces.turn * pieces.vector.real / size
-    short = ((size < SHORT * pieces.radius) & (pieces.turn != 0.0)).nonzero()[0]
+    # a full circle has no chord at all
+    short = (np.abs(pieces.vector) < SHORT * pieces.radius).nonzero()[0]
     if len(short):
         arc = pieces.take(short)
         middle = arc.arm / np.where(arc.radius == 0.0, 1.0, arc.radius) * np.exp(0.5j * arc.turn * arc.angle)
@@ -121,14 +125,16 @@ def inside(x: Floats, y: Floats, arc: Columns) -> Flags:
 
     An arc of no more than half a circle is behind its first end's direction and before its last one's, both times by
     the sign of a cross product, which keeps its digits in arcs however flat; a larger one leaves out what is neither.
-    Without an angle to speak of an arc has no such sides, and its opposite is kept off.
+    Without an angle to speak of an arc has no such sides, and its opposite is kept off.  From THIN on no direction in
+    the opposite is on the right side of both ends, not even by rounding: it is farther than that from one of them.
     """
     behind = arc.begin_x * y - arc.begin_y * x >= 0.0
     before = arc.end_y * x - arc.end_x * y >= 0.0
-    ahead = x * arc.middle_x + y * arc.middle_y >= -0.5 * (np.abs(x) + np.abs(y))
-    within: Flags = ahead & behind & before
-    if np.count_nonzero(arc.large):
-        within |= (behind | before) & (arc.large > 0.0)
+    within: Flags = behind & before
+    if np.count_nonzero(arc.size):
+        ahead = x * arc.middle_x + y * arc.middle_y >= -0.5 * (np.abs(x) + np.abs(y))
+        within &= ahead | (arc.size >= 0.0)
+        within |= (behind | before) & (arc.size > 0.0)
     return within
 
 
@@ -145,19 +151,21 @@ def to_arc(x: Floats, y: Floats, arc: Columns) -> Floats:
     return apart
 
 
-def lines_cross(one: Columns, other: Columns) -> Floats:
+def lines_cross(lines: Floats, others: Floats) -> Floats:
     """0 for pairs of lines that cross between their ends, infinite for all others."""
+    one, other = Columns(*lines), Columns(*others)
     x, y = other.x - one.x, other.y - one.y
     turn = one.along * other.up - one.up * other.along
     start, end = one.along * y - one.up * x, other.along * y - other.up * x
     return np.where((start * (start + turn) < 0.0) & (end * (end + turn) < 0.0), 0.0, np.inf)
 
 
-def line_to_arc(line: Columns, arc: Columns) -> Floats:
+def line_to_arc(lines: Floats, arcs: Floats) -> Floats:
     """Distances of pairs where the line passes the arc between all ends, 0 where they cross.
 
     Infinite where the foot of the centre is on neither.
     """
+    line, arc = Columns(*lines), Columns(*arcs)
     x, y = arc.centre_x - line.x, arc.centre_y - line.y
     t = (x * line.along + y * line.up) / line.square
     off_x, off_y = t * line.along - x, t * line.up - y
@@ -165,19 +173,19 @@ def line_to_arc(line: Columns, arc: Columns) -> Floats:
     apart = np.where(within & (t >= 0.0) & (t <= 1.0), np.abs(height - arc.radius), np.inf)
     cut = (height < arc.radius).nonzero()[0]
     if len(cut):
-        along, up, height = line.along[cut], line.up[cut], height[cut]
-        arc = _rows(arc, cut)
-        half = np.sqrt((arc.radius - height) * (arc.radius + height) / line.square[cut])
+        line, arc, height = Columns(*lines[:STRAIGHT].take(cut, axis=1)), Columns(*arcs.take(cut, axis=1)), height[cut]
+        half = np.sqrt((arc.radius - height) * (arc.radius + height) / line.square)
         steps = np.array((-half, half))
-        met = inside(off_x[cut] + steps * along, off_y[cut] + steps * up, arc)
+        met = inside(off_x[cut] + steps * line.along, off_y[cut] + steps * line.up, arc)
         steps += t[cut]
         met &= (steps >= 0.0) & (steps <= 1.0)
         apart[cut[met[0] | met[1]]] = 0.0
     return apart
 
 
-def arc_to_arc(one: Columns, other: Columns) -> Floats:
+def arc_to_arc(arcs: Floats, others: Floats) -> Floats:
     """Distances of pairs of arcs on the line through their centres, 0 where they cross, infinite where neither is."""
+    one, other = Columns(*arcs), Columns(*others)
     x, y = other.centre_x - one.centre_x, other.centre_y - one.centre_y
     size, both_x, both_y = np.sqrt(x * x + y * y), np.array((x, -x)), np.array((y, -y))
     (ahead_one, behind_one), (ahead_other, behind_other) = inside(both_x, both_y, one), inside(both_x, both_y, other)
@@ -186,7 +194,8 @@ def arc_to_arc(one: Columns, other: Columns) -> Floats:
     apart: Floats = np.where(within, np.abs(gaps), np.inf).min(axis=0)
     cut = ((size > np.abs(one.radius - other.radius)) & (size < one.radius + other.radius)).nonzero()[0]
     if len(cut):
-        apart[cut[_arcs_cross(_rows(one, cut), _rows(other, cut), x[cut], y[cut], size[cut])]] = 0.0
+        one, other = Columns(*arcs.take(cut, axis=1)), Columns(*others.take(cut, axis=1))
+        apart[cut[_arcs_cross(one, other, x[cut], y[cut], size[cut])]] = 0.0
     return apart
 
 
@@ -199,7 +208,3 @@ def _arcs_cross(one: Columns, other: Columns, x: Floats, y: Floats, size: Floats
     crossed = inside(at_x, at_y, one) & inside(at_x - x, at_y - y, other)
     either: Flags = crossed[0] | crossed[1]
     return either
-
-
-def _rows(pieces: Columns, rows: Rows) -> Columns:
-    return Columns(*(column[rows] for column in pieces))

@@ -12,6 +12,7 @@ from core.geometry.aligned import aligned_pairs
 from core.geometry.distance import between, distance, foot, nearest_places
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction
 from core.tolerance import JOINED
+from core.verify.course import Course
 
 TURN: Final = 1e-6
 """Radians short of half a turn that are taken for one."""
@@ -28,9 +29,10 @@ class Crossings:
         return len(self.points)
 
 
-def crossings(surface: Measured, stations: Floats, bounds: Floats, *, closed: bool) -> Crossings:
+def crossings(course: Course, *, closed: bool) -> Crossings:
     """Where pieces that are not neighbours come within JOINED of each other, and neighbours away from their joint."""
-    i, j = _candidates(surface, bounds, closed=closed)
+    surface, stations = course.pieces, course.stations
+    i, j = _candidates(surface, course.boxes, closed=closed)
     if not len(i):
         return Crossings(np.zeros((0, 2)), np.zeros(0, np.complex128))
     following = j == i + 1

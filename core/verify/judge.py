@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite, isinf, nan
 from typing import Final
 
 import numpy as np
 
-from core.geometry.measured import Floats, Measured, boxes, measured, stacked
-from core.geometry.path import EMPTY, Path
+from core.geometry.measured import Floats, Measured
+from core.geometry.path import Path
 from core.geometry.side import Side
 from core.tolerance import CLOSED, GOUGE, LARGEST
 from core.verify.beside import NOBODY, Beside, beside
 from core.verify.contact import backwards, loose
+from core.verify.course import Course, courses
 from core.verify.crossing import Crossings, crossings
 from core.verify.gouge import gouges, gouging
 from core.verify.pairs import approaches, clearance, granted, pairs_of
@@ -34,7 +35,7 @@ def judge(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
     or a radius that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than
     ARC_RADII give a verdict that is not `judged` and so never clean.
     """
-    return judge_all(surface, side, radius, (centre,))[0]
+    return judge_together(surface, side, radius, (centre,))
 
 
 def judge_together(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> Verdict:
@@ -43,34 +44,40 @@ def judge_together(surface: Path, side: Side, radius: float, centres: Sequence[P
     A gouge's `path_piece` counts the pieces of all of them, in order.
     """
     with np.errstate(all="ignore"):
-        if not all(judgeable(surface, radius, centre) for centre in centres):
+        if not judgeable(radius, surface, *centres):
             return _unjudged(radius)
-        if not len(surface) or not centres:
-            return judge(surface, side, radius, EMPTY)
-        moves, numbers = stacked(centres), [centre.numbers for centre in centres]
-        return _judged(surface, _ground(surface), side, radius, np.concatenate((*numbers, np.empty(0))), moves)
+        if not len(surface):
+            return _nothing_to_cut(radius)
+        walls, moves = courses((surface,), centres)
+        numbers = np.concatenate((np.empty(0), *(centre.numbers for centre in centres)))
+        return _judged(_ground(surface, walls), side, radius, numbers, moves)
 
 
 def judge_all(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> tuple[Verdict, ...]:
     """The verdict of `judge` on each centre path; the surface is looked at once, and equal paths are judged once."""
     keys = [_key(centre) for centre in centres] if len(centres) > 1 else [()] * len(centres)
+    paths = dict(zip(keys, centres, strict=True))
     with np.errstate(all="ignore"):
-        ground = _ground(surface) if len(surface) and _sound(surface) else None
-        verdicts = {
-            key: _verdict(surface, ground, side, radius, centre)
-            for key, centre in dict(zip(keys, centres, strict=True)).items()
-        }
+        verdicts = dict(zip(paths, _each(surface, side, radius, tuple(paths.values())), strict=True))
     return tuple(verdicts[key] for key in keys)
 
 
-def judgeable(surface: Path, radius: float, centre: Path) -> bool:
+def _each(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> Iterator[Verdict]:
+    if not len(surface) or not judgeable(radius, surface):
+        yield from (judge(surface, side, radius, centre) for centre in centres)
+        return
+    found = courses((surface,), *((centre,) for centre in centres))
+    ground = _ground(surface, next(found))
+    for centre, moves in zip(centres, found, strict=True):
+        yield _judged(ground, side, radius, centre.numbers, moves) if judgeable(radius, centre) else _unjudged(radius)
+
+
+def judgeable(radius: float, *paths: Path) -> bool:
     """All coordinates and the radius are lengths a machine could have."""
-    return _sound(surface) and _sound(centre) and isfinite(radius) and 0.0 <= radius <= LARGEST
-
-
-def _sound(path: Path) -> bool:
+    arrays = (array for path in paths for array in (path.points, path.centres))
     # what is not a number makes the largest one none, and no comparison holds
-    return all(bool(np.abs(array).max(initial=0.0) <= LARGEST) for array in (path.points, path.centres))
+    sound = all(bool(np.abs(array).max(initial=0.0) <= LARGEST) for array in arrays)
+    return sound and isfinite(radius) and 0.0 <= radius <= LARGEST
 
 
 def _key(path: Path) -> tuple[bytes, ...]:
@@ -82,42 +89,37 @@ def _key(path: Path) -> tuple[bytes, ...]:
 class _Ground:
     """A surface as every path over it needs it."""
 
-    walls: Measured
-    stations: Floats
-    bounds: Floats
+    surface: Path
+    walls: Course
     closed: bool
     crossed: Crossings
 
 
-def _ground(surface: Path) -> _Ground:
-    walls = measured(surface)
-    stations, bounds = walls.stations, boxes(walls)
-    closed = bool(abs(walls.end[-1] - walls.start[0]) <= CLOSED)
-    return _Ground(walls, stations, bounds, closed, crossings(walls, stations, bounds, closed=closed))
-
-
-def _verdict(surface: Path, ground: _Ground | None, side: Side, radius: float, centre: Path) -> Verdict:
-    if not judgeable(surface, radius, centre):
-        return _unjudged(radius)
-    if ground is None:
-        return Verdict(radius, inf, (), NOTHING, 0.0, crosses_itself=False)
-    return _judged(surface, ground, side, radius, centre.numbers, measured(centre))
+def _ground(surface: Path, walls: Course) -> _Ground:
+    pieces = walls.pieces
+    closed = bool(abs(pieces.start[-1] + pieces.vector[-1] - pieces.start[0]) <= CLOSED)
+    return _Ground(surface, walls, closed, crossings(walls, closed=closed))
 
 
 def _unjudged(radius: float) -> Verdict:
     return Verdict(radius, nan, (), NOTHING, nan, crosses_itself=False, judged=False)
 
 
-def _judged(surface: Path, ground: _Ground, side: Side, radius: float, numbers: Floats, moves: Measured) -> Verdict:
-    slack = float(ground.walls.slack.max() + moves.slack.max(initial=0.0))
+def _nothing_to_cut(radius: float) -> Verdict:
+    return Verdict(radius, inf, (), NOTHING, 0.0, crosses_itself=False)
+
+
+def _judged(ground: _Ground, side: Side, radius: float, numbers: Floats, moves: Course) -> Verdict:
+    surface, walls = ground.surface, ground.walls
+    slack = float(walls.pieces.slack.max() + moves.pieces.slack.max(initial=0.0))
     if isinf(slack):
         return _unjudged(radius)
     reach = radius + 10.0 * GOUGE
-    own = _own(moves, numbers, ground.walls, surface.numbers, side, radius)
-    pairs = pairs_of(moves, ground.walls, ground.stations, ground.bounds, radius, reach + slack, own)
+    own = _own(moves.pieces, numbers, walls.pieces, surface.numbers, side, radius)
+    pairs = pairs_of(moves, walls, radius, reach + slack, own)
     near = approaches(pairs, radius - GOUGE)
     found = gouging(pairs, near)
-    length = float(ground.stations[-1])
+    length = float(walls.stations[-1])
     sides = sided(side, ground.crossed, length, closed=ground.closed)
     return Verdict(
         radius=radius,

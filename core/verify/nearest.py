@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.measured import at, boxes, measured, stacked
+from core.geometry.measured import at
 from core.geometry.path import Path
 from core.geometry.piece import Point
 from core.tolerance import GOUGE, ON_PATH
+from core.verify.course import courses
 from core.verify.judge import judgeable
 from core.verify.pairs import approaches, pairs_of
 
@@ -35,16 +36,17 @@ def nearest(surface: Path, centres: Sequence[Path], clearance: float) -> Nearest
     Places that differ by no more than GOUGE are as near as each other.
     """
     with np.errstate(all="ignore"):
-        if not (len(surface) and centres and all(judgeable(surface, clearance, centre) for centre in centres)):
+        if not (len(surface) and centres and judgeable(clearance, surface, *centres)):
             return None
-        walls, moves = measured(surface), stacked(centres)
+        wall_course, move_course = courses((surface,), centres)
+        walls, moves = wall_course.pieces, move_course.pieces
         slack = 2.0 * float(walls.slack.max() + moves.slack.max(initial=0.0))
         reach = clearance + slack + 2.0 * GOUGE
-        near = approaches(pairs_of(moves, walls, walls.stations, boxes(walls), clearance, reach), reach)
+        near = approaches(pairs_of(move_course, wall_course, clearance, reach), reach)
         k, pair = np.nonzero(near.apart <= clearance + GOUGE)
         if not len(pair):
             return None
-        stations = moves.stations[near.i[pair]] + near.places[k, pair] * moves.length[near.i[pair]]
+        stations = move_course.stations[near.i[pair]] + near.places[k, pair] * moves.length[near.i[pair]]
         first = int(np.lexsort((near.j[pair], np.round(stations / ON_PATH)))[0])
         row = pair[first : first + 1]
         place = at(moves.take(near.i[row]), near.places[k[first : first + 1], row])

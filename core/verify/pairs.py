@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import ulp
 
 import numpy as np
 
 from core.geometry.boxes import closest_pairs, near_pairs
 from core.geometry.distance import between, nearest_places
-from core.geometry.measured import Floats, Measured, Rows, blocks, boxes
+from core.geometry.measured import Floats, Measured, Rows, blocks
 from core.tolerance import UNCUT
 from core.verify.beside import NOBODY, Beside
+from core.verify.course import Course
 from core.verify.touch import Touches, touches
 from core.verify.unproved import CLEAR, unproved_pairs
 
@@ -39,32 +41,31 @@ class Pairs:
 
 
 def pairs_of(
-    centre: Measured,
-    surface: Measured,
-    stations: Floats,
-    bounds: Floats,
+    centre: Course,
+    surface: Course,
     radius: float,
     reach: float,
     own: Beside = NOBODY,
 ) -> Pairs:
-    """All pairs within `reach`; `stations` and `bounds` are the surface's.  Touches are those within `radius`."""
-    around = boxes(centre)
+    """All pairs within `reach`.  Touches are those within `radius`."""
+    moves, walls, exact = centre.pieces, surface.pieces, granted(surface.pieces)
     if len(own.piece):
-        i, j = unproved_pairs(centre, around, surface, bounds, own, reach, radius + CLEAR * granted(surface))
+        i, j = unproved_pairs(moves, centre.boxes, walls, surface.boxes, own, reach, radius + CLEAR * exact)
     else:
-        i, j = near_pairs(around, bounds, reach)
-    grant = granted(surface) + _slack(centre, i) + _slack(surface, j)
+        i, j = near_pairs(centre.boxes, surface.boxes, reach)
+    grant = exact + _slack(moves, i) + _slack(walls, j)
     touch = touches(centre, i, surface, j, radius, grant)
     near = (touch.apart <= reach).nonzero()[0]
     if len(near) < len(i):
         i, j, grant, touch = i[near], j[near], grant[near], touch.take(near)
-    return Pairs(centre, surface, centre.stations, stations, around, bounds, i, j, grant, touch, own)
+    stations, bounds = (centre.stations, surface.stations), (centre.boxes, surface.boxes)
+    return Pairs(moves, walls, *stations, *bounds, i, j, grant, touch, own)
 
 
 def granted(surface: Measured) -> float:
     """What counts as exact: UNCUT, and four units in the last place of the largest coordinate or radius."""
-    largest = max(np.abs(surface.start.real).max(), np.abs(surface.start.imag).max(), surface.radius.max())
-    return UNCUT + 4.0 * float(np.spacing(largest))
+    largest = max(np.abs(surface.start.view(np.float64)).max(), surface.radius.max())
+    return UNCUT + 4.0 * ulp(largest)
 
 
 def _slack(pieces: Measured, rows: Rows) -> Floats:
@@ -97,13 +98,13 @@ def approaches(pairs: Pairs, limit: float) -> Approaches:
 
 
 def _measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
+    if not len(i):
+        none = np.zeros((8, 0))
+        return Approaches(np.inf, i, j, none, none, none[0])
     found = [
         _measure_block(pairs, i[block], j[block], limit)
         for block in blocks(pairs.centre.arcs[i], pairs.surface.arcs[j])
     ]
-    if not found:
-        none = np.zeros((8, 0))
-        return Approaches(np.inf, i, j, none, none, none[0])
     columns = zip(*((one.i, one.j, one.places, one.apart, one.limit) for one in found), strict=True)
     return Approaches(min(one.least for one in found), *(np.concatenate(column, axis=-1) for column in columns))
 

@@ -11,11 +11,11 @@ from math import isinf
 
 import numpy as np
 
-from core.geometry.measured import boxes, measured
 from core.geometry.path import Path
 from core.geometry.piece import Point
 from core.tolerance import GOUGE
 from core.verify.contact import backwards
+from core.verify.course import courses
 from core.verify.judge import judgeable
 from core.verify.pairs import Pairs, pairs_of
 from core.verify.uncut import uncut
@@ -50,16 +50,15 @@ def stray(surface: Path, radius: float, centre: Path) -> Stray:
 
     Nothing is told of a path that cannot be judged.
     """
-    if not (len(surface) and len(centre) and judgeable(surface, radius, centre)):
+    if not (len(surface) and len(centre) and judgeable(radius, surface, centre)):
         return Stray((), ())
     with np.errstate(all="ignore"):
-        walls, moves = measured(surface), measured(centre)
-        slack = float(walls.slack.max() + moves.slack.max())
+        walls, moves = courses((surface,), (centre,))
+        slack = float(walls.pieces.slack.max() + moves.pieces.slack.max())
         if isinf(slack):
             return Stray((), ())
         reach = radius + 10.0 * GOUGE + slack
-        pairs = pairs_of(moves, walls, walls.stations, boxes(walls), radius, reach)
-        turned = pairs_of(walls, moves, moves.stations, boxes(moves), radius, reach)
+        pairs, turned = pairs_of(moves, walls, radius, reach), pairs_of(walls, moves, radius, reach)
         return Stray(_away(turned, radius, centre), backwards(pairs, radius))
 
 

@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.distance import foot
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows
+from core.geometry.measured import Flags, Floats, Measured, Rows
 from core.tolerance import ON_PATH, STOCK
-from core.verify.columns import Columns, arc_to_arc, columns, line_to_arc, lines_cross, middle, taken, to_piece
+from core.verify.columns import STRAIGHT, Columns, arc_to_arc, line_to_arc, lines_cross, middle, taken, to_piece
+from core.verify.course import Course
 
 FEW: Final = 1_000
 """Pairs of which measuring all in one go, by the formulas of lines and of arcs, costs less than parting them."""
@@ -66,22 +67,22 @@ class _Block(NamedTuple):
     bent_other: Flags
 
 
-def touches(centre: Measured, i: Rows, surface: Measured, j: Rows, radius: float, grant: Floats) -> Touches:
+def touches(centre: Course, i: Rows, surface: Course, j: Rows, radius: float, grant: Floats) -> Touches:
     """The pairs of pieces `i` of the centre path and `j` of the surface, measured, and their touch.
 
     What is within the radius and `grant` (m,) touches; a pair nearer than the radius less its grant is unsure.
     """
     limit = radius + grant
-    one, other = columns(centre), columns(surface)
     found = _blank(len(i))
-    bent_one, bent_other = centre.arcs[i], surface.arcs[j]
+    bent_one, bent_other = centre.pieces.arcs[i], surface.pieces.arcs[j]
     for rows in _blocks(bent_one, bent_other):
         bent = bent_one[rows], bent_other[rows]
-        block = _Block(i[rows], j[rows], taken(one, i[rows], bent[0]), taken(other, j[rows], bent[1]), *bent)
+        columns = taken(centre.columns, i[rows], bent[0]), taken(surface.columns, j[rows], bent[1])
+        block = _Block(i[rows], j[rows], *columns, *bent)
         within, places = _measure(found, rows, block, limit[rows])
-        found.first[rows], found.last[rows] = _hull(within, places, block, centre, surface)
-        found.unsure[rows] = _unsure(found, rows, block, centre, surface)
-    found.unsure[found.apart < radius - grant] = True
+        found.first[rows], found.last[rows] = _hull(within, places, block, centre.pieces, surface.pieces)
+        found.unsure[rows] = _unsure(found, rows, block, centre.pieces, surface.pieces)
+    np.logical_or(found.unsure, found.apart < radius - grant, out=found.unsure)
     return found
 
 
@@ -91,10 +92,10 @@ def _blank(count: int) -> Touches:
     return Touches(apart, first, last, flags[0], middle, flags[1])
 
 
-def _blocks(one: Flags, other: Flags) -> Iterator[Rows]:
+def _blocks(one: Flags, other: Flags) -> Iterator[Rows | slice]:
     """Indices of pairs, parted by which of the two pieces are arcs, at most BLOCK at a time; few pairs all at once."""
     if len(one) <= FEW:
-        yield np.arange(len(one))
+        yield slice(None)
         return
     kinds = _kinds(one, other)
     for kind in range(4):
@@ -109,16 +110,17 @@ def _kinds(one: Flags, other: Flags) -> NDArray[np.int8]:
     return kinds
 
 
-def _measure(found: Touches, rows: Rows, block: _Block, limit: Floats) -> tuple[Flags, Floats]:
+def _measure(found: Touches, rows: Rows | slice, block: _Block, limit: Floats) -> tuple[Flags, Floats]:
     """Distances of the pairs; (4, m) whether the surface pieces' ends and the centre pieces' ends, start and end of
-    each, are within the limit of the other piece; and (3, m) fractions of surface lines nearest to the latter."""
+    each, are within the limit of the other piece; and (4, m) fractions of surface lines nearest to these."""
     a, b = Columns(*block.one), Columns(*block.other)
     middle_x, middle_y = middle(a, block.bent_one)
     x, y = np.array((a.x, a.x + a.along, middle_x)), np.array((a.y, a.y + a.up, middle_y))
-    mine, places = to_piece(x, y, b, block.bent_other)
+    mine, nearest = to_piece(x, y, b, block.bent_other)
     x, y = np.array((b.x, b.x + b.along)), np.array((b.y, b.y + b.up))
     theirs, _ = to_piece(x, y, a, block.bent_one)
-    ends = np.concatenate((theirs, mine[:2]))
+    ends, places = np.concatenate((theirs, mine[:2])), np.empty((4, len(limit)))
+    places[0], places[1], places[2:] = 0.0, 1.0, nearest[:2]
     found.middle[rows] = mine[2]
     found.along[rows] = mine.max(axis=0) <= limit + STOCK
     found.apart[rows] = np.minimum(ends.min(axis=0), _between_ends(block))
@@ -127,19 +129,28 @@ def _measure(found: Touches, rows: Rows, block: _Block, limit: Floats) -> tuple[
 
 def _between_ends(block: _Block) -> Floats:
     """Least distances that lie between the ends of both pieces; infinite where there is none."""
+    one, other = block.one, block.other
     kinds = _kinds(block.bent_one, block.bent_other)
+    lines, first, second, arcs = ((kinds == kind).nonzero()[0] for kind in range(4))
+    if len(lines) == len(kinds):
+        return lines_cross(one, other)
+    if len(first) == len(kinds):
+        return line_to_arc(one, other)
+    if len(second) == len(kinds):
+        return line_to_arc(other, one)
+    if len(arcs) == len(kinds):
+        return arc_to_arc(one, other)
     apart = np.empty(len(kinds))
-    for kind, measure in enumerate((lines_cross, line_to_arc, _arc_to_line, arc_to_arc)):
-        rows = (kinds == kind).nonzero()[0]
-        if len(rows) == len(kinds):
-            return measure(Columns(*block.one), Columns(*block.other))
-        if len(rows):
-            apart[rows] = measure(Columns(*block.one.take(rows, axis=1)), Columns(*block.other.take(rows, axis=1)))
+    if len(lines):
+        apart[lines] = lines_cross(one[:STRAIGHT].take(lines, axis=1), other[:STRAIGHT].take(lines, axis=1))
+    if len(arcs):
+        apart[arcs] = arc_to_arc(one.take(arcs, axis=1), other.take(arcs, axis=1))
+    mixed = [part for part in ((first, one, other), (second, other, one)) if len(part[0])]
+    if mixed:
+        straight = np.concatenate([line[:STRAIGHT].take(rows, axis=1) for rows, line, _ in mixed], axis=1)
+        bent = np.concatenate([arc.take(rows, axis=1) for rows, _, arc in mixed], axis=1)
+        apart[np.concatenate((first, second))] = line_to_arc(straight, bent)
     return apart
-
-
-def _arc_to_line(arc: Columns, line: Columns) -> Floats:
-    return line_to_arc(line, arc)
 
 
 def _hull(within: Flags, places: Floats, block: _Block, centre: Measured, surface: Measured) -> tuple[Floats, Floats]:
@@ -148,21 +159,17 @@ def _hull(within: Flags, places: Floats, block: _Block, centre: Measured, surfac
     The distance from a line is convex along another: what lies between is within too.  On arcs the feet are looked for
     of those ends only that are not beside an end of the arc.
     """
-    at_start, at_end, near = within[0], within[1], within[2:]
-    first, last = np.where(at_end, 1.0, NONE), np.where(at_start, 0.0, -NONE)
-    first[at_start], last[at_end] = 0.0, 1.0
-    places = places[:2]
     if np.count_nonzero(block.bent_other):
-        near = near & ((first > 0.0) | (last < 1.0))
-        end, row = (near & block.bent_other).nonzero()
+        within[2:] &= ~(within[0] & within[1])
+        end, row = (within[2:] & block.bent_other).nonzero()
         i, j = block.i[row], block.j[row]
-        places[end, row] = foot(surface.take(j), centre.start[i] + end * centre.vector[i])
-    np.minimum(first, np.where(near, places, NONE).min(axis=0), out=first)
-    np.maximum(last, np.where(near, places, -NONE).max(axis=0), out=last)
+        places[end + 2, row] = foot(surface.take(j), centre.start[i] + end * centre.vector[i])
+    first: Floats = np.where(within, places, NONE).min(axis=0)
+    last: Floats = np.where(within, places, -NONE).max(axis=0)
     return first, last
 
 
-def _unsure(found: Touches, rows: Rows, block: _Block, centre: Measured, surface: Measured) -> Flags:
+def _unsure(found: Touches, rows: Rows | slice, block: _Block, centre: Measured, surface: Measured) -> Flags:
     """Touches with arcs that are more than a point, unless both arcs are about one centre and overlap but once."""
     unsure = block.bent_one | block.bent_other
     if not np.count_nonzero(unsure):
@@ -170,15 +177,11 @@ def _unsure(found: Touches, rows: Rows, block: _Block, centre: Measured, surface
     unsure &= (found.last[rows] - found.first[rows]) * surface.length[block.j] > POINT
     both = (unsure & block.bent_one & block.bent_other).nonzero()[0]
     if len(both):
-        one, other = centre.take(block.i[both]), surface.take(block.j[both])
-        about = np.abs(one.centre - other.centre) <= ON_PATH
-        turned = np.abs(np.angle(_middle(one) * np.conj(_middle(other))))
-        once = (one.angle + other.angle) / 2.0 + turned < tau - POINT
-        unsure[both[about & once]] = False
+        one, other = Columns(*block.one.take(both, axis=1)), Columns(*block.other.take(both, axis=1))
+        off = np.hypot(one.centre_x - other.centre_x, one.centre_y - other.centre_y)
+        cross = one.middle_x * other.middle_y - one.middle_y * other.middle_x
+        dot = one.middle_x * other.middle_x + one.middle_y * other.middle_y
+        angles = centre.angle[block.i[both]] + surface.angle[block.j[both]]
+        once = angles / 2.0 + np.arctan2(np.abs(cross), dot) < tau - POINT
+        unsure[both[(off <= ON_PATH) & once]] = False
     return unsure
-
-
-def _middle(arc: Measured) -> Points:
-    """Directions of the arcs' middles from their centres, of any length."""
-    middle: Points = arc.arm * np.exp(0.5j * arc.turn * arc.angle)
-    return middle

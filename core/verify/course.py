@@ -1,0 +1,55 @@
+"""Course: a surface or a centre path as the judge measures it, worked out once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from core.geometry.measured import Floats, Measured, boxes, stacked
+from core.geometry.path import Path
+from core.verify.columns import columns as columns_of
+
+FEW: Final = 2_000
+"""Pieces of all paths that are worked out in one go."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Course:
+    """n pieces, (n + 1,) lengths travelled at their starts and at the end, (4, n) boxes and the pieces' `columns`."""
+
+    pieces: Measured
+    stations: Floats
+    boxes: Floats
+    columns: Floats
+
+
+def courses(*groups: Sequence[Path]) -> Iterator[Course]:
+    """One course after the other for each group of paths, whose pieces count as those of one path.
+
+    Few pieces are worked out in one go: the steps cost more than the pieces.
+    """
+    counts = np.cumsum([0, *(sum(map(len, group)) for group in groups)]).tolist()
+    if counts[-1] > FEW:
+        for group in groups:
+            yield _course(stacked(group))
+        return
+    whole = _course(stacked([path for group in groups for path in group]))
+    ends = whole.pieces.rows.searchsorted(counts).tolist()
+    for first, last, count in zip(ends, ends[1:], counts, strict=False):
+        yield _part(whole, slice(first, last), count)
+
+
+def _course(pieces: Measured) -> Course:
+    return Course(pieces, pieces.stations, boxes(pieces), columns_of(pieces))
+
+
+def _part(whole: Course, part: slice, count: int) -> Course:
+    """These pieces, whose rows begin at `count`."""
+    pieces = whole.pieces.take(part)
+    pieces = replace(pieces, rows=pieces.rows - count)
+    # of rows that do not lie together every `take` would copy all
+    columns = np.ascontiguousarray(whole.columns[:, part])
+    return Course(pieces, pieces.stations, np.ascontiguousarray(whole.boxes[:, part]), columns)
