@@ -15,7 +15,8 @@ def nc_text(derived: Derived, name: str, override: str | None, control: str | No
     """The path of the tool's centre, or the program of a control that compensates by itself, by its full name."""
     if control is not None:
         return post_for(derived, name=name, control=control)
-    return post(jobs(derived), derived.program.unit, name=name, override=override)
+    program = derived.program
+    return post(jobs(derived), program.unit, name=name, part=program.setup.name, override=override)
 
 
 def refusal_or_text(

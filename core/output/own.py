@@ -13,9 +13,9 @@ from core.output.comment import comments
 from core.output.grid import Grid
 from core.output.heights import level_floor
 from core.output.job import Job
-from core.output.post import Posted, Refusal
+from core.output.post import Posted, Refusal, titles
 from core.output.ready import forbidding
-from core.units import Kind, Unit, from_mm, sentence, show
+from core.units import Kind, Unit, from_mm, printable, sentence, show
 
 
 def objections(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ...]:
@@ -37,16 +37,19 @@ def objections(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ...]:
 
 
 def post_own(
-    jobs: Sequence[Job], cuts: Sequence[Cut | Plain], unit: Unit, *, name: str, control: str
+    jobs: Sequence[Job], cuts: Sequence[Cut | Plain], unit: Unit, *, name: str, control: str, part: str = ""
 ) -> Posted | Refusal:
-    """The program of a control by its full name, or why there is none; `cuts` are those of the jobs, in order."""
+    """The program of a control by its full name, or why there is none; `cuts` are those of the jobs, in order.
+
+    `name` is the program's name, `part` the PART NAME.
+    """
     against = objections(jobs, unit)
     if against:
         return Refusal(against, unit)
 
     def remarks(notes: Sequence[Finding]) -> Sequence[str]:
         # a semicolon would end the block even inside a remark, or begin another one
-        told = [text.replace(";", ",") for text in _told(jobs, cuts, unit, name, control, notes)]
+        told = [text.replace(";", ",") for text in (*titles(name, part), *_told(jobs, cuts, unit, control, notes))]
         if control == "klartext":
             return [line[1:-1] for text in told for line in comments(text)]
         return [line for text in told for line in comments(text)]
@@ -55,7 +58,7 @@ def post_own(
     written = write_own(cuts, control, frame, _short(name), remarks)
     if isinstance(written, NotWritten):
         return Refusal(written.findings, unit)
-    return Posted(written.text, notes=(*_beside(jobs, control), *written.notes))
+    return Posted(written.text, notes=(*_beside(jobs, control), *_nameless(part, control), *written.notes))
 
 
 def _short(name: str) -> str:
@@ -72,11 +75,19 @@ def _beside(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
     return ()
 
 
+def _nameless(part: str, control: str) -> tuple[Finding, ...]:
+    """That the part's name is nowhere in a text that holds no comments."""
+    style = STYLES.get(control)
+    if style is None or style.comments or not part.strip():
+        return ()
+    text = f"PART NAME {printable(part)} is not in the file: {control} knows no comments."
+    return (Finding("PART_NAME", Severity.INFO, text, field="name"),)
+
+
 def _told(
-    jobs: Sequence[Job], cuts: Sequence[Cut | Plain], unit: Unit, name: str, control: str, notes: Sequence[Finding]
+    jobs: Sequence[Job], cuts: Sequence[Cut | Plain], unit: Unit, control: str, notes: Sequence[Finding]
 ) -> Iterator[str]:
-    """The sentences of the header."""
-    yield f"PROGRAM {name}"
+    """The sentences of the header below its titles."""
     compensates = any(isinstance(cut, Cut) for cut in cuts)
     how = "THE CONTROL COMPENSATES" if compensates else "NOTHING IS COMPENSATED"
     yield f"WRITTEN BY CUTCOMP FOR {control}: THE CONTOUR AS TYPED, {how}"

@@ -50,9 +50,13 @@ class Refusal:
         return " ".join(_sentence(finding, self.unit) for finding in self.findings)
 
 
-def post(jobs: Sequence[Job], unit: Unit, *, name: str, override: str | None = None) -> Posted | Refusal:
+def post(
+    jobs: Sequence[Job], unit: Unit, *, name: str, part: str = "", override: str | None = None
+) -> Posted | Refusal:
     """The NC text of all jobs, or the findings that forbid it.
 
+    `name` is the program's name and `part` the PART NAME that stand at its head, in comments that nothing typed brings
+    to life.
     `override` counts only if it is the sentence `core.output.ready.OVERRIDE`, and only against findings on a path that
     is known; the header then says what was overridden.
     """
@@ -65,12 +69,18 @@ def post(jobs: Sequence[Job], unit: Unit, *, name: str, override: str | None = N
     raised = max(job.safe_z for job in jobs), max(clear_height(job) for job in jobs)
     level = [replace(job, safe_z=max(raised)) for job in jobs]
     waived = overridden(jobs)
-    lines = (*_header(jobs, unit, name, waived), *_raised(raised, unit), *_body(level, grid))
+    lines = (*_header(jobs, unit, titles(name, part), waived), *_raised(raised, unit), *_body(level, grid))
     return Posted("\n".join(lines) + "\n", waived)
 
 
-def _header(jobs: Sequence[Job], unit: Unit, name: str, waived: tuple[Finding, ...]) -> Iterator[str]:
-    yield from comments(f"PROGRAM {name}")
+def titles(name: str, part: str) -> tuple[str, ...]:
+    """What stands at the head of every NC file: the program's name, and the part's where it has one."""
+    return (f"PROGRAM {name}", f"PART {part}") if part.strip() else (f"PROGRAM {name}",)
+
+
+def _header(jobs: Sequence[Job], unit: Unit, head: tuple[str, ...], waived: tuple[Finding, ...]) -> Iterator[str]:
+    for title in head:
+        yield from comments(title)
     yield from comments("WRITTEN BY CUTCOMP.  THE PATH IS THAT OF THE TOOL CENTRE: NO G41 OR G42")
     yield from comments(f"UNITS {'INCH' if unit is Unit.IN else 'MM'}")
     for cutter, role in _cutters(jobs).items():

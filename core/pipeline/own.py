@@ -22,7 +22,7 @@ def post_for(derived: Derived, *, name: str, control: str) -> Posted | Refusal:
     if against:
         return Refusal(against, unit)
     cuts = [cut for found, job in zip(derived.blocks, every, strict=True) for cut in _cuts(found, job)]
-    return post_own(every, cuts, unit, name=name, control=control)
+    return post_own(every, cuts, unit, name=name, control=control, part=derived.program.setup.name)
 
 
 def _best(derived: Derived) -> tuple[Finding, ...]:

@@ -57,6 +57,45 @@ def test_a_whole_program_in_inches():
     ]
 
 
+def head(part: str) -> list[str]:
+    found = post([job(SLOT)], Unit.IN, name="SLOT", part=part)
+    assert isinstance(found, Posted)
+    return found.text.splitlines()
+
+
+def test_the_part_name_stands_at_the_head():
+    assert head("HOUSING 7")[:3] == [
+        "(PROGRAM SLOT)",
+        "(PART HOUSING 7)",
+        "(WRITTEN BY CUTCOMP.  THE PATH IS THAT OF THE TOOL CENTRE: NO G41 OR G42)",
+    ]
+    assert head("   ") == head("")
+    assert not any(line.startswith("(PART") for line in head(""))
+
+
+@pytest.mark.parametrize(
+    "part",
+    [
+        "A)\nG0 X9 Y9",
+        "(MSG, hi) M3",
+        "\x1b[31m\r\n%",
+        ", M30",
+        "TEIL \u00f6 \u4e2d \ud800",
+        "N\u0085G1 X1\u2028M2 ",
+        "x" * 300,
+    ]
+    + [f"{'y' * 60} MSG, G1 X{number}" for number in range(8, 16)],
+)
+def test_no_part_name_comes_to_life(part):
+    """Whatever is typed stays in plain comments at the head; the rest of the file is the same."""
+    lines, plain_lines = head(part), head("")
+    added = lines[1 : len(lines) - len(plain_lines) + 1]
+    assert lines == [plain_lines[0], *added, *plain_lines[1:]]
+    for line in added:
+        assert re.fullmatch(r"\([ -&*-~]+\)", line)
+        assert not re.match(r"\(\s*[A-Za-z_]+\s*,", line)
+
+
 def test_the_same_in_millimetres():
     found = text(job(SLOT, peck_depth=0.0, work_offset=56), Unit.MM).splitlines()
     assert "G17 G21 G40 G49 G56 G80 G90 G91.1 G94" in found
