@@ -83,8 +83,8 @@ def _checked(found: DerivedBlock, program: Program) -> DerivedBlock:
     """With what forbids posting though every path is right, such as a SPEED of 0, and the steps in Z."""
     due = job(found, program)
     against = forbidding([due], Grid(program.unit), override=None)
-    new = (one for one in against if one not in found.findings)
-    return replace(found, findings=by_weight((*found.findings, *new, *step_findings(due))))
+    new = (*(one for one in against if one not in found.findings), *step_findings(due))
+    return replace(found, findings=by_weight((*found.findings, *new))) if new else found
 
 
 def compared(derived: Derived) -> Derived:

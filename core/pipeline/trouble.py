@@ -21,6 +21,8 @@ from core.verify.report import stray_findings
 from core.verify.stray import Away, Stray, stray
 from core.verify.verdict import Gouge, Verdict
 
+_ORDER: Final = {severity: place for place, severity in enumerate(Severity)}
+
 FEWEST: Final = 3
 """Segments with which a contour can come back to where it began, but for two arcs."""
 
@@ -203,5 +205,4 @@ def open_finding(surface: Path, diameter: float, *, closed: bool) -> tuple[Findi
 
 def by_weight(found: tuple[Finding, ...]) -> tuple[Finding, ...]:
     """Errors, then warnings, then the rest."""
-    order = list(Severity)
-    return tuple(sorted(found, key=lambda finding: order.index(finding.severity)))
+    return tuple(sorted(found, key=lambda finding: _ORDER[finding.severity]))

@@ -98,11 +98,11 @@ class Draft:
 
 def _segments(block: Block, drafts: list[Draft], before: SolvedBlock | None) -> list[SolvedSegment]:
     shapes = [draft.shape for draft in drafts]
-    blend = {index for index, segment in enumerate(block.segments) if isinstance(segment, BlendSegment)}
+    blend = [index for index, segment in enumerate(block.segments) if isinstance(segment, BlendSegment)]
     radii = {index: drafts[index].reading.known["radius"] for index in blend if "radius" in drafts[index].reading.known}
     lengthless = (index for index, shape in enumerate(shapes) if shape.piece is None and shape.end is not None)
-    empty = frozenset(lengthless) - blend
-    blends = blended(block.segments, [shape.piece for shape in shapes], radii, empty)
+    empty = frozenset(lengthless).difference(blend)
+    blends = blended(block.segments, blend, [shape.piece for shape in shapes], radii, empty)
     # a draft that is kept has the place it had
     kept = () if before is None else zip(drafts, before.drafts, before.segments, strict=False)
     known = (old if was is draft else None for draft, was, old in kept)
@@ -120,24 +120,45 @@ def _stands(old: SolvedSegment, draft: Draft, index: int, blends: Blends) -> boo
 
 
 def _drafts(block: Block, start: Start, unit: Unit, before: Sequence[Draft]) -> list[Draft]:
+    """Every segment solved by itself; those that are kept, and take over what they took, are taken run by run."""
     here = _Here(start.point, start.known.get("z_bottom"), start.known.get("plunge_feed"))
+    segments = block.segments
+    anew = [
+        index
+        for index, (segment, old) in enumerate(zip(segments, before, strict=False))
+        if old.segment is not segment or old.unit is not unit
+    ]
+    anew.extend(range(len(before), len(segments)))
     drafts: list[Draft] = []
-    for index, (segment, old) in enumerate(zip(block.segments, chain(before, repeat(None)), strict=False)):
-        if old is None or old.segment is not segment or old.unit is not unit or old.here.point != here.point:
-            old = _draft(segment, index + 1, here.point, unit)
-        # behind a segment that is kept it is the same object
-        drafts.append(old if old.here is here or old.here == here else _carried(old, here))
-        here = drafts[-1].ahead
+    for index in (*anew, len(segments)):
+        while len(drafts) < index:
+            old = before[len(drafts)]
+            # behind a segment that is kept it is the same object
+            if old.here is here or old.here == here:
+                drafts += before[len(drafts) : index]
+            elif old.here.point == here.point:
+                drafts.append(_carried(old, here))
+            else:
+                drafts.append(_draft(segments[len(drafts)], len(drafts) + 1, here, unit))
+            here = drafts[-1].ahead
+        if index < len(segments):
+            drafts.append(_draft(segments[index], index + 1, here, unit))
+            here = drafts[-1].ahead
     return drafts
 
 
-def _draft(segment: Segment, number: int, point: Point | None, unit: Unit) -> Draft:
-    """A segment that takes over a point, and neither Z nor feed yet."""
+def _draft(segment: Segment, number: int, here: _Here, unit: Unit) -> Draft:
+    """A segment that takes over a point, and Z and feed where its own are blank."""
     reading = read(_FORMS[type(segment)], segment, unit, number)
-    feed, z = reading.known.pop("feed", None), reading.known.pop("z_end", None)
-    shape = _shape(segment, reading, point, unit)
-    ahead = _Here(shape.end or _typed_end(reading.known), z, feed)
-    return Draft(segment, unit, z, feed, reading, shape, _Here(point, None, None), ahead)
+    values, known = reading.values, reading.known
+    own_feed, own_z = known.pop("feed", None), known.pop("z_end", None)
+    shape = _shape(segment, reading, here.point, unit)
+    z, feed = here.z if own_z is None else own_z, here.feed if own_feed is None else own_feed
+    for name, value in (("z_end", z), ("feed", feed)):
+        if name in values:
+            carry(values, name, value, unit)
+    ahead = _Here(shape.end or _typed_end(known), z, feed)
+    return Draft(segment, unit, own_z, own_feed, reading, shape, here, ahead)
 
 
 def _carried(draft: Draft, here: _Here) -> Draft:

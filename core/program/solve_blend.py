@@ -28,13 +28,18 @@ class Blends:
 
 
 def blended(
-    typed: Sequence[Segment], pieces: list[Piece | None], radii: dict[int, float], empty: frozenset[int]
+    typed: Sequence[Segment],
+    blends: Sequence[int],
+    pieces: list[Piece | None],
+    radii: dict[int, float],
+    empty: frozenset[int],
 ) -> Blends:
-    """Every BLEND ARC put in; `radii` holds their typed radii (mm), `empty` the segments without length."""
+    """Every BLEND ARC put in, of rising indices `blends`.
+
+    `radii` holds their typed radii (mm), `empty` the segments without length.
+    """
     made = Blends(list(pieces))
-    for index, segment in enumerate(typed):
-        if not isinstance(segment, BlendSegment):
-            continue
+    for index in blends:
         fault = _misplaced(typed, index)
         if fault is None and index in radii:
             fault = _blend(made, index, radii[index], empty)
