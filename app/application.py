@@ -188,6 +188,8 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self._painted = perf_counter()
 
     def _loaded(self, derived: Derived) -> None:
+        # the numeric library stays as well
+        gc.freeze()
         self.engine.ready = True
         self._derived(derived)
         self._advance()

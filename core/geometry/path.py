@@ -102,12 +102,7 @@ class Path:
     def sweeps(self) -> Floats:
         """(n,) angle travelled by each arc, positive counter-clockwise, 0 for a line, a full turn for a circle."""
         first, last = self.starts - self.centres, self.ends - self.centres
-        angle = np.arctan2(last[:, 1], last[:, 0]) - np.arctan2(first[:, 1], first[:, 0])
-        swept = np.mod(angle * self.turns, tau)
-        swept[swept > tau - SLIVER] = 0.0
-        same = self.starts == self.ends
-        swept[same[:, 0] & same[:, 1]] = tau
-        return swept * self.turns
+        return _swept(first, last, self.turns, self.starts == self.ends) * self.turns
 
     @property
     def lengths(self) -> Floats:
@@ -138,11 +133,13 @@ class Path:
         low, high = np.minimum(self.starts, self.ends), np.maximum(self.starts, self.ends)
         arcs = self.turns.nonzero()[0]
         if len(arcs):
-            centres, radii = self.centres[arcs], self.radii[arcs][:, None]
-            first = self.starts[arcs] - centres
+            centres, turns = self.centres[arcs], self.turns[arcs]
+            starts, ends = self.points[arcs], self.points[arcs + 1]
+            first = starts - centres
+            radii = np.hypot(first[:, 0], first[:, 1])[:, None]
             begin = np.arctan2(first[:, 1], first[:, 0])
-            ahead = np.mod((_QUARTERS - begin) * self.turns[arcs], tau)
-            passed = (ahead < np.abs(self.sweeps[arcs])).T
+            ahead = np.mod((_QUARTERS - begin) * turns, tau)
+            passed = (ahead < _swept(first, ends - centres, turns, starts == ends)).T
             high[arcs] = np.where(passed[:, :2], np.maximum(high[arcs], centres + radii), high[arcs])
             low[arcs] = np.where(passed[:, 2:], np.minimum(low[arcs], centres - radii), low[arcs])
         return np.hstack((low, high))
@@ -158,6 +155,15 @@ class Path:
         # rows of contiguous arrays are contiguous: nothing is copied
         keep = slice(first, last)
         return Path(self.points[first : last + 1], self.centres[keep], self.turns[keep], self.numbers[keep])
+
+
+def _swept(first: Floats, last: Floats, turns: Turns, same: NDArray[np.bool_]) -> Floats:
+    """(n,) angle travelled from `first` to `last` (n, 2) from the centres, a full turn where `same`."""
+    angle = np.arctan2(last[:, 1], last[:, 0]) - np.arctan2(first[:, 1], first[:, 0])
+    swept: Floats = np.mod(angle * turns, tau)
+    swept[swept > tau - SLIVER] = 0.0
+    swept[same[:, 0] & same[:, 1]] = tau
+    return swept
 
 
 def joined(parts: Sequence[Path]) -> Path:

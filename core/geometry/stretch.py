@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from core.geometry.path import EMPTY, Path, joined
+import numpy as np
+
+from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Point
 
 Ends = tuple[float, Point, float, Point]
@@ -16,20 +18,38 @@ def stretch(surface: Path, first: float, start: Point, last: float, end: Point) 
 
     Empty if there are no such segments; it runs past a closed contour's start if `last` lies before `first`.
     """
-    place = _place(surface, first, last)
-    return EMPTY if place is None else _between(surface, place[0], start, place[1], end)
+    return next(iter(stretches(surface, [(first, start, last, end)])), EMPTY)
 
 
 def stretches(surface: Path, wanted: Sequence[Ends]) -> list[Path]:
-    """Many of them, the rows of all segments looked up at once."""
+    """Many of them, without those that are empty: cut out of the surface's arrays at once."""
     if not wanted:
         return []
-    numbers = surface.numbers.tolist()
-    rows = range(len(numbers))
-    begins, ends = dict(zip(reversed(numbers), reversed(rows), strict=True)), dict(zip(numbers, rows, strict=True))
-    return [
-        _between(surface, begins[first], start, ends[last], end) if first in begins and last in ends else EMPTY
+    numbers, count = surface.numbers.tolist(), len(surface)
+    begins = dict(zip(reversed(numbers), reversed(range(count)), strict=True))
+    ends = dict(zip(numbers, range(count), strict=True))
+    known = [
+        (begins[first], start, ends[last], end)
         for first, start, last, end in wanted
+        if first in begins and last in ends
+    ]
+    if not known:
+        return []
+    steps = [_steps(surface, *one) for one in known]
+    behind = np.cumsum(np.array(steps) + 2)
+    # rows of points, one more than of pieces: behind the last piece of each stretch its end
+    runs = [np.arange(one[0], one[0] + more + 2) for one, more in zip(known, steps, strict=True)]
+    rows = np.concatenate(runs) % count
+    heads, tails = np.array([0, *behind[:-1].tolist()]), behind - 1
+    points, centres = surface.points[rows], surface.centres[rows]
+    turns, own = surface.turns[rows], surface.numbers[rows]
+    points[heads], points[tails] = [one[1] for one in known], [one[3] for one in known]
+    # a line has its own start for a centre
+    lines = heads[turns[heads] == 0]
+    centres[lines] = points[lines]
+    return [
+        Path(points[head : tail + 1], centres[head:tail], turns[head:tail], own[head:tail])
+        for head, tail in zip(heads.tolist(), tails.tolist(), strict=True)
     ]
 
 
@@ -38,9 +58,8 @@ def stretch_pieces(surface: Path, first: float, start: Point, last: float, end: 
     place = _place(surface, first, last)
     if place is None:
         return []
-    (row, there), count = place, len(surface)
-    around = there == row and _before(surface[row], end, start)
-    rows = [one % count for one in range(row, row + (there - row) % count + count * around + 1)]
+    row, count = place[0], len(surface)
+    rows = [one % count for one in range(row, row + _steps(surface, row, start, place[1], end) + 1)]
     pieces = [surface[one] for one in rows]
     pieces[0] = _cut(pieces[0], start, pieces[0].end)
     pieces[-1] = _cut(pieces[-1], pieces[-1].start, end)
@@ -54,19 +73,10 @@ def _place(surface: Path, first: float, last: float) -> tuple[int, int] | None:
     return (int(begins[0]), int(ends[-1])) if len(begins) and len(ends) else None
 
 
-def _between(surface: Path, row: int, start: Point, last: int, end: Point) -> Path:
-    """From a point on one row to a point on another, or all round to the same one."""
-    if last > row or (last == row and not _before(surface[row], end, start)):
-        part = surface.part(row, last + 1)
-    else:
-        part = joined((surface.part(row, len(surface)), surface.part(0, last + 1)))
-    points, centres = part.points.copy(), part.centres
-    points[0], points[-1] = start, end
-    if not part.turns[0]:
-        # a line has its own start for a centre
-        centres = centres.copy()
-        centres[0] = start
-    return Path(points, centres, part.turns, part.numbers)
+def _steps(surface: Path, row: int, start: Point, last: int, end: Point) -> int:
+    """Rows from a point on one row to a point on another, or all round to the same one."""
+    around = last == row and _before(surface[row], end, start)
+    return (last - row) % len(surface) + len(surface) * around
 
 
 def _cut(piece: Piece, start: Point, end: Point) -> Piece:
