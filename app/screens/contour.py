@@ -17,7 +17,8 @@ from app.widgets.header import block_line, header, segment_line
 from app.widgets.rows import Row
 from app.widgets.verdict import NOT_YET
 from core.finding import Finding, Severity
-from core.program.edit import Where, choose, read, type_field
+from core.program.edit import Where, choose, type_field
+from core.program.entries import read
 from core.program.fields import SEGMENT_PROMPT, Field
 from core.program.solved import Value
 from core.records import dataclass
@@ -126,6 +127,8 @@ class Contour(FormPage):
 
     def _gone(self, session: Session, where: Where) -> Answer:
         settled = self.settle(session)
+        if any(isinstance(message, Say) for message in settled.messages):
+            return settled
         return Answer(settled.page, (*settled.messages, Move(where)))
 
     def _segment_key(self, key: str, character: str | None, session: Session) -> Answer | None:

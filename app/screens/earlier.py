@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from app.session import Session
-from core.program.edit import read
+from core.program.entries import read
 from core.program.fields import Field
 from core.program.history import History
 from core.program.model import Entry, Program, Unread

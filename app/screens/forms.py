@@ -11,8 +11,9 @@ from app.session import Said, Session, Tone
 from app.widgets.field import Editing, press
 from app.widgets.form import Cell, State
 from core.pipeline.derived import Tag
-from core.program.edit import Refused, read
-from core.program.fields import SOLUTION, Field, range_of
+from core.program.edit import Refused
+from core.program.entries import AGAIN, misfit, read, unread_reason
+from core.program.fields import SOLUTION, Field, check, range_of
 from core.program.model import Entry, Program, Unread
 from core.program.solved import Solved, Value
 from core.records import dataclass
@@ -96,10 +97,11 @@ class FormPage(Page):
             return Answer(done)
         edit = self.edit(session, one, editing.text)
         if isinstance(edit.outcome, Refused):
-            return Answer(done, (Say(edit.outcome.text, Tone.ERROR),))
+            # a look-ahead that is none leaves the old one; anything else refused stays to be mended
+            return Answer(done if one.name == "lookahead" else self, (Say(edit.outcome.text, Tone.ERROR),))
         unread = None if one.kind is Kind.TEXT else read(editing.text, one, session.program.unit)
         if isinstance(unread, Unread):
-            return Answer(done, (edit, Say(_unread_sentence(unread), Tone.ERROR)))
+            return Answer(done, (edit, Say(_unread_sentence(unread, one, session.program.unit), Tone.ERROR)))
         return Answer(done, (edit,))
 
     def preview(self, session: Session) -> Program | None:
@@ -165,7 +167,8 @@ class FormPage(Page):
         """Why the field with the cursor cannot be used as it stands."""
         one = self.field(session)
         held = None if one is None else self.value(session, one.name)
-        return Said(_unread_sentence(held), Tone.ERROR) if isinstance(held, Unread) else None
+        text = None if one is None else unusable(held, one, session.program.unit)
+        return None if text is None else Said(text, Tone.ERROR)
 
     def help(self, session: Session) -> tuple[str, ...]:
         """The prompt of the field, its range, and the keys that change it."""
@@ -187,7 +190,18 @@ def _short(text: str) -> str:
     return text.strip() if len(text.strip()) <= SHORT else f"{text.strip()[:SHORT]}..."
 
 
-def _unread_sentence(unread: Unread) -> str:
+def unusable(held: Value | str, one: Field, unit: Unit) -> str | None:
+    """Why a field cannot be used as it stands: a text that cannot be read, a number that it does not take."""
+    if isinstance(held, Unread):
+        return _unread_sentence(held, one, unit)
+    return check(one, held.value, unit) if isinstance(held, Entry) else None
+
+
+def _unread_sentence(unread: Unread, one: Field, unit: Unit) -> str:
+    if outside := misfit(unread.text, one, unit):
+        return outside
+    if unread_reason(unread.text, one, unit) == AGAIN:
+        return f"{unread.text.strip()} has not been taken yet: type it again."
     return f"{unread.text.strip()} cannot be read: {unread.reason}"
 
 
@@ -239,7 +253,7 @@ def cell_of(one: Field, held: Value | str, unit: Unit, column: int, line: int, *
     text = shown_text(held, one, unit)
     choice = one.kind is Kind.CHOICE
     match held:
-        case Unread():
+        case Unread() | Entry() if unusable(held, one, unit) is not None:
             return Cell(one.name, one.label, text, column, line, State.UNREAD, "ERR", choice)
         case Solved():
             return Cell(one.name, one.label, text, column, line, State.CALCULATED, Tag.CAL, choice)

@@ -13,7 +13,8 @@ from app.session import Said, Session
 from app.widgets.form import Cell, State, cursor_line, form_rows
 from app.widgets.header import header
 from app.widgets.rows import plain
-from core.program.edit import read, set_parameter, set_path_choice, set_unit
+from core.program.edit import set_parameter, set_path_choice, set_unit
+from core.program.entries import read
 from core.program.fields import PARAMETERS, Field, default
 from core.program.model import PathChoice
 from core.program.solved import Value

@@ -11,7 +11,8 @@ from app.session import Said, Session
 from app.widgets.form import Cell, State, cursor_line, form_rows
 from app.widgets.header import header
 from app.widgets.rows import plain
-from core.program.edit import read, set_setup
+from core.program.edit import set_setup
+from core.program.entries import read
 from core.program.fields import SETUP, Field, default
 from core.program.solved import Value
 from core.records import dataclass

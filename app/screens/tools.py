@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Final
 
 from app.messages import Close, Edit, Message, Open, Say
-from app.screens.forms import FormPage, shown_text
+from app.screens.forms import FormPage, shown_text, unusable
 from app.screens.import_tools import ImportPage
 from app.screens.page import Answer, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
@@ -14,7 +14,8 @@ from app.widgets.field import Editing
 from app.widgets.form import typed_spans
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, padded, plain
-from core.program.edit import Edited, Refused, delete_tool, read, set_tool
+from core.program.edit import Edited, Refused, delete_tool, set_tool
+from core.program.entries import read
 from core.program.fields import TOOL, Field
 from core.program.model import Entry, Program, Tool, Unread
 from core.program.solved import Value
@@ -137,9 +138,10 @@ def _table_cell(
     text = f"{shown:<{width}}" if one.name == "type" else f"{shown:>{width}}"
     if len(text) > width:
         text = f"{text[: width - 1]}…"
-    bad = Look.ERROR if isinstance(held, Unread) else Look.TYPED
-    spans = padded((Span(text, Look.CURSOR if here else bad),), width)
-    return (*spans, Span(" ERR", Look.ERROR)) if isinstance(held, Unread) else spans
+    bad = unusable(held, one, unit) is not None
+    look = Look.CURSOR if here else Look.ERROR if bad else Look.TYPED
+    spans = padded((Span(text, look),), width)
+    return (*spans, Span(" ERR", Look.ERROR)) if bad else spans
 
 
 def _headings() -> Row:

@@ -43,7 +43,7 @@ def _text(value: object, kind: Kind, unit: Unit) -> str:
         case Entry(number):
             return show(number, kind, unit)
         case Unread(text):
-            return f"{printable(text)} (cannot be read)"
+            return f"{printable(text)} (cannot be used)"
         case None | "":
             return "blank"
         case StrEnum():

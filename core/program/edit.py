@@ -1,7 +1,8 @@
 """Edits of a program, each a pure function that yields the new program or refuses with a sentence.
 
-A refused edit changes nothing.  Numbers a field does not take are refused, text that cannot be read is kept as
-`Unread` (but for the look-ahead, whose old value stays).  Blocks and segments count from 1, segment 0 is START.
+A refused edit changes nothing.  A number a field does not take is refused, a text that stays as it was typed
+(`core.program.entries`) is kept as `Unread`, but for the look-ahead, whose old value stays.  Blocks and segments count
+from 1, segment 0 is START.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from types import MappingProxyType
 from typing import Any, Final
 
 from core.program.convert import converted
+from core.program.entries import misfit
 from core.program.fields import Field, Form, check, field, form_of, range_of
 from core.program.model import (
     ArcSegment,
@@ -26,11 +28,10 @@ from core.program.model import (
     Segment,
     Tool,
     Typed,
-    Unread,
     changed,
 )
 from core.records import dataclass
-from core.units import Kind, Unit, Unreadable, parse, printable
+from core.units import Kind, Unit, printable
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,14 +50,6 @@ class Refused:
 
 
 Edited = Program | Refused
-
-
-def read(text: str, one: Field, unit: Unit) -> Typed:
-    """What an operator's text is in a field of numbers: a blank, an entry, or unreadable text that is kept."""
-    if not text.strip():
-        return None
-    value = parse(text, one.kind, unit)
-    return Unread(text, value.reason) if isinstance(value, Unreadable) else Entry(value)
 
 
 def type_field(program: Program, where: Where, name: str, typed: Typed) -> Edited:
@@ -267,7 +260,8 @@ def _lookahead_misfit(block: Block, name: str, typed: Typed) -> Refused | None:
     if name != "lookahead" or isinstance(typed, Entry) or typed == block.lookahead:
         return None
     one = field(Form.START, "lookahead")
-    again = "" if typed is None else f" {printable(typed.text)} cannot be read."
+    unreadable = typed is not None and misfit(typed.text, one, Unit.MM) is None
+    again = f" {printable(typed.text)} cannot be read." if unreadable and typed is not None else ""
     return Refused(f"{one.label} must be a whole number {range_of(one, Unit.MM)}.{again} Press F3 to go back to CAL.")
 
 

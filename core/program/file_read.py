@@ -13,6 +13,7 @@ from enum import StrEnum
 from functools import cache, partial
 from typing import Any, Final, TypeVar
 
+from core.program.entries import unread_reason
 from core.program.fields import TABLES, Field, Form, check
 from core.program.file_lines import KeyPath, key_lines, line_of
 from core.program.model import (
@@ -34,7 +35,7 @@ from core.program.model import (
 )
 from core.records import dataclass
 from core.tolerance import LARGEST
-from core.units import Kind, Unit, Unreadable, parse, printable, to_mm
+from core.units import Kind, Unit, printable, to_mm
 
 FORMAT: Final = 1
 """The format of program files that is read and written."""
@@ -205,8 +206,7 @@ def _unread(table: _Table, one: Field) -> Unread:
     text = table.data[one.name]
     if not isinstance(text, str) or not text.strip():
         raise table.fault(one.name, f"{one.name} must be the text that was typed, in quotes.")
-    value = parse(text, one.kind, table.unit)
-    return Unread(text, value.reason if isinstance(value, Unreadable) else "Type it again.")
+    return Unread(text, unread_reason(text, one, table.unit))
 
 
 @cache

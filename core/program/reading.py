@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Final
 
 from core.finding import Finding, Severity
+from core.program.entries import misfit
 from core.program.fields import TABLES, Field, Form, bounds, check
 from core.program.model import Block, Entry, Parameters, PartSetup, Segment, Unread
 from core.program.solved import Solved, Value
@@ -48,6 +49,9 @@ def _inside(typed: Entry | Unread, low: float, high: float) -> bool:
 
 def _fault(one: Field, typed: Entry | Unread, number: int, unit: Unit) -> Finding | None:
     if isinstance(typed, Unread):
+        outside = misfit(typed.text, one, unit)
+        if outside is not None:
+            return Finding("OUT_OF_RANGE", Severity.ERROR, outside, number, one.name)
         text = f"{one.label}: {printable(typed.text)} cannot be read. {typed.reason}"
         return Finding("UNREADABLE", Severity.ERROR, text, number, one.name)
     text = check(one, typed.value, unit) or ""

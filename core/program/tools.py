@@ -6,6 +6,7 @@ from math import isfinite
 from typing import assert_never
 
 from core.finding import Finding, Severity
+from core.program.entries import misfit
 from core.program.fields import Form, check, field
 from core.program.model import Entry, Program, Tool, Typed, Unread
 from core.records import dataclass
@@ -38,7 +39,7 @@ def called(program: Program, typed: Typed, name: str, severity: Severity = Sever
     if tool is None:
         text = f"Tool {typed.value:g} is not in the tool table: add it on TOOL SETUP, or call another."
         return Called(findings=(Finding("TOOL_MISSING", Severity.ERROR, text, 0, name),))
-    trouble = _diameter_trouble(tool)
+    trouble = _diameter_trouble(tool, program.unit)
     if trouble is not None:
         return Called(tool.type, None, (Finding("TOOL_DIAMETER", severity, trouble, 0, name),))
     assert isinstance(tool.diameter, Entry)
@@ -60,13 +61,14 @@ def diameter(tool: Tool, unit: Unit) -> float | None:
             assert_never(tool.diameter)
 
 
-def _diameter_trouble(tool: Tool) -> str | None:
+def _diameter_trouble(tool: Tool, unit: Unit) -> str | None:
     there = f"Tool {tool.number}: enter its diameter on TOOL SETUP"
     match tool.diameter:
         case None:
             return f"{there}; it is blank."
         case Unread(text, _):
-            return f"{there}; {printable(text)} cannot be read."
+            outside = misfit(text, field(Form.TOOL, "diameter"), unit)
+            return f"Tool {tool.number}: {outside}" if outside else f"{there}; {printable(text)} cannot be read."
         case Entry(value) if not isfinite(value) or value <= 0.0:
             return f"{there}; it must be above 0, and it is {value:g}."
         case Entry():

@@ -14,7 +14,8 @@ from app.messages import Edit, Move
 from app.screens.post import PostPage
 from app.session import Session
 from core.pipeline.derive import derive
-from core.program.edit import Where, read, type_field
+from core.program.edit import Where, type_field
+from core.program.entries import read
 from core.program.fields import Form, field
 from core.program.model import CutterComp, Entry
 from core.program.store import load, save

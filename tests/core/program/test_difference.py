@@ -36,7 +36,7 @@ def test_fields() -> None:
     )
     assert told(type_field(PART, Where(1), "x_start", None)) == ("Block 1: X START blank, was 0.0000.",)
     unread = type_field(PART, Where(1, 1), "x_end", Unread("2..5", ""))
-    assert told(unread) == ("Block 1, segment 1: X END 2..5 (cannot be read), was 1.0000.",)
+    assert told(unread) == ("Block 1, segment 1: X END 2..5 (cannot be used), was 1.0000.",)
 
 
 def test_choices() -> None:

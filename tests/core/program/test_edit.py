@@ -9,7 +9,6 @@ from hypothesis import HealthCheck, given, settings
 
 from core.program import edit
 from core.program.edit import Refused, Where
-from core.program.fields import Form, field
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -32,15 +31,6 @@ def made(edited: edit.Edited) -> Program:
     """The program of an edit that is not refused."""
     assert isinstance(edited, Program)
     return edited
-
-
-def test_read_keeps_what_it_cannot_read():
-    one = field(Form.LINE, "x_end")
-    assert edit.read("  ", one, Unit.IN) is None
-    assert edit.read("1 1/2", one, Unit.IN) == Entry(1.5)
-    unread = edit.read("1,5", one, Unit.IN)
-    assert isinstance(unread, Unread)
-    assert unread.text == "1,5"
 
 
 def test_typing_into_start_and_into_a_segment():
