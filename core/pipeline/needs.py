@@ -17,6 +17,7 @@ from core.pipeline.remedies import (
     always,
     largest_tool,
     longest,
+    start_at_end,
     start_mid_side,
     started,
     without_blends,
@@ -33,9 +34,10 @@ class Needs:
     """Sentences for the operator, and what they say.
 
     `why` tells why CAL's value is not clean, empty when it is.  The rest is there only when no value is clean:
-    `small` names inside radii and corners the tool does not enter, `tool`, `start` and `blendless` (a look-ahead that
-    is clean without blend moves) are remedies that have been tried and judged clean, None where none was found.  A
-    tool is looked for when no other remedy helps, from the middle of a side where the start is an inside corner.
+    `small` names inside radii and corners the tool does not enter, `tool`, `start`, `blendless` (a look-ahead that is
+    clean without blend moves) and `shut` (START typed anew) are remedies that have been tried and judged clean, None
+    where none was found.  A tool is looked for when no other remedy helps, from the middle of a side where the start is
+    an inside corner; another START of an open contour when no tool is found either.
     """
 
     why: tuple[Finding, ...]
@@ -43,6 +45,7 @@ class Needs:
     tool: ToolFits | None = None
     start: StartMoved | None = None
     blendless: int | None = None
+    shut: StartMoved | None = None
     sentences: tuple[Finding, ...] = ()
 
 
@@ -76,8 +79,10 @@ def needs_of(trial: Trial, calculated: int, table: Table, wanted: Callable[[], b
     small = _small(nearest, trial.radius)
     blendless, start = without_blends(trial, wanted), start_mid_side(trial, wanted)
     tool, where = (None, "") if start is not None or blendless is not None else _tool(trial, nearest, small, wanted)
-    remedies = (*_blends_said(blendless), *_start_said(start), *_tool_said(tool, where)) or (_nothing(),)
-    return Needs(why, small, tool, start, blendless, (*why, *_some(small), *remedies))
+    found = (*_blends_said(blendless), *_start_said(start), *_tool_said(tool, where))
+    shut = None if found else start_at_end(trial, wanted)
+    remedies = found or (_shut_said(shut) if shut is not None else _nothing(closed=trial.closed),)
+    return Needs(why, small, tool, start, blendless, shut, (*why, *_some(small), *remedies))
 
 
 def _tool(
@@ -189,8 +194,18 @@ def _tool_said(tool: ToolFits | None, where: str) -> tuple[Finding, ...]:
     return (replace(_remedy("TOOL_FITS", text), field="tool", value=tool.diameter),)
 
 
-def _nothing() -> Finding:
-    text = "Neither a smaller tool nor another start helps: the contour itself has to be changed."
+def _shut_said(shut: StartMoved) -> Finding:
+    text = (
+        "START may be mistyped: at X {x} Y {y}, where the contour ends, it would be closed, "
+        f"and look-ahead {shut.value} clean."
+    )
+    return replace(_remedy("START_AT_END", text), segment=shut.segment, at=shut.at)
+
+
+def _nothing(*, closed: bool) -> Finding:
+    """What has been tried in vain, and no more: the tries are bounded, and a number may be mistyped."""
+    tried = "No smaller tool and no start in the middle of a long side was" if closed else "No smaller tool was"
+    text = f"{tried} found to help: check the numbers of the contour, those of START too."
     return Finding("NOTHING_HELPS", Severity.WARNING, text)
 
 

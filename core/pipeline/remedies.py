@@ -19,8 +19,9 @@ from core.comp.lookahead import HIGHEST, LOWEST
 from core.comp.result import Compensated
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Point
-from core.pipeline.beginning import Walls, gouge_at_once, gouging
+from core.pipeline.beginning import FEWEST, Walls, gouge_at_once, gouging
 from core.pipeline.table import Row, Trial, table_of
+from core.tolerance import CLOSED
 from core.verify.judge import judge_all
 
 STEP: Final = 0.001
@@ -46,7 +47,7 @@ class ToolFits:
 
 @dataclass(frozen=True, slots=True)
 class StartMoved:
-    """Started at `at`, the middle of `segment`, the contour is clean at `value`."""
+    """Started at `at`, the middle of `segment` or its new start, the contour is clean at `value`."""
 
     segment: float
     at: Point
@@ -206,6 +207,25 @@ def start_mid_side(trial: Trial, wanted: Callable[[], bool] = always) -> StartMo
         if value is not None:
             return StartMoved(float(trial.surface.numbers[row]), middle(trial.surface[row]), value)
     return None
+
+
+def start_at_end(trial: Trial, wanted: Callable[[], bool] = always) -> StartMoved | None:
+    """The end of an open contour, if the contour is clean and closed when START is typed there.
+
+    Only where one number of START is that of the end and the first segment is a line, which is then another one: both
+    may be meant as they are, but one mistyped number is what it takes.
+    """
+    surface = trial.surface
+    gap = np.abs(surface.points[0] - surface.points[-1])
+    if trial.closed or len(surface) < FEWEST or surface.turns[0] or float(gap.min()) > CLOSED:
+        return None
+    _still(wanted)
+    points = np.concatenate((surface.points[-1:], surface.points[1:]))
+    centres = np.concatenate((points[:1], surface.centres[1:]))
+    closed = replace(trial, surface=Path.of(points, centres, surface.turns, surface.numbers), closed=True)
+    value = Cuts(closed, Walls.of(closed.surface)).recommended
+    x, y = points[0].tolist()
+    return None if value is None else StartMoved(float(surface.numbers[0]), (x, y), value)
 
 
 def longest(contour: Path) -> list[int]:

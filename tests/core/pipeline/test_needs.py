@@ -165,6 +165,27 @@ def test_where_nothing_helps_it_says_so():
     assert codes(found)[0] == "CAL_NOT_CLEAN"
     assert "no look-ahead reaches" in said(found)
     assert codes(found)[-1] == "NOTHING_HELPS"
+    assert "No smaller tool was found to help" in said(found)
+    assert "start in the middle" not in said(found)
+
+
+def test_a_mistyped_start_of_a_closed_contour_is_told():
+    """One number of START is wrong: the first line comes from beyond the last one, and no tool is small enough."""
+    found = of(trial(lines((0, 1), (2, 0), (2, 2), (0, 2), (0, 0)), Side.RIGHT, closed=False))
+    assert codes(found)[-1] == "START_AT_END"
+    assert found.shut is not None
+    assert found.shut.at == (0.0, 0.0)
+    assert "START may be mistyped: at X 0.000 Y 0.000, where the contour ends, it would be closed" in said(found)
+    assert table_of(trial(SQUARE, Side.RIGHT, closed=True)).row(found.shut.value).clean
+
+
+@pytest.mark.parametrize("first", [(0.5, 1), (0, 1)])
+def test_another_start_is_told_only_where_one_number_of_it_is_wrong_and_it_helps(first):
+    """Both numbers differ; or the start is an inside corner there as well."""
+    side = Side.LEFT if first == (0, 1) else Side.RIGHT
+    found = of(trial(lines(first, (2, 0), (2, 2), (0, 2), (0, 0)), side, closed=False))
+    assert found.shut is None
+    assert "START_AT_END" not in codes(found)
 
 
 @pytest.mark.parametrize("tries", range(8))
