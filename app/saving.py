@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -17,7 +16,7 @@ from core.program.difference import differences
 from core.program.disk import why
 from core.program.lock import held_by, taken_by
 from core.program.stamp import stamp_of
-from core.program.store import StoreError, load
+from core.program.store import StoreError, load, write_data
 from core.units import printable
 
 if TYPE_CHECKING:
@@ -116,14 +115,13 @@ def _theirs(session: Session, path: Path) -> tuple[str, ...] | None:
 
 def put_theirs_aside(path: Path) -> None:
     """Copy what stands in the file to a name of its own; StoreError if that fails."""
-    aside = beside(path, "theirs", times.now())
     try:
-        with path.open("rb") as source, aside.open("xb") as target:
-            shutil.copyfileobj(source, target)
-            target.flush()
-            os.fsync(target.fileno())
-    except OSError as error:
-        raise StoreError(f"Nothing is saved: the other version cannot be copied, {why(error)}") from error
+        # whole or not at all: no half copy may pass for the other version
+        write_data(beside(path, "theirs", times.now()), path.read_bytes())
+    except (OSError, StoreError) as error:
+        cause = error if isinstance(error, OSError) else error.__cause__
+        reason = why(cause) if isinstance(cause, OSError) else str(error)
+        raise StoreError(f"Nothing is saved: the other version cannot be copied, {reason}") from error
 
 
 def beside(path: Path, whose: str, today: str) -> Path:

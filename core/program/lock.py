@@ -14,6 +14,7 @@ from dataclasses import asdict
 from getpass import getuser
 from pathlib import Path
 from socket import gethostname
+from time import sleep
 from typing import Final
 
 from core.program.disk import write_all
@@ -37,7 +38,10 @@ class Owner:
 
 
 UNKNOWN: Final = Owner("somebody", "", 0, "", "")
-"""The owner of a lock that cannot be read."""
+"""The owner of a lock that we may not read."""
+LOOKS: Final = 4
+BETWEEN: Final = 0.05
+"""How often, and after how many seconds, a lock that says nothing yet is looked at: it is written in one go."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,10 +61,11 @@ class Held:
 
 def myself(since: str) -> Owner:
     """This process."""
-    return Owner(_user(), gethostname(), os.getpid(), started(os.getpid()), since)
+    return Owner(user(), gethostname(), os.getpid(), started(os.getpid()), since)
 
 
-def _user() -> str:
+def user() -> str:
+    """The login this process runs under."""
     try:
         return getuser()
     except (OSError, KeyError):
@@ -160,13 +165,21 @@ def _create(lock: Lock) -> None:
 
 
 def _owner(path: Path) -> Owner | None:
-    """What a lock file says; None where there is none, UNKNOWN where it cannot be understood."""
-    try:
-        return owner_of(json.loads(path.read_bytes()[:4096]))
-    except FileNotFoundError:
-        return None
-    except (OSError, ValueError, RecursionError):
-        return UNKNOWN
+    """What a lock file says; None where there is none, or none that says anything; UNKNOWN where it is hidden from us.
+
+    A lock of which only a beginning stands is being written just now, or whoever wrote it found the disk full or lost
+    power: it is looked at again for a moment, and then it is nobody's.
+    """
+    for _ in range(LOOKS):
+        try:
+            return owner_of(json.loads(path.read_bytes()[:4096]))
+        except FileNotFoundError:
+            return None
+        except OSError:
+            return UNKNOWN
+        except (ValueError, RecursionError):
+            sleep(BETWEEN)
+    return None
 
 
 def owner_of(values: object) -> Owner:

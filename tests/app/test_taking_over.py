@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from pathlib import Path
 
 import pytest
@@ -108,6 +110,25 @@ def test_a_file_changed_by_another_is_noticed_and_both_are_kept(
     kept = load(part.with_name(copies[0]))
     assert {kept.blocks[0].tool, load(part).blocks[0].tool} == {Entry(3.0), Entry(7.0)}
     assert not operator.session.unsaved
+
+
+@pytest.mark.parametrize("call", ["write", "fsync"])
+def test_a_full_disk_leaves_no_half_copy_of_the_other_version(
+    own: Path, part: Path, monkeypatch: pytest.MonkeyPatch, call: str
+) -> None:
+    operator = started(own, part).press("tab").type("7")
+    save(started(own, part.with_name("x.toml")).press("tab").type("3").session.program, part)
+    theirs, before = part.read_bytes(), names(part)
+    operator.press("ctrl+s")
+
+    def full(*_: object) -> int:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, call, full)
+        operator.press("y")
+    assert "Nothing is saved: the other version cannot be copied, the disk is full." in operator.said
+    assert (part.read_bytes(), names(part)) == (theirs, before)
 
 
 def test_written_again_with_the_same_content_is_no_change(own: Path, part: Path) -> None:

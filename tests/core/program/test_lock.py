@@ -121,8 +121,27 @@ def test_a_lock_that_somebody_removed_is_nobody_elses(part: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"user": 1}', "\x00\xff", "[" * 4000])
-def test_a_lock_that_cannot_be_read_is_somebodys(part: Path, text: str) -> None:
+def test_a_lock_that_says_nothing_is_nobodys(part: Path, text: str) -> None:
+    """A full disk or a power cut leaves such files behind, and nobody would ever take them away."""
     lock_path(part).write_text(text)
+    assert held_by(part) is None
+    assert take(part, ME) == Lock(lock_path(part), ME)
+
+
+def test_a_lock_that_is_being_written_is_waited_for(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    lock_path(part).write_text('{"user"')
+    written = json.dumps(vars_of(ELSEWHERE))
+    monkeypatch.setattr("core.program.lock.sleep", lambda _: lock_path(part).write_text(written))
+    assert take(part, ME) == Held(ELSEWHERE)
+
+
+def test_a_lock_that_we_may_not_read_is_somebodys(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    held(part, ELSEWHERE)
+
+    def hidden(_: Path) -> bytes:
+        raise PermissionError(errno.EACCES, "hidden")
+
+    monkeypatch.setattr(Path, "read_bytes", hidden)
     assert take(part, ME) == Held(UNKNOWN)
     assert take_over(part, ME).owner == ME
 
