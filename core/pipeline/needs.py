@@ -199,7 +199,7 @@ def _shut_said(shut: StartMoved) -> Finding:
         "START may be mistyped: at X {x} Y {y}, where the contour ends, it would be closed, "
         f"and look-ahead {shut.value} clean."
     )
-    return replace(_remedy("START_AT_END", text), segment=shut.segment, at=shut.at)
+    return replace(_remedy("START_AT_END", text), segment=0.0, at=shut.at)
 
 
 def _nothing(*, closed: bool) -> Finding:

@@ -175,6 +175,7 @@ def test_a_mistyped_start_of_a_closed_contour_is_told():
     assert codes(found)[-1] == "START_AT_END"
     assert found.shut is not None
     assert found.shut.at == (0.0, 0.0)
+    assert found.sentences[-1].segment == 0
     assert "START may be mistyped: at X 0.000 Y 0.000, where the contour ends, it would be closed" in said(found)
     assert table_of(trial(SQUARE, Side.RIGHT, closed=True)).row(found.shut.value).clean
 
