@@ -143,7 +143,7 @@ def post(options: argparse.Namespace) -> int:
 
 def _words(result: Refusal, options: argparse.Namespace) -> str:
     """The words that would have it posted all the same, where words can."""
-    from core.output.ready import OVERRIDABLE, OVERRIDE
+    from core.output.override import OVERRIDABLE, OVERRIDE
 
     if options.control is not None or not all(one.code in OVERRIDABLE for one in result.findings):
         return ""

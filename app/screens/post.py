@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 from textwrap import wrap
-from typing import ClassVar, Final, Self
+from typing import ClassVar, Self
 
 from app.messages import Close, Message, Post, Say, Swap
 from app.naming import typed, with_suffix
@@ -16,13 +16,11 @@ from app.widgets.field import Editing
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, plain
 from app.widgets.verdict import UNKNOWN
-from app.widgets.words import length, number, numbers
+from app.widgets.words import length, numbers, segment
 from core.finding import Finding
+from core.output.override import OVERRIDABLE, OVERRIDE
 from core.records import dataclass
 from core.units import sentence
-
-OVERRIDE: Final = "POST WITH GOUGE"
-"""What must be typed to post in spite of the verdict; `core.output.ready` demands the same, and a test compares."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -74,7 +72,9 @@ class PostPage(EntryPage):
         if not text:
             return Answer(self, (Say("Type a name for the NC file.", Tone.ERROR),))
         path = with_suffix(typed(text), ".nc")
-        if any(errors(session)) and self.control is None:
+        if self.control is None and (first := to_mend(session)):
+            return Answer(self, (Say(_mend(first, session), Tone.ERROR),))
+        if self.control is None and errors(session):
             return Answer(replace(self, path=path, entry=Editing("", 0), fresh=False))
         return Answer(self, (Post(path, control=self.control),))
 
@@ -98,6 +98,8 @@ class PostPage(EntryPage):
                 f"Posting is refused. To post in spite of it, type {OVERRIDE} and Enter; the file will say so.",
                 Tone.ERROR,
             )
+        elif to_mend(session):
+            said = Said("This cannot be posted yet: Esc goes back, mend what is named here.", Tone.WARNING)
         elif against:
             said = Said("Enter the name of the NC file. The findings stand against posting.", Tone.WARNING)
         told = _against(against, session, surface.width)
@@ -120,6 +122,26 @@ def errors(session: Session) -> tuple[tuple[int, Finding], ...]:
     return tuple((found.number, finding) for found in session.derived.blocks for finding in found.errors)
 
 
+def to_mend(session: Session) -> tuple[tuple[int, Finding], ...]:
+    """What of it no words override: it has to be mended first."""
+    return tuple(one for one in errors(session) if one[1].code not in OVERRIDABLE)
+
+
+def _mend(left: tuple[tuple[int, Finding], ...], session: Session) -> str:
+    """The first thing to mend, and how many more there are."""
+    block, finding = left[0]
+    more = f" {len(left) - 1} more are listed." if len(left) > 1 else ""
+    return f"Nothing was written. Mend this first: {_where(block, finding)}: {_told(finding, session)}{more}"
+
+
+def _where(block: int, finding: Finding) -> str:
+    return f"block {block}" + (f", {segment(finding.segment)}" if finding.segment else "")
+
+
+def _told(finding: Finding, session: Session) -> str:
+    return sentence(finding, session.program.unit)
+
+
 def _unsaved(session: Session) -> tuple[Row, ...]:
     return (plain(" The program is not saved: Esc, then Ctrl+S.", Look.WARNING),) if session.unsaved else ()
 
@@ -139,12 +161,12 @@ def _left(session: Session) -> tuple[Row, ...]:
 
 
 def _against(against: tuple[tuple[int, Finding], ...], session: Session, width: int) -> tuple[Row, ...]:
-    known, unit = all(found.known for found in session.derived.blocks), session.program.unit
+    known = all(found.known for found in session.derived.blocks)
     if known and not against:
         return (plain(" Nothing stands against posting.", Look.GOOD),)
     rows = [] if known else [UNKNOWN]
     for block, finding in against:
-        where = f"block {block}" + (f", segment {number(finding.segment)}" if finding.segment else "")
-        for line in wrap(f"!! {where}: {sentence(finding, unit)}", max(width - 2, 8), subsequent_indent="   "):
+        told = f"!! {_where(block, finding)}: {_told(finding, session)}"
+        for line in wrap(told, max(width - 2, 8), subsequent_indent="   "):
             rows.append(plain(f" {line}", Look.ERROR))
     return tuple(rows)

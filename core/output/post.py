@@ -20,8 +20,9 @@ from core.output.grid import Grid
 from core.output.job import Cutter, Job
 from core.output.motion import Pass
 from core.output.nc import Place, nc_lines
+from core.output.override import OVERRIDE
 from core.output.passes import clear_height, passes
-from core.output.ready import OVERRIDE, forbidding, overridden
+from core.output.ready import forbidding, overridden
 from core.units import Kind, Unit, from_mm, sentence, show
 
 ROUNDING: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}

@@ -12,14 +12,9 @@ from core.finding import Finding, Severity
 from core.output.grid import Grid
 from core.output.job import Job, Run
 from core.output.nc import feed_text
+from core.output.override import OVERRIDABLE, OVERRIDE
 from core.output.passes import rough_runs
 from core.tolerance import JOINED, LARGEST
-
-OVERRIDE: Final = "POST WITH GOUGE"
-"""What an operator must say, word for word, to have a path posted that the verdict is against."""
-
-OVERRIDABLE: Final = frozenset({"GOUGE", "BLEND_GOUGES", "ROUGH_GOUGES", "WRONG_SIDE"})
-"""Findings on a path that is whole and known; whatever is unread, missing or undetermined can never be overridden."""
 
 LISTED: Final = 6
 """Segments named in one sentence."""

@@ -18,8 +18,9 @@ from core.geometry.piece import Arc, Line, Turn
 from core.output.grid import Grid
 from core.output.job import Cutter, Job
 from core.output.motion import Motion, Pass
+from core.output.override import OVERRIDE
 from core.output.passes import passes, rough_runs
-from core.output.ready import OVERRIDE, forbidding
+from core.output.ready import forbidding
 from core.units import Kind, Unit, from_mm, sentence, show
 
 Pair = tuple[str, str]

@@ -10,9 +10,8 @@ from app.desk import Desk
 from app.files import example
 from app.screens.ask import Ask
 from app.screens.contour import Contour
-from app.screens.post import OVERRIDE
 from app.session import Session
-from core.output.ready import OVERRIDE as DEMANDED
+from core.output.override import OVERRIDE
 from core.program.model import Entry
 from core.program.store import load
 from tests.app.operator import Operator
@@ -146,17 +145,39 @@ def test_a_path_that_gouges_is_posted_only_in_so_many_words(folder: Path) -> Non
     assert f"OVERRIDDEN BY THE OPERATOR: {OVERRIDE}" in (folder / "square.nc").read_text()
 
 
-def test_the_sentence_is_the_one_that_posting_demands() -> None:
-    assert OVERRIDE == DEMANDED
-
-
 def test_what_is_unreadable_cannot_be_posted_in_any_words(folder: Path) -> None:
     from core.pipeline.derive import derive
 
     operator = opened("pocket").press("tab", "tab", "tab", "tab").type("2..5")
     operator.desk = operator.desk.knowing(derive(operator.session.program))
-    entered(to_post(operator), str(folder / "pocket.nc")).type(OVERRIDE)
-    assert "Nothing was written" in operator.said
+    entered(to_post(operator), str(folder / "pocket.nc"))
+    assert "Mend this first" in operator.said
+    assert "X START" in operator.said
+    assert OVERRIDE not in "\n".join(operator.screen())
+    operator.type(OVERRIDE)
+    assert list(folder.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("keys", "text", "word"), [(("tab",) * 4, "1..2", "X START"), (("4", "enter", "tab"), "9", "segment 4")]
+)
+def test_words_that_override_are_offered_only_where_they_do(
+    folder: Path, keys: tuple[str, ...], text: str, word: str
+) -> None:
+    """A gouge beside a text that cannot be read, a blend arc that does not fit: no words help."""
+    from app.posting import nc_text
+    from core.output.post import Refusal
+    from core.pipeline.derive import derive
+
+    operator = opened("pocket").press(*keys).type(text)
+    derived = derive(operator.session.program)
+    operator.desk = operator.desk.knowing(derived)
+    assert isinstance(nc_text(derived, "pocket", OVERRIDE, None), Refusal)
+    to_post(operator)
+    assert "cannot be posted" in operator.said
+    entered(operator, str(folder / "pocket.nc"))
+    assert word in operator.said
+    assert OVERRIDE not in "\n".join(operator.screen())
     assert list(folder.iterdir()) == []
 
 

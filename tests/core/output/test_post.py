@@ -6,9 +6,9 @@ import pytest
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
 from core.output.job import Cutter, Job, Run
+from core.output.override import OVERRIDE
 from core.output.passes import passes
 from core.output.post import Posted, Refusal, post
-from core.output.ready import OVERRIDE
 from core.units import Unit
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
