@@ -38,6 +38,8 @@ class Advice:
     noting: Behind[None]
     needing: Behind[None]
     resting: Timer | None = None
+    about: About | None = None
+    """What the needs of the block that is shown are about."""
 
     @staticmethod
     def of(app: CutcompApp) -> Advice:
@@ -83,6 +85,7 @@ class Advice:
         if self.resting is not None:
             self.resting.stop()
         self.needing.forget()
+        self.about = about_of(self.app.shown.found)
         if self.app.return_code is not None or not self.app.engine.lacks_needs(self.app.shown.found):
             return
         if self.app.trial is None:
@@ -98,10 +101,13 @@ class Advice:
             self.needing.ask(lambda: engine.keep_needs(found, program, lambda: self._wanted(about, since)), about)
 
     def _wanted(self, about: About, since: float) -> bool:
-        """Asked by the thread between two tries: it waits while keys come, and ends when another path is shown."""
+        """Asked by the thread between two tries: it waits while keys come, and ends when another path is shown.
+
+        The desk is not looked at from there: a key may just have given it a block of which nothing is derived yet.
+        """
         while self.app.touched != since and (left := self.app.touched + QUIET - perf_counter()) > 0:
             sleep(left)
-        return self.app.return_code is None and about_of(self.app.shown.found) == about
+        return self.app.return_code is None and self.about == about
 
 
 def about_of(found: DerivedBlock) -> About:

@@ -11,6 +11,7 @@ from threading import Event
 import pytest
 from textual.pilot import Pilot
 
+from app.advice import about_of
 from app.application import CutcompApp
 from app.files import example
 from app.screens.frame import Frame
@@ -22,6 +23,7 @@ from core.pipeline import derive as stages
 from core.pipeline import needs as remedies
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.needs import Needs
+from core.program.edit import Where
 from core.program.model import Program
 from core.program.store import load
 from tests.app.pilots import app_on, loaded
@@ -174,6 +176,19 @@ async def test_what_a_half_typed_number_needs_is_found_out_at_rest_and_told_with
         assert app.trial is None
         assert "CAL 2 gouges" in lines(app)
         assert tried.begun == done
+
+
+async def test_the_thread_of_the_remedies_never_looks_at_a_desk_of_which_nothing_is_derived_yet() -> None:
+    app = app_on("overrun-square")
+    async with app.run_test(size=(132, 43)) as pilot:
+        await loaded(pilot)
+        await at_rest(pilot, app)
+        about, desk = about_of(app.shown.found), app.desk
+        # as between a key that makes a block and what is derived of it
+        app.desk = replace(desk, session=replace(desk.session, where=Where(2)))
+        assert app.advice._wanted(about, app.touched)
+        assert not app.advice._wanted((None, 2), app.touched)
+        app.desk = desk
 
 
 async def test_leaving_waits_for_no_remedy(monkeypatch: pytest.MonkeyPatch) -> None:
