@@ -10,6 +10,7 @@ from app.screens.page import Answer, Page
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing, press
 from app.widgets.form import Cell, State
+from core.finding import Severity
 from core.pipeline.derived import Tag
 from core.program.edit import Refused
 from core.program.entries import AGAIN, misfit, read, unread_reason
@@ -17,7 +18,7 @@ from core.program.fields import SOLUTION, Field, check, range_of
 from core.program.model import Entry, Program, Unread
 from core.program.solved import Solved, Value
 from core.records import dataclass
-from core.units import Kind, Unit, show
+from core.units import Kind, Unit, sentence, show
 
 FORWARD = ("enter", "tab", "down")
 BACK = ("shift+tab", "up")
@@ -169,6 +170,13 @@ class FormPage(Page):
         held = None if one is None else self.value(session, one.name)
         text = None if one is None else unusable(held, one, session.program.unit)
         return None if text is None else Said(text, Tone.ERROR)
+
+    def shared_trouble(self, session: Session) -> Said | None:
+        """What the verdict on any block says of the field with the cursor, which belongs to all of them."""
+        one, tones = self.field(session), {Severity.ERROR: Tone.ERROR, Severity.WARNING: Tone.WARNING}
+        findings = (each for found in session.derived.blocks for each in found.findings if each.severity in tones)
+        told = next((each for each in findings if one is not None and each.field == one.name), None)
+        return None if told is None else Said(sentence(told, session.program.unit), tones[told.severity])
 
     def help(self, session: Session) -> tuple[str, ...]:
         """The prompt of the field, its range, and the keys that change it."""

@@ -99,7 +99,7 @@ class ParametersPage(FormPage):
         return View(
             header("PROGRAM PARAMETERS", plain(""), session, surface.width),
             ((), *form_rows(cells, self.name, self.editing, surface.width)),
-            self.reason(session) or Said(_prompt(one, session.program.unit) if one else ""),
+            self.reason(session) or self.shared_trouble(session) or Said(_prompt(one, session.program.unit) if one else ""),
             1 + cursor_line(cells, self.name, surface.width),
         )
 

@@ -73,6 +73,6 @@ class SetupPage(FormPage):
         return View(
             header("PART SETUP", plain(""), session, surface.width),
             ((), *form_rows(cells, self.name, self.editing, surface.width)),
-            self.reason(session) or Said(one.prompt if one else ""),
+            self.reason(session) or self.shared_trouble(session) or Said(one.prompt if one else ""),
             1 + cursor_line(cells, self.name, surface.width),
         )

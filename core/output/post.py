@@ -67,10 +67,10 @@ def post(
     against = forbidding(jobs, grid, override=override)
     if against:
         return Refusal(against, unit)
-    raised = max(job.safe_z for job in jobs), max(clear_height(job) for job in jobs)
-    level = [replace(job, safe_z=max(raised)) for job in jobs]
+    safe, highest = max(job.safe_z for job in jobs), max(jobs, key=clear_height)
+    level = [replace(job, safe_z=max(safe, clear_height(highest))) for job in jobs]
     waived = overridden(jobs)
-    lines = (*_header(jobs, unit, titles(name, part), waived), *_raised(raised, unit), *_body(level, grid))
+    lines = (*_header(jobs, unit, titles(name, part), waived), *_raised(safe, highest, unit), *_body(level, grid))
     return Posted("\n".join(lines) + "\n", waived)
 
 
@@ -123,11 +123,13 @@ def _about(job: Job, unit: Unit) -> Iterator[str]:
         yield from comments(note)
 
 
-def _raised(heights: tuple[float, float], unit: Unit) -> Iterator[str]:
-    """Say so where SAFE Z alone would not clear every block."""
-    safe, clear = heights
+def _raised(safe: float, highest: Job, unit: Unit) -> Iterator[str]:
+    """Say so, and why, where SAFE Z alone would not clear every block; `highest` is the one that needs most."""
+    clear = clear_height(highest)
     if clear > safe:
-        yield from comments(f"SAFE Z {_length(safe, unit)} RAISED TO {_length(clear, unit)}: Z START IS THAT HIGH")
+        over, top = _length(highest.retract_clearance, unit), _length(highest.z_start, unit)
+        yield from comments(f"SAFE Z {_length(safe, unit)} RAISED TO {_length(clear, unit)}")
+        yield from comments(f"THAT IS RETRACT CLEARANCE {over} OVER Z START {top}")
 
 
 def _length(value: float, unit: Unit) -> str:

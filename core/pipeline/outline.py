@@ -8,6 +8,7 @@ from core.comp.lookahead import HIGHEST, LOWEST, calculated
 from core.finding import Finding, Severity
 from core.geometry.side import Side
 from core.pipeline.derived import Derived, DerivedBlock, LookAhead, Tag
+from core.pipeline.safe_height import safe_height_findings
 from core.pipeline.unsaid import unsaid_findings
 from core.program.assist import solve_block
 from core.program.model import Block, CutterComp, Entry, Program
@@ -60,6 +61,7 @@ def outline_block(number: int, block: Block, program: Program, before: DerivedBl
             *shared_findings(program),
             *solved.every_finding,
             *_heights(solved),
+            *safe_height_findings(solved, program),
             *unsaid_findings(block, solved, program),
             *_usr_warning(lookahead, side),
         ),

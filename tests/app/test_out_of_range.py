@@ -42,6 +42,7 @@ def program() -> Program:
     line = LineSegment(Entry(9.0), Entry(9.0))
     block = Block(
         tool=Entry(1.0),
+        z_start=Entry(0.0),
         cutter_comp=start.blocks[0].cutter_comp,
         segments=(line, ArcSegment(x_end=Entry(1.0)), BlendSegment(Entry(0.1)), line),
     )
@@ -143,3 +144,11 @@ def test_a_refused_look_ahead_holds_the_cursor_once_whatever_the_key() -> None:
         assert operator.session.field == "lookahead"
         assert operator.session.where.segment == 0
         assert "from 1 to 20" in operator.said
+
+
+def test_a_safe_z_that_is_set_aside_is_said_on_its_screen_and_on_the_form() -> None:
+    operator = on(Form.SETUP, "safe_z")
+    operator.type("-1").press("up")
+    assert "SAFE Z -1.0000 is below Z 0.1000" in operator.said
+    operator.press("f8", "ctrl+f")
+    assert "SAFE Z -1.0000 is below Z 0.1000" in " ".join(" ".join(operator.screen()).split())

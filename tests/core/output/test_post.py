@@ -131,7 +131,8 @@ def test_a_second_block_with_the_same_tool_keeps_it_and_clears_both():
     lines = found.text.splitlines()
     assert lines.count("T1 M6") == 1
     assert "S500" in lines
-    assert "(SAFE Z 1.0000 RAISED TO 2.1000: Z START IS THAT HIGH)" in lines
+    assert "(SAFE Z 1.0000 RAISED TO 2.1000)" in lines
+    assert "(THAT IS RETRACT CLEARANCE 0.1000 OVER Z START 2.0000)" in lines
     assert "G0 Z1.0" not in lines
     assert lines.count("G0 Z2.1") == 3
 
