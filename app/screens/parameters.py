@@ -94,12 +94,12 @@ class ParametersPage(FormPage):
 
     def view(self, session: Session, surface: Surface) -> View:
         """The form as it stands."""
-        cells = self.cells(session)
-        one = self.field(session)
+        cells, one = self.cells(session), self.field(session)
+        trouble = self.reason(session) or self.shared_trouble(session)
         return View(
             header("PROGRAM PARAMETERS", plain(""), session, surface.width),
             ((), *form_rows(cells, self.name, self.editing, surface.width)),
-            self.reason(session) or self.shared_trouble(session) or Said(_prompt(one, session.program.unit) if one else ""),
+            trouble or Said(_prompt(one, session.program.unit) if one else ""),
             1 + cursor_line(cells, self.name, surface.width),
         )
 
