@@ -5,16 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from core.finding import Finding, Severity
-from core.program.fields import Form, field
-from core.program.model import Block, Entry, Program, Unread
+from core.program.fields import Form, check, default, field
+from core.program.model import Block, CutterComp, Entry, Program, Unread
 from core.program.solved import SolvedBlock
+from core.tolerance import LAST_PASS, ON_PATH
 from core.units import Kind, from_mm, show, to_mm
 
 
 def unsaid_findings(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
-    """A contour that is milled with PLUNGE FEED, and allowances that no finish tool takes: warnings."""
+    """A contour of one segment, as information; the rest are warnings.
+
+    A contour that is milled with PLUNGE FEED, allowances that no finish tool takes, clearances of nothing, and a
+    PROFILE that makes one pass.
+    """
     yield from _plunge_fed(block, solved, program)
     yield from _not_left(block, program)
+    yield from _no_clearance(solved, program)
+    yield from _one_pass(block, solved, program)
+    yield from _one_segment(solved)
 
 
 def _plunge_fed(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
@@ -44,3 +52,64 @@ def _not_left(block: Block, program: Program) -> Iterator[Finding]:
         text = f"{label} {{value}} is not left: FINISH TOOL is 0. Enter FINISH TOOL on START, or 0 in {label} "
         value = to_mm(typed.value, program.unit)
         yield Finding("NOT_LEFT", Severity.WARNING, text + "on PROGRAM PARAMETERS.", 0, "finish_tool", value=value)
+
+
+def _parameter(name: str, program: Program) -> float | None:
+    """A length of PROGRAM PARAMETERS in millimetres, or its default; None for one that is refused."""
+    typed = getattr(program.parameters, name)
+    if isinstance(typed, Unread):
+        return None
+    value = default(name, program.unit) if typed is None else typed.value
+    if value is None or check(field(Form.PARAMETERS, name), value, program.unit):
+        return None
+    return to_mm(value, program.unit)
+
+
+def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
+    """Clearances that a field shows as 0: a rapid then ends on material."""
+    onto = {"retract_clearance": "the tool comes by rapid onto the top of the material"}
+    if _pecks(solved):
+        onto["peck_clearance"] = "between pecks the tool comes down by rapid onto the floor it has just cut"
+    for name, what in onto.items():
+        value = _parameter(name, program)
+        if value is None or show(from_mm(value, program.unit), Kind.LENGTH, program.unit).strip("0."):
+            continue
+        label = field(Form.PARAMETERS, name).label
+        text = f"{label} is {{value}}: {what}. Enter {label} on PROGRAM PARAMETERS."
+        yield Finding("NO_CLEARANCE", Severity.WARNING, text, field=name, value=value)
+
+
+def _pecks(solved: SolvedBlock) -> bool:
+    """Whether the depth is reached in more than one pass."""
+    if solved.z_start is None or solved.z_bottom is None or solved.peck_depth <= 0.0:
+        return False
+    return solved.z_start - solved.z_bottom > solved.peck_depth + LAST_PASS
+
+
+def _one_pass(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
+    """A PROFILE that comes in from nowhere: with a finish tool from no farther than what that one takes."""
+    if block.cutter_comp not in (CutterComp.PROFILE_LEFT, CutterComp.PROFILE_RIGHT):
+        return
+    finishing = solved.finish_diameter is not None
+    offset, least = _parameter("max_offset", program), _parameter("finish_xy", program) if finishing else 0.0
+    if offset is None or least is None or offset > least + ON_PATH:
+        return
+    plain = block.cutter_comp.removeprefix("PROFILE ")
+    if least > 0.0:
+        text = (
+            f"MAX OFFSET {{value}} is no more than FINISH XY {{0}}: PROFILE {plain} makes one roughing pass, the same "
+        )
+        text += f"as {plain}. Enter a larger MAX OFFSET on PROGRAM PARAMETERS, or {plain} in CUTTER COMP."
+    else:
+        text = f"MAX OFFSET is {{value}}: PROFILE {plain} makes one pass, the same as {plain}. Enter MAX OFFSET on "
+        text += f"PROGRAM PARAMETERS, or {plain} in CUTTER COMP."
+    yield Finding("ONE_PASS", Severity.WARNING, text, 0, "cutter_comp", value=offset, lengths=(least,))
+
+
+def _one_segment(solved: SolvedBlock) -> Iterator[Finding]:
+    """A contour that is known and has one segment, but for those without length; a full circle alone is closed."""
+    if solved.closed or solved.determined < len(solved.segments) or len(solved.pieces) != 1:
+        return
+    number, piece = solved.pieces[0]
+    text = "The contour is one segment: an open path from START to X {x} Y {y}. Right arrow or Page Down on SEGMENT "
+    yield Finding("ONE_SEGMENT", Severity.INFO, text + "adds the next one.", number, None, piece.end)

@@ -179,7 +179,7 @@ PARAMETERS: Final = (
         99.0,
     ),
     _allowance("max_offset", "MAX OFFSET", "Enter how far outside the contour PROFILE passes begin."),
-    _allowance("retract_clearance", "RETRACT CLEARANCE", "Enter how far above Z START the tool moves between pecks."),
+    _size("retract_clearance", "RETRACT CLEARANCE", "Enter how far above Z START the tool moves between pecks."),
     _allowance("peck_clearance", "PECK CLEARANCE", "Enter how far above the last depth a rapid down stops."),
     Field(
         "path",
