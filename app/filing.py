@@ -14,7 +14,7 @@ from app.screens.ask import Ask, Option
 from app.screens.browse import BrowsePage, listed
 from app.screens.save import SaveAsPage
 from app.session import Session, Tone
-from core.finding import Finding
+from core.finding import Finding, Severity
 from core.program.stamp import stamp_of_data
 from core.program.store import StoreError, dumps, write_output, write_text
 from core.units import Unit, sentence
@@ -127,6 +127,8 @@ def _post(desk: Desk, message: Post) -> Desk:
     if not notes:
         return desk.take(Close()).take(Say(said))
     told = " ".join(_placed(note, desk.session.program.unit) for note in notes)
+    if all(note.severity is Severity.INFO for note in notes):
+        return desk.take(Close()).take(Say(f"{said} {told}"))
     return desk.take(Close()).take(Say(f"{told} {said}", Tone.WARNING))
 
 

@@ -37,6 +37,7 @@ def test_the_program_of_a_control_is_written(tmp_path: Path) -> None:
     file = tmp_path / "part.nc"
     one = operator("flange").press("down", *str(file), "enter")
     assert one.said.startswith("Posted:")
+    assert one.said.endswith("PART NAME FLANGE is not in the file: threeblock knows no comments.")
     assert file.read_text().startswith("G17G70G40G90\nT1//0.5\n")
 
 
