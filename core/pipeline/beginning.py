@@ -49,6 +49,14 @@ class Walls:
             pieces = measured(surface)
             return Walls(pieces, boxes(pieces), 2.0 * float(pieces.slack.max(initial=0.0)))
 
+    def about(self, points: Points, reach: float) -> Walls:
+        """The walls within `reach` of a point, and perhaps some more."""
+        x, y, reach = points.real[:, None], points.imag[:, None], reach + MARGIN
+        left, low, right, high = self.bounds
+        near = (left <= x + reach) & (x - reach <= right) & (low <= y + reach) & (y - reach <= high)
+        rows = near.any(axis=0).nonzero()[0]
+        return Walls(self.pieces.take(rows), self.bounds[:, rows], self.slack)
+
     def limit(self, radius: float) -> float:
         """What is nearer to a wall than this gouges beyond doubt."""
         return radius - GOUGE - self.slack - MARGIN
@@ -123,10 +131,11 @@ def gouge_at_once(trials: Sequence[Trial], walls: Walls, own: Sequence[tuple[int
     ends = {k: both for k, both in enumerate(map(_ends, trials)) if both is not None}
     with np.errstate(all="ignore"):
         points = np.array([end.at for both in ends.values() for end in both], np.complex128)
-        apart = _apart(walls, points).reshape(-1, 2, len(walls.pieces))
+        walls = walls.about(points, max((2.0 * (one.radius + one.blend) + one.overlap for one in trials), default=0.0))
+        apart = _apart(walls, points).reshape(len(ends), 2, len(walls.pieces))
         leads = []
         for (k, both), far in zip(ends.items(), apart, strict=True):
-            found[k] = bool(far.min() < walls.limit(trials[k].radius))
+            found[k] = bool(far.min(initial=np.inf) < walls.limit(trials[k].radius))
             if not found[k] and trials[k].blend > 0.0:
                 leads += _leads(k, trials[k], both, far, _held(walls, trials[k], own[k]))
         if leads:
