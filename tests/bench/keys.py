@@ -7,8 +7,9 @@ gear none of whose 50 gaps it enters, where every remedy is tried after every ch
 `changed` is the time from the key to the first screen that shows the derived path, `finished` that to the last byte:
 by then the look-ahead table stands, and what the contour needs.  Where half-typed numbers are tried out in a thread,
 `changed` is the screen with the digit, on which the accepted path still stands: then only `finished` tells the rest.
-The next key is typed when the program is at rest: no byte comes and none of its threads has run for a while.  `idle`
-are the bytes sent while nobody types, which must be 0.
+The next key is typed when the program is at rest: no byte comes and none of its threads has run for a while.  So what
+would help has been tried for a half-typed number before Enter, as for an operator who looks at the screen; behind keys
+without a rest it follows Enter.  `idle` are the bytes sent while nobody types, which must be 0.
 
 The rows of single keys show what each kind costs.  `a LINE as it is typed` is every key of typing the ends of lines
 anew, in the mix in which an operator presses them: half a number is another contour, often a wild one.
