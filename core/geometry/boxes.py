@@ -103,11 +103,13 @@ def nearest_boxes(points: Points, boxes: Floats, within: Floats, slack: float) -
     than the nearest by no more than `slack` is wanted too.
     """
     spots = np.array((points.real, points.imag, points.real, points.imag))
-    tree = _tree(boxes, max(1, AT_ONCE // (4 * max(1, len(points)))))
-    k, j = np.nonzero(np.ones((len(points), tree[0].shape[1]), np.bool_))
-    for depth, level in enumerate(tree):
-        if depth:
-            k, j = _brood(k, j, level.shape[1])
+    coarsest, *finer = _tree(boxes, max(1, AT_ONCE // (4 * max(1, len(points)))))
+    every, level = spots[:, :, None], coarsest[:, None]
+    near, far = _apart(every, level), _span(every, level)
+    within = np.maximum(np.minimum(within, far.min(axis=1)), near.min(axis=1))
+    k, j = (near <= within[:, None] + slack).nonzero()
+    for level in finer:
+        k, j = _brood(k, j, level.shape[1])
         near, far = _apart(spots[:, k], level.take(j, axis=1)), _span(spots[:, k], level.take(j, axis=1))
         starts = np.searchsorted(k, np.arange(len(points)))
         within = np.minimum(within, np.minimum.reduceat(far, starts))

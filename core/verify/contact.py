@@ -25,23 +25,24 @@ def loose(pairs: Pairs) -> tuple[int, ...]:
 
 def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     """Rows of pieces that touch walls along more than a point, all of them against the walls' direction."""
-    touch = pairs.touch
+    touch, own = pairs.touch, pairs.own
     wide = (touch.last - touch.first) * pairs.surface.length.take(pairs.j) > POINT
-    row, way = pairs.i, np.zeros(len(pairs.i), np.intp)
+    way = np.zeros(len(pairs.i), np.intp)
     known = wide & ~touch.unsure
-    about = _about_one_centre(pairs, (wide & touch.unsure).nonzero()[0], radius)
-    known[about] = True
+    if touch.unsure.any():
+        known[_about_one_centre(pairs, (wide & touch.unsure).nonzero()[0], radius)] = True
+        # twice what is granted there, since the distance of the middle is measured anew
+        held = np.abs(touch.middle - radius) <= 2.0 * (pairs.grant + ON_PATH)
+        unsure = (touch.unsure & held & ~known).nonzero()[0]
+        if len(unsure):
+            way[unsure] = _way_in_the_middle(pairs, unsure, radius)
     sure = known.nonzero()[0]
     way[sure] = _way(pairs, sure)
-    # twice what is granted there, since the distance of the middle is measured anew
-    held = np.abs(touch.middle - radius) <= 2.0 * (pairs.grant + ON_PATH)
-    unsure = (touch.unsure & held & ~known).nonzero()[0]
-    if len(unsure):
-        way[unsure] = _way_in_the_middle(pairs, unsure, radius)
     against = np.zeros(len(pairs.centre), np.bool_)
-    against[row[way < 0]] = True
-    against[row[way > 0]] = False
-    own = pairs.own
+    against[pairs.i[way < 0]] = True
+    if not against.any():
+        return ()
+    against[pairs.i[way > 0]] = False
     against[own.piece[(own.last - own.first) * pairs.surface.length[: len(own.piece)] > POINT]] = False
     return tuple(pairs.centre.rows[against].tolist())
 

@@ -13,6 +13,7 @@ from core.geometry.distance import between, distance, foot, nearest_places
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction
 from core.tolerance import JOINED
 from core.verify.course import Course
+from core.verify.unproved import clear
 
 TURN: Final = 1e-6
 """Radians short of half a turn that are taken for one."""
@@ -33,6 +34,8 @@ def crossings(course: Course, *, closed: bool) -> Crossings:
     """Where pieces that are not neighbours come within JOINED of each other, and neighbours away from their joint."""
     surface, stations = course.pieces, course.stations
     i, j = _candidates(surface, course.boxes, closed=closed)
+    # what is so far apart does not meet, and is told by a tenth of the steps
+    i, j = i[unclear := ~clear(surface, i, surface, j, 2.0 * JOINED)], j[unclear]
     if not len(i):
         return Crossings(np.zeros((0, 2)), np.zeros(0, np.complex128))
     following = j == i + 1

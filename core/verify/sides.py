@@ -142,11 +142,11 @@ def _wrong(pairs: Pairs, s: Floats, points: Points, near: Nearest, surface: Side
     t = foot(piece, points[near.k])
     off = points[near.k] - at(piece, t)
     sine = (np.conj(direction(piece, t)) * off).imag / np.where(near.apart < ON_PATH, np.inf, near.apart)
-    touched = pairs.surface_stations[near.j] + t * piece.length
-    outside = (touched <= surface.first + JOINED) | (touched >= surface.last - JOINED)
     starts = np.searchsorted(near.k, np.arange(len(points)))
     wrong = np.add.reduceat(sine, starts) * surface.side.sign < -CLEARLY
     if not surface.endless:
+        touched = pairs.surface_stations[near.j] + t * piece.length
+        outside = (touched <= surface.first + JOINED) | (touched >= surface.last - JOINED)
         wrong &= ~np.logical_or.reduceat(outside, starts)
     if surface.crossed:
         wrong &= ~_inside(found, s)

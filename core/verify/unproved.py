@@ -32,7 +32,7 @@ def unproved_pairs(
     one, other = near_pairs(around[:, loose], bounds, reach)
     i, j = _of_company(around, bounds, own, reach)
     i, j = i[near := reaching(around.take(i, axis=1), bounds.take(j, axis=1), reach)], j[near]
-    i, j = i[unclear := ~_clear(centre, i, surface, j, far)], j[unclear]
+    i, j = i[unclear := ~clear(centre, i, surface, j, far)], j[unclear]
     i, j = np.concatenate((loose[one], i)), np.concatenate((other, j))
     order = np.argsort(i, kind="stable")
     return i[order], j[order]
@@ -69,10 +69,12 @@ def company_boxes(around: Floats, own: Beside) -> Floats:
     return boxes
 
 
-def _clear(centre: Measured, i: Rows, surface: Measured, j: Rows, far: float) -> Flags:
+def clear(centre: Measured, i: Rows, surface: Measured, j: Rows, far: float) -> Flags:
     """Pairs of two lines of which one is wholly on one side of the other's endless line, and farther than `far`."""
-    clear = np.zeros(len(i), np.bool_)
+    parted = np.zeros(len(i), np.bool_)
     lines = ((centre.turn[i] == 0.0) & (surface.turn[j] == 0.0)).nonzero()[0]
+    if not len(lines):
+        return parted
     i, j = i[lines], j[lines]
     between = surface.start[j] - centre.start[i]
     piece, wall = centre.vector[i], surface.vector[j]
@@ -81,5 +83,5 @@ def _clear(centre: Measured, i: Rows, surface: Measured, j: Rows, far: float) ->
         start = (np.conj(axis) * between).imag
         end = start + (np.conj(axis) * vector).imag
         found |= (np.minimum(np.abs(start), np.abs(end)) > far * size) & (start * end > 0.0)
-    clear[lines] = found
-    return clear
+    parted[lines] = found
+    return parted
