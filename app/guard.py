@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Final
 
 from core.program.lock import Lock
@@ -14,14 +15,15 @@ class Guard:
     """`stamp` is the file's as it was read or saved last, None where there was none.
 
     `looking` is empty, or says who has the program open: then nothing can be changed.  `lock` is ours, if there is
-    one.  `linked` says that the operator agreed to write where a link leads.  `origin` tells one opening of a program
-    from another.
+    one.  `linked` says that the operator agreed to write where a link leads.  `earlier` is a journal that was set aside
+    and that somebody wants back.  `origin` tells one opening of a program from another.
     """
 
     stamp: Stamp | None = None
     lock: Lock | None = None
     looking: str = ""
     linked: bool = False
+    earlier: Path | None = None
     origin: object = field(default_factory=object)
 
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Final
 from app import places, times
 from app.messages import Open, Say
 from app.session import Session, Tone
+from app.widgets.header import printable as whole
 from core.program.disk import why
 from core.program.journal_file import JournalFile
 from core.program.lock import Held, Owner, myself, release, take, taken_by
@@ -36,7 +37,8 @@ class Keeping:
     """The journal and the lock of the program on the desk; `known` is the session as it was kept last.
 
     `moved` says that the next line must tell who works on which file now; `failing` that the last line is not on the
-    disk; `warned` that somebody has taken the program over.
+    disk; `warned` that somebody has taken the program over; `away` that the operator knows of a journal that is not
+    beside its file.
     """
 
     me: Owner = field(default_factory=lambda: myself(times.now()))
@@ -47,6 +49,7 @@ class Keeping:
     moved: bool = False
     failing: bool = False
     warned: bool = False
+    away: bool = False
 
     def keep(self, desk: Desk) -> Desk:
         """After a key: put on the disk what it has changed."""
@@ -77,7 +80,8 @@ class Keeping:
 
     def _offered(self, desk: Desk) -> Desk:
         """The desk with the question on it if work was left behind."""
-        if next(places.left(desk.session.file, self.own), None) is None:
+        session = desk.session
+        if session.guard.earlier is None and next(places.found_of(session.file, self.own), None) is None:
             return desk
         from app import recovery
 
@@ -94,8 +98,19 @@ class Keeping:
         if self.journal is not None and (self.known is None or not self.known.unsaved):
             self.journal.remove()
         elif self.journal is not None:
-            self.journal.close()
+            self._last_try(self.journal)
         self._let_go()
+
+    def _last_try(self, journal: JournalFile) -> None:
+        """What could not be written before may find room by now."""
+        try:
+            if journal.unwritten:
+                journal.add(())
+        except OSError:
+            if self.known is not None:
+                self._elsewhere(self.known)
+        if self.journal is not None:
+            self.journal.close()
 
     def adopt(self, session: Session, journal: JournalFile | None) -> None:
         """Go on with a restored session, and with its journal if it could be taken."""
@@ -118,7 +133,7 @@ class Keeping:
         if lock is not None:
             release(lock)
         self.known, self.journal = None, None
-        self.moved = self.failing = self.warned = False
+        self.moved = self.failing = self.warned = self.away = False
 
     def _locked(self, desk: Desk) -> Desk:
         """The program's file locked; where no lock can be written, nothing can be saved either."""
@@ -144,15 +159,55 @@ class Keeping:
         was, self.failing = self.failing, False
         if was and session.said is None:
             return desk.take(Say("Work is kept on the disk again."))
-        return self._noticed(desk)
+        return self._noticed(self._whereabouts(desk))
+
+    def _whereabouts(self, desk: Desk) -> Desk:
+        """Say once where the work is kept if not beside its file, and what had to be moved aside for it."""
+        file, journal = desk.session.file, self.journal
+        if journal is None:
+            return desk
+        aside, journal.aside = journal.aside, None
+        if file is not None and journal.path.parent == self.own and not self.away:
+            self.away = True
+            told = (
+                f"Your work is kept in {whole(str(journal.path))}: the folder of {printable(file.name)} takes nothing."
+            )
+            return desk.take(Say(told, Tone.WARNING))
+        if aside is not None:
+            return desk.take(Say(f"{whole(aside.name)} holds what was left behind; Ctrl+O lists it.", Tone.WARNING))
+        return desk
 
     def _write(self, session: Session, known: Session) -> None:
+        """On the disk: beside the program, else in this person's own folder."""
+        try:
+            self._in_place(session, known)
+        except (OSError, StoreError):
+            if not self._elsewhere(session):
+                raise
+
+    def _elsewhere(self, session: Session) -> bool:
+        """Put all of the work into this person's own folder; only when it is there its place beside is given up."""
+        from core.program.journal import history_records
+
+        if session.file is None or (self.journal is not None and self.journal.path.parent == self.own):
+            return False
+        try:
+            other = places.journal_at(places.elsewhere(session.file, self.own), session.file)
+            other.add(history_records(self.head(session), session.history, self.cursor(session)))
+        except OSError:
+            return False
+        if self.journal is not None:
+            self.journal.remove()
+        self.journal, self.moved = other, False
+        return True
+
+    def _in_place(self, session: Session, known: Session) -> None:
         from core.program.journal import edit_records, history_records
 
         cursor = self.cursor(session)
         records = edit_records(known.history, session.history, cursor)
         if self.journal is None:
-            self.journal = JournalFile(self._place(session))
+            self.journal = places.journal_at(self._place(session), session.file)
             self.journal.add(history_records(self.head(session), session.history, cursor))
         elif records is None or self.journal.length > LONGEST:
             short = replace(session.history, past=session.history.past[-STEPS:])
@@ -162,9 +217,7 @@ class Keeping:
         self.moved = False
 
     def _place(self, session: Session) -> Path:
-        path = places.place(session.file, self.me, self.own)
-        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        return path
+        return places.place(session.file, self.me, self.own)
 
     def _move(self, session: Session, cursor: Cursor) -> tuple[Record, ...]:
         from core.program.journal import moved_record
@@ -193,8 +246,7 @@ class Keeping:
         """After a save there is no journal; after a save under another name there is another lock."""
         session = desk.session
         if self.journal is not None and self.journal.put_away():
-            self.journal.path = self._place(session)
-            self.moved = True
+            self.journal = self._next_journal(session, self.journal)
         else:
             self.journal = None
         if session.file == known.file:
@@ -202,6 +254,15 @@ class Keeping:
         if known.guard.lock is not None:
             release(known.guard.lock)
         return self._locked(desk)
+
+    def _next_journal(self, session: Session, before: JournalFile) -> JournalFile | None:
+        """The one after a save: it begins with all that the one before held, so that undo reaches back behind both."""
+        self.moved, self.away = True, False
+        try:
+            after = places.journal_at(self._place(session), session.file)
+        except OSError:
+            return None
+        return replace(after, unwritten=before.unwritten, total=before.total)
 
 
 def holder(owner: Owner, today: str) -> str:

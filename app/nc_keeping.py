@@ -127,7 +127,7 @@ class NcKeeping:
     def _offered(self, desk: Desk, page: ProofPage, one: Kept) -> Desk:
         """The desk with the question on it if work was left behind; one that says nothing new is removed."""
         from app.nc_journal import differences, found_in
-        from app.recovery import discarded
+        from app.recovery import discarding, put_away
         from app.screens.decide import Decide
 
         path = places.place(one.file, self.me, self.own)
@@ -141,8 +141,10 @@ class NcKeeping:
             path.unlink(missing_ok=True)
             return desk
         restore = (Close(), Do(lambda now: self._restored(now, page.opening, path, found)))
-        discard = (Close(), Do(lambda now: discarded(now, path)))
-        options = (("r", "RESTORE", restore), ("d", "DISCARD", discard))
+        options = (
+            ("r", "RESTORE", restore),
+            ("d", "DISCARD", (Open(discarding(Do(lambda now: put_away(now, path)))),)),
+        )
         details = differences(page.listing, found.listing)
         told = self._told(page, found)
         return desk.take(Open(Decide("CHANGES THAT WERE NOT SAVED", told, options, one.file.name, details)))

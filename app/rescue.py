@@ -7,7 +7,7 @@ from pathlib import Path
 from app import places
 from app.files import empty_program
 from app.session import Session
-from core.program.lock import alive
+from core.program.lock import alive, user
 from core.program.store import StoreError
 
 
@@ -16,7 +16,7 @@ def rescued(path: Path, error: StoreError) -> Session:
 
     It has no stamp of the file: whoever saves it is asked, and what stands in the file is kept beside it.
     """
-    dead = (found for _, found in places.left(path, places.own_folder()) if not alive(found.head.owner))
+    dead = (found for _, found in places.left(path, places.own_folder(), user()) if not alive(found.head.owner))
     if (found := next(dead, None)) is None:
         raise error
     return Session.of(empty_program(found.history.program.unit), path)

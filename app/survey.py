@@ -11,7 +11,7 @@ from app import places
 from app.patience import FILE, within
 from app.widgets.header import printable
 from app.widgets.rows import Look
-from core.program.lock import alive
+from core.program.lock import alive, user
 from core.program.model import Entry, Program
 from core.program.store import StoreError, load
 from core.records import dataclass
@@ -56,7 +56,7 @@ def _read(path: Path, known: Facts | None) -> tuple[Facts, Program | None]:
     except (OSError, ValueError):
         return Facts(path, word="gone", trouble="This file is not there any more, or its folder cannot be read."), None
     stamp = (status.st_mtime_ns, status.st_size)
-    works = [found for _, found in places.left(path, places.own_folder()) if not alive(found.head.owner)]
+    works = [found for _, found in places.left(path, places.own_folder(), user()) if not alive(found.head.owner)]
     if known is not None and known.stamp == stamp and not works and not known.left:
         return known, None
     date = datetime.fromtimestamp(status.st_mtime).astimezone().strftime("%Y-%m-%d")

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+import stat
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Self
 
@@ -26,6 +28,8 @@ class JournalFile:
     """A journal that is being written.  `handle` is None while there is no file; `total` is the sum of all lines.
 
     `unwritten` holds lines that could not be written yet, such as on a full disk: the next `add` tries them again.
+    `program` is the file it is about where it lies beside it: whoever may read or write that one may read or write the
+    journal.  `aside` is what a file that stood in its place is called now.
     """
 
     path: Path
@@ -33,6 +37,8 @@ class JournalFile:
     total: int = 0
     length: int = 0
     handle: int | None = None
+    program: Path | None = None
+    aside: Path | None = None
 
     @classmethod
     def resumed(cls, path: Path, found: Recovered) -> Self:
@@ -65,11 +71,16 @@ class JournalFile:
         self.unwritten = b""
 
     def _create(self) -> None:
-        """Make the file; one that stands in its place is moved aside, never overwritten."""
+        """Make the file; one that stands in its place is moved aside, never overwritten, unless it holds nothing."""
         if self.path.exists():
-            set_aside(self.path, "kept")
+            if self.path.stat().st_size:
+                self.aside = set_aside(self.path, "kept")
+            else:
+                self.path.unlink()
         handle = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | os.O_CLOEXEC, 0o600)
         try:
+            if self.program is not None:
+                _share(handle, self.program)
             write_all(handle, self.unwritten)
             os.fsync(handle)
         except OSError:
@@ -85,6 +96,12 @@ class JournalFile:
         from core.program.journal import lines
 
         data, total = lines(records)
+        if self.handle is not None and self.standing() != self.path:
+            # somebody has taken over: what stands in the place is not ours
+            self.close()
+            self.unwritten, self.total = data, total
+            self._create()
+            return
         write_text(self.path, data.decode())
         self.close()
         self.unwritten, self.total, self.length = b"", total, len(data)
@@ -100,13 +117,24 @@ class JournalFile:
         return kept
 
     def remove(self) -> None:
-        """Remove the file, unless another one stands in its place by now."""
-        if self.handle is not None:
+        """Remove the file, wherever it stands by now; never another one in its place."""
+        standing = self.standing()
+        if standing is not None:
             with suppress(OSError):
-                if os.path.samestat(self.path.stat(), os.fstat(self.handle)):
-                    self.path.unlink()
-                    sync_folder(self.path.parent)
+                standing.unlink()
+                sync_folder(standing.parent)
         self.close()
+
+    def standing(self) -> Path | None:
+        """Where the file that is written stands: somebody may have moved it aside; None where it is gone."""
+        if self.handle is None:
+            return None
+        own = os.fstat(self.handle)
+        for path in chain((self.path,), _asides_later(self.path)):
+            with suppress(OSError):
+                if os.path.samestat(path.stat(), own):
+                    return path
+        return None
 
     def close(self) -> None:
         """Leave the file where it is."""
@@ -121,11 +149,57 @@ def journal_path(path: Path) -> Path:
     return target.with_name(f".{target.name[:200]}{SUFFIX}")
 
 
+def asides(path: Path) -> list[Path]:
+    """The journals that were moved aside from a place, the last one first."""
+    begin = f"{place_of(path).name}."
+    found = list[tuple[int, Path]]()
+    with suppress(OSError), os.scandir(path.parent) as inside:
+        for one in inside:
+            if one.name.startswith(begin):
+                with suppress(OSError):
+                    found.append((one.stat().st_mtime_ns, Path(one.path)))
+    return [one for _, one in sorted(found, reverse=True)]
+
+
+def _asides_later(path: Path) -> Iterator[Path]:
+    """The same; the folder is not looked through before the first one is asked for."""
+    yield from asides(path)
+
+
+def place_of(path: Path) -> Path:
+    """The place of a journal that was moved aside; its own where it was not."""
+    begin, suffix, _ = path.name.partition(SUFFIX)
+    return path.with_name(begin + suffix)
+
+
+def why_aside(path: Path) -> str:
+    """Why a journal was moved aside, as `set_aside` was told; empty where it was not."""
+    return path.name.partition(f"{SUFFIX}.")[2].rpartition("-")[0]
+
+
 def set_aside(path: Path, why: str) -> Path:
-    """Rename a journal to a name under which it is not offered again; returns that name."""
-    number = 1
-    while (aside := path.with_name(f"{path.name}.{why}-{number}")).exists():
+    """Rename a journal; returns the name it has then, from which `why_aside` and `place_of` are read."""
+    place, number = place_of(path), 1
+    while (aside := place.with_name(f"{place.name}.{why}-{number}")).exists():
         number += 1
     path.rename(aside)
     sync_folder(aside.parent)
     return aside
+
+
+def _share(handle: int, program: Path) -> None:
+    """Give a new journal the group and the mode of its program's file, which will hold the same as soon as it is saved.
+
+    Where the group cannot be given, the journal's own group may do what everybody may.
+    """
+    try:
+        like = program.stat()
+    except OSError:
+        return
+    with suppress(OSError):
+        os.fchown(handle, -1, like.st_gid)
+    mode = stat.S_IMODE(like.st_mode) & 0o666 | 0o600
+    if os.fstat(handle).st_gid != like.st_gid:
+        mode = mode & 0o606 | (mode & 0o006) << 3
+    with suppress(OSError):
+        os.fchmod(handle, mode)

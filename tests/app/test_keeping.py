@@ -91,7 +91,7 @@ def test_many_differences_are_counted(own: Path, part: Path) -> None:
 
 def test_discarded_work_is_kept_aside_and_not_offered_again(own: Path, part: Path) -> None:
     started(own, part).press("tab").type("7").killed()
-    assert "Discarded. A copy is in" in started(own, part).press("d").said
+    assert "Discarded. A copy is in" in started(own, part).press("d", "y").said
     again = started(own, part)
     assert isinstance(again.desk.page, Contour)
     assert [name for name in names(part) if "discarded" in name] == [".part.toml.cutcomp-journal.discarded-1"]
@@ -210,10 +210,10 @@ def test_damage_in_the_middle_is_told_and_the_whole_journal_kept(own: Path, part
     assert any("damaged" in name for name in names(part))
 
 
-def test_a_journal_that_is_none_is_not_offered_and_not_lost(own: Path, part: Path) -> None:
+def test_a_journal_that_is_none_is_told_and_not_lost(own: Path, part: Path) -> None:
     journal = part.with_name(".part.toml.cutcomp-journal")
     journal.write_text("somebody's own")
     operator = started(own, part)
-    assert isinstance(operator.desk.page, Contour)
-    operator.press("tab").type("7").press("ctrl+s", "ctrl+q")
+    assert "There is unsaved work on part.toml that cannot be read" in asked(operator)
+    operator.press("g", "tab").type("7").press("ctrl+s", "ctrl+q")
     assert [part.with_name(name).read_text() for name in names(part)] == ["somebody's own"]

@@ -105,7 +105,7 @@ def test_restored_changes_are_kept_again(file: Path) -> None:
 
 def test_discarded_changes_are_kept_aside(file: Path) -> None:
     typist(file).press("x").killed()
-    again = typist(file).press("d")
+    again = typist(file).press("d", "y")
     assert again.texts[0] == "G20 G17"
     assert not isinstance(again.desk.page, Decide)
     assert [path.name for path in file.parent.glob(".part*discarded-1")]
@@ -159,7 +159,7 @@ def test_a_torn_end_costs_the_last_change_only(file: Path, cut: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "data", [b"", b"x", b"00000000 {}\n", lines([{"nc": 1}])[0], lines([{"nc": 2, "owner": 1}])[0], b"\xff" * 99]
+    "data", [b"x", b"00000000 {}\n", lines([{"nc": 1}])[0], lines([{"nc": 2, "owner": 1}])[0], b"\xff" * 99]
 )
 def test_what_is_no_journal_is_not_offered_and_not_overwritten(file: Path, data: bytes) -> None:
     journal_path(file).write_bytes(data)

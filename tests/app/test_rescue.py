@@ -47,7 +47,7 @@ def test_the_work_comes_back_and_what_stands_in_the_file_is_kept(part: Path, tmp
 
 
 def test_discarded_the_file_stays_as_it_is_until_somebody_decides(part: Path, tmp_path: Path) -> None:
-    operator = broken(part, tmp_path / "own").press("d")
+    operator = broken(part, tmp_path / "own").press("d", "y")
     rest = part.read_bytes()
     operator.press("tab").type("3").press("ctrl+s")
     assert part.read_bytes() == rest

@@ -63,7 +63,7 @@ def test_discarding_what_its_owner_has_saved_meanwhile_says_so(own: Path, part: 
     first = started(own, part, ELSEWHERE).press("tab").type("7")
     second = started(own, part, DEAD).press("t")
     first.press("ctrl+s", "w")
-    second.press("d")
+    second.press("d", "y")
     assert "Nothing is left to discard: whoever typed it has saved it" in second.said
     assert "Ctrl+O opens the file as it is now." in second.said
 
@@ -81,7 +81,7 @@ def test_restoring_it_then_keeps_it_in_a_journal_of_its_own(own: Path, part: Pat
 
 def test_the_first_one_notices_before_it_saves(own: Path, part: Path) -> None:
     first = started(own, part, ELSEWHERE).press("tab").type("7")
-    started(own, part, DEAD).press("t", "d", "tab").type("3").press("ctrl+s")
+    started(own, part, DEAD).press("t", "d", "y", "tab").type("3").press("ctrl+s")
     first.press("ctrl+s")
     assert "TAKEN OVER" in first.part("header")
     first.press("k")

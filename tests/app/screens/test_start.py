@@ -182,7 +182,7 @@ def test_work_left_behind_on_a_named_file_stands_in_the_list(
     assert "Opening it asks whether you want it back" in operator.said
     left = facts_of(path)
     assert facts_of(path, left) == left
-    started(own, path).press("d").keeping.leave()
+    started(own, path).press("d", "y").keeping.leave()
     assert facts_of(path, left).word == "GOUGE"
 
 

@@ -1,0 +1,64 @@
+"""Journals that are moved aside while they are written, and who may read them."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from core.program.history import History
+from core.program.journal import head_record, history_records
+from core.program.journal_file import JournalFile, asides, journal_path, place_of, set_aside, why_aside
+from tests.core.program.test_journal import CURSOR, HEAD, PART, add, begun, read, typed
+
+
+def test_a_shorter_journal_never_takes_the_place_of_another_ones(tmp_path: Path) -> None:
+    path = tmp_path / "j"
+    file = begun(path)
+    history = add(file, History(PART), typed(2.0))
+    long = set_aside(path, "theirs")
+    path.write_text("another's")
+    file.replace(history_records(HEAD, history, CURSOR))
+    assert file.aside is not None
+    assert file.aside.read_text() == "another's"
+    assert read(path.read_bytes()).history == history
+    assert long.exists()
+
+
+def test_where_a_journal_was_moved_to_tells_its_place_and_why(tmp_path: Path) -> None:
+    path = journal_path(tmp_path / "a.b-c.toml")
+    path.write_text("x")
+    first = set_aside(path, "kept")
+    assert (place_of(first), why_aside(first)) == (path, "kept")
+    second = set_aside(first, "theirs-2025-03-04-060500-at-12")
+    assert (place_of(second), why_aside(second)) == (path, "theirs-2025-03-04-060500-at-12")
+    assert (place_of(path), why_aside(path)) == (path, "")
+    assert asides(path) == [second]
+
+
+def test_a_journal_is_as_readable_as_its_program(tmp_path: Path) -> None:
+    program = tmp_path / "p.toml"
+    program.touch()
+    program.chmod(0o664)
+    file = JournalFile(journal_path(program), program=program)
+    file.add([head_record(HEAD, PART, CURSOR)])
+    assert journal_path(program).stat().st_mode & 0o777 == 0o664
+
+
+@pytest.mark.skipif(os.getuid() != 0, reason="only root may give a file to a group it is not in")
+def test_a_group_that_cannot_be_given_may_do_what_everybody_may(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program = tmp_path / "p.toml"
+    program.touch()
+    program.chmod(0o664)
+    os.chown(program, -1, 12345)
+
+    def refused(*_: object) -> None:
+        raise PermissionError
+
+    monkeypatch.setattr(os, "fchown", refused)
+    file = JournalFile(journal_path(program), program=program)
+    file.add([head_record(HEAD, PART, CURSOR)])
+    assert journal_path(program).stat().st_mode & 0o777 == 0o644
