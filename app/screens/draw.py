@@ -11,6 +11,7 @@ from app.screens.findings import FindingsPage
 from app.screens.page import Answer, Layout, Page, Sketch, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
 from app.widgets.header import block_line, header, segment_line
+from app.widgets.words import number
 from core.program.edit import Where
 from core.records import dataclass, field
 
@@ -22,11 +23,15 @@ ARROWS: Final = {"left": (-PAN, 0.0), "right": (PAN, 0.0), "up": (0.0, PAN), "do
 SEGMENTS: Final = {"n": 1, "pagedown": 1, "p": -1, "pageup": -1}
 PROMPT: Final = (
     "+ - zoom, arrows move, 0 fits, n p walk, m changes characters, Esc goes back. "
-    "S START, o plunge, x deletes, ! gouge."
+    "S START, o plunge, # deleted, x by what, ! gouge."
 )
+SHORT: Final = "n p walk, Esc goes back. # deleted, x by what."
+"""What stands behind a sentence on the cutter; the softkeys name the other keys."""
 LEGEND: Final = (
     "S is START, o where the tool goes down, the arrow the way it travels.",
-    "x is where two pieces meet that delete what is between them, ! where the path gouges.",
+    "# is surface that the look-ahead has deleted, x where two pieces meet that delete what is between them.",
+    "! is where the path gouges. The ring is the cutter at the end of the segment's path, or where the path passes "
+    "what is deleted.",
     "With block and ASCII characters the contour has whole lines, the centre path dots.",
 )
 FARTHEST: Final = 2.0
@@ -76,12 +81,38 @@ class DrawPage(Page):
         """The drawing; the two prompt lines name its keys and its signs."""
         form = form_at(session)
         title = f"{form}   zoom {self.sketch.zoom:.2g}" if self.sketch.zoom != 1.0 else str(form)
-        number = segment_line(str(session.where.segment), title, cursor=False)
-        return View(header(block_line(session), number, session, surface.width), (), Said(PROMPT), 0, self.sketch)
+        line = segment_line(str(session.where.segment), title, cursor=False)
+        return View(
+            header(block_line(session), line, session, surface.width), (), Said(_prompt(session)), 0, self.sketch
+        )
 
     def help(self, session: Session) -> tuple[str, ...]:
         """What the signs and lines of the drawing are."""
         return ("DRAW", PROMPT, *LEGEND)
+
+
+def _prompt(session: Session) -> str:
+    """Keys and signs, behind what is to be said of the cutter."""
+    note = _cutter_note(session)
+    return f"{note} {SHORT}" if note else PROMPT
+
+
+def _cutter_note(session: Session) -> str:
+    """Why the cutter is not at the end of the segment: it was deleted, or nobody knows yet where its path runs."""
+    found, segment = session.found, session.where.segment
+    if segment > found.solved.determined:
+        return f"Segment {segment} is not determined yet: no cutter is drawn."
+    if not segment or not found.known or found.work is None:
+        return ""
+    from core.pipeline.plot import cutter_at
+
+    place = cutter_at(found, segment)
+    if place is None:
+        return f"No path runs along segment {segment}: no cutter is drawn."
+    if place.by is None:
+        return ""
+    first, last = map(number, place.by)
+    return f"Segment {segment} is deleted: the cutter stands where the path passes it, {first} meeting {last}."
 
 
 def zoomed(sketch: Sketch, factor: float) -> Sketch:

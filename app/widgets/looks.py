@@ -22,6 +22,7 @@ ACCENT: Final = "#7fb2e5"
 BAD: Final = "#ff8a80"
 CARE: Final = "#e6c07b"
 FINE: Final = "#98c793"
+GONE: Final = "#c9a0e6"
 PAPER: Final = "#12171c"
 
 MANY: Final[Mapping[Look, str]] = MappingProxyType(
@@ -47,7 +48,7 @@ MANY: Final[Mapping[Look, str]] = MappingProxyType(
         Look.PATH: ACCENT,
         Look.LEAD: FINE,
         Look.RAPID: QUIET,
-        Look.DELETED: f"bold {CARE}",
+        Look.DELETED: f"bold {GONE}",
         Look.GOUGE: f"bold {BAD}",
         Look.UNCUT: CARE,
         Look.CUTTER: QUIET,
@@ -71,7 +72,7 @@ FEW: Final[Mapping[Look, str]] = MappingProxyType(
         Look.SURFACE: "bold default",
         Look.PATH: "cyan",
         Look.LEAD: "green",
-        Look.DELETED: "bold yellow",
+        Look.DELETED: "bold blue",
         Look.GOUGE: "bold red",
         Look.UNCUT: "yellow",
         Look.START: "bold green",

@@ -28,6 +28,8 @@ AXES: Final = 2
 """The first layers drawn are the two axes."""
 FAINT: Final = frozenset({Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID})
 """Roles that do not make a cell one of the surface."""
+STRUCK: Final = "#"
+"""The character of cells with deleted surface: without colours a line there would be one that is merely uncut."""
 PHASE: Final = 0.25
 """Where in its period an axis begins at the window's edge: away from where rounding could decide."""
 
@@ -53,12 +55,12 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
     look = cells(mode)
     layers = (*_axes(scene, view, columns, rows), *scene.layers, *map(_outline, scene.circles))
     found = _clipped(chords(layers, view, columns, rows), columns / 2, rows * TALL / 2)
-    lit, styles, strong = _light(found, layers, look, columns, rows)
+    lit, styles, strong, struck = _light(found, layers, look, columns, rows)
     codes = np.packbits(lit, axis=1, bitorder="little")[:, 0]
     characters = look.table[codes]
     if look.faint is not None:
         characters = np.where(strong | (styles == Style.AXIS), characters, look.faint[codes])
-    characters = characters.reshape(rows, columns)
+    characters = np.where(struck, STRUCK, characters).reshape(rows, columns)
     styles = styles.reshape(rows, columns)
     write_signs(characters, styles, scene, view, mode)
     return Picture(tuple("".join(row) for row in characters.tolist()), styles)
@@ -118,8 +120,9 @@ def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]
 
 def _light(
     found: Chords, layers: tuple[Layer, ...], look: Cells, columns: int, rows: int
-) -> tuple[Bits, Styles, NDArray[np.bool_]]:
-    """Bits lit (rows x columns, 8), styles (rows x columns,), and which cells more than centre paths are in."""
+) -> tuple[Bits, Styles, NDArray[np.bool_], NDArray[np.bool_]]:
+    """Bits lit (rows x columns, 8), styles (rows x columns,), which cells more than centre paths are in, and which
+    have deleted surface."""
     chord, across, down, along = _dots(found, look, columns, rows)
     layer = found.layers[chord]
     shown = _dashes(layers, layer, along)
@@ -133,7 +136,11 @@ def _light(
     if look.faint is not None:
         bold = np.array([each.style not in FAINT for each in layers])[layer]
         strong[cell[shown & bold]] = True
-    return lit, styles, strong
+    struck = np.zeros(rows * columns, np.bool_)
+    gone = [row for row, each in enumerate(layers) if each.style is Style.DELETED]
+    if gone:
+        struck[cell[np.isin(layer, gone)]] = True
+    return lit, styles, strong, struck
 
 
 def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Rows, Rows, Floats]:
@@ -156,7 +163,8 @@ def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Ro
 def _dashes(layers: tuple[Layer, ...], layer: Rows, along: Floats) -> NDArray[np.bool_]:
     """Which dots are lit: all of a whole line, part of each period of a dashed one."""
     period = np.array([AXIS_DASH[0]] * AXES + [DASH[0]] * (len(layers) - AXES))
-    lit = np.array([AXIS_DASH[1]] * AXES + [DASH[1] if each.dashed else np.inf for each in layers[AXES:]])
+    dashed = [each.dashed and each.style is not Style.DELETED for each in layers[AXES:]]
+    lit = np.array([AXIS_DASH[1]] * AXES + [DASH[1] if each else np.inf for each in dashed])
     shown: NDArray[np.bool_] = np.mod(along + PHASE * (layer < AXES), period[layer]) < lit[layer]
     return shown
 

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
 from core.comp.result import Compensated
 from core.draw.build import contour_scene
 from core.draw.scene import Scene, joined_scenes
@@ -41,7 +46,7 @@ def block_scene(found: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         meetings=() if one is None else list(dict.fromkeys(deleted.at for deleted in one.deleted)),
         gouges=() if verdict is None else [gouge.surface_at for gouge in verdict.gouges],
         uncut=() if verdict is None else _uncut(surface, verdict),
-        cutter=_cutter(found, first.whole, segment),
+        cutter=_cutter(found, loops, one, segment),
         current=_current(found, segment),
         start=solved.segments[0].start if solved.segments else None,
     )
@@ -95,10 +100,42 @@ def _current(found: DerivedBlock, segment: int | None) -> Path | None:
     return None if piece is None else Path.from_pieces([piece])
 
 
-def _cutter(found: DerivedBlock, centre: Path, segment: int | None) -> tuple[Point, float] | None:
-    """The cutter where the path of the cursor's segment ends; at the path's start on START or where it was erased."""
-    if segment is None or found.radius is None or not len(centre):
-        return None
-    rows = [row for row, number in enumerate(centre.numbers.tolist()) if number == segment]
-    x, y = (centre.ends[rows[-1]] if segment and rows else centre.points[0]).tolist()
-    return (x, y), found.radius
+class Place(NamedTuple):
+    """Where the cutter is drawn; `by` are the two pieces that meet there where they have deleted the segment."""
+
+    at: Point
+    by: tuple[float, float] | None = None
+
+
+def cutter_at(found: DerivedBlock, segment: int) -> Place | None:
+    """Where the cutter is drawn for a segment of the block's own path; None where no path belongs to the segment."""
+    work = found.work
+    return None if work is None else _place(work.loops, _shown(work), segment)
+
+
+def _cutter(
+    found: DerivedBlock, loops: Sequence[Loop], one: Compensated | None, segment: int | None
+) -> tuple[Point, float] | None:
+    place = None if segment is None else _place(loops, one, segment)
+    return None if place is None or found.radius is None else (place.at, found.radius)
+
+
+def _place(loops: Sequence[Loop], one: Compensated | None, segment: int) -> Place | None:
+    """The end of a segment's path, the path's start for START, or where the path passes what was deleted."""
+    for loop in loops:
+        whole = loop.whole
+        rows = np.flatnonzero(whole.numbers == segment)
+        if len(whole) and (len(rows) or not segment):
+            x, y = (whole.ends[rows[-1]] if segment else whole.points[0]).tolist()
+            return Place((x, y))
+    return None if one is None else _passed(one, segment)
+
+
+def _passed(one: Compensated, segment: float) -> Place | None:
+    """The meeting that deleted a segment; where a later one has deleted a piece of that pair too, the later one."""
+    deleted = {each.segment: each for each in one.deleted}
+    found = last = deleted.get(segment)
+    while found is not None:
+        last = found
+        found = next((deleted[number] for number in found.by if number in deleted), None)
+    return None if last is None else Place(last.at, last.by)

@@ -145,6 +145,20 @@ def test_part_setup_takes_a_name_and_numbers() -> None:
     assert "54 to 59" in operator.press("down").type("60").said
 
 
+def test_the_draw_screen_says_where_the_cutter_is_on_a_deleted_segment_and_why_there_is_none() -> None:
+    from core.pipeline.derive import derive
+
+    operator = opened()
+    operator.desk = operator.desk.knowing(derive(operator.session.program))
+    operator.press("9", "enter", "f7")
+    assert "Segment 9 is deleted: the cutter stands where the path passes it, 8 meeting 10." in operator.said
+    assert "# deleted" in operator.said
+    operator.press("p")
+    assert "cutter" not in operator.said
+    operator.press("f8", "7", "enter", "tab", "backspace", "enter", "f7", "n", "n")
+    assert "Segment 9 is not determined yet: no cutter is drawn." in operator.said
+
+
 def test_the_draw_screen_zooms_pans_walks_and_fits() -> None:
     operator = opened().press("f7", "+", "+", "left", "up", "n", "n")
     assert operator.sketch.zoom == pytest.approx(1.5625)

@@ -141,6 +141,20 @@ def test_the_surface_shows_where_a_centre_path_runs_in_its_cells(mode, surface):
     assert set(both.styles[0].tolist()) == {Style.PATH}
 
 
+@pytest.mark.parametrize("mode", list(Mode))
+def test_deleted_surface_has_a_character_of_its_own_whatever_lies_over_it(mode):
+    along = lines((-4, 1.5), (4, 1.5))
+    gone = Layer(lines((-2, 1.5), (2, 1.5)), Style.DELETED, dashed=True)
+    surface, uncut, current = (Layer(along, style) for style in (Style.SURFACE, Style.UNCUT, Style.CURRENT))
+    picture = draw(Scene((surface, uncut, gone), axes=False), VIEW, 8, 2, mode)
+    assert picture.rows[0].count("#") in (4, 5)
+    assert {Style(style) for style in picture.styles[0].tolist()} == {Style.UNCUT, Style.DELETED}
+    assert "#" not in "".join(draw(Scene((surface, uncut), axes=False), VIEW, 8, 2, mode).rows)
+    over = draw(Scene((surface, gone, current), axes=False), VIEW, 8, 2, mode)
+    assert over.rows[0].count("#") == picture.rows[0].count("#")
+    assert set(over.styles[0].tolist()) == {Style.CURRENT}
+
+
 def test_a_dashed_line_has_gaps():
     assert rows(only(lines((-8, 0.5), (8, 0.5)), dashed=True), VIEW, 16, 2, Mode.ASCII)[0] == "-- -- -- -- -- -"
 

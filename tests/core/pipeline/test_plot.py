@@ -1,0 +1,67 @@
+"""Where the cutter is drawn for the segment with the cursor, and where it is not drawn at all."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.files import example
+from core.pipeline.derive import derive
+from core.pipeline.plot import block_scene, cutter_at
+from core.program.model import CutterComp, Entry, LineSegment, PathChoice
+from core.program.store import load
+from core.units import Unit
+from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
+
+
+def derived(part):
+    return derive(part).blocks[0]
+
+
+@pytest.mark.parametrize("lookahead", [None, Entry(5.0)])
+def test_on_a_deleted_segment_the_cutter_stands_where_the_path_passes_it(lookahead):
+    pocket = load(example("pocket"))
+    part = replace(pocket, blocks=(replace(pocket.blocks[0], lookahead=lookahead),))
+    found = derived(part)
+    (circle,) = block_scene(found, 9, Unit.IN).circles
+    place = cutter_at(found, 9)
+    assert circle.centre == place.at
+    assert place.by == (8.0, 10.0)
+    (meeting,) = [one.at for one in found.work.compensated.deleted if one.segment == 9]
+    assert circle.centre == pytest.approx(meeting)
+
+
+def test_a_deletion_within_a_later_one_leads_to_where_the_path_passes():
+    """At 3 and more the notch's floor falls first to its walls' corner arcs or to both sides: always on the path."""
+    for points, comp in ((NOTCH, CutterComp.LEFT), (OVER_RUN_SQUARE, CutterComp.RIGHT)):
+        for value in range(1, 21):
+            found = derived(program(block(points, comp, lookahead=Entry(float(value)))))
+            for segment in range(1, len(points)):
+                place = cutter_at(found, segment)
+                assert place is not None
+                apart = found.work.loops[0].whole.points - place.at
+                assert min(np.hypot(*apart.T)) < 1e-9
+
+
+def test_where_nothing_is_determined_no_cutter_is_drawn():
+    one = block(MID_SIDE_SQUARE, CutterComp.LEFT)
+    part = program(replace(one, segments=(*one.segments[:3], LineSegment(), *one.segments[3:])))
+    found = derived(part)
+    assert len(block_scene(found, 3, Unit.IN).circles) == 1
+    for segment in (4, 5, 6):
+        assert cutter_at(found, segment) is None
+        assert block_scene(found, segment, Unit.IN).circles == ()
+
+
+def test_the_best_path_has_its_cutter_in_every_loop_and_none_where_it_does_not_run():
+    pocket = load(example("pocket"))
+    part = replace(pocket, parameters=replace(pocket.parameters, path=PathChoice.BEST))
+    found = derived(part)
+    numbers = {number for loop in found.work.loops for number in loop.whole.numbers.tolist()}
+    for segment in range(1, 12):
+        assert (cutter_at(found, segment) is not None) is (segment in numbers)
+
+
+def test_start_has_the_cutter_where_it_goes_down():
+    found = derived(program(block(MID_SIDE_SQUARE, CutterComp.LEFT)))
+    assert cutter_at(found, 0).at == tuple(found.work.centre.points[0].tolist())
