@@ -8,8 +8,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from core.controls.chains import contour_of
 from core.controls.report import Run, Stretch
-from core.controls.verdicts import closed_part, surface_of
+from core.controls.verdicts import surface_of
 from core.geometry.distance import distance
 from core.geometry.measured import measured
 from core.geometry.path import Path
@@ -67,7 +68,7 @@ def _pair(number: int, first: Stretch, second: Stretch) -> ContourPair:
 
 def _contour(stretch: Stretch) -> Path:
     whole = surface_of(stretch)
-    return whole.part(*closed_part(whole))
+    return whole.part(*contour_of(whole))
 
 
 def _parting(path: Path, other: Path) -> ContourParting | None:

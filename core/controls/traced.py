@@ -12,13 +12,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from core.controls.chains import contour_of
 from core.controls.contouring import End, Programmed, Terms
 from core.controls.corners import Element, arc_element, beyond, line_element, square
 from core.controls.iso_leads import Ready, merged, out_of, start_of
 from core.controls.iso_style import Entry, IsoStyle
 from core.controls.moves import Moves, Plane
 from core.controls.report import Run, Stretch
-from core.controls.verdicts import closed_part
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Point, Turn
 from core.geometry.piece import Line as Straight
@@ -84,7 +84,7 @@ def traced(source: Run, stretch: Stretch, tool: int) -> Traced | Untold:
         tuple(_element(moves, row) for row in rows.tolist()), tuple(float(one) for one in range(1, len(rows) + 1))
     )
     whole = moves.part(int(rows[0]) - 1, int(rows[-1]) + 1).path()
-    surface = whole.part(*closed_part(whole))
+    surface = whole.part(*contour_of(whole))
     lines = tuple(moves.lines[rows].tolist())
     return Traced(shape, lines, stretch, _terms(source, stretch, rows, tool), surface)
 

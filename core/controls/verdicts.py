@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Final
 
 import numpy as np
 
+from core.controls.chains import Rows, chains
 from core.controls.laps import unlapped
 from core.controls.report import Run, Stretch
 from core.finding import Finding, Severity
 from core.geometry.path import Path, joined
-from core.tolerance import CLOSED, GOUGE
+from core.tolerance import GOUGE
 from core.verify.judge import judge
 from core.verify.report import stray_findings
 from core.verify.stray import Away, Stray, stray
@@ -67,67 +69,66 @@ def surface_of(stretch: Stretch) -> Path:
 
 
 def _each(run: Run, stretch: Stretch) -> list[Judged]:
-    """The verdict on a stretch; where its side or radius changes, on each part with those that are in force there.
+    """The verdicts on a stretch; where its side or radius changes, on each part with those that are in force there.
 
     A part may also cut the surface of another one: that counts where the tool runs on one side of all of them; where
     the side changes it is not asked for, which is told.
     """
     whole = surface_of(stretch)
-    first, last = closed_part(whole)
+    contours = chains(whole)
     parts, results, row = stretch.parts(), list[Judged](), 0
+    sides = any(part.side is not parts[0].side for part in parts)
     for part in parts:
         own = surface_of(part)
-        begin, end = max(first - row, 0), min(last - row, len(own))
-        row += len(own)
-        result = _judged(run, part, own, (begin, end) if begin < end else (0, len(own)))
-        if any(one.side is not part.side for one in parts):
-            result = replace(result, alone=bool(results))
+        begin, row = row, row + len(own)
+        inner = [(max(first, begin) - begin, min(last, row) - begin) for first, last in contours]
+        told = _judged(run, part, own, [both for both in inner if both[0] < both[1]] or [(0, len(own))])
+        if sides:
+            told[0] = replace(told[0], alone=bool(results))
         elif len(parts) > 1:
-            result = _beyond(result, whole.part(first, last), row - len(own) - first, row - first)
-        results.append(result)
+            told[0] = _beyond(told[0], whole, contours, (begin, row))
+        results += told
     return results
 
 
-def _beyond(result: Judged, whole: Path, begin: int, end: int) -> Judged:
-    """With what is cut of the whole surface besides the part's own rows; a subprogram's lines may be in several."""
-    part, rows = result.stretch, np.arange(len(whole), dtype=np.float64)
-    surface = replace(whole, numbers=rows)
-    edges = np.clip((0, begin, end, len(whole)), 0, len(whole)).tolist()
-    # each by itself, for a lap of another part is no repetition of the part's own one
-    surface = joined([unlapped(surface.part(*both)) for both in pairwise(edges)])
-    cut = judge(surface, part.side, part.radius, result.centre).gouges
-    others = [(gouge, int(gouge.surface_number)) for gouge in cut if not begin <= gouge.surface_number < end]
-    more = (replace(gouge, surface_number=float(whole.numbers[at])) for gouge, at in others)
+def _beyond(result: Judged, whole: Path, contours: tuple[Rows, ...], own: Rows) -> Judged:
+    """With what is cut of all contours besides the part's own rows; a subprogram's lines may be in several."""
+    part, numbered = result.stretch, replace(whole, numbers=np.arange(len(whole), dtype=np.float64))
+    more: list[Gouge] = []
+    for first, last in contours:
+        edges = np.clip((first, *own, last), first, last).tolist()
+        # each by itself, for a lap of another part is no repetition of the part's own one
+        surface = joined([unlapped(numbered.part(*both)) for both in pairwise(edges)])
+        cut = judge(surface, part.side, part.radius, result.centre).gouges
+        others = [(gouge, int(gouge.surface_number)) for gouge in cut if not own[0] <= gouge.surface_number < own[1]]
+        more += (replace(gouge, surface_number=float(whole.numbers[at])) for gouge, at in others)
     gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)
     return replace(result, verdict=replace(result.verdict, gouges=tuple(gouges)))
 
 
-def _judged(run: Run, stretch: Stretch, whole: Path, contour: tuple[int, int]) -> Judged:
-    """The verdict on moves of one side and radius, of which a part of the surface is contour and the rest leads."""
-    first, last = contour
-    surface, lines = unlapped(whole.part(first, last)), frozenset(whole.numbers[first:last].tolist())
+def _judged(run: Run, stretch: Stretch, whole: Path, contours: Sequence[Rows]) -> list[Judged]:
+    """The verdict on each contour among moves of one side and radius; the first of them has what is said of leads."""
     centre = unlapped(run.moves.part(stretch.first, stretch.last).path(stretch.plane))
+    results = [_contour(stretch, whole.part(*rows), centre, alone=len(contours) == 1) for rows in contours]
+    inside = np.zeros(len(whole), np.bool_)
+    for first, last in contours:
+        inside[first:last] = True
+    leads = whole.numbers[~inside].tolist()
+    if leads:
+        cut = judge(unlapped(whole), stretch.side, stretch.radius, centre).gouges
+        cut_leads = tuple(gouge for gouge in cut if gouge.surface_number in leads)
+        results[0] = replace(results[0], leads=tuple(map(int, leads)), lead_gouges=cut_leads)
+    return results
+
+
+def _contour(stretch: Stretch, contour: Path, centre: Path, *, alone: bool) -> Judged:
+    """The verdict on one contour with the whole centre path: what runs along another one is on neither side of this."""
+    surface, lines = unlapped(contour), frozenset(contour.numbers.tolist())
     verdict = judge(surface, stretch.side, stretch.radius, centre)
-    if stretch.radius <= GOUGE:
+    if stretch.radius <= GOUGE or not alone:
         # a centre on the contour itself is on neither side of it, whatever its leads cross; a later offset may not be 0
         verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if centre.numbers[row] in lines))
-    leads = (*whole.numbers[:first].tolist(), *whole.numbers[last:].tolist())
-    if not leads:
-        return Judged(stretch, surface, centre, verdict, lines)
-    cut = judge(unlapped(whole), stretch.side, stretch.radius, centre).gouges
-    cut_leads = tuple(gouge for gouge in cut if gouge.surface_number in leads)
-    return Judged(stretch, surface, centre, verdict, lines, tuple(int(line) for line in leads), cut_leads)
-
-
-def closed_part(path: Path) -> tuple[int, int]:
-    """The longest run of pieces that ends where it begins, as first and one behind the last; all if there is none."""
-    first_seen: dict[tuple[float, float], int] = {}
-    best = (0, 0)
-    for index, (x, y) in enumerate(np.round(path.points / CLOSED).tolist()):
-        begin = first_seen.setdefault((x, y), index)
-        if index - begin > best[1] - best[0]:
-            best = (begin, index)
-    return best if best[1] else (0, len(path))
+    return Judged(stretch, surface, centre, verdict, lines)
 
 
 def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
@@ -185,9 +186,12 @@ def _leads(result: Judged) -> list[Finding]:
     """That moves are taken for leads, and what is cut of them."""
     if not result.leads:
         return []
-    text = f"{len(result.leads)} moves before or behind the closed contour are taken for leads, not for surface."
+    text = f"{len(result.leads)} moves before or behind a closed contour are taken for leads, not for surface."
+    if len(result.leads) == 1:
+        text = "A move before or behind a closed contour is taken for a lead, not for surface."
     found = [Finding("LEADS", Severity.INFO, text, line=result.leads[0])]
-    for gouge in result.lead_gouges[:1]:
+    deepest = {gouge.surface_number: gouge for gouge in reversed(result.lead_gouges)}
+    for gouge in sorted(deepest.values(), key=lambda one: -one.depth):
         text = f"The cutter cuts {{value}} into line {int(gouge.surface_number)}; if that is no lead, it is a gouge."
         line = _line(gouge.path_number)
         found.append(Finding("LEAD-GOUGE", Severity.INFO, text, at=gouge.surface_at, value=gouge.depth, line=line))

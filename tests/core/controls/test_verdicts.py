@@ -11,7 +11,7 @@ from core.controls import flow
 from core.controls.compare import Compared, OtherLanguage, compare, parting
 from core.controls.registry import compared, names, reads, resolve
 from core.controls.tools import ToolTable
-from core.controls.verdicts import closed_part, depth, findings, judged
+from core.controls.verdicts import depth, findings, judged
 from core.finding import Severity
 from core.geometry.path import Path
 from core.units import Unit, from_mm, sentence
@@ -33,14 +33,6 @@ def test_a_gouge_is_told_with_its_depth_and_lines() -> None:
 def test_a_clean_path_has_no_finding() -> None:
     done = ran("G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n", "rosettacnc:easy", t1=0.5)
     assert not findings(judged(done))
-
-
-def test_leads_are_what_lies_outside_the_closed_contour() -> None:
-    corners = [(-1, -1), (0, 0), (2, 0), (2, 2), (0, 0), (-1, 1)]
-    points = np.array(corners, np.float64)
-    path = Path.of(points, points[:-1], np.zeros(5, np.int8))
-    assert closed_part(path) == (1, 4)
-    assert closed_part(path.part(0, 2)) == (0, 2)
 
 
 def test_a_notch_too_narrow_gouges_here_and_alarms_there() -> None:

@@ -1,0 +1,82 @@
+"""The contours among the moves of one compensated stretch, told from the moves that lead to them and between them."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from core.geometry.path import Path
+from core.tolerance import CLOSED
+
+MOST_LEAD: Final = 2
+"""So many moves may lead in, out, or from one contour to the next: a line and the arc behind it.  More are surface."""
+
+MOST_CHAINS: Final = 32
+"""Among more contours than this the leads are not told from them: each is judged with the whole path."""
+
+Rows = tuple[int, int]
+"""First row and one behind the last."""
+
+
+def chains(path: Path) -> tuple[Rows, ...]:
+    """The contours as rows of their pieces, rising; what lies in none of them are leads.
+
+    A closed run of pieces is a contour, the longest one before all others.  What is before, between and behind closed
+    ones is a contour too where it has more than MOST_LEAD pieces, an open one: nothing says that it is no surface.
+    """
+    whole = (0, len(path))
+    places = _places(path)
+    longest = _longest(places)
+    if longest is None:
+        return (whole,)
+    first, last = longest
+    found = (*_within(path, places, (0, first)), longest, *_within(path, places, (last, len(path))))
+    return found if len(found) <= MOST_CHAINS else (whole,)
+
+
+def contour_of(path: Path) -> Rows:
+    """The rows of the one contour without its leads; all rows where there are several, or none that is closed."""
+    found = chains(path)
+    return found[0] if len(found) == 1 else (0, len(path))
+
+
+def _places(path: Path) -> list[tuple[float, float]]:
+    return [(x, y) for x, y in np.round(path.points / CLOSED).tolist()]
+
+
+def _longest(places: list[tuple[float, float]]) -> Rows | None:
+    """The longest run of pieces that ends where it begins."""
+    first_seen: dict[tuple[float, float], int] = {}
+    best = (0, 0)
+    for index, place in enumerate(places):
+        begin = first_seen.setdefault(place, index)
+        if index - begin > best[1] - best[0]:
+            best = (begin, index)
+    return best if best[1] else None
+
+
+def _within(path: Path, places: list[tuple[float, float]], rows: Rows) -> list[Rows]:
+    """The contours among rows beside the longest one: closed runs from left to right, and what is long between them."""
+    begin, end = rows
+    last_seen = {places[index]: index for index in range(begin, end + 1)}
+    found: list[Rows] = []
+    at = open_from = begin
+    while at < end:
+        close = last_seen[places[at]]
+        if close > at and _encloses(path, (at, close)):
+            found += [*_open((open_from, at)), (at, close)]
+            at = open_from = close
+        else:
+            at += 1
+    return [*found, *_open((open_from, end))]
+
+
+def _encloses(path: Path, rows: Rows) -> bool:
+    """Whether a closed run is more than a line forth and back."""
+    first, last = rows
+    return last - first > 2 or bool(path.turns[first:last].any())
+
+
+def _open(rows: Rows) -> list[Rows]:
+    return [rows] if rows[1] - rows[0] > MOST_LEAD else []

@@ -1,0 +1,105 @@
+"""Contours told from the moves that lead to them: nothing that may be surface is taken for a lead."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core.controls.chains import chains, contour_of
+from core.controls.compare import compare
+from core.controls.verdicts import findings, judged
+from core.finding import Finding, Severity
+from core.geometry.path import Path
+from core.units import Unit
+from tests.core.controls.hand import ran
+
+CONTROLS = ("linuxcnc", "nine-series:b", "rosettacnc:normal")
+
+
+def lines_through(*corners: tuple[float, float]) -> Path:
+    points = np.array(corners, np.float64)
+    count = len(points) - 1
+    return Path.of(points, points[:-1], np.zeros(count, np.int8), np.arange(1.0, count + 1))
+
+
+RING = ((0, 0), (2, 0), (2, 2), (0, 0))
+OTHER = ((10, 0), (12, 0), (12, 2), (10, 2), (10, 0))
+
+
+def test_one_or_two_pieces_beside_a_closed_contour_are_leads() -> None:
+    path = lines_through((-1, -1), *RING, (-1, 1), (-2, 1))
+    assert chains(path) == ((1, 4),)
+    assert contour_of(path) == (1, 4)
+    assert contour_of(path.part(0, 2)) == (0, 2)
+
+
+def test_more_pieces_beside_a_closed_contour_are_a_contour() -> None:
+    path = lines_through(*RING, (-1, 1), (-2, 1), (-2, 4))
+    assert chains(path) == ((0, 3), (3, 6))
+    assert contour_of(path) == (0, 6)
+
+
+def test_two_closed_contours_and_the_way_between_them() -> None:
+    assert chains(lines_through(*RING, *OTHER)) == ((0, 3), (4, 8))
+    assert chains(lines_through(*OTHER, (5, 5), (4, 5), *RING, (-1, -1))) == ((0, 4), (4, 7), (7, 10))
+
+
+def test_a_line_forth_and_back_is_no_contour_of_its_own() -> None:
+    assert chains(lines_through(*OTHER, (5, 5), (6, 6), (5, 5))) == ((0, 4), (4, 7))
+
+
+def test_a_full_circle_beside_a_longer_contour_is_a_contour() -> None:
+    points = np.array([*OTHER, (14, 0), (14, 0)], np.float64)
+    centres, turns = points[:-1].copy(), np.zeros(6, np.int8)
+    turns[5], centres[5] = 1, (15, 0)
+    assert chains(Path.of(points, centres, turns, np.arange(1.0, 7.0))) == ((0, 4), (5, 6))
+
+
+def test_among_very_many_contours_no_leads_are_told() -> None:
+    corners = [(x + 4 * row, y) for row in range(40) for x, y in RING]
+    path = lines_through(*corners)
+    assert chains(path) == ((0, len(path)),)
+
+
+KEY = "X-70. Y-50.\nY-20.\nX-62.\nY-30.\nX-67.\nY-40.\nX-48.\nY-30.\nX-58.\nY-20.\nX-45.\nY-50.\nX-70."
+"""A pocket whose neck of 4 mm a tool of 6 mm enters all the same, 2 mm too deep on either side."""
+
+
+def ring_and_key(depths: int) -> str:
+    ring = "".join(f"G1 Z-{depth}.\nY30.\nX40.\nY0.\nX0.\n" for depth in range(1, depths + 1))
+    begin = "G21 G17 G90 G94 F100\nG0 X-20. Y-20. Z5.\nG41 D1 G1 X-5. Y-16.\nX0. Y-12.\nY0.\n"
+    return begin + ring + f"X-20. Y14.\nX-90. Y14.\nX-90. Y-50.\nZ-1.\n{KEY}\nX-120.\nG40 X-140. Y-80.\nM2\n"
+
+
+def errors(program: str, control: str) -> list[Finding]:
+    told = findings(judged(ran(program, control, t1=6)))
+    return [one for one in told if one.severity is Severity.ERROR]
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("depths", [1, 2, 3, 8])
+def test_a_gouge_is_told_however_often_another_contour_is_cut_before(control: str, depths: int) -> None:
+    key = len(ring_and_key(depths).split("Z-1.\nX-70. ")[0].splitlines())
+    deep = [one for one in errors(ring_and_key(depths), control) if (one.line or 0) > key]
+    assert [one.value for one in deep if one.code == "GOUGE"][:2] == pytest.approx([2.0, 2.0], abs=1e-6)
+
+
+OPEN_KEY = (
+    "G21 G17 G90 F100\nG0 X-30. Y30. Z5.\nG41 D1 G1 X-20. Y10.\nX0. Y0.\nX20.\nY-10.\nX0.\nY-40.\nX44.\nY-10.\nX24.\n"
+    "Y0.\nX60.\nY20.\nX100.\n{circle}G40 X130. Y60.\nM2\n"
+)
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize("circle", ["", "G2 X100. Y20. I0. J-20.\nG1 "])
+def test_a_full_circle_behind_an_open_contour_does_not_hide_its_gouge(control: str, circle: str) -> None:
+    found = [one for one in errors(OPEN_KEY.format(circle=circle), control) if one.code == "GOUGE"]
+    assert [one.value for one in found if one.line in (6, 12)] == pytest.approx([2.0, 2.0], abs=1e-6)
+
+
+def test_the_comparison_tells_it_too() -> None:
+    from core.controls.tools import ToolTable
+
+    tools = ToolTable.diameters({1: 6.0})
+    rows = {row.control: row for row in compare(ring_and_key(3).encode(), tools, Unit.MM)}
+    assert getattr(rows["linuxcnc"], "gouge", 0.0) >= 2.0 - 1e-6
