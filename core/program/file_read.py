@@ -6,7 +6,6 @@ range is refused, since the form never holds one.
 
 from __future__ import annotations
 
-import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from enum import StrEnum
@@ -15,6 +14,7 @@ from typing import Any, Final, TypeVar
 
 from core.program.entries import unread_reason
 from core.program.fields import TABLES, Field, Form, check
+from core.program.file_end import cut_off, syntax_fault
 from core.program.file_lines import KeyPath, key_lines, line_of
 from core.program.model import (
     ArcSegment,
@@ -164,20 +164,14 @@ def read_program(text: str, file: str) -> Program:
 
 
 def _parsed(text: str, file: str) -> dict[str, Any]:
+    if (lost := cut_off(text)) is not None:
+        raise StoreError(f"{file}, {lost}")
     try:
         return tomllib.loads(text)
     except RecursionError:
         raise StoreError(f"{file}: brackets are nested too deep for a program file.") from None
     except ValueError as error:
-        raise StoreError(f"{file}, {_placed(str(error), text)}. Correct it there, or open a saved copy.") from error
-
-
-def _placed(fault: str, text: str) -> str:
-    """A fault of syntax with its line in front; what a cut file lacks is missed in its last line."""
-    found = re.fullmatch(r"(.*) \(at (?:(line \d+, column \d+)|end of document)\)", fault, re.DOTALL)
-    if found is None:
-        return "somewhere in it: a number has too many digits"
-    return f"{found[2] or f'line {len(text.splitlines()) or 1}'}: {found[1]}"
+        raise StoreError(f"{file}, {syntax_fault(str(error), text)}") from error
 
 
 def _numbers(table: _Table, form: Form) -> dict[str, Typed]:

@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator
 
 from core.program.fields import TABLES, Form, form_of
+from core.program.file_end import END, PROMISE
 from core.program.file_read import FORMAT, KIND, UNREAD
 from core.program.model import Block, Entry, Parameters, PartSetup, Program, Segment, Tool, Unread
 from core.units import Kind
@@ -13,7 +14,7 @@ from core.units import Kind
 
 def written(program: Program) -> str:
     """The text of a program's file."""
-    lines = [f"format = {FORMAT}", f'units = "{program.unit}"  # every length and feed below is in it']
+    lines = [f"format = {FORMAT}  {PROMISE}", f'units = "{program.unit}"  # every length and feed below is in it']
     lines += _table("[parameters]", "parameters", Form.PARAMETERS, program.parameters)
     lines += _table("[setup]", "setup", Form.SETUP, program.setup)
     for tool in program.tools:
@@ -23,7 +24,7 @@ def written(program: Program) -> str:
         for segment in block.segments:
             form = form_of(segment)
             lines += _table("[[block.segment]]", "block.segment", form, segment, form.value)
-    return "\n".join(lines) + "\n"
+    return "\n".join((*lines, "", END)) + "\n"
 
 
 Typable = Parameters | PartSetup | Tool | Block | Segment

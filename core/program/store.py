@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import BinaryIO, Final
 
 from core.program.disk import sync_folder, why, write_all
+from core.program.file_end import cut_off
 from core.program.file_read import StoreError, read_program
 from core.program.file_write import written
 from core.program.model import Program
@@ -57,6 +58,9 @@ def _decoded(data: bytes, name: str) -> Program:
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
+        whole = data[: error.start].decode("utf-8-sig")
+        if error.end == len(data) and (lost := cut_off(whole)) is not None:
+            raise StoreError(f"{name}, {lost}") from error
         line = data.count(b"\n", 0, error.start) + 1
         raise StoreError(f"{name}, line {line}: this is not UTF-8 text. Save it as UTF-8, or open a copy.") from error
     return read_program(text, name)

@@ -17,7 +17,7 @@ PART = program(
 
 
 TEXT = """\
-format = 1
+format = 1  # its last line is "# end of program"
 units = "IN"  # every length and feed below is in it
 
 [parameters]
@@ -61,4 +61,6 @@ x_end = 2.5
 y_end = 0.5
 radius = 0.5
 choice = 1
+
+# end of program
 """
