@@ -23,8 +23,25 @@ def stretch(surface: Path, first: float, start: Point, last: float, end: Point) 
 
 def stretches(surface: Path, wanted: Sequence[Ends]) -> list[Path]:
     """Many of them, without those that are empty: cut out of the surface's arrays at once."""
-    if not wanted:
-        return []
+    whole, spans = _cut_out(surface, wanted)
+    return [
+        Path(whole.points[head : tail + 1], whole.centres[head:tail], whole.turns[head:tail], whole.numbers[head:tail])
+        for head, tail in spans
+    ]
+
+
+def stretch_lengths(surface: Path, wanted: Sequence[Ends]) -> list[list[tuple[float, float]]]:
+    """Of the same stretches the pieces' segments and lengths."""
+    whole, spans = _cut_out(surface, wanted)
+    each = list(zip(whole.numbers.tolist(), whole.lengths.tolist(), strict=True))
+    return [each[head:tail] for head, tail in spans]
+
+
+def _cut_out(surface: Path, wanted: Sequence[Ends]) -> tuple[Path, list[tuple[int, int]]]:
+    """The stretches one behind the other with a line between them, and the first row and one behind the last of each.
+
+    Those of unknown segments are left out.
+    """
     numbers, count = surface.numbers.tolist(), len(surface)
     begins = dict(zip(reversed(numbers), reversed(range(count)), strict=True))
     ends = dict(zip(numbers, range(count), strict=True))
@@ -34,43 +51,21 @@ def stretches(surface: Path, wanted: Sequence[Ends]) -> list[Path]:
         if first in begins and last in ends
     ]
     if not known:
-        return []
+        return EMPTY, []
     steps = [_steps(surface, *one) for one in known]
     behind = np.cumsum(np.array(steps) + 2)
     # rows of points, one more than of pieces: behind the last piece of each stretch its end
     runs = [np.arange(one[0], one[0] + more + 2) for one, more in zip(known, steps, strict=True)]
     rows = np.concatenate(runs) % count
     heads, tails = np.array([0, *behind[:-1].tolist()]), behind - 1
-    points, centres = surface.points[rows], surface.centres[rows]
-    turns, own = surface.turns[rows], surface.numbers[rows]
+    points, centres, turns = surface.points[rows], surface.centres[rows], surface.turns[rows]
     points[heads], points[tails] = [one[1] for one in known], [one[3] for one in known]
+    turns[tails] = 0
     # a line has its own start for a centre
-    lines = heads[turns[heads] == 0]
+    lines = np.concatenate((heads[turns[heads] == 0], tails))
     centres[lines] = points[lines]
-    return [
-        Path(points[head : tail + 1], centres[head:tail], turns[head:tail], own[head:tail])
-        for head, tail in zip(heads.tolist(), tails.tolist(), strict=True)
-    ]
-
-
-def stretch_pieces(surface: Path, first: float, start: Point, last: float, end: Point) -> list[tuple[float, Piece]]:
-    """`stretch` as pieces, each with the number of its segment."""
-    place = _place(surface, first, last)
-    if place is None:
-        return []
-    row, count = place[0], len(surface)
-    rows = [one % count for one in range(row, row + _steps(surface, row, start, place[1], end) + 1)]
-    pieces = [surface[one] for one in rows]
-    pieces[0] = _cut(pieces[0], start, pieces[0].end)
-    pieces[-1] = _cut(pieces[-1], pieces[-1].start, end)
-    numbers = surface.numbers[rows].tolist()
-    return list(zip(numbers, pieces, strict=True))
-
-
-def _place(surface: Path, first: float, last: float) -> tuple[int, int] | None:
-    """The first row of one segment and the last of another; None where there are no such segments."""
-    begins, ends = (surface.numbers == first).nonzero()[0], (surface.numbers == last).nonzero()[0]
-    return (int(begins[0]), int(ends[-1])) if len(begins) and len(ends) else None
+    whole = Path(points, centres[:-1], turns[:-1], surface.numbers[rows[:-1]])
+    return whole, list(zip(heads.tolist(), tails.tolist(), strict=True))
 
 
 def _steps(surface: Path, row: int, start: Point, last: int, end: Point) -> int:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import repeat
 from math import isinf
 from typing import Final
 
 from core.finding import Finding, Severity
 from core.geometry.path import Path
-from core.geometry.stretch import stretch_pieces
+from core.geometry.stretch import stretch_lengths
 from core.tolerance import STOCK
 from core.verify.names import Names, by_number
 from core.verify.stray import Away, Stray
@@ -21,6 +23,9 @@ SHOWN: Final = DIGIT / 2.0
 
 SHOWN_AREA: Final = 0.033
 """Square millimetres below which an area would be told as zeros in inches."""
+
+Shares = list[tuple[float, float]]
+"""Segments by their numbers, and how much of each."""
 
 LISTED: Final = 12
 """A stretch over more segments is told by its first and its last alone."""
@@ -37,7 +42,7 @@ def findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple
         *(_gouge(gouge, names) for gouge in verdict.gouges),
         *_wrong_side(verdict),
         *_crosses_itself(verdict),
-        *(_uncut(one, surface) for one in verdict.uncut),
+        *map(_uncut, verdict.uncut, _shares(verdict.uncut, surface), repeat(surface)),
     )
 
 
@@ -108,7 +113,7 @@ def _crosses_itself(verdict: Verdict) -> tuple[Finding, ...]:
     return (Finding("CROSSES_ITSELF", Severity.WARNING, text, at=verdict.crossing_at),)
 
 
-def _uncut(uncut: Uncut, surface: Path) -> Finding:
+def _uncut(uncut: Uncut, shares: Shares, surface: Path) -> Finding:
     """The segment is the one the stretch begins on; `lengths` holds the largest thickness, then each share.
 
     There is no thickness where there is no path.
@@ -118,7 +123,6 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
     if isinf(uncut.thickness):
         text = f"Nothing of {where} is cut: there is no path."
     else:
-        shares = _shares(uncut, surface)
         listed = ", ".join(f"segment {number:g} {{{row}}}" for row, (number, _) in enumerate(shares, 1))
         told = f" ({listed})" if len(shares) > 1 else ""
         thick = "{0}" if uncut.thickness >= SHOWN else f"less than {{{len(shares) + 1}}}"
@@ -137,11 +141,10 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
     )
 
 
-def _shares(uncut: Uncut, surface: Path) -> list[tuple[float, float]]:
+def _shares(uncut: Sequence[Uncut], surface: Path) -> list[Shares]:
     """How much of each segment a stretch takes, in the contour's order; few enough to be read."""
-    part = stretch_pieces(surface, uncut.first_number, uncut.start, uncut.last_number, uncut.end)
-    shares = [(number, piece.length) for number, piece in part] if len(part) <= LISTED else []
-    return [(number, length) for number, length in shares if length > STOCK]
+    parts = stretch_lengths(surface, [(one.first_number, one.start, one.last_number, one.end) for one in uncut])
+    return [[one for one in part if one[1] > STOCK] if len(part) <= LISTED else [] for part in parts]
 
 
 def _segments(uncut: Uncut, surface: Path) -> str:

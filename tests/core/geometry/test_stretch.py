@@ -4,7 +4,7 @@ from hypothesis import strategies as st
 
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
-from core.geometry.stretch import stretch, stretch_pieces, stretches
+from core.geometry.stretch import stretch, stretch_lengths, stretches
 
 SQUARE = Path.from_pieces([Line((0, 0), (4, 0)), Line((4, 0), (4, 4)), Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
 
@@ -61,6 +61,9 @@ def test_a_stretch_is_as_long_as_what_lies_between_its_ends(first, last, begin, 
     found = stretch(SQUARE, first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))
     (same,) = stretches(SQUARE, [(first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))])
     assert (same.points.tolist(), same.numbers.tolist()) == (found.points.tolist(), found.numbers.tolist())
-    pieces = stretch_pieces(SQUARE, first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))
-    assert pieces == list(zip(found.numbers.tolist(), found, strict=True))
+    before, lengths = stretch_lengths(
+        SQUARE, [(2, (4, 1), 3, (2, 4)), (first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))]
+    )
+    assert before == [(2, 3.0), (3, 2.0)]
+    assert lengths == list(zip(found.numbers.tolist(), found.lengths.tolist(), strict=True))
     assert found.lengths.sum() == pytest.approx((to - at) % 16.0)
