@@ -14,7 +14,9 @@ SEGMENTS: Final = "segments"
 
 
 def changed(before: Program, after: Program) -> Place | None:
-    """The place in `after`; None where more than one block is different, or none."""
+    """The place in `after`; None where more than one block is different, or none, and where all are by their unit."""
+    if before.unit is not after.unit:
+        return None
     one, other = before.blocks, after.blocks
     if len(one) != len(other):
         return Where(_first(one, other)), None

@@ -90,7 +90,8 @@ def _load(desk: Desk, message: Load) -> Desk:
         return _failed(desk, error)
     if message.path.parent == examples():
         # an example is nobody's to overwrite: it has no file until it is saved under a name
-        return fresh(desk, Session.of(session.program)).take(Say(f"Example {message.path.stem}: SAVE gives it a name."))
+        own = replace(Session.of(session.program), title=message.path.stem)
+        return fresh(desk, own).take(Say(f"Example {message.path.stem}: SAVE gives it a name."))
     return fresh(desk, session).take(Say(f"Opened: {message.path}"))
 
 

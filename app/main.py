@@ -127,7 +127,7 @@ def begin(path: Path | None, example: str | None) -> Session:
     from app.session import Session
 
     if example is not None:
-        return Session.of(load(files.example(example)))
+        return replace(Session.of(load(files.example(example))), title=example)
     if path is None:
         return Session.of(files.empty_program())
     if not path.exists() and path.parent.is_dir():

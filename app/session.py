@@ -49,7 +49,7 @@ class Session:
 
     `where` and `field` are the cursor on the MILL CONTOUR form.  `file` is None until the program has a name, `saved`
     is the program as the file holds it.  `derived` belongs to `derived.program`, which lags behind only while a new
-    one is being derived.
+    one is being derived.  `title` names the example part that it began with.
     """
 
     history: History
@@ -60,6 +60,7 @@ class Session:
     field: str = SEGMENT
     said: Said | None = None
     guard: Guard = UNGUARDED
+    title: str = ""
 
     @staticmethod
     def of(program: Program, file: Path | None = None, *, saved: Program | None = None) -> Session:

@@ -52,7 +52,8 @@ class BrowsePage(EntryPage):
         if key in steps:
             row = min(max(self.row + steps[key], 0), max(len(self.items) - 1, 0))
             return Answer(replace(self, row=row, entry=Editing("", 0), fresh=True))
-        return Answer(self, self._opened()) if key == "enter" else self.typed(key, character)
+        # where the path is refused, it stands there as a field's value does: the first character replaces it
+        return Answer(replace(self, fresh=True), self._opened()) if key == "enter" else self.typed(key, character)
 
     def _opened(self) -> tuple[Message, ...]:
         text = self.entry.text.strip()
@@ -75,7 +76,7 @@ class BrowsePage(EntryPage):
         title = plain(f" {printable(str(self.folder))[-(surface.width - 2) :]}", Look.LABEL)
         return View(
             (plain(" OPEN", Look.HEAD), title),
-            ((), *rows, (), entry_row("PATH", self.entry, surface.width, fresh=False)),
+            ((), *rows, (), entry_row("PATH", self.entry, surface.width, fresh=self.fresh and self.entry.text != "")),
             Said("Up and down choose, Enter opens. Or type a path; one that ends in / shows that folder."),
             1 + self.row - top,
         )

@@ -13,6 +13,7 @@ from app.widgets.form import Cell, State
 from core.pipeline.derived import DerivedBlock, Tag
 from core.program.fields import SOLUTION, TABLES, Field, Form, form_of
 from core.program.model import Entry, Unread
+from core.program.solve_start import ZERO
 from core.program.solved import Solved, SolvedSegment, Value
 from core.units import Kind, Unit, from_mm, show
 
@@ -124,6 +125,8 @@ def _cell(one: Field, held: Value | str, unit: Unit, place: tuple[int, int], *, 
     cell = cell_of(one, held, unit, *place, needed=needed)
     if one.name == "lookahead" and cell.state is State.TYPED:
         return replace(cell, tag=str(Tag.USR))
+    if one.name in ZERO and cell.state is State.CALCULATED:
+        return replace(cell, tag="DEF")
     if one.name == "choice":
         return replace(cell, text=f"{int(cell.text) + 1} of 2" if cell.text else "?")
     return cell

@@ -52,7 +52,8 @@ class ProgramPage(Page):
         return (
             "PROGRAM",
             "A program is a list of blocks; a MILL CONTOUR block is one outline with its tool.",
-            "VERDICT tells of each: clean, uncut (material stays), warning, GOUGE, open (something is still missing).",
+            "VERDICT tells of each: clean, uncut (material stays), warning, GOUGE, not ready (something is missing or "
+            "cannot be used: nothing is posted).",
             "F7 MORE shows further softkeys: moving blocks, SAVE AS, PROGRAM PARAMETERS, PART SETUP, TOOL SETUP, then "
             "the start screen, the setup sheet and the guided first part.",
         )
@@ -90,7 +91,7 @@ def verdict_word(found: DerivedBlock) -> tuple[str, Look]:
         return "...", Look.DIM
     if found.errors:
         gouges = any(finding.code.endswith(("GOUGE", "GOUGES")) for finding in found.errors)
-        return ("GOUGE" if gouges else "open"), Look.ERROR
+        return ("GOUGE" if gouges else "not ready"), Look.ERROR
     if any(finding.severity is Severity.WARNING for finding in found.findings):
         return "warning", Look.WARNING
     uncut = found.work is not None and found.work.verdict is not None and found.work.verdict.uncut

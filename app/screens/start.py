@@ -127,9 +127,9 @@ class StartPage(Page):
             "START",
             "Programs that were open lately, the programs of a folder, and example parts.",
             "Enter opens a program or goes into a folder; left arrow or Backspace goes to the folder above.",
-            "VERDICT is that of the whole program: clean, uncut (material stays), warning, GOUGE, open (something is "
-            "missing), not saved (work on it was left behind), unreadable (no program of this kind), gone. It appears "
-            "when it is calculated.",
+            "VERDICT is that of the whole program: clean, uncut (material stays), warning, GOUGE, not ready (something "
+            "is missing or cannot be used), not saved (work on it was left behind), unreadable (no program of this "
+            "kind), gone. It appears when it is calculated.",
             "F2 begins a new program, F7 leads through a first part key by key.",
         )
 

@@ -2,26 +2,35 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from app.session import Session
-from app.widgets.rows import Look, Row, Span, padded
+from app.widgets.rows import Look, Row, Span, padded, shortened, text_of
+
+LEAST: Final = 10
+"""Cells in which a shortened name can still be told from others."""
 
 
 def header(first: str, second: Row, session: Session, width: int, about: str = "") -> tuple[Row, Row]:
     """Two header lines; the file's name stands at the right of the second, with * while it is not saved.
 
+    What stands at the left comes first: on a terminal of a few cells the name is shortened, or left out.
     `about` is the file's name where the screen is about another file than the session's program.
     """
-    name = printable(about)[:24] or file_name(session)
+    name, left = printable(about)[:24] or file_name(session), width - len(text_of(second)) - 2
+    if len(name) > left:
+        name = shortened(name, left) if left >= LEAST else ""
     room = max(width - len(name) - 2, 1)
     return (
         (Span(f" {first}", Look.HEAD),),
-        (*padded(second, room), Span(f" {name}", Look.DIM)),
+        (*padded(second, room), Span(f" {name}", Look.DIM)) if name else padded(second, width),
     )
 
 
 def file_name(session: Session) -> str:
     """The program's name as the screens print it, cut to a reasonable length."""
-    name = "new program" if session.file is None else printable(session.file.stem)
+    unnamed = f"example {session.title}" if session.title else "new program"
+    name = unnamed if session.file is None else printable(session.file.stem)
     return f"{name[:24]}{'*' if session.unsaved else ''}"
 
 

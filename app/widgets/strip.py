@@ -67,15 +67,15 @@ def _advice(table: Table, here: int) -> str:
 
 
 def _price(table: Table, here: int, unit: Unit) -> str:
-    """What the recommended value costs: surface it leaves beyond that of the one in force, segments it deletes."""
+    """What the recommended value costs, told the same way whatever is in force: segments it deletes, else surface
+    that it leaves."""
     if table.recommended is None or table.recommended == here:
         return ""
-    best, held = table.row(table.recommended), table.row(here)
+    best = table.row(table.recommended)
+    if erased := numbers(best.deleted):
+        return f"(deletes {erased})"
     left = length(best.uncut, unit)
-    if best.uncut > held.uncut and left != length(held.uncut, unit):
-        return f"(uncut {left})"
-    erased = numbers(best.deleted)
-    return f"(deletes {erased})" if erased else ""
+    return f"(uncut {left})" if left.strip("0.") else ""
 
 
 def _shortened(spans: list[Span], room: int) -> list[Span]:

@@ -6,6 +6,7 @@ range is refused, since the form never holds one.
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from enum import StrEnum
@@ -42,6 +43,9 @@ FORMAT: Final = 1
 
 KIND: Final = "MILL CONTOUR"
 """The kind of every block."""
+
+_BARE: Final = re.compile(r"[+-]?\d+(\.\d+)?")
+"""A number that a file can hold without quotes."""
 
 UNREAD: Final = "unread"
 """The table of texts that were typed and could not be read."""
@@ -108,6 +112,9 @@ class _Table:
     def number(self, key: str, one: Field) -> float:
         """A number a field can hold."""
         value = self.data[key]
+        if isinstance(value, str):
+            mended = ": take the quotes away" if _BARE.fullmatch(value) else ""
+            raise self.fault(key, f"{key} must be a number, and {printable(value)} is text in quotes{mended}.")
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise self.fault(key, f"{key} must be a number, not {printable(str(value))}.")
         if _beyond(value, one, self.unit):

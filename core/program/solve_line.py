@@ -36,8 +36,11 @@ def _along(axis: int, start: Point, known: Known) -> Answer:
     match end:
         case One():
             return lines_to(start, end)
-        case construct.Beside():
+        case construct.Beside() if "length" in known or abs(value - start[axis]) <= ARC_RADII:
             return Beside()
+        case construct.Beside():
+            kept = f"XY ANGLE {degrees(angle)} keeps {'XY'[axis]} at {{0}} and never comes to {label} {{1}}"
+            return wrong("CONTRADICTION", f"{kept}: correct one of them.", "angle", start[axis], value)
         case Behind():
             text = f"XY ANGLE {degrees(angle)} leads away from {label} {{0}}: correct one of them."
             return wrong("CONTRADICTION", text, "angle", value)

@@ -68,7 +68,7 @@ def test_a_finding_that_is_cut_names_the_key_also_where_it_is_the_only_one() -> 
 
 
 def test_the_strip_tells_what_the_best_value_costs() -> None:
-    assert verdict(derived("overrun-square"))[0].endswith("best 3 (uncut 8.5000)")
+    assert verdict(derived("overrun-square"))[0].endswith("best 3 (deletes 2-3)")
     assert verdict(derived("pocket"))[0].endswith("best 2 (deletes 9)")
     assert verdict(derived("flange"))[0].endswith("best 1")
 

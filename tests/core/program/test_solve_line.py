@@ -169,3 +169,20 @@ def test_any_two_calculated_fields_give_the_line_again(start, end):
     for name in ("x_end", "y_end"):
         two = solved(line(**{name: number(whole, name), "length": number(whole, "length")}), *start)
         assert min(dist(piece.end, end) for piece in two.choices) < 1e-5
+
+
+@pytest.mark.parametrize(
+    ("typed", "told"),
+    [
+        (line(x_end=3.0, angle=90.0), "XY ANGLE 90.000 keeps X at 1.000 and never comes to X END 3.000"),
+        (line(y_end=-2.0, angle=180.0), "XY ANGLE 180.000 keeps Y at 1.000 and never comes to Y END -2.000"),
+    ],
+)
+def test_an_angle_beside_an_end_that_it_never_comes_to_is_a_contradiction(typed: LineSegment, told: str) -> None:
+    assert text(solved(typed, 1.0, 1.0)) == f"CONTRADICTION angle: {told}: correct one of them."
+
+
+def test_an_angle_along_the_end_that_start_has_already_still_needs_the_other_end_or_a_length() -> None:
+    assert text(solved(line(x_end=1.0, angle=90.0), 1.0, 1.0)).startswith(
+        "MISSING y_end: Not determined yet: enter Y END"
+    )
