@@ -9,10 +9,13 @@ from app.widgets.rows import Look, Row, Span, padded, shortened, text_of
 
 LEAST: Final = 10
 """Cells in which a shortened name can still be told from others."""
+LOOKING: Final = "LOOK ONLY"
+"""Before the name of a program that somebody else has open."""
 
 
 def header(first: str, second: Row, session: Session, width: int, about: str = "") -> tuple[Row, Row]:
-    """Two header lines; the file's name stands at the right of the second, with * while it is not saved.
+    """Two header lines; the file's name stands at the right of the second, with * while it is not saved, or behind
+    the words that it can only be looked at.
 
     What stands at the left comes first: on a terminal of a few cells the name is shortened, or left out.
     `about` is the file's name where the screen is about another file than the session's program.
@@ -21,9 +24,10 @@ def header(first: str, second: Row, session: Session, width: int, about: str = "
     if len(name) > left:
         name = shortened(name, left) if left >= LEAST else ""
     room = max(width - len(name) - 2, 1)
+    look = Look.WARNING if session.guard.looking and not about else Look.DIM
     return (
         (Span(f" {first}", Look.HEAD),),
-        (*padded(second, room), Span(f" {name}", Look.DIM)) if name else padded(second, width),
+        (*padded(second, room), Span(f" {name}", look)) if name else padded(second, width),
     )
 
 
@@ -31,6 +35,9 @@ def file_name(session: Session) -> str:
     """The program's name as the screens print it, cut to a reasonable length."""
     unnamed = f"example {session.title}" if session.title else "new program"
     name = unnamed if session.file is None else printable(session.file.stem)
+    if session.guard.looking:
+        # nothing that is half typed will change it: no * while a number is tried out
+        return f"{LOOKING} {name[: 23 - len(LOOKING)]}"
     return f"{name[:24]}{'*' if session.unsaved else ''}"
 
 

@@ -174,7 +174,8 @@ def test_a_second_opener_looks_or_takes_over(file: Path) -> None:
     one = typist(file, ME)
     assert asked(one).title == "OPEN ALREADY"
     assert "part.nc" in one.part("header")
-    one.press("l", "x", "enter", "i")
+    assert "LOOK ONLY part.nc" in one.press("l").part("header")
+    one.press("x", "enter", "i")
     assert one.texts[0] == "G20 G17"
     assert "bob on office has this program open" in one.said
     one.press("s")
@@ -182,6 +183,7 @@ def test_a_second_opener_looks_or_takes_over(file: Path) -> None:
     two = typist(file, ME).press("t", "x", "s")
     assert file.read_bytes() == TEXT.partition(b"\r\n")[2]
     assert two.page.looking == ""
+    assert "LOOK ONLY" not in two.part("header")
 
 
 def test_the_first_one_is_told_that_the_file_was_taken_over(file: Path) -> None:

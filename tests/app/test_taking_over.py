@@ -39,6 +39,18 @@ def test_the_second_opener_may_look(own: Path, part: Path) -> None:
     assert lock_path(part).exists()
 
 
+def test_what_may_only_be_looked_at_says_so_in_every_title(own: Path, part: Path) -> None:
+    started(own, part, ELSEWHERE)
+    operator = started(own, part, DEAD)
+    for keys in (["l"], ["tab"], ["7"], ["escape", "f8"], ["f7", "f5"]):
+        operator.press(*keys)
+        assert "LOOK ONLY part" in operator.part("header")
+        assert "part*" not in operator.part("header")
+    copy = started(own, part, DEAD).press("l", "f8", "f7", "f3", "delete", *"mine.toml", "enter")
+    assert "LOOK ONLY" not in copy.part("header")
+    assert "mine" in copy.part("header")
+
+
 def test_replacing_a_file_that_somebody_has_open_says_who(own: Path, part: Path) -> None:
     started(own, part, ELSEWHERE)
     operator = started(own).press("tab").type("7").press("ctrl+s", "delete", *str(part), "enter")
@@ -151,5 +163,6 @@ def test_a_link_into_another_folder_is_asked_once(own: Path, part: Path) -> None
 def test_an_nc_file_is_never_written_through_a_link_unasked(own: Path, part: Path) -> None:
     (part.parent / "part.nc").symlink_to(part.parent.parent / "elsewhere.nc")
     operator = started(own, part).press("f8", "f6", "enter")
-    assert "which leads to" in " ".join(operator.part("body").split())
+    assert "leads there." in " ".join(operator.part("body").split())
+    assert "WRITE IN ANOTHER FOLDER?" in operator.part("header")
     assert not (part.parent.parent / "elsewhere.nc").exists()
