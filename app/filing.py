@@ -7,9 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, assert_never
 
 from app.files import empty_program, examples, is_nc, opened
+from app.folders import asking, chosen, outside, written_at
 from app.messages import Browse, Close, Do, Leave, Load, Open, Post, Save, Say, Swap
+from app.naming import with_suffix
 from app.patience import FILE, within
-from app.saving import asked, put_theirs_aside, replacing, there
+from app.saving import asked, leads_elsewhere, put_theirs_aside, replacing, there
 from app.screens.ask import Ask, Option
 from app.screens.browse import BrowsePage, listed
 from app.screens.save import SaveAsPage
@@ -42,7 +44,7 @@ def carry_out(desk: Desk, message: Save | Browse | Load | Post | Leave) -> Desk:
 
 def _save(desk: Desk, message: Save) -> Desk:
     session = desk.session
-    path = message.path or session.file
+    path = session.file if message.path is None else with_suffix(chosen(message.path, session.file), ".toml")
     if path is None:
         return desk.take(Open(SaveAsPage.of(session, leave=message.leave)))
     if (question := asked(desk, path, message)) is not None:
@@ -54,9 +56,9 @@ def _save(desk: Desk, message: Save) -> Desk:
         write_text(path, text)
     except StoreError as error:
         return _failed(desk, error)
-    named = session.named(path, stamp_of_data(text.encode()), linked=message.linked)
+    named = session.named(path, stamp_of_data(text.encode()), linked=message.linked and leads_elsewhere(path))
     desk = _without(replace(desk, session=named), SaveAsPage)
-    return replace(desk, exit=True) if message.leave else desk.take(Say(f"Saved: {path}"))
+    return replace(desk, exit=True) if message.leave else desk.take(Say(f"Saved: {written_at(path)}"))
 
 
 def _browse(desk: Desk, folder: Path | None) -> Desk:
@@ -83,9 +85,12 @@ def _load(desk: Desk, message: Load) -> Desk:
     if any(page.unsaved for page in desk.pages):
         return _failed(desk, "The NC file under proof has changes that are not saved: Ctrl+S on its screen saves them.")
     if message.path is None:
-        return fresh(desk, Session.of(empty_program(desk.settings.unit))).take(Say("A new program."))
+        empty = _wanting(Session.of(empty_program(desk.settings.unit)), message.earlier)
+        return fresh(desk, empty).take(Say("A new program."))
     try:
-        session = _opened(message.path)
+        gone = message.earlier is not None and not message.path.exists()
+        empty = Session.of(empty_program(desk.settings.unit), message.path)
+        session = _wanting(empty if gone else _opened(message.path), message.earlier)
     except StoreError as error:
         return _failed(desk, error)
     if message.path.parent == examples():
@@ -93,6 +98,11 @@ def _load(desk: Desk, message: Load) -> Desk:
         own = replace(Session.of(session.program), title=message.path.stem)
         return fresh(desk, own).take(Say(f"Example {message.path.stem}: SAVE gives it a name."))
     return fresh(desk, session).take(Say(f"Opened: {message.path}"))
+
+
+def _wanting(session: Session, earlier: Path | None) -> Session:
+    """The session that is asked about work in a journal that was set aside."""
+    return replace(session, guard=replace(session.guard, earlier=earlier))
 
 
 def _opened(path: Path) -> Session:
@@ -113,18 +123,22 @@ def fresh(desk: Desk, session: Session) -> Desk:
 
 
 def _post(desk: Desk, message: Post) -> Desk:
-    if there(message.path) and not message.overwrite:
-        return desk.take(Open(replacing(message.path, message)))
+    path = with_suffix(chosen(message.path, desk.session.file), ".nc")
+    if outside(path, desk.session.file) and not message.linked:
+        agreed = message._replace(path=path, linked=True, overwrite=True)
+        return desk.take(Open(asking(path, desk.session.file, agreed)))
+    if there(path) and not message.overwrite:
+        return desk.take(Open(replacing(path, message._replace(path=path))))
     from app.posting import refusal_or_text
 
-    found, text, notes = refusal_or_text(desk.session, message.path.stem, message.override, message.control)
+    found, text, notes = refusal_or_text(desk.session, path.stem, message.override, message.control)
     if found is not None:
         return _failed(desk, f"Nothing was written: {_placed(found, desk.session.program.unit)}")
     try:
-        write_output(message.path, text)
+        write_output(path, text)
     except StoreError as error:
         return _failed(desk, error)
-    said = f"Posted: {message.path}, {text.count(chr(10))} lines."
+    said = f"Posted: {written_at(path)}, {text.count(chr(10))} lines."
     if not notes:
         return desk.take(Close()).take(Say(said))
     told = " ".join(_placed(note, desk.session.program.unit) for note in notes)

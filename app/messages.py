@@ -71,7 +71,7 @@ class Save(NamedTuple):
     leave: bool = False
     """Leave the program once it is saved."""
     linked: bool = False
-    """The operator agreed to write where a link leads."""
+    """The operator agreed to write where a link leads, or outside the folder of the program."""
     taken: bool = False
     """The operator agreed to write although somebody has taken the program over."""
     changed: bool = False
@@ -85,22 +85,28 @@ class Browse(NamedTuple):
 
 
 class Load(NamedTuple):
-    """Work on the program in a file, on an empty one when None; `unsaved` gives up what is not saved."""
+    """Work on the program in a file, on an empty one when None; `unsaved` gives up what is not saved.
+
+    `earlier` is a journal that was set aside, whose work is offered then.
+    """
 
     path: Path | None
     unsaved: bool = False
+    earlier: Path | None = None
 
 
 class Post(NamedTuple):
     """Write the NC file; `override` is the sentence the operator typed to post in spite of the findings.
 
     `control` is the full name of the control that is to compensate by itself, None for the path of the tool's centre.
+    `linked` says that the operator agreed to write outside the folder of the program.
     """
 
     path: Path
     overwrite: bool = False
     override: str | None = None
     control: str | None = None
+    linked: bool = False
 
 
 class Leave(NamedTuple):

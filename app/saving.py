@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app import times
+from app.folders import asking, outside, told_path
 from app.messages import Close, Open, Post, Save, Say
 from app.naming import is_folder
 from app.screens.ask import Ask
@@ -29,11 +30,14 @@ UNREADABLE: Final = "It is no program any more."
 def asked(desk: Desk, path: Path, message: Save) -> Desk | None:
     """The desk with the question that must be answered before `path` is written; None where there is none."""
     if is_folder(path):
-        return desk.take(Say(f"{printable_path(path)} is not saved: this is a folder. Type a file's name.", Tone.ERROR))
+        return desk.take(Say(f"{told_path(path)} is not saved: this is a folder. Type a file's name.", Tone.ERROR))
     session, own = desk.session, path == desk.session.file
     if own and session.guard.looking:
         return desk.take(Say(f"{session.guard.looking} SAVE AS makes a copy of your own.", Tone.ERROR))
-    if leads_elsewhere(path) and not message.linked and not (own and session.guard.linked):
+    if not own and outside(path, session.file) and not message.linked:
+        agreed = message._replace(path=path, linked=True, overwrite=True)
+        return desk.take(Open(asking(path, session.file, agreed)))
+    if own and leads_elsewhere(path) and not message.linked and not session.guard.linked:
         return desk.take(Open(_linked(path, message)))
     if not own:
         return None if message.overwrite or not there(path) else desk.take(Open(replacing(path, message)))
@@ -56,7 +60,7 @@ def leads_elsewhere(path: Path) -> bool:
 def replacing(path: Path, message: Save | Post) -> Ask:
     """Somebody's file stands in the place."""
     target = f", which leads to {os.path.realpath(path)}" if path.is_symlink() else ""
-    lines = [f"{printable_path(path)}{printable_path(target)} exists already. Its content is replaced."]
+    lines = [f"{told_path(path)}{told_path(target)} exists already. Its content is replaced."]
     owner = held_by(path)
     if owner is not None:
         lines.append(f"{printable(owner.user)} on {printable(owner.host)} has it open.")
@@ -64,8 +68,8 @@ def replacing(path: Path, message: Save | Post) -> Ask:
 
 
 def _linked(path: Path, message: Save) -> Ask:
-    target = printable_path(os.path.realpath(path))
-    lines = (f"{printable_path(path)} is a link to {target} in another folder.",)
+    target = told_path(os.path.realpath(path))
+    lines = (f"{told_path(path)} is a link to {target} in another folder.",)
     again = message._replace(linked=True)
     return Ask("WRITE IN ANOTHER FOLDER?", lines, (("w", "WRITE THERE", (Close(), again)),))
 
@@ -78,7 +82,7 @@ def _taken(session: Session, path: Path, message: Save) -> Ask | None:
     today = times.now()
     copy = beside(path, "mine", today)
     who = f"{printable(owner.user)} on {printable(owner.host)}"
-    lines = (f"{who} has taken {printable(path.name)} over.", f"A copy of yours would be {printable_path(copy.name)}.")
+    lines = (f"{who} has taken {printable(path.name)} over.", f"A copy of yours would be {told_path(copy.name)}.")
     keep = ("k", "KEEP BOTH", (Close(), Save(copy, leave=message.leave)))
     write = ("w", "WRITE ALL THE SAME", (Close(), message._replace(taken=True)))
     return Ask("TAKEN OVER", lines, (keep, write))
@@ -99,7 +103,7 @@ def _changed(desk: Desk, path: Path, message: Save) -> Desk | None:
         # nobody need have changed it: it could not be read when it was opened
         title, label = "REPLACE THE FILE?", "THE FILE AS IT IS"
         told = (f"{name} cannot be read as a program. It was written {when}.",)
-    both = f"Both are kept. Which gets the name? The other one is copied: yours to {printable_path(mine.name)}."
+    both = f"Both are kept. Which gets the name? The other one is copied: yours to {told_path(mine.name)}."
     keep = ("t", label, (Close(), Save(mine, leave=message.leave)))
     yours = ("y", "YOURS", (Close(), message._replace(changed=True)))
     return desk.take(Open(Ask(title, (*told, both), (keep, yours))))
@@ -132,8 +136,3 @@ def beside(path: Path, whose: str, today: str) -> Path:
         number += 1
         free = path.with_name(f"{name}-{number}{path.suffix}")
     return free
-
-
-def printable_path(path: Path | str) -> str:
-    """A whole path without control characters."""
-    return "".join(one if one.isprintable() else "?" for one in str(path))

@@ -8,6 +8,7 @@ from os.path import realpath
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
+from app.folders import asking, chosen, outside, written_at
 from app.listing import LARGEST, SUFFIXES, Listing
 from app.messages import Close, Do, Leave, Message, Open, Say
 from app.naming import is_folder, typed
@@ -84,7 +85,7 @@ def saving_and_leaving() -> Do:
 
 def _saved(desk: Desk, path: Path | None, *, agreed: bool) -> Desk:
     page = proof_page(desk)
-    target = path or page.file
+    target = page.file if path is None else chosen(path, page.file)
     if target is None:
         return desk.take(Open(SaveListing.of(page)))
     if page.looking and target == page.file:
@@ -92,6 +93,8 @@ def _saved(desk: Desk, path: Path | None, *, agreed: bool) -> Desk:
     if _standing(desk, target) not in (None, page):
         said = f"{printable(target.name)} is open below this screen. Type another name."
         return desk.take(Say(said, Tone.ERROR))
+    if not agreed and target != page.file and outside(target, page.file):
+        return desk.take(Open(asking(target, page.file, saving(target, agreed=True), target.name)))
     if not agreed and (question := _question(page, target)) is not None:
         replaced = (("r", "REPLACE", (Close(), saving(path, agreed=True))),)
         return desk.take(Open(Ask(question[0], (question[1],), replaced, target.name)))
@@ -103,7 +106,7 @@ def _saved(desk: Desk, path: Path | None, *, agreed: bool) -> Desk:
     desk = replace(desk, pages=desk.pages[:-1]) if isinstance(desk.page, SaveListing) else desk
     written = replace(page, asked=page.asked.of(page.listing.written(data)), file=target, looking="")
     told = None if page.told is None or not page.fresh else replace(page.told, question=written.asked)
-    return put(desk, replace(written, told=told)).take(Say(f"Saved: {target}"))
+    return put(desk, replace(written, told=told)).take(Say(f"Saved: {written_at(target)}"))
 
 
 def _question(page: ProofPage, target: Path) -> tuple[str, str] | None:

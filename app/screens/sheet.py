@@ -96,20 +96,25 @@ def _renamed(suffix: str) -> Callable[[Desk], Desk]:
     return work
 
 
-def writing(path: Path, *, overwrite: bool = False) -> Callable[[Desk], Desk]:
-    """What writes the sheet, asking first where a file is in its place."""
+def writing(name: Path, *, agreed: bool = False) -> Callable[[Desk], Desk]:
+    """What writes the sheet, asking first where a file is in its place, or where that is in another folder."""
 
     def work(desk: Desk) -> Desk:
-        if path.exists() and not overwrite:
-            again = (Close(), Do(writing(path, overwrite=True)))
-            lines = (f"{printable(str(path))} exists already. Its content is replaced.",)
-            return desk.take(Open(Ask("REPLACE THE FILE?", lines, (("r", "REPLACE", again),))))
+        from app.folders import asking, chosen, outside, written_at
         from app.sheets import sheet_for
 
+        file = desk.session.file
+        path = with_suffix(chosen(name, file), ".html")
+        again = Do(writing(path, agreed=True))
+        if outside(path, file) and not agreed:
+            return desk.take(Open(asking(path, file, again)))
+        if path.exists() and not agreed:
+            lines = (f"{printable(str(path))} exists already. Its content is replaced.",)
+            return desk.take(Open(Ask("REPLACE THE FILE?", lines, (("r", "REPLACE", (Close(), again)),))))
         try:
             write_text(path, sheet_for(desk.session.program, path))
         except StoreError as error:
             return desk.take(Say(str(error), Tone.ERROR))
-        return desk.take(Close()).take(Say(f"Setup sheet: {path}"))
+        return desk.take(Close()).take(Say(f"Setup sheet: {written_at(path)}"))
 
     return work

@@ -23,13 +23,14 @@ def own(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def part(tmp_path: Path) -> Path:
-    """The pocket example in a folder of its own."""
+def part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The pocket example in a folder of its own, which is the current one."""
     # not before the environment is clear
     from app.files import example
     from core.program.store import load, save
 
     path = tmp_path / "shop" / "part.toml"
     path.parent.mkdir()
+    monkeypatch.chdir(path.parent)
     save(load(example("pocket")), path)
     return path

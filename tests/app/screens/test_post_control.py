@@ -33,7 +33,8 @@ def test_the_control_is_chosen_by_keys() -> None:
     assert one.desk.page.control is None
 
 
-def test_the_program_of_a_control_is_written(tmp_path: Path) -> None:
+def test_the_program_of_a_control_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
     file = tmp_path / "part.nc"
     one = operator("flange").press("down", *str(file), "enter")
     assert one.said.startswith("Posted:")
@@ -41,13 +42,17 @@ def test_the_program_of_a_control_is_written(tmp_path: Path) -> None:
     assert file.read_text().startswith("G17G70G40G90\nT1//0.5\n")
 
 
-def test_what_the_control_does_otherwise_is_said(tmp_path: Path) -> None:
+def test_what_the_control_does_otherwise_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
     one = operator("plate-mm").press(*["down"] * 5, *str(tmp_path / "a.nc"), "enter")
     assert one.said.startswith("! Segment")
     assert "nine-series:a goes round corners its own way" in one.said
 
 
-def test_what_the_control_cannot_is_said_and_nothing_is_written(tmp_path: Path) -> None:
+def test_what_the_control_cannot_is_said_and_nothing_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
     file = tmp_path / "part.nc"
     one = operator("pocket").press("down", *str(file), "enter")
     assert "no control does that by itself" in one.said

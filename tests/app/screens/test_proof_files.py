@@ -28,7 +28,8 @@ def test_saving_writes_the_file_and_only_what_was_changed(tmp_path: Path) -> Non
     assert prover.press("u").page.unsaved
 
 
-def test_saving_under_another_name_asks_before_it_replaces(tmp_path: Path) -> None:
+def test_saving_under_another_name_asks_before_it_replaces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
     other = tmp_path / "other.nc"
     prover = square().press("S", *str(other), "enter")
     assert other.read_bytes() == SQUARE
