@@ -76,7 +76,8 @@ class Keeping:
             from app import recovery
 
             return desk.take(Open(recovery.looking(self, session)))
-        return self._offered(desk) if first or session.file is not None else desk
+        asked = first or session.file is not None or session.guard.earlier is not None
+        return self._offered(desk) if asked else desk
 
     def _offered(self, desk: Desk) -> Desk:
         """The desk with the question on it if work was left behind."""

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from app.files import is_program
-from app.messages import Browse, Close, Load, Message
+from app.messages import Browse, Close, Do, Load, Message
 from app.naming import typed
 from app.screens.entry import EntryPage, entry_row
 from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
@@ -20,11 +20,12 @@ from core.records import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """One line of the list: a folder or a program."""
+    """One line of the list: a folder, a program, or work that was set aside."""
 
     path: Path
     name: str
     folder: bool
+    aside: bool = False
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -63,6 +64,10 @@ class BrowsePage(EntryPage):
         if not self.items:
             return ()
         item = self.items[min(self.row, len(self.items) - 1)]
+        if item.aside:
+            from app.copies import opening
+
+            return (Do(opening(item.path)),)
         return (Browse(item.path),) if item.folder else (Load(item.path),)
 
     def view(self, session: Session, surface: Surface) -> View:
@@ -83,7 +88,7 @@ class BrowsePage(EntryPage):
 
 
 def _item(item: Item, *, on_it: bool) -> Row:
-    text = shortened(f"{printable(item.name)}{'/' if item.folder else ''}", 50)
+    text = shortened(f"{printable(item.name)}{'/' if item.folder else ''}", 60 if item.aside else 50)
     return (Span(" > " if on_it else "   ", Look.TAG), Span(text, Look.CURSOR if on_it else Look.TYPED))
 
 
@@ -92,8 +97,14 @@ def _is_program(path: Path) -> bool:
 
 
 def listed(folder: Path) -> tuple[Item, ...]:
-    """The folder above, the programs and the folders in a folder, each in order of names; OSError if it has none."""
+    """The folder above, the programs and the folders in a folder, each in order of names, then work that was set aside,
+    here or in this person's own folder; OSError if there is no such folder.
+    """
+    from app.copies import copies
+    from app.places import own_folder
+
     inside = sorted(folder.iterdir(), key=lambda path: path.name.lower())
     folders = [Item(path, path.name, folder=True) for path in inside if not path.name.startswith(".") and path.is_dir()]
     programs = [Item(path, path.name, folder=False) for path in inside if _is_program(path)]
-    return (Item(folder.parent, "..", folder=True), *programs, *folders)
+    aside = [Item(path, name, folder=False, aside=True) for path, name in copies(folder, own_folder(), nc=False)]
+    return (Item(folder.parent, "..", folder=True), *programs, *folders, *aside)

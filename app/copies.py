@@ -1,0 +1,67 @@
+"""Journals that were set aside: what OPEN lists of them, and the way back to the work in them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from app import places, times
+from app.messages import Load, Message, Say
+from app.session import Tone
+from app.widgets.header import printable
+from core.program.journal_file import SUFFIX, place_of, why_aside
+
+if TYPE_CHECKING:
+    from app.desk import Desk
+
+MOST: Final = 20
+"""So many are listed, the last ones; the folder holds the others."""
+WORDS: Final = {"kept": "kept", "discarded": "discarded", "theirs": "taken-over", "damaged": "damaged"}
+
+
+def copies(folder: Path, own: Path, *, nc: bool) -> Iterator[tuple[Path, str]]:
+    """The journals set aside in a folder and in a person's own one, the last one first, each as OPEN names it."""
+    found = [path for place in dict.fromkeys((folder, own)) for path in _inside(place)]
+    of_kind = [(time, path) for time, path in found if _is_nc(path) is nc]
+    today = times.now()
+    for time, path in sorted(of_kind, reverse=True)[:MOST]:
+        word = WORDS[why_aside(path).partition("-")[0]]
+        when = times.told(times.of(time), today).removeprefix("on ")
+        yield path, f"{word} work, {when}: {printable(_name(path))}"
+
+
+def _inside(folder: Path) -> Iterator[tuple[int, Path]]:
+    with suppress(OSError):
+        for path in folder.glob(f".*{SUFFIX}.*") if folder != places.own_folder() else folder.glob(f"*{SUFFIX}.*"):
+            if why_aside(path).partition("-")[0] in WORDS:
+                with suppress(OSError):
+                    yield path.stat().st_mtime_ns, path
+
+
+def _name(path: Path) -> str:
+    """The name of the file that the work is about."""
+    name = place_of(path).name.removesuffix(SUFFIX)
+    if name.startswith("."):
+        return name[1:]
+    return "a program without a name" if name.startswith("unnamed-") else name.rpartition("-")[0]
+
+
+def _is_nc(path: Path) -> bool:
+    name = _name(path)
+    return not name.lower().endswith(".toml") and name != "a program without a name"
+
+
+def opening(path: Path) -> Callable[[Desk], Desk]:
+    """What opens the file that a copy is about and offers the work in the copy."""
+
+    def work(desk: Desk) -> Desk:
+        found = places.read(path)
+        if found is None:
+            return desk.take(Say(f"{printable(path.name)} cannot be read; it stays where it is.", Tone.ERROR))
+        file = path.with_name(_name(path)) if path.name.startswith(".") else found.head.file
+        message: Message = Load(None if file is None else Path(file), earlier=path)
+        return desk.take(message)
+
+    return work
