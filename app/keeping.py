@@ -170,10 +170,7 @@ class Keeping:
         aside, journal.aside = journal.aside, None
         if file is not None and journal.path.parent == self.own and not self.away:
             self.away = True
-            told = (
-                f"Your work is kept in {whole(str(journal.path))}: the folder of {printable(file.name)} takes nothing."
-            )
-            return desk.take(Say(told, Tone.WARNING))
+            return desk.take(Say(away(file, journal.path), Tone.WARNING))
         if aside is not None:
             return desk.take(Say(f"{whole(aside.name)} holds what was left behind; Ctrl+O lists it.", Tone.WARNING))
         return desk
@@ -264,6 +261,12 @@ class Keeping:
         except OSError:
             return None
         return replace(after, unwritten=before.unwritten, total=before.total)
+
+
+def away(file: Path, journal: Path) -> str:
+    """Where work on a file is kept whose folder takes nothing, as a sentence."""
+    folder = whole(str(journal.parent))
+    return f"The folder of {printable(file.name)} takes nothing: until it is saved, the work is kept in {folder}"
 
 
 def holder(owner: Owner, today: str) -> str:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -67,13 +68,14 @@ def offered(keeping: Keeping, desk: Desk, answered: frozenset[Path] = frozenset(
             continue
         if isinstance(found, Unreadable):
             if not (why_aside(path) and not found.ours):
-                return desk.take(Open(_of_unreadable(keeping, desk, path, found, answered)))
-            told.append(_kept_for(found.user, found.time, path, keeping.clock()))
+                on = partial(_next, keeping, answered=answered | {path})
+                return desk.take(Open(of_unreadable(_name(desk.session), path, found, keeping.clock(), on)))
+            told.append(kept_for(found.user, found.time, path, keeping.clock()))
         elif _nothing_new(desk.session, path, found):
             with suppress(OSError):
                 path.unlink()
         elif path != desk.session.guard.earlier and why_aside(path) and not _own(keeping, path, found):
-            told.append(_kept_for(found.head.owner.user, found.cursor.time, path, keeping.clock()))
+            told.append(kept_for(found.head.owner.user, found.cursor.time, path, keeping.clock()))
         else:
             return desk.take(Open(_question(keeping, desk, path, found, answered)))
     return desk.take(Say(" ".join(told), Tone.WARNING)) if told else desk
@@ -99,28 +101,26 @@ def _own(keeping: Keeping, path: Path, found: Recovered) -> bool:
     return places.of_user(found, path, keeping.own, keeping.me.user)
 
 
-def _kept_for(user: str, time: str, path: Path, today: str) -> str:
+def kept_for(user: str, time: str, path: Path, today: str) -> str:
+    """A sentence for those who are not asked."""
     return (
         f"Unsaved work of {printable(user)}, {times.told(time, today)}, is kept in {whole(path.name)}; Ctrl+O lists it."
     )
 
 
-def _of_unreadable(keeping: Keeping, desk: Desk, path: Path, found: Unreadable, answered: frozenset[Path]) -> Decide:
-    """Nobody can restore it; it must not be overlooked all the same."""
-    name, who = _name(desk.session), printable(found.user)
-    when = f"from {times.told(found.time, keeping.clock()).removeprefix('at ').removeprefix('on ')}"
+def of_unreadable(name: str, path: Path, found: Unreadable, today: str, on: Callable[[Desk], Desk]) -> Decide:
+    """Nobody can restore it; it must not be overlooked all the same.  `on` is what comes next."""
+    who, when = printable(found.user), times.told(found.time, today).removeprefix("at ").removeprefix("on ")
     if found.hidden:
-        told = f"{who} has unsaved work on {name}, {when}. You may not read it."
+        told = f"{who} has unsaved work on {name}, from {when}. You may not read it."
         stays = f"It is kept, and {who} is asked about it at the next start on this program."
     else:
-        told = f"There is unsaved work on {name} that cannot be read: its beginning is damaged. It is {when}."
+        told = f"There is unsaved work on {name} that cannot be read: its beginning is damaged. It is from {when}."
         stays = "It is kept; somebody who knows the format may get some of it back."
     lines = (told, stays, f"The file is {whole(path.name)}.")
-    on = Do(lambda now: offered(keeping, now, answered | {path}))
-    options = [("g", "GO ON", (Close(), on))]
+    options = [("g", "GO ON", (Close(), Do(on)))]
     if found.ours and not found.hidden:
-        away = Do(lambda now: _next(keeping, put_away(now, path), answered | {path}))
-        options.append(("p", "PUT IT AWAY", (Close(), away)))
+        options.append(("p", "PUT IT AWAY", (Close(), Do(lambda now: on(put_away(now, path))))))
     return Decide("WORK THAT CANNOT BE READ", lines, tuple(options))
 
 
@@ -143,7 +143,7 @@ def discarding(work: Do, *, own: bool = True) -> Ask:
     """Asked again: a link that splits a key in two may have typed the letter."""
     lines = ("The work is put away under another name and not offered again. Ctrl+O still lists it.",)
     if not own:
-        lines = ("The work stays kept for whoever typed it, and is offered there.",)
+        lines = ("The work stays kept for whoever typed it, who is asked about it at the next start.",)
     return Ask("DISCARD IT?" if own else "GO ON WITHOUT IT?", lines, (("y", "YES", (Close(), Close(), work)),))
 
 
