@@ -18,6 +18,7 @@ from core.finding import Finding, Severity
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.program import solve_arc, solve_line
 from core.program.fields import FARTHEST, Form
+from core.program.full_circle import circle_finding
 from core.program.model import ArcSegment, BlendSegment, Block, Entry, LineSegment, Program, Segment, Unread
 from core.program.reading import Reading, carry, fill, fill_angle, read
 from core.program.solution import Known, Outcome, Task, solve
@@ -247,7 +248,9 @@ def _solved(task: Task, reading: Reading, start: Point | None, choice: int | Non
         return _Shape(findings=(Finding("OUT_OF_RANGE", Severity.ERROR, text, field=task.shape[0]),))
     _calculate(reading, piece, unit)
     if piece.length > JOINED:
-        return _Shape(piece, piece.end, choices=pieces if len(pieces) > 1 else ())
+        said = circle_finding(piece, reading.known, unit) if isinstance(piece, Arc) else None
+        told = () if said is None else (said,)
+        return _Shape(piece, piece.end, choices=pieces if len(pieces) > 1 else (), findings=told)
     text = "This segment has no length: it is passed over."
     return _Shape(end=start, findings=(Finding("ZERO_LENGTH", Severity.WARNING, text),))
 

@@ -56,6 +56,8 @@ class Task:
     disagrees: Callable[[Piece, str, float], Finding | None]
     advice: str
     """What to type when nothing is."""
+    instead: Callable[[Point, Known], tuple[tuple[str, ...], str] | None] = lambda _start, _known: None
+    """Fields and advice where what is typed says nothing about the segment."""
 
     def label(self, name: str) -> str:
         """A field's label on this form."""
@@ -75,7 +77,7 @@ def solve(task: Task, start: Point, known: Known) -> Outcome:
         if isinstance(answer, Finding):
             return Outcome(finding=answer)
         return _agreeing(task, answer, [name for name in known if name not in rule.needs], known)
-    return _undetermined(task, known, beside=beside)
+    return (_instead(task, start, known) if beside else None) or _undetermined(task, known, beside=beside)
 
 
 def _agreeing(task: Task, pieces: tuple[Piece, ...], others: list[str], known: Known) -> Outcome:
@@ -94,6 +96,16 @@ def _complaint(task: Task, piece: Piece, others: list[str], known: Known) -> Fin
             rest = " and ".join(task.label(other) for other in task.shape if other in known and other != name)
             return replace(found, field=name, text=f"{found.text} by {rest}: correct or blank one of them.")
     return None
+
+
+def _instead(task: Task, start: Point, known: Known) -> Outcome | None:
+    found = task.instead(start, known)
+    if found is None:
+        return None
+    missing, advice = found
+    return Outcome(
+        missing=missing, finding=Finding("MISSING", ERROR, f"Not determined yet: {advice}", field=missing[0])
+    )
 
 
 def _undetermined(task: Task, known: Known, *, beside: bool) -> Outcome:

@@ -1,7 +1,7 @@
 """An ARC from its own fields and its start.
 
 SWEEP ANGLE is the angle turned through in the arc's DIRECTION, always positive; an end on the start is the full
-circle.  Order of two solutions: by SWEEP ANGLE, the shorter arc first.
+circle (`core.program.full_circle`).  Order of two solutions: by SWEEP ANGLE, the shorter arc first.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ from core.geometry import construct
 from core.geometry.construct import Apart, One, Two
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.program.fields import Form
+from core.program.full_circle import center_needed, comes_back
 from core.program.model import Direction
 from core.program.solution import Answer, Beside, Known, Rule, Task, wrong
 from core.program.solve_line import degrees
-from core.tolerance import AGREES, ARC_RADII, JOINED
+from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED
 
 _END = ("x_end", "y_end")
 _CENTER = ("x_center", "y_center")
@@ -58,7 +59,19 @@ def _end_and_center(turn: Turn, start: Point, known: Known) -> Answer:
     if abs(out - radius) > ARC_RADII:
         text = "The arc's radius is {0~1} at its start and {1~0} at its end: correct the end or the center."
         return wrong("RADII_DIFFER", text, "x_center", radius, out)
-    return (construct.settled(start, end, center, turn),)
+    return (_arc(turn, start, end, known),)
+
+
+def _arc(turn: Turn, start: Point, end: Point, known: Known) -> Arc:
+    """The arc about a typed center: back at its start it turns by SWEEP ANGLE, without one fully."""
+    center = _center(known)
+    if not comes_back(start, end):
+        return construct.settled(start, end, center, turn)
+    if "sweep" in known:
+        turned = _turned(turn, start, center, known["sweep"])
+        if comes_back(start, turned.end):
+            return turned
+    return Arc(start, start, center, turn)
 
 
 def _center_and_coordinate(axis: int, turn: Turn, start: Point, known: Known) -> Answer:
@@ -69,9 +82,10 @@ def _center_and_coordinate(axis: int, turn: Turn, start: Point, known: Known) ->
     ends = construct.on_circle(center, radius, axis, value)
     match ends:
         case One(point):
-            return (construct.settled(start, point, center, turn),)
+            return (_arc(turn, start, point, known),)
         case Two(first, second):
-            return _ordered(*(construct.settled(start, end, center, turn) for end in (first, second)))
+            # at the circle's extreme both may be the start itself
+            return _ordered(*dict.fromkeys(_arc(turn, start, end, known) for end in (first, second)))
         case Apart():
             text = f"The arc's radius is {{0}}: it does not come to {'XY'[axis]} END {{1}}."
             return wrong("CONTRADICTION", text, _END[axis], radius, value)
@@ -88,14 +102,16 @@ def _center_and_sweep(turn: Turn, start: Point, known: Known) -> Answer:
 
 
 def _turned(turn: Turn, start: Point, center: Point, sweep: float) -> Arc:
-    """The arc that turns by `sweep` about `center`; a full turn ends on the very start."""
-    if sweep > tau - AGREES:
+    """The arc that turns by `sweep` about `center`; a full turn, as far as anything shows, ends on the very start."""
+    if tau - sweep <= AGREES and (tau - sweep) * hypot(start[0] - center[0], start[1] - center[1]) <= CLOSED:
         return Arc(start, start, center, turn)
     return Arc(start, construct.rotated(start, center, turn * sweep), center, turn)
 
 
 def _end_and_radius(turn: Turn, start: Point, known: Known) -> Answer:
     end, radius = _end(known), known["radius"]
+    if comes_back(start, end):
+        return Beside()
     centers = construct.centres(start, end, radius, turn)
     match centers:
         case One(point):
@@ -111,12 +127,16 @@ def _end_and_radius(turn: Turn, start: Point, known: Known) -> Answer:
 
 
 def _end_and_sweep(turn: Turn, start: Point, known: Known) -> Answer:
+    if comes_back(start, _end(known)):
+        return Beside()
     center = construct.centre_by_sweep(start, _end(known), known["sweep"], turn)
     return (Arc(start, _end(known), center.point, turn),) if isinstance(center, One) else Beside()
 
 
 def _end_and_coordinate(axis: int, turn: Turn, start: Point, known: Known) -> Answer:
     """The end and one coordinate of the center."""
+    if comes_back(start, _end(known)):
+        return Beside()
     center = construct.centre_by_coordinate(start, _end(known), axis, known[_CENTER[axis]])
     if not isinstance(center, One):
         return Beside()
@@ -138,6 +158,8 @@ def _radius_sweep_center(axis: int, turn: Turn, start: Point, known: Known) -> A
 def _radius_sweep_end(axis: int, turn: Turn, start: Point, known: Known) -> Answer:
     """RADIUS, SWEEP ANGLE and one coordinate of the end: its other coordinate greater first."""
     chord = known["radius"] * construct.chord_factor(known["sweep"])
+    if chord <= CLOSED:
+        return Beside()
     ends = construct.on_circle(start, chord, axis, known[_END[axis]])
     if isinstance(ends, Apart):
         text = f"RADIUS and SWEEP ANGLE make the end {{0}} from the start: that does not reach {'XY'[axis]} END {{1}}."
@@ -201,6 +223,7 @@ def _task(turn: Turn) -> Task:
         tuple(rule(needs, solver) for needs, solver in _SOLVERS),
         _disagrees,
         "enter the end and the center, the end and RADIUS, or the center and SWEEP ANGLE",
+        center_needed,
     )
 
 

@@ -204,8 +204,9 @@ def test_contradictions_name_both_sides(typed, words):
         ({"x_end": 0.0, "radius": 5.0}, ("y_end", "sweep"), "enter Y END or SWEEP ANGLE."),
         (
             {"x_end": 5.0, "y_end": 0.0, "radius": 5.0},
-            ("x_center", "y_center", "sweep"),
-            "enter the end and the center, the end and RADIUS, or the center and SWEEP ANGLE.",
+            ("x_center", "y_center"),
+            "the end is at the start. For the full circle enter X CENTER and Y CENTER; for a shorter arc the center "
+            "and SWEEP ANGLE, with X END and Y END blank.",
         ),
     ],
 )
