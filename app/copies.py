@@ -24,12 +24,22 @@ WORDS: Final = {"kept": "kept", "discarded": "discarded", "theirs": "taken-over"
 def copies(folder: Path, own: Path, *, nc: bool) -> Iterator[tuple[Path, str]]:
     """The journals set aside in a folder and in a person's own one, the last one first, each as OPEN names it."""
     found = [path for place in dict.fromkeys((folder, own)) for path in _inside(place)]
-    of_kind = [(time, path) for time, path in found if _is_nc(path) is nc]
+    of_kind = [(time, path) for time, path in found if _is_nc(path) is nc and (not nc or _here(path, folder, own))]
     today = times.now()
     for time, path in sorted(of_kind, reverse=True)[:MOST]:
         word = WORDS[why_aside(path).partition("-")[0]]
         when = times.told(times.of(time), today).removeprefix("on ")
         yield path, f"{word} work, {when}: {printable(_name(path))}"
+
+
+def _here(path: Path, folder: Path, own: Path) -> bool:
+    """Whether the journal of an NC program is about a file of this folder: it does not say of which one it is."""
+    return path.name.startswith(".") or place_of(path) == places.elsewhere(file_of(path, folder), own)
+
+
+def file_of(path: Path, folder: Path) -> Path:
+    """The file in a folder that a journal is about."""
+    return folder / _name(path)
 
 
 def _inside(folder: Path) -> Iterator[tuple[int, Path]]:

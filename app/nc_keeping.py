@@ -12,20 +12,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app import places, times
-from app.keeping import holder
+from app.keeping import away, holder
 from app.messages import Close, Do, Open, Say
 from app.session import Tone
+from app.widgets.header import printable as whole_name
 from core.program.disk import why
-from core.program.journal_file import JournalFile, set_aside
-from core.program.lock import Held, Lock, Owner, alive, myself, release, take, take_over, taken_by
+from core.program.journal_file import JournalFile
+from core.program.lock import Held, Lock, Owner, myself, release, take, take_over, taken_by
 from core.program.store import StoreError
 from core.records import dataclass, field
-from core.units import printable
 
 if TYPE_CHECKING:
     from app.desk import Desk
     from app.listing import Listing
-    from app.nc_journal import Found
+    from app.nc_journal import Record
     from app.screens.proof import ProofPage
 
 LONGEST: Final = 64_000_000
@@ -42,6 +42,7 @@ class Kept:
     lock: Lock | None = None
     failing: bool = False
     warned: bool = False
+    away: bool = False
 
 
 @dataclass(slots=True)
@@ -73,12 +74,24 @@ class NcKeeping:
         """The end, wanted or not: what is not saved stays in the journal."""
         for one in self.kept.values():
             if one.journal is not None and one.listing.unsaved:
-                one.journal.close()
+                self._last_try(one, one.journal)
             elif one.journal is not None:
                 one.journal.remove()
             if one.lock is not None:
                 release(one.lock)
         self.kept.clear()
+
+    def _last_try(self, one: Kept, journal: JournalFile) -> None:
+        """What could not be written before may find room by now."""
+        from app.nc_journal import whole
+
+        try:
+            if journal.unwritten:
+                journal.add(())
+        except OSError:
+            self._elsewhere(one, tuple(whole(one.listing, self.me, self.clock())))
+        if one.journal is not None:
+            one.journal.close()
 
     def _let_go(self, openings: set[object]) -> None:
         """Files that are closed, saved or given up: nothing of them stays behind."""
@@ -101,7 +114,7 @@ class NcKeeping:
             over = (Close(), Do(lambda now: self._taken_over(now, page.opening)))
             options = (("l", "LOOK", (Close(),)), ("t", "TAKE OVER", over))
             return desk.take(Open(Decide("OPEN ALREADY", lines, options, file.name)))
-        return self._offered(desk, page, one)
+        return self._offered(desk, page)
 
     def _lock(self, one: Kept) -> str:
         """Lock the file; who has it already, if somebody does.  Where no lock can be written nothing can be saved."""
@@ -122,75 +135,24 @@ class NcKeeping:
         except (OSError, StoreError) as error:
             return desk.take(Say(f"It cannot be taken over: {_reason(error)}", Tone.ERROR))
         page = replace(page, asked=page.asked.of(one.listing), lock=one.lock, looking="")
-        return self._offered(_put(desk, page).take(Say("The file is yours now.")), page, one)
+        return self._offered(_put(desk, page).take(Say("The file is yours now.")), page)
 
-    def _offered(self, desk: Desk, page: ProofPage, one: Kept) -> Desk:
-        """The desk with the question on it if work was left behind; one that says nothing new is removed."""
-        from app.nc_journal import differences, found_in
-        from app.recovery import discarding, put_away
-        from app.screens.decide import Decide
-
-        path = places.place(one.file, self.me, self.own)
-        try:
-            found = found_in(path.read_bytes())
-        except OSError:
+    def _offered(self, desk: Desk, page: ProofPage) -> Desk:
+        """The desk with the question on it if changes were left behind."""
+        file = self.kept[page.opening].file
+        if page.earlier is None and next(places.of_file(file, self.own), None) is None:
             return desk
-        if found is None or alive(found.owner):
-            return desk
-        if "".join(found.listing.lines) == "".join(page.listing.lines) and not found.damaged:
-            path.unlink(missing_ok=True)
-            return desk
-        restore = (Close(), Do(lambda now: self._restored(now, page.opening, path, found)))
-        options = (
-            ("r", "RESTORE", restore),
-            ("d", "DISCARD", (Open(discarding(Do(lambda now: put_away(now, path)))),)),
-        )
-        details = differences(page.listing, found.listing)
-        told = self._told(page, found)
-        return desk.take(Open(Decide("CHANGES THAT WERE NOT SAVED", told, options, one.file.name, details)))
+        from app.nc_recovery import offered
 
-    def _told(self, page: ProofPage, found: Found) -> tuple[str, ...]:
-        from app.nc_journal import mark
+        return offered(self, desk, page.opening)
 
-        name = "" if page.file is None else printable(page.file.name)
-        when, count = times.told(found.time, self.clock()), len(found.listing.past)
-        lines = [
-            f"Changes of {name} were not saved. The last of them was {when}, "
-            f"{count} change{'s' if count != 1 else ''} can be undone."
-        ]
-        if found.file != mark(page.listing.origin):
-            lines.append("The file was written by somebody else since.")
-        if found.damaged:
-            lines.append("The end of it cannot be read and is kept aside.")
-        return (*lines, "Against the file:")
+    def page(self, desk: Desk, opening: object) -> ProofPage:
+        """The page of one opening."""
+        return _page(desk, opening)
 
-    def _restored(self, desk: Desk, opening: object, path: Path, found: Found) -> Desk:
-        """The text as it was, with its undo; the journal begins anew with all of it."""
-        page, one = _page(desk, opening), self.kept[opening]
-        listing = replace(found.listing, origin=page.listing.origin)
-        page = replace(page, asked=page.asked.of(listing))
-        one.listing = listing
-        desk = _put(desk, page.at_row(listing.past[-1].row if listing.past else 0))
-        try:
-            if found.damaged:
-                set_aside(path, "damaged")
-            one.journal = JournalFile(path)
-            self._begin(one, listing, replace_it=not found.damaged)
-        except (OSError, StoreError) as error:
-            one.journal = None
-            return desk.take(Say(f"Restored, but the journal cannot be written: {_reason(error)}", Tone.WARNING))
-        sizes = "" if page.asked.tools.tools else " No tool's diameter and no control is kept: t and c give them again."
-        return desk.take(Say(f"Your changes are back. u takes them back step by step, s saves them.{sizes}"))
-
-    def _begin(self, one: Kept, listing: Listing, *, replace_it: bool) -> None:
-        from app.nc_journal import whole
-
-        assert one.journal is not None
-        records = whole(listing, self.me, self.clock())
-        if replace_it:
-            one.journal.replace(records)
-        else:
-            one.journal.add(records)
+    def put(self, desk: Desk, page: ProofPage) -> Desk:
+        """The desk with a page as it is now."""
+        return _put(desk, page)
 
     def _changed(self, desk: Desk, page: ProofPage, one: Kept, file: Path) -> Desk:
         """The changes of one key; after a save there is no journal."""
@@ -204,23 +166,67 @@ class NcKeeping:
         except (OSError, StoreError) as error:
             return self._trouble(desk, one, error)
         one.failing = False
-        return self._noticed(desk, one)
+        return self._noticed(self._whereabouts(desk, one), one)
+
+    def _whereabouts(self, desk: Desk, one: Kept) -> Desk:
+        """Say once where the work is kept if not beside its file, and what had to be moved aside for it."""
+        if one.journal is None:
+            return desk
+        aside, one.journal.aside = one.journal.aside, None
+        if one.journal.path.parent == self.own and not one.away:
+            one.away = True
+            return desk.take(Say(away(one.file, one.journal.path), Tone.WARNING))
+        if aside is not None:
+            return desk.take(Say(f"{whole_name(aside.name)} holds what was left behind before.", Tone.WARNING))
+        return desk
 
     def _write(self, one: Kept, listing: Listing) -> None:
-        from app.nc_journal import steps
+        """On the disk: beside the file, else in this person's own folder."""
+        from app.nc_journal import whole
 
         was, one.listing = one.listing, listing
+        try:
+            self._in_place(one, was)
+        except (OSError, StoreError):
+            if not self._elsewhere(one, tuple(whole(listing, self.me, self.clock()))):
+                raise
+
+    def _in_place(self, one: Kept, was: Listing) -> None:
+        from app.nc_journal import steps, whole
+
         if one.journal is None:
             path = places.place(one.file, self.me, self.own)
-            path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-            one.journal = JournalFile(path)
-            self._begin(one, listing, replace_it=False)
+            one.journal = places.journal_at(path, one.file)
+            one.journal.add(whole(one.listing, self.me, self.clock()))
             return
-        records = steps(was, listing, self.clock())
+        records = steps(was, one.listing, self.clock())
         if records is None or one.journal.length > LONGEST:
-            self._begin(one, listing, replace_it=True)
+            one.journal.replace(whole(one.listing, self.me, self.clock()))
         else:
             one.journal.add(records)
+
+    def begin(self, one: Kept, records: tuple[Record, ...]) -> None:
+        """A journal that begins with these lines, beside the file if that can be; OSError if it can be nowhere."""
+        one.journal = places.journal_at(places.place(one.file, self.me, self.own), one.file)
+        try:
+            one.journal.add(records)
+        except OSError:
+            if not self._elsewhere(one, records):
+                raise
+
+    def _elsewhere(self, one: Kept, records: tuple[Record, ...]) -> bool:
+        """Put all of it into this person's own folder; only when it is there its place beside is given up."""
+        if one.journal is not None and one.journal.path.parent == self.own:
+            return False
+        try:
+            other = places.journal_at(places.elsewhere(one.file, self.own), one.file)
+            other.add(records)
+        except OSError:
+            return False
+        if one.journal is not None:
+            one.journal.remove()
+        one.journal = other
+        return True
 
     def _trouble(self, desk: Desk, one: Kept, error: OSError | StoreError) -> Desk:
         """Tell once; the work goes on."""

@@ -70,13 +70,13 @@ def left(file: Path | None, own: Path, user: str) -> Iterator[tuple[Path, Recove
     """The journals that a program has left behind which died, the last one first; of those set aside only this
     user's, since nobody else is asked about them."""
     for path, found in found_of(file, own):
-        if not isinstance(found, Unreadable) and (not why_aside(path) or of_user(found, path, own, user)):
+        if not isinstance(found, Unreadable) and (not why_aside(path) or of_user(found.head.owner, path, own, user)):
             yield path, found
 
 
-def of_user(found: Recovered, path: Path, own: Path, user: str) -> bool:
+def of_user(owner: Owner, path: Path, own: Path, user: str) -> bool:
     """Whether work is this user's: everything in a person's own folder is."""
-    return found.head.owner.user == user or path.parent == own
+    return owner.user == user or path.parent == own
 
 
 def found_of(file: Path | None, own: Path) -> Iterator[tuple[Path, Recovered | Unreadable]]:

@@ -98,7 +98,7 @@ def _nothing_new(session: Session, path: Path, found: Recovered) -> bool:
 
 
 def _own(keeping: Keeping, path: Path, found: Recovered) -> bool:
-    return places.of_user(found, path, keeping.own, keeping.me.user)
+    return places.of_user(found.head.owner, path, keeping.own, keeping.me.user)
 
 
 def kept_for(user: str, time: str, path: Path, today: str) -> str:

@@ -35,6 +35,7 @@ class ProofPage(Page):
     `editing` is the line being typed.  `tool` is the number that < and > change.  `alone`: nothing lies below, leaving
     the page leaves the program.  `large`: the drawing has the whole terminal.  `second`: the other set of softkeys.
     `looking` is empty, or says who has the file open: its text cannot be changed then.  `lock` is ours, or None.
+    `earlier` is a journal that was set aside and that somebody wants back.
     """
 
     asked: Question
@@ -51,6 +52,7 @@ class ProofPage(Page):
     second: bool = False
     looking: str = ""
     lock: Lock | None = None
+    earlier: Path | None = None
     opening: object = field(default_factory=object)
 
     @staticmethod

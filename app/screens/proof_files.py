@@ -40,14 +40,14 @@ def read(path: Path) -> Listing:
         raise StoreError(f"{printable(str(path))} is not opened: {why(error)}") from error
 
 
-def opening(path: Path) -> Callable[[Desk], Desk]:
-    """A file put under proof, on top of everything."""
+def opening(path: Path, earlier: Path | None = None) -> Callable[[Desk], Desk]:
+    """A file put under proof, on top of everything; `earlier` is a journal set aside, whose changes are offered."""
 
     def work(desk: Desk) -> Desk:
         from app.screens.proof import ProofPage
 
         try:
-            page = ProofPage.of(read(path), path)
+            page = replace(ProofPage.of(read(path), path), earlier=earlier)
         except StoreError as error:
             return desk.take(Say(str(error), Tone.ERROR))
         pages = desk.pages[:-1] if isinstance(desk.page, BrowsePage) else desk.pages
@@ -164,6 +164,10 @@ class ProofBrowse(BrowsePage):
         if not text and not self.items:
             return ()
         item = self.items[min(self.row, len(self.items) - 1)] if self.items else None
+        if item is not None and item.aside and not text:
+            from app.copies import file_of
+
+            return (Do(opening(file_of(item.path, self.folder), item.path)),)
         path = self.folder / typed(text) if text or item is None else item.path
         folder = is_folder(path) if text or item is None else item.folder
         return (Do(browsing(path)),) if folder else (Do(opening(path)),)
@@ -186,8 +190,13 @@ def browsing(folder: Path | None = None) -> Callable[[Desk], Desk]:
 
 
 def listed(folder: Path) -> tuple[Item, ...]:
-    """The folder above, the NC programs and the folders in a folder; OSError if it has none."""
+    """The folder above, the NC programs and the folders in a folder, then work set aside; OSError if it has none."""
+    from app.copies import copies
+    from app.places import own_folder
+
     inside = sorted(folder.iterdir(), key=lambda path: path.name.lower())
     folders = [Item(path, path.name, folder=True) for path in inside if not path.name.startswith(".") and path.is_dir()]
     files = [path for path in inside if path.suffix.lower() in SUFFIXES and path.is_file()]
-    return (Item(folder.parent, "..", folder=True), *(Item(path, path.name, folder=False) for path in files), *folders)
+    aside = [Item(path, name, folder=False, aside=True) for path, name in copies(folder, own_folder(), nc=True)]
+    programs = [Item(path, path.name, folder=False) for path in files]
+    return (Item(folder.parent, "..", folder=True), *programs, *folders, *aside)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pytest
@@ -26,7 +26,7 @@ from tests.app.kept import DEAD, ELSEWHERE, TIME
 from tests.app.operator import Operator
 
 TEXT = b"G20 G17\r\nG0 X1.\r\n\xb0 M30\r\n"
-ME = myself(TIME)
+ME = replace(myself(TIME), user=DEAD.user)
 
 
 @dataclass
@@ -161,11 +161,14 @@ def test_a_torn_end_costs_the_last_change_only(file: Path, cut: int) -> None:
 @pytest.mark.parametrize(
     "data", [b"x", b"00000000 {}\n", lines([{"nc": 1}])[0], lines([{"nc": 2, "owner": 1}])[0], b"\xff" * 99]
 )
-def test_what_is_no_journal_is_not_offered_and_not_overwritten(file: Path, data: bytes) -> None:
+def test_what_is_no_journal_is_told_and_not_overwritten(file: Path, data: bytes) -> None:
     journal_path(file).write_bytes(data)
     one = typist(file, ME)
+    assert "cannot be read: its beginning is damaged" in asked(one).lines[0]
+    one.press("g")
     assert not isinstance(one.desk.page, Decide)
     one.press("x")
+    assert "kept-1" in one.said
     assert [path.read_bytes() for path in file.parent.glob(".part*kept-1")] == [data]
 
 
