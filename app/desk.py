@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Final, assert_never
 
+from app.joined import TORN
 from app.messages import (
     Browse,
     Close,
@@ -44,6 +45,7 @@ DIGITS: Final = frozenset("12345678")
 WRITING: Final = frozenset({"ctrl+s", "ctrl+o", "ctrl+z", "ctrl+y"})
 """Keys that change the program or a file."""
 ARMED: Final = "1 to 8 press the softkey now, for 2 seconds. Anything else goes on typing, Esc ends it."
+CAME_TORN: Final = "The link split a key in two: the first part was taken for Esc. Look, and press it again."
 EVERYWHERE: Final = frozenset(
     {"ctrl+z", "ctrl+y", "ctrl+s", "ctrl+o", "ctrl+q", "ctrl+c", "ctrl+k", "ctrl+g", "ctrl+f"}
 )
@@ -52,7 +54,7 @@ MODES: Final = ("braille", "block", "ascii")
 LONGEST_NAME: Final = 40
 """Characters of a name in a sentence that has to say more."""
 ONE_MODE: Final = (
-    "LANG does not name UTF-8, so the drawing is in ASCII. Where the terminal takes UTF-8: cutcomp --characters braille"
+    "LANG or TERM says that there is no UTF-8, so the drawing is in ASCII. Where there is: cutcomp --characters braille"
 )
 
 
@@ -88,6 +90,8 @@ class Desk:
 
     def _pressed(self, key: str, character: str | None) -> Desk:
         armed, desk = self.armed, replace(self, session=self.session.quiet(), armed=False)
+        if key == TORN:
+            return desk.take(Say(CAME_TORN, Tone.WARNING))
         if key in AT_ONCE:
             return desk._at_once(AT_ONCE[key])
         if armed and key in DIGITS and desk._labelled(int(key)):

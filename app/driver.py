@@ -10,16 +10,21 @@ import select
 import signal
 import sys
 from codecs import getincrementaldecoder, lookup
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from time import monotonic
 from types import FrameType
 from typing import TYPE_CHECKING, Any, Final
 
 from textual import events
+from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
 from textual._xterm_parser import XTermParser
 from textual.drivers.linux_driver import LinuxDriver
+from textual.message import Message
 
+from app.abilities import ascii_only
 from app.charset import ASCII, UTF_8, charset
 from app.desk import MODES
+from app.joined import TORN, Joined, delay
 from app.shown import Shown, Texts
 
 if TYPE_CHECKING:
@@ -116,18 +121,35 @@ class TerminalDriver(LinuxDriver):
 
     def run_input_thread(self) -> None:
         """Read keys until the program ends or the link drops."""
-        parser = XTermParser(self._debug)
+        parser, joined = XTermParser(self._debug), Joined(ANSI_SEQUENCES_KEYS, delay(os.environ))
         decode = getincrementaldecoder(typed_in())(errors="replace").decode
         while not self.exit_event.is_set():
-            if select.select([self.fileno], [], [], PATIENCE)[0]:
+            patience = PATIENCE if joined.due is None else min(PATIENCE, max(joined.due - monotonic(), 0.0))
+            # what has come by the time it is looked for belongs together, however late this thread had its turn
+            if select.select([self.fileno], [], [], patience)[0]:
                 data = read(self.fileno)
                 if not data:
                     os.kill(os.getpid(), signal.SIGHUP)
                     return
-                for message in parser.feed(decode(data)):
+                keys = joined.feed(decode(data), monotonic())
+            else:
+                keys = joined.tick(monotonic())
+            for key in keys:
+                for message in messages(parser, key):
                     self.process_message(message)
-            for message in parser.tick():
-                self.process_message(message)
+
+
+def messages(parser: XTermParser, key: str) -> Iterator[Message]:
+    """What Textual's parser makes of a whole key; of one that it does not know nothing, least of all text."""
+    if key == TORN:
+        yield events.Key(TORN, None)
+        return
+    yield from parser.feed(key)
+    if parser._timeout_time is not None:
+        # it waits for more, and there is no more
+        parser._timeout_time = 0.0
+        rest = list(parser.tick())
+        yield from () if key.startswith(("\x1b[", "\x1bO")) else rest
 
 
 def typed_in() -> str:
@@ -174,9 +196,12 @@ def refusal(environment: Mapping[str, str]) -> str:
 def characters(environment: Mapping[str, str], wanted: str = "") -> tuple[str, tuple[str, ...]]:
     """The set of characters to write, and with what the drawing can be drawn, that to begin with first.
 
-    `wanted` is what the operator asks for and knows better.  The fonts of the Linux console have no braille.
+    `wanted` is what the operator asks for and knows better.  The fonts of the Linux console have no braille, a VT100
+    has none of UTF-8 at all.
     """
     name = UTF_8 if wanted in MODES[:-1] else charset(environment)
+    if wanted not in MODES[:-1] and name == UTF_8 and ascii_only(environment):
+        name = ASCII
     if name != UTF_8:
         return name, MODES[-1:]
     console = environment.get("TERM", "").startswith("linux") and wanted != MODES[0]

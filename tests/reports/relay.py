@@ -13,7 +13,8 @@ import tty
 from collections import deque
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from random import Random
 from threading import Event, Thread
 from typing import Final
 
@@ -31,10 +32,15 @@ TICK: Final = 0.002
 
 @dataclass(frozen=True)
 class Line:
-    """`delay` seconds each way; `baud` None for a line that is never the slower one."""
+    """`delay` seconds each way; `baud` None for a line that is never the slower one.
+
+    Every typed byte comes up to `jitter` seconds later than the line would have it, each by itself; none overtakes.
+    """
 
     delay: float = 0.0
     baud: int | None = None
+    jitter: float = 0.0
+    chance: Random = field(default_factory=lambda: Random(1), compare=False)
 
     @property
     def seconds(self) -> float:
@@ -68,7 +74,13 @@ class Way:
             return False
         now = time.monotonic()
         self.free = max(self.free, now) + len(data) * self.line.seconds
-        self.under_way.append((self.free + self.line.delay, data))
+        due = self.free + self.line.delay
+        if not self.line.jitter:
+            self.under_way.append((due, data))
+        for byte in data if self.line.jitter else b"":
+            before = self.under_way[-1][0] if self.under_way else 0.0
+            late = due + self.line.jitter * self.line.chance.random()
+            self.under_way.append((max(before, late), bytes([byte])))
         return bool(data)
 
     def deliver(self) -> None:
@@ -105,7 +117,7 @@ def relayed(inner: Terminal, line: Line) -> Iterator[Relayed]:
     ours, theirs = pty.openpty()
     tty.setraw(theirs)
     done = Event()
-    ways = (Way(line, inner.fd, theirs), Way(line, theirs, inner.fd))
+    ways = (Way(replace(line, jitter=0.0), inner.fd, theirs), Way(line, theirs, inner.fd))
     carrier = Thread(target=relay, args=(ways, done), daemon=True)
     terminal = Relayed(inner.pid, ours, pyte.Screen(inner.screen.columns, inner.screen.lines))
     terminal.inner = inner

@@ -1,0 +1,137 @@
+"""Keys that a slow link splits, through a real pseudo-terminal: they act as keys or not at all, and lose no work."""
+
+from __future__ import annotations
+
+import os
+import random
+import shutil
+import signal
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from app.files import example
+from core.program.model import Entry
+from core.program.store import load
+from tests.reports.relay import Line, relayed
+from tests.terminal import Terminal, running
+
+PROGRAM = [sys.executable, "-m", "app"]
+ESC = b"\x1b"
+CAME_TORN = "The link split a key in two"
+
+
+@pytest.fixture
+def square(tmp_path: Path) -> Path:
+    return Path(shutil.copy(example("overrun-square"), tmp_path / "square.toml"))
+
+
+@contextmanager
+def on_x_start(part: Path, line: Line | None = None) -> Iterator[Terminal]:
+    """The cursor on X START, a number half typed."""
+    with running([*PROGRAM, str(part)]) as inner, relayed(inner, line or Line()) as terminal:
+        terminal.until("best", longest=30.0)
+        terminal.send(b"\t\t\t\t2.5")
+        terminal.until("X START               2.5")
+        yield terminal
+
+
+def split(terminal: Terminal, tail: bytes, seconds: float) -> None:
+    terminal.send(ESC)
+    time.sleep(seconds)
+    terminal.send(tail)
+
+
+def left_with_work(part: Path) -> None:
+    """A program that is killed with work that was not saved."""
+    with running([*PROGRAM, str(part)]) as terminal:
+        terminal.until("best", longest=30.0)
+        terminal.send(b"\t7\r")
+        terminal.until("undo 1")
+        os.kill(terminal.pid, signal.SIGKILL)
+        os.waitpid(terminal.pid, 0)
+
+
+@pytest.mark.parametrize("seconds", [0.15, 0.28])
+def test_a_split_arrow_down_takes_the_number_and_goes_on(square: Path, seconds: float) -> None:
+    with on_x_start(square) as terminal:
+        split(terminal, b"[B", seconds)
+        terminal.until("undo 1")
+        terminal.send(b"\x13")
+        terminal.until("Saved")
+        assert "[B" not in terminal.text
+    assert load(square).blocks[0].x_start == Entry(2.5)
+
+
+@pytest.mark.parametrize(("tail", "there"), [(b"OS", "PROGRAM PARAMETERS"), (b"[17~", "TOOL SETUP")])
+def test_a_split_function_key_is_its_softkey(square: Path, tail: bytes, there: str) -> None:
+    with on_x_start(square) as terminal:
+        split(terminal, tail, 0.15)
+        terminal.until(there)
+
+
+@pytest.mark.parametrize("tail", [b"[B", b"OS", b"[17~"])
+def test_a_rest_that_comes_later_is_told_and_neither_typed_nor_a_key(square: Path, tail: bytes) -> None:
+    with on_x_start(square) as terminal:
+        split(terminal, tail, 0.6)
+        terminal.until(CAME_TORN)
+        assert tail.decode() not in terminal.text
+        assert "X START" in terminal.text
+        terminal.send(b"3.25\r\x13")
+        terminal.until("Saved")
+    assert load(square).blocks[0].x_start == Entry(3.25)
+
+
+def test_esc_and_a_digit_and_esc_alone_still_work(square: Path) -> None:
+    with on_x_start(square) as terminal:
+        terminal.send(ESC + b"6")
+        terminal.until("TOOL SETUP")
+        terminal.send(ESC + b"8")
+        terminal.until("where the contour starts")
+        terminal.send(ESC)
+        terminal.until("1 to 8 press the softkey now", longest=2.0)
+        terminal.send(b"6")
+        terminal.until("TOOL SETUP")
+
+
+@pytest.mark.parametrize("seconds", [0.0, 0.15, 0.5, 1.2])
+def test_a_split_arrow_on_the_question_discards_nothing(square: Path, seconds: float) -> None:
+    left_with_work(square)
+    with running([*PROGRAM, str(square)]) as terminal:
+        terminal.until("WORK THAT WAS NOT SAVED")
+        split(terminal, b"[D", seconds)
+        terminal.read(quiet=0.5)
+        assert "Discarded" not in terminal.text
+        assert "WORK THAT WAS NOT SAVED" in terminal.text
+        terminal.send(b"r")
+        terminal.until("Your work is back")
+
+
+def test_a_letter_alone_discards_nothing(square: Path) -> None:
+    """However a key is split: one that types D by accident has a question to pass."""
+    left_with_work(square)
+    with running([*PROGRAM, str(square)]) as terminal:
+        terminal.until("WORK THAT WAS NOT SAVED")
+        terminal.send(b"d")
+        terminal.until("DISCARD IT")
+        terminal.send(b"d")
+        terminal.send(ESC)
+        terminal.until("F1 RESTORE")
+        terminal.send(b"r")
+        terminal.until("Your work is back")
+
+
+def test_keys_over_a_line_whose_bytes_come_apart_by_up_to_300_ms(square: Path) -> None:
+    """Every byte has a delay of its own: no key types anything, and each number goes where it was meant to go."""
+    line = Line(jitter=0.3, chance=random.Random(7))
+    with on_x_start(square, line) as terminal:
+        terminal.send(b"\x1b[B3.5\x1b[B-4.5\x1b[A\x1b[A\x1b[15~")
+        terminal.until("PART SETUP", longest=30.0)
+        terminal.send(b"\x1b[19~\x13")
+        terminal.until("Saved", longest=30.0)
+    block = load(square).blocks[0]
+    assert (block.x_start, block.y_start, block.z_start) == (Entry(2.5), Entry(3.5), Entry(-4.5))
