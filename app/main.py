@@ -54,12 +54,15 @@ def run(
 def guarded(session: Session, *, first: bool = False, only: Page | None = None, characters: str = "") -> int:
     """The App on a session, with its work kept and its end in order; returns the exit status."""
     from app import driver
+    from app.abilities import monochrome
     from app.application import CutcompApp
     from app.keeping import Keeping
     from app.nc_keeping import NcKeeping
     from app.safety import Safety
 
     keeping, nc_keeping = Keeping(), NcKeeping()
+    if not in_browser() and monochrome(os.environ):
+        os.environ["NO_COLOR"] = "1"
     few = not in_browser() and driver.few_colours(os.environ)
     app = CutcompApp(session, keep=lambda desk: nc_keeping.keep(keeping.keep(desk)), few_colours=few)
     keep_settings(app, first=first)
@@ -91,7 +94,7 @@ def settle_terminal(app: CutcompApp, wanted: str) -> None:
     from app import charset, driver
 
     app.driver_class = driver.TerminalDriver
-    name, modes = driver.characters(os.environ, wanted)
+    name, modes = driver.characters(charset.own(os.environ), wanted)
     charset.settle(sys.__stderr__, name)
     mode = app.desk.settings.mode
     app.desk = replace(app.desk, modes=modes, mode=mode if mode in modes and not wanted else modes[0])

@@ -98,10 +98,12 @@ def running(
     *,
     columns: int = 80,
     rows: int = 24,
-    environment: Mapping[str, str] | None = None,
+    environment: Mapping[str, str | None] | None = None,
     cwd: str | None = None,
 ) -> Iterator[Terminal]:
     """Run `arguments` in a pseudo-terminal of this size; it is killed at the end if it has not left by itself.
+
+    A variable that is None in the environment is not set at all.
 
     What it keeps in its person's folders is gone afterwards, unless the environment names these folders.
     """
@@ -109,7 +111,8 @@ def running(
         kept = {name: os.environ[name] for name in PASSED_ON if name in os.environ}
         own = {"XDG_STATE_HOME": folders, "XDG_CONFIG_HOME": folders}
         values = {**kept, "TERM": "xterm-256color", "LANG": "C.UTF-8", **own, **(environment or {})}
-        with _forked(arguments, values, columns, rows, cwd) as terminal:
+        given = {name: value for name, value in values.items() if value is not None}
+        with _forked(arguments, given, columns, rows, cwd) as terminal:
             yield terminal
 
 

@@ -1,0 +1,112 @@
+"""Terminals without colours, or older than UTF-8, through a real pseudo-terminal."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from app.abilities import ascii_only, monochrome
+from app.driver import characters
+from app.files import example
+from core.program.lock import take
+from tests.app.kept import ELSEWHERE
+from tests.terminal import running
+
+PROGRAM = [sys.executable, "-m", "app"]
+PENS = re.compile(rb"\x1b\[([0-9;]*)m")
+
+
+def coloured(data: bytes) -> set[bytes]:
+    """Sequences that ask for a colour, the terminal's own ink and paper (39, 49) among them."""
+    return {one for one in PENS.findall(data) if re.search(rb"(?:^|;)(?:[34][0-9]|9[0-7]|10[0-7])(?:;|$)", one)}
+
+
+@pytest.mark.parametrize("term", ["vt100", "vt220", "xterm-mono", "xterm", "linux"])
+@pytest.mark.parametrize("more", [{"LANG": "C.UTF-8"}, {"LANG": "C"}], ids=str)
+def test_a_terminal_without_colours_gets_none(tmp_path: Path, term: str, more: dict[str, str]) -> None:
+    """In a dialog that has tones for everything, and on the form behind it."""
+    part = Path(shutil.copy(example("pocket"), tmp_path / "part.toml"))
+    take(part, ELSEWHERE)
+    with running([*PROGRAM, str(part)], environment={"TERM": term, **more}) as terminal:
+        terminal.until("OPEN ALREADY")
+        terminal.read(quiet=0.3)
+        terminal.send(b"l")
+        terminal.until("GOUGE none", longest=30.0)
+        terminal.send(b"\t\t\t\t")
+        terminal.read(quiet=0.5)
+        assert bool(coloured(bytes(terminal.seen))) == (term in ("xterm", "linux"))
+        assert any(cell.reverse for row in terminal.screen.buffer.values() for cell in row.values())
+        assert terminal.seen.isascii() == (term.startswith("vt") or more["LANG"] == "C")
+
+
+def test_braille_that_is_asked_for_is_drawn_on_a_vt100_too() -> None:
+    arguments = [*PROGRAM, "--characters", "braille", "--example", "pocket"]
+    with running(arguments, environment={"TERM": "vt100"}) as terminal:
+        terminal.until("GOUGE none", longest=30.0)
+        terminal.read(quiet=0.3)
+        assert re.search("[\u2801-\u28ff]", terminal.text)
+
+
+@pytest.mark.parametrize("size", [(20, 5), (1, 1), (79, 24), (80, 23)])
+def test_a_terminal_too_small_says_so_and_goes_on(tmp_path: Path, size: tuple[int, int]) -> None:
+    """On 20 by 5, and on one cell, the keys still act; larger again, everything is there."""
+    part = Path(shutil.copy(example("pocket"), tmp_path / "part.toml"))
+    with running([*PROGRAM, str(part)], columns=size[0], rows=size[1]) as terminal:
+        terminal.read(quiet=1.0)
+        for key in (b"\t\t\t\t", b"\x1b[18~", b"+", b"\x1b[C", b"\x1b[18~", b"\x1b[19~", b"2.5\r"):
+            terminal.send(key)
+            terminal.read(quiet=0.2)
+        assert terminal.ended() is None
+        if size[0] >= 20:
+            assert "80x24" in terminal.text.replace(" ", "")
+        terminal.resize(80, 24)
+        terminal.until("GOUGE", longest=30.0)
+        terminal.until("2.5000")
+        assert "undo 1" in terminal.text
+
+
+@pytest.mark.parametrize(
+    ("environment", "known", "bare"),
+    [
+        ({"TERM": "vt100"}, 0, True),
+        ({"TERM": "vt525"}, 8, False),
+        ({"TERM": "xterm-mono"}, 0, True),
+        ({"TERM": "something"}, 0, True),
+        ({"TERM": "something"}, 8, False),
+        ({"TERM": "vt100", "COLORTERM": "truecolor"}, 0, False),
+        ({"TERM": "vt100", "TEXTUAL_COLOR_SYSTEM": "256"}, 0, False),
+        # a system without a table, or whose table has not this one
+        ({"TERM": "vt220-8"}, None, True),
+        ({"TERM": "screen-m"}, None, True),
+        ({"TERM": "something"}, None, False),
+    ],
+)
+def test_which_terminals_have_no_colours(environment: dict[str, str], known: int | None, bare: bool) -> None:
+    assert monochrome(environment, lambda _: known) is bare
+
+
+@pytest.mark.parametrize(
+    "name", ["xterm", "xterm-256color", "screen.xterm", "tmux", "linux", "putty", "vte", "ansi-color"]
+)
+def test_names_that_are_known_to_have_colours_need_no_table(name: str) -> None:
+    def table(name: str) -> int | None:
+        raise AssertionError(name)
+
+    assert not monochrome({"TERM": name}, table)
+
+
+def test_a_vt100_has_no_utf_8_and_an_xterm_without_colours_has() -> None:
+    assert [ascii_only({"TERM": name}) for name in ("vt100", "vt220-8", "xterm-mono", "vte")] == [
+        True,
+        True,
+        False,
+        False,
+    ]
+    assert characters({"LANG": "C.UTF-8", "TERM": "vt100"}) == ("ascii", ("ascii",))
+    assert characters({"LANG": "de_DE.ISO-8859-1", "TERM": "vt220"}) == ("iso8859-1", ("ascii",))
+    assert characters({"LANG": "C.UTF-8", "TERM": "vt100"}, "ascii") == ("ascii", ("ascii",))
+    assert characters({"LANG": "C.UTF-8", "TERM": "vt100"}, "block")[0] == "utf-8"

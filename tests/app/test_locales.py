@@ -1,0 +1,83 @@
+"""Every form in which a locale is named, through a real pseudo-terminal: what is written is what the terminal takes."""
+
+from __future__ import annotations
+
+import re
+import sys
+
+import pytest
+
+from app.charset import charset, own
+from tests.reports.matrix import stray
+from tests.terminal import running
+
+PROGRAM = [sys.executable, "-m", "app", "--example", "pocket"]
+BRAILLE = re.compile("[\u2801-\u28ff]")
+NONE = {"LANG": None}
+"""No variable of the locale at all."""
+
+
+@pytest.mark.parametrize(
+    ("locale", "characters"),
+    [
+        (NONE, "ascii"),
+        ({"LANG": ""}, "ascii"),
+        ({"LANG": "C"}, "ascii"),
+        ({"LANG": "POSIX"}, "ascii"),
+        ({"LANG": "C", "LC_CTYPE": "C"}, "ascii"),
+        ({"LANG": "C.UTF-8", "LC_ALL": "C"}, "ascii"),
+        ({"LANG": "C.UTF-8", "LC_CTYPE": "POSIX"}, "ascii"),
+        # none of these is installed here: Python takes them for C
+        ({"LANG": "de_DE.ISO-8859-1"}, "latin-1"),
+        ({"LANG": "C", "LC_CTYPE": "de_DE.ISO-8859-1"}, "latin-1"),
+        ({"LANG": "C.UTF-8", "LC_ALL": "de_DE@euro"}, "latin-1"),
+        ({"LANG": "C.UTF-8"}, "utf-8"),
+        ({"LANG": "xx_YY.UTF-8"}, "utf-8"),
+        ({"LANG": "C", "LC_CTYPE": "C.UTF-8"}, "utf-8"),
+        ({**NONE, "LC_CTYPE": "UTF-8"}, "utf-8"),
+        ({**NONE, "LC_ALL": "C.UTF-8"}, "utf-8"),
+    ],
+    ids=str,
+)
+def test_the_drawing_is_what_the_locale_says(locale: dict[str, str | None], characters: str) -> None:
+    with running(PROGRAM, environment=locale) as terminal:
+        terminal.until("GOUGE none", longest=30.0)
+        terminal.read(quiet=0.3)
+        assert stray(bytes(terminal.seen), characters) == ""
+        assert bool(BRAILLE.search(terminal.text)) == (characters == "utf-8")
+        assert "|" in terminal.text or characters == "utf-8"
+        if characters == "utf-8":
+            return
+        assert terminal.seen.isascii()
+        terminal.send(b"\x1b[18~\x1b[18~")
+        terminal.until("LANG or TERM says that there is no UTF-8")
+
+
+def test_a_letter_of_latin_1_is_written_and_read_as_one_byte() -> None:
+    with running(PROGRAM, environment={"LANG": "de_DE.ISO-8859-1"}) as terminal:
+        terminal.stream.select_other_charset("@")
+        terminal.until("GOUGE none", longest=30.0)
+        terminal.send(b"\x13")
+        terminal.until("SAVE")
+        terminal.send(b"\xfc\xb0")
+        terminal.until("ü°")
+        assert b"\xfc" in terminal.seen
+
+
+@pytest.mark.parametrize(
+    ("environment", "started", "name"),
+    [
+        ({"LC_CTYPE": "C.UTF-8", "LANG": "C"}, {"LANG": "C"}, "ascii"),
+        ({"LC_CTYPE": "C.UTF-8", "LANG": "C"}, {"LANG": "C", "LC_CTYPE": "C.UTF-8"}, "utf-8"),
+        ({"LC_CTYPE": "C.UTF-8"}, {"LC_CTYPE": "UTF-8"}, "utf-8"),
+        ({"LC_CTYPE": "C.UTF-8", "LANG": "de_DE.ISO-8859-1"}, {}, "iso8859-1"),
+        ({"LC_CTYPE": "C.UTF-8", "LANG": "C", "LC_ALL": "C.UTF-8"}, {}, "utf-8"),
+        # a system that does not tell what a program was started with
+        ({"LC_CTYPE": "C.UTF-8", "LANG": "C"}, None, "ascii"),
+        ({"LC_CTYPE": "C.utf8", "LANG": "en_US.UTF-8"}, None, "utf-8"),
+        ({"LC_CTYPE": "UTF-8"}, None, "utf-8"),
+        ({"LC_CTYPE": "C.UTF-8", "LANG": "C", "PYTHONCOERCECLOCALE": "0"}, None, "utf-8"),
+    ],
+)
+def test_whose_lc_ctype_it_is(environment: dict[str, str], started: dict[str, str] | None, name: str) -> None:
+    assert charset(own(environment, lambda: started)) == name
