@@ -1,0 +1,121 @@
+"""Two operators, one program, through real pseudo-terminals: whoever is killed is asked about the work again."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from core.program.model import Entry
+from core.program.store import load
+from tests.app.test_safety_terminal import PROGRAM, status
+from tests.terminal import Terminal, running
+
+
+@contextmanager
+def operator(part: Path, login: str) -> Iterator[Terminal]:
+    """The program as it runs under a login, with a state folder of its own."""
+    own = part.parent.parent / login
+    environment = {"LOGNAME": login, "XDG_STATE_HOME": str(own), "XDG_CONFIG_HOME": str(own)}
+    with running([*PROGRAM, part.name], environment=environment, cwd=str(part.parent)) as terminal:
+        yield terminal
+
+
+def killed(terminal: Terminal) -> None:
+    """kill -9, waited for: a dead one that nobody has waited for counts as running."""
+    os.kill(terminal.pid, signal.SIGKILL)
+    status(terminal, 5.0)
+
+
+def tool(terminal: Terminal, number: str, undo: int) -> None:
+    """TOOL typed from the SEGMENT line."""
+    terminal.send(b"\t" + number.encode() + b"\t")
+    terminal.until(f"undo {undo}")
+
+
+def saved(terminal: Terminal) -> None:
+    terminal.send(b"\x13")
+    terminal.until("Saved")
+    terminal.send(b"\x11")
+    assert status(terminal, 5.0) == 0
+
+
+def test_the_work_of_ann_is_offered_to_bob_and_still_to_ann_when_bob_has_saved(part: Path) -> None:
+    with operator(part, "ann") as ann:
+        ann.until("MILL CONTOUR")
+        tool(ann, "7", 1)
+        killed(ann)
+    with operator(part, "bob") as bob:
+        bob.until("Work on part.toml by ann")
+        bob.send(b"dy")
+        bob.until("Kept for ann")
+        tool(bob, "9", 1)
+        saved(bob)
+    assert load(part).blocks[0].tool == Entry(9.0)
+    with operator(part, "ann") as ann:
+        ann.until("TOOL 7, was 9")
+        ann.send(b"r")
+        ann.until("is back as it was")
+        saved_over(ann)
+    assert load(part).blocks[0].tool == Entry(7.0)
+
+
+def saved_over(terminal: Terminal) -> None:
+    """The file was written since the work began: both are kept."""
+    terminal.send(b"\x13")
+    terminal.until("CHANGED MEANWHILE")
+    terminal.send(b"y")
+    terminal.until("Saved")
+
+
+def test_what_was_typed_on_after_a_take_over_is_offered_at_the_next_start(part: Path) -> None:
+    with operator(part, "ann") as first:
+        first.until("MILL CONTOUR")
+        tool(first, "7", 1)
+        typed_on_after_a_take_over(part, first)
+    with operator(part, "ann") as again:
+        again.until("WORK THAT WAS NOT SAVED")
+        again.until("2 edits can be")
+
+
+def typed_on_after_a_take_over(part: Path, first: Terminal) -> None:
+    """By the same login; what the first one typed since is seen by nobody."""
+    with operator(part, "ann") as second:
+        second.until("OPEN ALREADY")
+        second.send(b"t")
+        second.until("WORK THAT WAS NOT SAVED")
+        second.send(b"r")
+        second.until("is back as it was")
+        first.send(b"\x1b[A\x1b[A\x1b[A2\t")
+        first.until("has this program open")
+        first.until("undo 2")
+        killed(first)
+        second.send(b"\x1b[A8\t")
+        second.until("undo 2")
+        saved(second)
+
+
+@pytest.mark.parametrize("content", [b"", b'{"user": "a'])
+def test_a_lock_without_content_is_nobodys(part: Path, content: bytes) -> None:
+    part.with_name(f".{part.name}.cutcomp-lock").write_bytes(content)
+    with operator(part, "ann") as ann:
+        ann.until("MILL CONTOUR")
+        ann.read(quiet=0.3)
+        assert "OPEN ALREADY" not in ann.text
+
+
+def test_what_may_only_be_looked_at_says_so(part: Path) -> None:
+    with operator(part, "ann") as ann:
+        ann.until("MILL CONTOUR")
+        with operator(part, "bob") as bob:
+            bob.until("OPEN ALREADY")
+            bob.send(b"l")
+            bob.until("LOOK ONLY part")
+            bob.send(b"\t7")
+            bob.read(quiet=0.3)
+            assert "LOOK ONLY part" in bob.text
+            assert "part*" not in bob.text
