@@ -7,18 +7,30 @@ from pathlib import Path
 
 import pytest
 
+from app.desk import Desk
+from app.files import example
 from app.messages import Close, Open
 from app.screens.decide import Decide
 from app.screens.help import HelpPage
 from app.screens.new_segment import NewSegment
 from app.screens.post import PostPage
+from app.session import Session
 from core.program.model import Entry
+from core.program.store import load
 from tests.app.operator import Operator
+
+
+def gouging() -> Operator:
+    """An operator before a path that gouges: it is posted if the words are said."""
+    from core.pipeline.derive import derive
+
+    program = load(example("overrun-square"))
+    return Operator(Desk(Session.of(program)).knowing(derive(program)))
 
 
 def refused() -> Operator:
     """The dialog of POST NC, a wrong sentence behind it."""
-    operator = Operator.at().press("tab").type("1").press("f8", "f6", "enter").type("POST ANYWAY")
+    operator = gouging().press("f8", "f6", "enter").type("POST ANYWAY")
     assert "Nothing was written" in operator.said
     return operator
 
@@ -38,7 +50,7 @@ def test_delete_and_backspace_empty_a_wrong_sentence(key: str) -> None:
 
 
 def test_the_softkey_post_asks_for_the_sentence_as_enter_does() -> None:
-    operator = Operator.at().press("f8", "f6", "f1")
+    operator = gouging().press("f8", "f6", "f1")
     assert isinstance(operator.desk.page, PostPage)
     assert operator.desk.page.path is not None
 
