@@ -44,9 +44,15 @@ def _parser(name: str) -> argparse.ArgumentParser:
             parser.add_argument("--units", type=str.upper, choices=tuple(Unit), help="of the table; else the program's")
         case _:
             parser.add_argument("--host", default="127.0.0.1", help="address to serve (this machine's own)")
-            parser.add_argument("--port", type=int, default=8000)
+            parser.add_argument("--port", type=_port, default=8000, help="1 to 65535")
             parser.add_argument("--allow-network", action="store_true", help="serve an address others can reach")
     return parser
+
+
+def _port(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and len(text) < 6 and 1 <= int(text) <= 65535):
+        raise argparse.ArgumentTypeError(f"{text} is no port; ports go from 1 to 65535.")
+    return int(text)
 
 
 def sheet(options: argparse.Namespace) -> int:
@@ -148,5 +154,9 @@ def serve(options: argparse.Namespace) -> int:
         web.serve(options.file, options.host, options.port)
     except ImportError:
         say(web.MISSING)
+        return UNUSABLE
+    except (OSError, UnicodeError) as error:
+        # a port that is taken or forbidden, a name that is none
+        say(f"{web.address(options.host, options.port)} cannot be served: {error}")
         return UNUSABLE
     return CLEAN

@@ -99,7 +99,7 @@ TOPICS: Final[Mapping[tuple[Form, str], Topic]] = MappingProxyType(
         (Form.START, "plunge_feed"): Topic(
             "The tool goes straight down with it, in the material, and mills with it where FEED of segment 1 is blank."
         ),
-        (Form.START, "speed"): Topic("Written as S before the block begins. 0 posts nothing."),
+        (Form.START, "speed"): Topic("Written as S before the block begins."),
         (Form.START, "peck_depth"): Topic(
             "The contour is milled once at each depth; the last pass takes what is left.", _PECK
         ),

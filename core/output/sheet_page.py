@@ -17,6 +17,7 @@ th, td { text-align: left; padding: .1em 1em .1em 0; vertical-align: top }
 .passes th, .passes td { text-align: right }
 .bad { border: 3px solid #c4001a; padding: .5em 1em; font-weight: bold }
 .good { border: 1px solid #00856a; padding: .5em 1em }
+.marked { list-style: none; padding-left: 0 }
 figure { margin: 1em 0 } svg { max-width: 100%; max-height: 18em; height: auto }
 @media print { section { break-inside: avoid } body { margin: 0 } }
 """
@@ -58,7 +59,7 @@ def _section(section: Section, drawing: str) -> Iterator[str]:
         yield f"<figure>{drawing}</figure>"
     yield from _pairs(section.pairs)
     if section.findings:
-        yield "<h3>FINDINGS</h3><ul>"
+        yield '<h3>FINDINGS</h3><ul class="marked">'
         yield from (f"<li>{_safe(text)}</li>" for text in section.findings)
         yield "</ul>"
     yield "</section>"

@@ -29,6 +29,8 @@ def test_the_second_opener_may_look(own: Path, part: Path) -> None:
     started(own, part, ELSEWHERE)
     operator = started(own, part, DEAD)
     assert "bob on office has this program open since 05:00." in asked(operator)
+    later = started(own, part, DEAD, clock="2025-03-06T08:00:00+01:00")
+    assert "bob on office has this program open since 4 Mar 2025 at 05:00." in asked(later)
     operator.press("l", "tab").type("7")
     assert operator.session.program == load(part)
     assert "Nothing can be changed" in operator.said

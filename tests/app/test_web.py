@@ -25,6 +25,26 @@ def test_other_addresses_are_refused_until_allowed(host: str, capsys: pytest.Cap
     assert "--allow-network" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("port", ["99999", "65536", "0", "-1", "x", "8_0", "²"])
+def test_a_port_that_is_none_is_a_sentence(port: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["serve", f"--port={port}"])
+    assert ended.value.code == 2
+    assert f"{port} is no port; ports go from 1 to 65535." in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("fault", [OSError(98, "Address already in use"), UnicodeError("label too long")])
+def test_an_address_that_cannot_be_served_is_a_sentence(
+    fault: Exception, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def serve(*_: object) -> None:
+        raise fault
+
+    monkeypatch.setattr("app.web.serve", serve)
+    assert main(["serve", "--port", "8123"]) == 2
+    assert "http://127.0.0.1:8123 cannot be served: " in capsys.readouterr().err
+
+
 def test_a_files_name_is_one_word_to_the_shell_and_no_option() -> None:
     words = shlex.split(command(Path("-o; rm $(x) `y`.toml")))
     assert words[-2] == "--"

@@ -124,3 +124,8 @@ def test_no_softkey_needs_a_function_key(
 def test_help_is_one_key_away_even_where_text_is_typed(page: Page) -> None:
     desk = Desk(Session.of(empty_program()), (ProgramPage(), page)).press("ctrl+g")
     assert isinstance(desk.page, HelpPage)
+
+
+def test_the_help_of_speed_promises_nothing_that_the_field_refuses() -> None:
+    assert field(Form.START, "speed").low == 1
+    assert "0" not in TOPICS[Form.START, "speed"].words

@@ -140,3 +140,9 @@ def test_names_cannot_leave_their_place_on_the_page():
     assert "&lt;script&gt;" in page
     assert "\x1b" not in page
     assert NOT_READY in page
+
+
+def test_a_finding_on_the_page_has_one_mark_that_of_its_weight():
+    page = as_page(of(gouging()), [""])
+    assert '<ul class="marked">\n<li>!! segment 1: gouges' in page
+    assert ".marked { list-style: none" in page
