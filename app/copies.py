@@ -11,20 +11,25 @@ from app import places, times
 from app.messages import Load, Message, Say
 from app.session import Tone
 from app.widgets.header import printable
-from core.program.journal_file import SUFFIX, place_of, why_aside
+from core.program.journal_file import SUFFIX, journal_path, place_of, why_aside
 
 if TYPE_CHECKING:
     from app.desk import Desk
 
 MOST: Final = 20
 """So many are listed, the last ones; the folder holds the others."""
+UNNAMED: Final = "a program without a name"
+CUT: Final = 100
+"""Characters from which on the name of a journal may not hold all of its file's name."""
 WORDS: Final = {"kept": "kept", "discarded": "discarded", "theirs": "taken-over", "damaged": "damaged"}
 
 
 def copies(folder: Path, own: Path, *, nc: bool) -> Iterator[tuple[Path, str]]:
     """The journals set aside in a folder and in a person's own one, the last one first, each as OPEN names it."""
     found = [path for place in dict.fromkeys((folder, own)) for path in _inside(place)]
-    of_kind = [(time, path) for time, path in found if _is_nc(path) is nc and (not nc or _here(path, folder, own))]
+    of_kind = [
+        (time, path) for time, path in found if _is_nc(path) in (nc, None) and (not nc or _here(path, folder, own))
+    ]
     today = times.now()
     for time, path in sorted(of_kind, reverse=True)[:MOST]:
         word = WORDS[why_aside(path).partition("-")[0]]
@@ -55,12 +60,15 @@ def _name(path: Path) -> str:
     name = place_of(path).name.removesuffix(SUFFIX)
     if name.startswith("."):
         return name[1:]
-    return "a program without a name" if name.startswith("unnamed-") else name.rpartition("-")[0]
+    return UNNAMED if name.startswith("unnamed-") else name.rpartition("-")[0]
 
 
-def _is_nc(path: Path) -> bool:
+def _is_nc(path: Path) -> bool | None:
+    """Whether it is about an NC program; None where the name is so long that its end is cut off."""
     name = _name(path)
-    return not name.lower().endswith(".toml") and name != "a program without a name"
+    if name == UNNAMED:
+        return False
+    return None if len(name) >= CUT else not name.lower().endswith(".toml")
 
 
 def opening(path: Path) -> Callable[[Desk], Desk]:
@@ -70,8 +78,15 @@ def opening(path: Path) -> Callable[[Desk], Desk]:
         found = places.read(path)
         if found is None:
             return desk.take(Say(f"{printable(path.name)} cannot be read; it stays where it is.", Tone.ERROR))
-        file = path.with_name(_name(path)) if path.name.startswith(".") else found.head.file
-        message: Message = Load(None if file is None else Path(file), earlier=path)
+        message: Message = Load(_program(path, found.head.file), earlier=path)
         return desk.take(message)
 
     return work
+
+
+def _program(path: Path, file: str | None) -> Path | None:
+    """The program of a journal that names a file: beside it, should the folder have moved; a long name is cut there."""
+    if file is None or not path.name.startswith("."):
+        return None if file is None else Path(file)
+    beside = path.with_name(Path(file).name)
+    return beside if journal_path(beside) == place_of(path.resolve()) else path.with_name(_name(path))

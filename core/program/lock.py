@@ -152,6 +152,8 @@ def _create(lock: Lock) -> None:
     handle = os.open(lock.path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o644)
     try:
         try:
+            # it holds no more than a name: hidden by a umask, others could never see that its owner is dead
+            os.fchmod(handle, 0o644)
             write_all(handle, json.dumps(asdict(lock.owner)).encode())
             # that a power cut takes all of a lock away is right
             os.fsync(handle)

@@ -105,3 +105,15 @@ def test_a_copy_that_cannot_be_read_says_so(own: Path, part: Path) -> None:
     assert isinstance(operator.desk.page, Decide)
     operator.press("g")
     assert "cannot be read" in chosen(operator, "kept work").said
+
+
+def test_a_name_that_is_cut_in_the_journal_s_name_is_found_again(own: Path, part: Path) -> None:
+    long = part.rename(part.with_name(f"{'p' * 210}.toml"))
+    first = started(own, long).press("tab").type("7")
+    first.killed()
+    operator = started(own, long).press("d", "y").press("ctrl+o")
+    rows = operator.part("body").splitlines()[1:]
+    row = next(row for row, line in enumerate(rows) if "discarded work" in line)
+    operator.press(*["down"] * row, "enter", "r")
+    assert operator.session.file == long
+    assert operator.session.history == first.session.history

@@ -67,6 +67,15 @@ def test_a_file_that_does_not_exist_yet_can_be_locked(tmp_path: Path) -> None:
     assert take(tmp_path / "new.toml", ME) == Held(ELSEWHERE)
 
 
+def test_everybody_may_read_who_has_it_open(part: Path) -> None:
+    before = os.umask(0o077)
+    try:
+        held(part, ME)
+    finally:
+        os.umask(before)
+    assert lock_path(part).stat().st_mode & 0o777 == 0o644
+
+
 def test_the_same_file_by_another_name_is_the_same_lock(part: Path) -> None:
     link = part.with_name("link.toml")
     link.symlink_to(part)
