@@ -178,7 +178,7 @@ def test_two_operators_with_one_file(part: Path) -> None:
             assert "has this program open since" in " ".join(second.text.split())
             second.send(b"t")
             second.until("Block 1: TOOL 8, was 7.")
-            second.send(b"d")
+            second.send(b"dy")
             second.until("Discarded")
             second.send(b"\t9\t\x13")
             second.until("Saved")
