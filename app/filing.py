@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, assert_never
 
 from app.files import empty_program, examples, is_nc, opened
-from app.folders import asking, chosen, outside, written_at
+from app.folders import asking, chosen, outside, told_path, written_at
 from app.messages import Browse, Close, Do, Leave, Load, Open, Post, Save, Say, Swap
 from app.naming import with_suffix
 from app.patience import FILE, within
@@ -50,15 +50,15 @@ def _save(desk: Desk, message: Save) -> Desk:
     if (question := asked(desk, path, message)) is not None:
         return question
     try:
-        if message.changed:
-            put_theirs_aside(path)
+        theirs = put_theirs_aside(path) if message.changed else None
         text = dumps(session.program)
         write_text(path, text)
     except StoreError as error:
         return _failed(desk, error)
     named = session.named(path, stamp_of_data(text.encode()), linked=message.linked and leads_elsewhere(path))
     desk = _without(replace(desk, session=named), SaveAsPage)
-    return replace(desk, exit=True) if message.leave else desk.take(Say(f"Saved: {written_at(path)}"))
+    other = "" if theirs is None else f" The other version is in {told_path(theirs.name)}."
+    return replace(desk, exit=True) if message.leave else desk.take(Say(f"Saved: {written_at(path)}{other}"))
 
 
 def _browse(desk: Desk, folder: Path | None) -> Desk:

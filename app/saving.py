@@ -117,15 +117,17 @@ def _theirs(session: Session, path: Path) -> tuple[str, ...] | None:
         return None
 
 
-def put_theirs_aside(path: Path) -> None:
-    """Copy what stands in the file to a name of its own; StoreError if that fails."""
+def put_theirs_aside(path: Path) -> Path:
+    """Copy what stands in the file to a name of its own, which is returned; StoreError if that fails."""
+    aside = beside(path, "theirs", times.now())
     try:
         # whole or not at all: no half copy may pass for the other version
-        write_data(beside(path, "theirs", times.now()), path.read_bytes())
+        write_data(aside, path.read_bytes())
     except (OSError, StoreError) as error:
         cause = error if isinstance(error, OSError) else error.__cause__
         reason = why(cause) if isinstance(cause, OSError) else str(error)
         raise StoreError(f"Nothing is saved: the other version cannot be copied, {reason}") from error
+    return aside
 
 
 def beside(path: Path, whose: str, today: str) -> Path:

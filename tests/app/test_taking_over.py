@@ -121,6 +121,7 @@ def test_a_file_changed_by_another_is_noticed_and_both_are_kept(
     assert load(part).blocks[0].tool == Entry(tool)
     copies = [name for name in names(part) if whose in name and name.endswith(".toml")]
     assert len(copies) == 1
+    assert copies[0] in operator.said
     kept = load(part.with_name(copies[0]))
     assert {kept.blocks[0].tool, load(part).blocks[0].tool} == {Entry(3.0), Entry(7.0)}
     assert not operator.session.unsaved
