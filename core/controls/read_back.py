@@ -8,11 +8,14 @@ then with a note that says how far it differs; everything else is refused with t
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import hypot, tau
 from typing import Final
 
 import numpy as np
 
-from core.controls.contouring import Cut, Line, Plain, refusal
+from core.controls.contouring import Cut, Line, Plain, Travel, refusal
+from core.controls.corners import sweep
+from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, run
 from core.controls.report import Run, Stretch
 from core.controls.tools import ToolTable
@@ -20,6 +23,7 @@ from core.finding import Finding, Severity
 from core.geometry.distance import distance
 from core.geometry.measured import at, measured
 from core.geometry.path import Path
+from core.geometry.piece import Point
 from core.units import Unit
 from core.verify.judge import judge
 from core.verify.verdict import Verdict
@@ -102,10 +106,12 @@ def read_back(meant: Meant) -> Told:
 def _other_move(made: Run, meant: Meant) -> Finding | None:
     """A move without compensation that the control does not make as it was meant."""
     moves = made.moves
+    here: Point | None = None
     for number, line in enumerate(meant.lines, 1):
         travel = line.travel
         if travel is None:
             continue
+        before, here = here, (travel.x, travel.y)
         # the last move up to this line: a line that leads to where the tool stands already makes none
         row = int(np.searchsorted(moves.lines, number, side="right")) - 1
         other = bool(moves.rapid[row]) != (travel.feed is None) or int(moves.turns[row]) != travel.turn
@@ -113,11 +119,21 @@ def _other_move(made: Run, meant: Meant) -> Finding | None:
             return refusal(f"{meant.control} makes another move of line {number} of the program.")
         off = np.abs(moves.points[row] - (travel.x, travel.y, travel.z)).max()
         if travel.turn:
-            off = max(off, np.abs(moves.centres[row, :2] - travel.centre).max())
+            off = max(off, np.abs(moves.centres[row, :2] - travel.centre).max(), _longer(moves, row, before, travel))
         if off > meant.tolerance:
             text = f"{meant.control} ends line {number} of the program {{0}} elsewhere."
             return refusal(text, lengths=(float(off),))
     return None
+
+
+def _longer(moves: Moves, row: int, before: Point | None, travel: Travel) -> float:
+    """Millimetres by which an arc is not as long as it was meant: by a turn, where its ends became one point."""
+    if before is None:
+        return 0.0
+    (x, y), (ex, ey) = moves.points[row - 1 : row + 1, :2].tolist()
+    turned = sweep((x, y), (ex, ey), travel.centre, travel.turn) or tau
+    meant = sweep(before, (travel.x, travel.y), travel.centre, travel.turn) or tau
+    return abs(turned - meant) * hypot(travel.x - travel.centre[0], travel.y - travel.centre[1])
 
 
 def _stopped(made: Run, meant: Meant) -> tuple[Finding, ...]:

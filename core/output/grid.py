@@ -13,6 +13,7 @@ from math import atan2, cos, hypot, pi, sin, tau
 from typing import Final
 
 from core.geometry.piece import Arc, Point, Turn
+from core.tolerance import CLOSED
 from core.units import Unit, from_mm
 
 DECIMALS: Final = {Unit.IN: 6, Unit.MM: 5}
@@ -112,10 +113,15 @@ def _centre(start: Point, centre: Point, grid: Grid) -> Steps:
 
 
 def _means(start: Point, end: Point, centre: Steps, sweep: float, radius: float, grid: Grid) -> bool:
-    """The bow as written turns as far as meant."""
+    """The bow as written turns as far as meant, and ends at its start only if it is the full circle.
+
+    An end within `CLOSED` of the start is one that controls with fewer digits take for it.
+    """
     first, last = grid.point(start), grid.point(end)
-    if first == last:
-        return start == end and abs(sweep) == tau
+    if start == end:
+        return abs(sweep) == tau
+    if first == last or max(abs(end[0] - start[0]), abs(end[1] - start[1])) <= CLOSED:
+        return False
     i, j = centre[0] / 10**FINER, centre[1] / 10**FINER
     away = (last[0] - first[0] - i, last[1] - first[1] - j)
     turn = 1 if sweep > 0.0 else -1

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from math import pi
+
 from core.comp.result import Compensated
 from core.controls.contouring import Cut, Plain, Travel
 from core.finding import Finding, Severity
+from core.geometry.construct import rotated
+from core.geometry.piece import Arc
 from core.output.job import Job
-from core.output.motion import Pass
+from core.output.motion import Motion, Pass
 from core.output.own import objections, post_own
 from core.output.passes import passes
 from core.output.post import Posted, Refusal
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.jobs import jobs
 from core.program.model import PathChoice
+from core.tolerance import CLOSED
 
 
 def post_for(derived: Derived, *, name: str, control: str) -> Posted | Refusal:
@@ -44,7 +50,7 @@ def _plain(one: Pass, job: Job) -> Plain:
     """A pass with nothing to compensate: the tool's centre runs on the contour."""
     heights = [motion.z for motion in one.motions]
     return Plain(
-        travels=tuple(Travel(each.x, each.y, each.z, each.feed, int(each.turn), each.centre) for each in one.motions),
+        travels=tuple(_travels(one.motions)),
         tool=one.cutter.number,
         diameter=one.cutter.diameter,
         stock=0.0,
@@ -56,6 +62,25 @@ def _plain(one: Pass, job: Job) -> Plain:
         depth=min(heights),
         leave=heights[-1],
     )
+
+
+def _travels(motions: Sequence[Motion]) -> Iterator[Travel]:
+    """The moves; an arc that ends beside its start is a line, or two halves, which no control takes for a full circle.
+
+    The digits of most controls cannot tell such an end from the start.
+    """
+    before = motions[0]
+    for each in motions:
+        start, end = (before.x, before.y), (each.x, each.y)
+        turn, centre, z = int(each.turn), each.centre, (before.z + each.z) / 2
+        if turn and start != end and max(abs(end[0] - start[0]), abs(end[1] - start[1])) <= CLOSED:
+            sweep = Arc(start, end, centre, each.turn).sweep
+            if abs(sweep) < pi:
+                turn = 0
+            else:
+                yield Travel(*rotated(start, centre, sweep / 2), z, each.feed, turn, centre)
+        yield Travel(*end, each.z, each.feed, turn, centre)
+        before = each
 
 
 def _run_of(found: DerivedBlock, job: Job, one: Pass) -> Compensated:

@@ -85,6 +85,17 @@ def test_an_arc_of_hardly_any_angle_is_a_chord():
     assert [type(part) for part in written(arc(10_000.0, 0.3, 1e-7), MM)] == [Chord]
 
 
+@pytest.mark.parametrize("grid", [IN, MM], ids=["in", "mm"])
+@pytest.mark.parametrize("radius", [0.5, 10.0, 25.4, 5000.0])
+@pytest.mark.parametrize("gap", [0.0005, 0.0015, 0.0025])
+def test_no_bow_ends_within_a_closed_contours_tolerance_of_its_start(grid: Grid, radius: float, gap: float) -> None:
+    """A control with fewer digits takes such an end for the start, and the arc for the full circle, or for none."""
+    short = list(written(arc(radius, 0.3, gap / radius), grid))
+    assert {type(part) for part in short} == {Chord}
+    long = list(written(arc(radius, 0.3, gap / radius - tau), grid))
+    assert [type(part) for part in long] == [Bow, Bow]
+
+
 def test_a_speck_of_an_arc_is_chords():
     parts = list(written(arc(0.0005, 0.0, pi), MM))
     assert {type(part) for part in parts} == {Chord}

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from core.controls.contouring import Travel
 from core.controls.registry import NO_TOOLS, names, run
 from core.controls.report import Run
 from core.controls.tools import ToolTable
@@ -16,11 +17,23 @@ from core.geometry.measured import at, measured
 from core.geometry.path import Path as Line
 from core.output.passes import passes
 from core.output.post import Posted, Refusal
+from core.pipeline import own
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
 from core.pipeline.jobs import jobs
 from core.pipeline.own import post_for
-from core.program.model import ArcSegment, Block, CutterComp, Direction, Entry, Parameters, PathChoice, Program, changed
+from core.program.model import (
+    ArcSegment,
+    Block,
+    CutterComp,
+    Direction,
+    Entry,
+    LineSegment,
+    Parameters,
+    PathChoice,
+    Program,
+    changed,
+)
 from core.program.store import load
 from core.units import Unit, from_mm
 from tests import rs274
@@ -174,6 +187,57 @@ def test_on_goes_beside_blocks_with_compensation(control: str) -> None:
     found, _, made = made_by(program(SQUARE, climbing(), SQUARE, parameters=BLENDS), control)
     assert len(made.stretches) == 6
     assert [each.block.cutter_comp for each in found.blocks].count(CutterComp.ON) == 1
+
+
+NEARLY = [0.0005, 0.001, 0.004, 359.9, 359.998, 359.9985, 360.0]
+
+
+def circling(sweep: float, unit: Unit, comp: CutterComp, direction: Direction) -> Program:
+    """A line, an arc of so many degrees about a center one above its end, and a line away from there."""
+    scale = 1.0 if unit is Unit.IN else 25.4
+    there = LineSegment(length=Entry(2.0 * scale), angle=Entry(45.0), feed=Entry(8.0 * scale))
+    x, y = (round(value * scale, 4) for value in (1.4142, 2.4142))
+    around = ArcSegment(direction, x_center=Entry(x), y_center=Entry(y), sweep=Entry(sweep))
+    plain = changed(block(((0.0, 0.0),), comp), {"z_bottom": Entry(-0.25 * scale), "plunge_feed": Entry(5.0 * scale)})
+    made = program(replace(plain, segments=(there, around)), parameters=Parameters(blend_offset=Entry(0.0)))
+    return replace(made, unit=unit, tools=(replace(made.tools[0], diameter=Entry(0.5 * scale)),))
+
+
+@pytest.mark.parametrize("control", names())
+@pytest.mark.parametrize("direction", list(Direction))
+@pytest.mark.parametrize("unit", list(Unit))
+@pytest.mark.parametrize("sweep", NEARLY)
+def test_an_arc_that_ends_beside_its_start_is_as_long_for_every_control(
+    sweep: float, unit: Unit, direction: Direction, control: str
+) -> None:
+    """As a full circle it may be read only where it is one; the read-back measures what the control runs."""
+    found = derive(circling(sweep, unit, CutterComp.ON, direction))
+    result = post_for(found, name="PART", control=control)
+    assert isinstance(result, Posted), result
+    tools = NO_TOOLS if control in ("klartext", "threeblock") else table(found.program, result.text)
+    made = run(result.text.encode(), control, tools, unit)
+    assert isinstance(made, Run)
+    assert made.stopped_at is None
+    path = made.moves.path()
+    fed = np.isin(path.numbers, made.moves.lines[~made.moves.rapid])
+    assert path.lengths[fed].sum() == pytest.approx(found.blocks[0].work.surface.lengths.sum(), abs=0.01)
+    circles = (path.turns != 0) & (path.points[:-1] == path.points[1:]).all(axis=1)
+    assert circles.sum() == (sweep == 360.0)
+
+
+@pytest.mark.parametrize("control", ["threeblock", "nine-series:a"])
+@pytest.mark.parametrize("unit", list(Unit))
+def test_an_arc_that_a_control_runs_as_a_full_circle_is_not_handed_out(
+    unit: Unit, control: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whoever writes it: what is read back is measured."""
+    monkeypatch.setattr(
+        own, "_travels", lambda motions: [Travel(m.x, m.y, m.z, m.feed, int(m.turn), m.centre) for m in motions]
+    )
+    found = derive(circling(0.001, unit, CutterComp.ON, Direction.CW))
+    result = post_for(found, name="PART", control=control)
+    assert isinstance(result, Refusal)
+    assert f"{control} ends line" in result.text
 
 
 def test_another_work_offset_is_told_where_it_cannot_be_written() -> None:
