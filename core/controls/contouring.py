@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import hypot
+from math import hypot, pi
 from typing import Final, NamedTuple
 
 from core.comp.result import Compensated
@@ -19,6 +19,7 @@ from core.controls.corners import Element, arc_element, line_element
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Point
+from core.tolerance import CLOSED
 from core.units import Unit, from_mm
 
 APART: Final = 0.001
@@ -175,8 +176,13 @@ def _held(whole: Element, cut: Element) -> Element:
 
 
 def _again(element: Element) -> Element:
-    """The element with the directions its ends have now."""
-    if element.turn:
+    """The element with the directions its ends have now; a line for an arc that ends beside its start.
+
+    The digits of most controls cannot tell such an end from the start, and some take the arc for the full circle.
+    """
+    (x, y), (ex, ey) = element.start, element.end
+    beside = (x, y) != (ex, ey) and max(abs(ex - x), abs(ey - y)) <= CLOSED
+    if element.turn and not (beside and corners.element_sweep(element) < pi):
         return arc_element(element.start, element.end, element.centre, element.turn, 0.0, 0.0, 0.0, 0)
     return line_element(element.start, element.end, 0.0, 0.0, rapid=False, feed=0.0, line=0)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -223,6 +224,19 @@ def test_an_arc_that_ends_beside_its_start_is_as_long_for_every_control(
     assert path.lengths[fed].sum() == pytest.approx(found.blocks[0].work.surface.lengths.sum(), abs=0.01)
     circles = (path.turns != 0) & (path.points[:-1] == path.points[1:]).all(axis=1)
     assert circles.sum() == (sweep == 360.0)
+
+
+@pytest.mark.parametrize("control", names())
+@pytest.mark.parametrize("unit", list(Unit))
+@pytest.mark.parametrize("side", [(CutterComp.LEFT, Direction.CCW), (CutterComp.RIGHT, Direction.CW)])
+@pytest.mark.parametrize("sweep", [0.0005, 0.001, 0.004, 359.998])
+def test_no_control_is_told_to_compensate_an_arc_that_ends_beside_its_start(
+    sweep: float, side: tuple[CutterComp, Direction], unit: Unit, control: str
+) -> None:
+    """What is left of one is a line, or nothing is written."""
+    result = post_for(derive(circling(sweep, unit, *side)), name="PART", control=control)
+    if isinstance(result, Posted):
+        assert re.search(r"G0?[23][XYIJ ]| C [XY]", result.text) is None
 
 
 @pytest.mark.parametrize("control", ["threeblock", "nine-series:a"])
