@@ -52,10 +52,13 @@ def bounds(pairs: Pairs, gaps: Stretches, near: Rows, radius: float) -> Bound:
     """What no place of each gap is farther from the path than; `near` (2, k) are the pieces at its ends."""
     parts = _parts(pairs, gaps)
     corner = _corner(pairs, near, parts)
+    off = _off(parts, corner, near, radius)
+    _to_common_ends(pairs, parts, corner, (off & (near >= 0).all(axis=0)).nonzero()[0], radius)
+    off[off] = _off(parts, corner, near, radius)[off]
     seen = parts.points - corner[parts.owner]
     apart = np.abs(seen)
     sector = _sectors(pairs, parts, seen, radius)
-    sector[_off(parts, apart, near, radius)] = np.nan
+    sector[off] = np.nan
     _to_arcs(pairs, parts, corner, apart)
     most = np.maximum.reduceat(apart, parts.begins)
     where = (apart == most[parts.owner]).nonzero()[0]
@@ -143,11 +146,28 @@ def _sectors(pairs: Pairs, parts: _Parts, seen: Points, radius: float) -> Floats
     return sums
 
 
-def _off(parts: _Parts, apart: Floats, near: Rows, radius: float) -> Flags:
-    """Gaps of which an end that is reached is not as far from the point as the cutter's edge."""
-    ends = np.array((parts.begins, parts.ends))
-    off: Flags = np.any((np.abs(apart[ends] - radius) > ON_EDGE) & (near >= 0), axis=0)
+def _off(parts: _Parts, corner: Points, near: Rows, radius: float) -> Flags:
+    """Gaps of which an end that is reached is not as far from the corner as the cutter's edge."""
+    ends = parts.points[np.array((parts.begins, parts.ends))]
+    off: Flags = np.any((np.abs(np.abs(ends - corner) - radius) > ON_EDGE) & (near >= 0), axis=0)
     return off
+
+
+def _to_common_ends(pairs: Pairs, parts: _Parts, corner: Points, gaps: Rows, radius: float) -> None:
+    """Corners of these gaps moved to an end of a piece that has both ends of the gap on the cutter's edge, if any has.
+
+    Several pieces may reach the one end of a gap, such as all that roll about a joint, and any of them stands for it.
+    """
+    if not len(gaps):
+        return
+    first, last = parts.points[parts.begins[gaps]], parts.points[parts.ends[gaps]]
+    spots = np.array((first.real, first.imag, first.real, first.imag))
+    k, i = near_pairs(spots, pairs.centre_boxes, radius + ON_EDGE)
+    ends = np.array((pairs.centre.start[i], pairs.centre.start[i] + pairs.centre.vector[i]))
+    misses = np.maximum(np.abs(np.abs(ends - first[k]) - radius), np.abs(np.abs(ends - last[k]) - radius))
+    # from the last to the first, which is to stand for them all
+    end, pair = (misses <= ON_EDGE)[::-1, ::-1].nonzero()
+    corner[gaps[k[::-1][pair]]] = ends[::-1, ::-1][end, pair]
 
 
 def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: float) -> Farthest:

@@ -7,6 +7,7 @@ from random import Random
 
 import numpy as np
 import pytest
+from shapely.geometry import Point, Polygon
 
 from core.comp.compensate import compensate
 from core.geometry.path import Path
@@ -18,8 +19,10 @@ from core.verify.judge import judge
 from core.verify.verdict import UncutStretches
 from tests.core.verify import oracle
 from tests.core.verify.corpus import Chain
+from tests.core.verify.roads import thresholds
 from tests.core.verify.shapes import circle, lines, square
 from tests.core.verify.test_brute import spiral, waves
+from tests.core.verify.test_shapely import chords
 
 RADIUS = 0.25
 
@@ -152,6 +155,34 @@ def test_no_area_is_told_where_it_has_no_bound() -> None:
     assert [one.area for one in uncut(wall, lines((1, RADIUS), (4, RADIUS), (5, 2), (6, RADIUS), (9, RADIUS)))] == [
         None
     ] * 3
+
+
+ROUNDED_GEAR = (1, 0, 0, 1, 0, -1, 1, 1, 1, 1, 1, 1, -1, 0, -1, 1, 0, 1, 0, 0, 1, -1, 1, 1)
+"""Which sides of a gear with six teeth are bent out or in."""
+
+
+def test_an_area_is_told_whichever_of_the_moves_that_end_a_gap_stands_for_it() -> None:
+    """A move ends where the cutter touches a corner, another begins behind the arc about that corner."""
+    spots = [
+        (radius, tau * (k + share) / 6) for k in range(6) for radius, share in ((3, 0), (3, 0.4), (2, 0.5), (2, 0.9))
+    ]
+    points = [(radius * cos(angle), radius * sin(angle)) for radius, angle in spots]
+    surface = Chain((*points, points[0]), tuple(bend / 10.0 for bend in ROUNDED_GEAR)).path()
+    path = compensate(surface, Side.LEFT, 1.0, 11, closed=True).path
+    areas = []
+    for few in (len(surface), 0):
+        with thresholds(few):
+            areas.append([one.area for one in uncut(surface, path, 1.0)])
+    assert None not in areas[0]
+    assert areas[1] == pytest.approx(areas[0], abs=1e-9)
+    assert areas[0][0] == pytest.approx(_area_left(surface, path, 1.0, (0.3, 2.9)), abs=1e-3)
+
+
+def _area_left(surface: Path, path: Path, radius: float, near: tuple[float, float]) -> float:
+    """Area inside a contour that no disc along the path covers, of the part that holds a point, by shapely."""
+    left = Polygon(chords(surface)).difference(chords(path).buffer(radius, quad_segs=256))
+    parts = getattr(left, "geoms", [left])
+    return float(min(parts, key=lambda part: part.distance(Point(near))).area)
 
 
 def test_nothing_is_told_thicker_than_it_is_where_rounded_coordinates_make_arcs_uneven() -> None:
