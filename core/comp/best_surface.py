@@ -39,8 +39,8 @@ class Surface:
 def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
     """The contour made fit to be offset, or why it cannot be.
 
-    Zero-length segments are dropped.  An arc whose radii differ (by less than ARC_RADII) gets the centre equally far
-    from both its ends.  A closed contour's gap is bridged by a line of its last segment's number.
+    Zero-length segments are dropped.  An arc whose radii differ (by less than ARC_RADII) is made one of one radius.
+    A closed contour's gap is bridged by a line of its last segment's number.
     """
     refused = trouble.refusal(contour, radius, ())
     if refused:
@@ -76,18 +76,43 @@ def _without(contour: Path, kept: Masks) -> Path:
 
 
 def _even(path: Path) -> Path:
-    """The path with arcs of one radius each: the centre moved onto the chord's bisector."""
+    """The path with arcs of one radius each, nowhere farther from the given ones than their two radii are apart.
+
+    The centre moves onto the chord's bisector.  Where it would move by more than that, which is where the chord is
+    shorter than the radius, an arc of more than half a turn is parted in its middle first, half way between its radii;
+    one of less keeps its ends and gets the radius between its two.
+    """
     points, centres = planes(path.points), planes(path.centres)
     start, end = points[:-1], points[1:]
     off = np.abs(np.abs(start - centres) - np.abs(end - centres))
     rows = ((path.turns != 0) & (off > ON_PATH)).nonzero()[0]
     if not len(rows):
         return path
-    start, chord = start[rows], (end - start)[rows]
-    along = (chord.conj() * (centres[rows] - start)).real / np.abs(chord) - np.abs(chord) / 2.0
+    start, end, centre, turns = start[rows], end[rows], centres[rows], path.turns[rows]
+    chord = end - start
+    moved = -(chord.conj() * (centre - (start + end) / 2.0)).real * chord / np.abs(chord) ** 2
+    far = np.abs(moved) > off[rows]
+    angle = np.mod(np.angle((end - centre) * (start - centre).conj()) * turns, tau)
+    large = far & (angle > tau / 2.0)
+    if large.any():
+        return _even(_parted_at(path, rows[large], angle[large]))
     centres = centres.copy()
-    centres[rows] -= along * chord / np.abs(chord)
+    size = (np.abs(start - centre) + np.abs(end - centre)) / 2.0
+    bow = np.sqrt(np.maximum(size**2 - np.abs(chord / 2.0) ** 2, 0.0))
+    between = (start + end) / 2.0 + 1j * turns * bow * chord / np.abs(chord)
+    centres[rows] = np.where(far, between, centre + moved)
     return Path(path.points, coordinates(centres), path.turns, path.numbers)
+
+
+def _parted_at(path: Path, rows: Indices, angles: Floats) -> Path:
+    """The path with arcs `rows`, which turn through `angles`, in two halves that meet between their radii."""
+    points, centre = planes(path.points), planes(path.centres)[rows]
+    arm, last = points[rows] - centre, points[rows + 1] - centre
+    size = (np.abs(arm) + np.abs(last)) / 2.0
+    middle = centre + arm / np.abs(arm) * size * np.exp(0.5j * angles * path.turns[rows])
+    twice = np.sort(np.concatenate((np.arange(len(path)), rows)))
+    points = np.insert(points, rows + 1, middle)
+    return Path.of(coordinates(points), path.centres[twice], path.turns[twice], path.numbers[twice])
 
 
 def _closed(path: Path) -> Path:

@@ -51,24 +51,36 @@ def _not_finite(contour: Path) -> Finding:
 
 
 def _not_arcs(contour: Path) -> tuple[Finding, ...]:
-    """Arcs whose radii at start and end differ by more than a blunder of rounding, or are nothing."""
+    """Arcs whose radii at start and end differ by more than a blunder of rounding, or are nothing.
+
+    Where they differ by less, an arc whose ends are on one ray from its centre is a full turn or none at all.
+    """
     rows = contour.turns.nonzero()[0]
     if not len(rows):
         return ()
     points, centres = planes(contour.points), planes(contour.centres)[rows]
-    first, last = np.abs(points[rows] - centres), np.abs(points[rows + 1] - centres)
-    pointed = (np.minimum(first, last) <= JOINED) & (np.abs(points[rows + 1] - points[rows]) > JOINED)
-    bad = ((np.abs(first - last) > ARC_RADII) | pointed).nonzero()[0]
+    start, end = points[rows], points[rows + 1]
+    first, last = np.abs(start - centres), np.abs(end - centres)
+    off = np.abs(first - last)
+    pointed = (np.minimum(first, last) <= JOINED) & (np.abs(end - start) > JOINED)
+    bad = (off > ARC_RADII) | pointed
     text = "The arc's radius is {0} at its start and {1} at its end: check its centre."
+    found = _arcs_named("ARC_RADII", text, contour.numbers[rows], bad, first, last)
+    doubtful = (~bad & (off > JOINED)).nonzero()[0]
+    if not len(doubtful):
+        return found
+    across = (start - centres)[doubtful].conj() * (end - centres)[doubtful]
+    beside = (np.abs(across.imag) <= JOINED * first[doubtful]) & (across.real > 0.0)
+    text = "The arc's end is beside its start, {0} and {1} from its centre: end it at its start, or away from there."
+    rows, first, last = rows[doubtful], first[doubtful], last[doubtful]
+    return (*found, *_arcs_named("ARC_ENDS", text, contour.numbers[rows], beside, first, last))
+
+
+def _arcs_named(code: str, text: str, numbers: Floats, bad: Masks, first: Floats, last: Floats) -> tuple[Finding, ...]:
+    """An error for each bad arc, with its radii."""
     return tuple(
-        Finding(
-            "ARC_RADII",
-            Severity.ERROR,
-            text,
-            float(contour.numbers[rows[row]]),
-            lengths=(float(first[row]), float(last[row])),
-        )
-        for row in bad[:NAMED_AT_MOST].tolist()
+        Finding(code, Severity.ERROR, text, float(numbers[row]), lengths=(float(first[row]), float(last[row])))
+        for row in bad.nonzero()[0][:NAMED_AT_MOST].tolist()
     )
 
 

@@ -157,7 +157,9 @@ def settled(start: Point, end: Point, centre: Point, turn: Turn) -> Arc:
         return Arc(start, end, moved, turn)
     scale = radius / out if out else 0.0
     onto = (centre[0] + (end[0] - centre[0]) * scale, centre[1] + (end[1] - centre[1]) * scale)
-    return Arc(start, onto, centre, turn)
+    # rounding must not decide between a full circle and nothing
+    same = hypot(onto[0] - start[0], onto[1] - start[1]) <= JOINED
+    return Arc(start, start if same else onto, centre, turn)
 
 
 def chord_factor(sweep: float) -> float:

@@ -140,7 +140,7 @@ def _measured(start: Points, end: Points, centre: Points, turn: Floats) -> Measu
     length = np.abs(vector)
     if len(arc):
         first, last = start[arc], end[arc]
-        middle, slack[arc] = _one_radius(first, last, centre[arc])
+        middle, slack[arc] = _one_radius(first, last, centre[arc], turn[arc])
         arm[arc] = from_middle = first - middle
         radius[arc] = bend = np.abs(from_middle)
         angle[arc] = swept = _angles(from_middle, last - middle, turn[arc], first == last)
@@ -148,20 +148,29 @@ def _measured(start: Points, end: Points, centre: Points, turn: Floats) -> Measu
     return Measured(np.arange(len(turn)), start, vector, arm, turn, angle, radius, length, slack)
 
 
-def _one_radius(start: Points, end: Points, centre: Points) -> tuple[Points, Floats]:
-    """Centres equally far from both ends, and by how much an arc's two radii left open where it runs."""
-    off = np.abs(np.abs(start - centre) - np.abs(end - centre))
+def _one_radius(start: Points, end: Points, centre: Points, turn: Floats) -> tuple[Points, Floats]:
+    """Centres equally far from both ends, and by how much an arc's two radii left open where it runs.
+
+    A centre moves along the chord by no more than the radii differ.  Where that is not enough, which is where the chord
+    is shorter than the radius, an arc of less than half a turn keeps its ends and gets the radius between its two; a
+    longer one keeps its centre: the farther it moves, the farther is the other side of the arc from where it runs.
+    """
+    first, last = np.abs(start - centre), np.abs(end - centre)
+    off = np.abs(first - last)
     uneven = off > ON_PATH
     if not uneven.any():
         return centre, np.zeros(len(off))
     chord = end - start
     size = np.abs(chord)
-    steady = uneven & (size > 1e-3 * np.abs(start - centre))
     unit = chord / np.where(size == 0.0, 1.0, size)
-    shift = (np.conj(unit) * (centre - (start + end) / 2)).real
-    moved = np.where(steady, centre - unit * shift, centre)
-    slack = np.where(off > ARC_RADII, np.inf, np.maximum(off, np.where(steady, np.abs(shift), 0.0)))
-    return moved, np.where(uneven, slack, 0.0)
+    half, middle = size / 2.0, (start + end) / 2.0
+    shift = (np.conj(unit) * (centre - middle)).real
+    bow = np.sqrt(np.maximum((first + last) ** 2 / 4.0 - half**2, 0.0))
+    short = ((end - centre) * np.conj(start - centre)).imag * turn >= 0.0
+    far = np.where(short & (size > 0.0), middle + 1j * turn * unit * bow, centre)
+    moved = np.where(np.abs(shift) > off, far, centre - unit * shift)
+    slack = np.where(off > ARC_RADII, np.inf, off)
+    return np.where(uneven, moved, centre), np.where(uneven, slack, 0.0)
 
 
 def _angles(arm: Points, last: Points, turn: Floats, whole: Flags) -> Floats:

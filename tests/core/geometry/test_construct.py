@@ -162,6 +162,18 @@ def test_settled_closes_a_circle_that_ends_at_its_start():
     assert arc.sweep == tau
 
 
+@pytest.mark.parametrize("off", [0.001, -0.002])
+@pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
+def test_settled_closes_a_circle_that_ends_on_the_ray_of_its_start(off, turn):
+    """The end moved onto the circle by rounding behind the start or before it: the circle was there or vanished."""
+    for x in (0.1, 0.3, -0.7):
+        centre = (x, -10.0)
+        size = dist((0.0, 0.0), centre)
+        end = (x - x * (size + off) / size, -10.0 + 10.0 * (size + off) / size)
+        arc = construct.settled((0.0, 0.0), end, centre, turn)
+        assert arc == Arc((0.0, 0.0), (0.0, 0.0), centre, turn)
+
+
 def test_settled_leaves_a_tiny_arc_tiny():
     """Two microns of a circle are no full circle."""
     arc = construct.settled((1.0, 0.0), (1.0, 0.002), (0.0, 0.0), Turn.CCW)

@@ -7,10 +7,13 @@ from math import inf, pi, sqrt
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from core.geometry.measured import at, boxes, direction, measured, place
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Turn
+from core.geometry.side import Side
+from core.verify.judge import judge
 from tests.core.verify import oracle
 from tests.core.verify.shapes import lines, paths
 
@@ -63,3 +66,27 @@ def test_boxes_hold_all_points_and_are_no_larger(path: Path) -> None:
         assert low_y - 1e-9 <= y.min() <= low_y + step
         assert high_x - step <= x.max() <= high_x + 1e-9
         assert high_y - step <= y.max() <= high_y + 1e-9
+
+
+@settings(deadline=None, max_examples=300, derandomize=True)
+@given(st.floats(-6.0, 0.0), st.floats(-7.0, -2.6), st.sampled_from((-1, 1)), st.sampled_from((-1, 1)))
+def test_an_uneven_arc_is_nowhere_farther_from_its_circle_than_its_radii_are_apart(
+    power: float, differ: float, out: int, way: int
+) -> None:
+    """The chord decides nothing: a short one once took the centre of a nearly full arc millimetres away."""
+    chord, off = 10.0**power, 10.0**differ
+    last = (10.0 + out * off) * np.exp(1j * way * chord / 10.0)
+    arc = measured(Path.from_pieces([Arc((10.0, 0.0), (last.real, last.imag), (0.0, 0.0), Turn.CCW)]))
+    assert arc.slack[0] == pytest.approx(off, rel=1e-3)
+    turned = chord if way > 0 else 20.0 * pi - chord
+    assert arc.length[0] == pytest.approx(abs(complex(turned, off)) if way > 0 else turned, abs=10.0 * off)
+    for part in np.linspace(0.0, 1.0, 9):
+        assert abs(abs(at(arc, np.array((part,)))[0]) - 10.0) <= off * (1.0 + 1e-3) + 1e-9
+
+
+def test_a_gouge_of_a_nearly_full_arc_is_not_taken_for_its_uneven_radii() -> None:
+    """It ends 0.01 from its start, its radii 0.001 apart: the path is 0.3 too near on the far side."""
+    hole = Path.from_pieces([Arc((10.0, 0.0), (10.001, -0.01), (0.0, 0.0), Turn.CCW)])
+    path = Path.from_pieces([Arc((9.2, 0.0), (9.2, 0.0), (-0.3, 0.0), Turn.CCW)])
+    verdict = judge(hole, Side.LEFT, 0.5, path)
+    assert verdict.depth == pytest.approx(0.3, abs=2e-3)
