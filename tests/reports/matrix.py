@@ -16,7 +16,6 @@ from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
-from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Final
@@ -29,13 +28,13 @@ from core.program.store import load
 from tests.reports.reference import Reference, keys_of
 from tests.reports.terminals import (
     FUNCTION_KEYS,
-    LOCALES,
     PUTTY,
     SIZES,
-    TERMS,
     XTERM,
     Colours,
     Kind,
+    kinds,
+    sampled,
     sent,
 )
 from tests.terminal import Terminal, running
@@ -136,7 +135,7 @@ class Seat:
             for span in row:
                 for column in range(x, x + len(span.text)):
                     cell = self.terminal.screen.buffer[y][column]
-                    if span.look is Look.CURSOR and not stands_out(cell, self.kind.colours):
+                    if span.look is Look.CURSOR and not stands_out(cell, self.kind.shown):
                         return f"cursor at {column}, {y} is not seen: {cell}"
                     if span.look is Look.CARET and not cell.underscore:
                         return f"caret at {column}, {y} is not seen: {cell}"
@@ -188,13 +187,13 @@ def seated(kind: Kind, size: tuple[int, int], sequences: tuple[str, ...], tally:
     ):
         if kind.characters != "utf-8":
             terminal.stream.select_other_charset("@")
-        reference = Reference(Session.of(load(example(PART))))
+        reference = Reference(replace(Session.of(load(example(PART))), title=PART))
         reference.desk = replace(reference.desk, mode=kind.modes[0], modes=kind.modes)
         seat = Seat(kind, terminal, reference, size, sequences, tally)
         tally.runs += 1
         seat.compare("the start")
         yield seat
-        if trouble := stray(bytes(terminal.seen), kind.characters) or colours_wrong(terminal, kind.colours):
+        if trouble := stray(bytes(terminal.seen), kind.characters) or colours_wrong(terminal, kind.shown):
             seat.wrong(trouble)
 
 
@@ -248,12 +247,6 @@ def one_mode(name: str) -> Tally:
     return tally
 
 
-def kinds() -> tuple[Kind, ...]:
-    """Every terminal, colour and locale, and the same where its operator asks for braille."""
-    plain = tuple(Kind(*one) for one in product(TERMS, Colours, LOCALES))
-    return (*plain, *(asked for kind in plain if (asked := kind.by_asking) is not None))
-
-
 def report(tallies: dict[str, Tally]) -> Iterator[str]:
     """A line for each kind, and the sum."""
     whole = Tally()
@@ -270,10 +263,9 @@ def report(tallies: dict[str, Tally]) -> Iterator[str]:
     )
 
 
-def gathered(pool: ProcessPoolExecutor) -> dict[str, Tally]:
-    """All terminals, summed up by TERM and colours, then PuTTY's modes."""
+def gathered(pool: ProcessPoolExecutor, every: tuple[Kind, ...]) -> dict[str, Tally]:
+    """These terminals, summed up by TERM and colours, then PuTTY's modes."""
     tallies: dict[str, Tally] = {}
-    every = kinds()
     for kind, tally in zip(every, pool.map(one_kind, every, range(len(every))), strict=True):
         tallies.setdefault(f"{kind.term} {kind.colours}", Tally()).add(tally)
         print(kind, len(tally.wrong), file=sys.stderr)
@@ -286,9 +278,12 @@ def main() -> int:
     """Print the report; exit status 1 when anything was wrong."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--at-once", type=int, default=2)
+    parser.add_argument("--all", action="store_true", help="every terminal with every colour in every locale")
     options = parser.parse_args()
+    every = kinds() if options.all else sampled()
+    print(f"{len(every)} of {len(kinds())} terminals with colours and locale; --all runs them all")
     with ProcessPoolExecutor(options.at_once) as pool:
-        tallies = gathered(pool)
+        tallies = gathered(pool, every)
     print("\n".join(report(tallies)))
     return 1 if any(tally.wrong for tally in tallies.values()) else 0
 

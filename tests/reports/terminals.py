@@ -4,13 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from itertools import product
 from typing import Final
 
 ESC: Final = "\x1b"
-TERMS: Final = ("xterm", "xterm-256color", "screen", "tmux", "linux", "vt100", "putty")
+TERMS: Final = ("xterm", "xterm-256color", "screen", "tmux", "linux", "putty", "vt100", "vt220", "xterm-mono")
+BARE: Final = ("vt100", "vt220", "xterm-mono")
+"""Terminals without colours."""
+NO_UTF_8: Final = ("vt100", "vt220")
+"""Terminals without UTF-8."""
 NAMED_256: Final = ("xterm", "screen", "tmux", "putty")
 """Terminals whose name with -256color behind it exists."""
 LOCALES: Final = {"UTF-8": "C.UTF-8", "Latin-1": "de_DE.ISO-8859-1", "C": "C"}
+FORMS: Final = ("LANG", "LC_CTYPE", "LC_ALL")
+"""Variables that a locale is named in; the later ones count more."""
 SETS: Final = {"UTF-8": "utf-8", "Latin-1": "latin-1", "C": "ascii"}
 """What the bytes of the screen are read as in each locale."""
 SIZES: Final = ((80, 24), (132, 43), (200, 60), (20, 5))
@@ -39,9 +46,9 @@ class Kind:
         return " ".join(one for one in (self.term, self.colours, self.locale, self.asked) if one)
 
     @property
-    def environment(self) -> dict[str, str]:
+    def environment(self) -> dict[str, str | None]:
         """What the program is started with; a name with 256 colours in it says so by itself."""
-        values = {"TERM": self.term, "LC_ALL": LOCALES[self.locale]}
+        values: dict[str, str | None] = {"TERM": self.term, "LANG": None, self.form: LOCALES[self.locale]}
         match self.colours:
             case Colours.TRUE:
                 values["COLORTERM"] = "truecolor"
@@ -58,9 +65,21 @@ class Kind:
         return values
 
     @property
+    def form(self) -> str:
+        """The variable that names the locale: each of them on some terminals."""
+        return FORMS[(TERMS.index(self.term) + 2 * tuple(Colours).index(self.colours)) % len(FORMS)]
+
+    @property
+    def shown(self) -> Colours:
+        """The colours it must get: sixteen are assumed where nothing is said, but not of a terminal without any."""
+        return Colours.NONE if self.colours is Colours.FEW and self.term in BARE else self.colours
+
+    @property
     def characters(self) -> str:
         """What the bytes of the screen are read as."""
-        return "utf-8" if self.asked in MODES[:-1] else SETS[self.locale]
+        if self.asked in MODES[:-1]:
+            return "utf-8"
+        return "ascii" if self.locale == "UTF-8" and self.term in NO_UTF_8 else SETS[self.locale]
 
     @property
     def modes(self) -> tuple[str, ...]:
@@ -68,7 +87,7 @@ class Kind:
         if self.asked:
             first = MODES.index(self.asked)
             return (*MODES[first:], *MODES[:first])
-        if self.locale != "UTF-8":
+        if self.locale != "UTF-8" or self.term in NO_UTF_8:
             return MODES[-1:]
         return MODES[1:] if self.term == "linux" else MODES
 
@@ -81,6 +100,21 @@ class Kind:
     def only_here(self) -> tuple[str, ...]:
         """The ways of drawing that are not had without asking."""
         return tuple(mode for mode in self.modes if not self.asked or mode not in replace(self, asked="").modes)
+
+
+def kinds() -> tuple[Kind, ...]:
+    """Every terminal, colour and locale, and the same where its operator asks for braille."""
+    plain = tuple(Kind(*one) for one in product(TERMS, Colours, LOCALES))
+    return (*plain, *(asked for kind in plain if (asked := kind.by_asking) is not None))
+
+
+def sampled() -> tuple[Kind, ...]:
+    """Some of them: every pair of a terminal, its colours and its locale, and each by asking once."""
+    turns = {one: number for every in (TERMS, Colours, LOCALES) for number, one in enumerate(every)}
+    plain = (kind for kind in kinds() if (turns[kind.term] + turns[kind.colours] - turns[kind.locale]) % 3 == 0)
+    chosen = tuple(kind for kind in plain if not kind.asked)
+    asked = {kind.term: kind for kind in kinds() if kind.asked}
+    return (*chosen, *asked.values())
 
 
 def _tilde(*numbers: int) -> tuple[str, ...]:
@@ -106,7 +140,7 @@ PUTTY: Final = {
     "Xterm 216+": XTERM,
 }
 """F1 to F8 in PuTTY's modes of function keys, without the ESC; empty where Esc and the digit have to do."""
-FUNCTION_KEYS: Final = {"linux": CONSOLE, "vt100": VT100_PLUS, "putty": OLD}
+FUNCTION_KEYS: Final = {"linux": CONSOLE, "vt100": VT100_PLUS, "vt220": VT100_PLUS, "putty": OLD}
 """F1 to F8 of each TERM; the others send what xterm sends."""
 
 NAMED: Final = {

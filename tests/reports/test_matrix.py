@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from itertools import product
 from types import SimpleNamespace
 
 import pytest
 
 from tests.reports import matrix
-from tests.reports.matrix import SCRIPT, Lost, Tally, kinds, one_kind, seated, stands_out, stray
-from tests.reports.terminals import MODES, PUTTY, SIZES, Colours, Kind, sent
+from tests.reports.matrix import SCRIPT, Lost, Tally, one_kind, seated, stands_out, stray
+from tests.reports.terminals import FORMS, LOCALES, MODES, PUTTY, SIZES, TERMS, Colours, Kind, kinds, sampled, sent
 
 FEW = (
     (Kind("xterm", Colours.TRUE, "UTF-8"), (SIZES[0], SIZES[3])),
     (Kind("vt100", Colours.FEW, "C"), (SIZES[0], SIZES[2])),
+    (Kind("vt220", Colours.FEW, "UTF-8"), (SIZES[3],)),
     (Kind("linux", Colours.NONE, "Latin-1"), (SIZES[0], SIZES[3])),
     (Kind("screen", Colours.MANY, "C", "braille"), (SIZES[0],)),
 )
@@ -28,8 +30,17 @@ def test_a_terminal_shows_what_it_must(kind: Kind, sizes: tuple[tuple[int, int],
 
 def test_every_combination_is_in_the_matrix_once() -> None:
     every = [(kind.term, kind.colours, kind.locale, mode) for kind in kinds() for mode in kind.only_here]
-    assert len(every) == len(set(every)) == 7 * 4 * 3 * 3
+    assert len(every) == len(set(every)) == 9 * 4 * 3 * 3
     assert {mode for *_, mode in every} == set(MODES)
+
+
+def test_the_sample_has_every_pair_of_a_terminal_its_colours_and_its_locale() -> None:
+    few = sampled()
+    assert {(kind.term, kind.colours) for kind in few} == set(product(TERMS, Colours))
+    assert {(kind.term, kind.locale) for kind in few} == set(product(TERMS, LOCALES))
+    assert {(kind.colours, kind.locale) for kind in few} == set(product(Colours, LOCALES))
+    assert {(kind.form, kind.locale) for kind in few} == set(product(FORMS, LOCALES))
+    assert {kind.term for kind in few if kind.asked} == set(TERMS)
 
 
 def test_the_script_presses_every_softkey() -> None:
