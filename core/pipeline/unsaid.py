@@ -13,7 +13,7 @@ from core.units import Kind, from_mm, show, to_mm
 
 
 def unsaid_findings(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
-    """A contour of one segment, as information; the rest are warnings.
+    """A contour of one segment as information, one without any length as an error; the rest are warnings.
 
     A contour that is milled with PLUNGE FEED, allowances that no finish tool takes, clearances of nothing, and a
     PROFILE that makes one pass.
@@ -23,6 +23,7 @@ def unsaid_findings(block: Block, solved: SolvedBlock, program: Program) -> Iter
     yield from _no_clearance(solved, program)
     yield from _one_pass(block, solved, program)
     yield from _one_segment(solved)
+    yield from _no_length(solved)
 
 
 def _plunge_fed(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
@@ -113,3 +114,11 @@ def _one_segment(solved: SolvedBlock) -> Iterator[Finding]:
     number, piece = solved.pieces[0]
     text = "The contour is one segment: an open path from START to X {x} Y {y}. Right arrow or Page Down on SEGMENT "
     yield Finding("ONE_SEGMENT", Severity.INFO, text + "adds the next one.", number, None, piece.end)
+
+
+def _no_length(solved: SolvedBlock) -> Iterator[Finding]:
+    """A contour that is known and has no segment with a length: a point, beside which nothing can be cut."""
+    if not solved.segments or solved.determined < len(solved.segments) or solved.pieces:
+        return
+    text = "No segment has a length: the contour is a point, and there is no path. Correct X END or Y END."
+    yield Finding("NO_LENGTH", Severity.ERROR, text, 1, "x_end", solved.segments[0].end)

@@ -239,3 +239,23 @@ def test_segments_without_length_do_not_count():
     nothing = LineSegment(x_end=Entry(2.0), y_end=Entry(1.0))
     ((found, _),) = told(replace(part, blocks=(replace(one, segments=(LINE, nothing)),)), "ONE_SEGMENT")
     assert found.segment == 1
+
+
+POINT = LineSegment(x_end=Entry(0.0), y_end=Entry(0.0))
+
+
+@pytest.mark.parametrize("comp", [CutterComp.ON, CutterComp.LEFT, CutterComp.PROFILE_RIGHT])
+@pytest.mark.parametrize("count", [1, 3])
+def test_a_contour_without_any_length_is_an_error(count, comp):
+    part = alone(POINT, comp)
+    (one,) = part.blocks
+    ((found, text),) = told(replace(part, blocks=(replace(one, segments=(POINT,) * count),)), "NO_LENGTH")
+    assert (found.severity, found.segment, found.field, found.at) == (Severity.ERROR, 1, "x_end", (0.0, 0.0))
+    assert text == "No segment has a length: the contour is a point, and there is no path. Correct X END or Y END."
+
+
+@pytest.mark.parametrize("segments", [(), (POINT, LINE), (LINE, POINT), (POINT, LineSegment(x_end=Entry(1.0)))])
+def test_a_contour_that_has_a_length_or_may_get_one_is_no_point(segments):
+    part = alone(POINT)
+    (one,) = part.blocks
+    assert told(replace(part, blocks=(replace(one, segments=segments),)), "NO_LENGTH") == []
