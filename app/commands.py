@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from core.output.post import Refusal
     from core.pipeline.derived import Derived, DerivedBlock
+    from core.pipeline.table import Table
 
 DASH: Final = "-"
 """In place of a file: standard input, or standard output."""
@@ -104,21 +105,32 @@ def path(options: argparse.Namespace) -> int:
 
 
 def lookahead(options: argparse.Namespace) -> int:
-    """`cutcomp lookahead`: what becomes of the path at every value."""
+    """`cutcomp lookahead`: what becomes of the path at every value, and what the contour needs."""
     from core.pipeline.document import table_document
     from core.pipeline.listing import table_listing
     from core.pipeline.table import look_ahead_table
 
     derived = _derived(options.file, options.block)
     unit = derived.program.unit
-    tables = [(found, look_ahead_table(found, derived.program)) for found in _chosen(derived, options.block)]
+    chosen = _chosen(derived, options.block)
+    tables = [(found, _advised(found, look_ahead_table(found, derived.program), derived.program)) for found in chosen]
     if options.json:
         blocks = [table_document(found, table, unit) for found, table in tables]
         text = json.dumps({"units": str(unit), "blocks": blocks}, allow_nan=False)
     else:
         text = "\n\n".join("\n".join(table_listing(found, table, unit)) for found, table in tables)
     _deliver(f"{text}\n", None)
+    if not options.json and any(table is None for _, table in tables):
+        _report(derived, options.block)
     return _status(derived, options.block)
+
+
+def _advised(found: DerivedBlock, table: Table | None, program: Program) -> Table | None:
+    """The table with what the contour needs as its notes."""
+    from core.pipeline.needs import needs
+
+    told = None if table is None else needs(found, program, table)
+    return table if table is None or told is None else replace(table, notes=told.sentences)
 
 
 def post(options: argparse.Namespace) -> int:

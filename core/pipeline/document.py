@@ -109,7 +109,7 @@ def finding_document(finding: Finding, unit: Unit) -> Document:
 
 
 def table_document(found: DerivedBlock, table: Table | None, unit: Unit) -> Document:
-    """`cutcomp lookahead --json` for one block: what becomes of the path at every value."""
+    """`cutcomp lookahead --json` for one block: what becomes of the path at every value, and the table's notes."""
     rows = () if table is None else table.rows
     return {
         "block": found.number,
@@ -125,6 +125,7 @@ def table_document(found: DerivedBlock, table: Table | None, unit: Unit) -> Docu
             for row in rows
         ],
         "recommended": None if table is None else table.recommended,
+        "needs": [] if table is None else [finding_document(note, unit) for note in table.notes],
     }
 
 

@@ -8,7 +8,7 @@ from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.document import path_document, plain
 from core.pipeline.table import Row, Table
 from core.pipeline.trouble import nearest_of
-from core.units import Kind, Unit, from_mm, show
+from core.units import Kind, Unit, from_mm, sentence, show
 
 
 def path_listing(derived: Derived, number: int | None = None) -> Iterator[str]:
@@ -62,7 +62,7 @@ def _move_line(move: dict[str, object], unit: Unit) -> str:
 
 
 def table_listing(found: DerivedBlock, table: Table | None, unit: Unit) -> Iterator[str]:
-    """The look-ahead table of one block, a line a value."""
+    """The look-ahead table of one block, a line a value, and its notes."""
     yield f"BLOCK {found.number}  LOOKAHEAD {found.lookahead.tag} {found.lookahead.value}"
     if table is None:
         yield "  There is no contour to compensate yet, or CUTTER COMP. is ON."
@@ -74,6 +74,8 @@ def table_listing(found: DerivedBlock, table: Table | None, unit: Unit) -> Itera
         yield "  No value is clean."
     else:
         yield f"  Recommended: {table.recommended}"
+    for note in table.notes:
+        yield f"  {sentence(note, unit)}"
 
 
 def _row_line(row: Row, table: Table, unit: Unit) -> str:

@@ -78,3 +78,63 @@ def test_a_finding_names_its_segment(capsys: pytest.CaptureFixture[str]) -> None
     told = capsys.readouterr().err
     assert "cutcomp: block 1, segment 4: error: The path of segment 3 gouges segment 4" in told
     assert "cutcomp: block 1, corner 3-4: warning: At this inside corner" in told
+
+
+CORNERED = """
+format = 1
+units = "MM"
+[[tool]]
+number = 1
+type = "END MILL"
+diameter = 3.0
+[[block]]
+kind = "MILL CONTOUR"
+tool = 1
+cutter_comp = "LEFT"
+x_start = 0.0
+y_start = 0.0
+z_bottom = -1.0
+plunge_feed = 20.0
+speed = 300
+"""
+
+
+def cornered(*ends: tuple[float, float]) -> bytes:
+    """An inside contour of lines from (0, 0), in program text."""
+    segments = (f'[[block.segment]]\nkind = "LINE"\nx_end = {x}\ny_end = {y}\nfeed = 10.0\n' for x, y in ends)
+    return (CORNERED + "".join(segments)).encode()
+
+
+SQUARE = cornered((20, 0), (20, 20), (0, 20), (0, 0))
+
+
+def test_the_look_ahead_table_tells_what_the_contour_needs(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    piped(monkeypatch, SQUARE)
+    assert main(["lookahead", "-"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    behind = lines[lines.index("  No value is clean.") + 1 :]
+    assert "the contour starts at an inside corner" in behind[0]
+    assert behind[1].startswith("  Start in the middle of segment 1, at X 10.000 Y 0.000: look-ahead ")
+
+
+def test_the_look_ahead_document_tells_what_the_contour_needs(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    piped(monkeypatch, SQUARE)
+    assert main(["lookahead", "-", "--json"]) == 1
+    (found,) = json.loads(capsys.readouterr().out)["blocks"]
+    assert [one["code"] for one in found["needs"]] == ["CAL_NOT_CLEAN", "START_MID_SIDE"]
+    assert (found["needs"][1]["x"], found["needs"][1]["y"]) == (10.0, 0.0)
+    assert main(["lookahead", str(example("pocket")), "--json"]) == 0
+    assert [one["needs"] for one in json.loads(capsys.readouterr().out)["blocks"]] == [[]]
+
+
+@pytest.mark.parametrize("command", ["path", "lookahead"])
+def test_a_contour_without_any_length_is_no_clean_one(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], command: str
+) -> None:
+    piped(monkeypatch, cornered((0, 0), (0, 0)))
+    assert main([command, "-"]) == 1
+    assert "block 1, segment 1: error: No segment has a length: " in capsys.readouterr().err
