@@ -11,6 +11,7 @@ import argparse
 import re
 import shutil
 import sys
+import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
@@ -33,6 +34,7 @@ TIMES: Final = re.compile(r"\d{4}-\d\d-\d\d-\d{6}|\d{4}-\d\d-\d\d|\d\d:\d\d")
 """What the clock and a file's time make different from run to run."""
 FOLDERS: Final = re.compile(r"/tmp/[a-z0-9_]+")
 QUIET: Final = 0.3
+PATIENCE: Final = 20.0
 PLAIN: Final = Kind("xterm-256color", Colours.MANY, "UTF-8")
 
 
@@ -114,14 +116,20 @@ def walked(kind: Kind, scene: Scene, folder: Path, terminal: Terminal) -> Iterat
         step.before(folder)
         terminal.send(step.typed)
         try:
-            terminal.until(step.title, longest=20.0)
+            terminal.until(step.title, longest=PATIENCE)
         except AssertionError:
             yield step.name, [], f"it does not come:\n{terminal.text}"
             return
-        while terminal.read(quiet=QUIET).count or "calculating" in terminal.text:
-            pass
+        settle(terminal)
         wrong = stray(bytes(terminal.seen), kind.characters) or colours_wrong(terminal, kind.shown)
         yield step.name, masked(terminal), wrong or flat(terminal)
+
+
+def settle(terminal: Terminal) -> None:
+    """Wait until nothing comes any more and nothing is still being calculated, but not for ever."""
+    begun = time.monotonic()
+    while (terminal.read(quiet=QUIET).count or " ..." in terminal.text) and time.monotonic() - begun < PATIENCE:
+        pass
 
 
 def masked(terminal: Terminal) -> list[str]:

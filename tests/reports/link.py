@@ -1,6 +1,7 @@
 """The program over a link that is slow, is cut, or leads through others: `python -m tests.reports.link`.
 
-A relay between two pseudo-terminals delays every byte and lets no more through than a line of so many baud.  Told is
+A relay between two pseudo-terminals delays every byte, lets no more through than a line of so many baud, and can tear
+keys apart.  Told is
 how many bytes each key costs and when the finished screen stands, compared cell by cell with what must stand there;
 then the same screen after a resize, after the program was stopped and continued, and in a tmux that was left and
 entered again.
@@ -40,6 +41,7 @@ LINES: Final = {
     "300 ms": Line(delay=0.15),
     "9600 baud": Line(baud=9600),
     "9600 baud, 300 ms": Line(delay=0.15, baud=9600),
+    "300 ms, each typed byte up to 300 ms later": Line(delay=0.15, jitter=0.3),
 }
 KEYS: Final = {
     "a digit in a field": ("tab", "1", "2", ".", "5", "backspace"),
