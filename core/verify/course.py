@@ -8,7 +8,8 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.measured import Floats, Measured, boxes, stacked
+from core.geometry.bounds import boxes
+from core.geometry.measured import Floats, Measured, stacked
 from core.geometry.path import Path
 from core.verify.columns import columns as columns_of
 

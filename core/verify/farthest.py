@@ -13,8 +13,9 @@ from typing import Final
 
 import numpy as np
 
+from core.geometry.bounds import boxes
 from core.geometry.distance import between, distance, farthest_places
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, boxes, place
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place
 from core.tolerance import GOUGE
 from core.verify.reach import Stretches, nearest
 

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.geometry.measured import at, boxes, direction, measured, place
+from core.geometry.bounds import boxes
+from core.geometry.measured import at, direction, measured, place
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Turn
 from core.geometry.side import Side
