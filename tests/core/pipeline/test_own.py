@@ -261,34 +261,6 @@ def test_another_work_offset_is_told_where_it_cannot_be_written() -> None:
     assert [note.code for note in posted(moved, "threeblock").notes] == ["WORK_OFFSET"]
 
 
-@pytest.mark.parametrize("control", names())
-def test_the_part_name_stands_at_the_head_of_every_controls_program(control: str) -> None:
-    """Read back with it, and the same blocks as without; where the text holds no comments, that is said."""
-    plain = program(SQUARE, climbing(), parameters=BLENDS)
-    named = derive(replace(plain, setup=replace(plain.setup, name="Teil ö) ; M30 (7")))
-    found, nameless = posted(named, control), posted(derive(plain), control)
-    lines, others = found.text.splitlines(), nameless.text.splitlines()
-    told = [note.code for note in found.notes if note.code == "PART_NAME"]
-    if control == "threeblock":
-        assert (lines, told) == (others, ["PART_NAME"])
-        return
-    at = 2 if control == "klartext" else 1
-    said = "PART Teil ?] , M30 [7"
-    assert lines[at] == (f"{at} ; {said}" if control == "klartext" else f"({said})")
-    assert told == []
-    bare = [line.partition(" ")[2] if control == "klartext" else line for line in lines]
-    assert [*bare[:at], *bare[at + 1 :]] == [
-        line.partition(" ")[2] if control == "klartext" else line for line in others
-    ]
-
-
-def test_a_name_that_no_control_takes_is_changed() -> None:
-    result = post_for(derived(SQUARE), name="Teil 7 ;) ö", control="klartext")
-    assert isinstance(result, Posted)
-    assert result.text.startswith("0 BEGIN PGM Teil-7----- INCH\n")
-    assert result.text.isascii()
-
-
 @pytest.mark.parametrize("example", [path for path in EXAMPLES if path.stem in ("flange", "plate-mm")], ids=str)
 def test_linuxcnc_itself_runs_what_is_written_for_it(example: Path, tmp_path: Path) -> None:
     found = derive(load(example))
