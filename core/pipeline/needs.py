@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from math import ceil
-from typing import Final
+from typing import Final, NamedTuple
 
 from core.comp.result import Deleted
 from core.finding import Finding, Severity
@@ -15,6 +15,8 @@ from core.pipeline.remedies import (
     ToolFits,
     Unwanted,
     always,
+    bare_start,
+    larger_bare_tool,
     largest_tool,
     longest,
     start_at_end,
@@ -28,6 +30,8 @@ from core.program.model import Program
 NAMED_AT_MOST: Final = 4
 """So many places that are too small are named in sentences."""
 
+_BARE: Final = "without blend moves (BLEND OFFSET 0)"
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Needs:
@@ -36,8 +40,10 @@ class Needs:
     `why` tells why CAL's value is not clean, empty when it is.  The rest is there only when no value is clean:
     `small` names inside radii and corners the tool does not enter, `tool`, `start`, `blendless` (a look-ahead that is
     clean without blend moves) and `shut` (START typed anew) are remedies that have been tried and judged clean, None
-    where none was found.  A tool is looked for when no other remedy helps, from the middle of a side where the start is
-    an inside corner; another START of an open contour when no tool is found either.
+    where none was found.  Where neither another start nor leaving out the blend moves helps, `bare_start` is both at
+    once.  A tool is looked for when no other remedy helps, from the middle of a side where the start is an inside
+    corner, with the blend moves and, as `bare_tool`, a larger one without them; another START of an open contour when
+    no tool is found either.
     """
 
     why: tuple[Finding, ...]
@@ -46,6 +52,8 @@ class Needs:
     start: StartMoved | None = None
     blendless: int | None = None
     shut: StartMoved | None = None
+    bare_start: StartMoved | None = None
+    bare_tool: ToolFits | None = None
     sentences: tuple[Finding, ...] = ()
 
 
@@ -78,23 +86,33 @@ def needs_of(trial: Trial, calculated: int, table: Table, wanted: Callable[[], b
     nearest = min(table.rows, key=lambda row: (row.gouge, row.value))
     small = _small(nearest, trial.radius)
     blendless, start = without_blends(trial, wanted), start_mid_side(trial, wanted)
-    tool, where = (None, "") if start is not None or blendless is not None else _tool(trial, nearest, small, wanted)
-    found = (*_blends_said(blendless), *_start_said(start), *_tool_said(tool, where))
+    free = bare_start(trial, wanted) if start is None and blendless is None else None
+    alone = start is None and blendless is None and free is None
+    tools = _tools(trial, nearest, small, wanted) if alone else _Tools(None, None, "")
+    found = (*_blends_said(blendless), *_start_said(start), *_start_said(free, bare=True), *_tools_said(tools))
     shut = None if found else start_at_end(trial, wanted)
     remedies = found or (_shut_said(shut) if shut is not None else _nothing(closed=trial.closed),)
-    return Needs(why, small, tool, start, blendless, shut, (*why, *_some(small), *remedies))
+    told = (*why, *_some(small), *remedies)
+    return Needs(why, small, tools.tool, start, blendless, shut, free, tools.bare, told)
 
 
-def _tool(
-    trial: Trial, nearest: Row, small: tuple[Finding, ...], wanted: Callable[[], bool]
-) -> tuple[ToolFits | None, str]:
-    """The largest tool, and where the contour has to be started for it where its own start is an inside corner."""
-    hint = min((one.value for one in small if one.value is not None), default=None)
-    if not any(one.code == "START_INSIDE_CORNER" for one in nearest.compensated.findings):
-        return largest_tool(trial, hint, wanted), ""
-    row = longest(trial.surface)[0]
-    found = largest_tool(replace(trial, surface=started(trial.surface, row)), hint, wanted)
-    return found, f" when the contour is started in the middle of segment {trial.surface.numbers[row]:g}"
+class _Tools(NamedTuple):
+    """The largest tool, a larger one that fits without blend moves, and where the contour is started for them."""
+
+    tool: ToolFits | None
+    bare: ToolFits | None
+    where: str
+
+
+def _tools(trial: Trial, nearest: Row, small: tuple[Finding, ...], wanted: Callable[[], bool]) -> _Tools:
+    """The largest tools, with another start where the contour's own is an inside corner."""
+    hint, where = min((one.value for one in small if one.value is not None), default=None), ""
+    if any(one.code == "START_INSIDE_CORNER" for one in nearest.compensated.findings):
+        row = longest(trial.surface)[0]
+        where = f" when the contour is started in the middle of segment {trial.surface.numbers[row]:g}"
+        trial = replace(trial, surface=started(trial.surface, row))
+    tool = largest_tool(trial, hint, wanted)
+    return _Tools(tool, larger_bare_tool(trial, tool, hint, wanted), where)
 
 
 def _some(small: tuple[Finding, ...]) -> tuple[Finding, ...]:
@@ -175,23 +193,25 @@ def _small(row: Row, radius: float) -> tuple[Finding, ...]:
 def _blends_said(value: int | None) -> tuple[Finding, ...]:
     if value is None:
         return ()
-    return (_remedy("BLENDLESS", f"Without blend moves (BLEND OFFSET 0) look-ahead {value} is clean."),)
+    return (_remedy("BLENDLESS", f"W{_BARE[1:]} look-ahead {value} is clean."),)
 
 
-def _start_said(start: StartMoved | None) -> tuple[Finding, ...]:
+def _start_said(start: StartMoved | None, *, bare: bool = False) -> tuple[Finding, ...]:
     if start is None:
         return ()
-    text = (
-        f"Start in the middle of segment {start.segment:g}, at X {{x}} Y {{y}}: look-ahead {start.value} is then clean."
-    )
-    return (replace(_remedy("START_MID_SIDE", text), segment=start.segment, at=start.at),)
+    how = f", {_BARE}" if bare else ""
+    text = f"Start in the middle of segment {start.segment:g}, at X {{x}} Y {{y}}{how}: "
+    code = "START_BLENDLESS" if bare else "START_MID_SIDE"
+    remedy = _remedy(code, f"{text}look-ahead {start.value} is then clean.")
+    return (replace(remedy, segment=start.segment, at=start.at),)
 
 
-def _tool_said(tool: ToolFits | None, where: str) -> tuple[Finding, ...]:
-    if tool is None:
-        return ()
-    text = f"A tool of {{value}} diameter fits{where}: look-ahead {tool.value} is then clean."
-    return (replace(_remedy("TOOL_FITS", text), field="tool", value=tool.diameter),)
+def _tools_said(tools: _Tools) -> Iterator[Finding]:
+    """The larger one, which needs more to be changed, behind the other."""
+    for tool, code, how in ((tools.tool, "TOOL_FITS", ""), (tools.bare, "TOOL_BLENDLESS", f" {_BARE}")):
+        if tool is not None:
+            text = f"A tool of {{value}} diameter fits{how}{tools.where}: look-ahead {tool.value} is then clean."
+            yield replace(_remedy(code, text), field="tool", value=tool.diameter)
 
 
 def _shut_said(shut: StartMoved) -> Finding:

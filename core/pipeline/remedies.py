@@ -30,6 +30,12 @@ STEP: Final = 0.001
 MOST_STARTS: Final = 6
 """So many of the longest sides are tried as the start."""
 
+MOST_BARE_STARTS: Final = 2
+"""So many of them without blend moves: where the path begins then matters little."""
+
+WORTH: Final = 1.02
+"""A tool that fits without blend moves is told beside one that fits with them if it is so many times as large."""
+
 PARTS: Final = 7
 """So many diameters are looked at together when it is only asked how their path begins."""
 
@@ -68,15 +74,35 @@ def _still(wanted: Callable[[], bool]) -> None:
         raise Unwanted
 
 
-def largest_tool(trial: Trial, hint: float | None = None, wanted: Callable[[], bool] = always) -> ToolFits | None:
+def bare(trial: Trial) -> Trial:
+    """The same with BLEND OFFSET 0; what runs past the start stays."""
+    return replace(trial, blend=0.0)
+
+
+def larger_bare_tool(
+    trial: Trial, than: ToolFits | None, hint: float | None = None, wanted: Callable[[], bool] = always
+) -> ToolFits | None:
+    """The largest tool without blend moves, if there are any to leave out and it is larger enough to be told."""
+    if trial.blend <= 0.0:
+        return None
+    least = 0 if than is None else max(int(_steps(than.diameter) * WORTH), _steps(than.diameter) + 1)
+    return largest_tool(bare(trial), hint, wanted, least=least)
+
+
+def largest_tool(
+    trial: Trial, hint: float | None = None, wanted: Callable[[], bool] = always, *, least: int = 0
+) -> ToolFits | None:
     """The largest clean diameter below the cutter's, a multiple of STEP, rounded down; by halving what is left.
 
-    `hint` is a radius that may be the limit, such as that of the smallest inside arc: it is tried first.
+    `hint` is a radius that may be the limit, such as that of the smallest inside arc: it is tried first.  There is none
+    where one of `least` STEPs is not clean.
 
     Mostly the limit is where the path begins, which is known before there is one.  So the halving first goes by that
     alone, and what it finds is then cut and judged; only if that is not clean, every half is.
     """
-    search = _Search(trial, hint, wanted)
+    search = _Search(trial, hint, wanted, least)
+    if least >= _steps(2.0 * trial.radius) or not search.clean(least):
+        return None
     guess = search.guess()
     known = guess if search.clean(guess) else search.halved(search.clean)
     value = search.cuts(known).recommended if known else None
@@ -86,16 +112,16 @@ def largest_tool(trial: Trial, hint: float | None = None, wanted: Callable[[], b
 class _Search:
     """The search between a diameter that is clean and one that is not, in STEPs."""
 
-    def __init__(self, trial: Trial, hint: float | None, wanted: Callable[[], bool]) -> None:
+    def __init__(self, trial: Trial, hint: float | None, wanted: Callable[[], bool], least: int) -> None:
         self._trial, self._walls, self._wanted = trial, Walls.of(trial.surface), wanted
         self._hints = () if hint is None else (_steps(2.0 * hint), _steps(2.0 * hint) + 1)
-        self._fails = _steps(2.0 * trial.radius)
+        self._least, self._fails = least, _steps(2.0 * trial.radius)
         self._hopeless: dict[int, bool] = {}
         self._cuts: dict[int, Cuts] = {}
 
     def guess(self) -> int:
         """The largest diameter with which the path begins well, or a hint that turns out to be the limit."""
-        known, fails = 0, self._fails
+        known, fails = self._least, self._fails
         while fails - known > 1:
             sizes = sorted({known + (fails - known) * part // (PARTS + 1) for part in range(1, PARTS + 1)} - {known})
             self._begin(sizes)
@@ -104,8 +130,8 @@ class _Search:
         return self.halved(lambda size: self.clean(size) if size in self._hints else size <= known)
 
     def halved(self, clean: Callable[[int], bool]) -> int:
-        """The diameter at which `clean` ends."""
-        known, fails = 0, self._fails
+        """The diameter at which `clean` ends, known to be at least the one that was asked for."""
+        known, fails = self._least, self._fails
         tries = list(self._hints)
         while fails - known > 1:
             size = tries.pop(0) if tries else (known + fails) // 2
@@ -194,11 +220,16 @@ def _steps(diameter: float) -> int:
     return int(diameter / STEP + 1e-6)
 
 
-def start_mid_side(trial: Trial, wanted: Callable[[], bool] = always) -> StartMoved | None:
-    """The longest side of a closed contour whose middle is a clean start."""
+def bare_start(trial: Trial, wanted: Callable[[], bool] = always) -> StartMoved | None:
+    """The longest side of a closed contour whose middle is a clean start without blend moves, if there are any."""
+    return start_mid_side(bare(trial), wanted, MOST_BARE_STARTS) if trial.blend > 0.0 else None
+
+
+def start_mid_side(trial: Trial, wanted: Callable[[], bool] = always, most: int = MOST_STARTS) -> StartMoved | None:
+    """The longest side of a closed contour whose middle is a clean start; `most` of them are tried."""
     if not trial.closed:
         return None
-    walls, rows = Walls.of(trial.surface), longest(trial.surface)[:MOST_STARTS]
+    walls, rows = Walls.of(trial.surface), longest(trial.surface)[:most]
     moved = [replace(trial, surface=started(trial.surface, row)) for row in rows]
     hopeless = gouge_at_once(moved, walls, [(row, row) for row in rows])
     for row, one, no in zip(rows, moved, hopeless, strict=True):
@@ -239,9 +270,9 @@ def without_blends(trial: Trial, wanted: Callable[[], bool] = always) -> int | N
     if trial.blend <= 0.0:
         return None
     _still(wanted)
-    bare, walls = replace(trial, blend=0.0, overlap=0.0), Walls.of(trial.surface)
-    (hopeless,) = gouge_at_once([bare], walls, [(0, len(bare.surface) - 1)])
-    return None if hopeless else Cuts(bare, walls).recommended
+    walls = Walls.of(trial.surface)
+    (hopeless,) = gouge_at_once([bare(trial)], walls, [(0, len(trial.surface) - 1)])
+    return None if hopeless else Cuts(bare(trial), walls).recommended
 
 
 def middle(piece: Piece) -> Point:

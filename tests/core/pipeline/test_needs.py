@@ -156,6 +156,57 @@ def test_blend_moves_that_alone_gouge():
     assert "BLEND OFFSET 0" in said(found)
 
 
+def test_a_tool_that_only_the_blend_moves_keep_out_is_told_with_them_left_out():
+    """A slot as wide as the tool: blend moves of 3 mm gouge with every tool in it."""
+    slot = lines((15, 0), (30, 0), (30, 2.5), (0, 2.5), (0, 0), (15, 0))
+    asked = replace(trial(slot, Side.LEFT, 1.5, closed=True, blend=3.0), overlap=3.0)
+    found = of(asked)
+    assert codes(found)[-1] == "TOOL_BLENDLESS"
+    assert (found.tool, found.start, found.bare_start) == (None, None, None)
+    assert found.bare_tool is not None
+    assert found.bare_tool.diameter == pytest.approx(2.5)
+    text = "A tool of 2.500 diameter fits without blend moves (BLEND OFFSET 0): look-ahead 1 is then clean."
+    assert sentence(found.sentences[-1], Unit.MM) == text
+    assert table_of(replace(asked, radius=1.25, blend=0.0)).row(1).clean
+    assert table_of(replace(asked, radius=1.25)).recommended is None
+
+
+def test_a_tool_with_blend_moves_and_a_larger_one_without_are_both_told():
+    square = lines((0, 0), (50, 0), (50, 50), (0, 50), (0, 0))
+    asked = replace(trial(square, Side.LEFT, 40.0, closed=True, blend=3.0), overlap=3.0)
+    found = of(asked)
+    assert codes(found)[-2:] == ["TOOL_FITS", "TOOL_BLENDLESS"]
+    assert found.tool is not None
+    assert found.bare_tool is not None
+    assert found.tool.diameter < 45.0
+    assert found.bare_tool.diameter == pytest.approx(50.0, abs=2 * STEP)
+    words = "diameter fits without blend moves (BLEND OFFSET 0) when the contour is started in the middle of segment 1:"
+    assert words in said(found)
+    small = replace(asked, surface=started(square, 0), radius=found.bare_tool.diameter / 2)
+    assert table_of(replace(small, blend=0.0)).row(found.bare_tool.value).clean
+    assert table_of(small).recommended is None
+
+
+def test_another_start_without_blend_moves_keeps_the_tool():
+    """The tool fits well, but its blend moves do not: no smaller one is needed."""
+    square = lines((0, 0), (50, 0), (50, 50), (0, 50), (0, 0))
+    asked = replace(trial(square, Side.LEFT, 24.0, closed=True, blend=10.0), overlap=3.0)
+    found = of(asked)
+    assert codes(found) == ["CAL_NOT_CLEAN", "START_BLENDLESS"]
+    text = "Start in the middle of segment 1, at X 25.000 Y 0.000, without blend moves (BLEND OFFSET 0): look-ahead 1"
+    assert text in said(found)
+    moved = replace(asked, surface=started(square, 0))
+    assert table_of(moved).recommended is None
+    assert table_of(replace(moved, blend=0.0)).row(1).clean
+
+
+@pytest.mark.parametrize("blend", [0.0, 0.003])
+def test_a_tool_hardly_larger_without_blend_moves_is_not_told_of(blend):
+    found = of(trial(SLOT, Side.LEFT, closed=False, blend=blend))
+    assert codes(found)[-1] == "TOOL_FITS"
+    assert found.bare_tool is None
+
+
 def test_where_nothing_helps_it_says_so():
     """A loop of thirty segments that crosses the way in: no look-ahead reaches so far, and no tool is small enough."""
     angles = [pi * (-0.5 + 11 / 180 * step) for step in range(31)]
@@ -191,7 +242,7 @@ def test_another_start_is_told_only_where_one_number_of_it_is_wrong_and_it_helps
 
 @pytest.mark.parametrize("tries", range(8))
 def test_remedies_nobody_waits_for_are_given_up_at_the_next_one(tries):
-    """The gear tries six starts and then tools: it is asked before each, and not again when the answer was no."""
+    """The gear tries six starts and one without blend moves: each is asked before, none after the answer was no."""
     part = typed_gear(200)
     found = derive(part).blocks[0]
     asked: list[bool] = []
@@ -231,15 +282,23 @@ def test_a_contour_started_elsewhere_is_the_same_contour(contour, row):
 
 
 @settings(max_examples=40, deadline=None, derandomize=True)
-@given(mixed, st.sampled_from(Side), st.floats(0.05, 1.0), st.booleans())
-def test_every_remedy_holds(contour, side, radius, closed):
-    asked = trial(shut(contour) if closed else contour, side, radius, closed=closed)
+@given(mixed, st.sampled_from(Side), st.floats(0.05, 1.0), st.booleans(), st.sampled_from((0.0, 0.3, 2.0)))
+def test_every_remedy_holds(contour, side, radius, closed, blend):
+    asked = replace(
+        trial(shut(contour) if closed else contour, side, radius, closed=closed, blend=blend), overlap=blend
+    )
     found = of(asked)
     assert all(one.severity is not Severity.ERROR for one in found.sentences)
-    if found.start is not None:
-        row = asked.surface.numbers.tolist().index(found.start.segment)
-        assert table_of(replace(asked, surface=started(asked.surface, row))).row(found.start.value).clean
-    if found.tool is not None:
-        small = replace(asked, radius=found.tool.diameter / 2)
-        moved = [small, *(replace(small, surface=started(small.surface, row)) for row in range(len(asked.surface)))]
-        assert any(table_of(one).row(found.tool.value).clean for one in (moved if closed else moved[:1]))
+    for start, how in ((found.start, asked), (found.bare_start, replace(asked, blend=0.0))):
+        if start is not None:
+            row = asked.surface.numbers.tolist().index(start.segment)
+            assert table_of(replace(how, surface=started(asked.surface, row))).row(start.value).clean
+    for tool, how in ((found.tool, asked), (found.bare_tool, replace(asked, blend=0.0))):
+        if tool is not None:
+            small = replace(how, radius=tool.diameter / 2)
+            moved = [small, *(replace(small, surface=started(small.surface, row)) for row in range(len(small.surface)))]
+            assert any(table_of(one).row(tool.value).clean for one in (moved if closed else moved[:1]))
+    if found.blendless is not None:
+        assert table_of(replace(asked, blend=0.0)).row(found.blendless).clean
+    if found.tool is not None and found.bare_tool is not None:
+        assert found.bare_tool.diameter > found.tool.diameter
