@@ -29,7 +29,9 @@ def cells(terminal: Terminal) -> list[object]:
 
 @pytest.mark.parametrize("environment", TERMINALS, ids=lambda one: " ".join(one.values()))
 def test_key_by_key_equals_painted_anew(environment: Mapping[str, str]) -> None:
-    with running([sys.executable, "-m", "app", "--example", "pocket"], environment=environment) as terminal:
+    # Esc acts at once: it would wait longer for the rest of a key than `answer` waits for the screen
+    own = {**environment, "ESCDELAY": "1"}
+    with running([sys.executable, "-m", "app", "--example", "pocket"], environment=own) as terminal:
         terminal.until("GOUGE none")
         for number, key in enumerate(KEYS):
             answer(terminal, key)
