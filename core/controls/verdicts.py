@@ -16,7 +16,7 @@ from core.finding import Finding, Severity
 from core.geometry.path import Path, joined
 from core.tolerance import GOUGE
 from core.verify.judge import judge
-from core.verify.report import stray_findings
+from core.verify.report import or_more, stray_findings
 from core.verify.stray import Away, Stray, stray
 from core.verify.verdict import Gouge, Verdict
 
@@ -157,7 +157,7 @@ def _cuts(result: Judged) -> list[Finding]:
     if not verdict.judged:
         line = _line(result.centre.numbers[0]) if len(result.centre) else None
         return [Finding("UNJUDGED", Severity.ERROR, "This path cannot be judged: its numbers are none.", line=line)]
-    found = [_gouge(gouge) for gouge in verdict.gouges[:MOST_GOUGES]]
+    found = [_gouge(gouge, verdict.radius) for gouge in verdict.gouges[:MOST_GOUGES]]
     left = len(verdict.gouges) - len(found)
     if left:
         found.append(Finding("GOUGE", Severity.ERROR, f"There are {left} more gouges, none of them deeper."))
@@ -217,8 +217,8 @@ def _between_leads(away: Away, centre: Path, lines: frozenset[float]) -> bool:
     return {away.first_number, away.last_number} <= lines and not ends & {away.start, away.end}
 
 
-def _gouge(gouge: Gouge) -> Finding:
-    much = "{value}" if gouge.depth > FINE else "less than a thousandth of a millimetre"
+def _gouge(gouge: Gouge, radius: float) -> Finding:
+    much = "{value}" + or_more(gouge, radius) if gouge.depth > FINE else "less than a thousandth of a millimetre"
     text = f"The cutter gouges the surface of line {int(gouge.surface_number)} by {much} at X {{x}} Y {{y}}."
     line = _line(gouge.path_number)
     return Finding("GOUGE", Severity.ERROR, text, at=gouge.surface_at, value=gouge.depth, line=line)

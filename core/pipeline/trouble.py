@@ -102,10 +102,10 @@ def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge], wrong_side: S
 
 
 def _leaves(loop: Loop, name: str) -> Finding:
-    """The blend arc whose free end lies beyond a wall."""
+    """The blend arc that is beyond a wall somewhere, with its free end."""
     lead, row, verb = (loop.lead_in, 0, "begins") if name == "in" else (loop.lead_out, -1, "ends")
     x, y = lead.points[row].tolist()
-    text = f"The blend-{name} arc {verb} beyond a wall, at X {{x}} Y {{y}}: make BLEND OFFSET smaller."
+    text = f"The blend-{name} arc, which {verb} at X {{x}} Y {{y}}, runs beyond a wall: make BLEND OFFSET smaller."
     return Finding("BLEND_LEAVES", Severity.WARNING, text, float(lead.numbers[row]), None, (x, y))
 
 

@@ -13,6 +13,7 @@ from core.geometry.measured import Floats, Measured
 from core.geometry.path import Path
 from core.geometry.side import Side
 from core.tolerance import CLOSED, GOUGE, LARGEST
+from core.verify.behind import behind, deepened
 from core.verify.beside import NOBODY, Beside, beside
 from core.verify.contact import backwards, loose
 from core.verify.course import Course, courses
@@ -121,14 +122,16 @@ def _judged(ground: _Ground, side: Side, radius: float, numbers: Floats, moves: 
     found = gouging(pairs, near)
     length = float(walls.stations[-1])
     sides = sided(side, ground.crossed, length, closed=ground.closed)
+    inside = behind(pairs, found, sides, radius)
+    deeper = deepened(found, inside, radius, slack)
     return Verdict(
         radius=radius,
         clearance=clearance(pairs, near, reach),
-        gouges=gouges(found, pairs, radius, surface, numbers),
+        gouges=gouges(deeper, pairs, radius, surface, numbers),
         uncut=uncut(pairs, radius, surface, closed=ground.closed, side=side),
         surface_length=length,
         crosses_itself=len(ground.crossed) > 0,
-        wrong_side=wrong_side(pairs, found, sides, reach),
+        wrong_side=wrong_side(pairs, found, sides, reach, inside.index),
         loose=loose(pairs),
         backwards=backwards(pairs, radius),
         crossing_at=_first(ground.crossed),

@@ -92,12 +92,13 @@ class Approaches:
 def approaches(pairs: Pairs, limit: float) -> Approaches:
     """All pairs nearer than `limit` less the slack of both."""
     deep = (pairs.touch.apart < limit).nonzero()[0]
-    near = _measure(pairs, pairs.i[deep], pairs.j[deep], limit)
+    near = measure(pairs, pairs.i[deep], pairs.j[deep], limit)
     least = min(pairs.touch.apart.min(initial=np.inf), pairs.own.apart.min(initial=np.inf))
     return replace(near, least=float(least))
 
 
-def _measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
+def measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
+    """Of these pieces those nearer than `limit` less the slack of both."""
     if not len(i):
         none = np.zeros((8, 0))
         return Approaches(np.inf, i, j, none, none, none[0])
@@ -122,4 +123,4 @@ def clearance(pairs: Pairs, near: Approaches, reach: float) -> float:
     """Least distance of the two paths, infinite if one is empty; `near` knows it if it is within `reach`."""
     if near.least <= reach or not len(pairs.centre) or not len(pairs.surface):
         return near.least
-    return _measure(pairs, *closest_pairs(pairs.centre_boxes, pairs.surface_boxes), 0.0).least
+    return measure(pairs, *closest_pairs(pairs.centre_boxes, pairs.surface_boxes), 0.0).least

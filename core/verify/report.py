@@ -39,7 +39,7 @@ def findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple
     if not verdict.judged:
         return (_unjudged(),)
     return (
-        *(_gouge(gouge, names) for gouge in verdict.gouges),
+        *(_gouge(gouge, names, verdict.radius) for gouge in verdict.gouges),
         *_wrong_side(verdict),
         *_crosses_itself(verdict),
         *map(_uncut, verdict.uncut, _shares(verdict.uncut, surface), repeat(surface)),
@@ -77,11 +77,16 @@ def _unjudged() -> Finding:
     return Finding("UNJUDGED", Severity.ERROR, text)
 
 
-def _gouge(gouge: Gouge, names: Names) -> Finding:
+def or_more(gouge: Gouge, radius: float) -> str:
+    """What is said behind a depth that is told no farther than all of the cutter is behind the surface."""
+    return " or more" if gouge.depth >= 2.0 * radius else ""
+
+
+def _gouge(gouge: Gouge, names: Names, radius: float) -> Finding:
     """The segment is the surface's; `lengths` holds the length of path that gouges."""
     move = names(gouge.path_piece, gouge.path_number)
     fine = gouge.depth < SHOWN
-    depth = "less than {1}" if fine else "{value}"
+    depth = "less than {1}" if fine else "{value}" + or_more(gouge, radius)
     text = f"{move} gouges segment {_number(gouge.surface_number)} by {depth} at X {{x}} Y {{y}}, over {{0}} of path."
     return Finding(
         "GOUGE",

@@ -49,22 +49,25 @@ def sided(side: Side, crossings: Crossings, total: float, *, closed: bool) -> Si
     return Sided(side, first, last, closed, len(crossings) > 0)
 
 
-def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float) -> tuple[int, ...]:
+def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, known: Rows) -> tuple[int, ...]:
     """Rows of the centre path of which some point is clearly on the part's side, in rising order.
 
-    A piece whose middle is within `reach` of the surface is judged there; any
-    other piece in its middle and at its ends; a gouge at its ends, in its middle and where it is deepest.
+    `known` are the pieces of which a part is found behind the surface: all that meet it.  A piece that does not is on
+    one side of a closed contour.  It is judged in its middle if that is within `reach` of the surface, any other piece
+    in its middle and at its ends.  Beside an open contour, which has a side only as far as something is nearest to
+    more than its ends, the nearest wall decides: a gouge is asked at its ends too, in its middle and where it is
+    deepest, and a piece that meets no wall may be on another side between these places.
     """
     if not len(pairs.surface) or not len(pairs.centre):
         return ()
-    tie = _tie(pairs.surface, surface)
+    tie = tie_of(pairs.surface, surface)
     contact = _contact(pairs, reach, tie)
     rows = contact.k[changes(contact.k)]
     s = (pairs.centre_stations[rows] + pairs.centre_stations[rows + 1]) / 2.0
     points, near = at(pairs.centre.take(rows), np.full(len(rows), 0.5)), replace(contact, k=_counted(contact.k))
-    known = pairs.own.settled(len(pairs.centre))
-    known[rows] = True
-    more = _samples(pairs, (~known).nonzero()[0], found)
+    settled = pairs.own.settled(len(pairs.centre))
+    settled[rows] = True
+    more = _samples(pairs, (~settled).nonzero()[0], found, surface)
     if len(more):
         index, t = place(pairs.centre, pairs.centre_stations, more)
         spots = at(pairs.centre.take(index), t)
@@ -72,11 +75,14 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float) -> tu
         near = near.followed(replace(beyond, k=len(rows) + beyond.k))
         s, points, rows = np.concatenate((s, more)), np.concatenate((points, spots)), np.concatenate((rows, index))
     wrong = np.zeros(len(pairs.centre), np.bool_)
-    wrong[rows[_wrong(pairs, s, points, near, surface, found)]] = True
+    told = on_part_side(pairs, points, near, surface)
+    if surface.crossed:
+        told &= ~_inside(found, s)
+    wrong[rows[told]], wrong[known] = True, True
     return tuple(pairs.centre.rows[wrong].tolist())
 
 
-def _tie(surface: Measured, sides: Sided) -> float:
+def tie_of(surface: Measured, sides: Sided) -> float:
     """How much farther than the nearest a wall may be and count as nearest too: over a closed contour's seam."""
     return ON_PATH + (float(np.abs(surface.end[-1] - surface.start[0])) if sides.endless else 0.0)
 
@@ -125,17 +131,19 @@ def _counted(rising: Rows) -> Rows:
     return counted.cumsum()
 
 
-def _samples(pairs: Pairs, rows: Rows, found: Gouging) -> Floats:
-    """Places along the centre path that stand for these pieces and for the gouges."""
+def _samples(pairs: Pairs, rows: Rows, found: Gouging, surface: Sided) -> Floats:
+    """Places along the centre path that stand for these pieces, and beside an open contour for the gouges."""
     first, last = pairs.centre_stations[rows], pairs.centre_stations[rows + 1]
+    samples = first, (first + last) / 2.0, last
+    if surface.endless and not surface.crossed:
+        return np.concatenate(samples)
     gouge = found.stretches
-    return np.concatenate(
-        (first, (first + last) / 2.0, last, gouge.first, gouge.last, (gouge.first + gouge.last) / 2.0, found.place)
-    )
+    middle = (gouge.first + gouge.last) / 2.0
+    return np.concatenate((*samples, gouge.first, gouge.last, middle, found.place))
 
 
-def _wrong(pairs: Pairs, s: Floats, points: Points, near: Nearest, surface: Sided, found: Gouging) -> Flags:
-    """Which of the points, at places `s` of the centre path, are clearly on the part's side of all that is nearest."""
+def on_part_side(pairs: Pairs, points: Points, near: Nearest, surface: Sided) -> Flags:
+    """Which of the points are clearly on the part's side of all that is nearest to them."""
     if not len(points):
         return np.zeros(0, np.bool_)
     piece = pairs.surface.take(near.j)
@@ -148,8 +156,6 @@ def _wrong(pairs: Pairs, s: Floats, points: Points, near: Nearest, surface: Side
         touched = pairs.surface_stations[near.j] + t * piece.length
         outside = (touched <= surface.first + JOINED) | (touched >= surface.last - JOINED)
         wrong &= ~np.logical_or.reduceat(outside, starts)
-    if surface.crossed:
-        wrong &= ~_inside(found, s)
     return wrong
 
 

@@ -17,6 +17,13 @@ from core.geometry.piece import Point
 class Gouge:
     """One stretch of the centre path nearer to the surface than the radius, told by its deepest point.
 
+    `depth` is how far the cutter reaches behind the surface there: the radius less the centre's distance from it, and
+    where the centre itself is on the part's side the radius and that distance.  The stretch ends where the centre is
+    the radius away again; where that is behind the surface, all of the cutter is, and it is told twice the radius
+    deep however far the path goes on: `wrong_side` tells the moves.  Beside an open contour nothing is behind where
+    one of its ends is nearest.  Where a contour crosses itself the sides of its walls contradict each other: distances
+    alone count there, and no depth is larger than the radius.
+
     `at` is the centre there, `surface_at` the surface point it cuts into; `path_piece` is the row of the judged
     path, `path_number` its number, `surface_number` the contour's segment; `extent` the stretch's length.
     """
@@ -133,7 +140,10 @@ class Verdict:
     """What one centre path does to one surface.
 
     `clearance` is the least distance from path to surface (infinite for an empty path); gouges are deepest first,
-    uncut stretches in the contour's order.  `wrong_side` lists rows of the path that run on the part's side.
+    uncut stretches in the contour's order.  `wrong_side` lists rows of the path that are behind the surface somewhere,
+    on the part's side of what is nearest to them, by more than GOUGE: all of them where a closed contour does not cross
+    itself; beside any other those that meet a wall, and those that are so at their ends, in their middles or where
+    they gouge most.
     `loose` are rows that may be farther from the surface than the radius somewhere, lead moves among them, and
     `backwards` rows that run against all walls they touch.
     `crossing_at` is the first place where the surface crosses or touches itself.  `judged` is False, and

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import hypot, tan, tau
+from math import hypot, inf, tan, tau
 from random import Random
 
 import numpy as np
@@ -13,7 +13,7 @@ from core.comp.compensate import compensate
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.geometry.side import Side
-from core.tolerance import CLOSED
+from core.tolerance import CLOSED, GOUGE
 from tests.core.verify import oracle
 
 MATTERS = 1e-4
@@ -130,12 +130,16 @@ def _simple(surface: Path) -> bool:
 @dataclass(frozen=True)
 class Truth:
     """What dense points say: depth of the deepest gouge, the thickness left and on how much surface more than MATTERS
-    is left, whether the path runs on the part's side."""
+    is left, how far behind a closed surface the path gets."""
 
     depth: float
     stock: float
     left: float
-    wrong_side: bool
+    behind: float
+
+    @property
+    def wrong_side(self) -> bool:
+        return self.behind > MATTERS
 
     @property
     def harmless(self) -> bool:
@@ -147,13 +151,19 @@ class Truth:
 
     @staticmethod
     def of(case: Case, path: Path) -> Truth:
-        depth = case.radius - oracle.extreme(path, case.surface, STEP, -1.0)
+        behind = oracle.deepest(path, case.surface, STEP, room_inside=room_is_inside(case)) if case.closed else -inf
+        depth = gouged(case.radius, oracle.extreme(path, case.surface, STEP, -1.0), behind)
         stock = oracle.extreme(case.surface, path, STEP, 1.0) - case.radius
         total = float(case.surface.lengths.sum())
         left = total - oracle.length_near(case.surface, path, case.radius + MATTERS, STEP)
-        wrong = case.closed and oracle.inside(path, case.surface, STEP) != _room_is_inside(case)
-        return Truth(depth, stock, left, wrong)
+        return Truth(depth, stock, left, behind)
 
 
-def _room_is_inside(case: Case) -> bool:
+def gouged(radius: float, least: float, behind: float) -> float:
+    """Depth of the deepest gouge of a path that comes so near to the surface, and gets so far behind it."""
+    return min(radius + max(behind, -least), 2.0 * radius) if least < radius - GOUGE else 0.0
+
+
+def room_is_inside(case: Case) -> bool:
+    """The cutter of a closed contour's case is inside it."""
     return (oracle.turning(case.surface) > 0.0) == (case.side is Side.LEFT)

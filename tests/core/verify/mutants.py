@@ -16,6 +16,7 @@ import numpy as np
 
 from core.geometry.path import Path
 from core.geometry.side import Side
+from core.tolerance import GOUGE
 from core.verify.verdict import Verdict
 from tests.core.verify import oracle
 from tests.core.verify.corpus import MATTERS, STEP, Case, Chain, Truth, corpus
@@ -118,6 +119,25 @@ def backwards(_random: Random, case: Case) -> Chain:
     return Chain(case.path.points[::-1], tuple(-bulge for bulge in reversed(case.path.bulges)))
 
 
+def cut_across(random: Random, case: Case) -> Chain:
+    """Two points joined by one move, straight or bent, through whatever is there."""
+    first, last = sorted(random.sample(range(len(case.path.points)), 2))
+    points, bulges = case.path.points, case.path.bulges
+    bulge = random.choice((0.0, 0.0, 0.2, -0.2))
+    return Chain(points[: first + 1] + points[last:], (*bulges[:first], bulge, *bulges[last:]))
+
+
+def dip(random: Random, case: Case) -> Chain:
+    """A move by way of a place beside its middle, up to three radii away."""
+    index, off = random.randrange(len(case.path.bulges)), random.uniform(-3.0, 3.0) * case.radius
+    (x0, y0), (x1, y1) = case.path.points[index : index + 2]
+    size = max(hypot(x1 - x0, y1 - y0), 1e-9)
+    place = ((x0 + x1) / 2.0 - off * (y1 - y0) / size, (y0 + y1) / 2.0 + off * (x1 - x0) / size)
+    points, bulges = case.path.points, case.path.bulges
+    bulges = (*bulges[:index], random.choice((0.0, 0.1)), random.choice((0.0, -0.1)), *bulges[index + 1 :])
+    return Chain((*points[: index + 1], place, *points[index + 1 :]), bulges)
+
+
 MUTATIONS: tuple[Mutation, ...] = (
     shift_a_point,
     shift_all,
@@ -134,6 +154,8 @@ MUTATIONS: tuple[Mutation, ...] = (
     on_the_other_side,
     turned,
     backwards,
+    cut_across,
+    dip,
 )
 
 
@@ -160,10 +182,19 @@ class Row:
         self.mutants += 1
         self.proved += sum(int(np.count_nonzero(own.piece >= 0)) for own in found)
         self.gouging += truth.gouges
-        self.gouge_caught += truth.gouges and not verdict.clean and verdict.depth > min(truth.depth, case.radius) - 1e-5
+        self.gouge_caught += truth.gouges and _gouge_told(truth, verdict, case)
         self.leaving += truth.stock > MATTERS
         self.stock_caught += truth.stock > MATTERS and _stock_told(truth, verdict, len(case.surface))
         self.falsely_accused += _falsely(truth, verdict, case, path)
+
+
+def _gouge_told(truth: Truth, verdict: Verdict, case: Case) -> bool:
+    """The wrong side, and a gouge as deep as it is; behind a surface whose sides are unknown no less than the radius."""
+    if truth.wrong_side and not verdict.wrong_side:
+        return False
+    if case.closed and not verdict.crosses_itself:
+        return not verdict.clean and abs(verdict.depth - truth.depth) < 1e-5
+    return not verdict.clean and verdict.depth > min(truth.depth, case.radius) - 1e-5
 
 
 def _stock_told(truth: Truth, verdict: Verdict, pieces: int) -> bool:
@@ -176,14 +207,14 @@ def _stock_told(truth: Truth, verdict: Verdict, pieces: int) -> bool:
 def _falsely(truth: Truth, verdict: Verdict, case: Case, path: Path) -> bool:
     """Something is told that dense points do not find: a gouge, a wrong side, stock."""
     for gouge in verdict.gouges:
-        if abs(oracle.apart(np.array([gouge.at]), case.surface)[0] - (case.radius - gouge.depth)) > 1e-8:
+        # where all of the cutter is behind the surface, the gouge ends short of the radius by what is no gouge
+        give = 2.0 * GOUGE if gouge.depth > case.radius else 1e-8
+        if abs(oracle.apart(np.array([gouge.at]), case.surface)[0] - abs(case.radius - gouge.depth)) > give:
             return True
     for stretch in verdict.uncut:
         if abs(oracle.apart(np.array([stretch.thickest]), path)[0] - (case.radius + stretch.thickness)) > 1e-6:
             return True
-    if verdict.wrong_side and case.closed:
-        return not (truth.wrong_side or truth.depth > case.radius - 1e-6)
-    return False
+    return bool(verdict.wrong_side) and case.closed and truth.behind <= 0.0
 
 
 Table = dict[str, Row]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import atan2, cos, hypot, sin, tau
 
 import numpy as np
@@ -91,22 +92,53 @@ def length_near(path: Path, other: Path, radius: float, step: float) -> float:
 
 def extreme(path: Path, other: Path, step: float, sign: float) -> float:
     """The largest (sign 1) or least (-1) distance from path to other: dense points, then denser about the best ones."""
+    return sign * _largest(path, lambda points: apart(points, other) * sign, step)
+
+
+def deepest(path: Path, outline: Path, step: float, *, room_inside: bool) -> float:
+    """How far behind a closed outline a path gets; negative if it does not, by how far it keeps off."""
+    return _largest(path, lambda points: behind(points, outline, room_inside=room_inside), step)
+
+
+def behind(points: Points, outline: Path, *, room_inside: bool) -> Points:
+    """(k,) distances of points from a closed outline, negative for those in the room of the cutter."""
+    return np.asarray(apart(points, outline) * np.where(encloses(outline, points) == room_inside, -1.0, 1.0))
+
+
+def _largest(path: Path, value: Callable[[Points], Points], step: float) -> float:
     found = []
     for piece in path:
         count = max(2, int(np.ceil(length(piece) / step)))
         shares = np.linspace(0.0, 1.0, count + 1)
-        values = apart(along(piece, shares), other) * sign
+        values = value(along(piece, shares))
         found.append((float(values.max()), piece, float(shares[values.argmax()]), 1.0 / count))
     found.sort(key=lambda one: -one[0])
-    return sign * max(_closer(piece, other, share, width, sign) for _, piece, share, width in found[:4])
+    return max(_closer(piece, value, share, width) for _, piece, share, width in found[:4])
 
 
-def _closer(piece: Piece, other: Path, share: float, width: float, sign: float) -> float:
+def _closer(piece: Piece, value: Callable[[Points], Points], share: float, width: float) -> float:
     for _ in range(5):
         shares = np.clip(np.linspace(share - width, share + width, 41), 0.0, 1.0)
-        values = apart(along(piece, shares), other) * sign
+        values = value(along(piece, shares))
         share, width = float(shares[values.argmax()]), width / 15.0
     return float(values.max())
+
+
+def encloses(outline: Path, points: Points) -> NDArray[np.bool_]:
+    """(k,) whether a closed outline runs round each point, by the angle it turns as seen from there.
+
+    An arc turns by as much as its chord, and once more about what lies between the two.
+    """
+    turned = np.zeros(len(points))
+    for piece in outline:
+        first, last = np.array(piece.start) - points, np.array(piece.end) - points
+        cross = first[:, 0] * last[:, 1] - first[:, 1] * last[:, 0]
+        turned += np.arctan2(cross, (first * last).sum(axis=1)) * (piece.start != piece.end)
+        if isinstance(piece, Arc):
+            near = np.hypot(*(points - np.array(piece.centre)).T) < hypot(*np.subtract(piece.start, piece.centre))
+            beyond = (cross * int(piece.turn) < 0.0) | (piece.start == piece.end)
+            turned += tau * int(piece.turn) * (near & beyond)
+    return np.asarray(np.abs(turned) > 3.0)
 
 
 def turning(path: Path) -> float:
@@ -116,14 +148,7 @@ def turning(path: Path) -> float:
 
 
 def inside(path: Path, outline: Path, step: float) -> bool:
-    """Most of a path's points that are clear of a closed outline are inside it, by the winding of its polygon."""
+    """Most of a path's points that are clear of a closed outline are inside it."""
     points, _ = samples(path, 20.0 * step)
     points = points[apart(points, outline) > 0.05]
-    return bool(len(points)) and float(np.mean(_winding(points, samples(outline, 0.05)[0]))) > 0.5
-
-
-def _winding(points: Points, polygon: Points) -> Points:
-    off = polygon[None, :, :] - points[:, None, :]
-    spot = off[..., 0] + 1j * off[..., 1]
-    turned = np.angle(np.roll(spot, -1, axis=1) / spot).sum(axis=1)
-    return np.asarray(np.abs(turned) > 3.0, np.float64)
+    return bool(len(points)) and float(np.mean(encloses(outline, points))) > 0.5

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
-from math import cos, pi, sin, tau
+from math import cos, inf, pi, sin, tau
 from random import Random
 
 import numpy as np
@@ -20,8 +20,9 @@ from core.geometry.piece import Arc, Turn
 from core.geometry.side import Side
 from core.tolerance import STOCK
 from core.verify.verdict import Verdict
+from tests.core.verify import oracle
 from tests.core.verify.brute import Slow, point_to, slow
-from tests.core.verify.corpus import Chain
+from tests.core.verify.corpus import Chain, gouged
 from tests.core.verify.roads import measured, proved
 from tests.core.verify.shapes import circle, moved
 
@@ -133,13 +134,32 @@ def agree(surface: Path, side: Side, radius: float, path: Path) -> None:
     """Both roads of the judge, by measuring every pair and by proving what can be, say what the slow judge finds."""
     truth = slow(surface, radius, path, STOCK)
     for verdict in (measured, proved):
-        _agree(verdict(surface, side, radius, path), truth, surface, radius, path)
+        told = verdict(surface, side, radius, path)
+        _agree(told, truth, surface, radius, path)
+        _as_deep(told, truth, surface, side, path)
+
+
+def _as_deep(told: Verdict, truth: Slow, surface: Path, side: Side, path: Path) -> None:
+    """The depth, and behind an open contour at least that of the nearest place."""
+    behind, radius = -inf, told.radius
+    closed = bool(np.hypot(*(surface.points[0] - surface.points[-1])) < 1e-6)
+    if closed and not told.crosses_itself:
+        room_inside = (oracle.turning(surface) > 0.0) == (side is Side.LEFT)
+        behind = oracle.deepest(path, surface, truth.step, room_inside=room_inside)
+    depth = gouged(radius, truth.clearance, behind)
+    if behind > 0.0:
+        assert told.depth == pytest.approx(depth, abs=1e-6)
+        assert told.wrong_side or behind < 1e-5
+    elif closed or told.crosses_itself or told.depth <= radius:
+        assert told.depth == pytest.approx(depth, abs=1e-9)
+    else:
+        assert depth < told.depth <= 2.0 * radius
+        assert told.wrong_side
 
 
 def _agree(told: Verdict, truth: Slow, surface: Path, radius: float, path: Path) -> None:
     assert told.judged
     assert told.clearance == pytest.approx(truth.clearance, abs=1e-9)
-    assert told.depth == pytest.approx(radius - truth.clearance if truth.clearance < radius - 1e-6 else 0.0, abs=1e-9)
     steps = truth.step * (2.0 * len(path) + 2.0 * len(told.gouges) + 2.0)
     assert sum(gouge.extent for gouge in told.gouges) == pytest.approx(truth.gouging, abs=steps)
     thickest = max((stretch.thickness for stretch in told.uncut), default=0.0)

@@ -26,6 +26,15 @@ def test_a_clean_path_that_cuts_all_has_nothing_to_report() -> None:
     assert findings(judge(square(), Side.RIGHT, R, around(CORNERS, R)), square()) == ()
 
 
+def test_a_gouge_behind_the_wall_is_told_as_deep_as_the_cutter_gets_and_no_deeper_than_it_is_wide() -> None:
+    for move, much in ((lines((5, 3), (5, -0.5), (9, -0.5)), "1.500"), (lines((5, 3), (5, -4)), "2.000 or more")):
+        gouge, wrong, *_ = findings(judge(WALL, Side.LEFT, 1.0, move), WALL)
+        assert sentence(gouge, Unit.MM).startswith(
+            f"The path of segment 1 gouges segment 1 by {much} at X 5.000 Y 0.000, over"
+        )
+        assert sentence(wrong, Unit.MM).startswith("The cutter runs on the part's side of the contour, on ")
+
+
 def test_a_gouge_names_both_segments_and_the_place() -> None:
     verdict = judge(WALL, Side.LEFT, 1.0, lines((0, 1), (5, 0.5), (10, 1)))
     (gouge,) = (finding for finding in findings(verdict, WALL) if finding.code == "GOUGE")

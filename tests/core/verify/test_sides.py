@@ -76,7 +76,7 @@ def test_a_path_that_leaves_round_the_end_is_told_where_it_is_behind_the_wall() 
 
 def test_behind_a_wall_and_gouging_is_both() -> None:
     verdict = judge(lines((0, 0), (10, 0)), Side.LEFT, 1.0, lines((5, -0.5), (6, -0.5)))
-    assert verdict.depth == pytest.approx(0.5)
+    assert verdict.depth == pytest.approx(1.5)
     assert verdict.wrong_side == (0,)
 
 

@@ -1,0 +1,183 @@
+"""Behind: where a gouging centre path is itself on the part's side of the surface, and how far inside it gets there.
+
+A path changes sides where it meets the surface, and beside an open contour where it passes the normal at a free end,
+beyond which there is no side.  Parted there it has one side in each part: that of the part's middle.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from core.geometry.distance import foot, on_line
+from core.geometry.measured import Flags, Floats, Points, Rows, at, direction, place
+from core.tolerance import GOUGE, JOINED, ON_PATH
+from core.verify.farthest import FINE, Farthest, farthest
+from core.verify.gouge import Gouging
+from core.verify.pairs import Pairs, measure
+from core.verify.reach import Nearest, Stretches, changes, nearest, union
+from core.verify.sides import Sided, on_part_side, tie_of
+
+NUDGED: Final = 1e-3
+"""Share of the way to a part's middle at which the side of its farthest place is asked for: at the end it has none."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Behind:
+    """m parts of pieces `index` of the centre path that are on the part's side, in order.
+
+    `place`, in length travelled, is where the part is farthest inside, `apart` its distance there from the surface,
+    `j` the nearest wall.
+    """
+
+    index: Rows
+    middle: Floats
+    place: Floats
+    apart: Floats
+    j: Rows
+
+
+NOWHERE: Final = Behind(np.zeros(0, np.intp), np.zeros(0), np.zeros(0), np.zeros(0), np.zeros(0, np.intp))
+"""Nothing is behind the surface."""
+
+
+def behind(pairs: Pairs, found: Gouging, sides: Sided, radius: float) -> Behind:
+    """The parts of gouging stretches that are more than GOUGE on the part's side.
+
+    A cutter of no radius gouges nothing: of its path the pieces that meet walls without running along one are asked.
+    Where a surface crosses itself the sides of its walls contradict each other, and nothing is asked.
+    """
+    stretches = found.stretches
+    if sides.crossed or not (len(stretches) or radius <= GOUGE):
+        return NOWHERE
+    met = _meeting(pairs, radius)
+    if radius <= GOUGE:
+        stretches = union(pairs.centre_stations[pairs.i[met]], pairs.centre_stations[pairs.i[met] + 1])
+    if not len(stretches):
+        return NOWHERE
+    cuts = _crossed_at(pairs, met), _ends_passed(pairs, stretches, sides), _joints(pairs, sides)
+    runs = _parts(stretches, np.concatenate(cuts))
+    runs = runs.keep(_wrong(pairs, (runs.first + runs.last) / 2.0, sides))
+    if not len(runs):
+        return NOWHERE
+    return _deepest(pairs, _parts(runs, pairs.centre_stations[1:-1]), sides)
+
+
+def deepened(found: Gouging, inside: Behind, radius: float, slack: float) -> Gouging:
+    """The gouges, those that are behind the surface somewhere told by the place farthest inside.
+
+    Its distance counts as negative there.  A gouge ends where the path is the radius away again, short of which it is
+    by GOUGE and `slack`: at the end that is farthest inside all of the cutter is behind the surface.
+    """
+    if not len(found.i) or not len(inside.index):
+        return found
+    owner = found.stretches.index(inside.middle)
+    rows = ((owner >= 0) & (inside.middle < found.stretches.last[owner])).nonzero()[0]
+    apart = inside.apart[rows]
+    apart = np.where(apart >= radius - GOUGE - slack - 2.0 * FINE, radius, apart)
+    order = np.lexsort((inside.place[rows], -np.round(apart / ON_PATH), owner[rows]))
+    best = order[changes(owner[rows[order]])]
+    chosen, gouge = rows[best], owner[rows[best]]
+    where, distance, i, j = found.place.copy(), found.apart.copy(), found.i.copy(), found.j.copy()
+    where[gouge], distance[gouge] = inside.place[chosen], -apart[best]
+    i[gouge], j[gouge] = inside.index[chosen], inside.j[chosen]
+    return Gouging(found.stretches, where, distance, i, j)
+
+
+def _meeting(pairs: Pairs, radius: float) -> Rows:
+    """Pairs whose pieces meet; along a wall the centre of a cutter of no radius does so everywhere."""
+    meets = pairs.touch.apart <= JOINED
+    if radius <= GOUGE:
+        held = np.zeros(len(pairs.centre), np.bool_)
+        held[pairs.i[pairs.touch.along]] = True
+        meets &= ~held[pairs.i]
+    return meets.nonzero()[0]
+
+
+def _joints(pairs: Pairs, sides: Sided) -> Floats:
+    """Places between pieces at which the side may be another one: beside a closed contour those where a path ends."""
+    joints, moves = pairs.centre_stations[1:-1], pairs.centre
+    return joints[np.abs(moves.end[:-1] - moves.start[1:]) > JOINED] if sides.endless else joints
+
+
+def _crossed_at(pairs: Pairs, met: Rows) -> Floats:
+    """Places of the centre path at which these pairs meet."""
+    near = measure(pairs, pairs.i[met], pairs.j[met], np.inf)
+    k, pair = np.nonzero(near.apart <= JOINED)
+    i = near.i[pair]
+    places: Floats = pairs.centre_stations[i] + near.places[k, pair] * pairs.centre.length[i]
+    return places
+
+
+def _ends_passed(pairs: Pairs, stretches: Stretches, sides: Sided) -> Floats:
+    """Places of these stretches' pieces on the normals at the surface's two ends, or at a closed one's open seam."""
+    walls, moves = pairs.surface, pairs.centre
+    if sides.endless and abs(walls.end[-1] - walls.start[0]) <= ON_PATH:
+        return np.zeros(0)
+    begin, _ = place(moves, pairs.centre_stations, stretches.first)
+    end, _ = place(moves, pairs.centre_stations, stretches.last)
+    steps = np.zeros(len(moves) + 1, np.intp)
+    np.add.at(steps, begin, 1)
+    np.add.at(steps, end + 1, -1)
+    rows = (steps.cumsum()[:-1] > 0).nonzero()[0]
+    pieces, found = moves.take(rows), []
+    for wall, t in ((0, 0.0), (-1, 1.0)):
+        one, share = walls.take(np.full(len(rows), wall)), np.full(len(rows), t)
+        corner = at(one, share)
+        met = foot(pieces, corner)[None] if sides.endless else on_line(pieces, corner, 1j * direction(one, share))
+        k, row = np.nonzero((met > 0.0) & (met < 1.0))
+        found.append(pairs.centre_stations[rows[row]] + met[k, row] * pieces.length[row])
+    return np.concatenate(found)
+
+
+def _parts(stretches: Stretches, cuts: Floats) -> Stretches:
+    """What is between the cuts within the stretches."""
+    owner = stretches.index(cuts)
+    inside = (owner >= 0) & (cuts < stretches.last[owner])
+    s = np.sort(np.concatenate((stretches.first, stretches.last, cuts[inside])))
+    middle = (s[1:] + s[:-1]) / 2.0
+    owner = stretches.index(middle)
+    parts = (s[1:] > s[:-1] + ON_PATH) & (owner >= 0) & (middle < stretches.last[owner])
+    return Stretches(s[:-1][parts], s[1:][parts])
+
+
+def _spots(pairs: Pairs, s: Floats) -> Points:
+    index, t = place(pairs.centre, pairs.centre_stations, s)
+    return at(pairs.centre.take(index), t)
+
+
+def _nearest(pairs: Pairs, s: Floats, sides: Sided) -> tuple[Points, Nearest]:
+    points = _spots(pairs, s)
+    return points, nearest(points, pairs.surface, pairs.surface_boxes, tie=tie_of(pairs.surface, sides))
+
+
+def _wrong(pairs: Pairs, s: Floats, sides: Sided) -> Flags:
+    """Which places along the centre path are on the part's side."""
+    return on_part_side(pairs, *_nearest(pairs, s, sides), sides)
+
+
+def _deepest(pairs: Pairs, parts: Stretches, sides: Sided) -> Behind:
+    """Of each part the place farthest inside, without those that are nowhere farther than GOUGE."""
+    middle = (parts.first + parts.last) / 2.0
+    far = farthest(pairs.centre, parts, pairs.surface, np.full((2, len(parts)), -1), np.inf)
+    if not sides.endless:
+        far = _on_one_side(pairs, far, middle, sides)
+    keep = far.apart > GOUGE
+    middle, where, apart = middle[keep], far.place[keep], far.apart[keep]
+    index, _ = place(pairs.centre, pairs.centre_stations, middle)
+    _, near = _nearest(pairs, where, sides)
+    first = np.searchsorted(near.k, np.arange(len(where)))
+    return Behind(index, middle, where, apart, near.j[first])
+
+
+def _on_one_side(pairs: Pairs, far: Farthest, middle: Floats, sides: Sided) -> Farthest:
+    """Between arms of an open contour with its part's side of the one and the cutter's of the other the side changes
+    halfway, where nothing is met: a part that does so is told by its middle."""
+    other = ~_wrong(pairs, far.place + NUDGED * (middle - far.place), sides)
+    where, apart = far.place.copy(), far.apart.copy()
+    where[other] = middle[other]
+    points, near = _nearest(pairs, middle[other], sides)
+    apart[other] = near.apart[np.searchsorted(near.k, np.arange(len(points)))]
+    return Farthest(where, apart)

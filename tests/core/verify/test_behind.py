@@ -1,0 +1,160 @@
+"""How deep a gouge is where the centre itself is behind the surface, and which moves are told to be there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import cos, hypot, sin, sqrt, tau
+from random import Random
+
+import numpy as np
+import pytest
+from shapely.geometry import Polygon
+
+from core.geometry.path import Path
+from core.geometry.side import Side
+from core.verify.judge import judge
+from core.verify.verdict import Verdict
+from tests.core.verify import oracle
+from tests.core.verify.corpus import Chain, gouged
+from tests.core.verify.roads import MANY, in_parts, measured, proved
+from tests.core.verify.shapes import lines, square
+from tests.core.verify.test_shapely import chords
+
+PLATE = square(40.0)
+
+
+@pytest.mark.parametrize(("end", "inside"), [((50, 1), 0.29357798), ((44, 0.6), 0.30353430), ((60, 4), 1.68888889)])
+def test_a_move_through_a_corner_of_a_plate(end: tuple[float, float], inside: float) -> None:
+    """Its ends and its middle are beside the plate, its centre is inside by less than the radius."""
+    for verdict in on_all_roads(PLATE, Side.RIGHT, 3.0, lines((-1, -2.5), end)):
+        assert verdict.wrong_side == (0,)
+        assert verdict.depth == pytest.approx(3.0 + inside, abs=1e-6)
+        x, y = verdict.gouges[0].at
+        assert y == pytest.approx(inside, abs=1e-6) or 40.0 - x == pytest.approx(inside, abs=1e-6)
+        assert hypot(*np.subtract(verdict.gouges[0].at, verdict.gouges[0].surface_at)) == pytest.approx(
+            inside, abs=1e-6
+        )
+
+
+def test_where_all_of_the_cutter_is_behind_the_surface_the_gouge_is_as_deep_as_it_is_wide() -> None:
+    verdict = judge(PLATE, Side.RIGHT, 3.0, lines((20, -10), (20, 15), (20, 3.5), (30, 3.5), (30, -10)))
+    assert [gouge.depth for gouge in verdict.gouges] == [6.0, 6.0]
+    places = np.array(sorted(gouge.at for gouge in verdict.gouges))
+    assert places == pytest.approx(np.array(((20.0, 3.0), (30.0, 3.0))), abs=2e-6)
+    assert verdict.wrong_side == (0, 1, 2, 3)
+
+
+def test_a_path_wholly_inside_a_part_gouges_no_wall_and_is_on_the_wrong_side() -> None:
+    verdict = judge(PLATE, Side.RIGHT, 3.0, lines((10, 10), (30, 10), (30, 30)))
+    assert not verdict.gouges
+    assert verdict.wrong_side == (0, 1)
+    nearer = judge(PLATE, Side.RIGHT, 3.0, lines((10, 2.5), (30, 2.75)))
+    assert nearer.depth == pytest.approx(5.75)
+    assert nearer.wrong_side == (0,)
+
+
+def test_a_cutter_of_no_radius_is_told_where_it_is_behind_the_surface() -> None:
+    """Without a radius nothing gouges, and the centre may run on the surface itself."""
+    clean = judge(PLATE, Side.RIGHT, 0.0, PLATE)
+    assert clean.clean
+    for radius in (0.0, 1e-6, 1e-5):
+        verdict = judge(PLATE, Side.RIGHT, radius, lines((0, -5), (10, 0), (20, 0), (-20, 1), (-20, 30), (50, 41)))
+        assert verdict.wrong_side == (2, 4)
+
+
+def test_a_touch_from_outside_is_on_no_wrong_side() -> None:
+    touching = judge(PLATE, Side.RIGHT, 3.0, lines((-5, 5), (5, -5)))
+    assert touching.wrong_side == ()
+    assert touching.depth == pytest.approx(3.0, abs=1e-9)
+
+
+OPEN = lines((0, 0), (10, 0))
+
+
+@pytest.mark.parametrize(
+    ("move", "depth", "wrong"),
+    [
+        (lines((5, 4), (5, -0.5)), 1.5, True),
+        (lines((9.5, 0.5), (10.5, -0.5)), 1.0, False),
+        (lines((9.4, 0.5), (10.4, -0.5)), 1.1, True),
+        (lines((-0.5, 0.5), (-0.5, -0.5), (0.25, -0.5), (-0.5, -0.5)), 1.5, True),
+        (lines((-4, -4), (14, -4)), 0.0, True),
+        (lines((5, 4), (5, -4)), 2.0, True),
+    ],
+)
+def test_behind_an_open_contour_as_far_as_it_has_a_side(move: Path, depth: float, wrong: bool) -> None:
+    """Where nothing of it but an end is nearest it has none; farther behind it than the radius there is no gouge."""
+    for verdict in on_all_roads(OPEN, Side.LEFT, 1.0, move):
+        assert verdict.depth == pytest.approx(depth, abs=1e-6)
+        assert bool(verdict.wrong_side) == wrong
+
+
+def on_all_roads(surface: Path, side: Side, radius: float, path: Path) -> Iterator[Verdict]:
+    """The verdict however many walls there are."""
+    return (road(surface, side, radius, path) for road in (measured, proved, in_many_walls))
+
+
+def outline(random: Random) -> Path:
+    """A closed contour of lines and arcs, convex and not, either way round, that does not cross itself."""
+    while True:
+        count = random.randint(3, 12)
+        angles = [tau * (k + random.uniform(0.0, 0.6)) / count for k in range(count)]
+        sizes = [random.uniform(2.0, 5.0) for _ in angles]
+        points = [(size * cos(angle), size * sin(angle)) for size, angle in zip(sizes, angles, strict=True)]
+        bulges = [random.choice((0.0, 0.0, 0.2, -0.2, 0.5, -0.5)) for _ in points]
+        points.append(points[0])
+        if random.random() < 0.5:
+            points, bulges = points[::-1], [-bulge for bulge in reversed(bulges)]
+        made = Chain(tuple(points), tuple(bulges)).path()
+        if Polygon(chords(made)).is_valid and not judge(made, Side.LEFT, 1.0, lines((9, 9), (9, 8))).crosses_itself:
+            return made
+
+
+def moves(random: Random) -> Path:
+    """A few moves anywhere, straight and bent, or close together."""
+    x, y, size = random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0), random.choice((0.3, 2.0, 6.0))
+    points = [(x + random.gauss(0.0, size), y + random.gauss(0.0, size)) for _ in range(random.randint(2, 5))]
+    return Chain(tuple(points), tuple(random.choice((0.0, 0.0, 0.4, -1.0)) for _ in points[1:])).path()
+
+
+Judge = Callable[[Path, Side, float, Path], Verdict]
+
+
+def in_many_walls(surface: Path, side: Side, radius: float, path: Path) -> Verdict:
+    """The verdict on the same contour in so many walls that the judge proves what it can."""
+    parts = -(-MANY // len(surface))
+    return judge(in_parts(surface, [np.arange(1, parts) / parts] * len(surface)), side, radius, path)
+
+
+@pytest.mark.parametrize("road", [measured, proved, in_many_walls])
+@pytest.mark.parametrize("seed", range(3))
+def test_any_moves_through_any_closed_contour(seed: int, road: Judge) -> None:
+    assert compared(road, seed, 8) > 15
+
+
+def compared(road: Judge, seed: int, contours: int) -> int:
+    """How many of the paths are inside the part somewhere; each is judged as points and shapely see it."""
+    random, inside = Random(seed), 0
+    for _ in range(contours):
+        surface, side = outline(random), random.choice(list(Side))
+        for _ in range(6):
+            path, radius = moves(random), random.choice((0.01, 0.1, 0.5, 2.0))
+            verdict = road(surface, side, radius, path)
+            inside += _agree(surface, side, verdict, path)
+    return inside
+
+
+def _agree(surface: Path, side: Side, verdict: Verdict, path: Path) -> bool:
+    part, radius = Polygon(chords(surface)), verdict.radius
+    room_inside = part.exterior.is_ccw == (side is Side.LEFT)
+    for row in range(len(path)):
+        move = path.part(row, row + 1)
+        deep = oracle.deepest(move, surface, 0.01, room_inside=room_inside)
+        line = chords(move)
+        behind = line.difference(part).length if room_inside else line.intersection(part).length
+        assert (row in verdict.wrong_side) == (deep > 1e-6) or abs(deep) < 1e-5
+        assert (row in verdict.wrong_side) == (behind > 0.0) or behind < 10.0 * sqrt(1e-5)
+    deep = oracle.deepest(path, surface, 0.01, room_inside=room_inside)
+    depth = gouged(radius, oracle.extreme(path, surface, 0.01, -1.0), deep)
+    assert verdict.depth == pytest.approx(depth, abs=1e-6)
+    return deep > 0.0
