@@ -189,7 +189,7 @@ class Row:
 
 
 def _gouge_told(truth: Truth, verdict: Verdict, case: Case) -> bool:
-    """The wrong side, and a gouge as deep as it is; behind a surface whose sides are unknown no less than the radius."""
+    """The wrong side, and a gouge as deep as it is; where the sides are unknown no less than the radius."""
     if truth.wrong_side and not verdict.wrong_side:
         return False
     if case.closed and not verdict.crosses_itself:
