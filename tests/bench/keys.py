@@ -4,6 +4,7 @@ The empty Textual app is started in turn with the program, so that both see the 
 side by side.  Keys are typed into two contours of 200 segments: a plate whose every corner the tool reaches, and a
 gear none of whose 50 gaps it enters, where every remedy is tried after every change.
 
+Times are milliseconds; `work` is how long the program ran in them, which a busy machine changes little.
 `changed` is the time from the key to the first screen that shows the derived path, `finished` that to the last byte:
 by then the look-ahead table stands, and what the contour needs.  Where half-typed numbers are tried out in a thread,
 `changed` is the screen with the digit, on which the accepted path still stands: then only `finished` tells the rest.
@@ -25,7 +26,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from math import cos, dist, pi, sin
 from pathlib import Path
@@ -33,6 +34,7 @@ from pathlib import Path
 from core.program.edit import new_block
 from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, Program, Segment, Tool
 from core.program.store import save
+from tests.bench.work import at_work, worked
 from tests.terminal import Terminal, running
 
 EMPTY_APP = """
@@ -109,6 +111,8 @@ def _towards(corner: tuple[float, float], other: tuple[float, float], far: float
 
 LOOK = 0.02
 """Seconds between two looks at a program that sends nothing."""
+TICK = 0.0005
+"""Seconds of work between two looks that are only the looking after clocks, such as for the cursor."""
 LOOKS = 5
 """So many looks in a row at which it has not run: it is at rest."""
 LONGEST = 20.0
@@ -119,52 +123,45 @@ IDLE = 3.0
 
 @dataclass(frozen=True)
 class Answer:
-    """What came back after a key: bytes, and seconds to the first derived screen and to the last byte."""
+    """What came back after a key: bytes, and seconds to the first derived screen and to the last byte.
+
+    `work` is how much of these seconds the program ran.
+    """
 
     count: int
     changed: float
     finished: float
+    work: tuple[float, float]
 
 
 def answer(terminal: Terminal, key: bytes) -> Answer:
     """Type a key and wait for the program to come to rest; the emulator is fed afterwards, it takes its time."""
-    begun = time.perf_counter()
+    begun, before = time.perf_counter(), worked(terminal.pid)
     terminal.send(key)
-    came = [(when - begun, data) for when, data in until_rest(terminal)]
-    changed = 0.0
-    for when, data in came:
+    came = [(when - begun, ran - before, data) for when, ran, data in until_rest(terminal)]
+    changed = (0.0, 0.0)
+    for when, ran, data in came:
         terminal.stream.feed(data)
-        if not changed and "calculating" not in terminal.text:
-            changed = when
-    return Answer(sum(len(data) for _, data in came), changed, came[-1][0] if came else 0.0)
+        if not changed[0] and "calculating" not in terminal.text:
+            changed = (when, ran)
+    finished = came[-1][:2] if came else (0.0, 0.0)
+    return Answer(sum(len(data) for *_, data in came), changed[0], finished[0], (changed[1], finished[1]))
 
 
-def until_rest(terminal: Terminal) -> Iterator[tuple[float, bytes]]:
-    """What a program sends, each with its time, until it neither sends nor calculates."""
-    still, used, begun = 0, -1, time.perf_counter()
+def until_rest(terminal: Terminal) -> Iterator[tuple[float, float, bytes]]:
+    """What a program sends, each with its time and the work done by then, until it neither sends nor calculates."""
+    still, used, begun = 0, -1.0, time.perf_counter()
     while still < LOOKS:
         if select.select([terminal.fd], [], [], LOOK)[0]:
             data = os.read(terminal.fd, 65536)
             still = 0
-            yield time.perf_counter(), data
+            yield time.perf_counter(), worked(terminal.pid), data
             continue
-        running_now, spent = at_work(terminal.pid)
-        still = 0 if running_now or spent != used else still + 1
+        spent = worked(terminal.pid)
+        still = 0 if at_work(terminal.pid) or spent - used > TICK else still + 1
         used = spent
         if time.perf_counter() - begun > LONGEST:
             raise AssertionError(f"not at rest after {LONGEST} s:\n{terminal.text}")
-
-
-def at_work(pid: int) -> tuple[bool, int]:
-    """Whether a thread of a process runs, could run or waits for the disk; and the ticks all have run, by /proc."""
-    states, ticks = [], 0
-    for thread in Path(f"/proc/{pid}/task").iterdir():
-        with suppress(FileNotFoundError, ProcessLookupError):
-            # behind the name, which may hold anything: state, ..., at 11 and 12 user and system time
-            values = (thread / "stat").read_text().rpartition(")")[2].split()
-            states.append(values[0])
-            ticks += int(values[11]) + int(values[12])
-    return not {"R", "D"}.isdisjoint(states), ticks
 
 
 def first_paint(arguments: list[str], text: str) -> float:
@@ -214,16 +211,11 @@ def tabs_and_idle(program: Program, count: int) -> tuple[list[Answer], int]:
 
 def report(name: str, answers: list[Answer]) -> str:
     """One line of the table: milliseconds and bytes, median and 95th percentile."""
-    changed, finished = (_middle_and_high([1000 * value for value in some]) for some in _columns(answers))
+    times = ((one.changed, one.work[0], one.finished, one.work[1]) for one in answers)
+    told = (_middle_and_high([1000 * value for value in column]) for column in zip(*times, strict=True))
     sizes = _middle_and_high([float(one.count) for one in answers])
-    return (
-        f"{name:<42} {changed[0]:7.1f} {changed[1]:7.1f}   {finished[0]:7.1f} {finished[1]:7.1f}   "
-        f"{sizes[0]:6.0f} {sizes[1]:6.0f}   {len(answers):3}"
-    )
-
-
-def _columns(answers: list[Answer]) -> tuple[list[float], list[float]]:
-    return [one.changed for one in answers], [one.finished for one in answers]
+    columns = "".join(f"{middle:8.1f}{high:7.1f}" for middle, high in told)
+    return f"{name:<33}{columns}{sizes[0]:7.0f}{sizes[1]:6.0f}{len(answers):5}"
 
 
 def _middle_and_high(values: list[float]) -> tuple[float, float]:
@@ -257,7 +249,7 @@ def rows_of(program: Program, name: str, number: int, count: int) -> Iterator[st
     yield report(f"{name}: Enter, another X END", key_answers(program, there, points)[1::3])
     lines = [key for line in range(max(1, count // 3)) for key in line_keys(program, number + 4 * line)]
     yield report(f"{name}: a LINE as it is typed", key_answers(program, there, lines))
-    yield f"{f'{name}: idle for {IDLE:.0f} s':<42} {'':37}{idle:6}"
+    yield f"{f'{name}: idle for {IDLE:.0f} s':<93}{idle:7}"
 
 
 def main() -> None:
@@ -274,8 +266,7 @@ def main() -> None:
     if not options.keys:
         return
     print(
-        f"{'median and 95th percentile':<42} {'changed, ms':>15}   {'finished, ms':>15}   {'bytes':>13}     n",
-        flush=True,
+        f"{'median and 95th percentile':<33}{'changed':>15}{'work':>15}{'finished':>15}{'work':>15}{'bytes':>13}    n"
     )
     for contour, name, number in ((plate(), "plate", 105), (gear(200), "gear", 101)):
         for row in rows_of(contour, name, number, options.keys):
