@@ -88,9 +88,7 @@ def _load(desk: Desk, message: Load) -> Desk:
         empty = _wanting(Session.of(empty_program(desk.settings.unit)), message.earlier)
         return fresh(desk, empty).take(Say("A new program."))
     try:
-        gone = message.earlier is not None and not message.path.exists()
-        empty = Session.of(empty_program(desk.settings.unit), message.path)
-        session = _wanting(empty if gone else _opened(message.path), message.earlier)
+        session = _wanting(_opened(message.path, message.earlier), message.earlier)
     except StoreError as error:
         return _failed(desk, error)
     if message.path.parent == examples():
@@ -105,8 +103,11 @@ def _wanting(session: Session, earlier: Path | None) -> Session:
     return replace(session, guard=replace(session.guard, earlier=earlier))
 
 
-def _opened(path: Path) -> Session:
-    """A program, or the work on it that was left behind where its file cannot be read; StoreError for neither."""
+def _opened(path: Path, earlier: Path | None) -> Session:
+    """A program, or the work on it that was left behind where its file cannot be read; StoreError for neither.
+
+    Work in the journal `earlier`, which was set aside and is wanted back, is such work too.
+    """
     try:
         return within(FILE, lambda: opened(path))
     except TimeoutError as error:
@@ -114,7 +115,7 @@ def _opened(path: Path) -> Session:
     except StoreError as error:
         from app.rescue import rescued
 
-        return rescued(path, error)
+        return rescued(path, error, earlier)
 
 
 def fresh(desk: Desk, session: Session) -> Desk:

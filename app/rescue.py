@@ -11,12 +11,14 @@ from core.program.lock import alive, user
 from core.program.store import StoreError
 
 
-def rescued(path: Path, error: StoreError) -> Session:
+def rescued(path: Path, error: StoreError, earlier: Path | None = None) -> Session:
     """An empty program in the file's place, on which the work will be offered; the error where nothing was left.
 
+    `earlier` is a journal that was set aside and that somebody wants back: its work is offered before any other.
     It has no stamp of the file: whoever saves it is asked, and what stands in the file is kept beside it.
     """
     dead = (found for _, found in places.left(path, places.own_folder(), user()) if not alive(found.head.owner))
-    if (found := next(dead, None)) is None:
+    wanted = None if earlier is None else places.read(earlier)
+    if (found := wanted or next(dead, None)) is None:
         raise error
     return Session.of(empty_program(found.history.program.unit), path)

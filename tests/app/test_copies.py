@@ -99,6 +99,21 @@ def test_a_file_that_is_gone_comes_back_from_its_copy(own: Path, part: Path) -> 
     assert load(part) == first.session.program
 
 
+def test_a_file_that_is_cut_off_does_not_keep_its_copy_from_anybody(own: Path, part: Path) -> None:
+    first = started(own, part).press("tab").type("7")
+    first.killed()
+    operator = started(own, part).press("d", "y")
+    part.write_bytes(part.read_bytes()[:100])
+    chosen(operator, "discarded work")
+    assert "itself cannot be read" in asked(operator)
+    operator.press("r")
+    assert operator.session.history == first.session.history
+    rest = part.read_bytes()
+    operator.press("ctrl+s", "y")
+    assert load(part) == first.session.program
+    assert [one.read_bytes() for one in part.parent.glob("part.theirs-*")] == [rest]
+
+
 def test_a_copy_that_cannot_be_read_says_so(own: Path, part: Path) -> None:
     part.with_name(".part.toml.cutcomp-journal.kept-1").write_text("nothing")
     operator = started(own, part)
