@@ -98,7 +98,9 @@ def _told(keeping: NcKeeping, page: ProofPage, path: Path, found: Found) -> tupl
         f"Changes of {name}{by} were not saved. The last of them was {when}, "
         f"{count} change{'s' if count != 1 else ''} can be undone."
     ]
-    if found.file != mark(page.listing.origin):
+    if page.file is not None and not page.file.exists():
+        lines.append("The file itself is gone: saving makes it anew.")
+    elif found.file != mark(page.listing.origin):
         lines.append("The file was written by somebody else since.")
     if not _own(keeping, path, found):
         lines.append(f"They stay kept for {printable(found.owner.user)}, whatever you answer.")

@@ -41,13 +41,17 @@ def read(path: Path) -> Listing:
 
 
 def opening(path: Path, earlier: Path | None = None) -> Callable[[Desk], Desk]:
-    """A file put under proof, on top of everything; `earlier` is a journal set aside, whose changes are offered."""
+    """A file put under proof, on top of everything; `earlier` is a journal set aside, whose changes are offered.
+
+    That one holds all of the text: a file that is gone is then an empty one.
+    """
 
     def work(desk: Desk) -> Desk:
         from app.screens.proof import ProofPage
 
         try:
-            page = replace(ProofPage.of(read(path), path), earlier=earlier)
+            gone = earlier is not None and not path.exists()
+            page = replace(ProofPage.of(Listing() if gone else read(path), path), earlier=earlier)
         except StoreError as error:
             return desk.take(Say(str(error), Tone.ERROR))
         pages = desk.pages[:-1] if isinstance(desk.page, BrowsePage) else desk.pages

@@ -90,15 +90,30 @@ def test_where_the_folder_takes_nothing_the_changes_are_kept_elsewhere(
 def test_discarded_changes_come_back_by_keys(file: Path) -> None:
     typist(file).press("x").killed()
     typist(file, ME).press("d", "y", "f8")
-    one = Typist(browsing(file.parent)(Desk(Session.of(empty_program()))), typist_keeping(file))
-    rows = one.part("body").splitlines()[1:]
-    row = next(row for row, line in enumerate(rows) if "discarded work" in line)
-    assert "part.nc" in rows[row]
-    one.press(*["down"] * row, "enter")
+    one = chosen(file)
     assert "LEAVE IT" in one.part("softkeys")
     one.press("r")
     assert one.texts == ["G0 X1.", "\xb0 M30"]
     assert journal_path(file).exists()
+
+
+def test_a_file_that_is_gone_comes_back_from_its_copy(file: Path) -> None:
+    typist(file).press("x").killed()
+    typist(file, ME).press("d", "y", "f8")
+    file.unlink()
+    one = chosen(file)
+    assert "The file itself is gone: saving makes it anew." in asked(one).lines
+    one.press("r", "s")
+    assert file.read_bytes() == b"G0 X1.\r\n\xb0 M30\r\n"
+
+
+def chosen(file: Path) -> Typist:
+    """The list of NC files, and down to the discarded work."""
+    one = Typist(browsing(file.parent)(Desk(Session.of(empty_program()))), typist_keeping(file))
+    rows = one.part("body").splitlines()[1:]
+    row = next(row for row, line in enumerate(rows) if "discarded work" in line)
+    assert "part.nc" in rows[row]
+    return one.press(*["down"] * row, "enter")
 
 
 def typist_keeping(file: Path):
