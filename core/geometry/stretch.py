@@ -70,7 +70,8 @@ def _cut_out(surface: Path, wanted: Sequence[Ends]) -> tuple[Path, list[tuple[in
 
 def _steps(surface: Path, row: int, start: Point, last: int, end: Point) -> int:
     """Rows from a point on one row to a point on another, or all round to the same one."""
-    around = last == row and _before(surface[row], end, start)
+    # from its start back to its start an arc is a full turn: what begins there ends behind that on any piece
+    around = last == row and start != surface[row].start and _before(surface[row], end, start)
     return (last - row) % len(surface) + len(surface) * around
 
 

@@ -36,6 +36,22 @@ def test_a_stretch_of_an_arc_keeps_its_centre():
     assert found[0] == Arc((0, 2), (-2, 0), (0, 0), Turn.CCW)
 
 
+def test_a_stretch_that_begins_where_its_arc_begins_ends_on_the_same_arc():
+    """From its start back to its start an arc is a full turn, which lies behind every place on it."""
+    half = Arc((4, 0), (4, 4), (4, 2), Turn.CCW)
+    outline = Path.from_pieces([Line((0, 0), (4, 0)), half, Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
+    assert points(stretch(outline, 2, half.start, 2, half.end)) == [[4, 0], [4, 4]]
+    assert points(stretch(outline, 2, half.start, 2, (6, 2))) == [[4, 0], [6, 2]]
+    assert points(stretch(outline, 2, (6, 2), 2, half.end)) == [[6, 2], [4, 4]]
+
+
+def test_a_stretch_of_a_full_circle_ends_where_the_circle_does():
+    circle = Path.from_pieces([Arc((2, 0), (2, 0), (0, 0), Turn.CCW)])
+    assert points(stretch(circle, 1, (-2, 0), 1, (2, 0))) == [[-2, 0], [2, 0]]
+    assert points(stretch(circle, 1, (2, 0), 1, (-2, 0))) == [[2, 0], [-2, 0]]
+    assert points(stretch(circle, 1, (2, 0), 1, (2, 0))) == [[2, 0], [2, 0]]
+
+
 def test_its_pieces_keep_their_segments_numbers():
     assert stretch(SQUARE, 4, (0, 1), 1, (3, 0)).numbers.tolist() == [4, 1]
 
