@@ -23,7 +23,7 @@ TOGETHER: Final = 0.1
 REST: Final = 1.0
 """Seconds a key that has certainly begun waits for its rest."""
 LATE: Final = 2.0
-"""Seconds behind Esc in which the rest of a key is recognised."""
+"""Seconds behind Esc, or behind a key told torn, in which the rest of a key is recognised."""
 LONGEST: Final = 32
 """Characters of the longest key."""
 WHOLE: Final = re.compile(r"\x1b\[\[?[0-?]*[ -/]*[A-Za-z~^@]")
@@ -46,8 +46,9 @@ def delay(environment: Mapping[str, str]) -> float:
 class Joined:
     """What has arrived and is no whole key yet; times are seconds of any clock that never goes back.
 
-    `known` are keys of more than one character that are whole as they stand.  `held` begins with Esc, or, behind an
-    Esc that was taken for the key, with what the rest of a key begins with; `paste` is what was pasted so far.
+    `known` are keys of more than one character that are whole as they stand.  `held` begins with Esc, or, behind a
+    key that was cut, with what the rest of it begins with; `paste` is what was pasted so far.
+    `cut` is the beginning of a key whose rest did not come in time, and `escaped` when that was found.
     """
 
     known: Container[str]
@@ -57,6 +58,7 @@ class Joined:
     begun: float = 0.0
     last: float = 0.0
     escaped: float = -LATE
+    cut: str = ESC
     clicked: int = 0
 
     @property
@@ -86,11 +88,9 @@ class Joined:
         """What is held, if its time is over."""
         if self.due is None or now < self.due:
             return
-        if self.held == ESC:
-            self.held, self.escaped = "", now
-            yield ESC
-        elif self.held.startswith(f"{ESC}["):
-            yield self._torn()
+        if self.held == ESC or self.held.startswith(f"{ESC}["):
+            self.cut, self.held, self.escaped = self.held, "", now
+            yield ESC if self.cut == ESC else TORN
         else:
             yield from self._as_typed()
 
@@ -103,12 +103,19 @@ class Joined:
             self.held, self.begun = ESC, now
         elif held == ESC and character not in "[O":
             yield from self._behind_escape(character, now)
-        elif held or (character in "[O" and now - self.escaped < LATE):
+        elif held or (now - self.escaped < LATE and self._goes_on(character)):
             self.held += character
             yield from self._grown(character, now)
         else:
             self.escaped = -LATE
             yield character
+
+    def _goes_on(self, character: str) -> bool:
+        """Whether this may be the rest of a key that was cut, or its beginning."""
+        if self.cut == ESC:
+            return character in "[O"
+        key = self.cut + character
+        return key in self.known or (WHOLE.fullmatch(key) or BEGUN.fullmatch(key)) is not None
 
     def _behind_escape(self, character: str, now: float) -> Iterator[str]:
         """Alt and a character in one packet, or two keys one after the other."""
@@ -121,7 +128,7 @@ class Joined:
     def _grown(self, character: str, now: float) -> Iterator[str]:
         """What is held with one character more: a key, still the beginning of one, or no key."""
         late = self.held[0] != ESC
-        key = ESC + self.held if late else self.held
+        key = self.cut + self.held if late else self.held
         if key in self.known or WHOLE.fullmatch(key):
             if late:
                 yield self._torn()

@@ -66,6 +66,19 @@ def test_nothing_of_a_key_is_typed_however_late_its_bytes_are(tail: str, first: 
     assert arrived(ESC, first, *pieces, "7") in ([ESC + tail, "7"], [ESC, TORN, "7"])
 
 
+@pytest.mark.parametrize("tail", [tail for tail in TAILS if tail[0] == "["])
+@pytest.mark.parametrize("seconds", [REST + 0.1, 2.0, REST + LATE - 0.1])
+def test_a_key_whose_end_comes_long_after_its_beginning_types_nothing(tail: str, seconds: float) -> None:
+    for place in range(1, len(tail)):
+        assert set(arrived(ESC + tail[:place], seconds, tail[place:])) == {TORN}
+
+
+def test_what_is_typed_when_a_key_was_told_torn_is_typed() -> None:
+    assert arrived(ESC + "[1", REST + 0.5, "2", 0.2, ".", 0.2, "5", 0.2, "\r") == [TORN, *"2.5\r"]
+    assert arrived(ESC + "[", REST + LATE + 0.1, "d") == [TORN, "d"]
+    assert arrived(ESC + "[", REST + 0.5, ESC + "[D") == [TORN, ESC + "[D"]
+
+
 def test_one_split_at_any_place_types_nothing() -> None:
     for tail, seconds in product(TAILS, (0.05, 0.29, 0.31, 0.9)):
         for place in range(1, len(tail) + 1):
