@@ -10,6 +10,7 @@ from app.files import example
 from app.keeping import Keeping
 from app.main import begin
 from app.screens.decide import Decide
+from core.program.journal_file import journal_path, set_aside
 from core.program.model import Entry
 from core.program.store import StoreError, load, save
 from tests.app.kept import DEAD, TIME, Kept, started
@@ -76,6 +77,16 @@ def test_opened_from_the_screens_the_work_is_offered_too(part: Path, tmp_path: P
     operator = started(tmp_path / "own")
     operator.desk = operator.keeping.keep(operator.desk.take(Load(part)))
     assert isinstance(operator.desk.page, Decide)
+
+
+def test_one_s_own_work_that_was_moved_aside_comes_back_too(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    started(part.parent / "own", part).press("tab").type("7").killed()
+    set_aside(journal_path(part), "kept")
+    part.write_bytes(b"no program")
+    with pytest.raises(StoreError):
+        begin(part, None)
+    monkeypatch.setattr("app.rescue.user", lambda: DEAD.user)
+    assert begin(part, None).file == part
 
 
 def test_without_work_the_file_s_fault_is_told(part: Path) -> None:
