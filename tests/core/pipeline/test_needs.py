@@ -16,7 +16,7 @@ from core.geometry.piece import Arc, Line, Turn
 from core.geometry.side import Side
 from core.pipeline.derive import derive
 from core.pipeline.needs import NAMED_AT_MOST, Needs, needs, needs_of
-from core.pipeline.remedies import STEP, largest_tool, middle, started
+from core.pipeline.remedies import STEP, largest_tool, started
 from core.pipeline.table import Trial, table_of
 from core.program.model import CutterComp
 from core.units import Unit, sentence
@@ -263,22 +263,6 @@ def test_many_places_are_counted():
     assert len(found.small) > NAMED_AT_MOST
     assert len(named) == NAMED_AT_MOST + 1
     assert f"There are {len(found.small)} such places." in named[-1].text
-
-
-def test_the_middle_of_an_arc_lies_on_it():
-    assert middle(Arc((1, 0), (-1, 0), (0, 0), Turn.CCW)) == pytest.approx((0, 1))
-    assert middle(Arc((1, 0), (-1, 0), (0, 0), Turn.CW)) == pytest.approx((0, -1))
-    assert middle(Arc((1, 0), (1, 0), (0, 0), Turn.CW)) == pytest.approx((-1, 0))
-
-
-@settings(max_examples=60, deadline=None, derandomize=True)
-@given(mixed.map(shut), st.integers(0, 30))
-def test_a_contour_started_elsewhere_is_the_same_contour(contour, row):
-    row %= len(contour)
-    other = started(contour, row)
-    assert len(other) == len(contour) + 1
-    assert other.points[0].tolist() == other.points[-1].tolist()
-    assert other.lengths.sum() == pytest.approx(contour.lengths.sum(), rel=1e-9, abs=1e-6)
 
 
 @settings(max_examples=40, deadline=None, derandomize=True)
