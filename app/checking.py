@@ -210,7 +210,13 @@ def lines(one: Answer) -> Iterator[str]:
     for finding in one.findings:
         place = "" if finding.line is None else f"{finding.line}:{finding.column or 1}"
         yield f"{place:>9}  {finding.severity.value:<7}  {finding.code:<13}  {sentence(finding, one.unit)}"
-    yield f"{one.control}: {one.outcome}; {one.count} moves, {one.stretches} compensated stretches, {one.unit.value}."
+    moves, stretches = counted(one.count, "move"), counted(one.stretches, "compensated stretch")
+    yield f"{one.control}: {one.outcome}; {moves}, {stretches}, {one.unit.value}."
+
+
+def counted(number: int, what: str) -> str:
+    """How many there are of something: `1 move`, `2 moves`, `2 compensated stretches`."""
+    return f"{number} {what}" if number == 1 else f"{number} {what}{'es' if what.endswith('ch') else 's'}"
 
 
 def reasons(answers: tuple[Answer, ...]) -> Iterator[str]:

@@ -22,8 +22,10 @@ STEPS: Final = {"up": -1, "down": 1, "pageup": -10, "pagedown": 10}
 ENDS: Final = {"home": 0, "ctrl+home": 0, "end": 10**9, "ctrl+end": 10**9}
 LONGEST: Final = 1_000_000
 """Characters of a line up to which more can be typed into it."""
-OWN_KEYS: Final = {"ctrl+z": "u", "ctrl+y": "r", "ctrl+s": "s"}
+OWN_KEYS: Final = {"ctrl+z": "u", "ctrl+y": "r", "ctrl+s": "s", "ctrl+f": "f"}
 """Keys that mean the program on other pages, and the letters that mean the same for the listing here."""
+TURNING: Final = ("ctrl+z", "ctrl+y")
+"""Those of them that take back a line being typed."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -92,12 +94,13 @@ class ProofPage(Page):
         """What is asked and not known yet: everything, or the verdict alone."""
         return self.asked if self.told is None or not self.fresh else self.told.rest
 
-    def hearing(self, answer: object) -> Page:
+    def hearing(self, answer: object) -> ProofPage:
         """An answer to what is asked now; any other is dropped."""
         if not isinstance(answer, Told) or answer.question is not self.asked:
             return self
         last = max(len(answer.findings) - 1, 0)
-        return replace(self, told=answer, at=min(self.at, last), telling=self.telling and bool(answer.findings))
+        told = replace(self, told=answer, at=min(self.at, last), telling=self.telling and bool(answer.findings))
+        return told.marked()
 
     @property
     def unsaved(self) -> bool:
@@ -107,11 +110,11 @@ class ProofPage(Page):
     def asking(
         self, *, listing: Listing | None = None, control: str | None = None, tools: ToolTable | None = None
     ) -> ProofPage:
-        """The page with another question."""
+        """The page with another question; a text without lines is one too."""
         now = self.asked
-        return replace(
-            self, asked=Question(listing or now.listing, control or now.control, tools or now.tools, now.unit)
-        )
+        text = now.listing if listing is None else listing
+        known = now.tools if tools is None else tools
+        return replace(self, asked=Question(text, control or now.control, known, now.unit))
 
     def softkeys(self, session: Session) -> Softkeys:
         """Two sets; F7 changes between them."""
@@ -138,10 +141,10 @@ class ProofPage(Page):
         return Answer(replace(self, telling=False)) if self.telling else None
 
     def everywhere(self, key: str, session: Session) -> Answer | None:
-        """Undo, redo and save are those of the listing."""
+        """Undo, redo, save and the findings are those of the listing."""
         if key not in OWN_KEYS:
             return None
-        if self.editing is not None and key != "ctrl+s":
+        if self.editing is not None and key in TURNING:
             return Answer(replace(self, editing=None))
         settled = self.settle(session)
         page = settled.page
@@ -203,7 +206,27 @@ class ProofPage(Page):
 
     def at_row(self, row: int) -> ProofPage:
         """The cursor on a line."""
-        return replace(self, row=min(max(row, 0), max(len(self.listing) - 1, 0)))
+        return replace(self, row=min(max(row, 0), max(len(self.listing) - 1, 0))).marked()
+
+    def marked(self) -> ProofPage:
+        """The mark on the gravest finding of the cursor's line, unless one of that line has it already."""
+        from app.screens.proof_rows import ORDER
+
+        told = self.findings if self.fresh else ()
+        here = [index for index, one in enumerate(told) if one.line == self.row + 1]
+        if not here or self.at in here:
+            return self
+        return replace(self, at=min(here, key=lambda index: ORDER.index(told[index].severity)))
+
+    @property
+    def current(self) -> Finding | None:
+        """The finding that has the mark, where the cursor is on it: in its line if it has one, or among the findings.
+
+        None while the answer is to other lines, but for those who walk over the findings.
+        """
+        one = self.findings[self.at] if self.findings else None
+        here = one is not None and self.fresh and one.line in (None, self.row + 1)
+        return one if self.telling or here else None
 
     def at_finding(self, index: int) -> ProofPage:
         """The cursor on a finding, and in its line."""

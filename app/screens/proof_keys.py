@@ -11,6 +11,7 @@ from app.screens.draw import ARROWS, STEP, panned, zoomed
 from app.screens.page import WHOLE, Answer, Softkey, Softkeys
 from app.screens.proof_compare import ComparePage
 from app.screens.proof_files import SaveListing, saving
+from app.screens.proof_findings import ProofFindings
 from app.screens.proof_tool import GoTo, ToolSize, stepped
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ HELP: Final = (
     "listing and the findings. Up and down walk, the cutter stands where the line under the cursor leaves it.",
     "Enter types in the line, Enter takes it, Esc leaves it as it was. i and o put a new line before and behind, x or "
     "Delete takes the line out, u undoes, r does it again, s saves, S saves under another name.",
-    "n and p go to the next finding and the one before. g goes to a line.",
+    "n and p go to the next finding and the one before; f or Ctrl+F shows all of them, each whole. g goes to a line.",
     "c and C try the next control and the one before; v compares all of them.",
     "t gives a tool another diameter, < and > make it a little smaller and larger: the verdict follows.",
     "+ and - zoom, 0 shows everything, d gives the drawing the whole terminal, where the arrows move it.",
@@ -45,6 +46,7 @@ LETTERS: Final = ("xictvn", "urCgsS")
 """What F1 to F6 do, as letters, in both sets."""
 
 
+NONE: Final = "There are no findings."
 CHANGING: Final = "ioxur"
 """Letters that change the text."""
 
@@ -102,7 +104,10 @@ def _lettered(page: ProofPage, letter: str) -> Answer | None:
 
 def _asking(page: ProofPage, letter: str) -> Answer | None:
     """Letters that open something."""
-    messages: dict[str, tuple[Message, ...]] = {"m": (NextMode(),), "g": (Open(GoTo()),)}
+    if letter == "f" and not page.findings:
+        return Answer(page, (Say(NONE),))
+    messages: dict[str, tuple[Message, ...]] = {"f": (Open(ProofFindings(page)),)}
+    messages |= {"m": (NextMode(),), "g": (Open(GoTo()),)}
     messages |= {"t": (Open(ToolSize.of(page)),), "v": compared(page)}
     messages |= {"s": saved(page), "S": (Open(SaveListing.of(page)),)}
     return Answer(page, messages[letter]) if letter in messages else None
@@ -110,7 +115,7 @@ def _asking(page: ProofPage, letter: str) -> Answer | None:
 
 def _over_findings(page: ProofPage) -> Answer:
     if not page.findings:
-        return Answer(page, (Say("There are no findings."),))
+        return Answer(page, (Say(NONE),))
     page = replace(page, telling=not page.telling)
     return Answer(page.at_finding(page.at) if page.telling else page)
 
@@ -156,9 +161,9 @@ def on_control(page: ProofPage, step: int) -> Answer:
 
 
 def next_finding(page: ProofPage, step: int) -> Answer:
-    """To the next finding behind the cursor's line, or to the one before it."""
+    """To the finding behind the one the cursor is on, or behind its line; or to the one before."""
     lines = [(one.line or 0, index) for index, one in enumerate(page.findings)]
-    here = (page.row + 1, page.at)
+    here = (page.row + 1, page.at) if page.current is None else lines[page.at]
     if step > 0:
         there = next((index for line, index in lines if (line, index) > here), None)
     else:

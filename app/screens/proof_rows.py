@@ -15,6 +15,7 @@ from core.finding import Finding, Severity
 from core.units import Unit, sentence
 
 if TYPE_CHECKING:
+    from app.checking import Answer
     from app.proving import Told
     from app.screens.proof import ProofPage
     from core.draw.scene import Scene
@@ -29,6 +30,7 @@ LOOKS: Final = {Severity.ERROR: Look.ERROR, Severity.WARNING: Look.WARNING, Seve
 TONES: Final = {Severity.ERROR: Tone.ERROR, Severity.WARNING: Tone.WARNING, Severity.INFO: Tone.PLAIN}
 ORDER: Final = tuple(Severity)
 """The gravest first."""
+BEFORE: Final = "of the text before the last change"
 MARKS: Final = {Severity.ERROR: "!!", Severity.WARNING: "! ", Severity.INFO: "  "}
 
 
@@ -73,18 +75,26 @@ def _header(page: ProofPage, width: int) -> tuple[Row, ...]:
 
 
 def _outcome(page: ProofPage, room: int) -> Row:
-    """What the control does, in a few words; the counts only where there is room for both."""
+    """What the control does, in a few words; of the counts as much as there is room for, in whole words."""
     answer = page.told.answer if page.told is not None else None
     if answer is None:
         return plain(" calculating ...", Look.DIM)
     look = Look.ERROR if answer.errors else Look.WARNING if answer.uncompensated else Look.GOOD
-    outcome, counts = answer.outcome, f"; {answer.count} moves, {answer.stretches} compensated"
+    outcome, counts = answer.outcome, _counts(answer)
     if page.told is not None and page.told.rest is not None:
-        look, outcome, counts = Look.WARNING, "gouges not known yet: being judged ...", f"; {answer.count} moves"
+        look, outcome, counts = Look.WARNING, "gouges not known yet: being judged ...", counts[-1:]
     behind = "" if page.fresh else " ..."
     room -= 1 + len(behind)
-    text = outcome + counts if len(outcome + counts) <= room else shortened(outcome, room)
-    return (Span(f" {text}", look), Span(behind, Look.DIM))
+    whole = (text for one in counts if len(text := f"{outcome}; {one}") <= room)
+    return (Span(f" {next(whole, shortened(outcome, room))}", look), Span(behind, Look.DIM))
+
+
+def _counts(answer: Answer) -> tuple[str, ...]:
+    """How many moves and compensated stretches there are, in fewer and fewer words."""
+    from app.checking import counted
+
+    moves = counted(answer.count, "move")
+    return *(f"{moves}, {counted(answer.stretches, what)}" for what in ("compensated stretch", "contour")), moves
 
 
 def _listing(page: ProofPage, surface: Surface) -> tuple[Row, ...]:
@@ -138,46 +148,52 @@ def _told(page: ProofPage, surface: Surface, unit: Unit) -> tuple[Row, ...]:
     room = max(surface.told - 1, 1)
     top = max(0, min(page.at - room // 2, len(page.findings) - room))
     shown = page.findings[top : top + room]
-    rows = [_finding(page, top + index, one, unit, surface.below) for index, one in enumerate(shown)]
-    return (_count(page), *rows)
+    texts = [_finding(one, unit) for one in shown]
+    wide = max(surface.below - 3, 1)
+    rows = [_marked(page, top + index, shortened(text, wide)) for index, text in enumerate(texts)]
+    return (_count(page, cut=any(len(text) > wide for text in texts)), *rows)
 
 
-def _count(page: ProofPage) -> Row:
+def _count(page: ProofPage, *, cut: bool) -> Row:
     count = len(page.findings)
-    text = f" FINDINGS  {page.at + 1} of {count}" if count else " FINDINGS  none"
-    if page.told is None:
-        text = " FINDINGS"
-    return (Span(text, Look.HEAD), Span("" if page.fresh else "   of the text before the last change", Look.DIM))
+    text = count_of(page) if page.current is not None else f"{count}" if count else "none"
+    text = " FINDINGS" if page.told is None else f" FINDINGS  {text}"
+    behind = f"   {BEFORE}" if not page.fresh else "   Ctrl+F shows them whole" if cut else ""
+    return (Span(text, Look.HEAD), Span(behind, Look.DIM))
 
 
-def _finding(page: ProofPage, index: int, one: Finding, unit: Unit, width: int) -> Row:
-    place = "" if one.line is None else f"{one.line}:{one.column or 1}"
-    look = Look.CURSOR if page.telling and index == page.at else LOOKS[one.severity]
-    text = f"{MARKS[one.severity]} {place:>6} {one.code:<9} {sentence(one, unit)}"
-    mark = "> " if index == page.at else "  "
-    return (Span(mark, Look.TAG), Span(shortened(text, max(width - 3, 1)), look))
+def count_of(page: ProofPage) -> str:
+    """Which finding of how many has the mark."""
+    return f"{page.at + 1} of {len(page.findings)}" if page.findings else "none"
+
+
+def place(one: Finding) -> str:
+    """Line and column of a finding, as far as it has them."""
+    return "" if one.line is None else f"{one.line}:{one.column or 1}"
+
+
+def _finding(one: Finding, unit: Unit) -> str:
+    return f"{MARKS[one.severity]} {place(one):>6} {one.code:<9} {sentence(one, unit)}"
+
+
+def _marked(page: ProofPage, index: int, text: str) -> Row:
+    on_it = index == page.at and page.current is not None
+    look = Look.CURSOR if page.telling and on_it else LOOKS[page.findings[index].severity]
+    return (Span("> " if on_it else "  ", Look.TAG), Span(text, look))
 
 
 def _prompt(page: ProofPage, unit: Unit) -> Said:
-    """What is being done; else what is to be said about the finding or the line with the cursor; else the keys."""
+    """What is being done; else the finding that the cursor is on, by its own text; else the keys."""
     if page.editing is not None:
         return Said(TYPING)
-    if page.telling and page.findings:
-        return _said(page.findings[page.at], unit)
-    here = _here(page)
-    if here is not None:
-        return _said(here, unit)
+    if (one := page.current) is not None:
+        return Said(told(one, unit), TONES[one.severity])
     return Said(LARGE if page.large else PROMPT)
 
 
-def _here(page: ProofPage) -> Finding | None:
-    """The gravest finding of the cursor's line, while the answer is to these lines."""
-    found = [one for one in page.findings if one.line == page.row + 1] if page.fresh else []
-    return min(found, key=lambda one: ORDER.index(one.severity), default=None)
-
-
-def _said(one: Finding, unit: Unit) -> Said:
-    return Said(f"{one.code}: {sentence(one, unit)}", TONES[one.severity])
+def told(one: Finding, unit: Unit) -> str:
+    """A finding whole."""
+    return f"{one.code}: {sentence(one, unit)}"
 
 
 def _drawn(page: ProofPage) -> Drawn:

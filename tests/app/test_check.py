@@ -58,7 +58,7 @@ def test_text_tells_findings_and_the_outcome(capsys: pytest.CaptureFixture[str])
     file = NC / "rosettacnc-square.ngc"
     status, out, _ = output(capsys, file, "--control", "rosettacnc:easy", "--tool", "1=6")
     assert status == 0
-    assert out.splitlines()[-1] == "rosettacnc:easy: runs; 23 moves, 1 compensated stretches, MM."
+    assert out.splitlines()[-1] == "rosettacnc:easy: runs; 23 moves, 1 compensated stretch, MM."
 
 
 def test_all_controls_in_a_table(capsys: pytest.CaptureFixture[str]) -> None:

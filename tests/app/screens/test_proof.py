@@ -17,7 +17,8 @@ from app.screens.proof_tool import read_tool
 from app.session import Session
 from app.widgets.rows import Look
 from core.controls.tools import CutterTool, ToolTable
-from core.units import Unit
+from core.finding import Finding, Severity
+from core.units import Unit, sentence
 from tests.app.operator import Operator
 from tests.app.prover import CORNER, SQUARE, Prover, square
 
@@ -44,6 +45,127 @@ def test_findings_lead_to_their_lines() -> None:
     assert prover.press("n").page.row == 3
     assert prover.press("n").said == "There is no further finding."
     assert prover.press("p").page.row == 2
+
+
+def marked(prover: Prover) -> tuple[str, str]:
+    """The count over the findings, and the code of the one that has the mark, as they stand on the screen."""
+    count, *rows = prover.part("verdict").splitlines()
+    return count.strip(), next(word for row in rows if row.startswith("> ") for word in row.split() if word.isupper())
+
+
+def test_every_finding_is_told_by_its_own_text_though_several_are_in_one_line() -> None:
+    prover = square("linuxcnc").press("home")
+    assert [one.line for one in prover.page.findings] == [1, 3, 3, 3, 7, 9]
+    codes = [one.code for one in prover.page.findings]
+    assert codes == ["UNIT", "GOUGE", "UNCUT", "CROSSES", "GOUGE", "TOOL"]
+    for number, one in enumerate(prover.page.findings, 1):
+        if number > 1:
+            prover.press("n")
+        count, code = marked(prover)
+        assert count.startswith(f"FINDINGS  {number} of 6")
+        assert code == one.code
+        assert prover.said.lstrip("! ") == f"{one.code}: {sentence(one, Unit.MM)}"
+    assert prover.press("n").said == "There is no further finding."
+    for one in reversed(prover.page.findings[:-1]):
+        assert prover.press("p").said.lstrip("! ").startswith(f"{one.code}: {sentence(one, Unit.MM)}")
+
+
+def test_no_finding_is_marked_where_the_prompt_tells_none() -> None:
+    prover = square("linuxcnc").press("g", "5", "enter")
+    assert prover.said.startswith("Enter types in the line")
+    count, *rows = prover.part("verdict").splitlines()
+    assert count.startswith(" FINDINGS  6 ")
+    assert not any(row.startswith(">") for row in rows)
+    assert marked(prover.press("n"))[0].startswith("FINDINGS  5 of 6")
+    assert marked(prover.press("g", "5", "enter", "p"))[0].startswith("FINDINGS  4 of 6")
+    assert prover.said.startswith("! CROSSES")
+    assert marked(prover.press("g", "5", "enter", "tab"))[0].startswith("FINDINGS  4 of 6")
+
+
+def test_the_mark_goes_with_the_cursor_to_what_is_told_of_its_line() -> None:
+    prover = square("linuxcnc").press("g", "7", "enter")
+    assert marked(prover)[0].startswith("FINDINGS  5 of 6")
+    prover.press("g", "3", "enter")
+    assert marked(prover)[0].startswith("FINDINGS  2 of 6")
+    assert prover.said.startswith("!! GOUGE")
+    assert prover.press("c", "C").said.startswith("Tried on")
+    assert marked(prover)[0].startswith("FINDINGS  2 of 6")
+
+
+def test_a_finding_that_is_in_no_line_is_gone_to_like_the_others() -> None:
+    prover = square("linuxcnc")
+    page, told = prover.page, prover.page.told
+    assert told is not None
+    assert told.answer is not None
+    more = Finding("GOUGE", Severity.ERROR, "There are 5 more gouges, none of them deeper.")
+    told = replace(told, answer=replace(told.answer, findings=(more, *told.answer.findings)))
+    prover.desk = replace(prover.desk, pages=(replace(page, told=told, at=1),))
+    assert prover.press("p").said == "!! GOUGE: There are 5 more gouges, none of them deeper."
+    assert prover.press("p").said == "There is no further finding."
+    assert prover.press("n").said.startswith("UNIT")
+    assert prover.press("n").said.startswith("!! GOUGE: The cutter")
+
+
+@pytest.mark.parametrize("size", [(80, 24), (132, 43)])
+def test_the_list_of_findings_shows_each_whole(size: tuple[int, int]) -> None:
+    prover = square("linuxcnc").press("n", "n", "n", "ctrl+f")
+    findings = prover.page.findings
+    text = " ".join(prover.part("body", *size).split())
+    for one in findings:
+        assert f"{one.code}: {sentence(one, Unit.MM)}" in text
+    assert "> ! 3:" in text
+    assert "4 of 6" in prover.part("header", *size)
+    assert prover.press("up", "up", "enter").page.at == 1
+    assert prover.desk.page is prover.page
+    assert prover.page.row == 2
+
+
+def test_a_long_list_of_findings_keeps_the_marked_one_in_sight() -> None:
+    prover = square("linuxcnc")
+    told = prover.page.told
+    assert told is not None
+    assert told.answer is not None
+    text = "The side changes here, and each part is judged by its own side alone: " * 3 + "write G40 between them."
+    findings = tuple(
+        Finding("SIDES", Severity.WARNING, f"{at}. {text}", line=1 + at // 5, column=1) for at in range(30)
+    )
+    told = replace(told, answer=replace(told.answer, findings=findings))
+    prover.desk = replace(prover.desk, pages=(replace(prover.page, told=told, at=0),))
+    assert prover.press("home").part("prompt").endswith("…")
+    assert "Ctrl+F shows them whole" in prover.part("verdict")
+    prover.press("f")
+    for at, one in enumerate(findings):
+        text = " ".join(prover.part("body").split())
+        assert text.partition("> ")[2].startswith(f"! {one.line}:1 SIDES: {one.text}")
+        assert f"{at + 1} of {len(findings)}" in prover.part("header")
+        prover.press("down")
+    assert prover.press("home", "escape").desk.page is prover.page
+
+
+def test_the_list_follows_the_answer_and_changes_nothing_below_it() -> None:
+    prover = square("linuxcnc")
+    asked = prover.page.asked
+    desk = prover.desk.press("enter").press("(", "(").press("ctrl+f")
+    assert not isinstance(desk.page, ProofPage)
+    assert "of the text before" in " ".join(Operator(desk).screen())
+    prover.desk = desk
+    assert "of the text before" not in " ".join(prover.heard().screen())
+    assert prover.page.asked is not asked
+    lines = prover.lines
+    for key in ("ctrl+z", "ctrl+s", "ctrl+f", "x"):
+        assert prover.press(key).lines == lines
+        assert not isinstance(prover.desk.page, ProofPage)
+    assert Prover.of(b"M2\n", "linuxcnc").press("ctrl+f").said == "There are no findings."
+
+
+def test_the_title_counts_moves_and_stretches_in_whole_words() -> None:
+    long = square(file=Path("a-very-long-name-of-a-part.nc"))
+    assert "line 3; 11 moves" in long.screen(132, 43)[1]
+    for width in range(80, 133):
+        shown = square(file=Path("square.nc")).screen(width, 24)[1].partition("square.nc")[0].strip()
+        assert shown.endswith(("moves", "contour", "compensated stretch", "line 3")), shown
+    assert "; 11 moves, 1 compensated stretch " in square(file=Path("square.nc")).screen(132, 43)[1]
+    assert "; 11 moves, 1 contour " in square(file=Path("a.nc")).screen(80, 24)[1]
 
 
 def test_softkeys_do_what_their_letters_do() -> None:

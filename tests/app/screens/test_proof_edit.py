@@ -47,6 +47,15 @@ def test_behind_the_last_line_and_in_an_empty_program() -> None:
     assert prover.lines == ["M30", "M2"]
 
 
+def test_the_only_line_is_taken_out_and_comes_back() -> None:
+    prover = Prover.of(b"M30\n", "linuxcnc").press("x")
+    assert prover.lines == []
+    assert prover.press("u").lines == ["M30"]
+    prover = Prover.of(b"", "linuxcnc").press("i", *"M2", "enter", "u", "u")
+    assert prover.page.listing.data == b""
+    assert not prover.page.unsaved
+
+
 def test_a_line_of_signs_a_terminal_obeys_shows_none_of_them() -> None:
     prover = Prover.of(b"G1 X1\x1b[2J\x07\tY2\n" + b"x" * 5000 + b"\n\xc2\x9b31m\n", "linuxcnc")
     assert all(line.isprintable() for line in prover.screen())
