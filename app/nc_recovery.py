@@ -26,6 +26,7 @@ from core.units import printable
 
 if TYPE_CHECKING:
     from app.desk import Desk
+    from app.listing import Listing
     from app.nc_keeping import Kept, NcKeeping
     from app.screens.proof import ProofPage
 
@@ -128,6 +129,8 @@ def restored(keeping: NcKeeping, desk: Desk, opening: object, path: Path, found:
     """The text as it was, with its undo; the journal begins anew with all of it."""
     page, one = keeping.page(desk, opening), keeping.kept[opening]
     listing = replace(found.listing, origin=page.listing.origin)
+    if one.file.exists():
+        listing = _known(listing, page.listing)
     page = replace(page, asked=page.asked.of(listing), earlier=None)
     one.listing = listing
     desk = keeping.put(desk, page.at_row(listing.past[-1].row if listing.past else 0))
@@ -140,6 +143,16 @@ def restored(keeping: NcKeeping, desk: Desk, opening: object, path: Path, found:
     copy = f"{whole_name(aside.name)} stays. " if aside is not None else ""
     sizes = "" if page.asked.tools.tools else " No tool's diameter and no control is kept: t and c give them again."
     return desk.take(Say(f"{copy}Your changes are back. u takes them back step by step, s saves them.{sizes}"))
+
+
+def _known(work: Listing, file: Listing) -> Listing:
+    """The work, knowing after which of its changes it is what the file holds: undone to there nothing is unsaved."""
+    at = work.first
+    for change in (None, *work.past, *reversed(work.future)):
+        at = at if change is None else at.done(change)
+        if at.lines == file.lines and at.encoding == file.encoding:
+            return replace(work, saved=change)
+    return work
 
 
 def _begun(keeping: NcKeeping, one: Kept, path: Path, found: Found) -> Path | None:

@@ -97,6 +97,47 @@ def test_after_a_crash_the_changes_are_offered_and_come_back_with_undo(file: Pat
     assert not journal_path(file).exists()
 
 
+def test_restored_changes_undone_to_the_file_are_no_changes(file: Path) -> None:
+    typist(file).press("x", "x").killed()
+    again = typist(file, ME).press("r", "ctrl+z")
+    assert again.page.unsaved
+    again.press("ctrl+z")
+    assert "redo 2" in again.screen()[-1]
+    assert not again.page.unsaved
+    assert "*" not in again.part("header")
+    again.press("ctrl+y")
+    assert again.page.unsaved
+    again.press("ctrl+z", "f8")
+    assert not any(isinstance(page, ProofPage | Decide) for page in again.desk.pages)
+    assert file.read_bytes() == TEXT
+    assert not journal_path(file).exists()
+
+
+def test_restored_changes_undone_to_what_was_saved_between_are_no_changes(file: Path) -> None:
+    typist(file).press("x", "s", "x", "x").killed()
+    again = typist(file, ME).press("r", "u")
+    assert again.page.unsaved
+    assert not again.press("u").page.unsaved
+    assert again.page.listing.data == file.read_bytes()
+    assert again.press("u").page.unsaved
+    assert again.page.listing.data == TEXT
+
+
+def test_restored_changes_done_again_to_what_was_saved_are_no_changes(file: Path) -> None:
+    typist(file).press("x", "s", "u").killed()
+    again = typist(file, ME).press("r")
+    assert again.page.unsaved
+    assert not again.press("ctrl+y").page.unsaved
+
+
+def test_restored_changes_of_another_file_or_none_are_changes_all_the_way(file: Path) -> None:
+    typist(file).press("x", "x").killed()
+    file.write_bytes(b"M2\n")
+    again = typist(file, ME).press("r", "u", "u")
+    assert again.texts == ["G20 G17", "G0 X1.", "\xb0 M30"]
+    assert again.page.unsaved
+
+
 def test_restored_changes_are_kept_again(file: Path) -> None:
     typist(file).press("x").killed()
     typist(file).press("r", "x").killed()
