@@ -45,6 +45,8 @@ DIGITS: Final = frozenset("12345678")
 WRITING: Final = frozenset({"ctrl+s", "ctrl+o", "ctrl+z", "ctrl+y"})
 """Keys that change the program or a file."""
 ARMED: Final = "1 to 8 press the softkey now, for 2 seconds. Anything else goes on typing, Esc ends it."
+WALKING: Final = frozenset({"enter", "tab", "shift+tab", "up", "down", "left", "right", "pageup", "pagedown"})
+"""Keys that only take the cursor elsewhere while nothing is half typed."""
 CAME_TORN: Final = "The link split a key in two: the first part was taken for Esc. Look, and press it again."
 EVERYWHERE: Final = frozenset(
     {"ctrl+z", "ctrl+y", "ctrl+s", "ctrl+o", "ctrl+q", "ctrl+c", "ctrl+k", "ctrl+g", "ctrl+f"}
@@ -89,7 +91,9 @@ class Desk:
         return replace(desk, pages=(*below, desk.page)) if len(desk.pages) != len(self.pages) else desk
 
     def _pressed(self, key: str, character: str | None) -> Desk:
-        armed, desk = self.armed, replace(self, session=self.session.quiet(), armed=False)
+        said = self.session.said
+        quiet = self.session if said is not None and said.stays and key in WALKING else self.session.quiet()
+        armed, desk = self.armed, replace(self, session=quiet, armed=False)
         if key == TORN:
             return desk.take(Say(CAME_TORN, Tone.WARNING))
         if key in AT_ONCE:
@@ -148,8 +152,8 @@ class Desk:
                 return replace(self, session=self.session.apply(outcome, label))
             case Move(where, field):
                 return replace(self, session=self.session.at(where, field))
-            case Say(text, tone):
-                return replace(self, session=self.session.saying(text, tone))
+            case Say(text, tone, stays):
+                return replace(self, session=self.session.saying(text, tone, stays=stays))
             case Undo():
                 return self._turned(self.session.undo())
             case Redo():

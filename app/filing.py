@@ -16,13 +16,15 @@ from app.screens.ask import Ask, Option
 from app.screens.browse import BrowsePage, listed
 from app.screens.save import SaveAsPage
 from app.session import Session, Tone
-from core.finding import Finding, Severity
+from app.widgets.words import in_spite, placed
+from core.finding import Severity
 from core.program.stamp import stamp_of_data
 from core.program.store import StoreError, dumps, write_output, write_text
-from core.units import Unit, sentence
+from core.units import Unit
 
 if TYPE_CHECKING:
     from app.desk import Desk
+    from core.output.post import Posted
 
 
 def carry_out(desk: Desk, message: Save | Browse | Load | Post | Leave) -> Desk:
@@ -124,34 +126,35 @@ def fresh(desk: Desk, session: Session) -> Desk:
 
 
 def _post(desk: Desk, message: Post) -> Desk:
-    path = with_suffix(chosen(message.path, desk.session.file), ".nc")
+    from app.posting import posted_anew
+    from core.output.post import Refusal
+
+    path, unit = with_suffix(chosen(message.path, desk.session.file), ".nc"), desk.session.program.unit
+    result = posted_anew(desk.session, path.stem, message.override, message.control)
+    # first of all: nobody is asked where to write, or over what, if nothing will be written
+    if isinstance(result, Refusal):
+        return _failed(desk, f"Nothing was written: {placed(result.findings[0], unit)}")
     if outside(path, desk.session.file) and not message.linked:
         agreed = message._replace(path=path, linked=True, overwrite=True)
         return desk.take(Open(asking(path, desk.session.file, agreed)))
     if there(path) and not message.overwrite:
         return desk.take(Open(replacing(path, message._replace(path=path))))
-    from app.posting import refusal_or_text
-
-    found, text, notes = refusal_or_text(desk.session, path.stem, message.override, message.control)
-    if found is not None:
-        return _failed(desk, f"Nothing was written: {_placed(found, desk.session.program.unit)}")
     try:
-        write_output(path, text)
+        write_output(path, result.text)
     except StoreError as error:
         return _failed(desk, error)
-    said = f"Posted: {written_at(path)}, {text.count(chr(10))} lines."
-    if not notes:
-        return desk.take(Close()).take(Say(said))
-    told = " ".join(_placed(note, desk.session.program.unit) for note in notes)
-    if all(note.severity is Severity.INFO for note in notes):
-        return desk.take(Close()).take(Say(f"{said} {told}"))
-    return desk.take(Close()).take(Say(f"{told} {said}", Tone.WARNING))
+    return desk.take(Close()).take(_said_of(result, written_at(path), unit))
 
 
-def _placed(finding: Finding, unit: Unit) -> str:
-    """A finding's sentence behind its segment."""
-    where = "" if finding.segment is None else f"Segment {finding.segment:g}: "
-    return f"{where}{sentence(finding, unit)}"
+def _said_of(result: Posted, name: str, unit: Unit) -> Say:
+    """What was posted, in spite of what, and what is to be said with it; a warning stands before the name."""
+    told = " ".join(placed(note, unit) for note in result.notes)
+    file = f"{name}, {result.text.count(chr(10))} lines."
+    if result.overridden:
+        return Say(f"Posted {in_spite(result.overridden)}: {file} The file says so. {told}".rstrip(), Tone.WARNING)
+    if all(note.severity is Severity.INFO for note in result.notes):
+        return Say(f"Posted: {file} {told}".rstrip())
+    return Say(f"{told} Posted: {file}", Tone.WARNING)
 
 
 def _leave(desk: Desk, message: Leave) -> Desk:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.beforehand import prepare
+from app.naming import program_named
 from app.shell import UNUSABLE, say
 from core.program.store import StoreError, load
 
@@ -133,6 +134,7 @@ def begin(path: Path | None, example: str | None) -> Session:
         return replace(Session.of(load(files.example(example))), title=example)
     if path is None:
         return Session.of(files.empty_program())
+    path = program_named(path)
     if not path.exists() and path.parent.is_dir():
         return Session.of(files.empty_program(), path).saying(f"{path} does not exist yet: saving makes it.")
     try:

@@ -29,10 +29,11 @@ class Move(NamedTuple):
 
 
 class Say(NamedTuple):
-    """A sentence for the prompt line."""
+    """A sentence for the prompt line; one that `stays` does so while the cursor walks."""
 
     text: str
     tone: Tone = Tone.PLAIN
+    stays: bool = False
 
 
 class Undo(NamedTuple):

@@ -25,3 +25,12 @@ def is_folder(path: Path) -> bool:
 def with_suffix(path: Path, suffix: str) -> Path:
     """The path with a suffix if it has none and is no folder."""
     return path if path.suffix or is_folder(path) else path.with_suffix(suffix)
+
+
+def program_named(path: Path) -> Path:
+    """The program that a name means: what is there; else the name that SAVE AS would give it."""
+    try:
+        found = path.exists() or path.is_symlink()
+    except OSError:
+        return path
+    return path if found else with_suffix(path, ".toml")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from app.session import Session
-from core.finding import Finding
 from core.output.post import Posted, Refusal, post
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
@@ -19,12 +18,6 @@ def nc_text(derived: Derived, name: str, override: str | None, control: str | No
     return post(jobs(derived), program.unit, name=name, part=program.setup.name, override=override)
 
 
-def refusal_or_text(
-    session: Session, name: str, override: str | None, control: str | None = None
-) -> tuple[Finding | None, str, tuple[Finding, ...]]:
-    """The first finding that forbids posting; or the NC text, and what is to be said with it.
-
-    Everything is derived anew, nothing stale is posted.
-    """
-    result = nc_text(derive(session.program), name, override, control)
-    return (None, result.text, result.notes) if isinstance(result, Posted) else (result.findings[0], "", ())
+def posted_anew(session: Session, name: str, override: str | None, control: str | None = None) -> Posted | Refusal:
+    """The NC text or what forbids it.  Everything is derived anew, nothing stale is posted."""
+    return nc_text(derive(session.program), name, override, control)

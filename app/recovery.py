@@ -172,6 +172,8 @@ def _told(keeping: Keeping, session: Session, path: Path, found: Recovered) -> l
     stamp, base = session.guard.stamp, found.head.stamp
     if session.file is not None and stamp is not None and (base is None or not stamp.same_content(base)):
         lines.append(f"The file was written by somebody else since, {times.told(times.of(stamp.changed), today)}.")
+    if alive(owner) and owner != keeping.me:
+        lines.append("The other terminal may still be in use: who sits there can go on typing, and is told at saving.")
     if not _own(keeping, path, found):
         lines.append(f"It stays kept for {printable(owner.user)}, whatever you answer.")
     if found.damaged:

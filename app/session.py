@@ -37,10 +37,11 @@ class Tone(StrEnum):
 
 
 class Said(NamedTuple):
-    """A sentence on the prompt line; it stays until the next key."""
+    """A sentence on the prompt line; it stays until the next key, or until one that does more than walk."""
 
     text: str
     tone: Tone = Tone.PLAIN
+    stays: bool = False
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -98,9 +99,9 @@ class Session:
         """What is known of the block with the cursor."""
         return self.derived.block(self.where.block)
 
-    def saying(self, text: str, tone: Tone = Tone.PLAIN) -> Session:
+    def saying(self, text: str, tone: Tone = Tone.PLAIN, *, stays: bool = False) -> Session:
         """The session with a sentence on the prompt line."""
-        return replace(self, said=Said(text, tone))
+        return replace(self, said=Said(text, tone, stays))
 
     def quiet(self) -> Session:
         """The session with nothing to say."""

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from app.files import is_program
 from app.messages import Browse, Close, Do, Load, Message
-from app.naming import typed
+from app.naming import program_named, typed
 from app.screens.entry import EntryPage, entry_row
 from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
 from app.session import Said, Session
@@ -53,14 +53,17 @@ class BrowsePage(EntryPage):
         if key in steps:
             row = min(max(self.row + steps[key], 0), max(len(self.items) - 1, 0))
             return Answer(replace(self, row=row, entry=Editing("", 0), fresh=True))
-        # where the path is refused, it stands there as a field's value does: the first character replaces it
-        return Answer(replace(self, fresh=True), self._opened()) if key == "enter" else self.typed(key, character)
+        return self.accepted(self._opened()) if key == "enter" else self.typed(key, character)
+
+    def softkeyed(self, session: Session, number: int, messages: tuple[Message, ...]) -> Answer:
+        """OPEN is Enter."""
+        return self.accepted(messages) if number == 1 else Answer(self, messages)
 
     def _opened(self) -> tuple[Message, ...]:
         text = self.entry.text.strip()
         if text:
             path = self.folder / typed(text)
-            return (Browse(path),) if text.endswith("/") else (Load(path),)
+            return (Browse(path),) if text.endswith("/") else (Load(program_named(path)),)
         if not self.items:
             return ()
         item = self.items[min(self.row, len(self.items) - 1)]
@@ -81,7 +84,7 @@ class BrowsePage(EntryPage):
         title = plain(f" {printable(str(self.folder))[-(surface.width - 2) :]}", Look.LABEL)
         return View(
             (plain(" OPEN", Look.HEAD), title),
-            ((), *rows, (), entry_row("PATH", self.entry, surface.width, fresh=self.fresh and self.entry.text != "")),
+            ((), *rows, (), entry_row("PATH", self.entry, surface.width, fresh=self.replaced)),
             Said("Up and down choose, Enter opens. Or type a path; one that ends in / shows that folder."),
             1 + self.row - top,
         )

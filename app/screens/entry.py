@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.messages import Close
+from app.messages import Close, Message
 from app.screens.page import Answer, Page, unseen
 from app.session import Session
 from app.widgets.field import Editing, press, window
@@ -26,6 +26,15 @@ class EntryPage(Page):
             return None
         entry = press(None if self.fresh else self.entry, self.entry.text, key, character)
         return None if entry is None else Answer(replace(self, entry=entry, fresh=False))
+
+    def accepted(self, messages: tuple[Message, ...]) -> Answer:
+        """The text taken; one that is refused stands there as a field's value does: the first character replaces it."""
+        return Answer(replace(self, fresh=True), messages)
+
+    @property
+    def replaced(self) -> bool:
+        """Whether the first character typed replaces a text that can be seen."""
+        return self.fresh and self.entry.text != ""
 
     def escape(self, session: Session) -> Answer | None:
         """Nothing is done."""

@@ -98,8 +98,10 @@ class FormPage(Page):
             return Answer(done)
         edit = self.edit(session, one, editing.text)
         if isinstance(edit.outcome, Refused):
-            # a look-ahead that is none leaves the old one; anything else refused stays to be mended
-            return Answer(done if one.name == "lookahead" else self, (Say(edit.outcome.text, Tone.ERROR),))
+            # a look-ahead that is none leaves the old one, and nothing but the sentence tells of it; anything else
+            # refused stays to be mended
+            gone = one.name == "lookahead"
+            return Answer(done if gone else self, (Say(edit.outcome.text, Tone.ERROR, stays=gone),))
         unread = None if one.kind is Kind.TEXT else read(editing.text, one, session.program.unit)
         if isinstance(unread, Unread):
             return Answer(done, (edit, Say(_unread_sentence(unread, one, session.program.unit), Tone.ERROR)))

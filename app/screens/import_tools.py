@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, ClassVar
 
-from app.messages import Close, Do, Edit, Open, Say
+from app.messages import Close, Do, Edit, Message, Open, Say
 from app.naming import typed
 from app.screens.ask import Ask
 from app.screens.entry import EntryPage, entry_row
@@ -49,14 +49,18 @@ class ImportPage(EntryPage):
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
         """Enter reads; up and down change the unit."""
         if key == "enter":
-            return Answer(self, (Do(importing(self.entry.text, self.unit)),))
+            return self.accepted((Do(importing(self.entry.text, self.unit)),))
         if key in ("up", "down"):
             return Answer(replace(self, unit=Unit.MM if self.unit is Unit.IN else Unit.IN))
         return self.typed(key, character)
 
+    def softkeyed(self, session: Session, number: int, messages: tuple[Message, ...]) -> Answer:
+        """IMPORT is Enter."""
+        return self.accepted(messages) if number == 1 else Answer(self, messages)
+
     def view(self, session: Session, surface: Surface) -> View:
         """The name and the unit."""
-        name = entry_row("FILE", self.entry, surface.width, fresh=self.fresh)
+        name = entry_row("FILE", self.entry, surface.width, fresh=self.replaced)
         rows = ((), name, (), plain(f" The diameters in the table are in {self.unit}.", Look.HEAD))
         said = Said("Type the name of a LinuxCNC tool table. Up and down change its unit, Enter reads it.")
         return View(header("IMPORT TOOL TABLE", plain(""), session, surface.width), rows, said, 1)

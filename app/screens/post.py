@@ -9,15 +9,16 @@ from typing import ClassVar, Self
 
 from app.messages import Close, Message, Post, Say, Swap
 from app.naming import typed, with_suffix
+from app.own_post import OwnPost, OwnPosted
 from app.screens.entry import EntryPage, entry_row
-from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
+from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, View
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, plain
 from app.widgets.verdict import UNKNOWN
-from app.widgets.words import length, numbers, segment
-from core.finding import Finding
+from app.widgets.words import length, numbers, placed, segment
+from core.finding import Finding, Severity
 from core.output.override import OVERRIDABLE, OVERRIDE
 from core.records import dataclass
 from core.units import sentence
@@ -27,12 +28,30 @@ from core.units import sentence
 class PostPage(EntryPage):
     """First the file's name in `entry`; then, with `path` known, the sentence that overrides.
 
-    `control` compensates by itself; None posts the path of the tool's centre.
+    `asked` is for the control that compensates by itself, `told` what its program meets once that is known; None posts
+    the path of the tool's centre.
     """
 
     layout: ClassVar[Layout] = Layout.TEXT
     path: Path | None = None
-    control: str | None = None
+    asked: OwnPost | None = None
+    told: OwnPosted | None = None
+
+    @property
+    def control(self) -> str | None:
+        """The control's full name."""
+        return None if self.asked is None else self.asked.control
+
+    @property
+    def question(self) -> OwnPost | None:
+        """Whether the control's program can be posted, until that is known."""
+        return self.asked if self.told is None else None
+
+    def hearing(self, answer: object) -> Page:
+        """Whether it can; of a control chosen before nothing is told."""
+        if not isinstance(answer, OwnPosted) or answer.asked is not self.asked:
+            return self
+        return replace(self, told=answer)
 
     @classmethod
     def of(cls, session: Session) -> Self:
@@ -44,39 +63,44 @@ class PostPage(EntryPage):
         """Post, or not; for whom."""
         keys = {1: Softkey("POST", self._posted(session).messages), 8: Softkey("CANCEL", (Close(),))}
         if self.path is None:
-            keys |= {3: Softkey("NEXT CONTROL", self._stepped(1)), 4: Softkey("CONTROL BEFORE", self._stepped(-1))}
+            before, on = self._stepped(session, -1), self._stepped(session, 1)
+            keys |= {3: Softkey("NEXT CONTROL", on), 4: Softkey("CONTROL BEFORE", before)}
         return keys
 
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
         """Enter takes the name, or the sentence; up and down choose the control."""
         if self.path is None and key in ("up", "down"):
-            return Answer(self, self._stepped(1 if key == "down" else -1))
+            return Answer(self, self._stepped(session, 1 if key == "down" else -1))
         return self._posted(session) if key == "enter" else self.typed(key, character)
 
     def softkeyed(self, session: Session, number: int, messages: tuple[Message, ...]) -> Answer:
         """POST is Enter."""
         return self._posted(session) if number == 1 else Answer(self, messages)
 
-    def _stepped(self, step: int) -> tuple[Message, ...]:
+    def _stepped(self, session: Session, step: int) -> tuple[Message, ...]:
         """The next choice of control; their rules need the numeric library, which the start does not wait for."""
         from core.controls.registry import names
 
         choices = (None, *names())
         control = choices[(choices.index(self.control) + step) % len(choices)]
-        return (Swap(replace(self, control=control)),)
+        asked = None if control is None else OwnPost(session.program, session.derived, control)
+        return (Swap(replace(self, asked=asked, told=None)),)
 
     def _posted(self, session: Session) -> Answer:
         text = self.entry.text.strip()
         if self.path is not None:
             return Answer(replace(self, fresh=True), self._overridden(text))
         if not text:
-            return Answer(self, (Say("Type a name for the NC file.", Tone.ERROR),))
+            return self.accepted((Say("Type a name for the NC file.", Tone.ERROR),))
         path = with_suffix(typed(text), ".nc")
         if self.control is None and (first := to_mend(session)):
-            return Answer(self, (Say(_mend(first, session), Tone.ERROR),))
+            return self.accepted((Say(_mend(first, session), Tone.ERROR),))
         if self.control is None and errors(session):
             return Answer(replace(self, path=path, entry=Editing("", 0), fresh=False))
-        return Answer(self, (Post(path, control=self.control),))
+        if self.told is not None and self.told.against:
+            told = placed(self.told.against[0], session.program.unit)
+            return self.accepted((Say(f"Nothing was written: {told}", Tone.ERROR),))
+        return self.accepted((Post(path, control=self.control),))
 
     def _overridden(self, text: str) -> tuple[Message, ...]:
         assert self.path is not None
@@ -87,12 +111,15 @@ class PostPage(EntryPage):
     def view(self, session: Session, surface: Surface) -> View:
         """The name, the findings, and where they are errors the sentence."""
         against = errors(session)
-        rows = [entry_row("FILE", self.entry, surface.width, fresh=self.fresh), (), *self._chosen()]
+        rows = [entry_row("FILE", self.entry, surface.width, fresh=self.replaced), (), *self._chosen()]
         said = Said("Type the name of the NC file, Enter posts. Up and down choose the control.")
-        if self.path is not None:
+        if self.asked is not None:
+            if self.told is not None and self.told.against:
+                said = Said(f"Nothing can be posted for {self.control}: what is listed is against it.", Tone.WARNING)
+        elif self.path is not None:
             rows = [
                 plain(f" FILE {self.path}"),
-                entry_row("SAY", self.entry, surface.width, fresh=self.fresh and self.entry.text != ""),
+                entry_row("SAY", self.entry, surface.width, fresh=self.replaced),
             ]
             said = Said(
                 f"Posting is refused. To post in spite of it, type {OVERRIDE} and Enter; the file will say so.",
@@ -102,9 +129,25 @@ class PostPage(EntryPage):
             said = Said("This cannot be posted yet: Esc goes back, mend what is named here.", Tone.WARNING)
         elif against:
             said = Said("Enter the name of the NC file. The findings stand against posting.", Tone.WARNING)
-        told = _against(against, session, surface.width)
+        told = _against(against, session, surface.width) if self.asked is None else self._met(session, surface.width)
         body = ((), *rows, (), *_unsaved(session), *_left(session), *told)
         return View(header("POST NC", plain(""), session, surface.width), body, said, 1)
+
+    def _met(self, session: Session, width: int) -> tuple[Row, ...]:
+        """What the program of the chosen control meets: what forbids it, or what is to be said with it."""
+        if self.told is None:
+            return (plain(f" Whether it can be posted for {self.control} is being calculated.", Look.WARNING),)
+        unit = session.program.unit
+        against = [row for one in self.told.against for row in _wrapped(f"!! {placed(one, unit)}", width, Look.ERROR)]
+        if against:
+            return tuple(against)
+        notes = [
+            row
+            for one in self.told.notes
+            for mark, look in [("i ", Look.LABEL) if one.severity is Severity.INFO else ("! ", Look.WARNING)]
+            for row in _wrapped(f"{mark} {placed(one, unit)}", width, look)
+        ]
+        return (plain(" Nothing stands against posting.", Look.GOOD), *notes)
 
     def _chosen(self) -> tuple[Row, ...]:
         """The control, and what that means."""
@@ -166,7 +209,10 @@ def _against(against: tuple[tuple[int, Finding], ...], session: Session, width: 
         return (plain(" Nothing stands against posting.", Look.GOOD),)
     rows = [] if known else [UNKNOWN]
     for block, finding in against:
-        told = f"!! {_where(block, finding)}: {_told(finding, session)}"
-        for line in wrap(told, max(width - 2, 8), subsequent_indent="   "):
-            rows.append(plain(f" {line}", Look.ERROR))
+        rows += _wrapped(f"!! {_where(block, finding)}: {_told(finding, session)}", width, Look.ERROR)
     return tuple(rows)
+
+
+def _wrapped(text: str, width: int, look: Look) -> list[Row]:
+    """A sentence behind its mark."""
+    return [plain(f" {line}", look) for line in wrap(text, max(width - 2, 8), subsequent_indent="   ")]

@@ -34,7 +34,11 @@ class SaveAsPage(EntryPage):
 
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
         """Enter saves."""
-        return Answer(self, self._saved()) if key == "enter" else self.typed(key, character)
+        return self.accepted(self._saved()) if key == "enter" else self.typed(key, character)
+
+    def softkeyed(self, session: Session, number: int, messages: tuple[Message, ...]) -> Answer:
+        """SAVE is Enter."""
+        return self.accepted(messages) if number == 1 else Answer(self, messages)
 
     def _saved(self) -> tuple[Message, ...]:
         text = self.entry.text.strip()
@@ -48,7 +52,7 @@ class SaveAsPage(EntryPage):
             header("SAVE AS", plain(""), session, surface.width),
             (
                 (),
-                entry_row("FILE", self.entry, surface.width, fresh=self.fresh),
+                entry_row("FILE", self.entry, surface.width, fresh=self.replaced),
                 (),
                 plain(" The folder must exist. .toml is added where nothing is.", Look.LABEL),
             ),

@@ -95,8 +95,11 @@ def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | Non
 
 def _beginning(found: DerivedBlock) -> str:
     """What to do in a block without segments; a text that cannot be read is an error even there."""
-    begun = bool(found.block.segments) or any(one.code not in NOT_YET for one in found.errors)
-    return "" if begun else "Type START, then right arrow for the first segment."
+    if found.block.segments or any(one.code not in NOT_YET for one in found.errors):
+        return ""
+    if any(one.code == "MISSING" for one in found.errors):
+        return "Type START, then right arrow for the first segment."
+    return "START is complete: on SEGMENT, right arrow to segment 1."
 
 
 def deepest_gouge(found: DerivedBlock, unit: Unit) -> list[Row]:

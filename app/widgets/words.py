@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from core.units import Kind, Unit, from_mm, show
+from core.finding import Finding
+from core.units import Kind, Unit, from_mm, sentence, show
 
 
 def length(millimetres: float, unit: Unit) -> str:
@@ -33,6 +34,18 @@ def number(segment: float) -> str:
 def segment(number: float) -> str:
     """A segment by its number; the corner arc behind segment 3, which is 3.5, stands between two segments."""
     return f"segment {number:g}" if number == int(number) else f"corner {int(number)}-{int(number) + 1}"
+
+
+def placed(finding: Finding, unit: Unit) -> str:
+    """A finding's sentence behind its segment."""
+    where = "" if finding.segment is None else f"Segment {finding.segment:g}: "
+    return f"{where}{sentence(finding, unit)}"
+
+
+def in_spite(overridden: Iterable[Finding]) -> str:
+    """In spite of what a path was posted, in the words of `core.output.override.OVERRIDABLE`."""
+    wrong_side_alone = all(finding.code == "WRONG_SIDE" for finding in overridden)
+    return f"in spite of {'a cut on the wrong side' if wrong_side_alone else 'a gouge'}"
 
 
 def numbers(segments: Iterable[float]) -> str:

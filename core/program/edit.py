@@ -262,7 +262,8 @@ def _lookahead_misfit(block: Block, name: str, typed: Typed) -> Refused | None:
     one = field(Form.START, "lookahead")
     unreadable = typed is not None and misfit(typed.text, one, Unit.MM) is None
     again = f" {printable(typed.text)} cannot be read." if unreadable and typed is not None else ""
-    return Refused(f"{one.label} must be a whole number {range_of(one, Unit.MM)}.{again} Press F3 to go back to CAL.")
+    back = "" if block.lookahead is None else " Press F3 to go back to CAL."
+    return Refused(f"{one.label} must be a whole number {range_of(one, Unit.MM)}.{again}{back}")
 
 
 def _typed_into(segment: Segment, name: str, typed: Typed) -> Segment:
