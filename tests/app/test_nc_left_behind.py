@@ -107,6 +107,16 @@ def test_a_file_that_is_gone_comes_back_from_its_copy(file: Path) -> None:
     assert file.read_bytes() == b"G0 X1.\r\n\xb0 M30\r\n"
 
 
+def test_a_text_without_lines_is_not_saved_while_its_file_is_gone(file: Path) -> None:
+    file.write_bytes(b"M30\n")
+    typist(file).press("x").killed()
+    typist(file, ME).press("d", "y", "f8")
+    file.unlink()
+    one = chosen(file).press("r")
+    assert one.texts == []
+    assert one.page.unsaved
+
+
 def chosen(file: Path) -> Typist:
     """The list of NC files, and down to the discarded work."""
     one = Typist(browsing(file.parent)(Desk(Session.of(empty_program()))), typist_keeping(file))
