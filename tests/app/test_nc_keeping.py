@@ -283,29 +283,3 @@ def test_any_work_is_replayed(work: list[tuple[str, int, str]], data: bytes) -> 
         assert len(found.listing.past) == len(listing.past)
         assert len(found.listing.future) == len(listing.future)
         assert found.listing.encoding == listing.encoding
-
-
-def test_the_question_before_leaving_names_the_nc_file(file: Path) -> None:
-    one = typist(file, ME).press("x", "ctrl+q")
-    assert "LEAVE?" in one.part("header")
-    assert "part.nc" in one.part("header")
-    one.press("escape", "ctrl+s")
-    assert not one.page.unsaved
-
-
-def test_the_question_before_leaving_saves_the_nc_file_too(file: Path) -> None:
-    one = typist(file, ME).press("x", "ctrl+q")
-    assert "SAVE AND LEAVE" in one.part("softkeys")
-    one.press("s")
-    assert one.desk.exit
-    assert file.read_bytes() == one.page.listing.data
-
-
-def test_nobody_leaves_where_the_nc_file_was_written_by_somebody_else(file: Path) -> None:
-    one = typist(file, ME).press("x", "ctrl+q")
-    file.write_bytes(b"G1 X9\n")
-    one.press("s")
-    assert not one.desk.exit
-    assert "THE FILE HAS CHANGED" in one.part("header")
-    assert one.press("escape").page.unsaved
-    assert file.read_bytes() == b"G1 X9\n"

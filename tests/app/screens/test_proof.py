@@ -7,16 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from app.desk import Desk
 from app.files import empty_program
-from app.listing import Listing
 from app.screens.page import Surface
 from app.screens.proof import ProofPage
 from app.screens.proof_compare import ComparePage
 from app.screens.proof_tool import read_tool
 from app.session import Session
 from app.widgets.rows import Look
-from core.controls.tools import CutterTool, ToolTable
+from core.controls.tools import CutterTool
 from core.finding import Finding, Severity
 from core.units import Unit, sentence
 from tests.app.operator import Operator
@@ -252,34 +250,6 @@ def test_every_size_is_painted(size: tuple[int, int]) -> None:
     for prover in (square(), square().press("d"), square().press("v"), square().press("t"), Prover.of(b"", "klartext")):
         screen = prover.screen(*size)
         assert len(screen) == size[1]
-
-
-def test_a_long_program_is_run_first_and_judged_then() -> None:
-    page = ProofPage.of(Listing.read(SQUARE + b"(x)\n" * 2100), control="threeblock")
-    page = replace(page, asked=replace(page.asked, tools=ToolTable.diameters({1: 0.5})))
-    first = page.hearing(page.asked.answer())
-    assert isinstance(first, ProofPage)
-    assert first.told.proof.run.stretches
-    assert not first.told.proof.results
-    desk = replace(Desk(Session.of(empty_program())), pages=(first,))
-    assert "not known yet: being judged" in "\n".join(Operator(desk).screen())
-    rest = first.question
-    assert rest is first.told.rest is not None
-    second = first.hearing(rest.answer())
-    assert isinstance(second, ProofPage)
-    assert second.question is None
-    assert second.told.answer.outcome.startswith("gouges by 0.1045")
-    assert not first.told.answer.outcome.startswith("gouges")
-
-
-def test_a_long_program_is_walked_through_quickly() -> None:
-    text = b"G20 G90 G1 F5\n" + b"".join(b"X%d Y%d\n" % (index, index % 7) for index in range(100_000))
-    page = ProofPage.of(Listing.read(text), control="linuxcnc")
-    desk = replace(Desk(Session.of(empty_program())), pages=(page,))
-    for key in ("pagedown", "end", "up", "home"):
-        desk = desk.press(key)
-        assert len(Operator(desk).screen()) == 24
-    assert not page.asked.small
 
 
 def test_no_number_is_cut_on_the_table_of_controls_or_in_the_header() -> None:
