@@ -130,20 +130,27 @@ def _post(desk: Desk, message: Post) -> Desk:
     from core.output.post import Refusal
 
     path, unit = with_suffix(chosen(message.path, desk.session.file), ".nc"), desk.session.program.unit
+    question = _before_posting(desk.session.file, path, message)
+    if question is not None and message.clear:
+        return desk.take(Open(question))
     result = posted_anew(desk.session, path.stem, message.override, message.control)
-    # first of all: nobody is asked where to write, or over what, if nothing will be written
     if isinstance(result, Refusal):
         return _failed(desk, f"Nothing was written: {placed(result.findings[0], unit)}")
-    if outside(path, desk.session.file) and not message.linked:
-        agreed = message._replace(path=path, linked=True, overwrite=True)
-        return desk.take(Open(asking(path, desk.session.file, agreed)))
-    if there(path) and not message.overwrite:
-        return desk.take(Open(replacing(path, message._replace(path=path))))
+    # only now: nobody is asked where to write, or over what, if nothing will be written
+    if question is not None:
+        return desk.take(Open(question))
     try:
         write_output(path, result.text)
     except StoreError as error:
         return _failed(desk, error)
     return desk.take(Close()).take(_said_of(result, written_at(path), unit))
+
+
+def _before_posting(file: Path | None, path: Path, message: Post) -> Ask | None:
+    """What must be answered before the NC file is written there."""
+    if outside(path, file) and not message.linked:
+        return asking(path, file, message._replace(path=path, linked=True, overwrite=True))
+    return replacing(path, message._replace(path=path)) if there(path) and not message.overwrite else None
 
 
 def _said_of(result: Posted, name: str, unit: Unit) -> Say:

@@ -100,7 +100,8 @@ class Post(NamedTuple):
     """Write the NC file; `override` is the sentence the operator typed to post in spite of the findings.
 
     `control` is the full name of the control that is to compensate by itself, None for the path of the tool's centre.
-    `linked` says that the operator agreed to write outside the folder of the program.
+    `linked` says that the operator agreed to write outside the folder of the program, `clear` that nothing was found to
+    stand against posting: what takes long is then calculated behind the questions.
     """
 
     path: Path
@@ -108,6 +109,7 @@ class Post(NamedTuple):
     override: str | None = None
     control: str | None = None
     linked: bool = False
+    clear: bool = False
 
 
 class Leave(NamedTuple):

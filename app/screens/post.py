@@ -100,7 +100,7 @@ class PostPage(EntryPage):
         if self.told is not None and self.told.against:
             told = placed(self.told.against[0], session.program.unit)
             return self.accepted((Say(f"Nothing was written: {told}", Tone.ERROR),))
-        return self.accepted((Post(path, control=self.control),))
+        return self.accepted((Post(path, control=self.control, clear=self.told is not None),))
 
     def _overridden(self, text: str) -> tuple[Message, ...]:
         assert self.path is not None
@@ -144,7 +144,7 @@ class PostPage(EntryPage):
         notes = [
             row
             for one in self.told.notes
-            for mark, look in [("i ", Look.LABEL) if one.severity is Severity.INFO else ("! ", Look.WARNING)]
+            for mark, look in [("i", Look.LABEL) if one.severity is Severity.INFO else ("!", Look.WARNING)]
             for row in _wrapped(f"{mark} {placed(one, unit)}", width, look)
         ]
         return (plain(" Nothing stands against posting.", Look.GOOD), *notes)

@@ -197,3 +197,14 @@ def test_the_first_character_behind_a_name_that_was_refused_replaces_it(
     assert "nowhere/none.x" in operator.part("body")
     operator.press("x")
     assert "none.x" not in operator.part("body")
+
+
+def test_what_was_found_clear_is_asked_about_at_once_and_worked_out_again_when_it_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("part.nc").write_text("M30\n")
+    operator = answered(worked_out("plate-mm", "f8", "f6", *["down"] * 5)).press("enter")
+    assert isinstance(operator.desk.page, Ask)
+    assert "nine-series" in operator.press("r").said
+    assert "G41 D2 G1" in Path("part.nc").read_text()
