@@ -136,7 +136,7 @@ class PostPage(EntryPage):
     def _met(self, session: Session, width: int) -> tuple[Row, ...]:
         """What the program of the chosen control meets: what forbids it, or what is to be said with it."""
         if self.told is None:
-            return (plain(f" Whether it can be posted for {self.control} is being calculated.", Look.WARNING),)
+            return tuple(_wrapped(f"What {self.control} refuses is being calculated.", width, Look.WARNING))
         unit = session.program.unit
         against = [row for one in self.told.against for row in _wrapped(f"!! {placed(one, unit)}", width, Look.ERROR)]
         if against:

@@ -45,12 +45,18 @@ def words(operator: Operator) -> str:
 def test_what_a_control_refuses_is_told_before_anything_is_posted() -> None:
     operator = worked_out("pocket", *TO_LINUXCNC)
     assert "Nothing stands" not in words(operator)
-    assert "posted for linuxcnc is being calculated" in words(operator)
+    assert "What linuxcnc refuses is being calculated." in words(operator)
     answered(operator)
     assert "Nothing stands" not in words(operator)
     assert "!! Segment 8: The look-ahead deletes what follows" in words(operator)
     assert "Nothing can be posted for linuxcnc" in operator.said
     assert operator.desk.page.question is None
+
+
+@pytest.mark.parametrize("steps", range(1, 9))
+def test_that_it_is_being_calculated_is_never_cut(steps: int) -> None:
+    operator = worked_out("pocket", "f8", "f6", *["down"] * steps)
+    assert "refuses is being calculated." in " ".join(row[:59].rstrip() for row in operator.screen())
 
 
 def test_what_a_control_takes_is_told_with_its_remarks() -> None:
