@@ -117,9 +117,20 @@ def _answers(paths: list[Path], asked: Asked) -> Iterator[_Checked]:
         except BaseException:
             # nobody waits for what is being worked out, nor for the pool's own thread to say that it is cancelled
             threading.excepthook = lambda _: None
-            for process in active_children():
-                process.terminate()
+            _end(pool)
             raise
+
+
+def _end(pool: ProcessPoolExecutor) -> None:
+    """End a pool's processes in the middle of their work.
+
+    One that is ended while it sends a long answer leaves half of it in the pipe; the pool's thread would wait for the
+    other half for ever if this process held that end of the pipe open.
+    """
+    for process in active_children():
+        process.kill()
+    # the library has no name of its own for it
+    pool._result_queue._writer.close()  # type: ignore[attr-defined]
 
 
 @contextmanager
