@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from core.program.entries import unread_reason
 from core.program.fields import PARAMETERS, SETUP, START, TABLES, TOOL, Field, default, form_of
-from core.program.model import Block, Entry, Part, Program, changed
+from core.program.model import Block, Entry, Part, Program, Unread, changed
 from core.units import Kind, Unit, convert
 
 
@@ -48,8 +49,12 @@ def _block(block: Block, old: Unit, new: Unit) -> Block:
 
 
 def _each(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Part:
-    """A copy with the table's lengths and feeds converted."""
-    measures = (one.name for one in table if one.kind in (Kind.LENGTH, Kind.FEED))
-    typed = {name: getattr(part, name) for name in measures}
-    entries = {name: entry for name, entry in typed.items() if isinstance(entry, Entry)}
-    return changed(part, {name: Entry(convert(entry.value, old, new)) for name, entry in entries.items()})
+    """A copy with the lengths and feeds converted; text stays, and what is against it is said in the new unit."""
+    typed = [(one, getattr(part, one.name)) for one in table if one.kind in (Kind.LENGTH, Kind.FEED)]
+    entries = {one.name: Entry(convert(held.value, old, new)) for one, held in typed if isinstance(held, Entry)}
+    texts = {one.name: _again(held, one, new) for one, held in typed if isinstance(held, Unread)}
+    return changed(part, {**entries, **texts})
+
+
+def _again(text: Unread, one: Field, unit: Unit) -> Unread:
+    return replace(text, reason=unread_reason(text.text, one, unit))

@@ -17,8 +17,10 @@ from core.program.model import (
     Program,
     Segment,
     Tool,
+    Unread,
     changed,
 )
+from core.program.store import dumps, loads
 from core.units import Kind, Unit
 
 SEGMENTS: dict[Form, Segment] = {Form.LINE: LineSegment(), Form.ARC: ArcSegment(), Form.BLEND: BlendSegment()}
@@ -93,3 +95,13 @@ def test_a_typed_zero_stays_typed():
 def test_the_same_unit_is_the_same_program():
     part = Program(Unit.MM)
     assert converted(part, Unit.MM) is part
+
+
+def test_what_is_against_a_text_is_said_in_the_new_unit() -> None:
+    feed = Unread("0", "FEED must be above 0, at most 10000, not 0.")
+    plain = Program(blocks=(Block(segments=(LineSegment(feed=feed),)),))
+    there = converted(plain, Unit.MM)
+    (segment,) = there.blocks[0].segments
+    assert segment.feed == Unread("0", "FEED must be above 0, at most 254000, not 0.")
+    assert loads(dumps(there), "part") == there
+    assert converted(there, Unit.IN).blocks == plain.blocks

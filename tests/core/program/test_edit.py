@@ -9,6 +9,8 @@ from hypothesis import HealthCheck, given, settings
 
 from core.program import edit
 from core.program.edit import Refused, Where
+from core.program.entries import unread_reason
+from core.program.fields import Form, field
 from core.program.model import (
     ArcSegment,
     BlendSegment,
