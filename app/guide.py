@@ -59,6 +59,22 @@ STEPS: Final = (
     ),
 )
 
+KEPT: Final = (("finish_tool", "0"), ("plunge_feed", "20"), ("speed", "300"), ("peck_depth", "0"))
+"""Fields of START that the plate leaves as a new program has them."""
+BLANK: Final = ("z_end", "length", "angle", "feed")
+"""Fields of a line that the plate leaves blank, but for the first line's feed."""
+
+RESTORED: Final = (
+    *(Step(0, name, text, "So a new program has it.") for name, text in KEPT),
+    *(
+        Step(number, name, "", "The plate needs nothing there.")
+        for number in range(1, len(CORNERS) + 1)
+        for name in BLANK
+        if (number, name) != (1, "feed")
+    ),
+)
+"""Where something else was typed in passing: looked at when the plate stands and something stands against it."""
+
 
 def begin(desk: Desk) -> Desk:
     """A new program in inches with the guide on its prompt lines; unsaved work is asked about first."""
@@ -118,7 +134,7 @@ def hint(desk: Desk) -> str | None:
 def next_step(session: Session) -> Step | None:
     """The first field that is not yet as the plate wants it, in block 1."""
     block = session.program.blocks[0]
-    for step in STEPS:
+    for step in (*STEPS, *(RESTORED if session.found.errors else ())):
         if step.segment > len(block.segments):
             return step
         held = block if step.segment == 0 else block.segments[step.segment - 1]
@@ -130,6 +146,8 @@ def next_step(session: Session) -> Step | None:
 def _meets(held: object, text: str) -> bool:
     if isinstance(held, CutterComp):
         return held == text
+    if not text:
+        return held is None
     return isinstance(held, Entry) and held.value == float(text)
 
 
@@ -191,7 +209,7 @@ def _difference(session: Session, step: Step) -> str:
     label = field(Form.LINE if step.segment else Form.START, step.name).label.rstrip(".")
     match getattr(held, step.name):
         case Entry(value):
-            return f", its {label} is {value:g} instead of {step.text}"
+            return f", its {label} is {value:g} instead of {step.text or 'blank'}"
         case CutterComp() as side:
             return f", its {label} is {side} instead of {step.text}"
         case None:
@@ -210,6 +228,8 @@ def _on_field(session: Session, step: Step) -> str:
         return f"{key} goes to {label.rstrip('.')}."
     if step.name == "cutter_comp":
         return f"{label}: press L until LEFT stands there. {step.why}"
+    if not step.text:
+        return f"{label}: press Del, then Enter: it is blank then. {step.why}"
     return f"{label}: type {step.text}, then Enter. {step.why}"
 
 

@@ -46,6 +46,8 @@ def obey(operator: Operator) -> None:
     text = operator.said.removeprefix("GUIDE ").strip()
     if typed := re.search(r": type (\S+), then Enter", text):
         operator.press(*typed[1], "enter")
+    elif ": press Del, then Enter" in text:
+        operator.press("delete", "enter")
     elif "press L until LEFT" in text or text.startswith("Press L"):
         operator.press("l")
     elif text.startswith("Type a name"):
@@ -100,6 +102,31 @@ def test_by_its_own_words_from_the_start_to_a_posted_file(tmp_path: Path, monkey
 def test_no_wrong_key_loses_the_guide(astray: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     operator = begun().press(*astray)
+    finished(operator)
+    assert Path("plate.nc").exists()
+
+
+@pytest.mark.parametrize(
+    ("form", "name", "typed"),
+    [
+        (Form.LINE, "z_end", "1"),
+        (Form.LINE, "angle", "5"),
+        (Form.LINE, "feed", "0"),
+        (Form.START, "finish_tool", "3"),
+        (Form.START, "speed", "x"),
+        (Form.START, "peck_depth", "-1"),
+    ],
+)
+def test_a_value_in_a_field_that_the_plate_does_not_need_is_named(
+    form: Form, name: str, typed: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    operator = begun()
+    while len(operator.segments) < 3:
+        obey(known(operator))
+    where = Where(1, 2 if form is Form.LINE else 0)
+    value = read(typed, field(form, name), operator.session.program.unit)
+    operator.desk = operator.desk.take(Edit(type_field(operator.session.program, where, name, value), name))
     finished(operator)
     assert Path("plate.nc").exists()
 
