@@ -120,7 +120,7 @@ def lookahead(options: argparse.Namespace) -> int:
     else:
         text = "\n\n".join("\n".join(table_listing(found, table, unit)) for found, table in tables)
     _deliver(f"{text}\n", None)
-    if not options.json and any(table is None for _, table in tables):
+    if not options.json:
         _report(derived, options.block)
     return _status(derived, options.block)
 

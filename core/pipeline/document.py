@@ -126,6 +126,7 @@ def table_document(found: DerivedBlock, table: Table | None, unit: Unit) -> Docu
         ],
         "recommended": None if table is None else table.recommended,
         "needs": [] if table is None else [finding_document(note, unit) for note in table.notes],
+        "findings": [finding_document(finding, unit) for finding in found.findings],
     }
 
 

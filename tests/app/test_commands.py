@@ -138,3 +138,27 @@ def test_a_contour_without_any_length_is_no_clean_one(
     piped(monkeypatch, cornered((0, 0), (0, 0)))
     assert main([command, "-"]) == 1
     assert "block 1, segment 1: error: No segment has a length: " in capsys.readouterr().err
+
+
+def undetermined() -> bytes:
+    """A line, and an arc about its own start."""
+    at = "x_end = 20\ny_end = 0\nx_center = 20\ny_center = 0\n"
+    point = f'[[block.segment]]\nkind = "ARC"\ndirection = "CW"\n{at}feed = 10.0\n'
+    return cornered((20, 0)) + point.encode()
+
+
+def test_the_look_ahead_table_of_part_of_a_contour_says_what_is_against_the_rest(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    piped(monkeypatch, undetermined())
+    assert main(["lookahead", "-"]) == 1
+    assert "cutcomp: block 1, segment 2: error: X CENTER and Y CENTER are the start" in capsys.readouterr().err
+
+
+def test_the_look_ahead_document_of_part_of_a_contour_says_what_is_against_the_rest(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    piped(monkeypatch, undetermined())
+    assert main(["lookahead", "-", "--json"]) == 1
+    (found,) = json.loads(capsys.readouterr().out)["blocks"]
+    assert (2, "error") in {(one["segment"], one["severity"]) for one in found["findings"]}
