@@ -15,9 +15,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.draw.scene import BEYOND, Layer, chained
+from core.draw.scene import BEYOND, Layer, Pieces, gathered
 from core.draw.view import TALL, View
-from core.geometry.path import Floats
+from core.geometry.path import Floats, Turns, swept
 
 SAG: Final = 0.1
 """How far a chord may stray from its arc, in cells' widths: less than half a dot of the finest mode."""
@@ -48,28 +48,19 @@ class Chords:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Pieces:
+    """n pieces (n,) in window coordinates, and k `arcs` among them: their rows, centres, turns, sweeps, radii and
+    the directions in which they begin (k,)."""
+
     starts: Points
     ends: Points
-    centres: Points
-    turns: NDArray[np.int8]
-    sweeps: Floats
     layers: Rows
     along: Floats
-
-    def only(self, keep: Mask) -> _Pieces:
-        """The pieces of these rows; all of them are not copied."""
-        if keep.all():
-            return self
-        rows = keep.nonzero()[0]
-        return _Pieces(
-            self.starts[rows],
-            self.ends[rows],
-            self.centres[rows],
-            self.turns[rows],
-            self.sweeps[rows],
-            self.layers[rows],
-            self.along[rows],
-        )
+    arcs: Rows
+    centres: Points
+    turns: Turns
+    sweeps: Floats
+    radii: Floats
+    begin: Floats
 
 
 def chords(layers: Sequence[Layer], view: View, columns: int, rows: int) -> Chords:
@@ -79,32 +70,52 @@ def chords(layers: Sequence[Layer], view: View, columns: int, rows: int) -> Chor
         none = np.empty(0, np.complex128)
         return Chords(none, none, np.empty(0, np.intp), np.empty(0))
     with np.errstate(invalid="ignore", over="ignore"):
-        pieces = _gather(given, view)
-        pieces = pieces.only(_drawable(pieces, BEYOND / view.scale))
-    curved = (pieces.turns != 0) & (np.abs(pieces.starts - pieces.centres) * pieces.sweeps > SHORT)
-    if not curved.any():
+        pieces = _gathered(given, view)
+    if not len(pieces.arcs):
         return Chords(pieces.starts, pieces.ends, pieces.layers, pieces.along)
-    lines, arcs = pieces.only(~curved), _divided(pieces.only(curved), hypot(columns / 2, rows * TALL / 2) + 1.0)
-    order = np.argsort(np.concatenate((lines.layers, arcs.layers)), kind="stable")
-    starts, ends = np.concatenate((lines.starts, arcs.starts)), np.concatenate((lines.ends, arcs.ends))
-    found, along = np.concatenate((lines.layers, arcs.layers)), np.concatenate((lines.along, arcs.along))
-    return Chords(starts[order], ends[order], found[order], along[order])
+    arcs = _divided(pieces, hypot(columns / 2, rows * TALL / 2) + 1.0)
+    straight = np.ones(len(pieces.starts), np.bool_)
+    straight[pieces.arcs] = False
+    lines = straight.nonzero()[0]
+    found = np.concatenate((pieces.layers[lines], arcs.layers))
+    order = np.argsort(found, kind="stable")
+    starts, ends = (pieces.starts[lines], arcs.starts), (pieces.ends[lines], arcs.ends)
+    along = np.concatenate((pieces.along[lines], arcs.along))
+    return Chords(np.concatenate(starts)[order], np.concatenate(ends)[order], found[order], along[order])
 
 
-def _gather(given: Sequence[tuple[int, Layer]], view: View) -> _Pieces:
-    """The pieces of all layers in window coordinates, in order; only dashed layers are measured."""
-    paths = [layer.path for _, layer in given]
-    chain, own = chained(paths)
-    points, counts = _in_window(chain.points, view), np.array([len(path) for path in paths])
-    return _Pieces(
-        points[:-1][own],
-        points[1:][own],
-        _in_window(chain.centres, view)[own],
-        chain.turns[own],
-        np.abs(chain.sweeps[own]),
-        np.repeat([index for index, _ in given], counts),
-        _travelled([layer for _, layer in given], np.cumsum(counts)) / view.scale,
-    )
+def _gathered(given: Sequence[tuple[int, Layer]], view: View) -> _Pieces:
+    """The pieces of all layers in window coordinates, in order; arcs shorter than SHORT are lines here."""
+    pieces = gathered([layer.path for _, layer in given])
+    counts = np.array([len(layer.path.turns) for _, layer in given])
+    layers = np.repeat([index for index, _ in given], counts)
+    along = _travelled([layer for _, layer in given], np.cumsum(counts)) / view.scale
+    points, centres = _in_window(pieces.points, view), _in_window(pieces.centres, view)
+    limit = BEYOND / view.scale
+    if not (_within(points, limit).all() and _within(centres, limit).all()):
+        near = _within(points, limit)
+        shown = near[pieces.rows] & near[pieces.rows + 1] & _within(centres, limit) & np.isfinite(along)
+        keep = shown.nonzero()[0]
+        pieces, layers, along, centres = pieces.only(keep), layers[keep], along[keep], centres[keep]
+    starts, ends = points[pieces.rows], points[pieces.rows + 1]
+    arcs = pieces.turns.nonzero()[0]
+    sweeps, radial = _sweeps(pieces.only(arcs)), starts[arcs] - centres[arcs]
+    radii = np.abs(radial)
+    curved = (radii * sweeps > SHORT).nonzero()[0]
+    arcs, radii, begin = arcs[curved], radii[curved], np.angle(radial[curved])
+    return _Pieces(starts, ends, layers, along, arcs, centres[arcs], pieces.turns[arcs], sweeps[curved], radii, begin)
+
+
+def _sweeps(arcs: Pieces) -> Floats:
+    """(k,) angles that arcs travel: whether one is a full circle only its own millimetres tell."""
+    starts, ends = arcs.points[arcs.rows], arcs.points[arcs.rows + 1]
+    return swept(starts - arcs.centres, ends - arcs.centres, arcs.turns, starts == ends)
+
+
+def _within(points: Points, limit: float) -> Mask:
+    """(n,) which points are drawn at all."""
+    within: Mask = (np.abs(points.real) <= limit) & (np.abs(points.imag) <= limit)
+    return within
 
 
 def _in_window(points: Floats, view: View) -> Points:
@@ -123,47 +134,41 @@ def _travelled(layers: Sequence[Layer], behind: Rows) -> Floats:
     return along
 
 
-def _drawable(pieces: _Pieces, limit: float) -> Mask:
-    drawable: Mask = np.isfinite(pieces.sweeps) & np.isfinite(pieces.along)
-    for points in (pieces.starts, pieces.ends, pieces.centres):
-        drawable &= (np.abs(points.real) <= limit) & (np.abs(points.imag) <= limit)
-    return drawable
-
-
-def _divided(arcs: _Pieces, reach: float) -> Chords:
-    """Chords of arcs within `reach` of the window's centre."""
-    radial = arcs.starts - arcs.centres
-    radii, begin = np.abs(radial), np.angle(radial)
-    low, high = _visible(arcs, radii, begin, reach)
-    shown, arc = np.nonzero(high > low)
-    low, span, radii = low[shown, arc], (high - low)[shown, arc], radii[arc]
+def _divided(pieces: _Pieces, reach: float) -> Chords:
+    """Chords of the arcs among the pieces within `reach` of the window's centre."""
+    arc, low, high = _visible(pieces, reach)
+    span, radii, turns = high - low, pieces.radii[arc], pieces.turns[arc]
     counts = np.ceil(span / np.minimum(np.sqrt(8.0 * SAG / np.maximum(radii, SAG)), STEP)).astype(np.intp)
     pace = span / np.maximum(counts, 1)
     row = np.repeat(np.arange(len(arc)), counts)
     nth = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
     turned = low[row] + nth * pace[row]
-    angle = begin[arc][row] + arcs.turns[arc][row] * turned
+    angle = pieces.begin[arc][row] + turns[row] * turned
     starts = radii[row] * np.exp(1j * angle)
-    ends = starts * np.exp(1j * arcs.turns[arc] * pace)[row]
-    centres = arcs.centres[arc][row]
-    return Chords(centres + starts, centres + ends, arcs.layers[arc][row], arcs.along[arc][row] + turned * radii[row])
+    ends = starts * np.exp(1j * turns * pace)[row]
+    centres, piece = pieces.centres[arc][row], pieces.arcs[arc]
+    along = pieces.along[piece][row] + turned * radii[row]
+    return Chords(centres + starts, centres + ends, pieces.layers[piece][row], along)
 
 
-def _visible(arcs: _Pieces, radii: Floats, begin: Floats, reach: float) -> tuple[Floats, Floats]:
-    """(3, n) angles travelled, from and to, between which each arc runs within `reach` of the window's centre.
+def _visible(pieces: _Pieces, reach: float) -> tuple[Rows, Floats, Floats]:
+    """(m,) arcs, and the angles travelled, from and to, between which each runs within `reach` of the window's centre.
 
     The circle meets the disc of that reach symmetrically about the direction to the window's centre, over a half
     angle h with sin^2(h / 2) = (reach^2 - (d - r)^2) / (4 d r), d being the distance of the two centres.
     """
-    distance = np.abs(arcs.centres)
+    distance, radii, sweeps = np.abs(pieces.centres), pieces.radii, pieces.sweeps
     within = reach * reach - (distance - radii) ** 2
     part = np.minimum(np.maximum(within / np.maximum(4.0 * distance * radii, CONCENTRIC), 0.0), 1.0)
+    whole, hidden = part >= 1.0, within <= 0.0
+    if whole.all() and not hidden.any():
+        return np.arange(len(sweeps)), np.zeros(len(sweeps)), sweeps
     half = 2.0 * np.arcsin(np.sqrt(part))
-    middle = np.mod((np.angle(-arcs.centres) - begin) * arcs.turns, tau)
+    middle = np.mod((np.angle(-pieces.centres) - pieces.begin) * pieces.turns, tau)
     turned = np.array([[-tau], [0.0], [tau]])
     low = np.maximum(middle - half + turned, 0.0)
-    high = np.minimum(middle + half + turned, arcs.sweeps)
-    whole, hidden = part >= 1.0, within <= 0.0
+    high = np.minimum(middle + half + turned, sweeps)
     low[:, whole], high[:, whole | hidden] = 0.0, 0.0
-    high[1] = np.where(whole & ~hidden, arcs.sweeps, high[1])
-    return low, high
+    high[1] = np.where(whole & ~hidden, sweeps, high[1])
+    shown, arc = np.nonzero(high > low)
+    return arc, low[shown, arc], high[shown, arc]

@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import EMPTY, Floats, Path
+from core.geometry.path import Floats, Path, Turns
 from core.geometry.piece import Point
 from core.tolerance import LARGEST
 from core.units import Unit
@@ -95,32 +95,71 @@ class Scene:
     @property
     def bounds(self) -> Box | None:
         """Least x, least y, largest x, largest y of all that can be drawn; None for an empty scene."""
-        paths = [layer.path for layer in self.layers if len(layer.path)]
-        chain, own = chained(paths) if paths else (EMPTY, np.empty(0, np.bool_))
-        with np.errstate(invalid="ignore", over="ignore"):
-            boxes = [chain.boxes[own]]
-        boxes += [_box_of(circle.centre, circle.radius) for circle in self.circles]
+        boxes = [_box_of(circle.centre, circle.radius) for circle in self.circles]
         boxes += [_box_of(mark.at, 0.0) for mark in self.marks]
-        rows = np.concatenate(boxes)
-        rows = rows[np.all(np.abs(rows) <= BEYOND, axis=1)]
+        paths = [layer.path for layer in self.layers if len(layer.path)]
+        with np.errstate(invalid="ignore", over="ignore"):
+            boxes += [_boxes(gathered(paths))] if paths else []
+            rows = np.concatenate(boxes) if boxes else np.empty((0, 4))
+            rows = rows[np.all(np.abs(rows) <= BEYOND, axis=1)]
         if not len(rows):
             return None
         (x0, y0), (x1, y1) = rows[:, :2].min(axis=0).tolist(), rows[:, 2:].max(axis=0).tolist()
         return (x0, y0, x1, y1)
 
 
-def chained(paths: Sequence[Path]) -> tuple[Path, NDArray[np.bool_]]:
-    """All paths as one, and which of its pieces are theirs: a line from each to the next is not.
+@dataclass(frozen=True, eq=False, slots=True)
+class Pieces:
+    """The n pieces of several paths one behind the other, in millimetres.
 
-    What is asked of it once would be asked of a hundred little paths one by one.
+    `points` (m, 2) are those of all paths; piece i runs from row `rows[i]` of them to the next one.  `centres` (n, 2)
+    and `turns` (n,) as a path has them.
     """
-    points = np.concatenate([path.points for path in paths])
-    own = np.ones(len(points) - 1, np.bool_)
-    own[np.cumsum([len(path) + 1 for path in paths])[:-1] - 1] = False
-    centres, turns = points[:-1].copy(), np.zeros(len(own), np.int8)
-    centres[own] = np.concatenate([path.centres for path in paths])
-    turns[own] = np.concatenate([path.turns for path in paths])
-    return Path.of(points, centres, turns), own
+
+    points: Floats
+    rows: NDArray[np.intp]
+    centres: Floats
+    turns: Turns
+
+    def only(self, keep: NDArray[np.intp]) -> Pieces:
+        """These pieces, by their numbers."""
+        return Pieces(self.points, self.rows[keep], self.centres[keep], self.turns[keep])
+
+
+def gathered(paths: Sequence[Path]) -> Pieces:
+    """All pieces of all paths: what is asked of them once would be asked of a hundred little paths one by one."""
+    counts = [len(path.turns) for path in paths]
+    return Pieces(
+        np.concatenate([path.points for path in paths]),
+        np.arange(sum(counts)) + np.repeat(np.arange(len(counts)), counts),
+        np.concatenate([path.centres for path in paths]),
+        np.concatenate([path.turns for path in paths]),
+    )
+
+
+def _boxes(pieces: Pieces) -> Floats:
+    """(k, 4) boxes that span the same as those of all pieces: that of all points, and of the arcs that reach over it.
+
+    Where a coordinate can be no part of a drawing each piece has its own, so that it can be left out.
+    """
+    points = pieces.points
+    if not (np.abs(points) <= BEYOND).all():
+        return _each(pieces)
+    box = np.concatenate((points.min(axis=0), points.max(axis=0)))
+    arcs = pieces.only(pieces.turns.nonzero()[0])
+    radial = points[arcs.rows] - arcs.centres
+    radii = np.hypot(radial[:, 0], radial[:, 1])[:, None]
+    over = (arcs.centres - radii < box[:2]) | (arcs.centres + radii > box[2:])
+    further = over.any(axis=1).nonzero()[0]
+    return np.vstack((box, _each(arcs.only(further)))) if len(further) else box[None]
+
+
+def _each(pieces: Pieces) -> Floats:
+    """(n, 4) the boxes of all pieces, taken from a path of them with a line from each to the next."""
+    points = np.stack((pieces.points[pieces.rows], pieces.points[pieces.rows + 1]), axis=1).reshape(-1, 2)
+    centres, turns = points[:-1].copy(), np.zeros(len(points) - 1, np.int8)
+    centres[::2], turns[::2] = pieces.centres, pieces.turns
+    return Path.of(points, centres, turns).boxes[::2]
 
 
 def _box_of(centre: Point, radius: float) -> Floats:

@@ -102,7 +102,7 @@ class Path:
     def sweeps(self) -> Floats:
         """(n,) angle travelled by each arc, positive counter-clockwise, 0 for a line, a full turn for a circle."""
         first, last = self.starts - self.centres, self.ends - self.centres
-        return _swept(first, last, self.turns, self.starts == self.ends) * self.turns
+        return swept(first, last, self.turns, self.starts == self.ends) * self.turns
 
     @property
     def lengths(self) -> Floats:
@@ -139,7 +139,7 @@ class Path:
             radii = np.hypot(first[:, 0], first[:, 1])[:, None]
             begin = np.arctan2(first[:, 1], first[:, 0])
             ahead = np.mod((_QUARTERS - begin) * turns, tau)
-            passed = (ahead < _swept(first, ends - centres, turns, starts == ends)).T
+            passed = (ahead < swept(first, ends - centres, turns, starts == ends)).T
             high[arcs] = np.where(passed[:, :2], np.maximum(high[arcs], centres + radii), high[arcs])
             low[arcs] = np.where(passed[:, 2:], np.minimum(low[arcs], centres - radii), low[arcs])
         return np.hstack((low, high))
@@ -157,13 +157,13 @@ class Path:
         return Path(self.points[first : last + 1], self.centres[keep], self.turns[keep], self.numbers[keep])
 
 
-def _swept(first: Floats, last: Floats, turns: Turns, same: NDArray[np.bool_]) -> Floats:
-    """(n,) angle travelled from `first` to `last` (n, 2) from the centres, a full turn where `same`."""
+def swept(first: Floats, last: Floats, turns: Turns, same: NDArray[np.bool_]) -> Floats:
+    """(n,) angle travelled from `first` to `last` (n, 2) from the centres, a full turn where `same` (n, 2)."""
     angle = np.arctan2(last[:, 1], last[:, 0]) - np.arctan2(first[:, 1], first[:, 0])
-    swept: Floats = np.mod(angle * turns, tau)
-    swept[swept > tau - SLIVER] = 0.0
-    swept[same[:, 0] & same[:, 1]] = tau
-    return swept
+    turned: Floats = np.mod(angle * turns, tau)
+    turned[turned > tau - SLIVER] = 0.0
+    turned[same[:, 0] & same[:, 1]] = tau
+    return turned
 
 
 def joined(parts: Sequence[Path]) -> Path:
