@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 from app.screens.page import Drawn, Surface, View
 from app.session import Said, Tone
 from app.widgets.form import typed_spans
-from app.widgets.header import LOOKING, printable
+from app.widgets.header import LOOKING, printable, short
 from app.widgets.rows import Look, Row, Span, padded, plain
 from app.widgets.words import shortened
 from core.finding import Finding, Severity
@@ -69,7 +69,7 @@ def _header(page: ProofPage, width: int) -> tuple[Row, ...]:
     first: Row = (Span(" NC PROOF  ", Look.HEAD), Span(page.control, Look.TAG), Span("  tools ", Look.LABEL))
     first = (*first, Span(tools or "none given", Look.TYPED if tools else Look.LABEL))
     name = "no name" if page.file is None else printable(page.file.name)
-    name = f" {LOOKING} {name[:18]}" if page.looking else f" {name[:24]}{'*' if page.unsaved else ''}"
+    name = f" {LOOKING} {short(name, 18)}" if page.looking else f" {short(name)}{'*' if page.unsaved else ''}"
     room = max(width - len(name) - 1, 1)
     return first, (*padded(_outcome(page, room), room), Span(name, Look.WARNING if page.looking else Look.DIM))
 

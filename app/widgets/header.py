@@ -9,6 +9,8 @@ from app.widgets.rows import Look, Row, Span, padded, shortened, text_of
 
 LEAST: Final = 10
 """Cells in which a shortened name can still be told from others."""
+LONGEST: Final = 24
+"""Cells of a name, however wide the terminal is."""
 LOOKING: Final = "LOOK ONLY"
 """Before the name of a program that somebody else has open."""
 
@@ -20,7 +22,7 @@ def header(first: str, second: Row, session: Session, width: int, about: str = "
     What stands at the left comes first: on a terminal of a few cells the name is shortened, or left out.
     `about` is the file's name where the screen is about another file than the session's program.
     """
-    name, left = printable(about)[:24] or file_name(session), width - len(text_of(second)) - 2
+    name, left = short(printable(about)) or file_name(session), width - len(text_of(second)) - 2
     if len(name) > left:
         name = shortened(name, left) if left >= LEAST else ""
     room = max(width - len(name) - 2, 1)
@@ -32,13 +34,18 @@ def header(first: str, second: Row, session: Session, width: int, about: str = "
 
 
 def file_name(session: Session) -> str:
-    """The program's name as the screens print it, cut to a reasonable length."""
+    """The program's name as the screens print it, shortened to a reasonable length."""
     unnamed = f"example {session.title}" if session.title else "new program"
     name = unnamed if session.file is None else printable(session.file.stem)
     if session.guard.looking:
         # nothing that is half typed will change it: no * while a number is tried out
-        return f"{LOOKING} {name[: 23 - len(LOOKING)]}"
-    return f"{name[:24]}{'*' if session.unsaved else ''}"
+        return f"{LOOKING} {short(name, LONGEST - 1 - len(LOOKING))}"
+    return f"{short(name)}{'*' if session.unsaved else ''}"
+
+
+def short(name: str, room: int = LONGEST) -> str:
+    """A file's name in so many cells: of a long one beginning and end, which tell a copy from what it is of."""
+    return shortened(name, room)
 
 
 def printable(text: str) -> str:

@@ -7,17 +7,24 @@ from textwrap import wrap
 from typing import Final
 
 from app.session import Said, Tone
-from app.widgets.rows import Look, Row, Span
+from app.widgets.rows import Look, Row, Span, shortened
 
 LINES: Final = 2
+LONG: Final = 32
+"""Cells of a whole path where there is no room for all of it."""
 _MARKS: Final = {Tone.PLAIN: "", Tone.WARNING: "! ", Tone.ERROR: "!! "}
 _LOOKS: Final = {Tone.PLAIN: Look.PLAIN, Tone.WARNING: Look.WARNING, Tone.ERROR: Look.ERROR}
 
 
 @lru_cache(64)
 def prompt_rows(said: Said, width: int, height: int = LINES) -> tuple[Row, ...]:
-    """The sentence on its lines, marked by !! and a colour when it is an error; what is longer ends in an ellipsis."""
+    """The sentence on its lines, marked by !! and a colour when it is an error.
+
+    Of what is longer, whole paths lose their middle first: the reason stands behind them.  The rest is an ellipsis.
+    """
     lines = _lines(said, width)
+    if len(lines) > height > 0:
+        lines = _lines(said, width, LONG)
     if len(lines) > height > 0:
         lines = [*lines[: height - 1], f"{lines[height - 1][: max(width - 3, 0)]}…"]
     rows = [(Span(f" {line}", _LOOKS[said.tone]),) for line in lines]
@@ -29,6 +36,8 @@ def needed(said: Said, width: int) -> int:
     return len(_lines(said, width))
 
 
-def _lines(said: Said, width: int) -> list[str]:
+def _lines(said: Said, width: int, longest: int | None = None) -> list[str]:
     text = "".join(character if character.isprintable() else "?" for character in said.text)
+    if longest is not None:
+        text = " ".join(shortened(word, longest) if "/" in word else word for word in text.split(" "))
     return wrap(_MARKS[said.tone] + text, max(width - 2, 1), break_on_hyphens=False) or [""]

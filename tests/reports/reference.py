@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -12,6 +13,7 @@ from app.desk import Desk
 from app.engine import Engine
 from app.session import Session
 from app.widgets.rows import Row, text_of
+from core.pipeline.derived import Derived
 from tests.app.operator import FROZEN
 
 
@@ -23,6 +25,11 @@ class Reference(CutcompApp):
         self.left = False
         program = session.program
         self._loading.ask(lambda: self.engine.load(program))
+
+    def _loaded(self, derived: Derived) -> None:
+        """Many live in one process, one after the other: what those before have left is collected."""
+        super()._loaded(derived)
+        gc.unfreeze()
 
     def run_worker(self, work: Any, *_: Any, **__: Any) -> Any:
         return work()

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import gc
 from pathlib import Path
 from random import Random
 from typing import Any
+from weakref import ref
 
 import pytest
 
-from app.files import example
+from app.files import empty_program, example
 from app.listing import Listing
 from app.memory import Memory
 from app.nc_keeping import Kept, NcKeeping
@@ -30,6 +32,12 @@ def test_random_keys_on_every_screen() -> None:
     assert tally.keys >= 2000
     assert tally.looks >= 90
     assert len(set(tally.coverage.screens) & set(screens())) >= 10
+
+
+def test_an_app_that_is_over_is_collected() -> None:
+    gone = ref(Reference(Session.of(empty_program())))
+    gc.collect()
+    assert gone() is None
 
 
 async def test_random_keys_through_textual() -> None:

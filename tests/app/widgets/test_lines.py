@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
 from app.files import empty_program
 from app.screens.page import Softkey
 from app.session import Said, Session, Tone
+from app.widgets.header import header
 from app.widgets.prompt import needed, prompt_rows
 from app.widgets.rows import text_of
 from app.widgets.softkeys import softkey_rows
@@ -16,6 +22,12 @@ def test_eight_keys_share_the_height_and_labels_wrap() -> None:
     assert [row.split()[1] for row in rows if "F" in row] == [f"F{number}" for number in range(1, 9)]
     first = next(index for index, row in enumerate(rows) if "F3" in row)
     assert rows[first : first + 2] == ["│ F3 RECALCULATE", "│    LOOKAHEAD"]
+
+
+def test_of_a_long_name_beginning_and_end_are_told() -> None:
+    session = replace(Session.of(empty_program()), file=Path("bracket.mine-2026-11-22-133333.toml"))
+    _, second = header("", (), session, 80)
+    assert text_of(second).strip() == "bracket.min…11-22-133333"
 
 
 def test_any_height_is_possible() -> None:
@@ -32,6 +44,14 @@ def test_a_long_sentence_takes_two_lines_and_then_an_ellipsis() -> None:
     assert len(rows) == 2
     assert text_of(rows[1]).endswith("…")
     assert all(len(text_of(row)) <= 40 for row in rows)
+
+
+@pytest.mark.parametrize("folder", [60, 64, 66, 150])
+def test_behind_a_long_path_the_reason_can_be_read(folder: int) -> None:
+    said = Said(f"/{'shop' * (folder // 4)}/part.toml is not saved: the disk is full. Make room.", Tone.ERROR)
+    rows = " ".join(" ".join(map(text_of, prompt_rows(said, 80))).split())
+    assert rows.startswith("!! /shop")
+    assert rows.endswith("part.toml is not saved: the disk is full. Make room.")
 
 
 def test_where_there_is_room_for_all_of_it_none_is_cut() -> None:
