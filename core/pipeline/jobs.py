@@ -59,7 +59,8 @@ def _notes(found: DerivedBlock, unit: Unit) -> Iterator[str]:
         yield "PATH BEST: THE TRUE OFFSET, NOT THE CONTROL'S"
     elif len(work.compensated.deleted):
         numbers = dict.fromkeys(work.compensated.deleted.segments.tolist())
-        yield "DELETED BY THE LOOK-AHEAD: SEGMENT " + " ".join(f"{number:g}" for number in numbers)
+        which = f"SEGMENT{'S' if len(numbers) > 1 else ''} {', '.join(f'{number:g}' for number in numbers)}"
+        yield f"DELETED BY THE LOOK-AHEAD: {which}"
     if work.verdict.uncut:
         left, whole = (from_mm(length, unit) for length in (work.verdict.uncut_length, work.verdict.surface_length))
         yield f"UNCUT {show(left, Kind.LENGTH, unit)} OF {show(whole, Kind.LENGTH, unit)}"

@@ -115,8 +115,8 @@ def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> It
         yield from _rough_errors(one)
         gone = _deleted(one.compensated) - (set() if finish is None else _deleted(finish))
         if gone and finish is not None:
-            listed = " ".join(f"{number:g}" for number in sorted(gone))
-            text = f"The roughing pass that leaves {{0}} deletes segment {listed}: the next one meets solid there."
+            which = f"segment{'s' if len(gone) > 1 else ''} {', '.join(f'{number:g}' for number in sorted(gone))}"
+            text = f"The roughing pass that leaves {{0}} deletes {which}: the next one meets solid there."
             yield Finding("ROUGH_DELETES", Severity.WARNING, text, min(gone), lengths=(one.stock,))
 
 

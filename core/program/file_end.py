@@ -53,6 +53,9 @@ def syntax_fault(fault: str, text: str) -> str:
     lines = text.splitlines() or [""]
     stops = found[3] is None or (int(found[3]) >= len(lines) and not text.endswith("\n"))
     if not stops:
+        twice = _KEY.match(lines[int(found[3]) - 1]) if found[1] == "Cannot overwrite a value" else None
+        if twice is not None:
+            return f"{found[2].partition(',')[0]}: {twice[1]} stands twice: remove one."
         return f"{found[2]}: {found[1]}. Correct it there, or open a saved copy."
     key = _KEY.match(lines[-1])
     where = f"line {len(lines)}{f', {key[1]}' if key else ''}"

@@ -124,5 +124,5 @@ def test_a_drawing_of_a_block_that_is_not_determined_yet():
 
 def test_the_posted_header_tells_what_is_deleted_and_what_stays():
     (job,) = jobs(derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3)))))
-    assert job.notes[0] == "DELETED BY THE LOOK-AHEAD: SEGMENT 2 3 4"
+    assert job.notes[0] == "DELETED BY THE LOOK-AHEAD: SEGMENTS 2, 3, 4"
     assert job.notes[1].startswith("UNCUT 0.9")

@@ -124,3 +124,10 @@ def test_a_file_without_an_end_that_stops_in_the_middle_of_a_line_may_be_cut_off
 
 def test_a_fault_in_the_middle_is_a_fault_of_its_line():
     assert refusal(TEXT.replace("x_end = 2.0", "x_end = 2.0.1")).endswith("Correct it there, or open a saved copy.")
+
+
+@pytest.mark.parametrize("begin", ["", "  "])
+def test_a_key_that_stands_twice_is_named(begin: str) -> None:
+    told = refusal(UNTOLD.replace("speed = 300", f"speed = 300\n{begin}speed = 400"))
+    line = UNTOLD[: UNTOLD.index("speed = 300")].count("\n") + 2
+    assert told == f"part.toml, line {line}: speed stands twice: remove one."
