@@ -75,7 +75,8 @@ def _depths(job: Job) -> Iterator[_Check]:
     high, low = max(levels, default=job.z_start), min(levels, default=job.z_bottom)
     yield deep < 0.0, "DEPTH", "Z BOTTOM lies above Z START.", "z_bottom"
     yield low < job.z_bottom - JOINED, "Z_END", "A Z END lies below Z BOTTOM.  No pass goes so deep.", "z_end"
-    yield high > job.z_start + JOINED, "Z_END", "A Z END lies above Z START.  Rapid moves would run into it.", "z_end"
+    above = deep >= 0.0 and high > job.z_start + JOINED
+    yield above, "Z_END", "A Z END lies above Z START.  Rapid moves would run into it.", "z_end"
     yield stock >= deep > 0.0, "FINISH_Z", "FINISH Z leaves nothing for the roughing tool to cut.", "finish_z"
     yield job.retract_clearance <= 0.0, "CLEARANCE", "RETRACT CLEARANCE must be above 0.", "retract_clearance"
     yield job.peck_clearance < 0.0, "CLEARANCE", "PECK CLEARANCE must not be below 0.", "peck_clearance"

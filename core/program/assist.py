@@ -238,7 +238,7 @@ def _solved(task: Task, reading: Reading, start: Point | None, choice: int | Non
     outcome = solve(task, start, reading.known)
     pieces = outcome.pieces
     if len(pieces) > 1 and (choice is None or choice >= len(pieces)):
-        pick = Finding("PICK_SOLUTION", Severity.ERROR, "Two solutions fit: pick one of them.", field="choice")
+        pick = Finding("PICK_SOLUTION", Severity.ERROR, "Two solutions fit: pick one on SOLUTION.", field="choice")
         return _Shape(choices=pieces, sketch=pieces[0], findings=(pick,))
     if not pieces:
         return _unsolved(task, outcome, reading, start)

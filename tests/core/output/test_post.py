@@ -253,6 +253,10 @@ def test_a_job_that_cannot_be_cut_is_refused_and_cannot_be_overridden(changes, c
     assert code in refused(job(SLOT, **changes), OVERRIDE)
 
 
+def test_a_bottom_above_the_top_is_told_once_though_the_contour_runs_at_it():
+    assert refused(job(SLOT, z_bottom=1.0, floors=floors(2, z=1.0))) == ["DEPTH"]
+
+
 def test_no_block_is_refused():
     assert isinstance(post([], Unit.IN, name=""), Refusal)
 

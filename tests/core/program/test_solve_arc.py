@@ -77,7 +77,7 @@ def test_the_other_way_round_is_the_long_way():
 @pytest.mark.parametrize("direction", ["CW", "CCW"])
 def test_end_and_radius_offer_the_shorter_arc_first(direction):
     found = solved(arc(direction, x_end=0.0, y_end=5.0, radius=5.0), 5.0, 0.0)
-    assert text(found) == "PICK_SOLUTION choice: Two solutions fit: pick one of them."
+    assert text(found) == "PICK_SOLUTION choice: Two solutions fit: pick one on SOLUTION."
     assert [abs(piece.sweep) for piece in found.choices if isinstance(piece, Arc)] == [
         pytest.approx(tau / 4),
         pytest.approx(tau * 3 / 4),

@@ -74,7 +74,7 @@ def test_what_is_typed_is_never_replaced():
 
 def test_two_solutions_wait_to_be_picked():
     found = solved(line(x_end=4.0, length=5.0))
-    assert text(found) == "PICK_SOLUTION choice: Two solutions fit: pick one of them."
+    assert text(found) == "PICK_SOLUTION choice: Two solutions fit: pick one on SOLUTION."
     assert found.piece is None
     assert found.end is None
     assert [piece.end for piece in found.choices] == [(4.0, 3.0), (4.0, -3.0)]
