@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
 """Errors that only say that a block is still to be typed."""
+IN_FORCE: Final = frozenset({"NO_BEST", "BEST_DIFFERS"})
+"""Notes that compare the path in force with the best one."""
 MARKS: Final = {Severity.ERROR: "!!", Severity.WARNING: "! ", Severity.INFO: "i "}
 """What each weight of a finding begins with."""
 READ_ON: Final = "Ctrl+F"
@@ -83,7 +85,7 @@ def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | Non
     if hint := _beginning(found):
         return [first, plain(f" {hint}", Look.LABEL)]
     if look is not None and case is not None:
-        return [first, *_case_lines(case, unit)]
+        return [first, *_case_lines(case, unit), *_needed(table)]
     findings = _untold(found.findings, case)
     errors = [one for one in findings if one.severity is Severity.ERROR]
     rest = [one for one in findings if one.severity is not Severity.ERROR]
@@ -91,6 +93,11 @@ def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | Non
     notes = () if table is None else table.notes
     gravest = 1 if case is not None and case.verdict.gouges else 0
     return [first, *lines[:gravest], *errors, *lines[gravest:], *notes, *rest]
+
+
+def _needed(table: Table | None) -> list[Finding]:
+    """Of the table's notes those on the contour, which hold beside every value: why CAL's is not clean, what helps."""
+    return [] if table is None else [note for note in table.notes if note.code not in IN_FORCE]
 
 
 def _beginning(found: DerivedBlock) -> str:

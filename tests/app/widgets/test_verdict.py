@@ -9,7 +9,9 @@ import pytest
 from app.widgets.rows import text_of
 from app.widgets.verdict import verdict_rows
 from core.finding import Finding, Severity
+from core.pipeline.derive import derive
 from core.pipeline.outline import outline
+from core.pipeline.table import look_ahead_table
 from core.units import Unit
 from tests.app.squares import square
 
@@ -20,3 +22,15 @@ def test_error_warning_and_information_have_marks_of_their_own(weight: str, mark
     found = replace(outline(square().session.program).blocks[0], findings=(one,))
     told = [text_of(row) for row in verdict_rows(found, None, Unit.IN, None)]
     assert f" {mark} Told." in told
+
+
+def test_beside_every_value_of_the_table_stands_what_the_contour_needs_and_nothing_of_the_path_in_force() -> None:
+    program = square().session.program
+    found = replace(derive(program).blocks[0], findings=())
+    why = Finding("CAL_NOT_CLEAN", Severity.WARNING, "Why.")
+    apart = Finding("BEST_DIFFERS", Severity.INFO, "Apart.")
+    table = look_ahead_table(found, program)
+    assert table is not None
+    told = [text_of(row) for row in verdict_rows(found, replace(table, notes=(why, apart)), Unit.IN, 3)]
+    assert told[-1] == " !  Why."
+    assert " i  Apart." not in told
