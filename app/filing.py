@@ -19,7 +19,7 @@ from app.session import Session, Tone
 from app.widgets.words import in_spite, placed
 from core.finding import Severity
 from core.program.stamp import stamp_of_data
-from core.program.store import StoreError, dumps, write_output, write_text
+from core.program.store import StoreError, dumps, refuse_program, write_output, write_text
 from core.units import Unit
 
 if TYPE_CHECKING:
@@ -130,6 +130,10 @@ def _post(desk: Desk, message: Post) -> Desk:
     from core.output.post import Refusal
 
     path, unit = with_suffix(chosen(message.path, desk.session.file), ".nc"), desk.session.program.unit
+    try:
+        refuse_program(path)
+    except StoreError as error:
+        return _failed(desk, error)
     question = _before_posting(desk.session.file, path, message)
     if question is not None and message.clear:
         return desk.take(Open(question))

@@ -20,7 +20,7 @@ from typing import Any, Final
 
 from core.records import dataclass, field
 
-SIGNALS: Final = (signal.SIGHUP, signal.SIGTERM, signal.SIGINT)
+SIGNALS: Final = (signal.SIGHUP, signal.SIGTERM, signal.SIGINT, signal.SIGQUIT)
 GRACE: Final = 2.0
 """Seconds the program has to end by itself."""
 LEAVING: Final = b"\x1b[?2026l\x1b[0m\x1b[?2004l\x1b[?7h\x1b[?1004l\x1b[?1049l\x1b[?25h"

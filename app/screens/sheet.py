@@ -16,7 +16,7 @@ from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header, printable
 from app.widgets.rows import Look, plain
-from core.program.store import StoreError, write_text
+from core.program.store import StoreError, refuse_program, write_output
 from core.records import dataclass
 
 if TYPE_CHECKING:
@@ -106,13 +106,17 @@ def writing(name: Path, *, agreed: bool = False) -> Callable[[Desk], Desk]:
         file = desk.session.file
         path = with_suffix(chosen(name, file), ".html")
         again = Do(writing(path, agreed=True))
+        try:
+            refuse_program(path)
+        except StoreError as error:
+            return desk.take(Say(str(error), Tone.ERROR))
         if outside(path, file) and not agreed:
             return desk.take(Open(asking(path, file, again)))
         if path.exists() and not agreed:
             lines = (f"{printable(str(path))} exists already. Its content is replaced.",)
             return desk.take(Open(Ask("REPLACE THE FILE?", lines, (("r", "REPLACE", (Close(), again)),))))
         try:
-            write_text(path, sheet_for(desk.session.program, path))
+            write_output(path, sheet_for(desk.session.program, path))
         except StoreError as error:
             return desk.take(Say(str(error), Tone.ERROR))
         return desk.take(Close()).take(Say(f"Setup sheet: {written_at(path)}"))

@@ -108,14 +108,22 @@ def write_data(path: str | Path, data: bytes) -> None:
 
 def write_output(path: Path, text: str) -> None:
     """Write what is made of a program, such as NC text or a drawing; StoreError rather than over a program."""
+    refuse_program(path)
+    write_text(path, text)
+
+
+def refuse_program(path: Path) -> None:
+    """StoreError where what is made of a program would be written over one."""
     if _is_program(path):
         raise StoreError(f"{path} is a program, which would be lost: nothing is written. Name another file.")
-    write_text(path, text)
 
 
 def _is_program(path: Path) -> bool:
     if path.suffix.lower() == ".toml":
         return True
+    if not path.is_file():
+        # a pipe would be waited for
+        return False
     try:
         with path.open("rb") as file:
             return file.readline(80).startswith(b"format =")

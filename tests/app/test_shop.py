@@ -131,3 +131,13 @@ def test_the_sheet_from_the_program_screen(tmp_path: Path, monkeypatch: pytest.M
     assert Path("part.html").read_text() == "mine"
     operator.press("enter", "r")
     assert "<svg" in Path("part.html").read_text()
+
+
+@pytest.mark.parametrize("keys", [("f7", "f7", "f2"), ("f6",)])
+def test_neither_sheet_nor_nc_file_takes_the_place_of_a_program(part: Path, keys: tuple[str, ...]) -> None:
+    before = part.read_text()
+    operator = Operator.at(load(part)).press("f8", *keys)
+    operator.press("delete", *part.name, "enter")
+    assert "is a program, which would be lost" in operator.said
+    operator.press("r")
+    assert part.read_text() == before

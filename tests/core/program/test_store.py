@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -121,3 +122,9 @@ def test_output_is_never_written_over_a_program(tmp_path):
     assert load(part) == Program()
     write_output(fresh, "M2")
     assert fresh.read_text() == "M2"
+
+
+def test_output_does_not_wait_for_a_pipe(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(StoreError, match="this is not a file"):
+        write_output(tmp_path / "pipe", "M2")
