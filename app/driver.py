@@ -16,7 +16,7 @@ from types import FrameType
 from typing import TYPE_CHECKING, Any, Final
 
 from textual import events
-from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
+from textual._ansi_sequences import ANSI_SEQUENCES_KEYS, SYNC_END, SYNC_START
 from textual._xterm_parser import XTermParser
 from textual.drivers.linux_driver import LinuxDriver
 from textual.message import Message
@@ -65,9 +65,8 @@ class TerminalDriver(LinuxDriver):
             return False
         sent = self.shown.paint(lines)
         if sent:
-            self._app._begin_update()
-            super().write(sent)
-            self._app._end_update()
+            # in one piece: every piece wakes the thread that sends it
+            super().write(f"{SYNC_START}{sent}{SYNC_END}" if self._app._sync_available else sent)
         return sent is not None
 
     def anew(self) -> None:

@@ -36,6 +36,8 @@ LOOKS: Final = {
     Style.MESSAGE: Look.DIM,
 }
 """The look of each role of the drawing."""
+BY_STYLE: Final = tuple(LOOKS[style] for style in Style)
+"""The same by the number of the role."""
 
 
 def picture_rows(scene: Scene, sketch: Sketch, columns: int, rows: int, mode: str) -> tuple[Row, ...]:
@@ -66,15 +68,11 @@ def bounds_of(scene: Scene) -> Box | None:
 
 
 def _rows(picture: Picture) -> list[Row]:
-    return [_row(text, styles) for text, styles in zip(picture.rows, picture.styles.tolist(), strict=True)]
-
-
-def _row(text: str, styles: list[int]) -> Row:
-    """One row, its cells of one style in one span."""
-    spans: list[Span] = []
-    first = 0
-    for column in range(1, len(text) + 1):
-        if column == len(text) or styles[column] != styles[first]:
-            spans.append(Span(text[first:column], LOOKS[Style(styles[first])]))
-            first = column
-    return tuple(spans)
+    """The rows, their cells of one style in one span."""
+    styles, rows = picture.styles, list[Row]()
+    changes = styles[:, 1:] != styles[:, :-1]
+    for text, looks, changed in zip(picture.rows, styles, changes, strict=True):
+        heads = [0, *(changed.nonzero()[0] + 1).tolist()]
+        spans = zip(heads, [*heads[1:], len(text)], looks[heads].tolist(), strict=True)
+        rows.append(tuple(Span(text[head:tail], BY_STYLE[style]) for head, tail, style in spans))
+    return rows

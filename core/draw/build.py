@@ -67,8 +67,9 @@ def _spots(places: Sequence[Point], style: Style, symbol: Symbol) -> Iterator[Ma
 
 def _travel(path: Path) -> Iterator[Mark]:
     """An arrow in the middle of the path's first piece with a length."""
-    for row in (path.lengths > 0.0).nonzero()[0][:1].tolist():
-        at, along = _middle(path[row])
+    first = next((piece for piece in path if piece.length > 0.0), None)
+    if first is not None:
+        at, along = _middle(first)
         yield Mark(at, Style.START, Symbol.ARROW, along)
 
 

@@ -26,7 +26,7 @@ NUDGE: Final = 1e-6
 """Parts of a dot: a line exactly between two rows of dots must not change rows where rounding does."""
 AXES: Final = 2
 """The first layers drawn are the two axes."""
-FAINT: Final = frozenset({Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID})
+FAINT: Final = (Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID)
 """Roles that do not make a cell one of the surface."""
 STRUCK: Final = "#"
 """The character of cells with deleted surface: without colours a line there would be one that is merely uncut."""
@@ -60,8 +60,8 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
     characters = look.table[codes]
     if look.faint is not None:
         characters = np.where(strong | (styles == Style.AXIS), characters, look.faint[codes])
-    characters = np.where(struck, STRUCK, characters).reshape(rows, columns)
-    styles = styles.reshape(rows, columns)
+    characters[struck] = STRUCK
+    characters, styles = characters.reshape(rows, columns), styles.reshape(rows, columns)
     write_signs(characters, styles, scene, view, mode)
     return Picture(tuple("".join(row) for row in characters.tolist()), styles)
 
@@ -128,18 +128,17 @@ def _light(
     shown = _dashes(layers, layer, along)
     cell = (down // look.down) * columns + across // look.across
     bit = look.bit[down % look.down, across % look.across] if look.by_dot else _slants(found)[chord]
+    bits, cell, roles = (cell * 8 + bit)[shown], cell[shown], np.array([each.style for each in layers], np.uint8)
+    role = roles[layer[shown]]
     lit = np.zeros((rows * columns, 8), np.bool_)
-    lit.reshape(-1)[(cell * 8 + bit)[shown]] = True
+    lit.reshape(-1)[bits] = True
     styles = np.zeros(rows * columns, np.uint8)
-    styles[cell[shown]] = np.array([each.style for each in layers], np.uint8)[layer[shown]]
+    styles[cell] = role
     strong = np.zeros(rows * columns, np.bool_)
     if look.faint is not None:
-        bold = np.array([each.style not in FAINT for each in layers])[layer]
-        strong[cell[shown & bold]] = True
+        strong[cell[~np.isin(role, FAINT)]] = True
     struck = np.zeros(rows * columns, np.bool_)
-    gone = [row for row, each in enumerate(layers) if each.style is Style.DELETED]
-    if gone:
-        struck[cell[np.isin(layer, gone)]] = True
+    struck[cell[role == Style.DELETED]] = True
     return lit, styles, strong, struck
 
 
@@ -155,8 +154,10 @@ def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Ro
     places = found.starts[chord] + part * run[chord]
     across = ((places.real + columns / 2) / wide + NUDGE).astype(np.intp)
     down = ((rows * TALL / 2 - places.imag) / high + NUDGE).astype(np.intp)
-    np.clip(across, 0, columns * look.across - 1, out=across)
-    np.clip(down, 0, rows * look.down - 1, out=down)
+    np.minimum(across, columns * look.across - 1, out=across)
+    np.minimum(down, rows * look.down - 1, out=down)
+    np.maximum(across, 0, out=across)
+    np.maximum(down, 0, out=down)
     return chord, across, down, found.along[chord] + part * np.abs(run)[chord]
 
 

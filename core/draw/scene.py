@@ -22,6 +22,8 @@ Box = tuple[float, float, float, float]
 
 BEYOND: Final = 10 * LARGEST
 """A coordinate larger than this, or not a number, is neither drawn nor fitted into a view."""
+ALIKE: Final = 1e-9
+"""Millimetres by which an arc may reach over the points without its being seen: rounding does, where it ends there."""
 
 
 class Style(IntEnum):
@@ -149,8 +151,8 @@ def _boxes(pieces: Pieces) -> Floats:
     arcs = pieces.only(pieces.turns.nonzero()[0])
     radial = points[arcs.rows] - arcs.centres
     radii = np.hypot(radial[:, 0], radial[:, 1])[:, None]
-    over = (arcs.centres - radii < box[:2]) | (arcs.centres + radii > box[2:])
-    further = over.any(axis=1).nonzero()[0]
+    over = np.hstack((box[:2] - ALIKE - arcs.centres, arcs.centres - ALIKE - box[2:])) > -radii
+    further = np.flatnonzero(over.any(axis=1))
     return np.vstack((box, _each(arcs.only(further)))) if len(further) else box[None]
 
 
