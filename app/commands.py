@@ -38,7 +38,8 @@ def _derived(path: Path, block: int | None = None, lookahead: str | None = None)
 
     program = _program(path)
     if block is not None and not 1 <= block <= len(program.blocks):
-        raise Unusable(f"--block {block}: {path} has blocks 1 to {len(program.blocks)}.")
+        has = f"blocks 1 to {len(program.blocks)}" if len(program.blocks) > 1 else "1 block"
+        raise Unusable(f"--block {block}: {path} has {has}.")
     return compared(derive(program if lookahead is None else _with_lookahead(program, lookahead)))
 
 

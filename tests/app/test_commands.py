@@ -162,3 +162,11 @@ def test_the_look_ahead_document_of_part_of_a_contour_says_what_is_against_the_r
     assert main(["lookahead", "-", "--json"]) == 1
     (found,) = json.loads(capsys.readouterr().out)["blocks"]
     assert (2, "error") in {(one["segment"], one["severity"]) for one in found["findings"]}
+
+
+@pytest.mark.parametrize(("name", "has"), [("pocket", "1 block"), ("flange", "blocks 1 to 2")])
+def test_a_block_that_is_not_there_is_told_with_those_that_are(
+    name: str, has: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["path", str(example(name)), "--block", "3"]) == 2
+    assert capsys.readouterr().err == f"cutcomp: --block 3: {example(name)} has {has}.\n"
