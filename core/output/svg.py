@@ -40,7 +40,7 @@ PENS: Final[Mapping[Style, Pen]] = MappingProxyType(
         Style.SURFACE: Pen("#1b1f23", 2.2, "part surface"),
         Style.PATH: Pen("#0b62c4", 1.3, "centre path"),
         Style.LEAD: Pen("#00856a", 1.3, "blend moves"),
-        Style.RAPID: Pen("#7a8894", 0.8, "roughing passes", "2 3"),
+        Style.RAPID: Pen("#7a8894", 0.8, "roughing passes or control's path", "2 3"),
         Style.DELETED: Pen("#b45f06", 2.2, "deleted segments", "6 4"),
         Style.GOUGE: Pen("#c4001a", 2.6, "gouge"),
         Style.UNCUT: Pen("#8a2be2", 3.4, "uncut surface"),

@@ -7,7 +7,7 @@ import pytest
 
 from app.files import example
 from core.pipeline.derive import derive
-from core.pipeline.plot import block_scene, cutter_at
+from core.pipeline.plot import block_scene, cutter_at, svg_of
 from core.program.model import CutterComp, Entry, LineSegment, PathChoice
 from core.program.store import load
 from core.units import Unit
@@ -65,3 +65,9 @@ def test_the_best_path_has_its_cutter_in_every_loop_and_none_where_it_does_not_r
 def test_start_has_the_cutter_where_it_goes_down():
     found = derived(program(block(MID_SIDE_SQUARE, CutterComp.LEFT)))
     assert cutter_at(found, 0).at == tuple(found.work.centre.points[0].tolist())
+
+
+def test_the_legend_does_not_call_the_controls_path_behind_the_best_one_a_roughing_pass_alone():
+    pocket = load(example("pocket"))
+    part = replace(pocket, parameters=replace(pocket.parameters, path=PathChoice.BEST))
+    assert ">roughing passes or control's path</text>" in svg_of(derive(part), title="")
