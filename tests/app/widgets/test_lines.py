@@ -54,6 +54,13 @@ def test_behind_a_long_path_the_reason_can_be_read(folder: int) -> None:
     assert rows.endswith("part.toml is not saved: the disk is full. Make room.")
 
 
+def test_a_path_that_fits_in_two_lines_is_told_whole() -> None:
+    path = "/home/operator/parts/2026/november/customer/order-1234/drawing-56/bracket.nc"
+    rows = [text_of(row).strip() for row in prompt_rows(Said(f"Posted: {path}, 75 lines."), 80)]
+    assert "".join(rows) == f"Posted: {path}, 75 lines."
+    assert rows[0].endswith("/")
+
+
 def test_where_there_is_room_for_all_of_it_none_is_cut() -> None:
     said = Said("word " * 12)
     rows = prompt_rows(said, 20, needed(said, 20))
