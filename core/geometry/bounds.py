@@ -7,7 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.measured import Flags, Floats, Measured
+from core.geometry.measured import FEW, Flags, Floats, Measured
+from core.geometry.planes import coordinates
 
 FLAT: Final = 1e-9
 """Radians up to which an arc of any radius a machine could have bulges by nothing beyond its ends."""
@@ -15,20 +16,23 @@ FLAT: Final = 1e-9
 
 def boxes(pieces: Measured) -> Floats:
     """(4, n) exact bounding boxes: least x, least y, largest x, largest y."""
-    start, end = pieces.start, pieces.end
-    box = np.empty((4, len(start)))
-    for row, (one, other) in enumerate(((start.real, end.real), (start.imag, end.imag))):
-        np.minimum(one, other, out=box[row])
-        np.maximum(one, other, out=box[row + 2])
-    rows = pieces.turn.nonzero()[0]
-    if not len(rows):
+    start, end = coordinates(pieces.start).T, coordinates(pieces.end).T
+    box = np.empty((4, len(pieces)))
+    np.minimum(start, end, out=box[:2])
+    np.maximum(start, end, out=box[2:])
+    bent = pieces.arcs
+    arcs = np.count_nonzero(bent)
+    if not arcs:
         return box
-    arc = pieces if len(rows) == len(pieces) else pieces.take(rows)
-    centre, out = arc.centre, (1.0 + 1.0j) * arc.radius
-    low, high = centre - out, centre + out
-    for row, (passed, limit) in enumerate(zip(_quarters(arc), (low.real, low.imag, high.real, high.imag), strict=True)):
-        through = passed.nonzero()[0]
-        box[row, rows[through]] = limit[through]
+    rows = bent.nonzero()[0] if len(pieces) > FEW else slice(None)
+    arc = pieces.take(rows) if arcs < len(pieces) > FEW else pieces
+    passed, centre, out = _quarters(arc), coordinates(arc.centre).T, arc.radius
+    if arcs < len(arc):
+        passed &= bent
+    reached = box[:, rows]
+    np.copyto(reached[:2], centre - out, where=passed[:2])
+    np.copyto(reached[2:], centre + out, where=passed[2:])
+    box[:, rows] = reached
     return box
 
 

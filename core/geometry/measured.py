@@ -94,7 +94,9 @@ class Measured:
     @property
     def stations(self) -> Floats:
         """(n + 1,) length travelled at the start of each piece, and at the end of all."""
-        return np.concatenate(([0.0], np.cumsum(self.length)))
+        stations = np.zeros(len(self.length) + 1)
+        self.length.cumsum(out=stations[1:])
+        return stations
 
 
 _NO_POINTS: Final = np.zeros(0, np.complex128)
@@ -247,6 +249,21 @@ def _arc_direction(arc: Measured, t: Floats) -> Points:
     size = np.where(arc.radius == 0.0, 1.0, arc.radius)
     units: Points = 1j * arc.turn * (arc.arm / size) * np.exp(1j * (arc.turn * arc.angle) * t)
     return units
+
+
+def at_and_along(pieces: Measured, t: Floats) -> tuple[Points, Points]:
+    """The points and the unit tangents of `at` and `direction`, at the cost of one of them."""
+    both: Points = by_kind(pieces.arcs, _line_both, _arc_both, pieces, t)
+    return both[0], both[1]
+
+
+def _line_both(line: Measured, t: Floats) -> Points:
+    return np.array((_line_at(line, t), line.unit))
+
+
+def _arc_both(arc: Measured, t: Floats) -> Points:
+    off = arc.arm * np.exp(1j * (arc.turn * arc.angle) * t)
+    return np.array((arc.centre + off, 1j * arc.turn * off / np.where(arc.radius == 0.0, 1.0, arc.radius)))
 
 
 def travelled(arc: Measured, towards: Points) -> Floats:

@@ -95,9 +95,10 @@ def middle(pieces: Columns, bent: Flags) -> tuple[Floats, Floats]:
 
 
 def to_piece(x: Floats, y: Floats, pieces: Columns, bent: Flags) -> tuple[Floats, Floats]:
-    """Distances of points (k, m) from m pieces, and the fractions of those that are no arcs they are nearest to."""
+    """Distances of points (k, ..., m) from pieces (..., m), and the fractions of those that are no arcs they are
+    nearest to."""
     arcs = np.count_nonzero(bent)
-    if arcs == len(bent):
+    if arcs == bent.size:
         return to_arc(x, y, pieces), x
     square, t = to_line(x, y, pieces)
     apart = np.sqrt(square, out=square)
@@ -165,46 +166,39 @@ def line_to_arc(lines: Floats, arcs: Floats) -> Floats:
 
     Infinite where the foot of the centre is on neither.
     """
-    line, arc = Columns(*lines), Columns(*arcs)
+    line, arc = Columns(*lines[:STRAIGHT]), Columns(*arcs)
     x, y = arc.centre_x - line.x, arc.centre_y - line.y
     t = (x * line.along + y * line.up) / line.square
     off_x, off_y = t * line.along - x, t * line.up - y
-    within, height = inside(off_x, off_y, arc), np.sqrt(off_x * off_x + off_y * off_y)
-    apart = np.where(within & (t >= 0.0) & (t <= 1.0), np.abs(height - arc.radius), np.inf)
-    cut = (height < arc.radius).nonzero()[0]
-    if len(cut):
-        line, arc, height = Columns(*lines[:STRAIGHT].take(cut, axis=1)), Columns(*arcs.take(cut, axis=1)), height[cut]
-        half = np.sqrt((arc.radius - height) * (arc.radius + height) / line.square)
-        steps = np.array((-half, half))
-        met = inside(off_x[cut] + steps * line.along, off_y[cut] + steps * line.up, arc)
-        steps += t[cut]
-        met &= (steps >= 0.0) & (steps <= 1.0)
-        apart[cut[met[0] | met[1]]] = 0.0
+    height = np.sqrt(off_x * off_x + off_y * off_y)
+    # a line that passes the circle meets it nowhere: what is not a number is neither on the line nor within the arc
+    half = np.sqrt((arc.radius - height) * (arc.radius + height) / line.square)
+    steps = np.array((np.zeros(len(t)), -half, half))
+    met = inside(off_x + steps * line.along, off_y + steps * line.up, arc)
+    steps += t
+    met &= (steps >= 0.0) & (steps <= 1.0)
+    apart = np.where(met[0], np.abs(height - arc.radius), np.inf)
+    apart[met[1] | met[2]] = 0.0
     return apart
 
 
 def arc_to_arc(arcs: Floats, others: Floats) -> Floats:
     """Distances of pairs of arcs on the line through their centres, 0 where they cross, infinite where neither is."""
-    one, other = Columns(*arcs), Columns(*others)
-    x, y = other.centre_x - one.centre_x, other.centre_y - one.centre_y
-    size, both_x, both_y = np.sqrt(x * x + y * y), np.array((x, -x)), np.array((y, -y))
-    (ahead_one, behind_one), (ahead_other, behind_other) = inside(both_x, both_y, one), inside(both_x, both_y, other)
-    within = ahead_one & behind_other, ahead_one & ahead_other, behind_one & behind_other
-    gaps = size - other.radius - one.radius, size + other.radius - one.radius, size - other.radius + one.radius
+    both = Columns(*np.array((arcs, others)).swapaxes(0, 1))
+    (x, y), (one, other) = (both.centre_x[1] - both.centre_x[0], both.centre_y[1] - both.centre_y[0]), both.radius
+    size = np.sqrt(x * x + y * y)
+    # from both centres, ahead and behind along the line through them, and to both crossings of the circles
+    share = (size * size + (one - other) * (one + other)) / (2.0 * size * size)
+    height = np.sqrt(np.maximum((one / size) ** 2 - share * share, 0.0))
+    to_x, to_y = np.empty((2, 4, 2, len(x)))
+    to_x[0], to_x[1], to_x[2], to_x[3] = x, -x, share * x - height * y, share * x + height * y
+    to_y[0], to_y[1], to_y[2], to_y[3] = y, -y, share * y + height * x, share * y - height * x
+    to_x[2:, 1] -= x
+    to_y[2:, 1] -= y
+    (ahead, behind, first, second) = inside(to_x, to_y, both)
+    within = np.array((ahead[0] & behind[1], ahead[0] & ahead[1], behind[0] & behind[1]))
+    gaps = np.array((size - other - one, size + other - one, size - other + one))
     apart: Floats = np.where(within, np.abs(gaps), np.inf).min(axis=0)
-    cut = ((size > np.abs(one.radius - other.radius)) & (size < one.radius + other.radius)).nonzero()[0]
-    if len(cut):
-        one, other = Columns(*arcs.take(cut, axis=1)), Columns(*others.take(cut, axis=1))
-        apart[cut[_arcs_cross(one, other, x[cut], y[cut], size[cut])]] = 0.0
+    crossed = (first[0] & first[1]) | (second[0] & second[1])
+    apart[crossed & (size > np.abs(one - other)) & (size < one + other)] = 0.0
     return apart
-
-
-def _arcs_cross(one: Columns, other: Columns, x: Floats, y: Floats, size: Floats) -> Flags:
-    """Whether arcs of crossing circles cross; (x, y) leads from centre to centre, `size` long."""
-    share = (size * size + (one.radius - other.radius) * (one.radius + other.radius)) / (2.0 * size * size)
-    height = np.sqrt(np.maximum((one.radius / size) ** 2 - share * share, 0.0))
-    off = np.array((height, -height))
-    at_x, at_y = share * x - off * y, share * y + off * x
-    crossed = inside(at_x, at_y, one) & inside(at_x - x, at_y - y, other)
-    either: Flags = crossed[0] | crossed[1]
-    return either

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -37,20 +37,17 @@ def courses(*groups: Sequence[Path]) -> Iterator[Course]:
         for group in groups:
             yield _course(stacked(group))
         return
-    whole = _course(stacked([path for group in groups for path in group]))
-    ends = whole.pieces.rows.searchsorted(counts).tolist()
+    pieces = stacked([path for group in groups for path in group])
+    around, bends = boxes(pieces), columns_of(pieces)
+    ends = pieces.rows.searchsorted(counts).tolist()
     for first, last, count in zip(ends, ends[1:], counts, strict=False):
-        yield _part(whole, slice(first, last), count)
+        part = slice(first, last)
+        piece = pieces.take(part)
+        np.subtract(piece.rows, count, out=piece.rows)
+        # of rows that do not lie together every `take` would copy all
+        columns = np.ascontiguousarray(bends[:, part])
+        yield Course(piece, piece.stations, np.ascontiguousarray(around[:, part]), columns)
 
 
 def _course(pieces: Measured) -> Course:
     return Course(pieces, pieces.stations, boxes(pieces), columns_of(pieces))
-
-
-def _part(whole: Course, part: slice, count: int) -> Course:
-    """These pieces, whose rows begin at `count`."""
-    pieces = whole.pieces.take(part)
-    pieces = replace(pieces, rows=pieces.rows - count)
-    # of rows that do not lie together every `take` would copy all
-    columns = np.ascontiguousarray(whole.columns[:, part])
-    return Course(pieces, pieces.stations, np.ascontiguousarray(whole.boxes[:, part]), columns)

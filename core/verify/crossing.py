@@ -77,10 +77,12 @@ def _may_come_back(surface: Measured) -> Flags:
 
 def _turned(surface: Measured, rows: Rows) -> Floats:
     """How much these pieces, the next ones and the joints between them turn, radians."""
-    one, other = surface.take(rows), surface.take(rows + 1)
-    end = np.where(one.turn == 0.0, one.vector, 1j * one.turn * (one.arm + one.vector))
-    begin = np.where(other.turn == 0.0, other.vector, 1j * other.turn * other.arm)
-    turned: Floats = one.angle + other.angle + np.abs(np.angle(begin * np.conj(end)))
+    both = np.array((rows, rows + 1))
+    vector, turn, arm = surface.vector[both], surface.turn[both], surface.arm[both]
+    # where the one ends and the other one begins
+    arm[0] += vector[0]
+    (end, begin), (one, other) = np.where(turn == 0.0, vector, 1j * turn * arm), surface.angle[both]
+    turned: Floats = one + other + np.abs(np.angle(begin * np.conj(end)))
     return turned
 
 

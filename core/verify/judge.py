@@ -75,9 +75,9 @@ def _each(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> 
 
 def judgeable(radius: float, *paths: Path) -> bool:
     """All coordinates and the radius are lengths a machine could have."""
-    arrays = (array for path in paths for array in (path.points, path.centres))
+    numbers = np.concatenate([array for path in paths for array in (path.points, path.centres)])
     # what is not a number makes the largest one none, and no comparison holds
-    sound = all(bool(np.abs(array).max(initial=0.0) <= LARGEST) for array in arrays)
+    sound = bool(np.abs(numbers, out=numbers).max(initial=0.0) <= LARGEST)
     return sound and isfinite(radius) and 0.0 <= radius <= LARGEST
 
 
@@ -140,8 +140,10 @@ def _judged(ground: _Ground, side: Side, radius: float, numbers: Floats, moves: 
 
 def _own(moves: Measured, numbers: Floats, walls: Measured, segments: Floats, side: Side, radius: float) -> Beside:
     """The moves that run beside the wall of their number, where there are enough walls for that to save time."""
+    if len(walls) <= FEW:
+        return NOBODY
     known = segments[walls.rows]
-    if len(known) <= FEW or not (known[1:] > known[:-1]).all():
+    if not (known[1:] > known[:-1]).all():
         return NOBODY
     mine = numbers[moves.rows]
     wall = np.minimum(np.searchsorted(known, mine), len(known) - 1)

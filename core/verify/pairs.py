@@ -53,7 +53,10 @@ def pairs_of(
         i, j = unproved_pairs(moves, centre.boxes, walls, surface.boxes, own, reach, radius + CLEAR * exact)
     else:
         i, j = near_pairs(centre.boxes, surface.boxes, reach)
-    grant = exact + _slack(moves, i) + _slack(walls, j)
+    grant = np.full(len(i), exact)
+    for pieces, rows in ((moves, i), (walls, j)):
+        if pieces.slack.any():
+            grant += pieces.slack[rows]
     touch = touches(centre, i, surface, j, radius, grant)
     near = (touch.apart <= reach).nonzero()[0]
     if len(near) < len(i):
@@ -66,11 +69,6 @@ def granted(surface: Measured) -> float:
     """What counts as exact: UNCUT, and four units in the last place of the largest coordinate or radius."""
     largest = max(np.abs(surface.start.view(np.float64)).max(), surface.radius.max())
     return UNCUT + 4.0 * ulp(largest)
-
-
-def _slack(pieces: Measured, rows: Rows) -> Floats:
-    """(m,) what the uneven radii of these pieces leave open."""
-    return pieces.slack[rows] if pieces.slack.any() else np.zeros(len(rows))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -91,23 +89,29 @@ class Approaches:
 
 def approaches(pairs: Pairs, limit: float) -> Approaches:
     """All pairs nearer than `limit` less the slack of both."""
+    measured = pairs.touch.apart.min(initial=np.inf)
+    least = float(pairs.own.apart.min(initial=measured))
+    if measured >= limit:
+        return _none(least, pairs.i[:0])
     deep = (pairs.touch.apart < limit).nonzero()[0]
-    near = measure(pairs, pairs.i[deep], pairs.j[deep], limit)
-    least = min(pairs.touch.apart.min(initial=np.inf), pairs.own.apart.min(initial=np.inf))
-    return replace(near, least=float(least))
+    return replace(measure(pairs, pairs.i[deep], pairs.j[deep], limit), least=least)
 
 
 def measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
     """Of these pieces those nearer than `limit` less the slack of both."""
     if not len(i):
-        none = np.zeros((8, 0))
-        return Approaches(np.inf, i, j, none, none, none[0])
+        return _none(np.inf, i)
     found = [
         _measure_block(pairs, i[block], j[block], limit)
         for block in blocks(pairs.centre.arcs[i], pairs.surface.arcs[j])
     ]
     columns = zip(*((one.i, one.j, one.places, one.apart, one.limit) for one in found), strict=True)
     return Approaches(min(one.least for one in found), *(np.concatenate(column, axis=-1) for column in columns))
+
+
+def _none(least: float, nobody: Rows) -> Approaches:
+    places = np.zeros((8, 0))
+    return Approaches(least, nobody, nobody, places, places, places[0])
 
 
 def _measure_block(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:

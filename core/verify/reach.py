@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
@@ -15,6 +16,9 @@ from core.geometry.boxes import nearest_boxes
 from core.geometry.distance import band_places, between, distance
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, blocks
 from core.tolerance import ON_PATH
+
+FEW: Final = 400
+"""Pairs of points and pieces all of which are measured: looking for the near ones costs more."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -105,9 +109,9 @@ class Nearest:
     j: Rows
     apart: Floats
 
-    def followed(self, other: Nearest) -> Nearest:
-        """These pairs and then the other ones, whose points come behind."""
-        k, j = np.concatenate((self.k, other.k)), np.concatenate((self.j, other.j))
+    def followed(self, other: Nearest, count: int) -> Nearest:
+        """These pairs, of `count` points, and then the other ones, whose points come behind."""
+        k, j = np.concatenate((self.k, count + other.k)), np.concatenate((self.j, other.j))
         return Nearest(k, j, np.concatenate((self.apart, other.apart)))
 
 
@@ -118,14 +122,17 @@ def nearest(
 
     `bounds` are the pieces' boxes, `known` (n,) distances within which there is a piece for sure.
     """
+    if 0 < len(points) * len(pieces) <= FEW:
+        apart = distance(pieces, np.broadcast_to(points[:, None], (len(points), len(pieces))))
+        k, j = (apart <= apart.min(axis=1)[:, None] + tie).nonzero()
+        return Nearest(k, j, apart[k, j])
     within = np.full(len(points), np.inf) if known is None else known
     k, j = nearest_boxes(points, bounds, within, tie + ON_PATH)
     apart = distance(pieces.take(j), points[k])
-    return least_of(k, j, apart, len(points), tie)
+    return least_of(k, j, apart, k.searchsorted(np.arange(len(points))), tie)
 
 
-def least_of(k: Rows, j: Rows, apart: Floats, count: int, tie: float) -> Nearest:
-    """The pairs of each k (rising, each of 0 ... count - 1 present) with the least distance, and ties."""
-    least = np.minimum.reduceat(apart, np.searchsorted(k, np.arange(count)))
-    keep = apart <= least[k] + tie
+def least_of(k: Rows, j: Rows, apart: Floats, starts: Rows, tie: float) -> Nearest:
+    """The pairs of each k (0 ... rising by 1, from `starts` on each) with the least distance, and ties."""
+    keep = (apart <= np.minimum.reduceat(apart, starts)[k] + tie).nonzero()[0]
     return Nearest(k[keep], j[keep], apart[keep])

@@ -31,6 +31,14 @@ class Reached:
         return Stretches(first[wide], last[wide]), near.take(wide, axis=1)
 
 
+def covered(pairs: Pairs) -> bool:
+    """Every wall is reached from end to end by a single piece of the centre path, for sure."""
+    touch, whole = pairs.touch, np.zeros(len(pairs.surface), np.bool_)
+    whole[: len(pairs.own.last)] = (pairs.own.first <= 0.0) & (pairs.own.last >= 1.0)
+    whole[pairs.j[~touch.unsure & (touch.first <= 0.0) & (touch.last >= 1.0)]] = True
+    return bool(whole.all())
+
+
 def reached(pairs: Pairs, radius: float) -> Reached:
     """The stretches of surface within the radius of the centre path.
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction, place
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, at_and_along, place
 from core.geometry.side import Side
 from core.tolerance import JOINED, ON_PATH
 from core.verify.crossing import Crossings
@@ -61,19 +61,18 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, known
     if not len(pairs.surface) or not len(pairs.centre):
         return ()
     tie = tie_of(pairs.surface, surface)
-    contact = _contact(pairs, reach, tie)
-    rows = contact.k[changes(contact.k)]
-    s = (pairs.centre_stations[rows] + pairs.centre_stations[rows + 1]) / 2.0
-    points, near = at(pairs.centre.take(rows), np.full(len(rows), 0.5)), replace(contact, k=_counted(contact.k))
-    settled = pairs.own.settled(len(pairs.centre))
+    rows, near = _contact(pairs, reach, tie)
+    stations = pairs.centre_stations
+    settled, count = pairs.own.settled(len(pairs.centre)), len(rows)
     settled[rows] = True
+    s, t = (stations[rows] + stations[rows + 1]) / 2.0, np.full(count, 0.5)
     more = _samples(pairs, (~settled).nonzero()[0], found, surface)
     if len(more):
-        index, t = place(pairs.centre, pairs.centre_stations, more)
-        spots = at(pairs.centre.take(index), t)
-        beyond = nearest(spots, pairs.surface, pairs.surface_boxes, tie=tie)
-        near = near.followed(replace(beyond, k=len(rows) + beyond.k))
-        s, points, rows = np.concatenate((s, more)), np.concatenate((points, spots)), np.concatenate((rows, index))
+        index, share = place(pairs.centre, stations, more)
+        s, t, rows = np.concatenate((s, more)), np.concatenate((t, share)), np.concatenate((rows, index))
+    points = at(pairs.centre.take(rows), t)
+    if len(more):
+        near = near.followed(nearest(points[count:], pairs.surface, pairs.surface_boxes, tie=tie), count)
     wrong = np.zeros(len(pairs.centre), np.bool_)
     told = on_part_side(pairs, points, near, surface)
     if surface.crossed:
@@ -87,17 +86,18 @@ def tie_of(surface: Measured, sides: Sided) -> float:
     return ON_PATH + (float(np.abs(surface.end[-1] - surface.start[0])) if sides.endless else 0.0)
 
 
-def _contact(pairs: Pairs, reach: float, tie: float) -> Nearest:
-    """For each piece whose middle is within reach the surface pieces nearest to it there.
+def _contact(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Nearest]:
+    """Pieces whose middle is within reach, rising, and for each the surface pieces nearest to it there.
 
     Own pieces and corners are on the cutter's side of their walls, and only there if other walls are as near.
     """
     i, j, middle = _as_near_as_own(pairs, reach, tie)
     if not len(i):
-        return Nearest(i, i, np.zeros(0))
-    rows = i[changes(i)]
-    near = least_of(_counted(i), j, middle, len(rows), tie)
-    return Nearest(rows[near.k], near.j, near.apart)
+        return i, Nearest(i, i, middle)
+    begins = np.ones(len(i), np.bool_)
+    np.not_equal(i[1:], i[:-1], out=begins[1:])
+    starts = begins.nonzero()[0]
+    return i[starts], least_of(begins.cumsum() - 1, j, middle, starts, tie)
 
 
 def _as_near_as_own(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Rows, Floats]:
@@ -124,13 +124,6 @@ def _as_near_as_own(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Rows,
     return i[order], j[order], np.concatenate((middle[close], apart[chosen]))[order]
 
 
-def _counted(rising: Rows) -> Rows:
-    """Rising numbers replaced by 0, 1, 2 ... for their distinct values."""
-    counted = np.zeros(len(rising), np.intp)
-    np.not_equal(rising[1:], rising[:-1], out=counted[1:], casting="unsafe")
-    return counted.cumsum()
-
-
 def _samples(pairs: Pairs, rows: Rows, found: Gouging, surface: Sided) -> Floats:
     """Places along the centre path that stand for these pieces, and beside an open contour for the gouges."""
     first, last = pairs.centre_stations[rows], pairs.centre_stations[rows + 1]
@@ -147,14 +140,15 @@ def on_part_side(pairs: Pairs, points: Points, near: Nearest, surface: Sided) ->
     if not len(points):
         return np.zeros(0, np.bool_)
     piece = pairs.surface.take(near.j)
-    t = foot(piece, points[near.k])
-    off = points[near.k] - at(piece, t)
-    sine = (np.conj(direction(piece, t)) * off).imag / np.where(near.apart < ON_PATH, np.inf, near.apart)
-    starts = np.searchsorted(near.k, np.arange(len(points)))
+    spots = points[near.k]
+    t = foot(piece, spots)
+    touched, along = at_and_along(piece, t)
+    sine = (np.conj(along) * (spots - touched)).imag / np.where(near.apart < ON_PATH, np.inf, near.apart)
+    starts = changes(near.k)
     wrong = np.add.reduceat(sine, starts) * surface.side.sign < -CLEARLY
     if not surface.endless:
-        touched = pairs.surface_stations[near.j] + t * piece.length
-        outside = (touched <= surface.first + JOINED) | (touched >= surface.last - JOINED)
+        foot_at = pairs.surface_stations[near.j] + t * piece.length
+        outside = (foot_at <= surface.first + JOINED) | (foot_at >= surface.last - JOINED)
         wrong &= ~np.logical_or.reduceat(outside, starts)
     return wrong
 

@@ -57,7 +57,11 @@ class Touches:
 
 
 class _Block(NamedTuple):
-    """m pairs worked out at once: their pieces, their columns, and which of them are arcs."""
+    """m pairs worked out at once: their pieces, their columns, and which of them are arcs.
+
+    Few pairs have the columns of both in one array `pair` (15 or 5, 2, m), and `bent` (2, m): the steps cost more than
+    the pairs.
+    """
 
     i: Rows
     j: Rows
@@ -65,6 +69,8 @@ class _Block(NamedTuple):
     other: Floats
     bent_one: Flags
     bent_other: Flags
+    pair: Floats | None = None
+    bent: Flags | None = None
 
 
 def touches(centre: Course, i: Rows, surface: Course, j: Rows, radius: float, grant: Floats) -> Touches:
@@ -74,11 +80,7 @@ def touches(centre: Course, i: Rows, surface: Course, j: Rows, radius: float, gr
     """
     limit = radius + grant
     found = _blank(len(i))
-    bent_one, bent_other = centre.pieces.arcs[i], surface.pieces.arcs[j]
-    for rows in _blocks(bent_one, bent_other):
-        bent = bent_one[rows], bent_other[rows]
-        columns = taken(centre.columns, i[rows], bent[0]), taken(surface.columns, j[rows], bent[1])
-        block = _Block(i[rows], j[rows], *columns, *bent)
+    for rows, block in _blocks(centre, i, surface, j):
         within, places = _measure(found, rows, block, limit[rows])
         found.first[rows], found.last[rows] = _hull(within, places, block, centre.pieces, surface.pieces)
         found.unsure[rows] = _unsure(found, rows, block, centre.pieces, surface.pieces)
@@ -92,16 +94,28 @@ def _blank(count: int) -> Touches:
     return Touches(apart, first, last, flags[0], middle, flags[1])
 
 
-def _blocks(one: Flags, other: Flags) -> Iterator[Rows | slice]:
+def _blocks(centre: Course, i: Rows, surface: Course, j: Rows) -> Iterator[tuple[Rows | slice, _Block]]:
     """Indices of pairs, parted by which of the two pieces are arcs, at most BLOCK at a time; few pairs all at once."""
-    if len(one) <= FEW:
-        yield slice(None)
+    one, other = centre.pieces.arcs[i], surface.pieces.arcs[j]
+    if len(i) <= FEW:
+        yield slice(None), _few(centre.columns, i, surface.columns, j, np.array((one, other)))
         return
     kinds = _kinds(one, other)
     for kind in range(4):
         rows = (kinds == kind).nonzero()[0]
         for start in range(0, len(rows), BLOCK):
-            yield rows[start : start + BLOCK]
+            some = rows[start : start + BLOCK]
+            bent = one[some], other[some]
+            columns = taken(centre.columns, i[some], bent[0]), taken(surface.columns, j[some], bent[1])
+            yield some, _Block(i[some], j[some], *columns, *bent)
+
+
+def _few(centre: Floats, i: Rows, surface: Floats, j: Rows, bent: Flags) -> _Block:
+    """All pairs as one block; a line's arc columns mean nothing."""
+    rows = len(Columns._fields) if np.count_nonzero(bent) else STRAIGHT
+    pair = np.zeros((rows, 2, len(i)))
+    pair[: len(centre), 0], pair[: len(surface), 1] = centre[:rows].take(i, axis=1), surface[:rows].take(j, axis=1)
+    return _Block(i, j, pair[:, 0], pair[:, 1], bent[0], bent[1], pair, bent)
 
 
 def _kinds(one: Flags, other: Flags) -> NDArray[np.int8]:
@@ -113,43 +127,59 @@ def _kinds(one: Flags, other: Flags) -> NDArray[np.int8]:
 def _measure(found: Touches, rows: Rows | slice, block: _Block, limit: Floats) -> tuple[Flags, Floats]:
     """Distances of the pairs; (4, m) whether the surface pieces' ends and the centre pieces' ends, start and end of
     each, are within the limit of the other piece; and (4, m) fractions of surface lines nearest to these."""
-    a, b = Columns(*block.one), Columns(*block.other)
-    middle_x, middle_y = middle(a, block.bent_one)
-    x, y = np.array((a.x, a.x + a.along, middle_x)), np.array((a.y, a.y + a.up, middle_y))
-    mine, nearest = to_piece(x, y, b, block.bent_other)
-    x, y = np.array((b.x, b.x + b.along)), np.array((b.y, b.y + b.up))
-    theirs, _ = to_piece(x, y, a, block.bent_one)
+    mine, theirs, nearest = _to_ends(block)
     ends, places = np.concatenate((theirs, mine[:2])), np.empty((4, len(limit)))
-    places[0], places[1], places[2:] = 0.0, 1.0, nearest[:2]
+    places[0], places[1], places[2:] = 0.0, 1.0, nearest
     found.middle[rows] = mine[2]
     found.along[rows] = mine.max(axis=0) <= limit + STOCK
     found.apart[rows] = np.minimum(ends.min(axis=0), _between_ends(block))
     return ends <= limit, places
 
 
+def _to_ends(block: _Block) -> tuple[Floats, Floats, Floats]:
+    """(3, m) distances of the centre pieces' starts, ends and middles from the surface pieces, (2, m) of the surface
+    pieces' ends from the centre pieces, and (2, m) fractions of surface lines nearest to the centre pieces' ends."""
+    if block.pair is not None and block.bent is not None:
+        x, y = _spots(Columns(*block.pair), block.bent)
+        apart, nearest = to_piece(x, y, Columns(*block.pair[:, ::-1]), block.bent[::-1])
+        return apart[:, 0], apart[:2, 1], nearest[:2, 0]
+    a, b = Columns(*block.one), Columns(*block.other)
+    mine, nearest = to_piece(*_spots(a, block.bent_one), b, block.bent_other)
+    x, y = np.array((b.x, b.x + b.along)), np.array((b.y, b.y + b.up))
+    theirs, _ = to_piece(x, y, a, block.bent_one)
+    return mine, theirs, nearest[:2]
+
+
+def _spots(pieces: Columns, bent: Flags) -> tuple[Floats, Floats]:
+    """Starts, ends and middles."""
+    x, y = middle(pieces, bent)
+    return np.array((pieces.x, pieces.x + pieces.along, x)), np.array((pieces.y, pieces.y + pieces.up, y))
+
+
 def _between_ends(block: _Block) -> Floats:
     """Least distances that lie between the ends of both pieces; infinite where there is none."""
-    one, other = block.one, block.other
-    kinds = _kinds(block.bent_one, block.bent_other)
-    lines, first, second, arcs = ((kinds == kind).nonzero()[0] for kind in range(4))
-    if len(lines) == len(kinds):
-        return lines_cross(one, other)
-    if len(first) == len(kinds):
-        return line_to_arc(one, other)
-    if len(second) == len(kinds):
-        return line_to_arc(other, one)
-    if len(arcs) == len(kinds):
-        return arc_to_arc(one, other)
-    apart = np.empty(len(kinds))
-    if len(lines):
-        apart[lines] = lines_cross(one[:STRAIGHT].take(lines, axis=1), other[:STRAIGHT].take(lines, axis=1))
+    if block.pair is not None and block.bent is not None:
+        return _between_few(block.pair, block.bent)
+    bent_one, bent_other = block.bent_one[0], block.bent_other[0]
+    if bent_one and bent_other:
+        return arc_to_arc(block.one, block.other)
+    if bent_one:
+        return line_to_arc(block.other, block.one)
+    return line_to_arc(block.one, block.other) if bent_other else lines_cross(block.one, block.other)
+
+
+def _between_few(pair: Floats, bent: Flags) -> Floats:
+    """The same of pairs of any kinds."""
+    apart = np.empty(bent.shape[1])
+    arcs, mixed = (bent[0] & bent[1]).nonzero()[0], (bent[0] != bent[1]).nonzero()[0]
+    if len(arcs) + len(mixed) < len(apart):
+        lines = (~(bent[0] | bent[1])).nonzero()[0]
+        apart[lines] = lines_cross(*pair[:STRAIGHT].take(lines, axis=2).swapaxes(0, 1))
     if len(arcs):
-        apart[arcs] = arc_to_arc(one.take(arcs, axis=1), other.take(arcs, axis=1))
-    mixed = [part for part in ((first, one, other), (second, other, one)) if len(part[0])]
-    if mixed:
-        straight = np.concatenate([line[:STRAIGHT].take(rows, axis=1) for rows, line, _ in mixed], axis=1)
-        bent = np.concatenate([arc.take(rows, axis=1) for rows, _, arc in mixed], axis=1)
-        apart[np.concatenate((first, second))] = line_to_arc(straight, bent)
+        apart[arcs] = arc_to_arc(*pair.take(arcs, axis=2).swapaxes(0, 1))
+    if len(mixed):
+        arc = bent[1, mixed].astype(np.intp)
+        apart[mixed] = line_to_arc(pair[:STRAIGHT, 1 - arc, mixed], pair[:, arc, mixed])
     return apart
 
 
@@ -162,8 +192,9 @@ def _hull(within: Flags, places: Floats, block: _Block, centre: Measured, surfac
     if np.count_nonzero(block.bent_other):
         within[2:] &= ~(within[0] & within[1])
         end, row = (within[2:] & block.bent_other).nonzero()
-        i, j = block.i[row], block.j[row]
-        places[end + 2, row] = foot(surface.take(j), centre.start[i] + end * centre.vector[i])
+        if len(row):
+            i, j = block.i[row], block.j[row]
+            places[end + 2, row] = foot(surface.take(j), centre.start[i] + end * centre.vector[i])
     first: Floats = np.where(within, places, NONE).min(axis=0)
     last: Floats = np.where(within, places, -NONE).max(axis=0)
     return first, last

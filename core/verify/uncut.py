@@ -14,7 +14,7 @@ from core.verify.farthest import Farthest
 from core.verify.gaps import Bound, bounds, thickest
 from core.verify.pairs import Pairs
 from core.verify.reach import Stretches
-from core.verify.reached import reached
+from core.verify.reached import covered, reached
 from core.verify.verdict import NOTHING, UncutStretches
 
 
@@ -24,6 +24,8 @@ def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool, side: Sid
     In a closed contour a stretch that runs over START stands last.  What is nowhere thicker than STOCK is left out.
     Areas are told of what lies on the cutter's `side`.
     """
+    if covered(pairs):
+        return NOTHING
     total = float(pairs.surface_stations[-1])
     gaps, near = reached(pairs, radius).gaps(total)
     if not len(gaps):

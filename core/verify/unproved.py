@@ -72,6 +72,8 @@ def company_boxes(around: Floats, own: Beside) -> Floats:
 def clear(centre: Measured, i: Rows, surface: Measured, j: Rows, far: float) -> Flags:
     """Pairs of two lines of which one is wholly on one side of the other's endless line, and farther than `far`."""
     parted = np.zeros(len(i), np.bool_)
+    if not len(i):
+        return parted
     lines = ((centre.turn[i] == 0.0) & (surface.turn[j] == 0.0)).nonzero()[0]
     if not len(lines):
         return parted
