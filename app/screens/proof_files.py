@@ -21,7 +21,7 @@ from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.rows import Look, plain
 from core.program.disk import why
-from core.program.store import StoreError, write_data
+from core.program.store import StoreError, refuse_program, write_data
 from core.records import dataclass
 from core.units import printable
 
@@ -92,10 +92,7 @@ def _saved(desk: Desk, path: Path | None, *, agreed: bool) -> Desk:
     target = page.file if path is None else chosen(path, page.file)
     if target is None:
         return desk.take(Open(SaveListing.of(page)))
-    if page.looking and target == page.file:
-        return desk.take(Say(f"{page.looking} S saves a copy under another name.", Tone.ERROR))
-    if _standing(desk, target) not in (None, page):
-        said = f"{printable(target.name)} is open below this screen. Type another name."
+    if said := _refused(desk, page, target):
         return desk.take(Say(said, Tone.ERROR))
     if not agreed and target != page.file and outside(target, page.file):
         return desk.take(Open(asking(target, page.file, saving(target, agreed=True), target.name)))
@@ -111,6 +108,19 @@ def _saved(desk: Desk, path: Path | None, *, agreed: bool) -> Desk:
     written = replace(page, asked=page.asked.of(page.listing.written(data)), file=target, looking="")
     told = None if page.told is None or not page.fresh else replace(page.told, question=written.asked)
     return put(desk, replace(written, told=told)).take(Say(f"Saved: {written_at(target)}"))
+
+
+def _refused(desk: Desk, page: ProofPage, target: Path) -> str:
+    """Why a file is not written, whatever the operator answers; empty where it may be."""
+    if page.looking and target == page.file:
+        return f"{page.looking} S saves a copy under another name."
+    if _standing(desk, target) not in (None, page):
+        return f"{printable(target.name)} is open below this screen. Type another name."
+    try:
+        refuse_program(target)
+    except StoreError as error:
+        return str(error)
+    return ""
 
 
 def _question(page: ProofPage, target: Path) -> tuple[str, str] | None:

@@ -14,6 +14,7 @@ from app.screens.program import ProgramPage
 from app.screens.proof import ProofPage
 from app.screens.proof_files import ProofBrowse, browsing, opening
 from app.session import Session
+from core.program.store import save
 from tests.app.prover import SQUARE, Prover, square
 
 
@@ -146,3 +147,14 @@ def test_unsaved_lines_are_not_lost_to_another_program(tmp_path: Path) -> None:
     desk = prover.desk.take(Load(tmp_path / "a.toml"))
     assert isinstance(desk.page, ProofPage)
     assert "not saved" in desk.session.said.text
+
+
+def test_an_nc_file_never_takes_the_place_of_a_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    part = tmp_path / "part.toml"
+    save(empty_program(), part)
+    before = part.read_bytes()
+    prover = square().press("S", *str(part), "enter")
+    assert "is a program, which would be lost" in prover.said
+    prover.press("r")
+    assert part.read_bytes() == before
