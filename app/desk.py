@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Final, assert_never
 
-from app.joined import TORN
+from app.joined import TOLD
 from app.messages import (
     Browse,
     Close,
@@ -47,7 +47,6 @@ WRITING: Final = frozenset({"ctrl+s", "ctrl+o", "ctrl+z", "ctrl+y"})
 ARMED: Final = "1 to 8 press the softkey now, for 2 seconds. Anything else goes on typing, Esc ends it."
 WALKING: Final = frozenset({"enter", "tab", "shift+tab", "up", "down", "left", "right", "pageup", "pagedown"})
 """Keys that only take the cursor elsewhere while nothing is half typed."""
-CAME_TORN: Final = "The link split a key in two: the first part was taken for Esc. Look, and press it again."
 EVERYWHERE: Final = frozenset(
     {"ctrl+z", "ctrl+y", "ctrl+s", "ctrl+o", "ctrl+q", "ctrl+c", "ctrl+k", "ctrl+g", "ctrl+f"}
 )
@@ -94,8 +93,8 @@ class Desk:
         said = self.session.said
         quiet = self.session if said is not None and said.stays and key in WALKING else self.session.quiet()
         armed, desk = self.armed, replace(self, session=quiet, armed=False)
-        if key == TORN:
-            return desk.take(Say(CAME_TORN, Tone.WARNING))
+        if key in TOLD:
+            return desk.take(Say(TOLD[key], Tone.WARNING))
         if key in AT_ONCE:
             return desk._at_once(AT_ONCE[key])
         if armed and key in DIGITS and desk._labelled(int(key)):

@@ -24,7 +24,7 @@ from textual.message import Message
 from app.abilities import ascii_only
 from app.charset import ASCII, UTF_8, charset
 from app.desk import MODES
-from app.joined import TORN, Joined, delay
+from app.joined import TOLD, Joined, delay
 from app.shown import Shown, Texts
 
 if TYPE_CHECKING:
@@ -140,8 +140,8 @@ class TerminalDriver(LinuxDriver):
 
 def messages(parser: XTermParser, key: str) -> Iterator[Message]:
     """What Textual's parser makes of a whole key; of one that it does not know nothing, least of all text."""
-    if key == TORN:
-        yield events.Key(TORN, None)
+    if key in TOLD:
+        yield events.Key(key, None)
         return
     yield from parser.feed(key)
     if parser._timeout_time is not None:

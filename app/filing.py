@@ -158,14 +158,13 @@ def _before_posting(file: Path | None, path: Path, message: Post) -> Ask | None:
 
 
 def _said_of(result: Posted, name: str, unit: Unit) -> Say:
-    """What was posted, in spite of what, and what is to be said with it; a warning stands before the name."""
+    """What was posted, in spite of what, and what is to be said with it."""
     told = " ".join(placed(note, unit) for note in result.notes)
     file = f"{name}, {result.text.count(chr(10))} lines."
     if result.overridden:
         return Say(f"Posted {in_spite(result.overridden)}: {file} The file says so. {told}".rstrip(), Tone.WARNING)
-    if all(note.severity is Severity.INFO for note in result.notes):
-        return Say(f"Posted: {file} {told}".rstrip())
-    return Say(f"{told} Posted: {file}", Tone.WARNING)
+    grave = any(note.severity is not Severity.INFO for note in result.notes)
+    return Say(f"Posted: {file} {told}".rstrip(), Tone.WARNING if grave else Tone.PLAIN)
 
 
 def _leave(desk: Desk, message: Leave) -> Desk:

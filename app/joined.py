@@ -16,12 +16,23 @@ from core.records import dataclass
 ESC: Final = "\x1b"
 TORN: Final = "torn"
 """In place of characters: the rest of a key whose Esc has been taken for the key Esc."""
+UNENDED: Final = "unended"
+"""In place of characters: pasted text whose end did not come."""
+TOLD: Final = {
+    TORN: "The link split a key in two: the first part was taken for Esc. Look, and press it again.",
+    UNENDED: "Pasted text came without its end: nothing of it was taken. Look, and type it or paste it again.",
+}
+"""What is said of them."""
 DELAY: Final = 0.3
 """Seconds Esc waits for the rest of a key, unless the environment's ESCDELAY says how many milliseconds."""
 TOGETHER: Final = 0.1
 """Seconds within which Esc and a character are one key, as a terminal sends it; fingers take longer."""
 REST: Final = 1.0
 """Seconds a key that has certainly begun waits for its rest."""
+PASTING: Final = 10.0
+"""Seconds in which nothing comes of pasted text behind which its end is not waited for any more."""
+MOST: Final = 20_000
+"""Characters of pasted text that are held; no field and no line takes as many."""
 LATE: Final = 2.0
 """Seconds behind Esc, or behind a key told torn, in which the rest of a key is recognised."""
 LONGEST: Final = 32
@@ -64,6 +75,8 @@ class Joined:
     @property
     def due(self) -> float | None:
         """When `tick` is to be called if nothing arrives; None where nothing is held."""
+        if self.paste is not None:
+            return self.last + PASTING
         if not self.held:
             return None
         if self.held == ESC:
@@ -72,15 +85,18 @@ class Joined:
 
     def feed(self, text: str, now: float) -> Iterator[str]:
         """Whole keys, single characters, whole pastes and `TORN`, out of what has arrived."""
+        self.last = now if text else self.last
         while text:
             if self.paste is None:
                 yield from self._take(text[0], now)
                 text = text[1:]
                 continue
             body, end, text = (self.paste + text).partition(PASTED)
-            self.paste = None if end else body
+            # the last characters may be the beginning of the end
+            short = body if len(body) <= MOST else body[:MOST] + body[-len(PASTED) :]
+            self.paste = None if end else short
             if end:
-                yield f"{PASTE}{body}{PASTED}"
+                yield f"{PASTE}{short}{PASTED}"
         # a click's characters come with it
         self.clicked = 0
 
@@ -88,14 +104,17 @@ class Joined:
         """What is held, if its time is over."""
         if self.due is None or now < self.due:
             return
-        if self.held == ESC or self.held.startswith(f"{ESC}["):
+        if self.paste is not None:
+            self.paste = None
+            yield UNENDED
+        elif self.held == ESC or self.held.startswith(f"{ESC}["):
             self.cut, self.held, self.escaped = self.held, "", now
             yield ESC if self.cut == ESC else TORN
         else:
             yield from self._as_typed()
 
     def _take(self, character: str, now: float) -> Iterator[str]:
-        self.last, held = now, self.held
+        held = self.held
         if self.clicked:
             self.clicked -= 1
         elif character == ESC:

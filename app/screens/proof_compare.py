@@ -6,9 +6,10 @@ from dataclasses import replace
 from textwrap import wrap
 from typing import TYPE_CHECKING, ClassVar
 
-from app.messages import Close, Do, Message
+from app.messages import Close, Do, Message, Say
 from app.proving import Question, Told
 from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, View
+from app.screens.proof_findings import BACK
 from app.session import Said, Session
 from app.widgets.rows import Look, Row, Span, plain
 from core.records import dataclass
@@ -51,6 +52,10 @@ class ComparePage(Page):
         if key in steps:
             return Answer(replace(self, at=min(max(self.at + steps[key], 0), max(len(self.rows) - 1, 0))))
         return Answer(self, self._taken()) if key == "enter" and self.rows else None
+
+    def everywhere(self, key: str, session: Session) -> Answer | None:
+        """What changes the listing, or saves it, waits until it is seen."""
+        return Answer(self, (Say(BACK),)) if key in ("ctrl+z", "ctrl+y", "ctrl+s") else None
 
     def escape(self, session: Session) -> Answer | None:
         """Back."""

@@ -6,6 +6,7 @@ The strip on its first line tells every look-ahead value's fate; below it stand 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from math import isfinite
 from textwrap import wrap
 from typing import TYPE_CHECKING, Final
@@ -92,7 +93,16 @@ def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | Non
     lines: list[Row | Erased] = [] if case is None else list(_case_lines(case, unit))
     notes = () if table is None else table.notes
     gravest = 1 if case is not None and case.verdict.gouges else 0
-    return [first, *lines[:gravest], *errors, *lines[gravest:], *notes, *rest]
+    cause = _misplaced(rest) if gravest else []
+    rest = [one for one in rest if one not in cause]
+    told = [replace(one, segment=None) for one in cause]
+    return [first, *told, *lines[:gravest], *errors, *lines[gravest:], *notes, *rest]
+
+
+def _misplaced(findings: list[Finding]) -> list[Finding]:
+    """That START is away from the contour's end, where the contour crosses itself: what gouges there comes of it."""
+    crossing = any(one.code == "CROSSES_ITSELF" for one in findings)
+    return [one for one in findings if crossing and one.code == "OPEN"]
 
 
 def _needed(table: Table | None) -> list[Finding]:

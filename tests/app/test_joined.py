@@ -12,7 +12,9 @@ from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
 from textual._xterm_parser import XTermParser
 
 from app.driver import messages
-from app.joined import CLICK, DELAY, ESC, LATE, REST, TOGETHER, TORN, Joined, delay
+from app.joined import CLICK, DELAY, ESC, LATE, MOST, PASTING, REST, TOGETHER, TORN, UNENDED, Joined, delay
+from core.program.model import Entry
+from tests.app.operator import Operator
 
 TAILS = ("[A", "[D", "[5~", "[18~", "[1;5H", "[[A", "[Z", "OS", "OP", "OM", "[?2026;1$y", "[<0;3;4M", "[99~")
 LONG = 60.0
@@ -145,6 +147,35 @@ def test_a_paste_comes_whole_however_it_was_split() -> None:
         assert arrived(whole[:place], 5.0, whole[place:], "7") == [whole, "7"]
 
 
+def test_a_paste_whose_end_does_not_come_is_told_and_keys_work_again() -> None:
+    for begun in ("", "1.5", "x" * 40):
+        assert arrived(f"{ESC}[200~{begun}", PASTING, "7", f"{ESC}[D") == [UNENDED, "7", f"{ESC}[D"]
+    assert arrived(f"{ESC}[200~1", 8.0, "2", 8.0, f"3{ESC}[201~", "7") == [f"{ESC}[200~123{ESC}[201~", "7"]
+    assert arrived(f"{ESC}[200~1", PASTING, f"{ESC}[201~", "7") == [UNENDED, f"{ESC}[201~", "7"]
+
+
+def test_pasted_text_without_an_end_is_said_and_a_half_typed_number_stays() -> None:
+    one = Operator.at().press("tab", "1", UNENDED)
+    assert one.said.startswith("! Pasted text came without its end: nothing of it was taken.")
+    one.press("2", "enter")
+    assert one.block.tool == Entry(12.0)
+
+
+def test_a_paste_of_any_length_holds_no_more_than_its_beginning() -> None:
+    joined = Joined(ANSI_SEQUENCES_KEYS)
+    piece = "0123456789" * 400
+    assert list(joined.feed(f"{ESC}[200~", 0.0)) == []
+    for second in range(30):
+        assert list(joined.feed(piece, float(second))) == []
+        assert joined.paste is not None
+        assert len(joined.paste) < MOST + len(piece)
+    assert list(joined.feed(f"{ESC}[20", 31.0)) == []
+    (whole,) = joined.feed("1~", 31.0)
+    assert whole.startswith(f"{ESC}[200~{piece}")
+    assert whole.endswith(f"{ESC}[201~")
+    assert len(whole) < MOST + len(piece)
+
+
 def test_a_click_that_another_program_asked_for_types_nothing() -> None:
     assert arrived(f"{CLICK} !!7") == ["7"]
     assert arrived(CLICK, 0.2, "7") == ["7"]
@@ -165,7 +196,7 @@ def keys(*units: str) -> list[tuple[str, str | None]]:
 
 def test_textual_makes_the_keys_of_them() -> None:
     assert keys(ESC, f"{ESC}[D", "7", f"{ESC}OS") == [("escape", ESC), ("left", None), ("7", "7"), ("f4", None)]
-    assert keys(TORN) == [(TORN, None)]
+    assert keys(TORN, UNENDED) == [(TORN, None), (UNENDED, None)]
     assert keys(f"{ESC}[?1;2c", f"{ESC}[1;9z", "7") == [("7", "7")]
     assert keys(f"{ESC}x", "y") == [("alt+x", "x"), ("y", "y")]
     pasted = [one for one in messages(XTermParser(), f"{ESC}[200~1.5\r{ESC}[201~") if isinstance(one, events.Paste)]

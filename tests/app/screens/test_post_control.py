@@ -45,7 +45,8 @@ def test_the_program_of_a_control_is_written(tmp_path: Path, monkeypatch: pytest
 def test_what_the_control_does_otherwise_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     one = operator("plate-mm").press(*["down"] * 5, *str(tmp_path / "a.nc"), "enter")
-    assert one.said.startswith("! Segment")
+    assert one.said.startswith("! Posted: a.nc, ")
+    assert "lines. Segment" in one.said
     assert "nine-series:a goes round corners its own way" in one.said
 
 

@@ -16,6 +16,7 @@ from app.session import Session
 from app.widgets.rows import Look
 from core.controls.tools import CutterTool
 from core.finding import Finding, Severity
+from core.program.edit import insert_block
 from core.units import Unit, sentence
 from tests.app.operator import Operator
 from tests.app.prover import CORNER, SQUARE, Prover, square
@@ -183,6 +184,18 @@ def test_the_control_is_changed_and_all_are_compared() -> None:
     assert "by the contour" in text
     prover.press(*["down"] * 4, "enter")
     assert prover.page.control == "nine-series:b" == prover.page.told.proof.run.control
+
+
+@pytest.mark.parametrize("key", ["ctrl+z", "ctrl+y", "ctrl+s"])
+def test_what_lies_below_the_comparison_is_not_changed_unseen(key: str) -> None:
+    prover = Prover.of(CORNER, "rosettacnc:nist")
+    session = Session.of(empty_program())
+    session = session.apply(insert_block(session.program, 1), "new block")
+    prover.desk = replace(prover.desk, session=session)
+    prover.press("v", key)
+    assert prover.desk.session.history is session.history
+    assert isinstance(prover.desk.page, ComparePage)
+    assert prover.said == "Esc goes back to the listing first."
 
 
 def test_another_diameter_changes_the_verdict() -> None:

@@ -6,12 +6,15 @@ from dataclasses import replace
 
 import pytest
 
+from app.files import example
 from app.widgets.rows import text_of
 from app.widgets.verdict import verdict_rows
 from core.finding import Finding, Severity
 from core.pipeline.derive import derive
 from core.pipeline.outline import outline
 from core.pipeline.table import look_ahead_table
+from core.program.model import Entry
+from core.program.store import load
 from core.units import Unit
 from tests.app.squares import square
 
@@ -22,6 +25,24 @@ def test_error_warning_and_information_have_marks_of_their_own(weight: str, mark
     found = replace(outline(square().session.program).blocks[0], findings=(one,))
     told = [text_of(row) for row in verdict_rows(found, None, Unit.IN, None)]
     assert f" {mark} Told." in told
+
+
+def test_where_start_lies_elsewhere_that_is_told_before_what_comes_of_it() -> None:
+    pocket = load(example("pocket"))
+    (block,) = pocket.blocks
+    (found,) = derive(replace(pocket, blocks=(replace(block, y_start=Entry(7.0)),))).blocks
+    told = [text_of(row) for row in verdict_rows(found, None, Unit.IN, None)]
+    assert told[1] == " i  The contour is open: it ends 6.7500 from START."
+    assert told[2].startswith(" GOUGE ")
+    assert sum("from START" in row for row in told) == 1
+
+
+def test_a_contour_that_does_not_cross_itself_begins_with_its_gouge() -> None:
+    pocket = load(example("pocket"))
+    (block,) = pocket.blocks
+    (found,) = derive(replace(pocket, blocks=(replace(block, y_start=Entry(0.5)),))).blocks
+    assert "CROSSES_ITSELF" not in {one.code for one in found.findings}
+    assert text_of(verdict_rows(found, None, Unit.IN, None)[1]).startswith(" GOUGE ")
 
 
 def test_beside_every_value_of_the_table_stands_what_the_contour_needs_and_nothing_of_the_path_in_force() -> None:
