@@ -93,16 +93,19 @@ def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | Non
     lines: list[Row | Erased] = [] if case is None else list(_case_lines(case, unit))
     notes = () if table is None else table.notes
     gravest = 1 if case is not None and case.verdict.gouges else 0
-    cause = _misplaced(rest) if gravest else []
+    cause = _misplaced(findings) if gravest else []
     rest = [one for one in rest if one not in cause]
     told = [replace(one, segment=None) for one in cause]
     return [first, *told, *lines[:gravest], *errors, *lines[gravest:], *notes, *rest]
 
 
 def _misplaced(findings: list[Finding]) -> list[Finding]:
-    """That START is away from the contour's end, where the contour crosses itself: what gouges there comes of it."""
-    crossing = any(one.code == "CROSSES_ITSELF" for one in findings)
-    return [one for one in findings if crossing and one.code == "OPEN"]
+    """That START is away from the contour's end, where by that the contour crosses itself and turns its sides round.
+
+    A contour that only over-runs its start crosses itself too, and its gouges have other causes.
+    """
+    come_of_it = {"CROSSES_ITSELF", "WRONG_SIDE"} <= {one.code for one in findings}
+    return [one for one in findings if come_of_it and one.code == "OPEN"]
 
 
 def _needed(table: Table | None) -> list[Finding]:

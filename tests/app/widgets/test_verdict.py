@@ -37,6 +37,12 @@ def test_where_start_lies_elsewhere_that_is_told_before_what_comes_of_it() -> No
     assert sum("from START" in row for row in told) == 1
 
 
+def test_an_over_run_begins_with_its_gouge() -> None:
+    (found,) = derive(load(example("overrun-square"))).blocks
+    assert {"CROSSES_ITSELF", "OPEN"} <= {one.code for one in found.findings}
+    assert text_of(verdict_rows(found, None, Unit.IN, None)[1]).startswith(" GOUGE ")
+
+
 def test_a_contour_that_does_not_cross_itself_begins_with_its_gouge() -> None:
     pocket = load(example("pocket"))
     (block,) = pocket.blocks
