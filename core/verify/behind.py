@@ -14,14 +14,17 @@ import numpy as np
 from core.geometry.distance import foot, on_line
 from core.geometry.measured import Flags, Floats, Points, Rows, at, direction, place
 from core.tolerance import GOUGE, JOINED, ON_PATH
-from core.verify.farthest import FINE, Farthest, farthest
+from core.verify.farthest import FINE, farthest
 from core.verify.gouge import Gouging
 from core.verify.pairs import Pairs, measure
 from core.verify.reach import Nearest, Stretches, changes, nearest, union
-from core.verify.sides import Sided, on_part_side, tie_of
+from core.verify.sides import Sided, on_part_side
 
-NUDGED: Final = 1e-3
-"""Share of the way to a part's middle at which the side of its farthest place is asked for: at the end it has none."""
+SHARES: Final = np.linspace(0.0, 1.0, 65)[1:-1, None]
+"""(63, 1) shares of a part at which its side is asked for where walls may contradict each other."""
+
+HALVINGS: Final = 40
+"""Times that the place where the side changes is drawn nearer: to the last digit of any part's length."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -59,10 +62,12 @@ def behind(pairs: Pairs, found: Gouging, sides: Sided, radius: float) -> Behind:
         return NOWHERE
     cuts = _crossed_at(pairs, met), _ends_passed(pairs, stretches, sides), _joints(pairs, sides)
     runs = _parts(stretches, np.concatenate(cuts))
+    if not sides.endless:
+        runs = _parts(runs, _between_arms(pairs, runs, sides))
     runs = runs.keep(_wrong(pairs, (runs.first + runs.last) / 2.0, sides))
     if not len(runs):
         return NOWHERE
-    return _deepest(pairs, _parts(runs, pairs.centre_stations[1:-1]), sides)
+    return _deepest(pairs, _parts(runs, pairs.centre_stations[1:-1]))
 
 
 def deepened(found: Gouging, inside: Behind, radius: float, slack: float) -> Gouging:
@@ -132,6 +137,21 @@ def _ends_passed(pairs: Pairs, stretches: Stretches, sides: Sided) -> Floats:
     return np.concatenate(found)
 
 
+def _between_arms(pairs: Pairs, parts: Stretches, sides: Sided) -> Floats:
+    """Places where these parts change sides halfway between arms of an open contour, with its part's side of the one
+    and the cutter's of the other: nothing is met there."""
+    s = parts.first + SHARES * (parts.last - parts.first)
+    wrong = _wrong(pairs, s.ravel(), sides).reshape(s.shape)
+    changed = wrong[1:] != wrong[:-1]
+    low: Floats = s[:-1][changed]
+    high, begins = s[1:][changed], wrong[:-1][changed]
+    for _ in range(HALVINGS if len(low) else 0):
+        middle = (low + high) / 2.0
+        same = _wrong(pairs, middle, sides) == begins
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return low
+
+
 def _parts(stretches: Stretches, cuts: Floats) -> Stretches:
     """What is between the cuts within the stretches."""
     owner = stretches.index(cuts)
@@ -148,36 +168,23 @@ def _spots(pairs: Pairs, s: Floats) -> Points:
     return at(pairs.centre.take(index), t)
 
 
-def _nearest(pairs: Pairs, s: Floats, sides: Sided) -> tuple[Points, Nearest]:
+def _nearest(pairs: Pairs, s: Floats) -> tuple[Points, Nearest]:
     points = _spots(pairs, s)
-    return points, nearest(points, pairs.surface, pairs.surface_boxes, tie=tie_of(pairs.surface, sides))
+    return points, nearest(points, pairs.surface, pairs.surface_boxes, tie=ON_PATH)
 
 
 def _wrong(pairs: Pairs, s: Floats, sides: Sided) -> Flags:
     """Which places along the centre path are on the part's side."""
-    return on_part_side(pairs, *_nearest(pairs, s, sides), sides)
+    return on_part_side(pairs, *_nearest(pairs, s), sides)
 
 
-def _deepest(pairs: Pairs, parts: Stretches, sides: Sided) -> Behind:
+def _deepest(pairs: Pairs, parts: Stretches) -> Behind:
     """Of each part the place farthest inside, without those that are nowhere farther than GOUGE."""
     middle = (parts.first + parts.last) / 2.0
     far = farthest(pairs.centre, parts, pairs.surface, np.full((2, len(parts)), -1), np.inf)
-    if not sides.endless:
-        far = _on_one_side(pairs, far, middle, sides)
     keep = far.apart > GOUGE
     middle, where, apart = middle[keep], far.place[keep], far.apart[keep]
     index, _ = place(pairs.centre, pairs.centre_stations, middle)
-    _, near = _nearest(pairs, where, sides)
+    _, near = _nearest(pairs, where)
     first = np.searchsorted(near.k, np.arange(len(where)))
     return Behind(index, middle, where, apart, near.j[first])
-
-
-def _on_one_side(pairs: Pairs, far: Farthest, middle: Floats, sides: Sided) -> Farthest:
-    """Between arms of an open contour with its part's side of the one and the cutter's of the other the side changes
-    halfway, where nothing is met: a part that does so is told by its middle."""
-    other = ~_wrong(pairs, far.place + NUDGED * (middle - far.place), sides)
-    where, apart = far.place.copy(), far.apart.copy()
-    where[other] = middle[other]
-    points, near = _nearest(pairs, middle[other], sides)
-    apart[other] = near.apart[np.searchsorted(near.k, np.arange(len(points)))]
-    return Farthest(where, apart)

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, at_and_along, place
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, at_and_along, direction, place
 from core.geometry.side import Side
 from core.tolerance import JOINED, ON_PATH
 from core.verify.crossing import Crossings
@@ -53,18 +53,17 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, known
     """Rows of the centre path of which some point is clearly on the part's side, in rising order.
 
     `known` are the pieces of which a part is found behind the surface: all that meet it.  A piece that does not is on
-    one side of a closed contour.  It is judged in its middle if that is within `reach` of the surface, any other piece
+    one side of a closed contour.  It is judged in its middle if that is within `reach` of a closed one, any other piece
     in its middle and at its ends.  Beside an open contour, which has a side only as far as something is nearest to
     more than its ends, the nearest wall decides: a gouge is asked at its ends too, in its middle and where it is
     deepest, and a piece that meets no wall may be on another side between these places.
     """
     if not len(pairs.surface) or not len(pairs.centre):
         return ()
-    tie = tie_of(pairs.surface, surface)
-    rows, near = _contact(pairs, reach, tie)
+    rows, near = _contact(pairs, reach, ON_PATH)
     stations = pairs.centre_stations
     settled, count = pairs.own.settled(len(pairs.centre)), len(rows)
-    settled[rows] = True
+    settled[rows] |= surface.endless
     s, t = (stations[rows] + stations[rows + 1]) / 2.0, np.full(count, 0.5)
     more = _samples(pairs, (~settled).nonzero()[0], found, surface)
     if len(more):
@@ -72,18 +71,13 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, known
         s, t, rows = np.concatenate((s, more)), np.concatenate((t, share)), np.concatenate((rows, index))
     points = at(pairs.centre.take(rows), t)
     if len(more):
-        near = near.followed(nearest(points[count:], pairs.surface, pairs.surface_boxes, tie=tie), count)
+        near = near.followed(nearest(points[count:], pairs.surface, pairs.surface_boxes, tie=ON_PATH), count)
     wrong = np.zeros(len(pairs.centre), np.bool_)
     told = on_part_side(pairs, points, near, surface)
     if surface.crossed:
         told &= ~_inside(found, s)
     wrong[rows[told]], wrong[known] = True, True
     return tuple(pairs.centre.rows[wrong].tolist())
-
-
-def tie_of(surface: Measured, sides: Sided) -> float:
-    """How much farther than the nearest a wall may be and count as nearest too: over a closed contour's seam."""
-    return ON_PATH + (float(np.abs(surface.end[-1] - surface.start[0])) if sides.endless else 0.0)
 
 
 def _contact(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Nearest]:
@@ -143,14 +137,36 @@ def on_part_side(pairs: Pairs, points: Points, near: Nearest, surface: Sided) ->
     spots = points[near.k]
     t = foot(piece, spots)
     touched, along = at_and_along(piece, t)
-    sine = (np.conj(along) * (spots - touched)).imag / np.where(near.apart < ON_PATH, np.inf, near.apart)
+    off = (spots - touched) / np.where(near.apart < ON_PATH, np.inf, near.apart)
+    sine = (np.conj(along) * off).imag
+    joints = ((t == 0.0) | (t == 1.0)).nonzero()[0]
+    if len(joints):
+        sine[joints] = _off_joints(pairs.surface, near.j[joints] - (t[joints] == 0.0), off[joints])
     starts = changes(near.k)
-    wrong = np.add.reduceat(sine, starts) * surface.side.sign < -CLEARLY
+    wrong: Flags = np.logical_and.reduceat(sine * surface.side.sign < -CLEARLY, starts)
     if not surface.endless:
         foot_at = pairs.surface_stations[near.j] + t * piece.length
         outside = (foot_at <= surface.first + JOINED) | (foot_at >= surface.last - JOINED)
         wrong &= ~np.logical_or.reduceat(outside, starts)
     return wrong
+
+
+def _off_joints(walls: Measured, before: Rows, off: Points) -> Floats:
+    """For points to which the joint behind wall `before` is nearest, in the direction `off`, a number that is positive
+    for those on the left.
+
+    They lie beyond the ends of both walls, so that they are on the left where it turns right.  Where it turns back on
+    itself the sines of both walls may all but cancel each other, and the turn alone is asked; walls that touch there
+    turn to the side on which the way back runs.
+    """
+    one, other = walls.take(before), walls.take((before + 1) % len(walls))
+    arriving, leaving = direction(one, np.ones(len(before))), direction(other, np.zeros(len(before)))
+    turn = np.conj(arriving) * leaving
+    bend = sum(wall.turn / np.where(wall.radius == 0.0, 1.0, wall.radius) for wall in (one, other))
+    back = -np.sign(np.where(np.abs(turn.imag) < CLEARLY, -bend, turn.imag)) * (np.abs(off) > 0.0)
+    sines = (np.conj(arriving + leaving) * off).imag
+    left: Floats = np.where(turn.real < 0.0, back, sines)
+    return left
 
 
 def _inside(found: Gouging, s: Floats) -> Flags:

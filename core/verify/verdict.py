@@ -21,8 +21,9 @@ class Gouge:
     where the centre itself is on the part's side the radius and that distance.  The stretch ends where the centre is
     the radius away again; where that is behind the surface, all of the cutter is, and it is told twice the radius
     deep however far the path goes on: `wrong_side` tells the moves.  Beside an open contour nothing is behind where
-    one of its ends is nearest.  Where a contour crosses itself the sides of its walls contradict each other: distances
-    alone count there, and no depth is larger than the radius.
+    one of its ends is nearest, and where its arms contradict each other a move's side is asked for at 63 places
+    between any two at which it meets a wall.  Where a contour crosses itself the sides of its walls contradict each
+    other: distances alone count there, and no depth is larger than the radius.
 
     `at` is the centre there, `surface_at` the surface point it cuts into; `path_piece` is the row of the judged
     path, `path_number` its number, `surface_number` the contour's segment; `extent` the stretch's length.

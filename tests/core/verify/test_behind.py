@@ -11,13 +11,14 @@ import pytest
 from shapely.geometry import Polygon
 
 from core.geometry.path import Path
+from core.geometry.piece import Arc, Line, Turn
 from core.geometry.side import Side
 from core.verify.judge import judge
 from core.verify.verdict import Verdict
 from tests.core.verify import oracle
 from tests.core.verify.corpus import Chain, gouged
 from tests.core.verify.roads import MANY, in_parts, measured, proved
-from tests.core.verify.shapes import lines, square
+from tests.core.verify.shapes import lines, mirrored, square
 from tests.core.verify.test_shapely import chords
 
 PLATE = square(40.0)
@@ -87,6 +88,66 @@ def test_behind_an_open_contour_as_far_as_it_has_a_side(move: Path, depth: float
     for verdict in on_all_roads(OPEN, Side.LEFT, 1.0, move):
         assert verdict.depth == pytest.approx(depth, abs=1e-6)
         assert bool(verdict.wrong_side) == wrong
+
+
+GROOVE = Path.from_pieces(
+    [
+        *lines((4, -5), (4, -3), (1.2, -3), (1, 0)),
+        Arc((1.0, 0.0), (-1.0, 0.0), (0.0, 0.0), Turn.CW),
+        *lines((-1, 0), (-1.2, -3), (-4, -3), (-4, -5), (4, -5)),
+    ]
+)
+"""A half-round groove between two lips whose edges are sharper than a right angle."""
+
+
+@pytest.mark.parametrize(
+    ("radius", "move", "depth"),
+    [
+        (1.0, lines((0, 3), (0, 0)), 0.0),
+        (0.5, lines((-0.3, 0), (0.3, 0)), 0.0),
+        (1.5, lines((0, 3), (0, 0)), 0.5),
+        (1.5, lines((0, -0.2), (0, 0.2)), 0.7),
+    ],
+)
+def test_the_middle_of_a_groove_is_on_the_side_that_the_groove_is_open_to(
+    radius: float, move: Path, depth: float
+) -> None:
+    """All of the arc is equally near there, its edges too, behind both of which the lips go away."""
+    for verdict in on_all_roads(GROOVE, Side.RIGHT, radius, move):
+        assert verdict.wrong_side == ()
+        assert verdict.depth == pytest.approx(depth, abs=1e-6)
+
+
+BOSS = Path.from_pieces(
+    [
+        Line((-20.0, 0.0), (0.0, 0.0)),
+        Arc((0.0, 0.0), (-5.0, 5.0), (0.0, 5.0), Turn.CW),
+        *lines((-5, 5), (-5, 20), (20, 20), (20, -10), (-20, -10), (-20, 0)),
+    ]
+)
+"""A plate and a round wall that stands on it: what is between them narrows to nothing at (0, 0)."""
+
+
+@pytest.mark.parametrize(("side", "wrong", "depth"), [(Side.LEFT, (0,), 2.5 + hypot(2.0, 0.3)), (Side.RIGHT, (), 0.5)])
+def test_behind_the_edge_where_two_walls_touch(side: Side, wrong: tuple[int, ...], depth: float) -> None:
+    """Nearest to what is there is a joint at which the contour turns back on itself."""
+    move = lines((2, -0.3), (2, 0.3))
+    other = Side.LEFT if side is Side.RIGHT else Side.RIGHT
+    mirror_image = judge(mirrored(BOSS), other, 2.5, mirrored(move))
+    for verdict in (*on_all_roads(BOSS, side, 2.5, move), mirror_image):
+        assert verdict.wrong_side == wrong
+        assert verdict.depth == pytest.approx(depth, abs=1e-6)
+
+
+ARMS = lines((0, 10), (0, 0), (4, 0), (4, 3))
+
+
+def test_a_move_over_the_end_of_an_arm_to_the_part_side_of_the_other_one() -> None:
+    """It meets nothing: it is behind from where the other arm is as near as that end, 4.209 beside it, to its end."""
+    inside = 1.0 + (5.75 - sqrt(5.75**2 - 0.5625 * 17.0)) / 0.28125
+    for verdict in on_all_roads(ARMS, Side.RIGHT, 5.0, lines((9, 9), (1, 6))):
+        assert verdict.depth == pytest.approx(5.0 + inside, abs=1e-6)
+        assert verdict.wrong_side == (0,)
 
 
 def on_all_roads(surface: Path, side: Side, radius: float, path: Path) -> Iterator[Verdict]:
