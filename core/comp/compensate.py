@@ -6,14 +6,14 @@ The stages: zero-length segments dropped, offset to the raw chain, crossings fou
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from core.comp import trouble
 from core.comp.blend import blend_in, blend_out
-from core.comp.crossings import crossings
+from core.comp.crossings import Candidates, crossings
 from core.comp.offset import Chain, offset
 from core.comp.prune import Pruned, prune
 from core.comp.result import Compensated, Deletions
@@ -57,31 +57,32 @@ def compensate_all(
 
     Look-aheads that test the same crossings share their arrays: their `path` is one object.
     """
-    values = tuple(lookaheads)
+    return crossed(contour, side, radius, lookaheads, closed=closed, blend=blend, overlap=overlap).at(lookaheads)
+
+
+def crossed(
+    contour: Path,
+    side: Side,
+    radius: float,
+    lookaheads: Sequence[int],
+    *,
+    closed: bool,
+    blend: float = 0.0,
+    overlap: float = 0.0,
+) -> Crossed:
+    """The stages of `compensate` that no look-ahead changes, as far as any of `lookaheads` has to know of them."""
     asked = _Asked(contour, side, radius, closed, blend, overlap)
-    refused = trouble.refusal(contour, radius, values)
-    if refused or not values:
-        return tuple(_nothing(asked, value, refused) for value in values)
+    refused = trouble.refusal(contour, radius, lookaheads)
+    if refused or not lookaheads:
+        return Crossed(asked, None, refused)
     surface, common = _with_length(contour)
     asked = asked._replace(contour=surface)
     if not len(surface):
-        refused = (*common, *trouble.refusal(surface, radius, values))
-        return tuple(_nothing(asked, value, refused) for value in values)
+        return Crossed(asked, None, (*common, *trouble.refusal(surface, radius, lookaheads)))
     if closed:
         common += trouble.inside_start(surface, side, radius)
     chain = offset(surface, side, radius)
-    found = crossings(chain, max(values), closed=closed)
-    made: dict[int, Compensated] = {}
-    for value in values:
-        if found.count(value) not in made:
-            pruned = prune(chain, found.joints, found.within(value), last_wins=closed and len(surface) == 2)
-            made[found.count(value)] = _compensated(asked, value, chain, pruned, common)
-    return tuple(_at(made[found.count(value)], value) for value in values)
-
-
-def _at(one: Compensated, lookahead: int) -> Compensated:
-    """What another look-ahead has made as well."""
-    return one if one.lookahead == lookahead else replace(one, lookahead=lookahead)
+    return Crossed(asked, (chain, crossings(chain, max(lookaheads), closed=closed)), tuple(common))
 
 
 class _Asked(NamedTuple):
@@ -95,23 +96,56 @@ class _Asked(NamedTuple):
     overlap: float
 
 
-def _compensated(asked: _Asked, lookahead: int, chain: Chain, pruned: Pruned, common: list[Finding]) -> Compensated:
-    """The pruned path with its blend moves and all that is to be said about it."""
-    contour, side, radius, closed, blend, overlap = asked
-    return Compensated(
-        contour=contour,
-        side=side,
-        radius=radius,
-        lookahead=lookahead,
-        closed=closed,
-        raw=chain.raw,
-        path=pruned.path,
-        bridged=pruned.bridged,
-        deleted=pruned.deleted,
-        lead_in=blend_in(pruned.path, side, blend),
-        lead_out=blend_out(pruned.path, side, blend, overlap, closed=closed),
-        findings=(*common, *_findings(contour, chain, pruned, radius, closed=closed)),
-    )
+@dataclass(frozen=True, eq=False, slots=True)
+class Crossed:
+    """A contour offset, with the crossings of its raw chain: what all look-aheads it was made for have in common.
+
+    `found` is None for a contour that has no centre path at any of them; `common` tells why, or what is always told.
+    """
+
+    asked: _Asked
+    found: tuple[Chain, Candidates] | None
+    common: tuple[Finding, ...]
+
+    def at(self, lookaheads: Sequence[int], known: Compensated | None = None) -> tuple[Compensated, ...]:
+        """What these look-aheads make of the contour, in their order; one of them may be `known`, made by this before.
+
+        Those that test the same crossings share their arrays: their `path` is one object.
+        """
+        if self.found is None:
+            return tuple(_nothing(self.asked, value, self.common) for value in lookaheads)
+        chain, candidates = self.found
+        last_wins = self.asked.closed and len(self.asked.contour) == 2
+        made = {} if known is None else dict(zip(candidates.counts([known.lookahead]), [known], strict=True))
+        counts = candidates.counts(lookaheads)
+        for value, count in zip(lookaheads, counts, strict=True):
+            if count not in made:
+                pruned = prune(chain, candidates.joints, candidates.within(value), last_wins=last_wins)
+                made[count] = self._compensated(value, chain, pruned)
+        return tuple(_at(made[count], value) for value, count in zip(lookaheads, counts, strict=True))
+
+    def _compensated(self, lookahead: int, chain: Chain, pruned: Pruned) -> Compensated:
+        """The pruned path with its blend moves and all that is to be said about it."""
+        contour, side, radius, closed, blend, overlap = self.asked
+        return Compensated(
+            contour=contour,
+            side=side,
+            radius=radius,
+            lookahead=lookahead,
+            closed=closed,
+            raw=chain.raw,
+            path=pruned.path,
+            bridged=pruned.bridged,
+            deleted=pruned.deleted,
+            lead_in=blend_in(pruned.path, side, blend),
+            lead_out=blend_out(pruned.path, side, blend, overlap, closed=closed),
+            findings=(*self.common, *_findings(contour, chain, pruned, radius, closed=closed)),
+        )
+
+
+def _at(one: Compensated, lookahead: int) -> Compensated:
+    """What another look-ahead has made as well."""
+    return one if one.lookahead == lookahead else replace(one, lookahead=lookahead)
 
 
 def _findings(surface: Path, chain: Chain, pruned: Pruned, radius: float, *, closed: bool) -> list[Finding]:

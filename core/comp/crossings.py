@@ -6,6 +6,7 @@ decides which of those points are left.  The walk itself then needs no geometry.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final
@@ -59,9 +60,12 @@ class Candidates:
         rows = self.reach <= 2 * lookahead
         return self.others if rows.all() else self.others.chosen(rows)
 
-    def count(self, lookahead: int) -> int:
-        """How many those are: look-aheads of one count test the same."""
-        return int(np.count_nonzero(self.reach <= 2 * lookahead))
+    def counts(self, lookaheads: Sequence[int]) -> list[int]:
+        """How many each of these look-aheads tests: those of one count test the same."""
+        if not len(self.reach):
+            return [0] * len(lookaheads)
+        counts: list[int] = np.sort(self.reach).searchsorted(2 * np.array(lookaheads), side="right").tolist()
+        return counts
 
 
 def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
@@ -122,7 +126,7 @@ def _pairs(chain: Chain, first: int, last: int, reach: int) -> tuple[Indices, In
     Each row of the comparison is one distance b - a in the chain, most distant first.
     """
     places = chain.places
-    farthest = np.searchsorted(places, places[first:last] - reach)
+    farthest = places.searchsorted(places[first:last] - reach)
     window = int((np.arange(first, last) - farthest).max())
     if window < 2:
         return np.empty(0, np.intp), np.empty(0, np.intp)
@@ -131,7 +135,7 @@ def _pairs(chain: Chain, first: int, last: int, reach: int) -> tuple[Indices, In
     meeting &= _shifted(boxes[2], window) >= boxes[0, window:]
     meeting &= _shifted(boxes[1], window) <= boxes[3, window:]
     meeting &= _shifted(boxes[3], window) >= boxes[1, window:]
-    b, a = np.divmod(np.flatnonzero(meeting.T), window - 1)
+    b, a = np.divmod(meeting.T.ravel().nonzero()[0], window - 1)
     b += first
     a += b - window
     near = places[b] - places[a] <= reach
@@ -150,20 +154,23 @@ def _boxes(chain: Chain, first: int, last: int) -> Floats:
     Pieces that are no partners, and rows before the chain's first, get the empty box.
     """
     begin, pad = max(first, 0), max(-first, 0)
-    points, centres = planes(chain.raw.points)[begin : last + 1], planes(chain.raw.centres)[begin:last]
-    turns = chain.raw.turns[begin:last]
-    grow = np.full(len(turns), ON_PATH)
-    lift = np.zeros(len(turns), np.complex128)
-    arcs = turns.nonzero()[0]
-    if len(arcs):
-        lift[arcs], beyond = _lifts(points[arcs], points[arcs + 1], centres[arcs], turns[arcs])
-        grow[arcs] += beyond
-    grow[chain.parts[begin:last] > Part.CORNER.value] = -np.inf
+    points, turns = planes(chain.raw.points)[begin : last + 1], chain.raw.turns[begin:last]
     boxes = np.empty((4, last - first))
     boxes[:2, :pad], boxes[2:, :pad] = np.inf, -np.inf
-    for axis, (at, up) in enumerate(((points.real, lift.real), (points.imag, lift.imag))):
-        boxes[axis, pad:] = np.minimum(at[:-1], at[1:]) + np.minimum(up, 0.0) - grow
-        boxes[axis + 2, pad:] = np.maximum(at[:-1], at[1:]) + np.maximum(up, 0.0) + grow
+    for axis, at in enumerate((points.real, points.imag)):
+        np.minimum(at[:-1], at[1:], out=boxes[axis, pad:])
+        np.maximum(at[:-1], at[1:], out=boxes[axis + 2, pad:])
+    arcs = turns.nonzero()[0]
+    if len(arcs):
+        lift, beyond = _lifts(points[arcs], points[arcs + 1], planes(chain.raw.centres)[begin:last][arcs], turns[arcs])
+        arcs += pad
+        for axis, up in enumerate((lift.real, lift.imag)):
+            boxes[axis, arcs] += np.minimum(up, 0.0) - beyond
+            boxes[axis + 2, arcs] += np.maximum(up, 0.0) + beyond
+    boxes[:2] -= ON_PATH
+    boxes[2:] += ON_PATH
+    none = (chain.parts[begin:last] > Part.CORNER.value).nonzero()[0] + pad
+    boxes[:2, none], boxes[2:, none] = np.inf, -np.inf
     return boxes
 
 

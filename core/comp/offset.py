@@ -35,6 +35,9 @@ class Part(IntEnum):
     VANISHED = 3
 
 
+_SEGMENT, _CORNER, _BRIDGE, _VANISHED = (np.uint8(part) for part in Part)
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Chain:
     """The raw chain of m pieces: `raw`, the `parts` (m,) they are and their `places` (m,) in half steps."""
@@ -93,27 +96,29 @@ def _stretch(contour: Path, sign: int, radius: float, first: int, last: int) -> 
     count, joints = last - first, min(last, len(contour) - 1) - first
     beside = _beside(contour, sign * radius, first, first + joints + 1 if joints == count else last)
     link, outside = _joints(beside, sign, radius, joints)
-    where = np.zeros(count, np.intp)
-    where[link[link < count - 1] + 1] = 1
-    where = np.cumsum(where) + np.arange(count)
-    between = where[link] + 1
-    starts = np.empty(count + len(link), np.complex128)
-    starts[where], starts[between] = beside.starts[:count], beside.ends[link]
-    arcs = (contour.turns[first:last] != 0) & ~beside.vanished[:count]
+    between = link + np.arange(1, len(link) + 1)
+    own = np.ones(count + len(link), np.bool_)
+    own[between] = False
+    # the segment of each piece: its own, or the one before the joint
+    rows = own.cumsum()
+    rows -= 1
+    starts = beside.starts[rows]
+    starts[between] = beside.ends[link]
+    vanished = beside.vanished[:count]
+    turns = np.where(vanished, np.int8(0), contour.turns[first:last])[rows]
+    turns[between] = 0
+    arcs = turns.nonzero()[0]
     centres = starts.copy()
-    centres[where[arcs]] = planes(contour.centres)[first:last][arcs]
-    centres[between[outside]] = planes(contour.points)[first + 1 + link[outside]]
-    turns = np.empty(len(starts), np.int8)
-    turns[where], turns[between] = np.where(arcs, contour.turns[first:last], 0), np.where(outside, -sign, 0)
-    parts = np.empty(len(starts), np.uint8)
-    parts[where] = np.where(beside.vanished[:count], Part.VANISHED.value, Part.SEGMENT.value)
-    parts[between] = np.where(outside, Part.CORNER.value, Part.BRIDGE.value)
-    numbers = np.empty(len(starts))
-    numbers[where] = contour.numbers[first:last]
-    numbers[between] = numbers[between - 1] + 0.5
-    places = np.empty(len(starts), np.int32)
-    places[where], places[between] = 2 * np.arange(first, last), 2 * (link + first) + 1
-    points = starts if joints == count else np.append(starts, beside.ends[-1])
+    centres[arcs] = planes(contour.centres)[first:last][rows[arcs]]
+    corners = between[outside]
+    centres[corners], turns[corners] = planes(contour.points)[first + 1 + link[outside]], -sign
+    parts = np.where(vanished, _VANISHED, _SEGMENT)[rows]
+    parts[between] = np.where(outside, _CORNER, _BRIDGE)
+    numbers = contour.numbers[first:last][rows]
+    numbers[between] += 0.5
+    places = (2 * (rows + first)).astype(np.int32)
+    places[between] += 1
+    points = starts if joints == count else np.concatenate((starts, beside.ends[-1:]))
     return _Stretch(points, centres, turns, numbers, parts, places)
 
 
@@ -153,5 +158,5 @@ def _close_circles(points: Planes, contour: Path, places: NDArray[np.int32]) -> 
     """Keep full circles full where the next piece's start was taken for their end: equal ends are what makes them."""
     ends = planes(contour.points)
     circles = ((contour.turns != 0) & (ends[1:] == ends[:-1])).nonzero()[0]
-    for row in np.searchsorted(places, 2 * circles)[::-1].tolist():
+    for row in places.searchsorted(2 * circles)[::-1].tolist() if len(circles) else ():
         points[row] = points[row + 1]

@@ -67,7 +67,7 @@ def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, 
 def _what_is_left(chain: Chain, left: Left) -> tuple[Path, tuple[Masks, Indices]]:
     """The path of the pieces that still stand; which of them are bridges, and their rows in the chain."""
     alive = ((np.frombuffer(left.gone, np.uint8) == 0) & (left.standing != 0)).nonzero()[0]
-    starts = np.append(left.starts[alive], complex(*chain.raw.points[-1]))
+    starts = np.concatenate((left.starts[alive], planes(chain.raw.points)[-1:]))
     real = _not_slivers(chain, left, alive, starts)
     if not real.all():
         alive, starts = alive[real], starts[np.append(real, True)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isfinite
 from typing import Final
 
@@ -21,7 +22,7 @@ NAMED_AT_MOST: Final = 100
 """So many places of one kind of trouble are named; a last finding then tells how many there are."""
 
 
-def refusal(contour: Path, radius: float, lookaheads: tuple[int, ...]) -> tuple[Finding, ...]:
+def refusal(contour: Path, radius: float, lookaheads: Sequence[int]) -> tuple[Finding, ...]:
     """Why a contour cannot be compensated at all; nothing if it can."""
     if not isfinite(radius) or not 0.0 < radius <= LARGEST:
         return (_error("RADIUS", "The cutter's radius must be a number larger than 0."),)
@@ -62,6 +63,8 @@ def _not_arcs(contour: Path) -> tuple[Finding, ...]:
     start, end = points[rows], points[rows + 1]
     first, last = np.abs(start - centres), np.abs(end - centres)
     off = np.abs(first - last)
+    if off.max() <= JOINED and first.min() > 2.0 * JOINED:
+        return ()
     pointed = (np.minimum(first, last) <= JOINED) & (np.abs(end - start) > JOINED)
     bad = (off > ARC_RADII) | pointed
     text = "The arc's radius is {0} at its start and {1} at its end: check its centre."

@@ -40,7 +40,7 @@ class Path:
 
     def __post_init__(self) -> None:
         for array in (self.points, self.centres, self.turns, self.numbers):
-            array.flags.writeable = False
+            array.setflags(write=False)
 
     @staticmethod
     def of(points: Floats, centres: Floats, turns: Turns, numbers: Floats | None = None) -> Path:
@@ -64,8 +64,13 @@ class Path:
             points += piece.end
             centres += piece.centre if isinstance(piece, Arc) else piece.start
             turns.append(piece.turn if isinstance(piece, Arc) else 0)
-        given = None if numbers is None else np.array(numbers, np.float64)
-        return Path.of(np.array(points), np.array(centres), np.array(turns, np.int8), given)
+        given = range(1, len(pieces) + 1) if numbers is None else numbers
+        return Path(
+            np.array(points, np.float64).reshape(-1, 2),
+            np.array(centres, np.float64).reshape(-1, 2),
+            np.array(turns, np.int8),
+            np.array(given, np.float64),
+        )
 
     def __len__(self) -> int:
         return len(self.turns)
@@ -107,7 +112,15 @@ class Path:
     @property
     def lengths(self) -> Floats:
         """(n,) length of each piece."""
-        return np.where(self.turns == 0, np.hypot(*(self.ends - self.starts).T), self.radii * np.abs(self.sweeps))
+        span = self.points[1:] - self.points[:-1]
+        lengths: Floats = np.hypot(span[:, 0], span[:, 1])
+        arcs = self.turns.nonzero()[0]
+        if len(arcs):
+            centres, starts, ends = self.centres[arcs], self.points[arcs], self.points[arcs + 1]
+            first = starts - centres
+            angles = swept(first, ends - centres, self.turns[arcs], starts == ends)
+            lengths[arcs] = np.hypot(first[:, 0], first[:, 1]) * angles
+        return lengths
 
     @property
     def start_directions(self) -> Floats:
@@ -169,10 +182,10 @@ def swept(first: Floats, last: Floats, turns: Turns, same: NDArray[np.bool_]) ->
 def joined(parts: Sequence[Path]) -> Path:
     """One path of paths that join end to start; empty ones are passed over."""
     parts = [part for part in parts if len(part)]
-    if not parts:
-        return EMPTY
+    if len(parts) < 2:
+        return parts[0] if parts else EMPTY
     points = [parts[0].points, *(part.points[1:] for part in parts[1:])]
-    return Path.of(
+    return Path(
         np.concatenate(points),
         np.concatenate([part.centres for part in parts]),
         np.concatenate([part.turns for part in parts]),

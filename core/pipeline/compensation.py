@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 from core.comp.best import BestPath, best_path
 from core.comp.blend import blend_in, blend_out
-from core.comp.compensate import compensate
+from core.comp.compensate import Crossed, compensate, crossed
+from core.comp.lookahead import HIGHEST, LOWEST
 from core.comp.result import Compensated
 from core.geometry.path import Path
 from core.geometry.side import Side
@@ -14,6 +16,9 @@ from core.pipeline.derived import Loop
 from core.program.fields import default
 from core.program.model import Entry, PathChoice, Program
 from core.units import to_mm
+
+SHARED: Final = 1000
+"""Segments up to which the crossings of all look-aheads are found at once and kept for the look-ahead table."""
 
 
 def parameter(program: Program, name: str) -> float:
@@ -42,6 +47,20 @@ class Compensation:
             self.side,
             radius,
             self.lookahead,
+            closed=self.closed,
+            blend=parameter(self.program, "blend_offset"),
+            overlap=parameter(self.program, "blend_overlap"),
+        )
+
+    def crossed(self, radius: float) -> Crossed | None:
+        """What the control's path has in common with those of all other look-aheads; None for a large contour."""
+        if len(self.surface) > SHARED:
+            return None
+        return crossed(
+            self.surface,
+            self.side,
+            radius,
+            range(LOWEST, HIGHEST + 1),
             closed=self.closed,
             blend=parameter(self.program, "blend_offset"),
             overlap=parameter(self.program, "blend_overlap"),

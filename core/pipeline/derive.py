@@ -62,11 +62,12 @@ def _worked(found: DerivedBlock, program: Program) -> Work:
         return Work(surface, (Loop(surface, EMPTY, EMPTY),), None, None)
     assert found.radius is not None
     how = Compensation(surface, found.side, found.solved.closed, found.lookahead.value, program)
-    control = how.control(found.radius)
+    crossed = how.crossed(found.radius)
+    control = how.control(found.radius) if crossed is None else crossed.at([how.lookahead])[0]
     best = how.best(found.radius) if program.parameters.path is PathChoice.BEST else None
     chosen = how.posted(control, found.radius, best)
     verdict = judge_together(surface, found.side, found.radius, [loop.whole for loop in chosen])
-    return Work(surface, chosen, control, verdict, _rough(found, how), best)
+    return Work(surface, chosen, control, verdict, _rough(found, how), best, crossed)
 
 
 def _told(found: DerivedBlock, work: Work, program: Program) -> DerivedBlock:

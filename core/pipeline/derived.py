@@ -13,6 +13,7 @@ from core.records import dataclass
 
 if TYPE_CHECKING:
     from core.comp.best import BestPath
+    from core.comp.compensate import Crossed
     from core.comp.result import Compensated
     from core.geometry.path import Path
     from core.verify.verdict import Verdict
@@ -71,7 +72,8 @@ class Work:
     `surface` is the determined part of the contour; `loops` the finish path that is posted, one or, for PATH BEST,
     one for each loop, and `verdict` what it does.  `compensated` is the control's path, whether posted or not.
     `compensated` and `verdict` are None for CUTTER COMP. ON, where the centre runs on the contour itself.
-    `rough` comes before, outermost first.  `best` is the best path where PATH is BEST.
+    `rough` comes before, outermost first.  `best` is the best path where PATH is BEST.  `crossed` is what `compensated`
+    and the paths of all other look-aheads were made of, None for a contour so large that it is not kept.
     """
 
     surface: Path
@@ -80,6 +82,7 @@ class Work:
     verdict: Verdict | None
     rough: tuple[RoughPass, ...] = ()
     best: BestPath | None = None
+    crossed: Crossed | None = None
 
     @property
     def centre(self) -> Path:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from core.comp.advise import recommended
-from core.comp.compensate import compensate_all
+from core.comp.compensate import Crossed, compensate_all
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.comp.result import Compensated
 from core.finding import Finding
@@ -115,14 +115,15 @@ def _judged(found: DerivedBlock) -> Judged | None:
     work = found.work
     if work is None or work.verdict is None or work.compensated is None or work.best is not None:
         return None
-    return Judged(work.compensated.whole, work.verdict)
+    return Judged(work.compensated, work.verdict, work.crossed)
 
 
 class Judged(NamedTuple):
-    """A whole path whose verdict is known."""
+    """A path whose verdict is known, and what all look-aheads' paths are made of, as far as that was kept."""
 
-    whole: Path
+    compensated: Compensated
     verdict: Verdict
+    crossed: Crossed | None = None
 
 
 def table_of(trial: Trial, judged: Judged | None = None) -> Table:
@@ -148,20 +149,28 @@ def _all(
     trial: Trial, radius: float, cutter: float, judged: Judged | None = None
 ) -> tuple[Sequence[Compensated], Sequence[Verdict]]:
     """The path at `radius` of every value, and what a cutter of radius `cutter` does on it."""
-    values = range(LOWEST, HIGHEST + 1)
-    every = compensate_all(
-        trial.surface, trial.side, radius, values, closed=trial.closed, blend=trial.blend, overlap=trial.overlap
-    )
+    every = _every(trial, radius, judged)
     # values that test the same crossings have one path between them
-    wholes = {key: one.whole for key, one in {id(one.path): one for one in every}.items()}
-    known = {} if judged is None else {key: judged.verdict for key, one in wholes.items() if _same(one, judged.whole)}
-    rest = {key: one for key, one in wholes.items() if key not in known}
+    paths = {id(one.path): one for one in every}
+    known = {} if judged is None else {key: judged.verdict for key, one in paths.items() if _same(one, judged)}
+    rest = {key: one.whole for key, one in paths.items() if key not in known}
     told = judge_all(trial.surface, trial.side, cutter, list(rest.values())) if rest else ()
     verdicts = known | dict(zip(rest, told, strict=True))
     return every, [verdicts[id(one.path)] for one in every]
 
 
-def _same(one: Path, other: Path) -> bool:
-    """Whether two paths are the same to the last bit."""
+def _every(trial: Trial, radius: float, judged: Judged | None) -> tuple[Compensated, ...]:
+    """The path at `radius` of every value."""
+    values = range(LOWEST, HIGHEST + 1)
+    if judged is not None and judged.crossed is not None:
+        return judged.crossed.at(values, judged.compensated)
+    return compensate_all(
+        trial.surface, trial.side, radius, values, closed=trial.closed, blend=trial.blend, overlap=trial.overlap
+    )
+
+
+def _same(one: Compensated, judged: Judged) -> bool:
+    """Whether two paths are the same to the last bit, and so are their blends."""
+    path, other = one.path, judged.compensated.path
     names = ("turns", "numbers", "points", "centres")
-    return all(np.array_equal(getattr(one, name), getattr(other, name)) for name in names)
+    return path is other or all(np.array_equal(getattr(path, name), getattr(other, name)) for name in names)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from core.comp.compensate import compensate, compensate_all
+from core.comp.compensate import compensate, compensate_all, crossed
 from core.comp.crossings import crossings
 from core.comp.offset import offset
 from core.comp.result import Compensated
@@ -87,6 +87,19 @@ def test_all_lookaheads_together_are_those_one_by_one(contour, side, radius, clo
         assert np.array_equal(done.whole.points, alone.whole.points)
         assert list(done.deleted) == list(alone.deleted)
         assert done.findings == alone.findings
+
+
+def test_what_was_crossed_once_makes_every_lookahead_and_takes_over_one_that_is_known():
+    notch = lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
+    found = crossed(notch, Side.LEFT, 0.25, range(1, 21), closed=False, blend=0.1)
+    (known,) = found.at([4])
+    every = found.at(range(1, 21), known)
+    assert [one.lookahead for one in every] == list(range(1, 21))
+    assert [one.path is known.path for one in every] == [False] * 2 + [True] * 18
+    for one in every:
+        alone = compensate(notch, Side.LEFT, 0.25, one.lookahead, closed=False, blend=0.1)
+        assert np.array_equal(one.whole.points, alone.whole.points)
+        assert list(one.deleted) == list(alone.deleted)
 
 
 def test_lookaheads_without_a_difference_share_their_path():

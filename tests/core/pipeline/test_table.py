@@ -63,6 +63,24 @@ def test_every_value_is_judged_by_its_own_path(points, choice):
         assert rows[found.lookahead.value - 1].verdict is found.work.verdict
 
 
+def test_a_large_contour_that_keeps_nothing_for_the_table_gets_the_same_table(monkeypatch):
+    part = program(block(NOTCH, CutterComp.RIGHT))
+    kept = table_and_work(part)
+    monkeypatch.setattr("core.pipeline.compensation.SHARED", 0)
+    found = table_and_work(part)
+    assert kept[1].crossed is not None
+    assert found[1].crossed is None
+    assert found[0].row(found[1].compensated.lookahead).verdict is found[1].verdict
+    for one, other in zip(found[0].rows, kept[0].rows, strict=True):
+        assert told(one.verdict) == told(other.verdict)
+        assert one.compensated.whole.points.tolist() == other.compensated.whole.points.tolist()
+
+
+def table_and_work(part):
+    (found,) = derive(part).blocks
+    return look_ahead_table(found, part), found.work
+
+
 class Fate:
     def __init__(self, value, clean, uncut):
         self.value, self.clean, self.uncut = value, clean, uncut
