@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
@@ -32,6 +33,11 @@ ARMED_FOR: Final = 2.0
 """Seconds in which a digit behind a lone Esc is a softkey; slow links part the two by some 0.3."""
 FRAME: Final = 1 / 60
 """Seconds in which nobody sees more than one picture."""
+TURN: Final = 0.001
+"""Seconds that a thread goes on calculating while a key or a picture on its way out waits for its turn.
+
+A key is handed from thread to thread three times; Python's own five milliseconds each are a picture late.
+"""
 AGAIN: Final = "ctrl+l"
 """The key that paints everything again, as in every program of a terminal."""
 
@@ -90,6 +96,7 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         # what came with the imports stays: the collector need not look through it ever again
         gc.freeze()
         gc.enable()
+        sys.setswitchinterval(TURN)
         self.set_interval(MINUTE, self._tick)
         self.desk = self.keep(self.desk)
         program = self.desk.session.program

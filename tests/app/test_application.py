@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import sys
 from math import inf
 
 import pytest
@@ -184,6 +185,18 @@ async def test_leaving_ends_with_status_0() -> None:
         await loaded(pilot)
         await pilot.press("f8", "f8")
     assert app.return_code == 0
+
+
+async def test_a_key_waits_a_millisecond_for_its_turn_beside_what_is_calculated() -> None:
+    before = sys.getswitchinterval()
+    try:
+        sys.setswitchinterval(0.005)
+        app = app_on("pocket")
+        async with app.run_test(size=(80, 24)) as pilot:
+            await loaded(pilot)
+            assert sys.getswitchinterval() == pytest.approx(0.001)
+    finally:
+        sys.setswitchinterval(before)
 
 
 async def test_the_collector_works_again_once_the_first_screen_stands() -> None:
