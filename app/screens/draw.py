@@ -22,11 +22,16 @@ PAN: Final = 0.125
 ARROWS: Final = {"left": (-PAN, 0.0), "right": (PAN, 0.0), "up": (0.0, PAN), "down": (0.0, -PAN)}
 SEGMENTS: Final = {"n": 1, "pagedown": 1, "p": -1, "pageup": -1}
 PROMPT: Final = (
-    "+ - zoom, arrows move, 0 fits, n p walk, m changes characters, Esc goes back. "
+    "+ - zoom on the {}, arrows move, 0 fits, n p walk, m characters, Esc goes back. "
     "S START, o plunge, # deleted, x by what, ! gouge."
 )
 SHORT: Final = "n p walk, Esc goes back. # deleted, x by what."
 """What stands behind a sentence on the cutter; the softkeys name the other keys."""
+ZOOMING: Final = (
+    "+ and - zoom on the cutter, where there is none on the segment or START. The arrows move the window: from then on "
+    "they zoom on its middle. n and p go to the next segment and the one before, with the cutter in the window again. "
+    "0 shows everything, m changes the characters."
+)
 LEGEND: Final = (
     "S is START, o where the tool goes down, the arrow the way it travels.",
     "# is surface that the look-ahead has deleted, x where two pieces meet that delete what is between them.",
@@ -48,8 +53,8 @@ class DrawPage(Page):
     def softkeys(self, session: Session) -> Softkeys:
         """Every key of the drawing as a softkey."""
         return {
-            1: Softkey("SEGMENT BACK", _walk(session, -1)),
-            2: Softkey("SEGMENT ADVANCE", _walk(session, 1)),
+            1: Softkey("SEGMENT BACK", self._walked(session, -1)),
+            2: Softkey("SEGMENT ADVANCE", self._walked(session, 1)),
             3: Softkey("FINDINGS", (Open(FindingsPage()),)),
             4: Softkey("ZOOM IN", (Swap(replace(self, sketch=zoomed(self.sketch, STEP))),)),
             5: Softkey("ZOOM OUT", (Swap(replace(self, sketch=zoomed(self.sketch, 1 / STEP))),)),
@@ -67,12 +72,16 @@ class DrawPage(Page):
         if key in ARROWS:
             return self._with(panned(self.sketch, *ARROWS[key]))
         if key in SEGMENTS:
-            return Answer(self, _walk(session, SEGMENTS[key]))
+            return Answer(self, self._walked(session, SEGMENTS[key]))
         return Answer(self, (NextMode(),)) if key == "m" else None
 
     def escape(self, session: Session) -> Answer | None:
         """Back to the form."""
         return Answer(self, (Close(),))
+
+    def _walked(self, session: Session, step: int) -> tuple[Message, ...]:
+        """To another segment, its cutter in the window."""
+        return (Swap(replace(self, sketch=followed(self.sketch))), *_walk(session, step))
 
     def _with(self, sketch: Sketch) -> Answer:
         return Answer(replace(self, sketch=sketch))
@@ -83,18 +92,22 @@ class DrawPage(Page):
         title = f"{form}   zoom {self.sketch.zoom:.2g}" if self.sketch.zoom != 1.0 else str(form)
         line = segment_line(str(session.where.segment), title, cursor=False)
         return View(
-            header(block_line(session), line, session, surface.width), (), Said(_prompt(session)), 0, self.sketch
+            header(block_line(session), line, session, surface.width),
+            (),
+            Said(_prompt(session, self.sketch)),
+            0,
+            self.sketch,
         )
 
     def help(self, session: Session) -> tuple[str, ...]:
         """What the signs and lines of the drawing are."""
-        return ("DRAW", PROMPT, *LEGEND)
+        return ("DRAW", ZOOMING, *LEGEND)
 
 
-def _prompt(session: Session) -> str:
+def _prompt(session: Session, sketch: Sketch) -> str:
     """Keys and signs, behind what is to be said of the cutter."""
     note = _cutter_note(session)
-    return f"{note} {SHORT}" if note else PROMPT
+    return f"{note} {SHORT}" if note else PROMPT.format("middle" if _moved(sketch) else "cutter")
 
 
 def _cutter_note(session: Session) -> str:
@@ -116,10 +129,23 @@ def _cutter_note(session: Session) -> str:
 
 
 def zoomed(sketch: Sketch, factor: float) -> Sketch:
-    """The window enlarged about its middle."""
+    """The window enlarged about the cutter; about its middle, once the arrows have moved it."""
     zoom = min(max(sketch.zoom * factor, 0.02), 1e4)
+    if not _moved(sketch):
+        return replace(sketch, zoom=zoom)
     # what stands in the middle stays there: offsets are in parts of a window that shrinks
-    return _held(replace(sketch, zoom=zoom), sketch.dx * zoom / sketch.zoom, sketch.dy * zoom / sketch.zoom)
+    by = zoom / sketch.zoom
+    return _held(replace(sketch, zoom=zoom, middle=sketch.middle * by), sketch.dx * by, sketch.dy * by)
+
+
+def followed(sketch: Sketch) -> Sketch:
+    """As much enlarged, with the cutter in the window, wherever the arrows have moved it."""
+    return Sketch(zoom=sketch.zoom)
+
+
+def _moved(sketch: Sketch) -> bool:
+    """Whether the arrows have moved the window since it showed everything or the cursor walked."""
+    return sketch != followed(sketch)
 
 
 def panned(sketch: Sketch, dx: float, dy: float) -> Sketch:

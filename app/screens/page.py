@@ -57,11 +57,13 @@ Softkeys = Mapping[int, Softkey]
 class Sketch:
     """What the drawing shows instead of the whole block: a look-ahead value's path, a window.
 
-    `zoom` enlarges what fits the room, `dx` and `dy` move the window by parts of its width and height.
+    `zoom` enlarges what fits the room: by `middle` about the middle of the window, by the rest about the cutter or
+    what else is marked.  `dx` and `dy` move the window by parts of its width and height.
     """
 
     lookahead: int | None = None
     zoom: float = 1.0
+    middle: float = 1.0
     dx: float = 0.0
     dy: float = 0.0
 

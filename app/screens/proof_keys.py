@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.messages import Message, NextMode, Open, Say
 from app.proving import Question
-from app.screens.draw import ARROWS, STEP, panned, zoomed
+from app.screens.draw import ARROWS, STEP, followed, panned, zoomed
 from app.screens.page import WHOLE, Answer, Softkey, Softkeys
 from app.screens.proof_compare import ComparePage
 from app.screens.proof_files import SaveListing, saving
@@ -26,7 +26,8 @@ HELP: Final = (
     "n and p go to the next finding and the one before; f or Ctrl+F shows all of them, each whole. g goes to a line.",
     "c and C try the next control and the one before; v compares all of them.",
     "t gives a tool another diameter, < and > make it a little smaller and larger: the verdict follows.",
-    "+ and - zoom, 0 shows everything, d gives the drawing the whole terminal, where the arrows move it.",
+    "+ and - zoom on the cutter, 0 shows everything, d gives the drawing the whole terminal, where the arrows move it: "
+    "from then on + and - zoom on its middle, until n or p brings the cutter back.",
     "In the drawing: the programmed contour, the path of the tool's centre, dashed rapids, ! where it gouges.",
 )
 
@@ -170,7 +171,7 @@ def next_finding(page: ProofPage, step: int) -> Answer:
         there = next((index for line, index in reversed(lines) if (line, index) < here), None)
     if there is None:
         return Answer(page, (Say("There is no further finding."),))
-    return Answer(page.at_finding(there))
+    return Answer(replace(page.at_finding(there), sketch=followed(page.sketch)))
 
 
 def compared(page: ProofPage) -> tuple[Message, ...]:

@@ -12,8 +12,9 @@ from app.screens.page import Sketch
 from app.widgets.rows import Look, Row, Span
 from core.draw.mode import Mode
 from core.draw.raster import Picture, draw
-from core.draw.scene import Box, Scene, Style
+from core.draw.scene import Box, Scene, Style, Symbol
 from core.draw.view import View
+from core.geometry.piece import Point
 
 ROOM_FOR_SCALE: Final = 10
 """In fewer rows the scale bar would cover the part."""
@@ -44,15 +45,31 @@ def picture_rows(scene: Scene, sketch: Sketch, columns: int, rows: int, mode: st
     """The scene in columns x rows cells, in the window the sketch gives."""
     if rows < ROOM_FOR_SCALE:
         scene = replace(scene, unit=None)
+    view = view_of(scene, sketch, columns, rows)
+    return () if view is None else tuple(_rows(draw(scene, view, columns, rows, Mode(mode))))
+
+
+def view_of(scene: Scene, sketch: Sketch, columns: int, rows: int) -> View | None:
+    """The window the sketch gives; None where there is nothing to be seen."""
     bounds = bounds_of(scene)
     if bounds is None:
-        return ()
-    view = (
+        return None
+    return (
         _fitted(bounds, columns, rows, scaled=scene.unit is not None)
-        .zoom(sketch.zoom)
+        .zoom(sketch.zoom / sketch.middle, _marked(scene))
+        .zoom(sketch.middle)
         .pan(sketch.dx, sketch.dy, columns, rows)
     )
-    return tuple(_rows(draw(scene, view, columns, rows, Mode(mode))))
+
+
+def _marked(scene: Scene) -> Point | None:
+    """What enlarging keeps in the window: the cutter, else the segment under the cursor, else START."""
+    for circle in scene.circles:
+        return circle.centre
+    for layer in scene.layers:
+        if layer.style is Style.CURRENT and (box := Scene((layer,)).bounds) is not None:
+            return (box[0] + box[2]) / 2, (box[1] + box[3]) / 2
+    return next((mark.at for mark in scene.marks if mark.symbol is Symbol.START), None)
 
 
 def _fitted(bounds: Box, columns: int, rows: int, *, scaled: bool) -> View:

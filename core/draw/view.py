@@ -35,9 +35,13 @@ class View:
         scale = max((x1 - x0) / wide, (y1 - y0) / high)
         return View(((x0 + x1) / 2, (y0 + y1) / 2), _held(scale) if scale > 0.0 else 2.0 / wide)
 
-    def zoom(self, factor: float) -> View:
-        """Enlarged by `factor` about the window's centre, between limits a drawing still makes sense in."""
-        return replace(self, scale=_held(self.scale / factor))
+    def zoom(self, factor: float, about: Point | None = None) -> View:
+        """Enlarged by `factor` about a point (mm), else the window's centre, between limits that still make sense."""
+        scale = _held(self.scale / factor)
+        if about is None:
+            return replace(self, scale=scale)
+        (x, y), part = self.centre, 1.0 - scale / self.scale
+        return View((x + part * (about[0] - x), y + part * (about[1] - y)), scale)
 
     def pan(self, dx: float, dy: float, columns: int, rows: int) -> View:
         """Moved over the part by fractions of the window: dx to the right, dy up."""

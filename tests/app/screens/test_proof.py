@@ -253,8 +253,10 @@ def test_the_drawing_alone_moves_and_zooms() -> None:
     prover = square().press("d", "right", "+")
     assert prover.page.sketch.dx == pytest.approx(0.125 * 1.25)
     assert prover.page.sketch.zoom == pytest.approx(1.25)
+    prover.press("n")
+    assert (prover.page.row, prover.page.sketch.dx) == (2, 0.0)
+    assert prover.page.sketch.zoom == pytest.approx(1.25)
     assert prover.press("0").page.sketch.zoom == 1.0
-    assert prover.press("n").page.row == 2
     assert prover.press("escape").page.large is False
 
 

@@ -38,6 +38,13 @@ def test_zoom_keeps_the_centre_and_stays_within_limits():
     assert view.zoom(1e-300).scale < 1e9
 
 
+@given(st.floats(-100.0, 100.0), st.floats(-100.0, 100.0), st.floats(1e-3, 1e12))
+def test_zoom_about_a_point_leaves_it_where_it_is(x, y, factor):
+    view = View((3.0, 4.0), 2.0)
+    at = view.cell((x, y), 80, 24)
+    assert view.zoom(factor, (x, y)).cell((x, y), 80, 24) == pytest.approx(at, abs=1e-4)
+
+
 def test_the_middle_of_the_window_is_the_centre():
     assert View((3.0, 4.0), 2.0).at(20, 5, 40, 10) == (3.0, 4.0)
     assert View((3.0, 4.0), 2.0).at(21, 4, 40, 10) == (5.0, 8.0)
