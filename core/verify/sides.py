@@ -65,9 +65,10 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, known
     settled, count = pairs.own.settled(len(pairs.centre)), len(rows)
     settled[rows] |= surface.endless
     s, t = (stations[rows] + stations[rows + 1]) / 2.0, np.full(count, 0.5)
-    more = _samples(pairs, (~settled).nonzero()[0], found, surface)
+    index, more = _samples(pairs, (~settled).nonzero()[0], found, surface)
     if len(more):
-        index, share = place(pairs.centre, stations, more)
+        length = pairs.centre.length[index]
+        share = np.clip((more - stations[index]) / np.where(length == 0.0, 1.0, length), 0.0, 1.0)
         s, t, rows = np.concatenate((s, more)), np.concatenate((t, share)), np.concatenate((rows, index))
     points = at(pairs.centre.take(rows), t)
     if len(more):
@@ -118,15 +119,19 @@ def _as_near_as_own(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Rows,
     return i[order], j[order], np.concatenate((middle[close], apart[chosen]))[order]
 
 
-def _samples(pairs: Pairs, rows: Rows, found: Gouging, surface: Sided) -> Floats:
-    """Places along the centre path that stand for these pieces, and beside an open contour for the gouges."""
+def _samples(pairs: Pairs, rows: Rows, found: Gouging, surface: Sided) -> tuple[Rows, Floats]:
+    """Pieces and places along the centre path that stand for these pieces, and beside an open contour for the gouges.
+
+    The end of a piece is its own, though the next one begins there.
+    """
     first, last = pairs.centre_stations[rows], pairs.centre_stations[rows + 1]
-    samples = first, (first + last) / 2.0, last
+    index, samples = np.concatenate((rows, rows, rows)), np.concatenate((first, (first + last) / 2.0, last))
     if surface.endless and not surface.crossed:
-        return np.concatenate(samples)
+        return index, samples
     gouge = found.stretches
-    middle = (gouge.first + gouge.last) / 2.0
-    return np.concatenate((*samples, gouge.first, gouge.last, middle, found.place))
+    more = np.concatenate((gouge.first, gouge.last, (gouge.first + gouge.last) / 2.0, found.place))
+    owners, _ = place(pairs.centre, pairs.centre_stations, more)
+    return np.concatenate((index, owners)), np.concatenate((samples, more))
 
 
 def on_part_side(pairs: Pairs, points: Points, near: Nearest, surface: Sided) -> Flags:

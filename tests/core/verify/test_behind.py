@@ -150,6 +150,11 @@ def test_a_move_over_the_end_of_an_arm_to_the_part_side_of_the_other_one() -> No
         assert verdict.wrong_side == (0,)
 
 
+def test_a_move_that_is_behind_an_open_contour_at_its_end_alone_is_told_itself() -> None:
+    for verdict in on_all_roads(OPEN, Side.LEFT, 1.0, lines((-6, -2), (1, -2), (-6, -3))):
+        assert verdict.wrong_side == (0, 1)
+
+
 def on_all_roads(surface: Path, side: Side, radius: float, path: Path) -> Iterator[Verdict]:
     """The verdict however many walls there are."""
     return (road(surface, side, radius, path) for road in (measured, proved, in_many_walls))
