@@ -7,8 +7,9 @@ begins; a segment's *floor* is the height its Z START and Z END give it.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from operator import attrgetter
+from typing import Final, Protocol
 
-from core import records
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path, joined
 from core.geometry.piece import Point
@@ -44,18 +45,30 @@ class Run:
         return (float(whole.points[0, 0]), float(whole.points[0, 1])) if len(whole) else None
 
 
-@records.dataclass(frozen=True, slots=True)
-class Floor:
-    """Segment `number`: its height at its start and at its end (mm) and its feed (mm a minute), None if not known."""
+class Floor(Protocol):
+    """What a job asks of a segment."""
 
-    number: int
-    z_start: float
-    z_end: float
-    feed: float | None
+    @property
+    def number(self) -> int:
+        """Its number, from 1."""
+
+    @property
+    def z_start(self) -> float:
+        """Its height at its start (mm)."""
+
+    @property
+    def z_end(self) -> float:
+        """Its height at its end (mm)."""
+
+    @property
+    def feed(self) -> float | None:
+        """Its feed (mm a minute), None if not known."""
 
 
 Level = tuple[float, float, float | None]
 """Z START, Z END and feed of a floor."""
+
+_level: Final = attrgetter("z_start", "z_end", "feed")
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -101,8 +114,7 @@ class Job:
     levels: frozenset[Level] = field(init=False)
 
     def __post_init__(self) -> None:
-        levels = frozenset((floor.z_start, floor.z_end, floor.feed) for floor in self.floors)
-        object.__setattr__(self, "levels", levels)
+        object.__setattr__(self, "levels", frozenset(map(_level, self.floors)))
 
     @property
     def errors(self) -> tuple[Finding, ...]:

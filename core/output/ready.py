@@ -129,9 +129,11 @@ def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
 
 def _sane(run: Run) -> bool:
     parts = [part for part in (run.lead_in, run.path, run.lead_out) if len(part)]
-    arrays = [array for part in parts for array in (part.points, part.centres)]
+    if not parts:
+        return True
+    places = np.concatenate([array for part in parts for array in (part.points, part.centres)])
     # a comparison with what is no number is false
-    return all(array.min() >= -LARGEST and array.max() <= LARGEST for array in arrays)
+    return bool(places.min() >= -LARGEST and places.max() <= LARGEST)
 
 
 def _still(feed: float, grid: Grid) -> bool:

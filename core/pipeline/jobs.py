@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from core.geometry.path import EMPTY
-from core.output.job import Cutter, Floor, Job, Run
+from core.output.job import Cutter, Job, Run
 from core.pipeline.compensation import parameter
 from core.pipeline.derived import Derived, DerivedBlock
 from core.program.fields import default
 from core.program.model import Entry, Program, Typed
-from core.program.solved import SolvedBlock
 from core.program.tools import find
 from core.units import Kind, Unit, from_mm, show, to_mm
 
@@ -30,7 +29,7 @@ def job(found: DerivedBlock, program: Program) -> Job:
         cutter=_cutter(found.block.tool, solved.tool_diameter, program),
         finisher=_cutter(found.block.finish_tool, solved.finish_diameter, program) if finish_tool else None,
         surface=found.work.surface if found.work else EMPTY,
-        floors=_floors(solved),
+        floors=solved.segments[: solved.determined],
         finish=_finish(found),
         rough=_rough(found),
         z_start=solved.z_start or 0.0,
@@ -82,11 +81,6 @@ def _setup(program: Program, name: str) -> float:
     value = typed.value if isinstance(typed, Entry) else default(name, program.unit)
     assert value is not None
     return value
-
-
-def _floors(solved: SolvedBlock) -> tuple[Floor, ...]:
-    known = solved.segments[: solved.determined]
-    return tuple(Floor(one.number, one.z_start, one.z_end, one.feed) for one in known)
 
 
 def _finish(found: DerivedBlock) -> tuple[Run, ...]:

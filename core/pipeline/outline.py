@@ -84,13 +84,14 @@ def _heights(solved: SolvedBlock) -> Iterator[Finding]:
     """Typed Z ENDs that are not between Z START and Z BOTTOM: no pass goes deeper, and rapid moves run above."""
     if solved.z_start is None or solved.z_bottom is None:
         return
+    high, low = solved.z_start + JOINED, solved.z_bottom - JOINED
     for one in solved.segments:
-        if not isinstance(one.values.get("z_end"), Entry):
+        if low <= one.z_end <= high or not isinstance(one.values.get("z_end"), Entry):
             continue
-        if one.z_end > solved.z_start + JOINED:
+        if one.z_end > high:
             text = "Z END {value} lies above Z START {0}: rapid moves would run into it. Enter Z END between Z START "
             yield _height(one.number, text + "and Z BOTTOM.", one.z_end, solved.z_start)
-        elif one.z_end < solved.z_bottom - JOINED:
+        elif one.z_end < low:
             text = "Z END {value} lies below Z BOTTOM {0}: no pass goes so deep. Enter Z END between Z START "
             yield _height(one.number, text + "and Z BOTTOM.", one.z_end, solved.z_bottom)
 

@@ -30,7 +30,9 @@ def safe_height_findings(solved: SolvedBlock, program: Program) -> Iterator[Find
 
 def _length(typed: Typed, form: Form, name: str, program: Program) -> float | None:
     """A length or its default in millimetres; None for one that is refused."""
-    value = default(name, program.unit) if typed is None else typed.value if isinstance(typed, Entry) else None
-    if value is None or check(field(form, name), value, program.unit):
+    if typed is None:
+        usual = default(name, program.unit)
+        return None if usual is None else to_mm(usual, program.unit)
+    if not isinstance(typed, Entry) or check(field(form, name), typed.value, program.unit):
         return None
-    return to_mm(value, program.unit)
+    return to_mm(typed.value, program.unit)

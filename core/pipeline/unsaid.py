@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Final
 
 from core.finding import Finding, Severity
 from core.program.fields import Form, check, default, field
@@ -10,6 +11,9 @@ from core.program.model import Block, CutterComp, Entry, Program, Unread
 from core.program.solved import SolvedBlock
 from core.tolerance import LAST_PASS, ON_PATH
 from core.units import Kind, from_mm, show, to_mm
+
+SHOWN: Final = 0.01
+"""A field shows a length above this, in millimetres, as something else than 0 in any unit."""
 
 
 def unsaid_findings(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
@@ -60,10 +64,12 @@ def _parameter(name: str, program: Program) -> float | None:
     typed = getattr(program.parameters, name)
     if isinstance(typed, Unread):
         return None
-    value = default(name, program.unit) if typed is None else typed.value
-    if value is None or check(field(Form.PARAMETERS, name), value, program.unit):
+    if typed is None:
+        usual = default(name, program.unit)
+        return None if usual is None else to_mm(usual, program.unit)
+    if check(field(Form.PARAMETERS, name), typed.value, program.unit):
         return None
-    return to_mm(value, program.unit)
+    return to_mm(typed.value, program.unit)
 
 
 def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
@@ -73,7 +79,7 @@ def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
         onto["peck_clearance"] = "between pecks the tool comes down by rapid onto the floor it has just cut"
     for name, what in onto.items():
         value = _parameter(name, program)
-        if value is None or show(from_mm(value, program.unit), Kind.LENGTH, program.unit).strip("0."):
+        if value is None or value > SHOWN or show(from_mm(value, program.unit), Kind.LENGTH, program.unit).strip("0."):
             continue
         label = field(Form.PARAMETERS, name).label
         text = f"{label} is {{value}}: {what}. Enter {label} on PROGRAM PARAMETERS."

@@ -98,26 +98,30 @@ class Draft:
 
 
 def _segments(block: Block, drafts: list[Draft], before: SolvedBlock | None) -> list[SolvedSegment]:
-    shapes = [draft.shape for draft in drafts]
-    blend = [index for index, segment in enumerate(block.segments) if isinstance(segment, BlendSegment)]
-    radii = {index: drafts[index].reading.known["radius"] for index in blend if "radius" in drafts[index].reading.known}
-    lengthless = (index for index, shape in enumerate(shapes) if shape.piece is None and shape.end is not None)
-    empty = frozenset(lengthless).difference(blend)
-    blends = blended(block.segments, blend, [shape.piece for shape in shapes], radii, empty)
+    blends = _blends(block, drafts)
+    off = blends.faults.keys() | blends.waiting
     # a draft that is kept has the place it had
-    kept = () if before is None else zip(drafts, before.drafts, before.segments, strict=False)
-    known = (old if was is draft else None for draft, was, old in kept)
+    olds = () if before is None else zip(before.drafts, before.segments, strict=False)
+    each = zip(drafts, blends.pieces, chain(olds, repeat((None, None))), strict=False)
+    # a segment stands as it was where it is the same draft and no blend made anything else of it than before
     return [
-        old if old is not None and _stands(old, draft, index, blends) else _finished(draft, index, blends)
-        for index, (draft, old) in enumerate(zip(drafts, chain(known, repeat(None)), strict=False))
+        old
+        if was is draft and old is not None and old.piece is piece and old.end is draft.shape.end and index not in off
+        else _finished(draft, index, blends)
+        for index, (draft, piece, (was, old)) in enumerate(each)
     ]
 
 
-def _stands(old: SolvedSegment, draft: Draft, index: int, blends: Blends) -> bool:
-    """Whether no blend made anything else of a segment than before."""
-    if old.piece is not blends.pieces[index] or old.end is not draft.shape.end:
-        return False
-    return index not in blends.faults and index not in blends.waiting
+def _blends(block: Block, drafts: list[Draft]) -> Blends:
+    """The surface with its blends, mostly none."""
+    pieces = [draft.shape.piece for draft in drafts]
+    blend = [index for index, segment in enumerate(block.segments) if isinstance(segment, BlendSegment)]
+    if not blend:
+        return Blends(pieces)
+    radii = {index: drafts[index].reading.known["radius"] for index in blend if "radius" in drafts[index].reading.known}
+    shapes = (draft.shape for draft in drafts)
+    lengthless = (index for index, shape in enumerate(shapes) if shape.piece is None and shape.end is not None)
+    return blended(block.segments, blend, pieces, radii, frozenset(lengthless).difference(blend))
 
 
 def _drafts(block: Block, start: Start, unit: Unit, before: Sequence[Draft]) -> list[Draft]:
@@ -180,6 +184,7 @@ def _finished(draft: Draft, index: int, blends: Blends) -> SolvedSegment:
     shape, here, ahead = draft.shape, draft.here, draft.ahead
     fault = blends.faults.get(index)
     told = shape.findings if fault is None else (*shape.findings, fault)
+    own = tuple(replace(finding, segment=index + 1) for finding in told) if told else ()
     return SolvedSegment(
         index + 1,
         draft.reading.values,
@@ -192,7 +197,7 @@ def _finished(draft: Draft, index: int, blends: Blends) -> SolvedSegment:
         here.z or 0.0,
         ahead.z or 0.0,
         ahead.feed,
-        draft.reading.findings + tuple(replace(finding, segment=index + 1) for finding in told),
+        draft.reading.findings + own,
     )
 
 
@@ -243,7 +248,7 @@ def _solved(task: Task, reading: Reading, start: Point | None, choice: int | Non
     if not pieces:
         return _unsolved(task, outcome, reading, start)
     piece = pieces[choice or 0] if len(pieces) > 1 else pieces[0]
-    if max(map(abs, piece.end)) > FARTHEST or _too_far(piece):
+    if _too_far(piece):
         text = "This segment leads farther than any machine goes: check its numbers."
         return _Shape(findings=(Finding("OUT_OF_RANGE", Severity.ERROR, text, field=task.shape[0]),))
     _calculate(reading, piece, unit)
@@ -256,9 +261,11 @@ def _solved(task: Task, reading: Reading, start: Point | None, choice: int | Non
 
 
 def _too_far(piece: Piece) -> bool:
-    """Whether a piece leaves the numbers that are still exact."""
-    places = (*piece.end, *piece.centre) if isinstance(piece, Arc) else piece.end
-    return max(map(abs, places)) > LARGEST
+    """Whether a piece ends beyond any machine, or its centre leaves the numbers that are still exact."""
+    x, y = piece.end
+    if abs(x) > FARTHEST or abs(y) > FARTHEST:
+        return True
+    return isinstance(piece, Arc) and max(map(abs, piece.centre)) > LARGEST
 
 
 def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> _Shape:

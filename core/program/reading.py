@@ -34,17 +34,14 @@ def read(form: Form, part: Block | Segment | Parameters | PartSetup, unit: Unit,
         typed = values[name] = getattr(part, name)
         if typed is None:
             continue
-        fault = None if _inside(typed, low, high) else _fault(one, typed, number, unit)
+        # a number between the bounds is taken at once; what is not is looked at closely
+        inside = isinstance(typed, Entry) and low < typed.value < high
+        fault = None if inside else _fault(one, typed, number, unit)
         if fault is None:
             known[name] = typed.value * factor
         else:
             findings.append(fault)
     return Reading(values, known, tuple(findings))
-
-
-def _inside(typed: Entry | Unread, low: float, high: float) -> bool:
-    """Whether it is a number between two bounds, which is taken at once; what is not is looked at closely."""
-    return isinstance(typed, Entry) and low < typed.value < high
 
 
 def _fault(one: Field, typed: Entry | Unread, number: int, unit: Unit) -> Finding | None:

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 from core.geometry.path import Path
 from core.geometry.piece import Line, Turn
 from core.output.heights import heights
-from core.output.job import Cutter, Floor, Job, Run
+from core.output.job import Cutter, Job, Run
 from core.output.motion import Motion, Pass
 from core.output.passes import levels, passes
-from tests.core.output.jobs import INCH, arc, job, path_of, polyline
+from tests.core.output.jobs import INCH, Floor, arc, job, path_of, polyline
 
 SLOT = polyline((0, 0), (2, 0), (2, 1))
 OUTER = polyline((0, 0.1), (1.9, 0.1), (1.9, 1))

@@ -12,7 +12,7 @@ from core.output.sheet import About, Sheet, sheet
 from core.output.sheet_page import as_page
 from core.output.sheet_text import NOT_READY, READY, WIDTH, as_text
 from core.units import Unit
-from tests.core.output.jobs import INCH, arc, job, path_of, polyline
+from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
 SLOT = job(polyline((0, 0), (2, 0)))
 ABOUT = About("slot", "Key way", "2026-01-02")
@@ -65,7 +65,7 @@ def test_depths_as_they_will_be_posted():
 def test_cutting_time_is_length_over_feed():
     # three pecks along 2 in at 10 in/min are 0.6 min; down from 0.1, -0.05 and -0.15: 0.2, 0.15 and 0.1 at 20 in/min
     assert pairs(of(SLOT))["CUTTING TIME"].startswith("about 0.6 min")
-    slower = replace(SLOT, floors=tuple(replace(floor, feed=INCH / 10) for floor in SLOT.floors))
+    slower = replace(SLOT, floors=floors(len(SLOT.floors), feed=0.1))
     assert pairs(of(slower))["CUTTING TIME"].startswith("about 60.0 min")
 
 
