@@ -38,7 +38,7 @@ class Measured:
     `rows` are the pieces' rows in the path they come from.  `vector` is end - start.  `arm` is start - centre of an
     arc and 1 of a line, `turn` 0 for a line, `angle` the unsigned angle travelled by an arc and 0 for a line.
     `slack` is how far an arc of two different radii may be from the circle taken for it, infinite if the radii
-    differ by more than ARC_RADII: nobody knows then where it runs.
+    differ by more than ARC_RADII, or at all where both ends are on one ray: nobody knows then where it runs.
     """
 
     rows: Rows
@@ -153,6 +153,7 @@ def _one_radius(start: Points, end: Points, centre: Points, turn: Floats) -> tup
     A centre moves along the chord by no more than the radii differ.  Where that is not enough, which is where the chord
     is shorter than the radius, an arc of less than half a turn keeps its ends and gets the radius between its two; a
     longer one keeps its centre: the farther it moves, the farther is the other side of the arc from where it runs.
+    With both ends on one ray from the centre it may be empty or a full circle, which its ends leave open.
     """
     first, last = np.abs(start - centre), np.abs(end - centre)
     off = np.abs(first - last)
@@ -165,10 +166,12 @@ def _one_radius(start: Points, end: Points, centre: Points, turn: Floats) -> tup
     half, middle = size / 2.0, (start + end) / 2.0
     shift = (np.conj(unit) * (centre - middle)).real
     bow = np.sqrt(np.maximum((first + last) ** 2 / 4.0 - half**2, 0.0))
-    short = ((end - centre) * np.conj(start - centre)).imag * turn >= 0.0
+    turned = (end - centre) * np.conj(start - centre)
+    short = turned.imag * turn >= 0.0
     far = np.where(short & (size > 0.0), middle + 1j * turn * unit * bow, centre)
     moved = np.where(np.abs(shift) > off, far, centre - unit * shift)
-    slack = np.where(off > ARC_RADII, np.inf, off)
+    on_one_ray = (np.abs(turned.imag) <= 2.0 * SLIVER * turned.real) & (turned.real > 0.0)
+    slack = np.where((off > ARC_RADII) | on_one_ray, np.inf, off)
     return np.where(uneven, moved, centre), np.where(uneven, slack, 0.0)
 
 

@@ -34,7 +34,8 @@ def judge(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
     Every distance is exact, between lines and arcs.  Nearer than the radius by no more than GOUGE, or than what the
     uneven radii of an arc leave open, is rounding and no gouge.  Nothing is raised for any joined paths: coordinates
     or a radius that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than
-    ARC_RADII give a verdict that is not `judged` and so never clean.
+    ARC_RADII, or at all with both ends on one ray from the centre, give a verdict that is not `judged` and so never
+    clean.
     """
     return judge_together(surface, side, radius, (centre,))
 

@@ -210,6 +210,16 @@ def test_an_arc_with_two_radii_is_granted_the_difference() -> None:
     assert not judge(surface, Side.LEFT, 1.0, spiral).judged
 
 
+@pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
+def test_an_uneven_arc_with_both_ends_on_one_ray_is_not_judged(turn: Turn) -> None:
+    """It may be empty or a full circle, which would gouge the wall; where the radii are even it is empty."""
+    wall = lines((-50, 12), (50, 12))
+    for off, beside in ((1e-6, 0.0), (0.001, 0.0), (-0.002, 0.0), (0.001, 1e-8), (0.001, -1e-8)):
+        around_it = Path.from_pieces([Arc((10.0, 0.0), (10.0 + off, beside), (0.0, 0.0), turn)])
+        assert not judge(wall, Side.RIGHT, 3.0, around_it).judged
+    assert judge(wall, Side.RIGHT, 3.0, Path.from_pieces([Arc((10.0, 0.0), (10.0, 1e-10), (0.0, 0.0), turn)])).clean
+
+
 def test_far_from_the_origin_rounding_is_still_rounding() -> None:
     shift = (6.0e6, -3.0e6)
     verdict = judge(moved(MID_SIDE, 0.0, shift), Side.LEFT, R, moved(MID_SIDE_PATH, 0.0, shift))
