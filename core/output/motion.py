@@ -33,7 +33,8 @@ class Motion:
 class Pass:
     """One run at one depth, from above its plunge point to above its end.
 
-    `number` of `count` depths, at `level`; `stock` is what the run leaves on the side; `finishing` says that it is the
+    `side` of `sides` widths from outside in, of which one may be several runs, and `number` of `count` depths, at
+    `level`; `stock` is what the run leaves on the side; `finishing` says that it is the
     finish tool's.  The first motion is a rapid in XY at a height that clears everything.
     """
 
@@ -41,6 +42,8 @@ class Pass:
     cutter: Cutter
     speed: float
     level: float
+    side: int
+    sides: int
     number: int
     count: int
     stock: float

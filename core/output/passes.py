@@ -90,6 +90,7 @@ def _segments(runs: Sequence[Run]) -> frozenset[int]:
 def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:
     runs = tuple(run for run in stage.runs if len(run.whole))
     floors = [heights(job, run) + stage.floor_stock for run in runs]
+    widths = list(dict.fromkeys(run.offset for run in runs))
     last = len(stage.levels) * len(runs) - 1
     safe = max(job.safe_z, clear_height(job))
     for number, level in enumerate(stage.levels):
@@ -106,6 +107,8 @@ def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:
                 cutter=stage.cutter,
                 speed=job.speed,
                 level=level,
+                side=widths.index(run.offset) + 1,
+                sides=len(widths),
                 number=number + 1,
                 count=len(stage.levels),
                 stock=run.offset,

@@ -170,6 +170,13 @@ def _speed(speed: float) -> str:
 
 
 def _title(one: Pass, unit: Unit) -> str:
-    stock = f" LEAVES {_length(one.stock, unit)} ON THE SIDE" if one.stock > 0.0 else ""
-    kind = "FINISH" if one.finishing else "PASS"
-    return f"BLOCK {one.block} {kind} {one.number} OF {one.count} Z {_length(one.level, unit)}{stock}"
+    stock = f" LEAVES {_length(one.stock, unit)} ON SIDE" if one.stock > 0.0 else ""
+    kind = " FINISH" if one.finishing else ""
+    return f"BLOCK {one.block}{kind} {_which(one)} Z {_length(one.level, unit)}{stock}"
+
+
+def _which(one: Pass) -> str:
+    """Which side pass, and which peck of it, where there are several."""
+    side = (f"SIDE PASS {one.side} OF {one.sides}",) if one.sides > 1 else ()
+    peck = (f"PECK {one.number} OF {one.count}",) if one.count > 1 else ()
+    return " ".join((*side, *peck)) or "PASS 1 OF 1"
