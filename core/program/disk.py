@@ -25,6 +25,12 @@ def sync_folder(folder: Path) -> None:
             os.close(handle)
 
 
+def _there(error: OSError | ValueError) -> bool:
+    """Whether an error is about a file that there is: what cannot be made, or found, is kept out by its folder."""
+    name = error.filename if isinstance(error, OSError) else None
+    return not isinstance(name, str | Path) or os.path.lexists(name)
+
+
 def why(error: OSError | ValueError) -> str:
     """The reason why a file cannot be read or written, and the remedy."""
     match error.errno if isinstance(error, OSError) else None:
@@ -35,7 +41,8 @@ def why(error: OSError | ValueError) -> str:
         case errno.ENOENT:
             return "there is no such file or folder. Check the name."
         case errno.EACCES | errno.EPERM:
-            return "it is protected. Ask for permission, or choose another place."
+            what = "it" if _there(error) else "its folder"
+            return f"{what} is protected. Ask for permission, or choose another place."
         case errno.EROFS:
             return "the disk is write protected. Choose another place."
         case errno.EFBIG:

@@ -105,7 +105,7 @@ class _Table:
         words = [choice.value for choice in choices]
         value = self.data.get(key)
         if not isinstance(value, str) or value not in words:
-            what = "is missing" if value is None else f"cannot be {printable(str(value))}"
+            what = "is missing" if value is None else f"cannot be {_written(value)}"
             raise self.fault(key, f"{key} {what}: write one of {', '.join(words)}, in quotes.")
         return choices(value)
 
@@ -116,11 +116,11 @@ class _Table:
             mended = ": take the quotes away" if _BARE.fullmatch(value) else ""
             raise self.fault(key, f"{key} must be a number, and {printable(value)} is text in quotes{mended}.")
         if isinstance(value, bool) or not isinstance(value, int | float):
-            raise self.fault(key, f"{key} must be a number, not {printable(str(value))}.")
+            raise self.fault(key, f"{key} must be a number, not {_written(value)}.")
         if _beyond(value, one, self.unit):
-            raise self.fault(key, f"{key} is {printable(str(value))}: no machine has such a number, correct it.")
+            raise self.fault(key, f"{key} is {_written(value)}: no machine has such a number, correct it.")
         if one.kind is Kind.COUNT and value != int(value):
-            raise self.fault(key, f"{key} must be a whole number, not {printable(str(value))}.")
+            raise self.fault(key, f"{key} must be a whole number, not {_written(value)}.")
         return float(value)
 
     def table(self, key: str) -> _Table:
@@ -137,6 +137,15 @@ class _Table:
             raise self.fault(key, f"{key} must be tables, each headed [[{key}]].")
         for index, one in enumerate(value):
             yield _Table(self.file, self.lines, (*self.path, key, index), one, self.unit)
+
+
+def _written(value: object) -> str:
+    """A value as a file has it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, list):
+        return f"[{', '.join(map(_written, value))}]"
+    return printable(str(value))
 
 
 def _beyond(value: float, one: Field, unit: Unit) -> bool:
@@ -159,7 +168,7 @@ def read_program(text: str, file: str) -> Program:
     top.only(("format", "units", "parameters", "setup", "tool", "block"))
     version = top.data.get("format")
     if isinstance(version, bool) or version != FORMAT:
-        raise top.fault("format", f"format cannot be {printable(str(version))}: this program reads format = {FORMAT}.")
+        raise top.fault("format", f"format cannot be {_written(version)}: this program reads format = {FORMAT}.")
     top = _Table(file, top.lines, (), top.data, top.chosen("units", Unit))
     return Program(
         top.unit,
@@ -280,4 +289,4 @@ def _choice(table: _Table) -> int | None:
     value = table.data.get("choice")
     if value is None or (value in (0, 1) and type(value) is int):
         return value
-    raise table.fault("choice", f"choice cannot be {printable(str(value))}: write 0 or 1.")
+    raise table.fault("choice", f"choice cannot be {_written(value)}: write 0 or 1.")

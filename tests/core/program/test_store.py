@@ -91,6 +91,21 @@ def test_a_truncated_file_is_a_shorter_program_or_refused(length):
         assert len(read.blocks) <= 1
 
 
+def test_truth_values_are_told_as_the_file_has_them():
+    told = [loads_refused(TEXT.replace('"IN"', value, 1)) for value in ("true", "[true, [false, 1.5]]")]
+    assert [text.partition(":")[0] for text in told] == [
+        "units cannot be true",
+        "units cannot be [true, [false, 1.5]]",
+    ]
+    assert "format cannot be true: " in loads_refused(TEXT.replace("format = 1", "format = true"))
+
+
+def loads_refused(text: str) -> str:
+    with pytest.raises(StoreError) as refused:
+        loads(text, "part")
+    return str(refused.value).partition("line ")[2].partition(": ")[2]
+
+
 def test_a_syntax_error_says_line_and_column():
     with pytest.raises(StoreError, match=r"part.toml, line 3, column 5: Invalid value. Correct it there"):
         loads('format = 1\nunits = "IN"\nx = ]\n', "part.toml")

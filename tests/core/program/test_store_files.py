@@ -151,6 +151,24 @@ def test_a_write_protected_file_is_not_replaced(tmp_path, monkeypatch):
     assert dumps(load(path)) == TEXT
 
 
+@pytest.mark.parametrize("number", [errno.EACCES, errno.EPERM])
+def test_a_protected_folder_is_not_told_as_a_protected_file(tmp_path, monkeypatch, number):
+    path = tmp_path / "part.toml"
+    save(PART, path)
+    real = os.open
+
+    def protected(name: str | Path, flags: int, *args: int) -> int:
+        if flags & os.O_CREAT:
+            raise PermissionError(number, os.strerror(number), str(name))
+        return real(name, flags, *args)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "open", protected)
+        told = refusal(lambda: save(Program(), path))
+    assert told == f"{path} is not saved: its folder is protected. Ask for permission, or choose another place."
+    assert dumps(load(path)) == TEXT
+
+
 def test_interrupted_saving_leaves_nothing_beside_the_file(tmp_path, monkeypatch):
     path = tmp_path / "part.toml"
 
