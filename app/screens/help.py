@@ -13,7 +13,7 @@ from core.records import dataclass
 KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Enter", "take the field and go on"),
     ("Tab, up, down", "from field to field"),
-    ("Esc", "the old value back, also of one marked ERR"),
+    ("Esc", "the old value back, also in place of ERR;"),
     ("", "out of a dialog"),
     ("left, right", "change the text; step a choice; walk"),
     ("Del, Backspace", "empty the field; Enter makes it blank"),

@@ -10,6 +10,7 @@ from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View, uns
 from app.session import Said, Session
 from app.widgets.header import block_line, header, segment_line
 from app.widgets.rows import Look, Row, Span
+from app.widgets.verdict import before_first
 from core.program.edit import Refused, Where, insert_segment
 from core.program.fields import TABLES, Form
 from core.program.model import ArcSegment, BlendSegment, LineSegment, Segment
@@ -67,6 +68,7 @@ class NewSegment(Page):
             header(block_line(session), number, session, surface.width),
             ((), *rows),
             Said("Press the softkey or the letter of the new segment, or left arrow to go back."),
+            told=before_first(session.found, session.program.unit),
         )
 
 

@@ -37,6 +37,14 @@ UNKNOWN: Final = plain(" The verdict is being calculated.", Look.WARNING)
 """Where no finding stands and none may be missed."""
 
 
+TO_START: Final = "Type START, then right arrow for the first segment."
+TO_FIRST: Final = "START is complete: on SEGMENT, right arrow to segment 1."
+"""What to do in a block without segments."""
+BACK_TO_START: Final = "START is not complete yet: left arrow goes back to it."
+CHOOSE: Final = "START is complete: choose what segment 1 is."
+"""The same where the first segment is being chosen."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Case:
     """The path the verdict is about: the block's own, or that of a look-ahead value of the table.
@@ -118,8 +126,17 @@ def _beginning(found: DerivedBlock) -> str:
     if found.block.segments or any(one.code not in NOT_YET for one in found.errors):
         return ""
     if any(one.code == "MISSING" for one in found.errors):
-        return "Type START, then right arrow for the first segment."
-    return "START is complete: on SEGMENT, right arrow to segment 1."
+        return TO_START
+    return TO_FIRST
+
+
+def before_first(found: DerivedBlock, unit: Unit) -> tuple[Row, ...] | None:
+    """What stands there while the first segment is chosen; None where the verdict has something to say."""
+    hint = _beginning(found)
+    if not hint:
+        return None
+    hint = BACK_TO_START if hint == TO_START else CHOOSE
+    return strip(found, None, unit), plain(f" {hint}", Look.LABEL)
 
 
 def deepest_gouge(found: DerivedBlock, unit: Unit) -> list[Row]:

@@ -10,6 +10,7 @@ from app.desk import Desk
 from app.files import empty_program, example
 from app.main import begin
 from app.screens.ask import Ask
+from app.screens.new_segment import NewSegment
 from app.screens.post import PostPage
 from app.session import Session
 from app.widgets.rows import text_of
@@ -172,6 +173,17 @@ def test_a_start_that_is_complete_says_what_comes_next() -> None:
     assert "Type START" not in hint(operator)
     assert "START is complete" in hint(operator)
     assert "segment 1" in hint(operator)
+
+
+def test_where_the_first_segment_is_chosen_nobody_is_sent_there() -> None:
+    operator = Operator.at().press("pagedown")
+    assert operator.part("verdict").splitlines()[1:] == [" START is not complete yet: left arrow goes back to it."]
+    operator = Operator.at().press(*["tab"] * 4).type("1", "1", "0", "-1")
+    assert operator.part("verdict").splitlines()[1:] == [" START is complete: on SEGMENT, right arrow to segment 1."]
+    operator.press("pagedown")
+    assert isinstance(operator.desk.page, NewSegment)
+    assert operator.part("verdict").splitlines()[1:] == [" START is complete: choose what segment 1 is."]
+    assert "START" not in operator.press("l", "pagedown").part("verdict")
 
 
 def test_taking_over_says_that_the_other_terminal_is_still_live(tmp_path: Path) -> None:
