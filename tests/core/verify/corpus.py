@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from math import hypot, inf, tan, tau
 from random import Random
 
 import numpy as np
+from shapely import LinearRing
 
 from core.comp.compensate import compensate
 from core.geometry.path import Path
@@ -67,6 +69,12 @@ class Case:
     radius: float
     closed: bool
     path: Chain
+
+    @cached_property
+    def has_sides(self) -> bool:
+        """The contour is closed and does not cross itself, as shapely sees its chords: of any other nobody knows the
+        inside."""
+        return self.closed and bool(LinearRing(oracle.chords(self.surface).coords[:-1]).is_simple)
 
     def other(self, side: Side, radius: float) -> Chain:
         return Chain.of(_compensated(self.surface, side, radius, closed=self.closed))

@@ -189,9 +189,9 @@ class Row:
 
 
 def _gouge_told(truth: Truth, verdict: Verdict, case: Case) -> bool:
-    """The wrong side, and a gouge as deep as it is; where a contour that crosses itself leaves the sides unknown, or
-    none is asked for beside an open one, no less than the radius."""
-    if case.closed and not verdict.crosses_itself:
+    """The wrong side, and a gouge as deep as it is; where the sides are unknown, or none is asked for beside an
+    open contour, no less than the radius."""
+    if case.has_sides:
         told = abs(verdict.depth - truth.depth) < 1e-5 and (bool(verdict.wrong_side) or not truth.wrong_side)
         return told and not verdict.clean
     return not verdict.clean and verdict.depth > min(truth.depth, case.radius) - 1e-5

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import atan2, cos, hypot, sin, tau
+from math import atan2, ceil, cos, hypot, sin, sqrt, tau
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely import LineString
 
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece
@@ -152,3 +153,17 @@ def inside(path: Path, outline: Path, step: float) -> bool:
     points, _ = samples(path, 20.0 * step)
     points = points[apart(points, outline) > 0.05]
     return bool(len(points)) and float(np.mean(encloses(outline, points))) > 0.5
+
+
+CHORD = 1e-5
+"""Millimetres between an arc and its chords."""
+
+
+def chords(path: Path) -> LineString:
+    """The path as a polyline no farther than CHORD from it."""
+    spots = [path.points[:1]]
+    for piece, radius in zip(path, path.radii.tolist(), strict=True):
+        step = sqrt(8.0 * CHORD * max(radius, CHORD))
+        count = 1 if isinstance(piece, Line) else max(2, ceil(length(piece) / step))
+        spots.append(along(piece, np.arange(1, count + 1) / count))
+    return LineString(np.concatenate(spots))

@@ -17,9 +17,9 @@ from core.verify.judge import judge
 from core.verify.verdict import Verdict
 from tests.core.verify import oracle
 from tests.core.verify.corpus import Chain, gouged
+from tests.core.verify.oracle import chords
 from tests.core.verify.roads import MANY, in_parts, measured, proved
 from tests.core.verify.shapes import lines, mirrored, square
-from tests.core.verify.test_shapely import chords
 
 PLATE = square(40.0)
 

@@ -19,10 +19,10 @@ from core.verify.judge import judge
 from core.verify.verdict import UncutStretches
 from tests.core.verify import oracle
 from tests.core.verify.corpus import Chain
+from tests.core.verify.oracle import chords
 from tests.core.verify.roads import thresholds
 from tests.core.verify.shapes import circle, lines, square
 from tests.core.verify.test_brute import spiral, waves
-from tests.core.verify.test_shapely import chords
 
 RADIUS = 0.25
 

@@ -2,42 +2,25 @@
 
 from __future__ import annotations
 
-from math import ceil, sqrt
 from random import Random
 
-import numpy as np
 import pytest
-from shapely import LineString, Polygon, box
+from shapely import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
-from core.geometry.path import Path
-from core.geometry.piece import Line
 from core.geometry.side import Side
 from tests.core.verify import oracle
 from tests.core.verify.corpus import Case, corpus
 from tests.core.verify.mutants import MUTATIONS
 from tests.core.verify.roads import ROADS
 
-CHORD = 1e-5
-"""Millimetres between an arc and its chords."""
-
 CLEAR = 1e-3
 """Millimetres of gouge or stock from which buffers can be trusted to show it."""
 
 
-def chords(path: Path) -> LineString:
-    """The path as a polyline no farther than CHORD from it."""
-    spots = [path.points[:1]]
-    for piece, radius in zip(path, path.radii.tolist(), strict=True):
-        step = sqrt(8.0 * CHORD * max(radius, CHORD))
-        count = 1 if isinstance(piece, Line) else max(2, ceil(oracle.length(piece) / step))
-        spots.append(oracle.along(piece, np.arange(1, count + 1) / count))
-    return LineString(np.concatenate(spots))
-
-
 def material(case: Case) -> BaseGeometry | None:
     """What the cutter has to keep out of, where the contour bounds it."""
-    inner = Polygon(chords(case.surface))
+    inner = Polygon(oracle.chords(case.surface))
     if not (case.closed and inner.is_valid):
         return None
     cutter_is_inside = inner.exterior.is_ccw == (case.side is Side.LEFT)
@@ -51,7 +34,7 @@ def test_the_judge_and_shapely_agree_on_every_road(seed: int) -> None:
         kept_out = material(case)
         for mutation in MUTATIONS:
             path = mutation(random, case).path()
-            line, walls = chords(path), chords(case.surface)
+            line, walls = oracle.chords(path), oracle.chords(case.surface)
             entered = kept_out is not None and bool(
                 line.buffer(case.radius - CLEAR, quad_segs=64).intersection(kept_out).area > CLEAR**2
             )
@@ -59,7 +42,7 @@ def test_the_judge_and_shapely_agree_on_every_road(seed: int) -> None:
             gouging, leaving = gouging + entered, leaving + (left > 0.0)
             for road in ROADS:
                 verdict = road.verdict(case.surface, case.side, case.radius, path)
-                assert verdict.clearance == pytest.approx(line.distance(walls), abs=3.0 * CHORD)
+                assert verdict.clearance == pytest.approx(line.distance(walls), abs=3.0 * oracle.CHORD)
                 assert not (entered and verdict.clean)
                 assert entered or kept_out is None or (verdict.depth < 2.0 * CLEAR and not verdict.wrong_side)
                 assert verdict.uncut_length > left - CLEAR
