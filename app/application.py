@@ -15,7 +15,7 @@ from app.advice import Advice
 from app.behind import Behind
 from app.desk import Desk
 from app.engine import Engine, bearing
-from app.screens.frame import Frame, picture
+from app.screens.frame import Frame, heard, picture
 from app.screens.page import Question
 from app.session import Session
 from app.surroundings import Surroundings, real
@@ -108,6 +108,8 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         if key == AGAIN:
             self.paint_again()
             return
+        if not heard(self.desk, key, *self.size):
+            return
         self.desk = self.keep(self.desk.press(key, character))
         self._wait_for_digit()
         self._advance()
@@ -115,6 +117,8 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
     def paste(self, text: str) -> None:
         """Text was pasted."""
         self._touch()
+        if not heard(self.desk, "", *self.size):
+            return
         self.desk = self.keep(self.desk.paste(text))
         self._advance()
 

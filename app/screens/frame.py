@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from textual import events
 from textual.app import ComposeResult
 from textual.screen import Screen
 
 from app.desk import Desk
-from app.screens.page import Layout, Surface, View
+from app.screens.page import Layout, Page, Surface, View
 from app.screens.plan import NATIVE, Plan, plan
-from app.session import Said, Session
+from app.session import Said, Session, Tone
 from app.surroundings import Surroundings
 from app.widgets.painted import Rows
 from app.widgets.prompt import needed, prompt_rows
-from app.widgets.rows import Look, Part, Row, composed, plain
+from app.widgets.rows import Look, Part, Row, composed, plain, text_of
 from app.widgets.softkeys import softkey_rows
 from app.widgets.status import status_row
 
@@ -23,8 +23,11 @@ if TYPE_CHECKING:
     from app.application import CutcompApp
     from app.engine import Known
 
-SECOND = 1
+SECOND: Final = 1
 """Where a header does not fit, its second line counts."""
+WAITS: Final = Said("A question waits: make it larger to read and answer it.", Tone.WARNING)
+PASSING: Final = frozenset({"escape", "ctrl+q"})
+"""Keys that answer no question: back from it where it can be left, and out of the program."""
 
 
 class Frame(Screen[None], inherit_bindings=False, inherit_css=False):
@@ -61,14 +64,32 @@ def picture(desk: Desk, known: Known, around: Surroundings, width: int, height: 
     return composed(list(parts(desk, known, around, width, height).values()), width, height)
 
 
+def unread(page: Page, session: Session, width: int, height: int) -> bool:
+    """Whether the page asks something of which a smaller terminal than the usual one shows less than that one."""
+    if not page.asks or (width >= NATIVE[0] and height >= NATIVE[1]):
+        return False
+    areas = plan(width, height, page.layout)
+    body = areas.body
+    most = plan(*NATIVE, page.layout).body.height
+    rows = page.view(session, Surface(areas.header.width, body.height, None, body.width)).body[:most]
+    return len(rows) > body.height or any(len(text_of(row).rstrip()) > body.width for row in rows)
+
+
+def heard(desk: Desk, key: str, width: int, height: int) -> bool:
+    """Whether a key, or pasted text as an empty one, may do anything on a terminal of this size."""
+    return key in PASSING or not unread(desk.page, desk.session, width, height)
+
+
 def parts(desk: Desk, known: Known, around: Surroundings, width: int, height: int) -> dict[str, Part]:
     """The parts of the picture by their names in the plan."""
     session = known.trial or desk.session
     layout = desk.page.layout
-    said = desk.session.said
+    waits = unread(desk.page, session, width, height)
+    said = WAITS if waits else desk.session.said
     areas = plan(width, height, layout, 0 if said is None else needed(said, width))
     view = desk.page.view(session, _surface(areas, known))
     drawn = areas.drawing
+    softkeys = {} if waits else desk.page.softkeys(desk.session)
     status = next((page.status for page in reversed(desk.pages) if page.status is not None), None)
     return {
         "notice": Part(areas.notice, _notice(width, height)),
@@ -76,7 +97,7 @@ def parts(desk: Desk, known: Known, around: Surroundings, width: int, height: in
         "body": Part(areas.body, view.body, view.focus),
         "verdict": Part(areas.verdict, _verdict(session, known, view, layout, areas)),
         "drawing": Part(drawn, known.drawing(desk, view.sketch, drawn.width, drawn.height, view.drawn)),
-        "softkeys": Part(areas.softkeys, softkey_rows(desk.page.softkeys(desk.session), areas.softkeys.height)),
+        "softkeys": Part(areas.softkeys, softkey_rows(softkeys, areas.softkeys.height)),
         "prompt": Part(areas.prompt, _prompt_rows(said or _guide(desk) or view.prompt, areas)),
         "status": Part(areas.status, (status_row(desk.session, around.clock(), around.free(), width, status),)),
     }
