@@ -136,21 +136,20 @@ class Part(NamedTuple):
 
 def composed(parts: list[Part], width: int, height: int) -> tuple[Row, ...]:
     """The whole terminal: every part in its area, blanks elsewhere.  Areas do not overlap."""
-    return tuple(_line(parts, y, width) for y in range(height))
+    lines: list[list[Span]] = [[] for _ in range(height)]
+    columns = [0] * height
+    for (x, y, across, down), rows, focus in sorted(parts, key=lambda part: part.area.x):
+        if across <= 0:
+            continue
+        top = max(0, min(focus, len(rows) - 1) - down + 1)
+        shown = (*rows[top : top + down], *[()] * down)
+        for line, row in zip(range(y, min(y + down, height)), shown, strict=False):
+            if x > columns[line]:
+                lines[line].append(Span(" " * (x - columns[line])))
+            lines[line] += padded(row, across)
+            columns[line] = x + across
+    return tuple(_filled(line, width - column) for line, column in zip(lines, columns, strict=True))
 
 
-def _line(parts: list[Part], y: int, width: int) -> Row:
-    row: list[Span] = []
-    column = 0
-    across = [part for part in parts if part.area.y <= y < part.area.y + part.area.height and part.area.width > 0]
-    for part in sorted(across, key=lambda part: part.area.x):
-        if part.area.x > column:
-            row.append(Span(" " * (part.area.x - column)))
-        row.extend(padded(_row(part, y - part.area.y), part.area.width))
-        column = part.area.x + part.area.width
-    return (*row, Span(" " * (width - column))) if column < width else tuple(row)
-
-
-def _row(part: Part, line: int) -> Row:
-    top = max(0, min(part.focus, len(part.rows) - 1) - part.area.height + 1)
-    return part.rows[top + line] if top + line < len(part.rows) else ()
+def _filled(line: list[Span], left: int) -> Row:
+    return (*line, Span(" " * left)) if left > 0 else tuple(line)

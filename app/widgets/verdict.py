@@ -262,9 +262,11 @@ def _gouge(verdict: Verdict, unit: Unit) -> Row:
 
 def _deleted(compensated: Compensated | None) -> Iterator[Erased]:
     """One line for every pair of pieces that erased segments, corner arcs left out."""
-    groups: dict[tuple[float, float, float, float], list[float]] = {}
-    for one in () if compensated is None else compensated.deleted:
-        groups.setdefault((*one.by, *one.at), []).append(one.segment)
+    if compensated is None:
+        return
+    deleted, groups = compensated.deleted, dict[tuple[float, float, float, float], list[float]]()
+    for by, at, one in zip(deleted.by.tolist(), deleted.at.tolist(), deleted.segments.tolist(), strict=True):
+        groups.setdefault((*by, *at), []).append(one)
     for pair, segments in groups.items():
         if any(segment.is_integer() for segment in segments):
             yield Erased(pair, segments)

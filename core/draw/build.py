@@ -8,6 +8,7 @@ from math import cos, sin
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol
 from core.geometry.path import EMPTY, Floats, Path
 from core.geometry.piece import Line, Piece, Point
+from core.geometry.stretch import NO_PARTS, Parts
 from core.units import Unit
 
 
@@ -20,10 +21,10 @@ def contour_scene(
     further: Sequence[Path] = (),
     leads: Sequence[Path] = (),
     rough: Sequence[Path] = (),
-    deleted: Sequence[Path] = (),
+    deleted: Parts = NO_PARTS,
     meetings: Sequence[Point] = (),
     gouges: Sequence[Point] = (),
-    uncut: Sequence[Path] = (),
+    uncut: Parts = NO_PARTS,
     cutter: tuple[Point, float] | None = None,
     current: Path | None = None,
     start: Point | None = None,
@@ -41,8 +42,8 @@ def contour_scene(
         *_layers(rough, Style.RAPID, dashed=True),
         *_layers(leads, Style.LEAD),
         *_layers((path, *further), Style.PATH),
-        *_layers(uncut, Style.UNCUT),
-        *_layers(deleted, Style.DELETED, dashed=True),
+        *_parts(uncut, Style.UNCUT),
+        *_parts(deleted, Style.DELETED, dashed=True),
         *_layers((current or EMPTY,), Style.CURRENT),
     )
     travel = (*_travel(path if len(path) else surface), *_plunge(leads, path))
@@ -59,6 +60,11 @@ def _trouble(start: Point | None, meetings: Sequence[Point], gouges: Sequence[Po
 
 def _layers(paths: Sequence[Path], style: Style, *, dashed: bool = False) -> Iterator[Layer]:
     return (Layer(path, style, dashed) for path in paths if len(path))
+
+
+def _parts(parts: Parts, style: Style, *, dashed: bool = False) -> Iterator[Layer]:
+    if len(parts.path):
+        yield Layer(parts.path, style, dashed, parts.own)
 
 
 def _spots(places: Sequence[Point], style: Style, symbol: Symbol) -> Iterator[Mark]:

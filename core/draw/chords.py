@@ -86,10 +86,9 @@ def chords(layers: Sequence[Layer], view: View, columns: int, rows: int) -> Chor
 
 def _gathered(given: Sequence[tuple[int, Layer]], view: View) -> _Pieces:
     """The pieces of all layers in window coordinates, in order; arcs shorter than SHORT are lines here."""
-    pieces = gathered([layer.path for _, layer in given])
-    counts = np.array([len(layer.path.turns) for _, layer in given])
-    layers = np.repeat([index for index, _ in given], counts)
-    along = _travelled([layer for _, layer in given], np.cumsum(counts)) / view.scale
+    pieces = gathered([layer for _, layer in given])
+    layers = np.array([index for index, _ in given])[pieces.layers]
+    along = _travelled([layer for _, layer in given], pieces.layers) / view.scale
     points, centres = _in_window(pieces.points, view), _in_window(pieces.centres, view)
     limit = BEYOND / view.scale
     if not (_within(points, limit).all() and _within(centres, limit).all()):
@@ -124,13 +123,16 @@ def _in_window(points: Floats, view: View) -> Points:
     return window
 
 
-def _travelled(layers: Sequence[Layer], behind: Rows) -> Floats:
-    """Millimetres from its path's start to each piece of a dashed layer; `behind` counts the pieces up to its end."""
-    along = np.zeros(behind[-1])
-    for layer, last in zip(layers, behind.tolist(), strict=True):
-        if layer.dashed and len(layer.path) > 1:
-            lengths = layer.path.lengths
-            along[last - len(lengths) : last] = np.cumsum(lengths) - lengths
+def _travelled(layers: Sequence[Layer], owners: Rows) -> Floats:
+    """(n,) millimetres from its path's start to each piece of a dashed layer; `owners` (n,) are the pieces' layers.
+
+    Where only parts of a path are drawn each piece's dashes begin with it.
+    """
+    along = np.zeros(len(owners))
+    for index, layer in enumerate(layers):
+        if layer.dashed and layer.own is None and len(layer.path) > 1:
+            lengths, first = layer.path.lengths, int(np.searchsorted(owners, index))
+            along[first : first + len(lengths)] = np.cumsum(lengths) - lengths
     return along
 
 

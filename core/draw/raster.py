@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.draw.chords import Chords, Rows, chords
+from core.draw.chords import Chords, Points, Rows, chords
 from core.draw.mode import Cells, Mode, cells
 from core.draw.scene import Circle, Layer, Scene, Style
 from core.draw.signs import Styles, write_signs
@@ -91,6 +91,9 @@ def _straight(x0: float, y0: float, x1: float, y1: float) -> Path:
 def _clipped(found: Chords, half_width: float, half_height: float) -> Chords:
     """What of the chords lies inside the window (Liang and Barsky's parameters)."""
     run = found.ends - found.starts
+    if _inside(found.starts, half_width, half_height) and _inside(found.ends, half_width, half_height):
+        # as below, to the last digit
+        return Chords(found.starts, found.starts + run, found.layers, found.along)
     enter, leave = np.zeros(len(run)), np.ones(len(run))
     for start, step, limit in (
         (found.starts.real, run.real, half_width),
@@ -103,6 +106,10 @@ def _clipped(found: Chords, half_width: float, half_height: float) -> Chords:
     starts, run, enter, leave = found.starts[keep], run[keep], enter[keep], leave[keep]
     along = found.along[keep] + enter * np.abs(run)
     return Chords(starts + enter * run, starts + leave * run, found.layers[keep], along)
+
+
+def _inside(points: Points, half_width: float, half_height: float) -> bool:
+    return bool((np.abs(points.real) <= half_width).all() and (np.abs(points.imag) <= half_height).all())
 
 
 def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]:
@@ -163,10 +170,12 @@ def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Ro
 
 def _dashes(layers: tuple[Layer, ...], layer: Rows, along: Floats) -> NDArray[np.bool_]:
     """Which dots are lit: all of a whole line, part of each period of a dashed one."""
-    period = np.array([AXIS_DASH[0]] * AXES + [DASH[0]] * (len(layers) - AXES))
-    dashed = [each.dashed and each.style is not Style.DELETED for each in layers[AXES:]]
-    lit = np.array([AXIS_DASH[1]] * AXES + [DASH[1] if each else np.inf for each in dashed])
-    shown: NDArray[np.bool_] = np.mod(along + PHASE * (layer < AXES), period[layer]) < lit[layer]
+    dashed = np.array([each.dashed and each.style is not Style.DELETED for each in layers])
+    rows = dashed[layer].nonzero()[0]
+    axis = layer[rows] < AXES
+    period, lit = np.where(axis, AXIS_DASH[0], DASH[0]), np.where(axis, AXIS_DASH[1], DASH[1])
+    shown = np.ones(len(layer), np.bool_)
+    shown[rows] = np.mod(along[rows] + PHASE * axis, period) < lit
     return shown
 
 

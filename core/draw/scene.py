@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from core.geometry.path import Floats, Path, Turns
 from core.geometry.piece import Point
+from core.geometry.stretch import Parts
 from core.tolerance import LARGEST
 from core.units import Unit
 
@@ -58,11 +59,19 @@ class Symbol(Enum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Layer:
-    """One path and its role."""
+    """One path and its role; where `own` (n,) is given, only those of its pieces are drawn for which it is True."""
 
     path: Path
     style: Style
     dashed: bool = False
+    own: NDArray[np.bool_] | None = None
+
+    @property
+    def parts(self) -> list[Path]:
+        """The runs of pieces that are drawn."""
+        if self.own is None:
+            return [self.path] if len(self.path) else []
+        return Parts(self.path, self.own).paths
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,11 +108,11 @@ class Scene:
         """Least x, least y, largest x, largest y of all that can be drawn; None for an empty scene."""
         boxes = [_box_of(circle.centre, circle.radius) for circle in self.circles]
         boxes += [_box_of(mark.at, 0.0) for mark in self.marks]
-        paths = [layer.path for layer in self.layers if len(layer.path)]
+        layers = [layer for layer in self.layers if len(layer.path)]
         with np.errstate(invalid="ignore", over="ignore"):
-            boxes += [_boxes(gathered(paths))] if paths else []
-            rows = np.concatenate(boxes) if boxes else np.empty((0, 4))
-            rows = rows[np.all(np.abs(rows) <= BEYOND, axis=1)]
+            rows = np.array(boxes).reshape(-1, 4)
+            rows = np.concatenate((rows, _boxes(gathered(layers)))) if layers else rows
+            rows = rows[(np.abs(rows) <= BEYOND).all(axis=1)]
         if not len(rows):
             return None
         (x0, y0), (x1, y1) = rows[:, :2].min(axis=0).tolist(), rows[:, 2:].max(axis=0).tolist()
@@ -112,31 +121,38 @@ class Scene:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pieces:
-    """The n pieces of several paths one behind the other, in millimetres.
+    """The n pieces of several layers one behind the other, in millimetres.
 
-    `points` (m, 2) are those of all paths; piece i runs from row `rows[i]` of them to the next one.  `centres` (n, 2)
-    and `turns` (n,) as a path has them.
+    `points` (m, 2) are those of all paths; piece i runs from row `rows[i]` of them to the next one and belongs to the
+    layer `layers[i]`.  `centres` (n, 2) and `turns` (n,) as a path has them.
     """
 
     points: Floats
     rows: NDArray[np.intp]
     centres: Floats
     turns: Turns
+    layers: NDArray[np.intp]
 
     def only(self, keep: NDArray[np.intp]) -> Pieces:
         """These pieces, by their numbers."""
-        return Pieces(self.points, self.rows[keep], self.centres[keep], self.turns[keep])
+        return Pieces(self.points, self.rows[keep], self.centres[keep], self.turns[keep], self.layers[keep])
 
 
-def gathered(paths: Sequence[Path]) -> Pieces:
-    """All pieces of all paths: what is asked of them once would be asked of a hundred little paths one by one."""
-    counts = [len(path.turns) for path in paths]
-    return Pieces(
+def gathered(layers: Sequence[Layer]) -> Pieces:
+    """All pieces that are drawn of layers with paths that are not empty, to be asked once and not layer by layer."""
+    paths, counts = [layer.path for layer in layers], [len(layer.path.turns) for layer in layers]
+    owners = np.repeat(np.arange(len(counts)), counts)
+    every = Pieces(
         np.concatenate([path.points for path in paths]),
-        np.arange(sum(counts)) + np.repeat(np.arange(len(counts)), counts),
+        np.arange(len(owners)) + owners,
         np.concatenate([path.centres for path in paths]),
         np.concatenate([path.turns for path in paths]),
+        owners,
     )
+    if all(layer.own is None for layer in layers):
+        return every
+    own = [np.ones(len(layer.path), np.bool_) if layer.own is None else layer.own for layer in layers]
+    return every.only(np.concatenate(own).nonzero()[0])
 
 
 def _boxes(pieces: Pieces) -> Floats:
@@ -145,9 +161,10 @@ def _boxes(pieces: Pieces) -> Floats:
     Where a coordinate can be no part of a drawing each piece has its own, so that it can be left out.
     """
     points = pieces.points
-    if not (np.abs(points) <= BEYOND).all():
-        return _each(pieces)
     box = np.concatenate((points.min(axis=0), points.max(axis=0)))
+    # what is not a number is neither the least nor the largest, but comes out of both
+    if not (np.abs(box) <= BEYOND).all():
+        return _each(pieces)
     arcs = pieces.only(pieces.turns.nonzero()[0])
     radial = points[arcs.rows] - arcs.centres
     radii = np.hypot(radial[:, 0], radial[:, 1])[:, None]
@@ -164,9 +181,9 @@ def _each(pieces: Pieces) -> Floats:
     return Path.of(points, centres, turns).boxes[::2]
 
 
-def _box_of(centre: Point, radius: float) -> Floats:
+def _box_of(centre: Point, radius: float) -> Box:
     (x, y) = centre
-    return np.array([[x - radius, y - radius, x + radius, y + radius]])
+    return (x - radius, y - radius, x + radius, y + radius)
 
 
 def joined_scenes(scenes: Sequence[Scene]) -> Scene:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Point
@@ -13,25 +15,48 @@ Ends = tuple[float, Point, float, Point]
 """A stretch's first segment and the point on it, its last segment and the point on that."""
 
 
-def stretch(surface: Path, first: float, start: Point, last: float, end: Point) -> Path:
-    """The part of a surface from the point `start` on segment `first` to the point `end` on segment `last`.
+class Parts(NamedTuple):
+    """Parts of a path one behind the other, as one path: its pieces where `own` (n,) is True; the others join them.
 
-    Empty if there are no such segments; it runs past a closed contour's start if `last` lies before `first`.
+    A hundred little paths take longer to make than all that is done with them.
     """
-    return next(iter(stretches(surface, [(first, start, last, end)])), EMPTY)
+
+    path: Path
+    own: NDArray[np.bool_]
+
+    @property
+    def paths(self) -> list[Path]:
+        """Each part by itself."""
+        edges = np.flatnonzero(np.diff(self.own, prepend=False, append=False)).reshape(-1, 2)
+        return [self.path.part(first, last) for first, last in edges.tolist()]
 
 
-def stretches(surface: Path, wanted: Sequence[Ends]) -> list[Path]:
-    """Many of them, without those that are empty: cut out of the surface's arrays at once."""
+NO_PARTS: Final = Parts(EMPTY, np.empty(0, np.bool_))
+
+
+def stretches(surface: Path, wanted: Sequence[Ends]) -> Parts:
+    """The parts of a surface from a point on one segment to a point on another, without those of unknown segments.
+
+    One runs past a closed contour's start if its last segment lies before its first.
+    """
     whole, spans = _cut_out(surface, wanted)
-    return [
-        Path(whole.points[head : tail + 1], whole.centres[head:tail], whole.turns[head:tail], whole.numbers[head:tail])
-        for head, tail in spans
-    ]
+    own = np.ones(len(whole), np.bool_)
+    own[[tail for _, tail in spans[:-1]]] = False
+    return Parts(whole, own)
+
+
+def pieces_joined(path: Path, rows: NDArray[np.intp]) -> Parts:
+    """Single pieces of a path, by their rows, each a part of its own."""
+    if not len(rows):
+        return NO_PARTS
+    points = np.stack((path.starts[rows], path.ends[rows]), axis=1).reshape(-1, 2)
+    centres, turns, own = points[:-1].copy(), np.zeros(len(points) - 1, np.int8), np.zeros(len(points) - 1, np.bool_)
+    centres[::2], turns[::2], own[::2] = path.centres[rows], path.turns[rows], True
+    return Parts(Path(points, centres, turns, np.repeat(path.numbers[rows], 2)[:-1]), own)
 
 
 def stretch_lengths(surface: Path, wanted: Sequence[Ends]) -> list[list[tuple[float, float]]]:
-    """Of the same stretches the pieces' segments and lengths."""
+    """Of the same stretches, each by itself, the pieces' segments and lengths."""
     whole, spans = _cut_out(surface, wanted)
     each = list(zip(whole.numbers.tolist(), whole.lengths.tolist(), strict=True))
     return [each[head:tail] for head, tail in spans]
@@ -52,12 +77,11 @@ def _cut_out(surface: Path, wanted: Sequence[Ends]) -> tuple[Path, list[tuple[in
     ]
     if not known:
         return EMPTY, []
-    steps = [_steps(surface, *one) for one in known]
-    behind = np.cumsum(np.array(steps) + 2)
     # rows of points, one more than of pieces: behind the last piece of each stretch its end
-    runs = [np.arange(one[0], one[0] + more + 2) for one, more in zip(known, steps, strict=True)]
-    rows = np.concatenate(runs) % count
-    heads, tails = np.array([0, *behind[:-1].tolist()]), behind - 1
+    counts = np.array([_steps(surface, *one) for one in known]) + 2
+    behind = np.cumsum(counts)
+    heads, tails = behind - counts, behind - 1
+    rows = (np.arange(behind[-1]) + np.repeat(np.array([one[0] for one in known]) - heads, counts)) % count
     points, centres, turns = surface.points[rows], surface.centres[rows], surface.turns[rows]
     points[heads], points[tails] = [one[1] for one in known], [one[3] for one in known]
     turns[tails] = 0

@@ -13,6 +13,7 @@ import numpy as np
 
 from core.draw.scene import Box, Circle, Layer, Mark, Scene, Style, Symbol
 from core.draw.signs import round_length
+from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.units import from_mm, to_mm
 
@@ -64,7 +65,7 @@ def svg(scene: Scene, *, title: str) -> str:
     lines = (
         *_head(box, title),
         *_axes(scene, (x0 - margin / 2, y0 - margin / 2, x1 + margin / 2, y1 + margin / 2)),
-        *(_layer(layer) for layer in scene.layers if len(layer.path)),
+        *(_path(part, layer) for layer in scene.layers for part in layer.parts),
         *(_circle(circle) for circle in scene.circles if _finite(*circle.centre, circle.radius)),
         *(_mark(mark, size * TEXT) for mark in scene.marks if _finite(*mark.at)),
         _text((x0, y1 + margin), title, size * TEXT * 1.2),
@@ -142,9 +143,8 @@ def _axes(scene: Scene, box: Box) -> Iterator[str]:
         yield _drawn(Style.AXIS, f"M{_at((0.0, y0))} L{_at((0.0, y1))}")
 
 
-def _layer(layer: Layer) -> str:
-    """One path; pieces that are not finite leave a gap."""
-    path = layer.path
+def _path(path: Path, layer: Layer) -> str:
+    """One path of a layer; pieces that are not finite leave a gap."""
     values = np.hstack((path.starts, path.ends, path.centres))
     sound: list[bool] = np.logical_and.reduce(np.isfinite(values), axis=1).tolist()
     words, joined = [], False

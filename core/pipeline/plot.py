@@ -12,12 +12,11 @@ from core.draw.build import contour_scene
 from core.draw.scene import Scene, joined_scenes
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Piece, Point
-from core.geometry.stretch import stretches
+from core.geometry.stretch import NO_PARTS, Parts, pieces_joined, stretches
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock, Loop, Work
 from core.pipeline.table import Row
 from core.units import Unit
-from core.verify.verdict import Verdict
 
 
 def svg_of(derived: Derived, *, title: str) -> str:
@@ -42,10 +41,10 @@ def block_scene(found: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         further=[loop.path for loop in loops[1:]],
         leads=[lead for loop in loops for lead in (loop.lead_in, loop.lead_out)],
         rough=() if row is not None else _behind(work),
-        deleted=() if one is None else _deleted(one),
-        meetings=() if one is None else list(dict.fromkeys(deleted.at for deleted in one.deleted)),
+        deleted=NO_PARTS if one is None else _deleted(one),
+        meetings=() if one is None else list(dict.fromkeys((x, y) for x, y in one.deleted.at.tolist())),
         gouges=() if verdict is None else [gouge.surface_at for gouge in verdict.gouges],
-        uncut=() if verdict is None else _uncut(surface, verdict),
+        uncut=NO_PARTS if verdict is None else stretches(surface, verdict.uncut.ends),
         cutter=_cutter(found, loops, one, segment),
         current=_current(found, segment),
         start=solved.segments[0].start if solved.segments else None,
@@ -83,14 +82,8 @@ def _sketches(found: DerivedBlock) -> list[Path]:
     return [Path.from_pieces([piece]) for piece in pieces]
 
 
-def _deleted(one: Compensated) -> list[Path]:
-    numbers = set(one.deleted.segments.tolist())
-    rows = [row for row, number in enumerate(one.contour.numbers.tolist()) if number in numbers]
-    return [one.contour.part(row, row + 1) for row in rows]
-
-
-def _uncut(surface: Path, verdict: Verdict) -> list[Path]:
-    return stretches(surface, [(one.first_number, one.start, one.last_number, one.end) for one in verdict.uncut])
+def _deleted(one: Compensated) -> Parts:
+    return pieces_joined(one.contour, np.flatnonzero(np.isin(one.contour.numbers, one.deleted.segments)))
 
 
 def _current(found: DerivedBlock, segment: int | None) -> Path | None:

@@ -17,7 +17,7 @@ from core.draw.build import contour_scene
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, joined_scenes
 from core.geometry.path import Path
 from core.geometry.piece import Point
-from core.geometry.stretch import stretch
+from core.geometry.stretch import stretches
 from core.units import Unit
 
 
@@ -79,7 +79,7 @@ def _stretch_scene(result: Judged) -> Scene:
         surface,
         path=result.centre,
         gouges=[gouge.surface_at for gouge in verdict.gouges],
-        uncut=[stretch(surface, one.first_number, one.start, one.last_number, one.end) for one in verdict.uncut],
+        uncut=stretches(surface, verdict.uncut.ends),
     )
 
 

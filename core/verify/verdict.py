@@ -90,6 +90,13 @@ class UncutStretches(Sequence[Uncut]):
 
     __hash__ = None  # type: ignore[assignment]
 
+    @property
+    def ends(self) -> list[tuple[float, Point, float, Point]]:
+        """Each stretch's first segment and the point on it, its last segment and the point on that."""
+        firsts, lasts, starts, ends = (column.tolist() for column in self.columns[:4])
+        points = zip(firsts, map(_point, starts), lasts, map(_point, ends), strict=True)
+        return list(points)
+
     def keep(self, chosen: NDArray[np.bool_]) -> UncutStretches:
         """The stretches for which `chosen` (k,) is True."""
         return self if chosen.all() else UncutStretches(*(column[chosen] for column in self.columns))

@@ -1,9 +1,11 @@
+import numpy as np
 import pytest
 
 from core.draw.build import contour_scene
 from core.draw.scene import Circle, Mark, Style, Symbol
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Turn
+from core.geometry.stretch import Parts
 from core.units import Unit
 
 SQUARE = Path.from_pieces([Line((0, 0), (4, 0)), Line((4, 0), (4, 4)), Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
@@ -12,9 +14,9 @@ LEAD = Path.from_pieces([Arc((-1, -2), (0, -1), (0, -2), Turn.CW)])
 
 
 def test_the_current_segment_lies_over_everything_and_the_surface_below():
-    one = (SHIFTED,)
+    one, parts = (SHIFTED,), Parts(SHIFTED, np.array([True]))
     scene = contour_scene(
-        SQUARE, path=SHIFTED, leads=(LEAD,), deleted=one, uncut=one, rough=one, current=SHIFTED, sketches=(LEAD,)
+        SQUARE, path=SHIFTED, leads=(LEAD,), deleted=parts, uncut=parts, rough=one, current=SHIFTED, sketches=(LEAD,)
     )
     assert [(layer.style, layer.dashed) for layer in scene.layers] == [
         (Style.SURFACE, True),

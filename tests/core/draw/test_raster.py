@@ -187,6 +187,21 @@ def test_any_zoom_has_a_picture(mode, zoom):
     assert [len(row) for row in rows(SLOT, view, 20, 5, mode)] == [20] * 5
 
 
+@pytest.mark.parametrize("mode", list(Mode))
+@pytest.mark.parametrize("zoom", [1.0, 5.0])
+def test_parts_of_a_layer_look_like_layers_of_their_own(mode, zoom):
+    path, own = SLOT.layers[0].path, np.array([True, False, True, True])
+    zigzag = lines((1, 1), (3, 2), (5, 0), (7, 2), (8, 0))
+    layer = Layer(zigzag, Style.DELETED, dashed=True, own=own)
+    one = replace(SLOT, layers=(Layer(path, Style.PATH), layer))
+    each = (Layer(part, Style.DELETED, dashed=True) for part in layer.parts)
+    several = replace(SLOT, layers=(Layer(path, Style.PATH), *each))
+    pictures = [draw(scene, SLOT_VIEW.zoom(zoom), 20, 5, mode) for scene in (one, several)]
+    assert pictures[0].rows == pictures[1].rows
+    assert pictures[0].styles.tolist() == pictures[1].styles.tolist()
+    assert one.bounds == several.bounds
+
+
 def test_a_huge_arc_near_the_window_is_exact():
     """Ten kilometres of radius: within the window it is the straight line that touches it."""
     radius = 1e7

@@ -1,16 +1,21 @@
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.geometry.path import Path
+from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Turn
-from core.geometry.stretch import stretch, stretch_lengths, stretches
+from core.geometry.stretch import Ends, pieces_joined, stretch_lengths, stretches
 
 SQUARE = Path.from_pieces([Line((0, 0), (4, 0)), Line((4, 0), (4, 4)), Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
 
 
 def points(path: Path) -> list[list[float]]:
     return [[x, y] for x, y in path.points.tolist()]
+
+
+def stretch(surface: Path, *ends: *Ends) -> Path:
+    return next(iter(stretches(surface, [ends]).paths), EMPTY)
 
 
 def test_a_stretch_of_one_segment():
@@ -58,8 +63,24 @@ def test_its_pieces_keep_their_segments_numbers():
 
 def test_a_stretch_of_unknown_segments_is_empty():
     assert len(stretch(SQUARE, 7, (0, 0), 8, (1, 1))) == 0
-    assert [len(one) for one in stretches(SQUARE, [(7, (0, 0), 8, (1, 1)), (1, (1, 0), 2, (4, 1))])] == [2]
-    assert stretches(SQUARE, []) == []
+    assert [len(one) for one in stretches(SQUARE, [(7, (0, 0), 8, (1, 1)), (1, (1, 0), 2, (4, 1))]).paths] == [2]
+    assert stretches(SQUARE, []).paths == []
+
+
+def test_stretches_are_one_path_with_lines_between_them_that_are_not_theirs():
+    found = stretches(SQUARE, [(1, (1, 0), 2, (4, 1)), (3, (3, 4), 3, (1, 4))])
+    assert found.own.tolist() == [True, True, False, True]
+    assert points(found.path) == [[1, 0], [4, 0], [4, 1], [3, 4], [1, 4]]
+    assert [points(one) for one in found.paths] == [[[1, 0], [4, 0], [4, 1]], [[3, 4], [1, 4]]]
+
+
+def test_single_pieces_are_parts_of_their_own_though_they_be_neighbours():
+    half = Arc((4, 0), (4, 4), (4, 2), Turn.CCW)
+    outline = Path.from_pieces([Line((0, 0), (4, 0)), half, Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
+    found = pieces_joined(outline, np.array([1, 2]))
+    assert [list(one) for one in found.paths] == [[half], [outline[2]]]
+    assert [one.numbers.tolist() for one in found.paths] == [[2], [3]]
+    assert pieces_joined(outline, np.array([], np.intp)).paths == []
 
 
 def test_the_first_line_of_a_stretch_begins_in_its_own_centre():
@@ -75,7 +96,7 @@ def test_a_stretch_is_as_long_as_what_lies_between_its_ends(first, last, begin, 
         SQUARE.points[row] + part * (SQUARE.ends - SQUARE.starts)[row] for row, part in ((first, begin), (last, end))
     )
     found = stretch(SQUARE, first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))
-    (same,) = stretches(SQUARE, [(first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))])
+    (same,) = stretches(SQUARE, [(first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))]).paths
     assert (same.points.tolist(), same.numbers.tolist()) == (found.points.tolist(), found.numbers.tolist())
     before, lengths = stretch_lengths(
         SQUARE, [(2, (4, 1), 3, (2, 4)), (first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))]

@@ -4,6 +4,7 @@ import re
 from math import cos, hypot, pi, sin, tau
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -91,6 +92,11 @@ def test_an_empty_scene_and_one_that_is_not_finite_are_drawings_too():
         assert "nan" not in found
         assert "inf" not in found
     assert paths(broken, "surface")[0] == "M0 0 L1 0"
+
+
+def test_each_part_of_a_layer_is_drawn_by_itself():
+    scene = Scene((Layer(CORNER, Style.UNCUT, own=np.array([True, False, True])),), axes=False)
+    assert paths(scene, "uncut")[:-1] == ["M0 0 L4 0", "M5 -1 L5 -3"]
 
 
 @given(
