@@ -110,8 +110,11 @@ def show(value: float, kind: Kind, unit: Unit) -> str:
     """A value in program units as the screens print it, at most `WIDEST` characters, never a negative zero."""
     if not isfinite(value):
         return str(value)
-    texts = (f"{value:.{places}f}" for places in range(_decimals(kind, unit), -1, -1))
-    text = next((text for text in texts if len(text) <= WIDEST), f"{value:.3g}")
+    decimals = _decimals(kind, unit)
+    text = f"{value:.{decimals}f}"
+    if len(text) > WIDEST:
+        texts = (f"{value:.{places}f}" for places in range(decimals - 1, -1, -1))
+        text = next((text for text in texts if len(text) <= WIDEST), f"{value:.3g}")
     return text.removeprefix("-") if not text.strip("-0.") else text
 
 

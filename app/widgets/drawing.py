@@ -8,6 +8,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Final
 
+import numpy as np
+
 from app.screens.page import Sketch
 from app.widgets.rows import Look, Row, Span
 from core.draw.mode import Mode
@@ -86,10 +88,14 @@ def bounds_of(scene: Scene) -> Box | None:
 
 def _rows(picture: Picture) -> list[Row]:
     """The rows, their cells of one style in one span."""
-    styles, rows = picture.styles, list[Row]()
-    changes = styles[:, 1:] != styles[:, :-1]
-    for text, looks, changed in zip(picture.rows, styles, changes, strict=True):
-        heads = [0, *(changed.nonzero()[0] + 1).tolist()]
-        spans = zip(heads, [*heads[1:], len(text)], looks[heads].tolist(), strict=True)
-        rows.append(tuple(Span(text[head:tail], BY_STYLE[style]) for head, tail, style in spans))
-    return rows
+    styles, text = picture.styles, "".join(picture.rows)
+    begins = np.ones(styles.shape, np.bool_)
+    begins[:, 1:] = styles[:, 1:] != styles[:, :-1]
+    # of all cells one behind the other: that is asked once for the picture, and not row by row
+    heads = begins.reshape(-1).nonzero()[0]
+    starts, looks, rows = heads.tolist(), styles.reshape(-1)[heads].tolist(), list[list[Span]]()
+    for head, tail, style in zip(starts, [*starts[1:], len(text)], looks, strict=True):
+        if head % styles.shape[1] == 0:
+            rows.append([])
+        rows[-1].append(Span(text[head:tail], BY_STYLE[style]))
+    return [tuple(row) for row in rows]

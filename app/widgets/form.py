@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from enum import StrEnum
+from functools import lru_cache
 from typing import Final
 
 from app.widgets.field import Editing, window
@@ -74,7 +75,7 @@ def form_rows(cells: Sequence[Cell], cursor: str, editing: Editing | None, width
     if width < WIDTH:
         narrow = Place(0, width, min(10, max(width - 6, 1)))
         ordered = sorted(cells, key=lambda cell: (cell.column, cell.line))
-        return tuple(_cell(cell, narrow, cursor, editing) for cell in ordered)
+        return tuple(_on_form(cell, narrow, cursor, editing) for cell in ordered)
     by_place = {(cell.column, cell.line): cell for cell in cells}
     lines = range(max([LINES, *(cell.line + 1 for cell in cells)]))
     places = tuple(_aligned(place, cells, column) for column, place in enumerate(PLACES))
@@ -105,22 +106,28 @@ def _line(
     left, right, across = (cells.get((column, line)) for column in range(3))
     first, second, whole = places
     if across is not None:
-        return (Span(" " * whole.first), *_cell(across, whole, cursor, editing))
-    row = (Span(" " * first.width),) if left is None else _cell(left, first, cursor, editing)
+        return (Span(" " * whole.first), *_on_form(across, whole, cursor, editing))
+    row = (Span(" " * first.width),) if left is None else _on_form(left, first, cursor, editing)
     # the bracket that closes a read-only value stands one cell behind the column
     tight = left is not None and left.state is State.READ_ONLY
     gap = Span(" " * (second.first - first.first - first.width - tight))
-    behind = () if right is None else (gap, *_cell(right, second, cursor, editing))
+    behind = () if right is None else (gap, *_on_form(right, second, cursor, editing))
     return (Span(" " * first.first), *row, *behind)
 
 
-def _cell(cell: Cell, place: Place, cursor: str, editing: Editing | None) -> Row:
+def _on_form(cell: Cell, place: Place, cursor: str, editing: Editing | None) -> Row:
+    on_it = cell.name == cursor
+    return _cell(cell, place, editing if on_it else None, on_it=on_it)
+
+
+@lru_cache(256)
+def _cell(cell: Cell, place: Place, editing: Editing | None, *, on_it: bool) -> Row:
+    """A field as a key leaves most of them: as they were."""
     if cell.state is State.READ_ONLY:
         return _read_only(cell, place)
-    on_it = cell.name == cursor
     tag = Span(f"{cell.tag} " if cell.tag else "", Look.ERROR if cell.state is State.UNREAD else Look.TAG)
-    room = _room(cell, place, len(tag.text), editing if on_it else None)
-    value = _value(cell, room, editing if on_it else None, on_it=on_it)
+    room = _room(cell, place, len(tag.text), editing)
+    value = _value(cell, room, editing, on_it=on_it)
     label = padded((Span(cell.label, Look.HEAD if on_it else Look.LABEL),), place.width - room - len(tag.text))
     return (*label, tag, *value)
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import lru_cache
 from math import isfinite
 from textwrap import wrap
 from typing import TYPE_CHECKING, Final
@@ -20,7 +21,7 @@ from core.records import dataclass
 from core.units import Unit, sentence
 
 if TYPE_CHECKING:
-    from core.comp.result import Compensated
+    from core.comp.result import Compensated, Deletions
     from core.pipeline.table import Table
     from core.verify.verdict import Verdict
 
@@ -179,7 +180,7 @@ def fitted(rows: list[Row], height: int, width: int) -> tuple[Row, ...]:
     return tuple(lines)
 
 
-def _last(block: list[Row], room: int, width: int, left: int) -> list[Row]:
+def _last(block: tuple[Row, ...], room: int, width: int, left: int) -> list[Row]:
     """What fits of a row's lines, and behind them how many rows are left."""
     if room <= 0:
         return []
@@ -192,11 +193,13 @@ def _last(block: list[Row], room: int, width: int, left: int) -> list[Row]:
     return [*whole, (*padded(_cut(_paired(last, space), space), space), Span(more, Look.LABEL))]
 
 
-def _wrapped(row: Row, width: int) -> list[Row]:
+@lru_cache(256)
+def _wrapped(row: Row, width: int) -> tuple[Row, ...]:
+    """A row's lines; most rows of a verdict were in the one before."""
     text = text_of(row)
     if len(text) < width:
-        return [row]
-    return [plain(f" {line}", row[-1].look) for line in wrap(text, max(width - 2, 8), subsequent_indent="    ")]
+        return (row,)
+    return tuple(plain(f" {line}", row[-1].look) for line in wrap(text, max(width - 2, 8), subsequent_indent="    "))
 
 
 def _paired(row: Row, width: int) -> Row:
@@ -233,7 +236,8 @@ def _case_lines(case: Case, unit: Unit) -> Iterator[Row | Erased]:
     verdict = case.verdict
     if verdict.gouges:
         yield _gouge(verdict, unit)
-    yield from _deleted(case.compensated)
+    if case.compensated is not None:
+        yield from _erased(case.compensated.deleted)
     uncut = f"{length(verdict.uncut_length, unit)} of {length(verdict.surface_length, unit)}"
     row: Row = (Span(" UNCUT   ", Look.LABEL), Span(uncut, Look.WARNING if verdict.uncut else Look.TYPED))
     if not verdict.gouges:
@@ -260,16 +264,14 @@ def _gouge(verdict: Verdict, unit: Unit) -> Row:
     return plain(f" GOUGE   {length(deepest.depth, unit)} at {where}", Look.ERROR)
 
 
-def _deleted(compensated: Compensated | None) -> Iterator[Erased]:
-    """One line for every pair of pieces that erased segments, corner arcs left out."""
-    if compensated is None:
-        return
-    deleted, groups = compensated.deleted, dict[tuple[float, float, float, float], list[float]]()
+@lru_cache(4)
+def _erased(deleted: Deletions) -> tuple[Erased, ...]:
+    """One line for every pair of pieces that erased segments, corner arcs left out; told again when the table comes."""
+    groups: dict[tuple[float, float, float, float], list[float]] = {}
     for by, at, one in zip(deleted.by.tolist(), deleted.at.tolist(), deleted.segments.tolist(), strict=True):
         groups.setdefault((*by, *at), []).append(one)
-    for pair, segments in groups.items():
-        if any(segment.is_integer() for segment in segments):
-            yield Erased(pair, segments)
+    told = (one for one in groups.items() if any(number.is_integer() for number in one[1]))
+    return tuple(Erased(pair, segments) for pair, segments in told)
 
 
 def _erasing(line: Erased, unit: Unit) -> Row:
