@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.measured import FEW, Flags, Floats, Measured
+from core.geometry.measured import FEW, Flags, Floats, Measured, Rows
 from core.geometry.planes import coordinates
 
 FLAT: Final = 1e-9
@@ -24,8 +24,11 @@ def boxes(pieces: Measured) -> Floats:
     arcs = np.count_nonzero(bent)
     if not arcs:
         return box
-    rows = bent.nonzero()[0] if len(pieces) > FEW else slice(None)
-    arc = pieces.take(rows) if arcs < len(pieces) > FEW else pieces
+    rows: Rows | slice = slice(None)
+    arc = pieces
+    if arcs < len(pieces) > FEW:
+        rows = some = bent.nonzero()[0]
+        arc = pieces.take(some)
     passed, centre, out = _quarters(arc), coordinates(arc.centre).T, arc.radius
     if arcs < len(arc):
         passed &= bent

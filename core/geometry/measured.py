@@ -54,18 +54,34 @@ class Measured:
     def __len__(self) -> int:
         return len(self.rows)
 
-    def take(self, rows: Rows | Flags | slice) -> Measured:
+    def take(self, rows: Rows) -> Measured:
         """The pieces of these indices, repeated and ordered as they come."""
+        # an array's own `take` takes half as long as an index
         return Measured(
-            self.rows[rows],
-            self.start[rows],
-            self.vector[rows],
-            self.arm[rows],
-            self.turn[rows],
-            self.angle[rows],
-            self.radius[rows],
-            self.length[rows],
-            self.slack[rows],
+            self.rows.take(rows),
+            self.start.take(rows),
+            self.vector.take(rows),
+            self.arm.take(rows),
+            self.turn.take(rows),
+            self.angle.take(rows),
+            self.radius.take(rows),
+            self.length.take(rows),
+            self.slack.take(rows),
+        )
+
+    def part(self, first: int, last: int) -> Measured:
+        """The pieces from one index up to another, which is not among them: views."""
+        part = slice(first, last)
+        return Measured(
+            self.rows[part],
+            self.start[part],
+            self.vector[part],
+            self.arm[part],
+            self.turn[part],
+            self.angle[part],
+            self.radius[part],
+            self.length[part],
+            self.slack[part],
         )
 
     @property
@@ -197,10 +213,14 @@ def by_kind(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArra
         return arc(*given)
     if len(chosen) <= FEW:
         return np.where(chosen, arc(*given), line(*given))
-    rows_line, rows_arc = (~chosen).nonzero()[0], chosen.nonzero()[0]
-    lines, arcs = line(*_pick(given, rows_line)), arc(*_pick(given, rows_arc))
-    both = np.empty((*lines.shape[:-1], len(chosen)), lines.dtype)
-    both[..., rows_line], both[..., rows_arc] = lines, arcs
+    rows = (~chosen).nonzero()[0]
+    found = line(*_pick(given, rows))
+    both = np.empty((*found.shape[:-1], len(chosen)), found.dtype)
+    both[..., rows] = found
+    # what is known of the lines makes room for the arcs
+    del found
+    rows = chosen.nonzero()[0]
+    both[..., rows] = arc(*_pick(given, rows))
     return both
 
 
@@ -220,7 +240,7 @@ def blocks(first: Flags, second: Flags) -> Iterator[Rows]:
 
 
 def _pick(given: tuple[Given, ...], rows: Rows) -> list[Given]:
-    return [item.take(rows) if isinstance(item, Measured) else item[..., rows] for item in given]
+    return [item.take(rows) if isinstance(item, Measured) else item.take(rows, axis=-1) for item in given]
 
 
 def at(pieces: Measured, t: Floats) -> Points:
@@ -252,21 +272,6 @@ def _arc_direction(arc: Measured, t: Floats) -> Points:
     size = np.where(arc.radius == 0.0, 1.0, arc.radius)
     units: Points = 1j * arc.turn * (arc.arm / size) * np.exp(1j * (arc.turn * arc.angle) * t)
     return units
-
-
-def at_and_along(pieces: Measured, t: Floats) -> tuple[Points, Points]:
-    """The points and the unit tangents of `at` and `direction`, at the cost of one of them."""
-    both: Points = by_kind(pieces.arcs, _line_both, _arc_both, pieces, t)
-    return both[0], both[1]
-
-
-def _line_both(line: Measured, t: Floats) -> Points:
-    return np.array((_line_at(line, t), line.unit))
-
-
-def _arc_both(arc: Measured, t: Floats) -> Points:
-    off = arc.arm * np.exp(1j * (arc.turn * arc.angle) * t)
-    return np.array((arc.centre + off, 1j * arc.turn * off / np.where(arc.radius == 0.0, 1.0, arc.radius)))
 
 
 def travelled(arc: Measured, towards: Points) -> Floats:

@@ -16,7 +16,7 @@ from core.geometry.measured import Flags, Floats, Points, Rows, at, direction, p
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.farthest import FINE, farthest
 from core.verify.gouge import Gouging
-from core.verify.pairs import Pairs, measure
+from core.verify.pairs import Approaches, Pairs, measure
 from core.verify.reach import Nearest, Stretches, changes, nearest, union
 from core.verify.sides import Sided, on_part_side
 
@@ -46,8 +46,8 @@ NOWHERE: Final = Behind(np.zeros(0, np.intp), np.zeros(0), np.zeros(0), np.zeros
 """Nothing is behind the surface."""
 
 
-def behind(pairs: Pairs, found: Gouging, sides: Sided, radius: float) -> Behind:
-    """The parts of gouging stretches that are more than GOUGE on the part's side.
+def behind(pairs: Pairs, near: Approaches, found: Gouging, sides: Sided, radius: float) -> Behind:
+    """The parts of gouging stretches that are more than GOUGE on the part's side; `near` is what gouges.
 
     A cutter of no radius gouges nothing: of its path the pieces that meet walls without running along one are asked.
     Where a surface crosses itself the sides of its walls contradict each other, and nothing is asked.
@@ -60,7 +60,7 @@ def behind(pairs: Pairs, found: Gouging, sides: Sided, radius: float) -> Behind:
         stretches = union(pairs.centre_stations[pairs.i[met]], pairs.centre_stations[pairs.i[met] + 1])
     if not len(stretches):
         return NOWHERE
-    cuts = _crossed_at(pairs, met), _ends_passed(pairs, stretches, sides), _joints(pairs, sides)
+    cuts = _crossed_at(pairs, near, met, radius), _ends_passed(pairs, stretches, sides), _joints(pairs, sides)
     runs = _parts(stretches, np.concatenate(cuts))
     if not sides.endless:
         runs = _parts(runs, _between_arms(pairs, runs, sides))
@@ -107,9 +107,11 @@ def _joints(pairs: Pairs, sides: Sided) -> Floats:
     return joints[np.abs(moves.end[:-1] - moves.start[1:]) > JOINED] if sides.endless else joints
 
 
-def _crossed_at(pairs: Pairs, met: Rows) -> Floats:
-    """Places of the centre path at which these pairs meet."""
-    near = measure(pairs, pairs.i[met], pairs.j[met], np.inf)
+def _crossed_at(pairs: Pairs, near: Approaches, met: Rows, radius: float) -> Floats:
+    """Places of the centre path at which these pairs meet: they are all among those that gouge, but with a cutter of
+    hardly any radius."""
+    if radius - GOUGE - pairs.grant.max(initial=0.0) <= JOINED:
+        near = measure(pairs, pairs.i[met], pairs.j[met], np.inf)
     k, pair = np.nonzero(near.apart <= JOINED)
     i = near.i[pair]
     places: Floats = pairs.centre_stations[i] + near.places[k, pair] * pairs.centre.length[i]

@@ -41,8 +41,7 @@ def courses(*groups: Sequence[Path]) -> Iterator[Course]:
     around, bends = boxes(pieces), columns_of(pieces)
     ends = pieces.rows.searchsorted(counts).tolist()
     for first, last, count in zip(ends, ends[1:], counts, strict=False):
-        part = slice(first, last)
-        piece = pieces.take(part)
+        part, piece = slice(first, last), pieces.part(first, last)
         np.subtract(piece.rows, count, out=piece.rows)
         # of rows that do not lie together every `take` would copy all
         columns = np.ascontiguousarray(bends[:, part])

@@ -40,9 +40,13 @@ def gouging(pairs: Pairs, near: Approaches) -> Gouging:
 def _deepest(parts: Parts, i: Rows, j: Rows) -> Gouging:
     """Parts as stretches, each with the least distance measured in it; of equal ones the earliest along the path."""
     stretches = union(parts.first, parts.last)
-    owner = stretches.index(parts.middle)
-    order = np.lexsort((parts.pair, np.round(parts.apart / ON_PATH), owner))
-    best = order[changes(owner[order])]
+    owner, apart = stretches.index(parts.middle), np.round(parts.apart / ON_PATH)
+    least = np.full(len(stretches), np.inf)
+    np.minimum.at(least, owner, apart)
+    deepest = (apart == least.take(owner)).nonzero()[0]
+    owner = owner[deepest]
+    order = np.lexsort((parts.pair[deepest], owner))
+    best = deepest[order[changes(owner[order])]]
     pair = parts.pair[best]
     return Gouging(stretches, parts.middle[best], parts.apart[best], i[pair], j[pair])
 

@@ -123,7 +123,7 @@ def _judged(ground: _Ground, side: Side, radius: float, numbers: Floats, moves: 
     found = gouging(pairs, near)
     length = float(walls.stations[-1])
     sides = sided(side, ground.crossed, length, closed=ground.closed)
-    inside = behind(pairs, found, sides, radius)
+    inside = behind(pairs, near, found, sides, radius)
     deeper = deepened(found, inside, radius, slack)
     return Verdict(
         radius=radius,

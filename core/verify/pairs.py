@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import ulp
 
 import numpy as np
@@ -94,7 +94,8 @@ def approaches(pairs: Pairs, limit: float) -> Approaches:
     if measured >= limit:
         return _none(least, pairs.i[:0])
     deep = (pairs.touch.apart < limit).nonzero()[0]
-    return replace(measure(pairs, pairs.i[deep], pairs.j[deep], limit), least=least)
+    near = measure(pairs, pairs.i[deep], pairs.j[deep], limit)
+    return Approaches(least, near.i, near.j, near.places, near.apart, near.limit)
 
 
 def measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:

@@ -78,9 +78,9 @@ def _within_block(pieces: Measured, others: Measured, starts: Floats, reach: Flo
     middles = (places[1:] + places[:-1]) / 2.0
     apart = between(pieces, others, middles)
     part, pair = np.nonzero((apart < reach) & (places[1:] > places[:-1]))
-    start, length = starts[pair], pieces.length[pair]
-    first, last, middle = places[part, pair], places[part + 1, pair], middles[part, pair]
-    return Parts(start + first * length, start + last * length, start + middle * length, apart[part, pair], rows[pair])
+    start, length, spot = starts.take(pair), pieces.length.take(pair), part * len(rows) + pair
+    first, last, middle = places.take(spot), places.take(spot + len(rows)), middles.take(spot)
+    return Parts(start + first * length, start + last * length, start + middle * length, apart.take(spot), rows[pair])
 
 
 def changes(owner: Rows) -> Rows:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -56,7 +56,7 @@ def reached(pairs: Pairs, radius: float) -> Reached:
     unsure = touch.unsure.nonzero()[0]
     if len(unsure):
         more = within(pairs.surface, pairs.j[unsure], pairs.centre, pairs.i[unsure], radius + pairs.grant[unsure])
-        parts = joined((parts, replace(more, pair=unsure[more.pair])))
+        parts = joined((parts, Parts(more.first, more.last, more.middle, more.apart, unsure[more.pair])))
     return _settled(pairs, parts, radius)
 
 

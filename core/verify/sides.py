@@ -7,8 +7,8 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import foot
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, at_and_along, direction, place
+from core.geometry.distance import nearest_and_along
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction, place
 from core.geometry.side import Side
 from core.tolerance import JOINED, ON_PATH
 from core.verify.crossing import Crossings
@@ -68,7 +68,8 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, known
     index, more = _samples(pairs, (~settled).nonzero()[0], found, surface)
     if len(more):
         length = pairs.centre.length[index]
-        share = np.clip((more - stations[index]) / np.where(length == 0.0, 1.0, length), 0.0, 1.0)
+        share = (more - stations[index]) / np.where(length == 0.0, 1.0, length)
+        share = np.minimum(np.maximum(share, 0.0), 1.0)
         s, t, rows = np.concatenate((s, more)), np.concatenate((t, share)), np.concatenate((rows, index))
     points = at(pairs.centre.take(rows), t)
     if len(more):
@@ -138,10 +139,8 @@ def on_part_side(pairs: Pairs, points: Points, near: Nearest, surface: Sided) ->
     """Which of the points are clearly on the part's side of all that is nearest to them."""
     if not len(points):
         return np.zeros(0, np.bool_)
-    piece = pairs.surface.take(near.j)
     spots = points[near.k]
-    t = foot(piece, spots)
-    touched, along = at_and_along(piece, t)
+    t, touched, along = nearest_and_along(pairs.surface.take(near.j), spots)
     off = (spots - touched) / np.where(near.apart < ON_PATH, np.inf, near.apart)
     sine = (np.conj(along) * off).imag
     joints = ((t == 0.0) | (t == 1.0)).nonzero()[0]
@@ -150,7 +149,7 @@ def on_part_side(pairs: Pairs, points: Points, near: Nearest, surface: Sided) ->
     starts = changes(near.k)
     wrong: Flags = np.logical_and.reduceat(sine * surface.side.sign < -CLEARLY, starts)
     if not surface.endless:
-        foot_at = pairs.surface_stations[near.j] + t * piece.length
+        foot_at = pairs.surface_stations[near.j] + t * pairs.surface.length[near.j]
         outside = (foot_at <= surface.first + JOINED) | (foot_at >= surface.last - JOINED)
         wrong &= ~np.logical_or.reduceat(outside, starts)
     return wrong
