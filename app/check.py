@@ -216,7 +216,7 @@ def _as_summary(answers: Iterator[_Checked]) -> int:
         status = max(status, found)
         counts[found] += 1
         for one in checked.answers:
-            print(f"{name_of(checked.path)}: {one.control}: {one.outcome}")
+            print(f"{name_of(checked.path)}: {one.control}: {one.outcome}", flush=True)
     print(f"{sum(counts.values())} files: {counts[CLEAN]} clean, {counts[FINDINGS]} with errors, ", end="")
     print(f"{counts[UNUSABLE]} not readable.")
     return status

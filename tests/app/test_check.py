@@ -236,10 +236,12 @@ def test_an_empty_folder_among_others_is_told_and_the_others_are_checked(
 
 def test_ctrl_c_ends_an_archive_quietly(tmp_path: Path) -> None:
     text = b"G21 G17 G90 F100\nG1 X0 Y0\n" + b"".join(b"X%d Y%d\n" % (row, row % 9) for row in range(60_000)) + b"M2\n"
-    for number in range(48):
-        (tmp_path / f"{number}.nc").write_bytes(text)
+    (tmp_path / "0.nc").write_bytes(text)
+    for number in range(1, 600):
+        os.link(tmp_path / "0.nc", tmp_path / f"{number}.nc")
     command = [sys.executable, "-m", "app", "check", str(tmp_path), "--control", "linuxcnc"]
-    running = Popen(command, stdout=PIPE, stderr=PIPE, start_new_session=True, cwd=Path(__file__).parents[2])
+    plain = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    running = Popen(command, stdout=PIPE, stderr=PIPE, start_new_session=True, cwd=Path(__file__).parents[2], env=plain)
     with running:
         assert running.stdout is not None
         running.stdout.readline()
