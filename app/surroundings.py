@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from datetime import datetime
 from pathlib import Path
+from time import strftime
+from typing import Final
 
 from core.records import dataclass
+
+MEMORY: Final = Path("/proc/meminfo")
+HEAD: Final = 256
+"""Bytes of it that hold its first lines, the one asked for among them: it is read at every key."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,15 +34,15 @@ def real() -> Surroundings:
 
 def time_of_day() -> str:
     """Hours and minutes: seconds would write to an idle terminal."""
-    return datetime.now().astimezone().strftime("%H:%M")
+    return strftime("%H:%M")
 
 
 def free_memory() -> int:
     """Kilobytes the kernel says are available; 0 where it does not say."""
     try:
-        text = Path("/proc/meminfo").read_text()
+        with MEMORY.open("rb", buffering=0) as told:
+            text = told.read(HEAD)
     except OSError:
         return 0
-    line = next((line for line in text.splitlines() if line.startswith("MemAvailable:")), "")
-    number = line.removeprefix("MemAvailable:").removesuffix("kB").strip()
-    return int(number) if number.isdecimal() else 0
+    number = text.partition(b"MemAvailable:")[2].partition(b"kB")[0].strip()
+    return int(number) if number.isdigit() else 0
