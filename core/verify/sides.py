@@ -53,17 +53,18 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, known
     """Rows of the centre path of which some point is clearly on the part's side, in rising order.
 
     `known` are the pieces of which a part is found behind the surface: all that meet it.  A piece that does not is on
-    one side of a closed contour.  It is judged in its middle if that is within `reach` of a closed one, any other piece
-    in its middle and at its ends.  Beside an open contour, which has a side only as far as something is nearest to
-    more than its ends, the nearest wall decides: a gouge is asked at its ends too, in its middle and where it is
-    deepest, and a piece that meets no wall may be on another side between these places.
+    one side of a closed contour.  It is judged in its middle if that is within `reach` of a closed one, or if it keeps
+    to an inner wall of an open one; any other piece in its middle and at its ends.  Beside an open contour, which has
+    a side only as far as something is nearest to more than its ends, the nearest wall decides: a gouge is asked at its
+    ends too, in its middle and where it is deepest, and a piece that meets no wall may be on another side between
+    these places.
     """
     if not len(pairs.surface) or not len(pairs.centre):
         return ()
     rows, near = _contact(pairs, reach, ON_PATH)
     stations = pairs.centre_stations
     settled, count = pairs.own.settled(len(pairs.centre)), len(rows)
-    settled[rows] |= surface.endless
+    settled[rows] |= surface.endless | _kept(pairs, found)[rows]
     s, t = (stations[rows] + stations[rows + 1]) / 2.0, np.full(count, 0.5)
     index, more = _samples(pairs, (~settled).nonzero()[0], found, surface)
     if len(more):
@@ -80,6 +81,21 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, known
         told &= ~_inside(found, s)
     wrong[rows[told]], wrong[known] = True, True
     return tuple(pairs.centre.rows[wrong].tolist())
+
+
+def _kept(pairs: Pairs, found: Gouging) -> Flags:
+    """Pieces that gouge nothing and keep to one inner wall from end to end: they are on one side of it.
+
+    From the one side to the other they could only go about the wall's end, where the next wall would be met; beyond
+    the first and the last one there is none.
+    """
+    touch, stations, gouge = pairs.touch, pairs.centre_stations, found.stretches
+    kept = np.zeros(len(pairs.centre), np.bool_)
+    kept[pairs.i[touch.along & (pairs.j > 0) & (pairs.j < len(pairs.surface) - 1)]] = True
+    if len(gouge):
+        owner = np.searchsorted(gouge.first, stations[1:]) - 1
+        kept &= (owner < 0) | (gouge.last[owner] <= stations[:-1])
+    return kept
 
 
 def _contact(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Nearest]:
