@@ -11,6 +11,7 @@ from typing import Final
 
 import numpy as np
 
+from core.geometry.boxes import near_pairs
 from core.geometry.distance import foot, on_line
 from core.geometry.measured import Flags, Floats, Points, Rows, at, direction, place
 from core.tolerance import GOUGE, JOINED, ON_PATH
@@ -142,6 +143,9 @@ def _ends_passed(pairs: Pairs, stretches: Stretches, sides: Sided) -> Floats:
 def _between_arms(pairs: Pairs, parts: Stretches, sides: Sided) -> Floats:
     """Places where these parts change sides halfway between arms of an open contour, with its part's side of the one
     and the cutter's of the other: nothing is met there."""
+    parts = parts.keep(_about_ends(pairs, parts))
+    if not len(parts):
+        return np.zeros(0)
     s = parts.first + SHARES * (parts.last - parts.first)
     wrong = _wrong(pairs, s.ravel(), sides).reshape(s.shape)
     changed = wrong[1:] != wrong[:-1]
@@ -152,6 +156,32 @@ def _between_arms(pairs: Pairs, parts: Stretches, sides: Sided) -> Floats:
         same = _wrong(pairs, middle, sides) == begins
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return low
+
+
+def _about_ends(pairs: Pairs, parts: Stretches) -> Flags:
+    """Parts between whose nearest walls there may be an end of the surface: no other changes sides meeting nothing.
+
+    Let it leave a place nearest to `a` on the left and come to one nearest to `b` on the right.  The way from `a` along
+    the surface to `b` and back over the path is a loop that the surface's other two branches leave to different sides,
+    and cross nowhere: one of its ends is inside.  The loop runs within the boxes of the walls from the first to the
+    last that may be nearest to any place of the part, and of the part.
+    """
+    middle, half = _spots(pairs, (parts.first + parts.last) / 2.0), (parts.last - parts.first) / 2.0
+    near = nearest(middle, pairs.surface, pairs.surface_boxes)
+    reach = near.apart[changes(near.k)] + 2.0 * half + JOINED
+    around = np.array((middle.real - reach, middle.imag - reach, middle.real + reach, middle.imag + reach))
+    k, j = near_pairs(around, pairs.surface_boxes, 0.0)
+    starts = changes(k)
+    first, last = np.minimum.reduceat(j, starts), np.maximum.reduceat(j, starts)
+    runs = np.array((first, last + 1)).T.ravel()
+    # a run may end behind the last wall
+    walls = np.concatenate((pairs.surface_boxes, pairs.surface_boxes[:, -1:]), axis=1)
+    low = np.minimum(np.minimum.reduceat(walls[:2], runs, axis=1)[:, ::2], around[:2])
+    high = np.maximum(np.maximum.reduceat(walls[2:], runs, axis=1)[:, ::2], around[2:])
+    held = np.zeros(len(middle), np.bool_)
+    for end in (pairs.surface.start[0], pairs.surface.end[-1]):
+        held |= (low[0] <= end.real) & (low[1] <= end.imag) & (high[0] >= end.real) & (high[1] >= end.imag)
+    return held
 
 
 def _parts(stretches: Stretches, cuts: Floats) -> Stretches:

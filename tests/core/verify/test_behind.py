@@ -10,10 +10,14 @@ import numpy as np
 import pytest
 from shapely.geometry import Polygon
 
+from core.geometry.measured import Flags
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
 from core.geometry.side import Side
+from core.verify import behind
 from core.verify.judge import judge
+from core.verify.pairs import Pairs
+from core.verify.reach import Stretches
 from core.verify.verdict import Verdict
 from tests.core.verify import oracle
 from tests.core.verify.corpus import Chain, gouged
@@ -224,3 +228,33 @@ def _agree(surface: Path, side: Side, verdict: Verdict, path: Path) -> bool:
     depth = gouged(radius, oracle.extreme(path, surface, 0.01, -1.0), deep)
     assert verdict.depth == pytest.approx(depth, abs=1e-6)
     return deep > 0.0
+
+
+def spiral(random: Random) -> Path:
+    """An open contour whose turns lie beside each other, the one's part's side towards the other's cutter's side."""
+    count, turns, apart = random.randint(8, 40), random.uniform(0.8, 3.0), random.uniform(0.5, 3.0)
+    angles = [turns * tau * k / count for k in range(count + 1)]
+    points = [((1.0 + apart * a / tau) * cos(a), (1.0 + apart * a / tau) * sin(a)) for a in angles]
+    return Chain(tuple(points), tuple(random.choice((0.0, 0.0, 0.1)) for _ in points[1:])).path()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_where_no_end_is_near_no_side_changes_between_arms(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    random, parts, kept = Random(seed), 0, 0
+    narrowed = behind._about_ends
+
+    def counted(pairs: Pairs, stretches: Stretches) -> Flags:
+        nonlocal parts, kept
+        chosen = narrowed(pairs, stretches)
+        parts, kept = parts + len(chosen), kept + int(chosen.sum())
+        return chosen
+
+    for _ in range(60):
+        surface, side, radius = spiral(random), random.choice(list(Side)), random.choice((0.1, 0.5, 2.0))
+        path = moves(random)
+        monkeypatch.setattr(behind, "_about_ends", counted)
+        verdict = judge(surface, side, radius, path)
+        monkeypatch.setattr(behind, "_about_ends", lambda _, stretches: np.ones(len(stretches), np.bool_))
+        everywhere = judge(surface, side, radius, path)
+        assert (verdict.gouges, verdict.wrong_side) == (everywhere.gouges, everywhere.wrong_side)
+    assert 0 < kept < parts
