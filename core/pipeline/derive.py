@@ -17,7 +17,7 @@ from core.pipeline.outline import former, outline_block
 from core.pipeline.steps import step_findings
 from core.pipeline.trouble import better_findings, by_weight, open_finding, path_findings, size_warning
 from core.program.model import Block, PathChoice, Program
-from core.verify.judge import judge_together
+from core.verify.judge import judge_on_ground, judge_together
 
 MOST_PASSES: Final = 1000
 """More passes than this are a slip of the finger in MAX OFFSET or POCKET OVERLAP."""
@@ -66,8 +66,9 @@ def _worked(found: DerivedBlock, program: Program) -> Work:
     control = how.control(found.radius) if crossed is None else crossed.at([how.lookahead])[0]
     best = how.best(found.radius) if program.parameters.path is PathChoice.BEST else None
     chosen = how.posted(control, found.radius, best)
-    verdict = judge_together(surface, found.side, found.radius, [loop.whole for loop in chosen])
-    return Work(surface, chosen, control, verdict, _rough(found, how), best, crossed)
+    verdict, ground = judge_on_ground(surface, found.side, found.radius, [loop.whole for loop in chosen])
+    kept = None if crossed is None else ground
+    return Work(surface, chosen, control, verdict, _rough(found, how), best, crossed, kept)
 
 
 def _told(found: DerivedBlock, work: Work, program: Program) -> DerivedBlock:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from core.comp.compensate import Crossed
     from core.comp.result import Compensated
     from core.geometry.path import Path
+    from core.verify.judge import Ground
     from core.verify.verdict import Verdict
 
 
@@ -73,7 +74,8 @@ class Work:
     one for each loop, and `verdict` what it does.  `compensated` is the control's path, whether posted or not.
     `compensated` and `verdict` are None for CUTTER COMP. ON, where the centre runs on the contour itself.
     `rough` comes before, outermost first.  `best` is the best path where PATH is BEST.  `crossed` is what `compensated`
-    and the paths of all other look-aheads were made of, None for a contour so large that it is not kept.
+    and the paths of all other look-aheads were made of, `ground` the surface as they are judged over it; both are None
+    for a contour so large that they are not kept.
     """
 
     surface: Path
@@ -83,6 +85,7 @@ class Work:
     rough: tuple[RoughPass, ...] = ()
     best: BestPath | None = None
     crossed: Crossed | None = None
+    ground: Ground | None = None
 
     @property
     def centre(self) -> Path:

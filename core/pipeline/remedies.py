@@ -210,8 +210,8 @@ class Cuts:
         return self._rows(self._usual)
 
     def _rows(self, paths: list[Compensated]) -> list[Row]:
-        trial = self._trial
-        verdicts = judge_all(trial.surface, trial.side, trial.radius, [one.whole for one in paths]) if paths else ()
+        trial, wholes = self._trial, [one.whole for one in paths]
+        verdicts = judge_all(trial.surface, trial.side, trial.radius, wholes, trial.ground) if paths else ()
         return [Row(one.lookahead, one, verdict) for one, verdict in zip(paths, verdicts, strict=True)]
 
 

@@ -19,7 +19,7 @@ from core.pipeline.compensation import parameter
 from core.pipeline.derive import stocks
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
-from core.verify.judge import judge_all
+from core.verify.judge import Ground, judge_all
 from core.verify.verdict import Verdict
 
 
@@ -76,6 +76,7 @@ class Trial:
     """A contour and how it is to be cut; lengths in millimetres, `blend` and `overlap` 0 for none.
 
     `stocks` are what the roughing passes leave, cut by a tool of radius `rougher`, of `radius` without a finish tool.
+    `ground` is the surface as paths are judged over it, where that is known.
     """
 
     surface: Path
@@ -86,6 +87,7 @@ class Trial:
     overlap: float
     stocks: tuple[float, ...] = ()
     rougher: float | None = None
+    ground: Ground | None = None
 
 
 def trial_of(found: DerivedBlock, program: Program) -> Trial | None:
@@ -101,6 +103,7 @@ def trial_of(found: DerivedBlock, program: Program) -> Trial | None:
         parameter(program, "blend_overlap"),
         () if found.solved.tool_diameter is None else stocks(found, program),
         None if found.solved.finish_diameter is None else (found.solved.tool_diameter or 0.0) / 2,
+        found.work.ground,
     )
 
 
@@ -154,7 +157,7 @@ def _all(
     paths = {id(one.path): one for one in every}
     known = {} if judged is None else {key: judged.verdict for key, one in paths.items() if _same(one, judged)}
     rest = {key: one.whole for key, one in paths.items() if key not in known}
-    told = judge_all(trial.surface, trial.side, cutter, list(rest.values())) if rest else ()
+    told = judge_all(trial.surface, trial.side, cutter, list(rest.values()), trial.ground) if rest else ()
     verdicts = known | dict(zip(rest, told, strict=True))
     return every, [verdicts[id(one.path)] for one in every]
 

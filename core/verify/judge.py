@@ -45,31 +45,47 @@ def judge_together(surface: Path, side: Side, radius: float, centres: Sequence[P
 
     A gouge's `path_piece` counts the pieces of all of them, in order.
     """
+    return judge_on_ground(surface, side, radius, centres)[0]
+
+
+def judge_on_ground(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> tuple[Verdict, Ground | None]:
+    """The verdict of `judge_together`, and the surface as it is judged, for `judge_all`; None where it is not."""
     with np.errstate(all="ignore"):
         if not judgeable(radius, surface, *centres):
-            return _unjudged(radius)
+            return _unjudged(radius), None
         if not len(surface):
-            return _nothing_to_cut(radius)
+            return _nothing_to_cut(radius), None
         walls, moves = courses((surface,), centres)
         numbers = np.concatenate((np.empty(0), *(centre.numbers for centre in centres)))
-        return _judged(_ground(surface, walls), side, radius, numbers, moves)
+        ground = _ground(surface, walls)
+        return _judged(ground, side, radius, numbers, moves), ground
 
 
-def judge_all(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> tuple[Verdict, ...]:
-    """The verdict of `judge` on each centre path; the surface is looked at once, and equal paths are judged once."""
+def judge_all(
+    surface: Path, side: Side, radius: float, centres: Sequence[Path], ground: Ground | None = None
+) -> tuple[Verdict, ...]:
+    """The verdict of `judge` on each centre path; the surface is looked at once, and equal paths are judged once.
+
+    `ground` saves to look at the surface again; one of another surface is not used.
+    """
     keys = [_key(centre) for centre in centres] if len(centres) > 1 else [()] * len(centres)
     paths = dict(zip(keys, centres, strict=True))
     with np.errstate(all="ignore"):
-        verdicts = dict(zip(paths, _each(surface, side, radius, tuple(paths.values())), strict=True))
+        verdicts = dict(zip(paths, _each(surface, side, radius, tuple(paths.values()), ground), strict=True))
     return tuple(verdicts[key] for key in keys)
 
 
-def _each(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> Iterator[Verdict]:
+def _each(
+    surface: Path, side: Side, radius: float, centres: Sequence[Path], ground: Ground | None
+) -> Iterator[Verdict]:
     if not len(surface) or not judgeable(radius, surface):
         yield from (judge(surface, side, radius, centre) for centre in centres)
         return
-    found = courses((surface,), *((centre,) for centre in centres))
-    ground = _ground(surface, next(found))
+    if ground is None or ground.surface is not surface:
+        found = courses((surface,), *((centre,) for centre in centres))
+        ground = _ground(surface, next(found))
+    else:
+        found = courses(*((centre,) for centre in centres))
     for centre, moves in zip(centres, found, strict=True):
         yield _judged(ground, side, radius, centre.numbers, moves) if judgeable(radius, centre) else _unjudged(radius)
 
@@ -88,8 +104,8 @@ def _key(path: Path) -> tuple[bytes, ...]:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Ground:
-    """A surface as every path over it needs it."""
+class Ground:
+    """A surface as every path over it needs it, whatever the side and the radius."""
 
     surface: Path
     walls: Course
@@ -97,10 +113,10 @@ class _Ground:
     crossed: Crossings
 
 
-def _ground(surface: Path, walls: Course) -> _Ground:
+def _ground(surface: Path, walls: Course) -> Ground:
     pieces = walls.pieces
     closed = bool(abs(pieces.start[-1] + pieces.vector[-1] - pieces.start[0]) <= CLOSED)
-    return _Ground(surface, walls, closed, crossings(walls, closed=closed))
+    return Ground(surface, walls, closed, crossings(walls, closed=closed))
 
 
 def _unjudged(radius: float) -> Verdict:
@@ -111,7 +127,7 @@ def _nothing_to_cut(radius: float) -> Verdict:
     return Verdict(radius, inf, (), NOTHING, 0.0, crosses_itself=False)
 
 
-def _judged(ground: _Ground, side: Side, radius: float, numbers: Floats, moves: Course) -> Verdict:
+def _judged(ground: Ground, side: Side, radius: float, numbers: Floats, moves: Course) -> Verdict:
     surface, walls = ground.surface, ground.walls
     slack = float(walls.pieces.slack.max() + moves.pieces.slack.max(initial=0.0))
     if isinf(slack):
