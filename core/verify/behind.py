@@ -12,13 +12,13 @@ from typing import Final
 import numpy as np
 
 from core.geometry.boxes import near_pairs
-from core.geometry.distance import foot, on_line
+from core.geometry.distance import distance, foot, on_line
 from core.geometry.measured import Flags, Floats, Points, Rows, at, direction, place
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.farthest import FINE, farthest
 from core.verify.gouge import Gouging
 from core.verify.pairs import Approaches, Pairs, measure
-from core.verify.reach import Nearest, Stretches, changes, nearest, union
+from core.verify.reach import Nearest, Stretches, changes, least_of, nearest, union
 from core.verify.sides import Sided, on_part_side
 
 SHARES: Final = np.linspace(0.0, 1.0, 65)[1:-1, None]
@@ -64,11 +64,11 @@ def behind(pairs: Pairs, near: Approaches, found: Gouging, sides: Sided, radius:
     cuts = _crossed_at(pairs, near, met, radius), _ends_passed(pairs, stretches, sides), _joints(pairs, sides)
     runs = _parts(stretches, np.concatenate(cuts))
     if not sides.endless:
-        runs = _parts(runs, _between_arms(pairs, runs, sides))
-    runs = runs.keep(_wrong(pairs, (runs.first + runs.last) / 2.0, sides))
+        runs = _parts(runs, _between_arms(pairs, runs, sides, radius))
+    runs = runs.keep(_wrong(pairs, (runs.first + runs.last) / 2.0, sides, radius))
     if not len(runs):
         return NOWHERE
-    return _deepest(pairs, _parts(runs, pairs.centre_stations[1:-1]))
+    return _deepest(pairs, _parts(runs, pairs.centre_stations[1:-1]), radius)
 
 
 def deepened(found: Gouging, inside: Behind, radius: float, slack: float) -> Gouging:
@@ -140,25 +140,25 @@ def _ends_passed(pairs: Pairs, stretches: Stretches, sides: Sided) -> Floats:
     return np.concatenate(found)
 
 
-def _between_arms(pairs: Pairs, parts: Stretches, sides: Sided) -> Floats:
+def _between_arms(pairs: Pairs, parts: Stretches, sides: Sided, radius: float) -> Floats:
     """Places where these parts change sides halfway between arms of an open contour, with its part's side of the one
     and the cutter's of the other: nothing is met there."""
-    parts = parts.keep(_about_ends(pairs, parts))
+    parts = parts.keep(_about_ends(pairs, parts, radius))
     if not len(parts):
         return np.zeros(0)
     s = parts.first + SHARES * (parts.last - parts.first)
-    wrong = _wrong(pairs, s.ravel(), sides).reshape(s.shape)
+    wrong = _wrong(pairs, s.ravel(), sides, radius).reshape(s.shape)
     changed = wrong[1:] != wrong[:-1]
     low: Floats = s[:-1][changed]
     high, begins = s[1:][changed], wrong[:-1][changed]
     for _ in range(HALVINGS if len(low) else 0):
         middle = (low + high) / 2.0
-        same = _wrong(pairs, middle, sides) == begins
+        same = _wrong(pairs, middle, sides, radius) == begins
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return low
 
 
-def _about_ends(pairs: Pairs, parts: Stretches) -> Flags:
+def _about_ends(pairs: Pairs, parts: Stretches, radius: float) -> Flags:
     """Parts between whose nearest walls there may be an end of the surface: no other changes sides meeting nothing.
 
     Let it leave a place nearest to `a` on the left and come to one nearest to `b` on the right.  The way from `a` along
@@ -166,9 +166,8 @@ def _about_ends(pairs: Pairs, parts: Stretches) -> Flags:
     and cross nowhere: one of its ends is inside.  The loop runs within the boxes of the walls from the first to the
     last that may be nearest to any place of the part, and of the part.
     """
-    middle, half = _spots(pairs, (parts.first + parts.last) / 2.0), (parts.last - parts.first) / 2.0
-    near = nearest(middle, pairs.surface, pairs.surface_boxes)
-    reach = near.apart[changes(near.k)] + 2.0 * half + JOINED
+    middle, near = _nearest(pairs, (parts.first + parts.last) / 2.0, radius)
+    reach = near.apart[changes(near.k)] + parts.last - parts.first + JOINED
     around = np.array((middle.real - reach, middle.imag - reach, middle.real + reach, middle.imag + reach))
     k, j = near_pairs(around, pairs.surface_boxes, 0.0)
     starts = changes(k)
@@ -195,28 +194,37 @@ def _parts(stretches: Stretches, cuts: Floats) -> Stretches:
     return Stretches(s[:-1][parts], s[1:][parts])
 
 
-def _spots(pairs: Pairs, s: Floats) -> Points:
+def _nearest(pairs: Pairs, s: Floats, radius: float) -> tuple[Points, Nearest]:
+    """Points at places of the centre path, and what of the surface is nearest to them.
+
+    All walls within the radius of a piece are among its pairs, unless the judge has proved where it is.
+    """
     index, t = place(pairs.centre, pairs.centre_stations, s)
-    return at(pairs.centre.take(index), t)
+    points = at(pairs.centre.take(index), t)
+    begin = pairs.i.searchsorted(index)
+    counts = pairs.i.searchsorted(index, side="right") - begin
+    if len(pairs.own.piece) or not counts.all():
+        return points, nearest(points, pairs.surface, pairs.surface_boxes, tie=ON_PATH)
+    k, starts = np.repeat(np.arange(len(s)), counts), np.cumsum(counts) - counts
+    j = pairs.j[np.arange(len(k)) + (begin - starts)[k]]
+    near = least_of(k, j, distance(pairs.surface.take(j), points[k]), starts, ON_PATH)
+    if near.apart.max(initial=0.0) > radius:
+        return points, nearest(points, pairs.surface, pairs.surface_boxes, tie=ON_PATH)
+    return points, near
 
 
-def _nearest(pairs: Pairs, s: Floats) -> tuple[Points, Nearest]:
-    points = _spots(pairs, s)
-    return points, nearest(points, pairs.surface, pairs.surface_boxes, tie=ON_PATH)
-
-
-def _wrong(pairs: Pairs, s: Floats, sides: Sided) -> Flags:
+def _wrong(pairs: Pairs, s: Floats, sides: Sided, radius: float) -> Flags:
     """Which places along the centre path are on the part's side."""
-    return on_part_side(pairs, *_nearest(pairs, s), sides)
+    return on_part_side(pairs, *_nearest(pairs, s, radius), sides)
 
 
-def _deepest(pairs: Pairs, parts: Stretches) -> Behind:
+def _deepest(pairs: Pairs, parts: Stretches, radius: float) -> Behind:
     """Of each part the place farthest inside, without those that are nowhere farther than GOUGE."""
     middle = (parts.first + parts.last) / 2.0
     far = farthest(pairs.centre, parts, pairs.surface, np.full((2, len(parts)), -1), np.inf)
     keep = far.apart > GOUGE
     middle, where, apart = middle[keep], far.place[keep], far.apart[keep]
     index, _ = place(pairs.centre, pairs.centre_stations, middle)
-    _, near = _nearest(pairs, where)
+    _, near = _nearest(pairs, where, radius)
     first = np.searchsorted(near.k, np.arange(len(where)))
     return Behind(index, middle, where, apart, near.j[first])

@@ -243,9 +243,9 @@ def test_where_no_end_is_near_no_side_changes_between_arms(seed: int, monkeypatc
     random, parts, kept = Random(seed), 0, 0
     narrowed = behind._about_ends
 
-    def counted(pairs: Pairs, stretches: Stretches) -> Flags:
+    def counted(pairs: Pairs, stretches: Stretches, radius: float) -> Flags:
         nonlocal parts, kept
-        chosen = narrowed(pairs, stretches)
+        chosen = narrowed(pairs, stretches, radius)
         parts, kept = parts + len(chosen), kept + int(chosen.sum())
         return chosen
 
@@ -254,7 +254,7 @@ def test_where_no_end_is_near_no_side_changes_between_arms(seed: int, monkeypatc
         path = moves(random)
         monkeypatch.setattr(behind, "_about_ends", counted)
         verdict = judge(surface, side, radius, path)
-        monkeypatch.setattr(behind, "_about_ends", lambda _, stretches: np.ones(len(stretches), np.bool_))
+        monkeypatch.setattr(behind, "_about_ends", lambda _, stretches, __: np.ones(len(stretches), np.bool_))
         everywhere = judge(surface, side, radius, path)
         assert (verdict.gouges, verdict.wrong_side) == (everywhere.gouges, everywhere.wrong_side)
     assert 0 < kept < parts
