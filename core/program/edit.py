@@ -212,11 +212,20 @@ def set_setup(program: Program, name: str, value: str | Typed) -> Edited:
     """Put what was typed into a field of PART SETUP: text for the name, a number or a blank for the others."""
     one = field(Form.SETUP, name)
     if isinstance(value, str):
-        if not value.isprintable():
-            return Refused(f"{one.label} takes letters and signs on one line.")
+        if refusal := _unshown(one.label, value):
+            return refusal
     elif refusal := _misfit(one, value, program.unit):
         return refusal
     return replace(program, setup=changed(program.setup, {name: value}))
+
+
+def _unshown(label: str, text: str) -> Refused | None:
+    """A text with a sign that no screen shows, such as a space that does not break, pasted from elsewhere."""
+    place = next((place for place, sign in enumerate(text, 1) if not sign.isprintable()), None)
+    if place is None:
+        return None
+    sign = f"U+{ord(text[place - 1]):04X}"
+    return Refused(f"{label}: sign {place} ({sign}) cannot be shown. Type the text again without it.")
 
 
 def set_unit(program: Program, unit: Unit) -> Program:
