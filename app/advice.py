@@ -51,6 +51,11 @@ class Advice:
 
         return Advice(app, Behind(app, followed), Behind(app, followed), Behind(app, followed))
 
+    @property
+    def behind(self) -> tuple[Behind[None], ...]:
+        """Its desks."""
+        return self.tabling, self.noting, self.needing
+
     def seek(self) -> None:
         """Whatever is not known yet of the block that is shown."""
         self._tabulate()

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
-from typing import TYPE_CHECKING, ClassVar, Final
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from textual.app import App
 
@@ -34,10 +34,8 @@ ARMED_FOR: Final = 2.0
 FRAME: Final = 1 / 60
 """Seconds in which nobody sees more than one picture."""
 TURN: Final = 0.001
-"""Seconds that a thread goes on calculating while a key or a picture on its way out waits for its turn.
-
-A key is handed from thread to thread three times; Python's own five milliseconds each are a picture late.
-"""
+"""Seconds that a thread goes on calculating while a key or a picture on its way out waits for its turn: they are handed
+from thread to thread three times, and Python's own five milliseconds each are a picture late."""
 AGAIN: Final = "ctrl+l"
 """The key that paints everything again, as in every program of a terminal."""
 
@@ -81,6 +79,11 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self._arming: Timer | None = None
         self._late = False
         self._painted = 0.0
+
+    @property
+    def behind(self) -> tuple[Behind[Any], ...]:
+        """The desks of all that is calculated in threads."""
+        return (self._loading, self._deriving, self._trying, self._surveying, self._asking, *self.advice.behind)
 
     @property
     def shown(self) -> Session:

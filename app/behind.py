@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from asyncio import get_running_loop
 from collections.abc import Callable
+from contextvars import copy_context
+from functools import partial
 from time import sleep
 from typing import Final, Generic, TypeVar
 
@@ -15,11 +18,27 @@ AFTER: Final = 0.001
 """Seconds in which what has just been painted goes out, before a thread calculates beside the one that sends it."""
 
 
+def in_thread(work: Callable[[], Callable[[], None]]) -> None:
+    """Do this in a thread of the loop's own, behind the key and its picture; what it returns is called in this one.
+
+    Textual's workers tell of each of their states and come back by way of two other tasks, which takes as long again
+    as all else between a table and its picture.
+    """
+    loop, context = get_running_loop(), copy_context()
+
+    def later() -> None:
+        sleep(AFTER)
+        loop.call_soon_threadsafe(work(), context=context)
+
+    loop.call_soon(loop.run_in_executor, None, later)
+
+
 @dataclass(slots=True)
 class Behind(Generic[Result]):
     """A desk for one kind of work; `done` is called in the App's own thread with what came of it.
 
-    `doing` is what the work under way is about.  Work that raises ends the program with its error.
+    `doing` is what the work under way is about.  Work that raises ends the program with its error.  `begin` has the
+    work done, and called what it returns.
     """
 
     app: App[int]
@@ -27,6 +46,7 @@ class Behind(Generic[Result]):
     waiting: tuple[Callable[[], Result], object] | None = None
     busy: bool = False
     doing: object = None
+    begin: Callable[[Callable[[], Callable[[], None]]], None] = in_thread
 
     def ask(self, work: Callable[[], Result], about: object = None) -> None:
         """Have this done, in place of what was asked for and not begun."""
@@ -43,22 +63,31 @@ class Behind(Generic[Result]):
             return
         (work, self.doing), self.waiting = self.waiting, None
         self.busy = True
-        self.app.run_worker(lambda: self._run(work), thread=True)
+        self.begin(lambda: self._run(work))
 
-    def _run(self, work: Callable[[], Result]) -> None:
-        sleep(AFTER)
+    def _run(self, work: Callable[[], Result]) -> Callable[[], None]:
         try:
-            result = work()
-        except BaseException:
-            # the App ends of it and shows it; whoever waits for this desk meanwhile must not wait for ever
-            self._over()
-            raise
-        self.app.call_from_thread(self._finished, result)
+            return partial(self._finished, work())
+        except BaseException as error:  # noqa: BLE001  # raised again in the App
+            return partial(self._failed, error)
+
+    def _failed(self, error: BaseException) -> None:
+        # whoever waits for this desk meanwhile must not wait for ever
+        self._over()
+        self.app.call_later(self._raised, error)
+
+    def _raised(self, error: BaseException) -> None:
+        """In the App's queue: it ends of the error and shows it."""
+        raise error
 
     def _over(self) -> None:
         self.busy, self.doing = False, None
 
     def _finished(self, result: Result) -> None:
         self._over()
-        self.done(result)
-        self._begin()
+        try:
+            self.done(result)
+        except Exception as error:  # noqa: BLE001  # raised again in the App
+            self._failed(error)
+        else:
+            self._begin()

@@ -69,6 +69,10 @@ class TerminalDriver(LinuxDriver):
             super().write(f"{SYNC_START}{sent}{SYNC_END}" if self._app._sync_available else sent)
         return sent is not None
 
+    def send_message(self, message: Message) -> None:
+        """A key on its way to the App: straight into its queue, in the order of the keys, and by way of no task."""
+        self._loop.call_soon_threadsafe(self._app.post_message, message)
+
     def anew(self) -> None:
         """Whatever stands on the terminal, everything is sent again; may be called in a signal handler."""
         self.shown.forget()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from asyncio import sleep
 from collections.abc import Iterable
 from math import inf
 from pathlib import Path
@@ -31,9 +32,18 @@ async def loaded(pilot: Pilot[int]) -> None:
     for _ in range(500):
         if app.engine.ready:
             return
-        await app.workers.wait_for_complete()
+        await rested(pilot)
         await pilot.pause(0.02)
     raise AssertionError("the numeric library did not come")
+
+
+async def rested(pilot: Pilot[int]) -> None:
+    """Wait until no thread calculates any more, and what they found stands."""
+    app = pilot.app
+    assert isinstance(app, CutcompApp)
+    while any(desk.busy for desk in app.behind):
+        await sleep(0.001)
+    await pilot.pause()
 
 
 async def typed(pilot: Pilot[int], texts: Iterable[str]) -> None:

@@ -18,7 +18,7 @@ from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
 from core.program.model import Entry, Program
 from tests.app.operator import FROZEN
-from tests.app.pilots import app_on, loaded, typed
+from tests.app.pilots import app_on, loaded, rested, typed
 
 
 def lines(app: CutcompApp) -> list[str]:
@@ -76,8 +76,7 @@ async def test_a_slow_machine_shows_the_form_at_once_and_the_verdict_later() -> 
         await pilot.press(*["tab"] * 11)
         await typed(pilot, ["1"])
         assert "USR      1" in shown(app, "LOOKAHEAD")
-        await app.workers.wait_for_complete()
-        await pilot.pause()
+        await rested(pilot)
         assert "GOUGE   0.2500" in shown(app, "GOUGE")
         assert not app.desk.session.stale
 
@@ -98,14 +97,12 @@ async def test_what_was_tried_out_while_it_was_typed_is_not_derived_again(
         await loaded(pilot)
         monkeypatch.setattr("core.pipeline.derive.derive", counted)
         await pilot.press(*["tab"] * 11, "1", "enter", "tab")
-        await app.workers.wait_for_complete()
-        await pilot.pause()
+        await rested(pilot)
         assert len(done) == 1
         assert app.desk.session.block.lookahead == Entry(1.0)
         # a point behind a whole number, a digit taken back, undo, redo
         await pilot.press("up", "1", ".", "0", "backspace", "enter", "ctrl+z", "ctrl+y")
-        await app.workers.wait_for_complete()
-        await pilot.pause()
+        await rested(pilot)
         assert len(done) == 1
         assert not app.desk.session.stale
         assert app.desk.session.found.known

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from asyncio import sleep
 from collections.abc import Callable
 from threading import Event
 
 import pytest
 from textual.app import App
-from textual.worker import WorkerFailed
 
 from app.behind import Behind
 
@@ -20,7 +20,8 @@ async def run_through(behind: Behind[int], work: Callable[[], int]) -> None:
     """The App until this work is over."""
     async with behind.app.run_test():
         behind.ask(work)
-        await behind.app.workers.wait_for_complete()
+        while behind.busy:
+            await sleep(0)
 
 
 async def test_of_what_is_asked_meanwhile_only_the_last_is_done() -> None:
@@ -45,7 +46,7 @@ async def test_of_what_is_asked_meanwhile_only_the_last_is_done() -> None:
 async def test_work_that_fails_ends_the_program_with_its_error_and_keeps_nothing_busy() -> None:
     app, told = App[int](), list[int]()
     behind = Behind(app, told.append)
-    with pytest.raises(WorkerFailed, match="ZeroDivisionError"):
+    with pytest.raises(ZeroDivisionError):
         await run_through(behind, failing)
     assert app.return_code == 1
     assert not told
@@ -59,6 +60,6 @@ async def test_an_answer_that_cannot_be_taken_ends_the_program_too() -> None:
         raise ZeroDivisionError(answer)
 
     behind = Behind(app, untaken)
-    with pytest.raises(WorkerFailed, match="ZeroDivisionError"):
+    with pytest.raises(ZeroDivisionError):
         await run_through(behind, lambda: 1)
     assert not behind.busy

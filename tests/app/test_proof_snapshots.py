@@ -14,7 +14,7 @@ from app.application import CutcompApp
 from app.listing import Listing
 from app.screens.proof import ProofPage
 from core.controls.tools import ToolTable
-from tests.app.pilots import app_on, loaded
+from tests.app.pilots import app_on, loaded, rested
 
 DATA = Path(__file__).parents[1] / "data"
 SCREENS = {
@@ -46,8 +46,7 @@ def test_screen(name: str, size: tuple[int, int], snap_compare: Callable[..., An
         await loaded(pilot)
         for key in keys:
             await pilot.press(key)
-        await pilot.app.workers.wait_for_complete()
-        await pilot.pause()
+        await rested(pilot)
 
     assert snap_compare(app(file, control), terminal_size=size, run_before=to_the_screen)
 

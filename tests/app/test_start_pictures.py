@@ -16,7 +16,7 @@ from app.screens.program import ProgramPage
 from app.screens.start import Entry, Group, StartPage
 from app.survey import Facts
 from app.widgets.rows import Look
-from tests.app.pilots import app_on, loaded
+from tests.app.pilots import app_on, loaded, rested
 
 SHOP = Path("/shop")
 FACTS = (
@@ -69,8 +69,7 @@ async def test_verdicts_come_by_themselves_behind_the_screen(tmp_path: Path, mon
     async with app.run_test(size=(80, 24)) as pilot:
         await loaded(pilot)
         for _ in range(100):
-            await app.workers.wait_for_complete()
-            await pilot.pause()
+            await rested(pilot)
             page = app.desk.page
             assert isinstance(page, StartPage)
             if page.wanted is None:

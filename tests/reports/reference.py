@@ -23,6 +23,8 @@ class Reference(CutcompApp):
     def __init__(self, session: Session, keep: Callable[[Desk], Desk] = lambda desk: desk) -> None:
         super().__init__(session, FROZEN, Engine(), keep)
         self.left = False
+        for desk in self.behind:
+            desk.begin = at_once
         program = session.program
         self._loading.ask(lambda: self.engine.load(program))
 
@@ -31,11 +33,10 @@ class Reference(CutcompApp):
         super()._loaded(derived)
         gc.unfreeze()
 
-    def run_worker(self, work: Any, *_: Any, **__: Any) -> Any:
-        return work()
-
-    def call_from_thread(self, callback: Callable[..., Any], *arguments: Any, **named: Any) -> Any:
-        return callback(*arguments, **named)
+    def call_later(self, callback: Callable[..., Any], *arguments: Any, **named: Any) -> bool:
+        """Errors of a desk."""
+        callback(*arguments, **named)
+        return True
 
     def refresh_screen(self, width: int = 0, height: int = 0) -> None:
         del width, height
@@ -92,3 +93,8 @@ def character_of(key: str) -> str | None:
 def keys_of(*texts: str | Iterable[str]) -> tuple[str, ...]:
     """Names stay whole, lists are spread: keys_of("tab", [*"1.5"], "enter")."""
     return tuple(key for text in texts for key in ((text,) if isinstance(text, str) else text))
+
+
+def at_once(work: Callable[[], Callable[[], None]]) -> None:
+    """In place of a thread."""
+    work()()
