@@ -110,13 +110,12 @@ class Scene:
         boxes += [_box_of(mark.at, 0.0) for mark in self.marks]
         layers = [layer for layer in self.layers if len(layer.path)]
         with np.errstate(invalid="ignore", over="ignore"):
-            rows = np.array(boxes).reshape(-1, 4)
-            rows = np.concatenate((rows, _boxes(gathered(layers)))) if layers else rows
-            rows = rows[(np.abs(rows) <= BEYOND).all(axis=1)]
-        if not len(rows):
+            boxes += _boxes(gathered(layers)) if layers else []
+        kept = [box for box in boxes if _drawn(box)]
+        if not kept:
             return None
-        (x0, y0), (x1, y1) = rows[:, :2].min(axis=0).tolist(), rows[:, 2:].max(axis=0).tolist()
-        return (x0, y0, x1, y1)
+        left, low, right, high = zip(*kept, strict=True)
+        return min(left), min(low), max(right), max(high)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -155,30 +154,35 @@ def gathered(layers: Sequence[Layer]) -> Pieces:
     return every.only(np.concatenate(own).nonzero()[0])
 
 
-def _boxes(pieces: Pieces) -> Floats:
-    """(k, 4) boxes that span the same as those of all pieces: that of all points, and of the arcs that reach over it.
+def _boxes(pieces: Pieces) -> list[Box]:
+    """Boxes that span the same as those of all pieces: that of all points, and of the arcs that reach over it.
 
     Where a coordinate can be no part of a drawing each piece has its own, so that it can be left out.
     """
-    points = pieces.points
-    box = np.concatenate((points.min(axis=0), points.max(axis=0)))
+    x, y = pieces.points[:, 0], pieces.points[:, 1]
+    left, low, right, high = box = float(x.min()), float(y.min()), float(x.max()), float(y.max())
     # what is not a number is neither the least nor the largest, but comes out of both
-    if not (np.abs(box) <= BEYOND).all():
+    if not _drawn(box):
         return _each(pieces)
-    arcs = pieces.only(pieces.turns.nonzero()[0])
-    radial = points[arcs.rows] - arcs.centres
-    radii = np.hypot(radial[:, 0], radial[:, 1])[:, None]
-    over = np.hstack((box[:2] - ALIKE - arcs.centres, arcs.centres - ALIKE - box[2:])) > -radii
-    further = np.flatnonzero(over.any(axis=1))
-    return np.vstack((box, _each(arcs.only(further)))) if len(further) else box[None]
+    arcs = pieces.turns.nonzero()[0]
+    starts, centres = pieces.points[pieces.rows[arcs]], pieces.centres[arcs]
+    x, y = centres[:, 0], centres[:, 1]
+    reach = ALIKE - np.hypot(starts[:, 0] - x, starts[:, 1] - y)
+    over = (left - x > reach) | (low - y > reach) | (x - right > reach) | (y - high > reach)
+    return [box, *_each(pieces.only(arcs[over]))] if over.any() else [box]
 
 
-def _each(pieces: Pieces) -> Floats:
-    """(n, 4) the boxes of all pieces, taken from a path of them with a line from each to the next."""
+def _drawn(box: Box) -> bool:
+    """Whether nothing of a box is beyond every drawing, or no number."""
+    return all(abs(side) <= BEYOND for side in box)
+
+
+def _each(pieces: Pieces) -> list[Box]:
+    """The boxes of all pieces, taken from a path of them with a line from each to the next."""
     points = np.stack((pieces.points[pieces.rows], pieces.points[pieces.rows + 1]), axis=1).reshape(-1, 2)
     centres, turns = points[:-1].copy(), np.zeros(len(points) - 1, np.int8)
     centres[::2], turns[::2] = pieces.centres, pieces.turns
-    return Path.of(points, centres, turns).boxes[::2]
+    return [(a, b, c, d) for a, b, c, d in Path.of(points, centres, turns).boxes[::2].tolist()]
 
 
 def _box_of(centre: Point, radius: float) -> Box:

@@ -10,7 +10,7 @@ import numpy as np
 from core.comp.result import Compensated
 from core.draw.build import contour_scene
 from core.draw.scene import Scene, joined_scenes
-from core.geometry.path import EMPTY, Path
+from core.geometry.path import EMPTY, Floats, Path
 from core.geometry.piece import Piece, Point
 from core.geometry.stretch import NO_PARTS, Parts, pieces_joined, stretches
 from core.output.svg import svg
@@ -44,7 +44,7 @@ def block_scene(found: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         deleted=NO_PARTS if one is None else _deleted(one),
         meetings=() if one is None else list(dict.fromkeys((x, y) for x, y in one.deleted.at.tolist())),
         gouges=() if verdict is None else [gouge.surface_at for gouge in verdict.gouges],
-        uncut=NO_PARTS if verdict is None else stretches(surface, verdict.uncut.ends),
+        uncut=NO_PARTS if verdict is None or not verdict.uncut else stretches(surface, verdict.uncut.ends),
         cutter=_cutter(found, loops, one, segment),
         current=_current(found, segment),
         start=solved.segments[0].start if solved.segments else None,
@@ -83,7 +83,11 @@ def _sketches(found: DerivedBlock) -> list[Path]:
 
 
 def _deleted(one: Compensated) -> Parts:
-    return pieces_joined(one.contour, np.flatnonzero(np.isin(one.contour.numbers, one.deleted.segments)))
+    if not len(one.deleted):
+        return NO_PARTS
+    sought, numbers = np.sort(one.deleted.segments), one.contour.numbers
+    nearest = np.minimum(np.searchsorted(sought, numbers), len(sought) - 1)
+    return pieces_joined(one.contour, np.flatnonzero(sought[nearest] == numbers))
 
 
 def _current(found: DerivedBlock, segment: int | None) -> Path | None:
@@ -116,12 +120,18 @@ def _cutter(
 def _place(loops: Sequence[Loop], one: Compensated | None, segment: int) -> Place | None:
     """The end of a segment's path, the path's start for START, or where the path passes what was deleted."""
     for loop in loops:
-        whole = loop.whole
-        rows = np.flatnonzero(whole.numbers == segment)
-        if len(whole) and (len(rows) or not segment):
-            x, y = (whole.ends[rows[-1]] if segment else whole.points[0]).tolist()
-            return Place((x, y))
+        parts = [part for part in (loop.lead_in, loop.path, loop.lead_out) if len(part)]
+        if not segment and parts:
+            return Place(_point(parts[0].points[0]))
+        for part in reversed(parts):
+            if len(rows := np.flatnonzero(part.numbers == segment)):
+                return Place(_point(part.ends[rows[-1]]))
     return None if one is None else _passed(one, segment)
+
+
+def _point(row: Floats) -> Point:
+    x, y = row.tolist()
+    return x, y
 
 
 def _passed(one: Compensated, segment: float) -> Place | None:
