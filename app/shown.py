@@ -147,21 +147,46 @@ class Picture:
         changed: dict[int, Line] = {}
         for row, column, text, style in self.runs:
             line = changed.setdefault(row, lines[row].copy()) if row not in changed else changed[row]
-            line[column : column + len(text)] = [cell(one, style) for one in text]
+            line[column : column + len(text)] = map(_styled(style).__getitem__, text)
         yield from sorted(changed.items())
 
 
-@lru_cache(8192)
-def cell(text: str, style: Style) -> Cell:
-    """A character in a style; the same ones are the same object, so that equal lines are compared quickly."""
-    plain = text == " " and not style.attributes & SHOWN_ON_BLANKS
-    return Cell(text, Style(paper=style.paper) if plain else style)
+class Cells(dict[str, Cell]):
+    """The characters of one style as cells; the same ones are the same object, so that lines are compared quickly."""
+
+    def __init__(self, style: Style) -> None:
+        self.style = style
+
+    def __missing__(self, text: str) -> Cell:
+        plain = text == " " and not self.style.attributes & SHOWN_ON_BLANKS
+        self[text] = Cell(text, Style(paper=self.style.paper) if plain else self.style)
+        return self[text]
+
+
+_styled: Final = lru_cache(256)(Cells)
 
 
 def line_of(texts: Texts) -> Line:
     """The cells of texts side by side."""
-    styles = ((text, read(codes) if codes else PLAIN) for text, codes in texts)
-    return [cell(one, style) for text, style in styles for one in text]
+    styles = ((text, _styled(read(codes) if codes else PLAIN)) for text, codes in texts)
+    return [cells[one] for text, cells in styles for one in text]
+
+
+def neighbours(line: Line, columns: list[int]) -> Iterator[tuple[int, str, Style]]:
+    """Cells of a line in these columns: those side by side in one style as one text, with the first one's column."""
+    first, text, style, behind = 0, "", PLAIN, -1
+    for column in columns:
+        cell = line[column]
+        assert cell is not None
+        if column == behind and (cell.style is style or cell.style == style):
+            text += cell.text
+        else:
+            if text:
+                yield first, text, style
+            first, (text, style) = column, cell
+        behind = column + 1
+    if text:
+        yield first, text, style
 
 
 def parsed(data: str, columns: int, rows: int) -> Picture | None:
@@ -208,14 +233,11 @@ class _Ink:
         changed = [column for column, (was, then) in both if was is not then and was != then]
         tail = self._tail(new) if changed else 0
         erased = sum(column >= tail for column in changed) >= SHORTEST
-        for column in changed:
-            if erased and column >= tail:
-                break
+        written = [column for column in changed if column < tail] if erased else changed
+        for column, text, style in neighbours(new, written):
             self._to(row, column, new)
-            cell = new[column]
-            assert cell is not None
-            self.pen.write(*cell)
-            self._went(row, column + 1)
+            self.pen.write(text, style)
+            self._went(row, column + len(text))
         last = new[-1]
         if erased and last is not None:
             self._erase(row, tail, last)
