@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Final
 
@@ -67,7 +68,8 @@ PLACES: Final[Mapping[Form, Mapping[str, tuple[int, int]]]] = MappingProxyType(
 
 def form_at(session: Session) -> Form:
     """The form of the segment with the cursor."""
-    return Form.START if session.segment is None else form_of(session.segment)
+    segment = session.segment
+    return Form.START if segment is None else form_of(segment)
 
 
 def fields_at(session: Session) -> tuple[Field, ...]:
@@ -81,7 +83,8 @@ def fields_at(session: Session) -> tuple[Field, ...]:
 
 def value_at(session: Session, name: str) -> Value | str:
     """What a field holds there."""
-    typed = session.block if session.segment is None else session.segment
+    segment = session.segment
+    typed = session.block if segment is None else segment
     if name in ("cutter_comp", "direction"):
         return str(getattr(typed, name))
     if name == "choice":
@@ -89,7 +92,7 @@ def value_at(session: Session, name: str) -> Value | str:
         return "" if picked is None else str(picked)
     if name == "lookahead":
         return _lookahead(session.found)
-    values = session.found.solved.values if session.segment is None else _solved(session).values
+    values = session.found.solved.values if segment is None else _solved(session).values
     held: Value = values.get(name, getattr(typed, name))
     return held
 
@@ -121,6 +124,7 @@ def _missing(session: Session) -> tuple[str, ...]:
     return tuple(one.field for one in session.found.solved.findings if one.code == "MISSING" and one.field)
 
 
+@lru_cache(256)
 def _cell(one: Field, held: Value | str, unit: Unit, place: tuple[int, int], *, needed: bool) -> Cell:
     cell = cell_of(one, held, unit, *place, needed=needed)
     if one.name == "lookahead" and cell.state is State.TYPED:
