@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import pi, tau
 from typing import Final
 
 import numpy as np
@@ -10,8 +10,8 @@ import numpy as np
 from core.geometry.measured import FEW, Flags, Floats, Measured, Rows
 from core.geometry.planes import coordinates
 
-FLAT: Final = 1e-9
-"""Radians up to which an arc of any radius a machine could have bulges by nothing beyond its ends."""
+QUARTERS: Final = np.array((-pi, -pi / 2.0, 0.0, pi / 2.0))[:, None]
+"""(4, 1) angles of the directions -x, -y, x and y."""
 
 
 def boxes(pieces: Measured) -> Floats:
@@ -42,18 +42,10 @@ def boxes(pieces: Measured) -> Floats:
 def _quarters(arc: Measured) -> Flags:
     """(4, n) whether the arcs pass the directions -x, -y, x and y seen from their centres.
 
-    Counter-clockwise from `a` to `b` an arc of no more than half a turn passes a direction q where neither the cross
-    product of a and q nor that of q and b is negative; a larger one where q is not within what is left of the circle,
-    from b to a.
-    What doubles cannot tell, at the ends and at half a turn, moves no box by more than their last digit.
+    What doubles cannot tell, at the ends of an arc, moves no box by more than their last digit: so near to such a
+    direction an arc keeps its distance from the centre.
     """
-    first, last = arc.arm, arc.arm + arc.vector
-    large = arc.angle > pi
-    swap = (arc.turn < 0.0) != large
-    a, b = np.where(swap, last, first), np.where(swap, first, last)
-    behind, before = np.array((a.imag, -a.real)), np.array((-b.imag, b.real))
-    least, most = np.minimum(behind, before), np.maximum(behind, before)
-    none = arc.angle <= FLAT
-    back = np.where(large, least > 0.0, least < 0.0) | none
-    ahead = np.where(large, most < 0.0, most > 0.0) | none
-    return np.concatenate((~back, ~ahead))
+    ahead = (QUARTERS - np.arctan2(arc.arm.imag, arc.arm.real)) * arc.turn
+    ahead += tau * (ahead < 0.0)
+    passed: Flags = ahead <= arc.angle
+    return passed

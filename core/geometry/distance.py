@@ -51,23 +51,6 @@ def _arc_distance(arc: Measured, points: Points) -> Floats:
     return apart
 
 
-def nearest_and_along(pieces: Measured, points: Points) -> tuple[Floats, Points, Points]:
-    """What `foot` says, the points of the pieces there and their unit tangents, at hardly more than the cost of one."""
-    found: Points = by_kind(pieces.arcs, _line_nearest, _arc_nearest, pieces, points)
-    return found[0].real, found[1], found[2]
-
-
-def _line_nearest(line: Measured, points: Points) -> Points:
-    t = _line_foot(line, points)
-    return np.array((t, line.start + t * line.vector, line.unit))
-
-
-def _arc_nearest(arc: Measured, points: Points) -> Points:
-    t = _arc_foot(arc, points)
-    off = arc.arm * np.exp(1j * (arc.turn * arc.angle) * t)
-    return np.array((t, arc.centre + off, 1j * arc.turn * off / np.where(arc.radius == 0.0, 1.0, arc.radius)))
-
-
 def on_line(pieces: Measured, through: Points, unit: Points) -> Floats:
     """(2, ..., n) fractions at which the pieces meet endless lines through points along unit vectors; nan for none."""
     met: Floats = by_kind(pieces.arcs, _line_on_line, _arc_on_line, pieces, through, unit)

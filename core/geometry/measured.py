@@ -150,15 +150,15 @@ def measured(path: Path) -> Measured:
 
 def _measured(start: Points, end: Points, centre: Points, turn: Floats) -> Measured:
     arc = turn.nonzero()[0]
-    arm, vector = np.ones_like(start), end - start
+    arm, vector = np.ones(len(turn), np.complex128), end - start
     angle, radius, slack = np.zeros((3, len(turn)))
     length = np.abs(vector)
     if len(arc):
-        first, last = start[arc], end[arc]
-        middle, slack[arc] = _one_radius(first, last, centre[arc], turn[arc])
+        first, last, way = start.take(arc), end.take(arc), turn.take(arc)
+        middle, slack[arc] = _one_radius(first, last, centre.take(arc), way)
         arm[arc] = from_middle = first - middle
         radius[arc] = bend = np.abs(from_middle)
-        angle[arc] = swept = _angles(from_middle, last - middle, turn[arc], first == last)
+        angle[arc] = swept = _angles(from_middle, last - middle, way, first == last)
         length[arc] = bend * swept
     return Measured(np.arange(len(turn)), start, vector, arm, turn, angle, radius, length, slack)
 
@@ -276,7 +276,8 @@ def _arc_direction(arc: Measured, t: Floats) -> Points:
 
 def travelled(arc: Measured, towards: Points) -> Floats:
     """Angles in [0, tau) from each arc's start to the directions `towards` (..., n), seen from its centre."""
-    angle: Floats = np.mod(np.angle(towards * np.conj(arc.arm)) * arc.turn, tau)
+    turned = towards * np.conj(arc.arm)
+    angle: Floats = np.mod(np.arctan2(turned.imag, turned.real) * arc.turn, tau)
     return angle
 
 

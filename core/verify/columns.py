@@ -23,6 +23,9 @@ THIN: Final = 1e-6
 STRAIGHT: Final = 5
 """Columns of a line; an arc has all of them."""
 
+CENTRE: Final = slice(5, 7)
+"""Columns of an arc's centre."""
+
 _NONE: Final = np.zeros(0)
 
 
@@ -154,10 +157,10 @@ def to_arc(x: Floats, y: Floats, arc: Columns) -> Floats:
 
 def lines_cross(lines: Floats, others: Floats) -> Floats:
     """0 for pairs of lines that cross between their ends, infinite for all others."""
-    one, other = Columns(*lines), Columns(*others)
-    x, y = other.x - one.x, other.y - one.y
-    turn = one.along * other.up - one.up * other.along
-    start, end = one.along * y - one.up * x, other.along * y - other.up * x
+    x, y = others[:2] - lines[:2]
+    along, up, to_along, to_up = lines[2], lines[3], others[2], others[3]
+    turn = along * to_up - up * to_along
+    start, end = along * y - up * x, to_along * y - to_up * x
     return np.where((start * (start + turn) < 0.0) & (end * (end + turn) < 0.0), 0.0, np.inf)
 
 
@@ -182,20 +185,19 @@ def line_to_arc(lines: Floats, arcs: Floats) -> Floats:
     return apart
 
 
-def arc_to_arc(arcs: Floats, others: Floats) -> Floats:
-    """Distances of pairs of arcs on the line through their centres, 0 where they cross, infinite where neither is."""
-    both = Columns(*np.array((arcs, others)).swapaxes(0, 1))
-    (x, y), (one, other) = (both.centre_x[1] - both.centre_x[0], both.centre_y[1] - both.centre_y[0]), both.radius
-    size = np.sqrt(x * x + y * y)
+def arc_to_arc(pairs: Floats) -> Floats:
+    """Distances of pairs of arcs (15, 2, m) on the line through their centres, 0 where they cross, infinite where
+    neither is."""
+    both = Columns(*pairs)
+    (x, y), (one, other) = pairs[CENTRE, 1] - pairs[CENTRE, 0], both.radius
+    size, between = np.sqrt(x * x + y * y), x + 1j * y
     # from both centres, ahead and behind along the line through them, and to both crossings of the circles
     share = (size * size + (one - other) * (one + other)) / (2.0 * size * size)
     height = np.sqrt(np.maximum((one / size) ** 2 - share * share, 0.0))
-    to_x, to_y = np.empty((2, 4, 2, len(x)))
-    to_x[0], to_x[1], to_x[2], to_x[3] = x, -x, share * x - height * y, share * x + height * y
-    to_y[0], to_y[1], to_y[2], to_y[3] = y, -y, share * y + height * x, share * y - height * x
-    to_x[2:, 1] -= x
-    to_y[2:, 1] -= y
-    (ahead, behind, first, second) = inside(to_x, to_y, both)
+    met, to = share + 1j * height, np.empty((4, 2, len(x)), np.complex128)
+    to[0], to[1], to[2], to[3] = between, -between, between * met, between * np.conj(met)
+    to[2:, 1] -= between
+    (ahead, behind, first, second) = inside(to.real, to.imag, both)
     within = np.array((ahead[0] & behind[1], ahead[0] & ahead[1], behind[0] & behind[1]))
     gaps = np.array((size - other - one, size + other - one, size - other + one))
     apart: Floats = np.where(within, np.abs(gaps), np.inf).min(axis=0)

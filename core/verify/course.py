@@ -32,20 +32,22 @@ def courses(*groups: Sequence[Path]) -> Iterator[Course]:
 
     Few pieces are worked out in one go: the steps cost more than the pieces.
     """
-    counts = np.cumsum([0, *(sum(map(len, group)) for group in groups)]).tolist()
-    if counts[-1] > FEW:
+    counts = [sum(map(len, group)) for group in groups]
+    if sum(counts) > FEW:
         for group in groups:
             yield _course(stacked(group))
         return
     pieces = stacked([path for group in groups for path in group])
-    around, bends = boxes(pieces), columns_of(pieces)
-    ends = pieces.rows.searchsorted(counts).tolist()
-    for first, last, count in zip(ends, ends[1:], counts, strict=False):
+    around, bends, whole = boxes(pieces), columns_of(pieces), len(pieces) == sum(counts)
+    first = before = 0
+    for count in counts:
+        behind = before + count
+        last = behind if whole else int(pieces.rows.searchsorted(behind))
         part, piece = slice(first, last), pieces.part(first, last)
-        np.subtract(piece.rows, count, out=piece.rows)
+        np.subtract(piece.rows, before, out=piece.rows)
         # of rows that do not lie together every `take` would copy all
-        columns = np.ascontiguousarray(bends[:, part])
-        yield Course(piece, piece.stations, np.ascontiguousarray(around[:, part]), columns)
+        yield Course(piece, piece.stations, around[:, part].copy(), bends[:, part].copy())
+        first, before = last, behind
 
 
 def _course(pieces: Measured) -> Course:

@@ -58,7 +58,7 @@ def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Row
     i, j = aligned_pairs(bounds, bounds, JOINED, 2, both=False)
     again = (_overlapping(bounds) & _may_come_back(surface)).nonzero()[0]
     if len(again):
-        again = again[_turned(surface, again) > pi - TURN]
+        again = again[_turned(surface, again, again + 1) > pi - TURN]
         i, j = np.concatenate((i, again)), np.concatenate((j, again + 1))
     if closed and len(surface) > 2:
         seam = (i == 0) & (j == len(surface) - 1)
@@ -75,15 +75,24 @@ def _may_come_back(surface: Measured) -> Flags:
     return back
 
 
-def _turned(surface: Measured, rows: Rows) -> Floats:
-    """How much these pieces, the next ones and the joints between them turn, radians."""
-    both = np.array((rows, rows + 1))
-    vector, turn, arm = surface.vector[both], surface.turn[both], surface.arm[both]
-    # where the one ends and the other one begins
-    arm[0] += vector[0]
-    (end, begin), (one, other) = np.where(turn == 0.0, vector, 1j * turn * arm), surface.angle[both]
-    turned: Floats = one + other + np.abs(np.angle(begin * np.conj(end)))
+def _turned(surface: Measured, rows: Rows, following: Rows) -> Floats:
+    """How much these pieces, the following ones and the joints between them turn, radians."""
+    end, begin = at_joints(surface, rows, following)
+    corner = begin * np.conj(end)
+    turned: Floats = np.abs(np.arctan2(corner.imag, corner.real))
+    turned += surface.angle[rows] + surface.angle[following]
     return turned
+
+
+def at_joints(surface: Measured, rows: Rows, following: Rows) -> Points:
+    """(2, m) the directions in which these pieces end and the following ones begin, of any length."""
+    both = np.array((rows, following))
+    vector, turn = surface.vector[both], surface.turn[both]
+    if not np.count_nonzero(turn):
+        return vector
+    arm = surface.arm[both]
+    arm[0] += vector[0]
+    return np.where(turn == 0.0, vector, 1j * turn * arm)
 
 
 def _overlapping(bounds: Floats) -> Flags:
@@ -95,9 +104,7 @@ def _overlapping(bounds: Floats) -> Flags:
 
 def _turns_half_round(surface: Measured) -> bool:
     """The last and the first piece can meet elsewhere than at START: a curve must turn half round to come back."""
-    last, first = surface.take(np.array([-1])), surface.take(np.array([0]))
-    corner = np.angle(direction(first, np.zeros(1)) * np.conj(direction(last, np.ones(1))))
-    return (last.angle + first.angle + np.abs(corner)).item() > pi - TURN
+    return _turned(surface, np.array([-1]), np.array([0])).item() > pi - TURN
 
 
 def _away(one: Measured, other: Measured, places: Floats, points: Points, following: Flags, around: Flags) -> Flags:

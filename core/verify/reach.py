@@ -123,7 +123,7 @@ def nearest(
     `bounds` are the pieces' boxes, `known` (n,) distances within which there is a piece for sure.
     """
     if 0 < len(points) * len(pieces) <= FEW:
-        apart = distance(pieces, np.broadcast_to(points[:, None], (len(points), len(pieces))))
+        apart = distance(pieces, points[:, None] + np.zeros(len(pieces)))
         k, j = (apart <= apart.min(axis=1)[:, None] + tie).nonzero()
         return Nearest(k, j, apart[k, j])
     within = np.full(len(points), np.inf) if known is None else known

@@ -7,11 +7,11 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.distance import nearest_and_along
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction, place
+from core.geometry.distance import foot
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place
 from core.geometry.side import Side
 from core.tolerance import JOINED, ON_PATH
-from core.verify.crossing import Crossings
+from core.verify.crossing import Crossings, at_joints
 from core.verify.gouge import Gouging
 from core.verify.pairs import Pairs
 from core.verify.reach import Nearest, changes, least_of, nearest
@@ -62,24 +62,20 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, known
     if not len(pairs.surface) or not len(pairs.centre):
         return ()
     rows, near = _contact(pairs, reach, ON_PATH)
-    stations = pairs.centre_stations
-    settled, count = pairs.own.settled(len(pairs.centre)), len(rows)
-    settled[rows] |= surface.endless | _kept(pairs, found)[rows]
-    s, t = (stations[rows] + stations[rows + 1]) / 2.0, np.full(count, 0.5)
-    index, more = _samples(pairs, (~settled).nonzero()[0], found, surface)
-    if len(more):
-        length = pairs.centre.length[index]
-        share = (more - stations[index]) / np.where(length == 0.0, 1.0, length)
-        share = np.minimum(np.maximum(share, 0.0), 1.0)
-        s, t, rows = np.concatenate((s, more)), np.concatenate((t, share)), np.concatenate((rows, index))
-    points = at(pairs.centre.take(rows), t)
-    if len(more):
+    count, settled = len(rows), pairs.own.settled(len(pairs.centre))
+    settled[rows] = True if surface.endless else _kept(pairs, found)[rows] | settled[rows]
+    gouged = _gouged(found, surface)
+    index, t = _samples(pairs, rows, (~settled).nonzero()[0], gouged)
+    points = at(pairs.centre.take(index), t)
+    if len(index) > count:
         near = near.followed(nearest(points[count:], pairs.surface, pairs.surface_boxes, tie=ON_PATH), count)
-    wrong = np.zeros(len(pairs.centre), np.bool_)
     told = on_part_side(pairs, points, near, surface)
     if surface.crossed:
-        told &= ~_inside(found, s)
-    wrong[rows[told]], wrong[known] = True, True
+        places = pairs.centre_stations[index] + t * pairs.centre.length[index]
+        places[len(places) - len(gouged) :] = gouged
+        told &= ~_inside(found, places)
+    wrong = np.zeros(len(pairs.centre), np.bool_)
+    wrong[index[told]], wrong[known] = True, True
     return tuple(pairs.centre.rows[wrong].tolist())
 
 
@@ -119,9 +115,9 @@ def _as_near_as_own(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Rows,
     """
     own, middle = pairs.own, pairs.touch.middle
     close = (middle <= reach).nonzero()[0]
-    walls, bent = (own.piece >= 0).nonzero()[0], (own.corner >= 0).nonzero()[0]
-    if not len(walls):
+    if not len(own.piece):
         return pairs.i[close], pairs.j[close], middle[close]
+    walls, bent = (own.piece >= 0).nonzero()[0], (own.corner >= 0).nonzero()[0]
     piece = np.concatenate((own.piece[walls], own.corner[bent], own.corner[bent]))
     wall = np.concatenate((walls, bent, bent + 1))
     apart = np.concatenate((own.apart[walls], own.apart[bent], own.apart[bent]))
@@ -136,56 +132,84 @@ def _as_near_as_own(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Rows,
     return i[order], j[order], np.concatenate((middle[close], apart[chosen]))[order]
 
 
-def _samples(pairs: Pairs, rows: Rows, found: Gouging, surface: Sided) -> tuple[Rows, Floats]:
-    """Pieces and places along the centre path that stand for these pieces, and beside an open contour for the gouges.
+def _gouged(found: Gouging, surface: Sided) -> Floats:
+    """Places along the centre path that stand for the gouges: of a closed contour that does not cross itself none."""
+    if not len(found.i) or (surface.endless and not surface.crossed):
+        return found.place[:0]
+    first, last = found.stretches.first, found.stretches.last
+    return np.concatenate((first, last, (first + last) / 2.0, found.place))
+
+
+def _samples(pairs: Pairs, middles: Rows, rows: Rows, gouged: Floats) -> tuple[Rows, Floats]:
+    """Pieces and fractions of them: the middles of some, the ends and middles of others, and of places of gouges.
 
     The end of a piece is its own, though the next one begins there.
     """
-    first, last = pairs.centre_stations[rows], pairs.centre_stations[rows + 1]
-    index, samples = np.concatenate((rows, rows, rows)), np.concatenate((first, (first + last) / 2.0, last))
-    if surface.endless and not surface.crossed:
-        return index, samples
-    gouge = found.stretches
-    more = np.concatenate((gouge.first, gouge.last, (gouge.first + gouge.last) / 2.0, found.place))
-    owners, _ = place(pairs.centre, pairs.centre_stations, more)
-    return np.concatenate((index, owners)), np.concatenate((samples, more))
+    count = len(rows)
+    index = np.concatenate((middles, rows, rows, rows))
+    t = np.full(len(index), 0.5)
+    t[len(middles) : len(middles) + count], t[len(index) - count :] = 0.0, 1.0
+    if not len(gouged):
+        return index, t
+    owners, shares = place(pairs.centre, pairs.centre_stations, gouged)
+    return np.concatenate((index, owners)), np.concatenate((t, shares))
 
 
 def on_part_side(pairs: Pairs, points: Points, near: Nearest, surface: Sided) -> Flags:
     """Which of the points are clearly on the part's side of all that is nearest to them."""
     if not len(points):
         return np.zeros(0, np.bool_)
-    spots = points[near.k]
-    t, touched, along = nearest_and_along(pairs.surface.take(near.j), spots)
-    off = (spots - touched) / np.where(near.apart < ON_PATH, np.inf, near.apart)
-    sine = (np.conj(along) * off).imag
+    walls, spots = pairs.surface.take(near.j), points[near.k]
+    t, off = foot(walls, spots), spots - walls.start
+    left = _left(walls, off) * (near.apart >= ON_PATH)
     joints = ((t == 0.0) | (t == 1.0)).nonzero()[0]
     if len(joints):
-        sine[joints] = _off_joints(pairs.surface, near.j[joints] - (t[joints] == 0.0), off[joints])
+        share = t[joints]
+        away = off[joints] - share * walls.vector[joints]
+        before = near.j[joints] - (share == 0.0)
+        left[joints] = _off_joints(pairs.surface, before, away, near.apart[joints])
     starts = changes(near.k)
-    wrong: Flags = np.logical_and.reduceat(sine * surface.side.sign < -CLEARLY, starts)
+    wrong: Flags = np.logical_and.reduceat(left * surface.side.sign < -CLEARLY, starts)
     if not surface.endless:
-        foot_at = pairs.surface_stations[near.j] + t * pairs.surface.length[near.j]
+        foot_at = pairs.surface_stations[near.j] + t * walls.length
         outside = (foot_at <= surface.first + JOINED) | (foot_at >= surface.last - JOINED)
         wrong &= ~np.logical_or.reduceat(outside, starts)
     return wrong
 
 
-def _off_joints(walls: Measured, before: Rows, off: Points) -> Floats:
-    """For points to which the joint behind wall `before` is nearest, in the direction `off`, a number that is positive
-    for those on the left.
+def _left(walls: Measured, off: Points) -> Floats:
+    """1 for points that are on the left of their walls, in the direction `off` from the walls' starts, -1 on the right.
+
+    Those on the left of an arc are within its circle where it turns left, and without where it turns right.
+    """
+    across = (np.conj(walls.vector) * off).imag
+    if np.count_nonzero(walls.turn):
+        across = np.where(walls.turn == 0.0, across, walls.turn * (walls.radius - np.abs(off + walls.arm)))
+    return np.sign(across)
+
+
+def _off_joints(walls: Measured, before: Rows, off: Points, apart: Floats) -> Floats:
+    """For points to which the joint behind wall `before` is nearest, `off` from it and so `apart`, a number that is
+    positive for those on the left.
 
     They lie beyond the ends of both walls, so that they are on the left where it turns right.  Where it turns back on
     itself the sines of both walls may all but cancel each other, and the turn alone is asked; walls that touch there
     turn to the side on which the way back runs.
     """
-    one, other = walls.take(before), walls.take((before + 1) % len(walls))
-    arriving, leaving = direction(one, np.ones(len(before))), direction(other, np.zeros(len(before)))
+    behind = (before + 1) % len(walls)
+    along = at_joints(walls, before, behind)
+    size = np.abs(along)
+    arriving, leaving = along / np.where(size == 0.0, 1.0, size)
+    off = off / np.where(apart < ON_PATH, np.inf, apart)
+    left: Floats = (np.conj(arriving + leaving) * off).imag
     turn = np.conj(arriving) * leaving
-    bend = sum(wall.turn / np.where(wall.radius == 0.0, 1.0, wall.radius) for wall in (one, other))
-    back = -np.sign(np.where(np.abs(turn.imag) < CLEARLY, -bend, turn.imag)) * (np.abs(off) > 0.0)
-    sines = (np.conj(arriving + leaving) * off).imag
-    left: Floats = np.where(turn.real < 0.0, back, sines)
+    back = (turn.real < 0.0).nonzero()[0]
+    if len(back):
+        rows, turning = np.array((before[back], behind[back])), turn.imag[back]
+        radius = walls.radius[rows]
+        bend = (walls.turn[rows] / np.where(radius == 0.0, 1.0, radius)).sum(axis=0)
+        way = np.sign(np.where(np.abs(turning) < CLEARLY, -bend, turning))
+        left[back] = -way * (np.abs(off[back]) > 0.0)
     return left
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from core.geometry.distance import foot
 from core.geometry.measured import Flags, Floats, Measured, Rows
 from core.tolerance import ON_PATH, STOCK
-from core.verify.columns import STRAIGHT, Columns, arc_to_arc, line_to_arc, lines_cross, middle, taken, to_piece
+from core.verify.columns import CENTRE, STRAIGHT, Columns, arc_to_arc, line_to_arc, lines_cross, middle, taken, to_piece
 from core.verify.course import Course
 
 FEW: Final = 1_000
@@ -140,9 +140,11 @@ def _to_ends(block: _Block) -> tuple[Floats, Floats, Floats]:
     """(3, m) distances of the centre pieces' starts, ends and middles from the surface pieces, (2, m) of the surface
     pieces' ends from the centre pieces, and (2, m) fractions of surface lines nearest to the centre pieces' ends."""
     if block.pair is not None and block.bent is not None:
-        x, y = _spots(Columns(*block.pair), block.bent)
-        apart, nearest = to_piece(x, y, Columns(*block.pair[:, ::-1]), block.bent[::-1])
-        return apart[:, 0], apart[:2, 1], nearest[:2, 0]
+        both = Columns(*block.pair)
+        x, y = _spots(both, block.bent)
+        # each piece is asked for the spots of the other one
+        apart, nearest = to_piece(x[:, ::-1], y[:, ::-1], both, block.bent)
+        return apart[:, 1], apart[:2, 0], nearest[:2, 1]
     a, b = Columns(*block.one), Columns(*block.other)
     mine, nearest = to_piece(*_spots(a, block.bent_one), b, block.bent_other)
     x, y = np.array((b.x, b.x + b.along)), np.array((b.y, b.y + b.up))
@@ -162,7 +164,7 @@ def _between_ends(block: _Block) -> Floats:
         return _between_few(block.pair, block.bent)
     bent_one, bent_other = block.bent_one[0], block.bent_other[0]
     if bent_one and bent_other:
-        return arc_to_arc(block.one, block.other)
+        return arc_to_arc(np.stack((block.one, block.other), axis=1))
     if bent_one:
         return line_to_arc(block.other, block.one)
     return line_to_arc(block.one, block.other) if bent_other else lines_cross(block.one, block.other)
@@ -170,15 +172,18 @@ def _between_ends(block: _Block) -> Floats:
 
 def _between_few(pair: Floats, bent: Flags) -> Floats:
     """The same of pairs of any kinds."""
-    apart = np.empty(bent.shape[1])
-    arcs, mixed = (bent[0] & bent[1]).nonzero()[0], (bent[0] != bent[1]).nonzero()[0]
-    if len(arcs) + len(mixed) < len(apart):
-        lines = (~(bent[0] | bent[1])).nonzero()[0]
+    either = bent[0] | bent[1]
+    lines, arcs = (~either).nonzero()[0], (bent[0] & bent[1]).nonzero()[0]
+    if len(lines) == len(either):
+        return lines_cross(pair[:, 0], pair[:, 1])
+    apart = np.empty(len(either))
+    if len(lines):
         apart[lines] = lines_cross(*pair[:STRAIGHT].take(lines, axis=2).swapaxes(0, 1))
     if len(arcs):
-        apart[arcs] = arc_to_arc(*pair.take(arcs, axis=2).swapaxes(0, 1))
-    if len(mixed):
-        arc = bent[1, mixed].astype(np.intp)
+        apart[arcs] = arc_to_arc(pair.take(arcs, axis=2))
+    if len(lines) + len(arcs) < len(either):
+        mixed = (bent[0] != bent[1]).nonzero()[0]
+        arc = bent[1, mixed].view(np.int8)
         apart[mixed] = line_to_arc(pair[:STRAIGHT, 1 - arc, mixed], pair[:, arc, mixed])
     return apart
 
@@ -208,11 +213,21 @@ def _unsure(found: Touches, rows: Rows | slice, block: _Block, centre: Measured,
     unsure &= (found.last[rows] - found.first[rows]) * surface.length[block.j] > POINT
     both = (unsure & block.bent_one & block.bent_other).nonzero()[0]
     if len(both):
-        one, other = Columns(*block.one.take(both, axis=1)), Columns(*block.other.take(both, axis=1))
-        off = np.hypot(one.centre_x - other.centre_x, one.centre_y - other.centre_y)
+        one, other = block.one[CENTRE].take(both, axis=1), block.other[CENTRE].take(both, axis=1)
+        both = both[np.hypot(*(one - other)) <= ON_PATH]
+        angles = centre.angle[block.i[both]] + surface.angle[block.j[both]]
+        unsure[both] = _meet_twice(block, both, angles)
+    return unsure
+
+
+def _meet_twice(block: _Block, rows: Rows, angles: Floats) -> Flags:
+    """Pairs of arcs about one centre, of so many radians together, that may overlap at both ends: the directions of
+    their middles are no farther apart than half a turn."""
+    twice = angles >= tau - 2.0 * POINT
+    some = twice.nonzero()[0]
+    if len(some):
+        one, other = Columns(*block.one[:, rows[some]]), Columns(*block.other[:, rows[some]])
         cross = one.middle_x * other.middle_y - one.middle_y * other.middle_x
         dot = one.middle_x * other.middle_x + one.middle_y * other.middle_y
-        angles = centre.angle[block.i[both]] + surface.angle[block.j[both]]
-        once = angles / 2.0 + np.arctan2(np.abs(cross), dot) < tau - POINT
-        unsure[both[(off <= ON_PATH) & once]] = False
-    return unsure
+        twice[some] = angles[some] / 2.0 + np.arctan2(np.abs(cross), dot) >= tau - POINT
+    return twice

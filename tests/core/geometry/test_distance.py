@@ -15,12 +15,11 @@ from core.geometry.distance import (
     distance,
     farthest_places,
     foot,
-    nearest_and_along,
     nearest_places,
     on_circle,
     on_line,
 )
-from core.geometry.measured import Floats, Measured, at, direction, measured
+from core.geometry.measured import Floats, Measured, at, measured
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Turn
 from tests.core.verify import oracle
@@ -133,14 +132,3 @@ def test_places_are_on_the_piece() -> None:
     piece, other = pairs(lines((0, 0), (4, 0)), circle((2.0, 0.0), 1.0))
     assert sorted(at(piece, nearest_places(piece, other)).real[:, 0].tolist())[0] == 0.0
     assert {round(x, 9) for x in at(piece, nearest_places(piece, other)).real[:, 0].tolist()} >= {0.0, 1.0, 3.0, 4.0}
-
-
-@pytest.mark.parametrize("times", [1, 200])
-def test_what_is_nearest_comes_with_its_place_and_its_direction(times: int) -> None:
-    path = Path.from_pieces([Line((0.0, 0.0), (2.0, 0.0)), HALF, Line((-2.0, 0.0), (-2.0, 5.0))])
-    pieces = measured(path).take(np.tile(np.arange(3), times))
-    points = np.exp(1j * np.arange(len(pieces))) * np.linspace(0.5, 6.0, len(pieces))
-    t, touched, along = nearest_and_along(pieces, points)
-    assert np.array_equal(t, foot(pieces, points))
-    assert touched == pytest.approx(at(pieces, t))
-    assert along == pytest.approx(direction(pieces, t))

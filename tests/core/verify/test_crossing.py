@@ -10,12 +10,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core.geometry.measured import direction, measured
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Point, Turn
 from core.geometry.side import Side
 from core.verify import crossing as module
 from core.verify.course import courses
-from core.verify.crossing import crossings
+from core.verify.crossing import at_joints, crossings
 from core.verify.judge import judge
 from core.verify.verdict import Verdict
 from tests.core.verify.shapes import circle, lines, moved, paths, square
@@ -106,3 +107,15 @@ def test_what_is_told_apart_by_its_lines_does_not_meet(surface: Path, closed: bo
         measured = crossings(course, closed=closed)
     assert np.array_equal(quick.places, measured.places)
     assert np.array_equal(quick.points, measured.points)
+
+
+@given(paths(), paths())
+def test_directions_at_joints_are_those_of_the_pieces(one: Path, other: Path) -> None:
+    pieces = measured(Path.from_pieces([*one, *other]))
+    rows = np.arange(len(pieces))
+    for row in rows.tolist():
+        end, begin = at_joints(pieces, rows, np.roll(rows, row))
+        assert end / np.abs(end) == pytest.approx(direction(pieces, np.ones(len(rows))), abs=1e-9)
+        assert begin / np.abs(begin) == pytest.approx(
+            direction(pieces, np.zeros(len(rows)))[np.roll(rows, row)], abs=1e-9
+        )
