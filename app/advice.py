@@ -46,8 +46,12 @@ class Advice:
         """Nothing asked for yet."""
 
         def followed(_: None) -> None:
-            app.advice.seek()
+            # what is known by now is shown before what else there is to find out is begun
             app.refresh_screen()
+            notes = app.engine.notes
+            app.advice.seek()
+            if app.engine.notes is not notes:
+                app.refresh_screen()
 
         return Advice(app, Behind(app, followed), Behind(app, followed), Behind(app, followed))
 

@@ -24,6 +24,7 @@ from core.records import dataclass, field
 
 if TYPE_CHECKING:
     from app.desk import Desk
+    from app.screens.page import Page, Surface, View
     from app.session import Session
     from core.finding import Finding
     from core.pipeline.table import Table
@@ -53,6 +54,10 @@ class Known:
     memory: Memory = field(default_factory=Memory)
     trial: Session | None = None
     """The session as it would be with the half-typed number accepted."""
+
+    def view(self, page: Page, session: Session, surface: Surface) -> View:
+        """The page as it stands; it follows from these three alone."""
+        return self.memory.recall("view", (page, session, surface), lambda: page.view(session, surface))
 
     def drawing(
         self, desk: Desk, sketch: Sketch, columns: int, rows: int, drawn: Drawn | None = None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import ClassVar, Final
 
 from app.screens.page import Surface
 from app.screens.text import TextPage, paragraph
@@ -18,6 +18,8 @@ MORE: Final = plain(" Whether there is more to say is being calculated.", Look.W
 @dataclass(frozen=True, eq=False, slots=True)
 class FindingsPage(TextPage):
     """The verdict's lines, all of them, wrapped."""
+
+    tabled: ClassVar[bool] = True
 
     def title(self, session: Session) -> str:
         """Which block's."""

@@ -87,7 +87,7 @@ def parts(desk: Desk, known: Known, around: Surroundings, width: int, height: in
     waits = unread(desk.page, session, width, height)
     said = WAITS if waits else desk.session.said
     areas = plan(width, height, layout, 0 if said is None else needed(said, width))
-    view = desk.page.view(session, _surface(areas, known))
+    view = known.view(desk.page, session, _surface(areas, known if desk.page.tabled else None))
     drawn = areas.drawing
     softkeys = {} if waits else desk.page.softkeys(desk.session)
     status = next((page.status for page in reversed(desk.pages) if page.status is not None), None)
@@ -103,9 +103,9 @@ def parts(desk: Desk, known: Known, around: Surroundings, width: int, height: in
     }
 
 
-def _surface(areas: Plan, known: Known) -> Surface:
-    body, told = areas.body, areas.verdict
-    return Surface(areas.header.width, body.height, known.table, body.width, told.height, told.width)
+def _surface(areas: Plan, known: Known | None) -> Surface:
+    body, told, table = areas.body, areas.verdict, None if known is None else known.table
+    return Surface(areas.header.width, body.height, table, body.width, told.height, told.width)
 
 
 def _prompt_rows(said: Said, areas: Plan) -> tuple[Row, ...]:

@@ -41,6 +41,7 @@ class LookaheadTable(Page):
     """The table with the cursor on `at`, whose path is drawn."""
 
     layout: ClassVar[Layout] = Layout.TABLE
+    tabled: ClassVar[bool] = True
     at: int
 
     def softkeys(self, session: Session) -> Softkeys:

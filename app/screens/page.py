@@ -120,6 +120,8 @@ class Page:
     layout: ClassVar[Layout] = Layout.FORM
     asks: ClassVar[bool] = False
     """A question: nothing is saved, opened or changed from elsewhere before it is answered."""
+    tabled: ClassVar[bool] = False
+    """It shows the look-ahead table; the others are not made again when that comes, behind the path."""
 
     @property
     def opening(self) -> object | None:

@@ -32,7 +32,6 @@ async def loaded(pilot: Pilot[int]) -> None:
     for _ in range(500):
         if app.engine.ready:
             return
-        await rested(pilot)
         await pilot.pause(0.02)
     raise AssertionError("the numeric library did not come")
 
