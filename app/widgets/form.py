@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from enum import StrEnum
 from functools import lru_cache
 from typing import Final
@@ -97,7 +96,7 @@ def _aligned(place: Place, cells: Sequence[Cell], column: int) -> Place:
     """
     taggable = [cell for cell in cells if cell.column == column and not cell.choice]
     beside = [place.width - len(cell.label) - TAG - 2 for cell in taggable if cell.state is not State.READ_ONLY]
-    return replace(place, value=min([place.value, *beside]))
+    return Place(place.first, place.width, min([place.value, *beside]))
 
 
 def _line(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 from functools import lru_cache
+from re import compile
 from typing import Final, NamedTuple
 
 from rich.cells import cell_len
@@ -55,6 +56,8 @@ class Span(NamedTuple):
 
 
 Row = tuple[Span, ...]
+NARROW: Final = compile("[ -~⠀-⣿]*")
+"""What takes one cell a character and needs no look at each: letters and braille."""
 
 
 def plain(text: str, look: Look = Look.PLAIN) -> Row:
@@ -92,7 +95,7 @@ def shortened(text: str, room: int) -> str:
 
 def single(text: str) -> str:
     """The text with a question mark for every character that does not take exactly one cell."""
-    if text.isascii() and text.isprintable():
+    if NARROW.fullmatch(text):
         return text
     return "".join(one if one.isprintable() and cell_len(one) == 1 else "?" for one in text)
 

@@ -57,7 +57,8 @@ def mark_of(fate: Fate) -> str:
     """! for a value that gouges, * for one that erases segments, nothing for a clean one."""
     if not fate.clean:
         return "!"
-    return "*" if any(number.is_integer() for number in fate.compensated.deleted.segments.tolist()) else ""
+    erased = fate.compensated.deleted
+    return "*" if len(erased) and any(number.is_integer() for number in erased.segments.tolist()) else ""
 
 
 def _advice(table: Table, here: int) -> str:
