@@ -9,7 +9,11 @@ import pytest
 from app.desk import Desk
 from app.engine import Engine, Known
 from app.files import example
-from app.screens.page import WHOLE
+from app.screens.contour import Contour
+from app.screens.draw import DrawPage
+from app.screens.findings import FindingsPage
+from app.screens.lookahead import LookaheadTable
+from app.screens.page import WHOLE, Surface
 from app.session import Session
 from app.widgets.rows import text_of
 from core.pipeline.derive import derive
@@ -146,6 +150,19 @@ def test_nothing_is_complete_before_the_notes_and_the_needs_are_known() -> None:
     assert table is not None
     assert [*complete, table.complete] == [False, False, True]
     assert table is engine.known(found, None).table
+
+
+def test_a_page_is_made_again_for_another_session_page_or_room_and_shows_the_table_only_where_it_says_so() -> None:
+    session, known, page, room = Session.of(PART), Known(), Contour(), Surface()
+    view = known.view(page, session, room)
+    assert known.view(page, session, room) is view
+    for other in (known.view(Contour(), session, room), known.view(page, session.at(Where(1, 1)), room)):
+        assert other is not view
+    assert known.view(page, session, room._replace(width=132)) is not view
+    assert [one for one in (Contour, DrawPage, LookaheadTable, FindingsPage) if one.tabled] == [
+        LookaheadTable,
+        FindingsPage,
+    ]
 
 
 def test_needs_that_were_given_up_are_not_known(engine: Engine) -> None:
