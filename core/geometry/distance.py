@@ -92,7 +92,8 @@ def _fan(arc: Measured, axis: Points, share: Floats) -> Floats:
     """Fractions at the two directions from the arc's centre at an angle to `axis`, half of which has the sine squared
     `share`: near a touch, where the cosine is all but 1, this keeps the digits."""
     half = 2.0 * np.arcsin(np.sqrt(share))
-    towards = np.angle(axis * np.conj(arc.arm)) * arc.turn
+    turned = axis * np.conj(arc.arm)
+    towards = np.arctan2(turned.imag, turned.real) * arc.turn
     return np.mod(np.array((towards - half, towards + half)), tau) / arc.angle
 
 

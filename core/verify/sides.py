@@ -10,7 +10,7 @@ import numpy as np
 from core.geometry.distance import foot
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place
 from core.geometry.side import Side
-from core.tolerance import JOINED, ON_PATH
+from core.tolerance import ARC_RADII, CLOSED, JOINED, ON_PATH
 from core.verify.crossing import Crossings, at_joints
 from core.verify.gouge import Gouging
 from core.verify.pairs import Pairs
@@ -18,6 +18,11 @@ from core.verify.reach import Nearest, changes, least_of, nearest
 
 CLEARLY: Final = 1e-6
 """Sine of an angle to the surface's tangent below which a point is on neither side."""
+
+
+NARROW: Final = 2.0 * (CLOSED + ARC_RADII)
+"""Millimetres within which a path may slip through a closed contour: twice how far its ends, and the ends of uneven
+arcs from the circles taken for them, may be apart."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -54,18 +59,22 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, known
 
     `known` are the pieces of which a part is found behind the surface: all that meet it.  A piece that does not is on
     one side of a closed contour.  It is judged in its middle if that is within `reach` of a closed one, or if it keeps
-    to an inner wall of an open one; any other piece in its middle and at its ends.  Beside an open contour, which has
-    a side only as far as something is nearest to more than its ends, the nearest wall decides: a gouge is asked at its
-    ends too, in its middle and where it is deepest, and a piece that meets no wall may be on another side between
-    these places.
+    to an inner wall of an open one; any other piece in its middle and at its ends, or with the others of a path that is
+    on one side.  Beside an open contour, which has a side only as far as something is nearest to more than its ends,
+    the nearest wall decides: a gouge is asked at its ends too, in its middle and where it is deepest, and a piece that
+    meets no wall may be on another side between these places.
     """
     if not len(pairs.surface) or not len(pairs.centre):
         return ()
     rows, near = _contact(pairs, reach, ON_PATH)
     count, settled = len(rows), pairs.own.settled(len(pairs.centre))
     settled[rows] = True if surface.endless else _kept(pairs, found)[rows] | settled[rows]
-    gouged = _gouged(found, surface)
-    index, t = _samples(pairs, rows, (~settled).nonzero()[0], gouged)
+    asked, gouged = (~settled).nonzero()[0], _gouged(found, surface)
+    alike = count > 0 and len(asked) > 0 and _on_one_side(pairs, surface, reach)
+    index, t = _samples(rows, asked[:0] if alike else asked)
+    if len(gouged):
+        owners, shares = place(pairs.centre, pairs.centre_stations, gouged)
+        index, t = np.concatenate((index, owners)), np.concatenate((t, shares))
     points = at(pairs.centre.take(index), t)
     if len(index) > count:
         near = near.followed(nearest(points[count:], pairs.surface, pairs.surface_boxes, tie=ON_PATH), count)
@@ -76,7 +85,22 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, known
         told &= ~_inside(found, places)
     wrong = np.zeros(len(pairs.centre), np.bool_)
     wrong[index[told]], wrong[known] = True, True
+    wrong[asked] |= alike and told.any()
     return tuple(pairs.centre.rows[wrong].tolist())
+
+
+def _on_one_side(pairs: Pairs, surface: Sided, reach: float) -> bool:
+    """The whole path is on one side of the surface: that is closed and does not cross itself, the path is one, and it
+    comes nowhere near enough to slip through where the surface's ends are apart, or its arcs miss their ends.
+
+    Whatever is not among the pairs is farther away than `reach`.
+    """
+    if surface.crossed or not surface.endless or reach <= NARROW:
+        return False
+    if min(pairs.touch.apart.min(initial=np.inf), pairs.own.apart.min(initial=np.inf)) <= NARROW:
+        return False
+    start, vector = pairs.centre.start, pairs.centre.vector
+    return bool(np.abs(start[:-1] + vector[:-1] - start[1:]).max(initial=0.0) <= JOINED)
 
 
 def _kept(pairs: Pairs, found: Gouging) -> Flags:
@@ -140,19 +164,16 @@ def _gouged(found: Gouging, surface: Sided) -> Floats:
     return np.concatenate((first, last, (first + last) / 2.0, found.place))
 
 
-def _samples(pairs: Pairs, middles: Rows, rows: Rows, gouged: Floats) -> tuple[Rows, Floats]:
-    """Pieces and fractions of them: the middles of some, the ends and middles of others, and of places of gouges.
+def _samples(middles: Rows, rows: Rows) -> tuple[Rows, Floats]:
+    """Pieces and fractions of them: the middles of some, the ends and middles of others.
 
     The end of a piece is its own, though the next one begins there.
     """
     count = len(rows)
     index = np.concatenate((middles, rows, rows, rows))
     t = np.full(len(index), 0.5)
-    t[len(middles) : len(middles) + count], t[len(index) - count :] = 0.0, 1.0
-    if not len(gouged):
-        return index, t
-    owners, shares = place(pairs.centre, pairs.centre_stations, gouged)
-    return np.concatenate((index, owners)), np.concatenate((t, shares))
+    t[len(middles) : len(middles) + count], t[len(middles) + 2 * count :] = 0.0, 1.0
+    return index, t
 
 
 def on_part_side(pairs: Pairs, points: Points, near: Nearest, surface: Sided) -> Flags:
@@ -170,7 +191,7 @@ def on_part_side(pairs: Pairs, points: Points, near: Nearest, surface: Sided) ->
         left[joints] = _off_joints(pairs.surface, before, away, near.apart[joints])
     starts = changes(near.k)
     wrong: Flags = np.logical_and.reduceat(left * surface.side.sign < -CLEARLY, starts)
-    if not surface.endless:
+    if np.count_nonzero(wrong) and not surface.endless:
         foot_at = pairs.surface_stations[near.j] + t * walls.length
         outside = (foot_at <= surface.first + JOINED) | (foot_at >= surface.last - JOINED)
         wrong &= ~np.logical_or.reduceat(outside, starts)
