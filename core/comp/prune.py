@@ -46,7 +46,7 @@ def prune(chain: Chain, joints: Crossings, others: Crossings, *, last_wins: bool
         met = Walk(chain, left, joints, others).visit(unsettled)
     path, bridges = _what_is_left(chain, left)
     del left
-    return Pruned(path, *bridges, _deletions(chain, others.chosen(met)))
+    return Pruned(path, *bridges, _deletions(chain, others, met))
 
 
 def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, Indices]:
@@ -54,6 +54,8 @@ def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, 
     count = len(chain)
     starts = planes(chain.raw.points)[:-1].copy()
     left = Left(np.zeros(count), np.full(count, np.inf), starts, np.ones(count, np.uint8), bytearray(count))
+    if not len(joints):
+        return left, np.empty(0, np.intp)
     first = np.ones(len(joints), np.bool_)
     first[1:] = joints.b[1:] != joints.b[:-1]
     if last_wins:
@@ -87,6 +89,8 @@ def _not_slivers(chain: Chain, left: Left, alive: Indices, starts: NDArray[np.co
     """
     real = np.abs(starts[1:] - starts[:-1]) > JOINED
     near = (~real).nonzero()[0]
+    if not len(near):
+        return real
     arcs = near[chain.raw.turns[alive[near]] != 0]
     rest = left.high[alive[arcs]] - left.low[alive[arcs]]
     for row in np.isinf(rest).nonzero()[0].tolist():
@@ -98,10 +102,11 @@ def _not_slivers(chain: Chain, left: Left, alive: Indices, starts: NDArray[np.co
     return real
 
 
-def _deletions(chain: Chain, events: Crossings) -> Deletions:
-    """The segments between the two pieces of each event, by the first event that spans them."""
-    if not len(events):
+def _deletions(chain: Chain, others: Crossings, met: Indices) -> Deletions:
+    """The segments between the two pieces of each event, a row in `met`, by the first event that spans them."""
+    if not len(met):
         return Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))
+    events = others.chosen(met)
     between = events.b - events.a - 1
     event = np.repeat(np.arange(len(events), dtype=np.int32), between)
     piece = np.arange(len(event), dtype=np.int32) + (events.b - np.cumsum(between, dtype=np.int32))[event]
