@@ -62,8 +62,12 @@ class Path:
         points, centres, turns = [*pieces[0].start], list[float](), list[int]()
         for piece in pieces:
             points += piece.end
-            centres += piece.centre if isinstance(piece, Arc) else piece.start
-            turns.append(piece.turn if isinstance(piece, Arc) else 0)
+            if isinstance(piece, Arc):
+                centres += piece.centre
+                turns.append(piece.turn)
+            else:
+                centres += piece.start
+                turns.append(0)
         given = range(1, len(pieces) + 1) if numbers is None else numbers
         return Path(
             np.array(points, np.float64).reshape(-1, 2),

@@ -56,8 +56,8 @@ def _cuts(found: DerivedBlock, program: Program) -> tuple[object, ...]:
 
 
 def _worked(found: DerivedBlock, program: Program) -> Work:
-    pieces = found.solved.pieces
-    surface = Path.from_pieces([piece for _, piece in pieces], [float(number) for number, _ in pieces])
+    numbers, pieces = zip(*found.solved.pieces, strict=True)
+    surface = Path.from_pieces(pieces, numbers)
     if found.side is None:
         return Work(surface, (Loop(surface, EMPTY, EMPTY),), None, None)
     assert found.radius is not None
@@ -83,7 +83,7 @@ def _told(found: DerivedBlock, work: Work, program: Program) -> DerivedBlock:
 
 def _checked(found: DerivedBlock, program: Program) -> DerivedBlock:
     """With what forbids posting though every path is right, such as a SPEED of 0, and the steps in Z."""
-    due = job(found, program)
+    due = job(found, program, noted=False)
     against = forbidding([due], Grid(program.unit), override=None)
     new = (*(one for one in against if one not in found.findings), *step_findings(due))
     return replace(found, findings=by_weight((*found.findings, *new))) if new else found

@@ -19,8 +19,11 @@ def jobs(derived: Derived) -> tuple[Job, ...]:
     return tuple(job(found, derived.program) for found in derived.blocks)
 
 
-def job(found: DerivedBlock, program: Program) -> Job:
-    """One block's job; what is not known yet is zero there and stands among the findings."""
+def job(found: DerivedBlock, program: Program, *, noted: bool = True) -> Job:
+    """One block's job; what is not known yet is zero there and stands among the findings.
+
+    Only who writes a file needs it `noted`: a hundred deleted segments take longer to name than all the rest.
+    """
     solved, tag = found.solved, f"{found.lookahead.tag} {found.lookahead.value}"
     finish_tool = _whole(found.block.finish_tool)
     return Job(
@@ -45,7 +48,7 @@ def job(found: DerivedBlock, program: Program) -> Job:
         work_offset=int(_setup(program, "work_offset")),
         lookahead="" if found.side is None else tag,
         findings=found.findings,
-        notes=tuple(_notes(found, program.unit)),
+        notes=tuple(_notes(found, program.unit)) if noted else (),
     )
 
 

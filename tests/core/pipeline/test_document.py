@@ -5,7 +5,7 @@ import pytest
 
 from core.pipeline.derive import derive
 from core.pipeline.document import path_document, table_document
-from core.pipeline.jobs import jobs
+from core.pipeline.jobs import job, jobs
 from core.pipeline.listing import path_listing, table_listing, verdict_listing
 from core.pipeline.plot import block_scene, svg_of
 from core.pipeline.table import look_ahead_table
@@ -123,6 +123,8 @@ def test_a_drawing_of_a_block_that_is_not_determined_yet():
 
 
 def test_the_posted_header_tells_what_is_deleted_and_what_stays():
-    (job,) = jobs(derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3)))))
-    assert job.notes[0] == "DELETED BY THE LOOK-AHEAD: SEGMENTS 2, 3, 4"
-    assert job.notes[1].startswith("UNCUT 0.9")
+    derived = derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3))))
+    (noted,) = jobs(derived)
+    assert noted.notes[0] == "DELETED BY THE LOOK-AHEAD: SEGMENTS 2, 3, 4"
+    assert noted.notes[1].startswith("UNCUT 0.9")
+    assert job(derived.blocks[0], derived.program, noted=False).notes == ()
