@@ -226,8 +226,8 @@ def test_parameters_and_setup():
     assert made(edit.set_setup(SQUARE, "safe_z", None)).setup.safe_z is None
     refused = Refused("WORK OFFSET must be a whole number from 54 to 59.")
     assert edit.set_setup(SQUARE, "work_offset", Entry(60.0)) == refused
-    refused = edit.set_setup(SQUARE, "name", "COVER\u00a07")
-    assert refused == Refused("PART NAME: sign 6 (U+00A0) cannot be shown. Type the text again without it.")
+    refused = Refused("PART NAME: sign 6 (U+00A0) cannot be shown. Type the text again without it.")
+    assert edit.set_setup(SQUARE, "name", "COVER\u00a07") == refused
     assert isinstance(edit.set_setup(SQUARE, "name", "two\nlines"), Refused)
 
 
