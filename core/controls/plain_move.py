@@ -10,7 +10,7 @@ from core.tolerance import LARGEST
 
 _LETTERS: Final = "XYZIJKR"
 _MOVE: Final = re.compile(
-    "".join((r"(?:G0?([0-3]))?+", *(rf"(?:[ \t]*+{letter}({NUMBER}))?+" for letter in _LETTERS), r"[ \t]*+"))
+    "".join((r"(?:G0?([0-3]))?", *(rf"(?:[ \t]*+{letter}({NUMBER}))?" for letter in _LETTERS), r"[ \t]*+"))
 )
 """G0 to G3, then positions and an arc's centre in this order, each at most once."""
 

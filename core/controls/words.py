@@ -23,9 +23,9 @@ from core.tolerance import LARGEST
 NUMBER: Final = r"[-+]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)"
 """A number as a word has it."""
 
-_CLEAN: Final = re.compile(rf"(?:[ \t]*+[A-Z][ \t]*+{NUMBER})*+[ \t]*+")
+_CLEAN: Final = re.compile(rf"(?:[ \t]*+[A-Z][ \t]*+{NUMBER})*[ \t]*+")
 _PAIR: Final = re.compile(rf"([A-Z])[ \t]*+({NUMBER})")
-_DATA: Final = re.compile(rf"T[ \t]*+([0-9]++)[ \t]*+/[ \t]*+({NUMBER})?+[ \t]*+/[ \t]*+({NUMBER})?+")
+_DATA: Final = re.compile(rf"T[ \t]*+([0-9]++)[ \t]*+/[ \t]*+({NUMBER})?[ \t]*+/[ \t]*+({NUMBER})?")
 
 _CODES: Final[Mapping[str, int]] = MappingProxyType(
     {f"{code:{width}}": 10 * code for code in range(100) for width in ("", "02")}

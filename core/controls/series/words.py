@@ -23,9 +23,9 @@ Flags = NDArray[np.bool_]
 
 _LETTERS: Final = "GNXYZIJKRF"
 _GAP: Final = r"[ \t]*+"
-_WORDS: Final = rf"{_GAP}(?:[{_LETTERS}{_LETTERS.lower()}]{_GAP}{NUMBER}{_GAP})++"
+_WORDS: Final = rf"{_GAP}(?:[{_LETTERS}{_LETTERS.lower()}]{_GAP}{NUMBER}{_GAP})+"
 _LINE_OF_WORDS: Final = re.compile(_WORDS)
-_PLAIN: Final = re.compile(rf"(?:{_WORDS}\n)*+")
+_SOME_LINES: Final = re.compile(rf"(?:{_WORDS}\n){{0,500}}")
 _BLANKS: Final = bytes.maketrans((_LETTERS + "\n").encode(), b" " * (len(_LETTERS) + 1))
 _NUMBERS: Final = b"0123456789.+- \t"
 _LINE: Final = ord("\n")
@@ -82,8 +82,7 @@ def is_plain(line: str) -> bool:
 def plain_words(lines: Sequence[str]) -> Words:
     """The words of the leading lines that are plain: G is G0, G1, G2 or G3, and no number beyond what an axis has."""
     text = "\n".join((*lines, ""))
-    found = _PLAIN.match(text)
-    raw = text[: found.end() if found else 0].upper().encode("ascii")
+    raw = text[: _plain_up_to(text)].upper().encode("ascii")
     numbers = np.fromiter(map(float, raw.translate(_BLANKS).split()), np.float64)
     signs = np.frombuffer(raw.translate(None, _NUMBERS), np.uint8)
     ends = signs == _LINE
@@ -103,3 +102,11 @@ def plain_words(lines: Sequence[str]) -> Words:
     if "G" in values:
         doubtful = np.concatenate((doubtful, np.flatnonzero(~np.isin(values["G"], _MOTIONS))))
     return Words(int(doubtful.min(initial=count)), given, values)
+
+
+def _plain_up_to(text: str) -> int:
+    """Where the leading plain lines end.  Some at a time: an expression keeps all that it might take back."""
+    before, end = -1, 0
+    while before < end and (found := _SOME_LINES.match(text, end)):
+        before, end = end, found.end()
+    return end
