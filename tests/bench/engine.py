@@ -117,6 +117,8 @@ def beside_peers(sizes: tuple[int, ...], rounds: int) -> dict[str, float]:
     print(
         f"rs274 runs it at radius {gear(10).accepted}, which it accepts, the others at {gear(10).radius} with deletions"
     )
+    if not peers.CLIPPER:
+        print("Clipper2 is not there: it comes with the extra `peers`")
     row: dict[str, float] = {}
     for count in sizes:
         work = gear(count)
@@ -133,7 +135,8 @@ def _peers(work: Work, folder: File) -> dict[str, Callable[[], object]]:
     runs: dict[str, Callable[[], object]] = {}
     if len(points) <= peers.MOST_CHORDS:
         named = (("offset_curve", peers.offset_curve), ("buffer", peers.buffer), ("clipper2", peers.clipper))
-        runs = {name: peer(work, points) for name, peer in named}
+        made = {name: peer(work, points) for name, peer in named}
+        runs = {name: run for name, run in made.items() if run is not None}
     process = peers.interpreter(work, folder)
     return runs if process is None else {**runs, "rs274": accepted(process)}
 

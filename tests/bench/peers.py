@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import subprocess
 from collections.abc import Callable
+from importlib import import_module
+from importlib.util import find_spec
 from math import acos
 from pathlib import Path as File
 from typing import Final
 
 import numpy as np
-import pyclipr
 import shapely
 
 from core.geometry.path import Floats, Path
@@ -20,6 +21,9 @@ from tests.rs274 import WITNESS, process
 
 CHORD: Final = 1e-3
 """Chords leave their arc by no more than so many millimetres."""
+
+CLIPPER: Final = find_spec("pyclipr") is not None
+"""Whether Clipper2 is installed."""
 
 MOST_CHORDS: Final = 2_000_000
 """Longer polygons are not given to the peers."""
@@ -62,9 +66,11 @@ def buffer(work: Work, points: Floats) -> Callable[[], object]:
     return lambda: polygon.buffer(work.radius if outwards else -work.radius, quad_segs=segments)
 
 
-def clipper(work: Work, points: Floats) -> Callable[[], object]:
-    """Clipper2's offset of the closed polygon or of the open line, in whole units of 0.1 micrometre."""
-    scale = 1e4
+def clipper(work: Work, points: Floats) -> Callable[[], object] | None:
+    """Clipper2's offset of the closed polygon or of the open line, in whole units of 0.1 micrometre, if it is there."""
+    if not CLIPPER:
+        return None
+    pyclipr, scale = import_module("pyclipr"), 1e4
 
     def run() -> object:
         offsetter = pyclipr.ClipperOffset()
