@@ -164,8 +164,11 @@ def _about_ends(pairs: Pairs, parts: Stretches, radius: float) -> Flags:
     Let it leave a place nearest to `a` on the left and come to one nearest to `b` on the right.  The way from `a` along
     the surface to `b` and back over the path is a loop that the surface's other two branches leave to different sides,
     and cross nowhere: one of its ends is inside.  The loop runs within the boxes of the walls from the first to the
-    last that may be nearest to any place of the part, and of the part.
+    last that may be nearest to any place of the part, and of the part.  Where an uneven arc misses an end of its own a
+    path may slip through all the same, and no part is left out.
     """
+    if pairs.surface.slack.any():
+        return np.ones(len(parts), np.bool_)
     middle, near = _nearest(pairs, (parts.first + parts.last) / 2.0, radius)
     reach = near.apart[changes(near.k)] + parts.last - parts.first + JOINED
     around = np.array((middle.real - reach, middle.imag - reach, middle.real + reach, middle.imag + reach))

@@ -258,3 +258,19 @@ def test_where_no_end_is_near_no_side_changes_between_arms(seed: int, monkeypatc
         everywhere = judge(surface, side, radius, path)
         assert (verdict.gouges, verdict.wrong_side) == (everywhere.gouges, everywhere.wrong_side)
     assert 0 < kept < parts
+
+
+def test_beside_an_uneven_arc_that_misses_its_end_a_path_slips_through_the_gap() -> None:
+    """It meets nothing there either: how deep it is is told by the tip behind the gap, not in the gap."""
+    off, end = np.array((cos(-tau / 12), sin(-tau / 12))), 10.002 * np.array((cos(-tau / 12), sin(-tau / 12)))
+    x, y = end.tolist()
+    walls = [
+        *lines((60, 0.5), (30, 0.3), (10, 0)),
+        Arc((10.0, 0.0), (x, y), (0.0, 0.0), Turn.CCW),
+        *lines((x, y), (x - 2, y - 8), (x - 2, y - 60)),
+    ]
+    along = np.array((-off[1], off[0]))
+    begin, tip = ((10.001 * off + far * along).tolist() for far in (-1.0, 0.4))
+    verdict = judge(Path.from_pieces(walls), Side.RIGHT, 0.5, lines(tuple(begin), tuple(tip)))
+    assert verdict.wrong_side == (0,)
+    assert verdict.depth == pytest.approx(0.9, abs=1e-3)
