@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from asyncio import get_running_loop
 from collections.abc import Callable
+from contextlib import suppress
 from contextvars import copy_context
 from functools import partial
 from time import sleep
@@ -30,7 +31,12 @@ def in_thread(work: Callable[[], Callable[[], None]]) -> None:
         sleep(AFTER)
         loop.call_soon_threadsafe(work(), context=context)
 
-    loop.call_soon(loop.run_in_executor, None, later)
+    def begin() -> None:
+        # a program that has just been left has no threads any more
+        with suppress(RuntimeError):
+            loop.run_in_executor(None, later)
+
+    loop.call_soon(begin)
 
 
 @dataclass(slots=True)
@@ -74,17 +80,25 @@ class Behind(Generic[Result]):
     def _failed(self, error: BaseException) -> None:
         # whoever waits for this desk meanwhile must not wait for ever
         self._over()
-        self.app.call_later(self._raised, error)
+        if not self._left:
+            self.app.call_later(self._raised, error)
 
     def _raised(self, error: BaseException) -> None:
         """In the App's queue: it ends of the error and shows it."""
         raise error
+
+    @property
+    def _left(self) -> bool:
+        """The program has been left, and waits for nothing but its threads."""
+        return self.app.return_code is not None
 
     def _over(self) -> None:
         self.busy, self.doing = False, None
 
     def _finished(self, result: Result) -> None:
         self._over()
+        if self._left:
+            return
         try:
             self.done(result)
         except Exception as error:  # noqa: BLE001  # raised again in the App

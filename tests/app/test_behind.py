@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from asyncio import sleep
 from collections.abc import Callable
-from threading import Event
+from threading import Event, Timer
 
 import pytest
 from textual.app import App
@@ -63,3 +63,25 @@ async def test_an_answer_that_cannot_be_taken_ends_the_program_too() -> None:
     with pytest.raises(ZeroDivisionError):
         await run_through(behind, lambda: 1)
     assert not behind.busy
+
+
+def test_work_that_ends_when_the_program_has_been_left_begins_no_more(caplog: pytest.LogCaptureFixture) -> None:
+    told, go = list[int](), Event()
+
+    class Left(App[int]):
+        def on_mount(self) -> None:
+            behind = Behind(self, told.append)
+
+            def first() -> int:
+                go.wait(10)
+                return 1
+
+            behind.ask(first)
+            behind.ask(lambda: 2)
+            self.set_timer(0.05, self.exit)
+
+    late = Timer(0.3, go.set)
+    late.start()
+    Left().run(headless=True)
+    assert not told
+    assert not caplog.records
