@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from app.application import CutcompApp
     from core.pipeline.derived import DerivedBlock, Work
+    from core.program.model import Program
 
 QUIET: Final = 0.05
 """Seconds without a key behind which remedies are tried: one try takes as long as a picture."""
@@ -74,16 +75,22 @@ class Advice:
         elif engine.fast("derive", "table", part=ONE_PICTURE):
             engine.keep_table(found, program)
         elif self.tabling.doing is not found.work:
-            self.tabling.ask(lambda: engine.keep_table(found, program), found.work)
+            self.tabling.ask(lambda: self._keep(found, program), found.work)
+
+    def _keep(self, found: DerivedBlock, program: Program) -> None:
+        """The table, and small notes with it: a picture for each of the two takes longer than they do."""
+        self.app.engine.keep_table(found, program)
+        if self.app.engine.fast("notes", part=SMALL):
+            self.app.engine.keep_notes(found)
 
     def _note(self) -> None:
-        """What a better path would cut: together with the table where that is small, else behind it."""
+        """What a better path would cut: at once or with the table where that is small, else behind it."""
         engine, found = self.app.engine, self.app.shown.found
         if not engine.lacks_notes(found):
             self.noting.forget()
         elif engine.fast("derive", "table", "notes", part=SMALL):
             engine.keep_notes(found)
-        elif self.noting.doing is not found.work:
+        elif found.work not in (self.noting.doing, self.tabling.doing):
             self.noting.ask(lambda: engine.keep_notes(found), found.work)
 
     def _need(self) -> None:

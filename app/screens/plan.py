@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Final
 
 from app.screens.page import Layout
@@ -34,6 +35,7 @@ class Plan:
     status: Area = NOWHERE
 
 
+@lru_cache(maxsize=8)
 def plan(width: int, height: int, layout: Layout, told: int = 0) -> Plan:
     """The plan for a terminal of width x height cells; any size is allowed.
 

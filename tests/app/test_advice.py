@@ -113,6 +113,30 @@ async def test_what_has_nothing_to_say_changes_nothing_on_the_screen(monkeypatch
         assert all(rows == shown[painted - 1] for rows in shown[painted:])
 
 
+async def test_small_notes_come_in_one_picture_with_a_table_that_comes_behind_the_key(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    app, shown = app_on("pocket"), list[tuple[Row, ...]]()
+    show = Frame.show
+
+    def kept(frame: Frame, rows: tuple[Row, ...]) -> None:
+        shown.append(rows)
+        show(frame, rows)
+
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        await at_rest(pilot, app)
+        app.engine.limit = 1.0
+        app.engine.took |= {"table": 1e7, "notes": 0.0}
+        await pilot.press(*TO_X_END)
+        monkeypatch.setattr(Frame, "show", kept)
+        await pilot.press("3")
+        await until(pilot, lambda: app.engine.tabulated(app.shown.found))
+        await at_rest(pilot, app)
+        assert not app.engine.lacks_notes(app.shown.found)
+        assert len(shown) == 2  # that of the key, and that of all that follows
+
+
 class Remedies:
     """`needs`, counted; each waits between two tries until it may go on."""
 
