@@ -25,6 +25,7 @@ from core.verify.judge import judge
 from tests.bench import peers
 from tests.bench.families import FAMILIES, Work, gear
 from tests.bench.keys import gear as typed_gear
+from tests.bench.pace import pace
 
 LOOKAHEAD: Final = 8
 SIZES: Final = (10, 100, 1_000, 10_000, 100_000)
@@ -219,6 +220,7 @@ def main(arguments: list[str]) -> None:
     sizes = tuple(count for count in SIZES if count <= options.most)
     if not sizes:
         parser.error(f"--most is at least {SIZES[0]}")
+    print(pace())
     found = families(sizes, options.rounds)
     ratios(found, sizes, options.rounds)
     print("\npeak above the input, bytes a segment (tracemalloc):")
@@ -227,6 +229,7 @@ def main(arguments: list[str]) -> None:
         print(f"{name}: " + "  ".join(f"{family} {bytes_a_segment(work, path(work)):.0f}" for family, work in works))
     peers_at_most = beside_peers(sizes, options.rounds)
     small(options.rounds, slowness(peers_at_most, sizes[-1]))
+    print(pace())
 
 
 if __name__ == "__main__":
