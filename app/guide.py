@@ -117,8 +117,8 @@ def hint(desk: Desk) -> str | None:
     match desk.page:
         case Contour():
             return _on_form(session)
-        case NewSegment():
-            return "Press L for LINE, or F1: a straight segment."
+        case NewSegment(number):
+            return _on_new(session, number)
         case ProgramPage():
             return _on_list(session)
         case SaveAsPage():
@@ -176,6 +176,15 @@ def _on_form(session: Session) -> str:
     if place.segment != step.segment:
         return _to_segment(session, step)
     return _on_field(session, step)
+
+
+def _on_new(session: Session, number: int) -> str:
+    step, last = next_step(session), len(session.program.blocks[0].segments)
+    if step is None or step.segment <= last:
+        return "A new segment is not what comes next: Page Up goes back."
+    if number <= last or session.where.block != 1:
+        return "The next line belongs behind the last one of block 1: Page Up goes back."
+    return "Press L for LINE, or F1: a straight segment."
 
 
 def _new_line(session: Session) -> str:

@@ -89,6 +89,7 @@ def test_by_its_own_words_from_the_start_to_a_posted_file(tmp_path: Path, monkey
     [
         ("tab", "7", "enter"),
         ("pagedown", "a", "escape", "escape"),
+        ("pagedown",),
         ("pagedown", "b"),
         ("f6",),
         ("f8",),
@@ -195,3 +196,15 @@ def test_what_is_to_be_changed_on_start_is_named() -> None:
         obey(known(operator))
     operator.press("ctrl+home", "tab", "tab", "r", "pagedown")
     assert operator.said.startswith("GUIDE START is next, its CUTTER COMP is RIGHT instead of LEFT: Ctrl+Home goes")
+
+
+def test_a_new_segment_is_offered_only_where_one_comes_next() -> None:
+    operator = begun().press("pagedown")
+    assert operator.said == "GUIDE A new segment is not what comes next: Page Up goes back."
+    operator = begun()
+    while len(operator.segments) < 2 or not operator.said.endswith("adds a LINE."):
+        obey(known(operator))
+    operator.press("pagedown")
+    assert operator.said == "GUIDE Press L for LINE, or F1: a straight segment."
+    operator.press("pageup", "pageup", "ctrl+t", "f2")
+    assert operator.said == "GUIDE The next line belongs behind the last one of block 1: Page Up goes back."
