@@ -200,7 +200,8 @@ def arc_to_arc(pairs: Floats) -> Floats:
     (ahead, behind, first, second) = inside(to.real, to.imag, both)
     within = np.array((ahead[0] & behind[1], ahead[0] & ahead[1], behind[0] & behind[1]))
     gaps = np.array((size - other - one, size + other - one, size - other + one))
-    apart: Floats = np.where(within, np.abs(gaps), np.inf).min(axis=0)
+    # about one centre an end of the one is as near as it gets, or both are nowhere side by side
+    apart: Floats = np.where(within & (size > 0.0), np.abs(gaps), np.inf).min(axis=0)
     crossed = (first[0] & first[1]) | (second[0] & second[1])
     apart[crossed & (size > np.abs(one - other)) & (size < one + other)] = 0.0
     return apart

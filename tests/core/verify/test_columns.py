@@ -59,6 +59,20 @@ def test_a_full_circle_keeps_to_the_wall_around_it(turn: Turn, start: float) -> 
     assert (told.clean, told.loose, told.backwards, tuple(told.uncut)) == (True, (), (), ())
 
 
+@pytest.mark.parametrize("first", [Turn.CCW, Turn.CW])
+@pytest.mark.parametrize("last", [Turn.CCW, Turn.CW])
+def test_arcs_about_one_centre_are_near_only_where_they_are_side_by_side(first: Turn, last: Turn) -> None:
+    outer = _arc(12.0, pi, 1.5 * pi, last)
+    for begin, apart in ((0.0, hypot(10.0, 12.0)), (0.9 * pi, 2.0), (1.1 * pi, 2.0)):
+        surface = _arc(10.0, begin, begin + 0.5 * pi, first)
+        assert judge(surface, Side.LEFT, 2.5, outer).clearance == pytest.approx(apart, abs=1e-9)
+
+
+def _arc(radius: float, begin: float, end: float, turn: Turn) -> Path:
+    start, last = ((radius * cos(angle), radius * sin(angle)) for angle in (begin, end)[:: int(turn)])
+    return Path.from_pieces([Arc(start, last, (0.0, 0.0), turn)])
+
+
 @settings(deadline=None, max_examples=300, derandomize=True)
 @given(
     st.one_of(st.floats(-8.0, 0.8).map(lambda power: float(10.0**power)), st.just(pi)),
