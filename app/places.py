@@ -103,6 +103,15 @@ def of_file(file: Path, own: Path) -> Iterator[Path]:
     yield from (path for one in places for path in asides(one) if _offered(path))
 
 
+def never_saved(folder: Path, own: Path) -> list[Path]:
+    """The programs of a folder that have no file yet, of which there is a journal; OSError where it cannot be read."""
+    beside = [folder / path.name[1:].removesuffix(SUFFIX) for path in folder.iterdir() if path.name.endswith(SUFFIX)]
+    there = [path for path in beside if journal_path(path).exists()]
+    named = ((path, path.name.removesuffix(SUFFIX).rpartition("-")[0]) for path in _inside(own))
+    there += [folder / name for path, name in named if elsewhere(folder / name, own) == path]
+    return sorted({path for path in there if path.suffix == ".toml" and not path.exists()})
+
+
 def _offered(path: Path) -> bool:
     """Whether a journal that was set aside still wants an answer."""
     why, _, length = why_aside(path).partition("-at-")

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app import files
+from app import files, places
 from app.messages import Say
 from app.patience import FOLDER, within
 from app.screens.program import ProgramPage
@@ -128,7 +128,8 @@ def _inside(folder: Path) -> Iterator[Entry]:
     yield Entry(Group.FOLDER, folder.parent, "..", folder=True)
     programs = [one for one in inside if one.name.endswith(".toml") and not one.is_dir()]
     folders = [one for one in inside if not one.name.startswith(".") and one.is_dir()]
-    for one in [one for one in programs[:SHOWN] if files.is_program(Path(one.path))]:
-        yield Entry(Group.FOLDER, Path(one.path), one.name.removesuffix(".toml"))
+    saved = [path for path in (Path(one.path) for one in programs[:SHOWN]) if files.is_program(path)]
+    for path in sorted((*saved, *places.never_saved(folder, places.own_folder())), key=lambda path: path.name.lower()):
+        yield Entry(Group.FOLDER, path, path.name.removesuffix(".toml"))
     for one in folders[:SHOWN]:
         yield Entry(Group.FOLDER, Path(one.path), one.name, folder=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -18,6 +19,7 @@ from core.records import dataclass
 
 if TYPE_CHECKING:
     from core.pipeline.derived import Derived
+    from core.program.journal import Recovered
 
 GRAVEST: Final = (Look.ERROR, Look.WARNING, Look.DIM, Look.GOOD)
 
@@ -54,9 +56,9 @@ def _read(path: Path, known: Facts | None) -> tuple[Facts, Program | None]:
     try:
         status = path.stat()
     except (OSError, ValueError):
-        return Facts(path, word="gone", trouble="This file is not there any more, or its folder cannot be read."), None
+        return _without_file(path), None
     stamp = (status.st_mtime_ns, status.st_size)
-    works = [found for _, found in places.left(path, places.own_folder(), user()) if not alive(found.head.owner)]
+    works = [found for found in _works(path) if not alive(found.head.owner)]
     if known is not None and known.stamp == stamp and not works and not known.left:
         return known, None
     date = datetime.fromtimestamp(status.st_mtime).astimezone().strftime("%Y-%m-%d")
@@ -70,6 +72,22 @@ def _read(path: Path, known: Facts | None) -> tuple[Facts, Program | None]:
         counted = replace(facts, blocks=str(len(program.blocks)), tools=_tools(program))
         return _left(counted), None
     return facts, program
+
+
+def _works(path: Path) -> list[Recovered]:
+    return [found for _, found in places.left(path, places.own_folder(), user())]
+
+
+def _without_file(path: Path) -> Facts:
+    """Of a program that is not there: it was never saved, or it is lost."""
+    gone = Facts(path, word="gone", trouble="This file is not there any more, or its folder cannot be read.")
+    with suppress(OSError, ValueError):
+        works = _works(path)
+        if any(not alive(found.head.owner) for found in works):
+            return _left(gone)
+        if works:
+            return replace(gone, word="open", trouble="Somebody is typing this program and has not saved it yet.")
+    return gone
 
 
 def _left(facts: Facts) -> Facts:

@@ -100,14 +100,16 @@ def _is_program(path: Path) -> bool:
 
 
 def listed(folder: Path) -> tuple[Item, ...]:
-    """The folder above, the programs and the folders in a folder, each in order of names, then work that was set aside,
-    here or in this person's own folder; OSError if there is no such folder.
+    """The folder above, the programs and the folders in a folder, each in order of names, then programs that were never
+    saved, and work that was set aside, here or in this person's own folder; OSError if there is no such folder.
     """
+    from app import places
     from app.copies import copies
-    from app.places import own_folder
 
+    own = places.own_folder()
     inside = sorted(folder.iterdir(), key=lambda path: path.name.lower())
     folders = [Item(path, path.name, folder=True) for path in inside if not path.name.startswith(".") and path.is_dir()]
     programs = [Item(path, path.name, folder=False) for path in inside if _is_program(path)]
-    aside = [Item(path, name, folder=False, aside=True) for path, name in copies(folder, own_folder(), nc=False)]
-    return (Item(folder.parent, "..", folder=True), *programs, *folders, *aside)
+    new = [Item(path, f"never saved: {path.name}", folder=False) for path in places.never_saved(folder, own)]
+    aside = [Item(path, name, folder=False, aside=True) for path, name in copies(folder, own, nc=False)]
+    return (Item(folder.parent, "..", folder=True), *programs, *folders, *new, *aside)
