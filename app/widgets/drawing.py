@@ -83,7 +83,7 @@ def _fitted(bounds: Box, columns: int, rows: int, *, scaled: bool) -> View:
 
 def bounds_of(scene: Scene) -> Box | None:
     """The bounds of what spans the drawing: parts of the surface that are drawn once more cannot widen it."""
-    return replace(scene, layers=tuple(layer for layer in scene.layers if layer.style not in AGAIN), marks=()).bounds
+    return Scene(tuple(layer for layer in scene.layers if layer.style not in AGAIN), scene.circles).bounds
 
 
 def _rows(picture: Picture) -> list[Row]:

@@ -8,7 +8,6 @@ before they are divided, so that no zoom makes them expensive.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import hypot, tau
 from typing import Final
 
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 from core.draw.scene import BEYOND, Layer, Pieces, gathered
 from core.draw.view import TALL, View
 from core.geometry.path import Floats, Turns, swept
+from core.records import dataclass
 
 SAG: Final = 0.1
 """How far a chord may stray from its arc, in cells' widths: less than half a dot of the finest mode."""
@@ -107,7 +107,7 @@ def _gathered(given: Sequence[tuple[int, Layer]], view: View) -> _Pieces:
 
 def _sweeps(arcs: Pieces) -> Floats:
     """(k,) angles that arcs travel: whether one is a full circle only its own millimetres tell."""
-    starts, ends = arcs.points[arcs.rows], arcs.points[arcs.rows + 1]
+    starts, ends = arcs.starts, arcs.ends
     return swept(starts - arcs.centres, ends - arcs.centres, arcs.turns, starts == ends)
 
 

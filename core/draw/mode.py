@@ -29,8 +29,9 @@ class Mode(Enum):
 class Cells:
     """How one mode fills a cell.
 
-    `across`, `down`: dots a cell.  `bit` (down, across): the bit a dot lights.  In ASCII a cell has one dot and the bit
-    is chosen by direction: level, rising, upright, falling.  `table` (256,): the character of every combination.
+    `across`, `down`: dots a cell.  `bit` (down * across,): the bit a dot lights, line by line.  In ASCII a cell has one
+    dot and the bit is chosen by direction: level, rising, upright, falling.  `table` (256,): the character of every
+    combination.
     `faint` (256,): that of a cell in which only centre paths are, so that they differ from the surface without colours;
     None where the dots are fine enough to keep the two apart.
     `symbols`: a mark's character; `arrows`: heads for 0, 45, 90 ... degrees.  `bar`: the scale bar's end, middle, end.
@@ -79,19 +80,19 @@ _SYMBOLS: Final[Mapping[Symbol, str]] = MappingProxyType(
 
 def _braille() -> Cells:
     table = _table({0: " ", **{code: chr(0x2800 + code) for code in range(1, 256)}}, " ")
-    bit = np.array([[0, 3], [1, 4], [2, 5], [6, 7]])
+    bit = np.array([0, 3, 1, 4, 2, 5, 6, 7])
     return Cells(2, 4, bit, table, _SYMBOLS, "→↗↑↖←↙↓↘", "├─┤")
 
 
 def _block() -> Cells:
     table = _table({0: " ", 1: "▀", 2: "▄"}, "█")
-    return Cells(1, 2, np.array([[0], [1]]), table, _SYMBOLS, ">>^<<<v>", "├─┤", _table({0: " ", 1: "'", 2: "."}, ":"))
+    return Cells(1, 2, np.array([0, 1]), table, _SYMBOLS, ">>^<<<v>", "├─┤", _table({0: " ", 1: "'", 2: "."}, ":"))
 
 
 def _ascii() -> Cells:
     bends = {1 | 2: "/", 4 | 2: "/", 1 | 8: "\\", 4 | 8: "\\"}
     table = _table({0: " ", 1: "-", 2: "/", 4: "|", 8: "\\", **bends}, "+")
-    return Cells(1, 1, np.array([[0]]), table, _SYMBOLS, ">>^<<<v>", "|-|", _table({0: " "}, "."))
+    return Cells(1, 1, np.array([0]), table, _SYMBOLS, ">>^<<<v>", "|-|", _table({0: " "}, "."))
 
 
 _CELLS: Final[Mapping[Mode, Cells]] = MappingProxyType(

@@ -6,7 +6,6 @@ the mode's table.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -18,6 +17,7 @@ from core.draw.scene import Circle, Layer, Scene, Style
 from core.draw.signs import Styles, write_signs
 from core.draw.view import TALL, View
 from core.geometry.path import EMPTY, Floats, Path
+from core.records import dataclass
 
 DASH: Final = (3.0, 1.8)
 """A dash's period and the lit part of it, in cells' widths."""
@@ -56,10 +56,10 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
     layers = (*_axes(scene, view, columns, rows), *scene.layers, *map(_outline, scene.circles))
     found = _clipped(chords(layers, view, columns, rows), columns / 2, rows * TALL / 2)
     lit, styles, strong, struck = _light(found, layers, look, columns, rows)
-    codes = np.packbits(lit, axis=1, bitorder="little")[:, 0]
+    codes = np.packbits(lit, bitorder="little")
     characters = look.table[codes]
     if look.faint is not None:
-        characters = np.where(strong | (styles == Style.AXIS), characters, look.faint[codes])
+        characters = np.where(strong | (styles == Style.AXIS.value), characters, look.faint[codes])
     characters[struck] = STRUCK
     characters, styles = characters.reshape(rows, columns), styles.reshape(rows, columns)
     write_signs(characters, styles, scene, view, mode)
@@ -128,35 +128,39 @@ def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]
 def _light(
     found: Chords, layers: tuple[Layer, ...], look: Cells, columns: int, rows: int
 ) -> tuple[Bits, Styles, NDArray[np.bool_], NDArray[np.bool_]]:
-    """Bits lit (rows x columns, 8), styles (rows x columns,), which cells more than centre paths are in, and which
+    """Bits lit (rows x columns x 8,), styles (rows x columns,), which cells more than centre paths are in, and which
     have deleted surface."""
-    chord, across, down, along = _dots(found, look, columns, rows)
+    chord, part, across, down = _dots(found, look, columns, rows)
     layer = found.layers[chord]
-    shown = _dashes(layers, layer, along)
-    cell = (down // look.down) * columns + across // look.across
-    bit = look.bit[down % look.down, across % look.across] if look.by_dot else _slants(found)[chord]
-    bits, cell, roles = (cell * 8 + bit)[shown], cell[shown], np.array([each.style for each in layers], np.uint8)
-    role = roles[layer[shown]]
-    lit = np.zeros((rows * columns, 8), np.bool_)
-    lit.reshape(-1)[bits] = True
+    row, column = down // look.down, across // look.across
+    cell = row * columns + column
+    if look.by_dot:
+        bit = look.bit[(down - row * look.down) * look.across + across - column * look.across]
+    else:
+        bit = _slants(found)[chord]
+    shown = _dashes(found, layers, layer, chord, part).nonzero()[0]
+    bits, cell = (cell * 8 + bit)[shown], cell[shown]
+    role = np.frombuffer(bytes(each.style for each in layers), np.uint8)[layer[shown]]
+    lit = np.zeros(rows * columns * 8, np.bool_)
+    lit[bits] = True
     styles = np.zeros(rows * columns, np.uint8)
     styles[cell] = role
     strong = np.zeros(rows * columns, np.bool_)
     if look.faint is not None:
         strong[cell[~np.isin(role, FAINT)]] = True
     struck = np.zeros(rows * columns, np.bool_)
-    struck[cell[role == Style.DELETED]] = True
+    struck[cell[role == Style.DELETED.value]] = True
     return lit, styles, strong, struck
 
 
-def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Rows, Rows, Floats]:
-    """Chord, dot across, dot down and length along (m,) of every dot on every chord, in order of chords."""
+def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Floats, Rows, Rows]:
+    """Chord, part of it that lies before the dot, dot across and dot down (m,) of every dot, in order of chords."""
     run = found.ends - found.starts
     wide, high = look.dot
     steps = np.ceil(np.maximum(np.abs(run.real) / wide, np.abs(run.imag) / high)).astype(np.intp)
     counts = steps + 1
     chord = np.repeat(np.arange(len(counts)), counts)
-    nth = np.arange(len(chord)) - np.repeat(np.cumsum(counts) - counts, counts)
+    nth = np.arange(len(chord)) - (np.cumsum(counts) - counts)[chord]
     part = nth * (1.0 / np.maximum(steps, 1))[chord]
     places = found.starts[chord] + part * run[chord]
     across = ((places.real + columns / 2) / wide + NUDGE).astype(np.intp)
@@ -165,17 +169,19 @@ def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Ro
     np.minimum(down, rows * look.down - 1, out=down)
     np.maximum(across, 0, out=across)
     np.maximum(down, 0, out=down)
-    return chord, across, down, found.along[chord] + part * np.abs(run)[chord]
+    return chord, part, across, down
 
 
-def _dashes(layers: tuple[Layer, ...], layer: Rows, along: Floats) -> NDArray[np.bool_]:
-    """Which dots are lit: all of a whole line, part of each period of a dashed one."""
+def _dashes(found: Chords, layers: tuple[Layer, ...], layer: Rows, chord: Rows, part: Floats) -> NDArray[np.bool_]:
+    """Which dots (m,) are lit: all of a whole line, part of each period of a dashed one."""
     dashed = np.array([each.dashed and each.style is not Style.DELETED for each in layers])
     rows = dashed[layer].nonzero()[0]
+    shown = np.ones(len(layer), np.bool_)
+    own = chord[rows]
+    along = found.along[own] + part[rows] * np.abs(found.ends - found.starts)[own]
     axis = layer[rows] < AXES
     period, lit = np.where(axis, AXIS_DASH[0], DASH[0]), np.where(axis, AXIS_DASH[1], DASH[1])
-    shown = np.ones(len(layer), np.bool_)
-    shown[rows] = np.mod(along[rows] + PHASE * axis, period) < lit
+    shown[rows] = np.mod(along + PHASE * axis, period) < lit
     return shown
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from math import atan2, floor, isfinite, log10, tau
+from math import atan2, floor, log10, tau
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.draw.mode import Cells, Characters, Mode, cells
-from core.draw.scene import Mark, Scene, Style, Symbol
+from core.draw.mode import Characters, Mode, cells
+from core.draw.scene import Scene, Style, Symbol
 from core.draw.view import View
 from core.geometry.piece import Point
 from core.units import Unit, from_mm
@@ -33,7 +33,12 @@ def write_signs(characters: Characters, styles: Styles, scene: Scene, view: View
         if scene.unit is not None:
             _write(characters, styles, rows - 1, scale_bar(view.scale, columns, scene.unit, look.bar), Style.SCALE)
     for mark in scene.marks:
-        _put(characters, styles, mark, view, look)
+        column, row = view.cell(mark.at, columns, rows)
+        # what is not a number is in no cell
+        if 0 <= column < columns and 0 <= row < rows:
+            here, arrowed = (int(row), int(column)), mark.symbol is Symbol.ARROW
+            characters[here] = arrow(mark.direction, look.arrows) if arrowed else look.symbols[mark.symbol]
+            styles[here] = mark.style
 
 
 def scale_bar(scale: float, columns: int, unit: Unit, ends: str) -> str:
@@ -58,22 +63,12 @@ def arrow(direction: Point, heads: str) -> str:
     return heads[round(atan2(direction[1], direction[0]) / (tau / 8)) % 8]
 
 
-def _put(characters: Characters, styles: Styles, mark: Mark, view: View, look: Cells) -> None:
-    rows, columns = characters.shape
-    column, row = view.cell(mark.at, columns, rows)
-    if not (isfinite(column) and isfinite(row) and 0 <= column < columns and 0 <= row < rows):
-        return
-    arrowed = mark.symbol is Symbol.ARROW
-    characters[int(row), int(column)] = arrow(mark.direction, look.arrows) if arrowed else look.symbols[mark.symbol]
-    styles[int(row), int(column)] = mark.style
-
-
 def _name_axes(characters: Characters, styles: Styles, view: View) -> None:
     rows, columns = characters.shape
     column, row = view.cell((0.0, 0.0), columns, rows)
     for name, across, down in (("X", columns - 1.0, row), ("Y", column, 0.0)):
         inside = 0 <= across < columns and 0 <= down < rows
-        if inside and styles[int(down), int(across)] in (Style.BACKGROUND, Style.AXIS):
+        if inside and int(styles[int(down), int(across)]) in (Style.BACKGROUND, Style.AXIS):
             _write(characters, styles, int(down), name, Style.AXIS, int(across))
 
 

@@ -6,11 +6,12 @@ view stays the same when the mode of drawing changes.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 from core.draw.scene import Box
 from core.geometry.piece import Point
+from core.records import dataclass
 
 TALL: Final = 2.0
 """A cell's height over its width."""
