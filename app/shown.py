@@ -12,6 +12,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
+from operator import ne
 from typing import Final, NamedTuple
 
 from rich.cells import cell_len
@@ -53,7 +54,7 @@ class Run(NamedTuple):
 
 
 Line = list[Cell | None]
-"""None: nobody knows what stands there."""
+"""None: nobody knows what stands there, and nowhere else in that line."""
 Texts = list[tuple[str, str]]
 """Texts of a line, each with the parameters of its control sequence."""
 
@@ -168,8 +169,8 @@ _styled: Final = lru_cache(256)(Cells)
 
 def line_of(texts: Texts) -> Line:
     """The cells of texts side by side."""
-    styles = ((text, _styled(read(codes) if codes else PLAIN)) for text, codes in texts)
-    return [cells[one] for text, cells in styles for one in text]
+    cells = ((text, _styled(read(codes) if codes else PLAIN).__getitem__) for text, codes in texts)
+    return [cell for text, cell_of in cells for cell in map(cell_of, text)]
 
 
 def neighbours(line: Line, columns: list[int]) -> Iterator[tuple[int, str, Style]]:
@@ -227,12 +228,11 @@ class _Ink:
 
     def line(self, row: int, old: Line, new: Line) -> None:
         """The cells of a line that differ; a line of which nothing is known is erased before."""
-        if None in old:
+        if old[0] is None:
             old = self._erased(row, new)
-        both = enumerate(zip(old, new, strict=True))
-        changed = [column for column, (was, then) in both if was is not then and was != then]
+        changed = [column for column, differs in enumerate(map(ne, old, new)) if differs]
         tail = self._tail(new) if changed else 0
-        erased = sum(column >= tail for column in changed) >= SHORTEST
+        erased = len(changed) >= SHORTEST and changed[-SHORTEST] >= tail
         written = [column for column in changed if column < tail] if erased else changed
         for column, text, style in neighbours(new, written):
             self._to(row, column, new)
@@ -254,10 +254,10 @@ class _Ink:
         self.cursor = row, column
 
     def _to(self, row: int, column: int, line: Line) -> None:
-        """To a cell: what stands between is written again where that is shorter than going over it."""
+        """To a cell: what stands between is written again where that is shorter, which of five cells it never is."""
         if self.cursor == (row, column):
             return
-        if self.cursor is None or self.cursor[0] != row:
+        if self.cursor is None or self.cursor[0] != row or column - self.cursor[1] > 4:
             self.move(row, column)
             return
         between = [cell for cell in line[self.cursor[1] : column] if cell is not None]
