@@ -39,6 +39,7 @@ class Owner:
 
 UNKNOWN: Final = Owner("somebody", "", 0, "", "")
 """The owner of a lock that we may not read."""
+ENDED: Final = "ended"
 LOOKS: Final = 4
 BETWEEN: Final = 0.05
 """How often, and after how many seconds, a lock that says nothing yet is looked at: it is written in one go."""
@@ -73,13 +74,17 @@ def user() -> str:
 
 
 def started(pid: int) -> str:
-    """What tells a process from another one of the same number, empty where the system does not say it."""
+    """What tells a process from another one of the same number, empty where the system does not say it.
+
+    ENDED is what tells of one that is dead and that nobody has asked after yet: its number is still taken.
+    """
     try:
         boot = Path("/proc/sys/kernel/random/boot_id").read_text().strip()
         status = Path(f"/proc/{pid}/stat").read_text()
     except OSError:
         return ""
-    return f"{boot}:{status.rpartition(')')[2].split()[19]}"
+    state, *rest = status.rpartition(")")[2].split()
+    return ENDED if state in "ZX" else f"{boot}:{rest[18]}"
 
 
 def alive(owner: Owner) -> bool:
@@ -93,7 +98,7 @@ def alive(owner: Owner) -> bool:
     except (PermissionError, OverflowError):
         pass
     now = started(owner.pid)
-    return not now or not owner.started or now == owner.started
+    return now != ENDED and (not now or not owner.started or now == owner.started)
 
 
 def lock_path(path: Path) -> Path:

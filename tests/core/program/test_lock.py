@@ -103,6 +103,17 @@ def test_a_living_process_of_this_host_holds_it(part: Path) -> None:
     assert isinstance(take(part, ME), Lock)
 
 
+def test_a_process_that_died_is_dead_before_anybody_has_asked_after_it() -> None:
+    process = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
+    owner = replace(ME, pid=process.pid, started=started(process.pid))
+    assert alive(owner)
+    process.kill()
+    os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+    assert not alive(owner)
+    assert not alive(replace(owner, started=""))
+    process.communicate()
+
+
 def test_another_host_may_always_be_alive() -> None:
     assert alive(ELSEWHERE)
     assert alive(UNKNOWN)
