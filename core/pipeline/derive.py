@@ -16,6 +16,7 @@ from core.pipeline.jobs import job
 from core.pipeline.outline import former, outline_block
 from core.pipeline.steps import step_findings
 from core.pipeline.trouble import better_findings, by_weight, open_finding, path_findings, size_warning
+from core.pipeline.turns import turning_back
 from core.program.model import Block, PathChoice, Program
 from core.verify.judge import judge_on_ground, judge_together
 
@@ -76,7 +77,8 @@ def _told(found: DerivedBlock, work: Work, program: Program) -> DerivedBlock:
     assert found.radius is not None
     trouble: tuple[Finding, ...] = ()
     if work.verdict is not None:
-        trouble = (*path_findings(work), *size_warning(found.radius, work.surface))
+        back = turning_back(work.surface, closed=found.solved.closed)
+        trouble = (*path_findings(work), *size_warning(found.radius, work.surface), *back)
     trouble += open_finding(work.surface, 2 * found.radius, closed=found.solved.closed)
     return _checked(replace(found, work=work, findings=by_weight((*found.findings, *trouble))), program)
 
