@@ -41,7 +41,8 @@ def solve_start(block: Block, program: Program) -> Start:
             reading.values[name] = Solved(0.0)
     known = reading.known
     point = (known["x_start"], known["y_start"]) if "x_start" in known and "y_start" in known else None
-    trouble = (*_missing(reading), *_depths(known), *tool.findings, *finish.findings, *_empty(block))
+    # what was typed and is wrong comes before what is still to be typed: few of them are seen at once
+    trouble = (*tool.findings, *finish.findings, *_depths(known), *_missing(reading), *_empty(block))
     return Start(reading.values, point, known, tool, finish, reading.findings + trouble)
 
 

@@ -34,6 +34,16 @@ def test_blanks_are_named(name):
     assert text.endswith(" is blank: enter it on START.")
 
 
+def test_a_wrong_tool_comes_before_what_is_still_blank():
+    found = findings(tool=Entry(7.0), finish_tool=Entry(8.0), x_start=None, y_start=None)
+    assert [text.split(":")[0] for text in found] == [
+        "TOOL_MISSING error tool",
+        "TOOL_MISSING error finish_tool",
+        "MISSING error x_start",
+        "MISSING error y_start",
+    ]
+
+
 def test_blanks_that_stand_for_zero_are_calculated():
     given = program(ALONG, start={"finish_tool": None, "peck_depth": None})
     block = solve_block(given.blocks[0], given)
