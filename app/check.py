@@ -191,6 +191,7 @@ def _as_text(answers: Iterator[_Checked], asked: Asked) -> int:
             _print_table(checked.answers)
         elif checked.answers:
             print(*lines(checked.answers[0]), sep="\n")
+        _print_missing(checked.answers)
     return status
 
 
@@ -201,6 +202,10 @@ def _print_table(answers: tuple[Answer, ...]) -> None:
         print(f"{one.control:<{width}}  {one.outcome:<{outcome}}  {one.parts}".rstrip())
     for reason in reasons(answers):
         print(reason)
+
+
+def _print_missing(answers: tuple[Answer, ...]) -> None:
+    """How the tools are given for whose diameter a control stops."""
     missing = sorted({one.missing for one in answers if one.missing is not None})
     if missing:
         told = " and ".join(map(str, missing))

@@ -22,6 +22,8 @@ from core.units import Kind, Unit, from_mm, sentence, show
 
 NOT_FOLLOWED: Final = ("MACRO", "LIMIT", "BEYOND")
 """Rules at which not the control stops but the reading of the program."""
+NOTHING: Final = "EMPTY"
+"""The rule of a program in which there is nothing to run."""
 _NO_SIZE: Final = re.compile(r"(?:[Tt]ool table has no tool|diameter of tool|Offset) (\d+)")
 """How the controls say that they know no size of a tool."""
 
@@ -147,6 +149,8 @@ def _by_line(told: tuple[Finding, ...]) -> tuple[Finding, ...]:
 
 
 def _outcome(done: Run, results: tuple[Judged, ...], why: Finding | None) -> str:
+    if any(one.code == NOTHING for one in done.findings):
+        return "has nothing to run"
     cut, line = depth(results)
     place = f"at line {line}" if line else "in a lead"
     gouges = f"gouges by {_length(cut, done.unit)} {place}" if cut else ""

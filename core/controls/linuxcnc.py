@@ -19,7 +19,7 @@ from core.controls.parameters import Kept
 from core.controls.radius_zero import nothing_compensated
 from core.controls.report import Log, Run
 from core.controls.runner import execute
-from core.controls.tools import ToolTable
+from core.controls.tools import ToolTable, not_there
 from core.controls.words import SWITCHES, Block, Syntax, whole
 from core.finding import Severity
 from core.geometry.side import Side
@@ -124,8 +124,7 @@ class LinuxCnc(LookAhead):
             text = "G4 needs P and the seconds to wait."
             self.log.stop("N-WORDALONE", text, block.line, block.column("G", 40))
         if "H" in block.words and _lacks(self.machine.tools, block.words["H"]):
-            text = "The tool table has no tool of this number; enter it, or write the number of one that is there."
-            self.log.stop("TOOL", text, block.line, block.column("H"))
+            self.log.stop("TOOL", not_there(whole(block.words["H"])), block.line, block.column("H"))
 
     def _alone(self, block: Block) -> None:
         """What has to stand alone: calls and numbers of subprograms, one code that takes the axis words."""
@@ -190,8 +189,7 @@ class LinuxCnc(LookAhead):
                 text = "No tool is loaded, so the radius is 0."
                 nothing_compensated(self.machine, text, block.line, block.side_column())
                 return 0.0, 0
-            text = f"The tool table has no tool {number}; enter it, or write the number of one that is there."
-            self.log.stop("N-DBIG", text, block.line, block.column("D"))
+            self.log.stop("N-DBIG", not_there(number), block.line, block.column("D"))
         if tool.orientation not in (0, 9) and self.machine.plane is not Plane.ZX:
             text = "The tool is a lathe tool and needs the plane G18."
             self.log.stop("N-ORIENTATION", text, block.line, block.side_column())

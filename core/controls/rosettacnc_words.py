@@ -7,6 +7,7 @@ from typing import Final
 from core.controls.follower import Follower
 from core.controls.moves import Plane
 from core.controls.radius_zero import nothing_compensated
+from core.controls.tools import not_there
 from core.controls.words import SWITCHES, Block, whole
 from core.finding import Severity
 from core.geometry.side import Side
@@ -74,8 +75,8 @@ class Switch:
             number = wanted
         tool = machine.tools.get(number)
         if tool is None and number:
-            text = f"The tool table has no tool {number}; enter it, or write the number of one that is there."
-            log.stop("C1", text, block.line, block.column("D") if "D" in block.words else block.side_column())
+            column = block.column("D") if "D" in block.words else block.side_column()
+            log.stop("C1", not_there(number), block.line, column)
         if tool is None:
             text = "No tool is loaded and there is no D, so the radius is 0."
             nothing_compensated(machine, text, block.line, block.side_column())

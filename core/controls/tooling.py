@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from core.controls.tools import CutterTool, ToolTable
+from core.controls.tools import CutterTool, ToolTable, not_there
 from core.controls.words import Block, ToolData
 from core.finding import Severity
 
@@ -41,8 +41,7 @@ def _enter(machine: Machine, data: ToolData, block: Block) -> None:
 
 def _select(machine: Machine, number: int, block: Block) -> None:
     if number and machine.dialect.table_needed and machine.tools.get(number) is None:
-        text = f"The tool table has no tool {number}; enter it, or write the number of one that is there."
-        machine.log.stop("TOOL", text, block.line, block.column("T"))
+        machine.log.stop("TOOL", not_there(number), block.line, block.column("T"))
     machine.next_tool = number
     if machine.dialect.loads_at_t:
         machine.tool = number

@@ -54,6 +54,12 @@ class ToolTable:
         return ToolTable({**self.tools, **other.tools})
 
 
+def not_there(number: int | None) -> str:
+    """That a table has no tool of a number, and what to do; None stands for one that is no whole number."""
+    which = "of this number" if number is None else str(number)
+    return f"The tool table has no tool {which}; enter it, or write the number of one that is there."
+
+
 def read_table(text: bytes, unit: Unit | None = None) -> tuple[ToolTable, tuple[Finding, ...]]:
     """The tools of a LinuxCNC table (`T1 P1 Z0 D.25 Q0 ;comment`, one tool a line), and what cannot be read."""
     tools: list[CutterTool] = []

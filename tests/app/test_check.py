@@ -91,6 +91,30 @@ def test_a_tool_nobody_gave_is_told_once_with_what_to_add(capsys: pytest.Capture
     assert known not in output(capsys, file, "--control", "all", "--tool", "3=.5")[1]
 
 
+@pytest.mark.parametrize("text", ["G20 T3 M6\nG43 H3\nG0 X1.\nM2\n", "G20 G43 H3\nG0 X1.\nM2\n"])
+def test_one_control_says_behind_its_findings_how_a_tool_is_given(
+    text: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    file, other, known = tmp_path / "w.nc", tmp_path / "other.tbl", tmp_path / "known.tbl"
+    file.write_text(text)
+    other.write_text("T2 D.5\n")
+    known.write_text("T3 D.5\n")
+    arguments = (file, "--control", "linuxcnc")
+    told = "No diameter of tool 3 is known: add --tool 3=0.5 with the real diameter, or --tools TABLE."
+    assert output(capsys, *arguments)[1].splitlines()[-1] == told
+    assert output(capsys, *arguments, "--tools", other)[1].splitlines()[-1] == told
+    status, out, _ = output(capsys, *arguments, "--tools", known)
+    assert (status, out.splitlines()[-1]) == (0, "linuxcnc: runs; 1 move, 0 compensated stretches, IN.")
+
+
+def test_what_lacks_no_tool_says_nothing_of_giving_one(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    file = tmp_path / "w.nc"
+    file.write_text("G20 T1 M6\nG0 X1.\nG43 H1.5\nM2\n")
+    _, out, _ = output(capsys, file, "--control", "linuxcnc", "--tool", "1=.5")
+    assert "has no tool of this number" in out
+    assert "--tool" not in out
+
+
 def test_every_control_that_lacks_a_size_names_the_tool() -> None:
     text = b"G20 G90\nT3 M6\nG0 X0 Y0\nG1 F10.\nG41 D3 X1. Y0\nX3.\nY2.\nG40 X5. Y2.\nM2\n"
     for one in answer_all(text, Asked("all", ToolTable(), shop=False, unit=None)):
@@ -221,6 +245,8 @@ def test_an_empty_program_is_an_error(capsys: pytest.CaptureFixture[str], tmp_pa
             status, out, _ = output(capsys, file, "--control", control)
             assert status == 1
             assert "1:1  error    EMPTY" in out
+            assert f"{control}: has nothing to run; 0 moves, " in out
+        assert "runs" not in output(capsys, file, "--control", "all")[1].replace("that runs", "")
 
 
 def test_an_empty_folder_among_others_is_told_and_the_others_are_checked(
