@@ -8,6 +8,7 @@ from pathlib import Path
 from core.controls.registry import UnknownControl, resolve
 from core.controls.source import shown
 from core.controls.tools import CutterTool, ToolTable, read_table
+from core.program.tool_table import faults
 from core.units import Unit
 
 
@@ -49,8 +50,7 @@ def tools_of(options: argparse.Namespace) -> ToolTable:
     if options.tools is not None:
         table, findings = read_table(bytes_of(options.tools))
         if findings:
-            first = findings[0]
-            raise Unusable(f"{name_of(options.tools)}, line {first.line}: {first.text}")
+            raise Unusable(faults(name_of(options.tools), findings))
     return table.with_tools(ToolTable.of(*(_tool(text) for text in options.tool)))
 
 

@@ -14,11 +14,11 @@ from app import times
 from app.commands import DASH
 from app.keeping import holder
 from app.shell import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
-from core.finding import Finding, Severity
+from core.finding import Finding
 from core.program.lock import Held, myself, release, take
 from core.program.model import Entry, Program, Tool
 from core.program.store import StoreError, load, save, write_output
-from core.program.tool_table import Imported, decoded, read_tool_table
+from core.program.tool_table import Imported, decoded, faults, read_tool_table
 from core.units import Kind, Unit, show
 
 
@@ -90,10 +90,11 @@ def tools(options: argparse.Namespace) -> int:
 def _imported(options: argparse.Namespace) -> int:
     program = load(options.file)
     table = read_table(options.table, Unit(options.units) if options.units else program.unit, program.unit)
-    _tell(options.table, table.findings)
     if table.errors:
+        say(faults(str(options.table), table.errors))
         say("nothing was imported.")
-        return FINDINGS
+        return UNUSABLE
+    _warn(options.table, table.findings)
     program = merged(program, table.tools)
     save(program, options.file)
     return _listed(program)
@@ -122,10 +123,9 @@ LARGEST: Final = 1_000_000
 """Bytes of the largest tool table."""
 
 
-def _tell(path: Path, findings: Iterable[Finding]) -> None:
+def _warn(path: Path, findings: Iterable[Finding]) -> None:
     for one in findings:
-        kind = "" if one.severity is Severity.ERROR else "warning: "
-        say(f"{path}, line {one.line}, column {one.column}: {kind}{one.text}")
+        say(f"{path}, line {one.line}, column {one.column}: warning: {one.text}")
 
 
 def merged(program: Program, tools: Iterable[Tool]) -> Program:

@@ -7,7 +7,7 @@ behind the semicolon.  It does not say its unit: lengths are in the machine's.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import isfinite
 from typing import Final
 
@@ -24,6 +24,8 @@ LETTERS: Final = "TPXYZABCUVWDIJQ"
 """The words a LinuxCNC table knows."""
 MOST_LINES: Final = 10_000
 """A table with more lines is none."""
+MOST_FAULTS: Final = 3
+"""Faults that are told one by one."""
 _WORD: Final = re.compile(r"\s*([A-Za-z])\s*([-+]?(?:\d+(?:\.\d*)?|\.\d+))(?=[\sA-Za-z]|$)")
 _BREAK: Final = re.compile(r"\r\n|\n|\r")
 
@@ -54,6 +56,14 @@ class Imported:
     def errors(self) -> tuple[Finding, ...]:
         """What stands against importing it."""
         return tuple(finding for finding in self.findings if finding.severity is Severity.ERROR)
+
+
+def faults(name: str, findings: Sequence[Finding]) -> str:
+    """What stands against a table of this name: the first few faults, a line each, and how many more there are."""
+    told = [f"{name}, line {one.line}, column {one.column}: {one.text}" for one in findings[:MOST_FAULTS]]
+    if more := len(findings) - len(told):
+        told.append(f"{name}: {more} more fault{'s' if more > 1 else ''}.")
+    return "\n".join(told)
 
 
 def decoded(data: bytes) -> str:

@@ -74,9 +74,30 @@ def test_nothing_is_imported_into_a_program_that_somebody_has_open(
 def test_an_import_with_a_fault_changes_nothing(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table, before = part.with_name("tool.tbl"), part.read_bytes()
     table.write_text("T7 D.5\nT8 D,5\n")
-    assert main(["tools", str(part), "--import", str(table)]) == 1
+    assert main(["tools", str(part), "--import", str(table)]) == 2
     assert part.read_bytes() == before
     assert "line 2, column 4: D,5 is no word" in capsys.readouterr().err
+
+
+def test_what_is_no_tool_table_is_told_alike_in_a_few_lines(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    program, before = part.with_name("a.nc"), part.read_bytes()
+    program.write_text("G1 X1.\n" * 75 + "M2\n")
+    assert main(["check", str(program), "--control", "linuxcnc", "--tools", str(program)]) == 2
+    checked = capsys.readouterr()
+    assert main(["tools", str(part), "--import", str(program)]) == 2
+    imported = capsys.readouterr()
+    assert (checked.out, imported.out, part.read_bytes()) == ("", "", before)
+    assert checked.err + "cutcomp: nothing was imported.\n" == imported.err
+    first, *_, last = checked.err.splitlines()
+    assert first == f"cutcomp: {program}, line 1, column 1: G is no word of a tool table; write T1 P1 D.25 Z0."
+    assert (len(checked.err.splitlines()), last) == (4, f"{program}: 73 more faults.")
+
+
+def test_the_faults_of_a_table_are_told_before_its_warnings(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    table = part.with_name("tool.tbl")
+    table.write_text("T1\nT2\nT3\nT4\nT7 D,5\n")
+    assert main(["tools", str(part), "--import", str(table)]) == 2
+    assert "D,5 is no word" in capsys.readouterr().err
 
 
 def importing(text: str, folder: Path) -> Operator:
