@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 DASH: Final = "-"
 """In place of a file: standard input, or standard output."""
 STDIN: Final = "standard input"
+OTHER_PICTURES: Final = frozenset(
+    (".bmp", ".dxf", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".svgz", ".tif", ".tiff", ".webp")
+)
+"""Endings of pictures that a drawing is not written as: who opens the file would be told that it is broken."""
 
 
 class Unusable(Exception):
@@ -182,6 +186,8 @@ def plot(options: argparse.Namespace) -> int:
     """`cutcomp plot`: the program as an SVG drawing."""
     from core.pipeline.plot import svg_of
 
+    if options.output is not None and options.output.suffix.lower() in OTHER_PICTURES:
+        raise Unusable(f"-o {options.output}: plot writes SVG only; name a file that ends in .svg.")
     derived = _derived(options.file)
     _deliver(svg_of(derived, title=_name(options.file)), options.output)
     _report(derived, None)

@@ -52,6 +52,22 @@ def test_what_comes_through_a_pipe_and_is_no_program_is_named(
     assert capsys.readouterr().err.startswith(f"cutcomp: {words}")
 
 
+@pytest.mark.parametrize("name", ["p.png", "p.PDF", "p.svgz", "p.svg.jpeg"])
+def test_a_drawing_is_not_written_into_another_kind_of_picture(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, name: str
+) -> None:
+    assert main(["plot", str(example("flange")), "-o", str(tmp_path / name)]) == 2
+    said = capsys.readouterr()
+    assert (said.out, list(tmp_path.iterdir())) == ("", [])
+    assert said.err == f"cutcomp: -o {tmp_path / name}: plot writes SVG only; name a file that ends in .svg.\n"
+
+
+@pytest.mark.parametrize("name", ["p.svg", "P.SVG", "drawing", "p.xml"])
+def test_a_drawing_is_written_where_no_other_picture_is_named(tmp_path: Path, name: str) -> None:
+    assert main(["plot", str(example("flange")), "-o", str(tmp_path / name)]) in (0, 1)
+    assert "<svg" in (tmp_path / name).read_text()
+
+
 @pytest.mark.parametrize("command", ["post", "plot", "sheet"])
 def test_a_dash_is_standard_output(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, command: str
