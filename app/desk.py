@@ -30,7 +30,7 @@ from app.messages import (
 )
 from app.screens import doors
 from app.screens.contour import Contour
-from app.screens.page import UNANSWERED, Answer, Layout, Page
+from app.screens.page import Answer, Layout, Page, withheld
 from app.screens.program import ProgramPage
 from app.session import Session, Tone
 from app.settings import Settings
@@ -42,8 +42,6 @@ FUNCTION_KEYS: Final = {f"f{number}": number for number in range(1, 9)}
 AT_ONCE: Final = {f"alt+{number}": number for number in range(1, 9)}
 """Esc and a digit in one packet: Alt and the digit, or both keys over a link that held the first one back."""
 DIGITS: Final = frozenset("12345678")
-WRITING: Final = frozenset({"ctrl+s", "ctrl+o", "ctrl+z", "ctrl+y"})
-"""Keys that change the program or a file."""
 ARMED: Final = "1 to 8 press the softkey now, for 2 seconds. Anything else goes on typing, Esc ends it."
 WALKING: Final = frozenset({"enter", "tab", "shift+tab", "up", "down", "left", "right", "pageup", "pagedown"})
 """Keys that only take the cursor elsewhere while nothing is half typed."""
@@ -206,7 +204,7 @@ class Desk:
 
     def _softkey(self, number: int) -> Desk:
         """A softkey: first the half-typed text is taken; where it is refused, the softkey waits."""
-        settled = self.page.settle(self.session)
+        settled = self.page.before(number).settle(self.session)
         desk = self._answered(settled)
         if any(isinstance(message, Say) for message in settled.messages):
             return desk
@@ -250,9 +248,9 @@ class Desk:
         return desk if any(isinstance(one, Say) for one in settled.messages) else desk.take(message)
 
     def _everywhere(self, key: str) -> Desk:
-        """The keys that mean the same on every page; help may lie on a question that is to be answered first."""
-        if key in WRITING and any(page.asks for page in self.pages):
-            return self.take(Say(UNANSWERED, Tone.ERROR))
+        """The keys that mean the same on every page; help may lie on a question, or on what has its own undo."""
+        if (told := withheld(self.pages, key, self.session)) is not None:
+            return self.take(told)
         match key:
             case "ctrl+z":
                 return self._undo()

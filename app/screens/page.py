@@ -7,7 +7,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, Protocol
 
 from app.messages import Message, Say
-from app.session import Said, Session
+from app.session import Said, Session, Tone
 from app.widgets.rows import Row
 from core.records import dataclass
 
@@ -145,6 +145,10 @@ class Page:
         """What a key does; None for a key that means nothing here."""
         raise NotImplementedError
 
+    def before(self, number: int) -> Page:
+        """The page as a softkey finds it; most take what is half typed first."""
+        return self
+
     def settle(self, session: Session) -> Answer:
         """What accepts a half-typed text before a softkey acts."""
         return Answer(self)
@@ -201,12 +205,23 @@ class Page:
 
 
 UNANSWERED: Final = "Answer the question first."
+COVERED: Final = "Esc goes back first: what this changes is not seen here."
+WRITING: Final = frozenset({"ctrl+s", "ctrl+o", "ctrl+z", "ctrl+y"})
+"""Keys that change the program or a file."""
+
+
+def withheld(pages: tuple[Page, ...], key: str, session: Session) -> Say | None:
+    """What is said in place of a key that changes something, on a screen that lies on a question, or on one where the
+    key means something else than the program."""
+    if key not in WRITING:
+        return None
+    if any(page.asks for page in pages):
+        return Say(UNANSWERED, Tone.ERROR)
+    return Say(COVERED) if any(page.everywhere(key, session) for page in pages[:-1]) else None
 
 
 def unseen(page: Page, key: str) -> Answer | None:
     """Undo and redo in a dialog, which hides what they would change: only told."""
-    if key == "ctrl+f":
-        return Answer(page, (Say("Esc leaves this question first, then Ctrl+F shows the findings."),))
     if key not in ("ctrl+z", "ctrl+y"):
         return None
     return Answer(page, (Say("Esc leaves this question first, then Ctrl+Z and Ctrl+Y act on the program."),))

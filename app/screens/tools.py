@@ -22,16 +22,21 @@ from core.program.solved import Value
 from core.records import dataclass
 from core.units import Unit
 
-COLUMNS: Final = {"number": (3, 6), "type": (12, 24), "diameter": (38, 12)}
+COLUMNS: Final = {"number": (3, 6), "type": (14, 23), "diameter": (38, 12)}
 """First cell and width of each column of the table."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ToolsPage(FormPage):
-    """The table; the cursor stands in row `row` and column `name`."""
+    """The table; the cursor stands in row `row` and column `name`.
+
+    `refused`: the half-typed number was not taken.  It stands there as a value in error does on START: the first
+    character replaces it, and DELETE TOOL does not wait for a better one.
+    """
 
     row: int = 0
     name: str = "number"
+    refused: bool = False
 
     def tool(self, session: Session) -> Tool | None:
         """The tool in the cursor's row."""
@@ -61,21 +66,41 @@ class ToolsPage(FormPage):
         assert tool is not None
         return Edit(_typed(session.program, tool, one, text), f"{one.label} of tool {tool.number}")
 
+    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
+        """A key on the table."""
+        return FormPage.press(self._ready_for(key, character) if self.refused else self, key, character, session)
+
+    def _ready_for(self, key: str, character: str | None) -> ToolsPage:
+        """The page with a refused number, as a key finds it: only the arrows, Home and End change that number."""
+        anew = (character is not None and character.isprintable()) or key in ("backspace", "delete")
+        return self._without_text() if anew else replace(self, refused=False)
+
+    def before(self, number: int) -> ToolsPage:
+        """A refused number goes with the tool it was typed for."""
+        return self._without_text() if self.refused and number == 1 else self
+
+    def _without_text(self) -> ToolsPage:
+        return replace(self, editing=None, spelled="", refused=False)
+
     def _beyond(self, session: Session, key: str) -> Answer:
         """Up and down go over the rows, Tab and Enter over the fields."""
         rows, names = max(len(session.program.tools), 1), [one.name for one in TOOL]
         place = min(self.row, rows - 1) * len(names) + names.index(self.name)
         step = {"down": len(names), "up": -len(names), "shift+tab": -1}.get(key, 1)
         row, column = divmod((place + step) % (rows * len(names)), len(names))
-        return Answer(replace(self, editing=None, spelled="", row=row, name=names[column]))
+        return Answer(replace(self._without_text(), row=row, name=names[column]))
 
     def settle(self, session: Session) -> Answer:
         """The text taken; the row follows a tool whose new number moves it in the table."""
         settled = FormPage.settle(self, session)
+        if self.name != "number":
+            return settled
         for message in settled.messages:
-            if isinstance(message, Edit) and isinstance(message.outcome, Program) and self.name == "number":
+            if isinstance(message, Say):
+                return Answer(replace(self, refused=True), settled.messages)
+            if isinstance(message, Edit) and isinstance(message.outcome, Program):
                 row = _changed_row(session.program, message.outcome)
-                return Answer(replace(self, editing=None, spelled="", row=row), settled.messages)
+                return Answer(replace(self._without_text(), row=row), settled.messages)
         return settled
 
     def preview(self, session: Session) -> Program | None:
@@ -125,7 +150,10 @@ class ToolsPage(FormPage):
             first, width = COLUMNS[one.name]
             row.append(Span(" " * (first - sum(len(span.text) for span in row))))
             here = on_it and one.name == self.name
-            row.extend(_table_cell(_value(tool, one.name), one, unit, width, self.editing if here else None, here=here))
+            held, editing = _value(tool, one.name), self.editing if here else None
+            if editing is not None and self.refused:
+                held, editing = Unread(editing.text, ""), None
+            row.extend(_table_cell(held, one, unit, width, editing, here=here))
         return tuple(row)
 
 
@@ -145,7 +173,7 @@ def _table_cell(
 
 
 def _headings() -> Row:
-    return plain(f"{'TOOL':>9}   {'TYPE':<24}{'DIAMETER':>14}", Look.LABEL)
+    return plain(f"{'TOOL':>9}     {'TYPE':<23}{'DIAMETER':>13}", Look.LABEL)
 
 
 def _value(tool: Tool, name: str) -> Value | str:
@@ -169,12 +197,11 @@ def _typed(program: Program, tool: Tool, one: Field, text: str) -> Edited:
 
 
 def _renumbered(program: Program, tool: Tool, typed: Entry | Unread | None) -> Edited:
-    if not isinstance(typed, Entry):
-        return Refused("A tool needs a whole number from 1 to 9999. DELETE TOOL takes it out of the table.")
+    ways = f"Type another one. Esc brings {tool.number} back, F1 deletes tool {tool.number}."
+    if not isinstance(typed, Entry) or typed.value != int(typed.value):
+        return Refused(f"A tool needs a whole number from 1 to 9999. {ways}")
     if any(other.number == typed.value for other in program.tools if other is not tool):
-        return Refused(f"There is a tool {typed.value:g} already.")
-    if typed.value != int(typed.value):
-        return Refused("A tool's number is a whole number.")
+        return Refused(f"There is a tool {typed.value:g} already. {ways}")
     outcome = set_tool(program, replace(tool, number=int(typed.value)))
     return outcome if isinstance(outcome, Refused) else delete_tool(outcome, tool.number)
 

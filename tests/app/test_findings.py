@@ -8,6 +8,7 @@ from app.desk import Desk
 from app.files import example
 from app.screens.contour import Contour
 from app.screens.findings import FindingsPage
+from app.screens.help import HelpPage
 from app.session import Session
 from app.widgets.rows import Span, plain, text_of
 from app.widgets.verdict import fitted, verdict_rows
@@ -50,9 +51,21 @@ def test_one_key_shows_the_findings_from_every_form(keys: tuple[str, ...]) -> No
     assert not isinstance(operator.press("escape").desk.page, FindingsPage)
 
 
-def test_that_key_opens_it_once_and_not_behind_a_dialog() -> None:
+def test_that_key_opens_it_once_and_not_where_no_verdict_stands() -> None:
     assert isinstance(derived("notch").press("ctrl+f", "ctrl+f", "escape").desk.page, Contour)
-    assert "Esc leaves this question" in derived("notch").press("f8", "f6", "ctrl+f").said
+    assert "from its form" in derived("notch").press("f8", "f6", "ctrl+f").said
+
+
+@pytest.mark.parametrize("keys", [("ctrl+end", "right"), ("f4", "right"), ("tab", "9", "enter", "ctrl+q"), ("ctrl+s",)])
+@pytest.mark.parametrize("look", ["ctrl+f", "ctrl+g"])
+def test_a_question_beside_the_verdict_is_still_there_behind_what_only_looks(keys: tuple[str, ...], look: str) -> None:
+    operator = derived("notch").press(*keys)
+    page, history = operator.desk.page, operator.session.history
+    operator.press(look)
+    assert isinstance(operator.desk.page, FindingsPage if look == "ctrl+f" else HelpPage)
+    operator.press("ctrl+z", "ctrl+y", "escape")
+    assert operator.desk.page is page
+    assert operator.session.history is history
 
 
 def test_how_many_more_names_the_key() -> None:
