@@ -14,7 +14,7 @@ from app.patience import FILE, within
 from app.saving import asked, leads_elsewhere, put_theirs_aside, replacing, there
 from app.screens.ask import Ask, Option
 from app.screens.browse import BrowsePage, listed
-from app.screens.save import SaveAsPage
+from app.screens.save import THE_WAY, SaveAsPage
 from app.session import Session, Tone
 from app.widgets.words import in_spite, placed
 from core.finding import Severity
@@ -56,7 +56,9 @@ def _save(desk: Desk, message: Save) -> Desk:
         text = dumps(session.program)
         write_text(path, text)
     except StoreError as error:
-        return _failed(desk, error)
+        # where a name is being typed already, another one is
+        way = "" if isinstance(desk.page, SaveAsPage) else f" {THE_WAY}"
+        return _failed(desk, f"{error}{way}")
     named = session.named(path, stamp_of_data(text.encode()), linked=message.linked and leads_elsewhere(path))
     desk = _without(replace(desk, session=named), SaveAsPage)
     other = "" if theirs is None else f" The other version is in {told_path(theirs.name)}."
@@ -176,9 +178,9 @@ def _leave(desk: Desk, message: Leave) -> Desk:
         saves = _listing_saved(desk)
         how = "" if saves else " Ctrl+S on its screen saves them."
         lines = (f"The NC file under proof has changes that are not saved.{too}{how}",)
-        without = ("l", "LEAVE WITHOUT", (Leave(unsaved=True),))
+        without = ("l", "LEAVE UNSAVED", (Leave(unsaved=True),))
         return desk.take(Open(Ask("LEAVE?", lines, (*saves, without), _name_of_listing(desk))))
-    options = (("s", "SAVE AND LEAVE", (Close(), Save(leave=True))), ("l", "LEAVE WITHOUT", (Leave(unsaved=True),)))
+    options = (("s", "SAVE AND LEAVE", (Close(), Save(leave=True))), ("l", "LEAVE UNSAVED", (Leave(unsaved=True),)))
     return desk.take(Open(Ask("LEAVE?", ("The program has changes that are not saved.",), options)))
 
 

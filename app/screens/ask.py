@@ -18,7 +18,7 @@ Option = tuple[str, str, tuple[Message, ...]]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Ask(Page):
-    """A question; `options` stand on F1, F2 ... and F8 leaves everything as it is.
+    """A question; `options` stand on F1, F2 ... and F8 goes back, and nothing changes.
 
     `about` is a file's name where the question is not about the program's own file.
     """
@@ -55,7 +55,7 @@ class Ask(Page):
         answers = tuple(_answer(letter, label) for letter, label, _ in self.options)
         return View(
             header(self.title, plain(""), session, surface.width, self.about),
-            ((), *asked, (), *answers, _answer("Esc", "leave everything as it is")),
+            ((), *asked, (), *answers, _answer("Esc", "back, nothing changes")),
             Said("Press the softkey or the letter of an answer."),
         )
 

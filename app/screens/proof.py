@@ -244,7 +244,7 @@ class ProofPage(Page):
         if self.alone or not self.unsaved:
             return (Leave() if self.alone else Close(),)
         lines = ("The NC file has changes that are not saved.",)
-        options = (("s", "SAVE", (Close(), saving())), ("l", "LEAVE WITHOUT", (Close(), Close())))
+        options = (("s", "SAVE", (Close(), saving())), ("l", "LEAVE UNSAVED", (Close(), Close())))
         return (Open(Ask("NOT SAVED", lines, options, "" if self.file is None else self.file.name)),)
 
     def view(self, session: Session, surface: Surface) -> View:

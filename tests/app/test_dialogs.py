@@ -13,6 +13,7 @@ from app.messages import Close, Open
 from app.screens.decide import Decide
 from app.screens.help import HelpPage
 from app.screens.new_segment import NewSegment
+from app.screens.page import UNANSWERED
 from app.screens.post import PostPage
 from app.session import Session
 from core.program.model import Entry
@@ -63,6 +64,27 @@ def test_undo_and_redo_in_a_dialog_leave_the_program_alone(keys: tuple[str, ...]
     assert operator.block.x_start == Entry(2.5)
     assert operator.desk.page is page
     assert "Esc leaves this question first" in operator.said
+
+
+@pytest.mark.parametrize("keys", [("ctrl+s",), ("pagedown",), ("f4", "right")])
+@pytest.mark.parametrize("over", ["ctrl+g", "ctrl+f"])
+def test_undo_and_redo_over_a_dialog_leave_the_program_alone(keys: tuple[str, ...], over: str) -> None:
+    operator = Operator.at().press("tab", "down", "down", "down").type("2.5").press("ctrl+home", *keys, over)
+    operator.press("ctrl+z")
+    assert operator.said.endswith(("Esc goes back first: what this changes is not seen here.", UNANSWERED))
+    operator.press("ctrl+y", "ctrl+z")
+    assert operator.block.x_start == Entry(2.5)
+
+
+def test_leaving_says_in_one_meaning_of_the_word_what_becomes_of_the_work() -> None:
+    operator = Operator.at().press("tab", "9", "ctrl+q")
+    assert operator.part("body").split("\n")[3:] == [
+        "  S   SAVE AND LEAVE",
+        "  L   LEAVE UNSAVED",
+        "  Esc back, nothing changes",
+    ]
+    assert "F2 LEAVE UNSAVED" in operator.part("softkeys")
+    assert operator.press("l").desk.exit
 
 
 def test_the_new_page_closes_before_undo_acts() -> None:

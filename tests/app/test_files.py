@@ -10,6 +10,8 @@ from app.desk import Desk
 from app.files import example
 from app.screens.ask import Ask
 from app.screens.contour import Contour
+from app.screens.program import ProgramPage
+from app.screens.save import SaveAsPage
 from app.session import Session
 from core.output.override import OVERRIDE
 from core.program.model import Entry
@@ -64,6 +66,25 @@ def test_what_cannot_be_saved_is_one_sentence_and_nothing_is_lost(folder: Path, 
     assert "is not saved" in operator.said
     assert operator.session.file is None
     assert list(folder.iterdir()) == []
+
+
+@pytest.mark.parametrize("keys", [(), ("f6",), ("f7",), ("f8",), ("tab", "9")])
+def test_a_save_that_fails_says_how_to_save_elsewhere_and_it_is_so(folder: Path, keys: tuple[str, ...]) -> None:
+    (folder / "sub").mkdir()
+    operator = entered(opened("pocket").press("ctrl+s"), str(folder / "sub" / "part.toml"))
+    (folder / "sub" / "part.toml").unlink()
+    (folder / "sub").rmdir()
+    operator.press(*keys, "ctrl+s")
+    assert "part.toml is not saved" in operator.said
+    assert operator.said.endswith("SAVE AS: F8 until PROGRAM, then F7, F3.")
+    while not isinstance(operator.desk.page, ProgramPage):
+        operator.press("f8")
+    assert isinstance(operator.press("f7", "f3").desk.page, SaveAsPage)
+    entered(operator, str(folder / "none" / "part.toml"))
+    operator.press("w")
+    assert "SAVE AS: " not in operator.said
+    entered(operator, str(folder / "here.toml")).press("w")
+    assert load(folder / "here.toml") == operator.session.program
 
 
 def test_open_lists_programs_and_folders_and_opens_one(folder: Path) -> None:
