@@ -114,11 +114,23 @@ def _entries(settings: Settings, folder: Path) -> tuple[Entry, ...]:
 
 
 def _lists(settings: Settings, inside: tuple[Entry, ...]) -> Iterator[Entry]:
-    for name in settings.recent:
-        yield Entry(Group.RECENT, Path(name), Path(name).stem)
+    recent = [Path(name) for name in settings.recent]
+    for path in recent:
+        yield Entry(Group.RECENT, path, _told_apart(path, recent))
     yield from inside
     for path in sorted(files.example("pocket").parent.glob("*.toml")):
         yield Entry(Group.EXAMPLE, path, path.stem)
+
+
+def _told_apart(path: Path, among: list[Path]) -> str:
+    """A program's name, and where others have the same, as much of its folder as no other one has."""
+    others = [other.parent.parts for other in among if other.stem == path.stem and other != path]
+    if not others:
+        return path.stem
+    folder = path.parent.parts
+    ends = (folder[-many:] for many in range(1, len(folder)))
+    end = next((end for end in ends if all(other[-len(end) :] != end for other in others)), folder)
+    return f"{path.stem} ({Path(*end)})"
 
 
 def _inside(folder: Path) -> Iterator[Entry]:

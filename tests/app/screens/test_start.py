@@ -111,6 +111,24 @@ def test_recent_programs_stand_first_and_a_lost_one_says_so(folder: Path) -> Non
     assert "not there any more" in operator.press("home").said
 
 
+def test_recent_programs_of_one_name_are_told_apart_by_their_folders(folder: Path) -> None:
+    names = ("north/op1/part", "south/op1/part", "south/op2/part", "south/op2/lid")
+    operator = at_start(Settings(tuple(str(folder / f"{name}.toml") for name in names)))
+    told = [line[:24].strip(" >") for line in lines(operator)[2:6]]
+    assert told == ["part (north/op1)", "part (south/op1)", "part (op2)", "lid"]
+    assert page(operator.press("p")).entry == page(operator).entries[1]
+
+
+def test_one_name_in_a_folder_and_in_one_below_it_is_told_apart(folder: Path) -> None:
+    near, far = folder / "part.toml", folder / folder.name / "part.toml"
+    names = [entry.name for entry in page(at_start(Settings((str(near), str(far))))).entries[:2]]
+    assert len(set(names)) == 2
+    assert [entry.name for entry in page(at_start(Settings(("/part.toml", "/a/part.toml")))).entries[:2]] == [
+        "part (/)",
+        "part (a)",
+    ]
+
+
 @pytest.mark.usefixtures("folder")
 def test_a_new_program_in_the_unit_that_was_chosen() -> None:
     operator = at_start().press("f3")
