@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import chain, repeat
+from itertools import chain, compress, count, repeat
 from math import hypot
+from operator import is_not
 from typing import assert_never
 
 from core.finding import Finding, Severity
@@ -128,12 +129,10 @@ def _drafts(block: Block, start: Start, unit: Unit, before: Sequence[Draft]) -> 
     """Every segment solved by itself; those that are kept, and take over what they took, are taken run by run."""
     here = _Here(start.point, start.known.get("z_bottom"), start.known.get("plunge_feed"))
     segments = block.segments
-    anew = [
-        index
-        for index, (segment, old) in enumerate(zip(segments, before, strict=False))
-        if old.segment is not segment or old.unit is not unit
-    ]
-    anew.extend(range(len(before), len(segments)))
+    # all drafts of a block are of one unit
+    kept = before if before and before[0].unit is unit else ()
+    others = map(is_not, segments, [old.segment for old in kept])
+    anew = [*compress(count(), others), *range(len(kept), len(segments))]
     drafts: list[Draft] = []
     for index in (*anew, len(segments)):
         while len(drafts) < index:

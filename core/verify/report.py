@@ -38,11 +38,12 @@ def findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple
     """
     if not verdict.judged:
         return (_unjudged(),)
+    uncut = tuple(verdict.uncut)
     return (
         *(_gouge(gouge, names, verdict.radius) for gouge in verdict.gouges),
         *_wrong_side(verdict),
         *_crosses_itself(verdict),
-        *map(_uncut, verdict.uncut, _shares(verdict.uncut, surface), repeat(surface)),
+        *map(_uncut, uncut, _shares(uncut, surface), repeat(surface)),
     )
 
 
@@ -128,12 +129,14 @@ def _uncut(uncut: Uncut, shares: Shares, surface: Path) -> Finding:
     if isinf(uncut.thickness):
         text = f"Nothing of {where} is cut: there is no path."
     else:
-        listed = ", ".join(f"segment {number:g} {{{row}}}" for row, (number, _) in enumerate(shares, 1))
-        told = f" ({listed})" if len(shares) > 1 else ""
+        told = ""
+        if len(shares) > 1:
+            listed = [f"segment {number:g} {{{row}}}" for row, (number, _) in enumerate(shares, 1)]
+            told = f" ({', '.join(listed)})"
         thick = "{0}" if uncut.thickness >= SHOWN else f"less than {{{len(shares) + 1}}}"
         area = "" if uncut.area is None or uncut.area < SHOWN_AREA else ", area {area}"
         text = f"{{value}} of {where} stays uncut{told}, {thick} at the thickest, at X {{x}} Y {{y}}{area}."
-        lengths = (uncut.thickness, *(length for _, length in shares), DIGIT)
+        lengths = (uncut.thickness, *[length for _, length in shares], DIGIT)
     return Finding(
         "UNCUT",
         Severity.INFO,

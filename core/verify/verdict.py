@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
 from math import isnan
 from typing import Any, Final, overload
 
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.piece import Point
+from core.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,10 +80,11 @@ class UncutStretches(Sequence[Uncut]):
     def __getitem__(self, index: int | slice) -> Uncut | tuple[Uncut, ...]:
         if isinstance(index, slice):
             return tuple(self[row] for row in range(*index.indices(len(self))))
-        return _uncut(*(column[range(len(self))[index]].item() for column in self.columns))
+        row = range(len(self))[index]
+        return next(_stretches(column[row : row + 1] for column in self.columns))
 
     def __iter__(self) -> Iterator[Uncut]:
-        return (_uncut(*row) for row in zip(*(column.tolist() for column in self.columns), strict=True))
+        return _stretches(self.columns)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Sequence) and tuple(self) == tuple(other)
@@ -93,9 +94,8 @@ class UncutStretches(Sequence[Uncut]):
     @property
     def ends(self) -> list[tuple[float, Point, float, Point]]:
         """Each stretch's first segment and the point on it, its last segment and the point on that."""
-        firsts, lasts, starts, ends = (column.tolist() for column in self.columns[:4])
-        points = zip(firsts, map(_point, starts), lasts, map(_point, ends), strict=True)
-        return list(points)
+        firsts, lasts, starts, ends = self.columns[:4]
+        return list(zip(firsts.tolist(), _points(starts), lasts.tolist(), _points(ends), strict=True))
 
     def keep(self, chosen: NDArray[np.bool_]) -> UncutStretches:
         """The stretches for which `chosen` (k,) is True."""
@@ -119,22 +119,16 @@ class UncutStretches(Sequence[Uncut]):
         return UncutStretches(*(np.append(column[1:-1], value) for column, value in columns))
 
 
-def _uncut(
-    first: float,
-    last: float,
-    start: complex,
-    end: complex,
-    length: float,
-    thickness: float,
-    thickest: complex,
-    area: float,
-) -> Uncut:
-    known = None if isnan(area) else area
-    return Uncut(first, last, _point(start), _point(end), length, thickness, _point(thickest), known)
+def _stretches(columns: Iterable[NDArray[Any]]) -> Iterator[Uncut]:
+    """The stretches of columns (k,) one by one."""
+    firsts, lasts, starts, ends, lengths, thicknesses, thickest, areas = columns
+    known = (None if isnan(area) else area for area in areas.tolist())
+    plain = (lengths.tolist(), thicknesses.tolist(), _points(thickest))
+    return map(Uncut, firsts.tolist(), lasts.tolist(), _points(starts), _points(ends), *plain, known)
 
 
-def _point(place: complex) -> Point:
-    return place.real, place.imag
+def _points(places: NDArray[np.complex128]) -> Iterator[Point]:
+    return zip(places.real.tolist(), places.imag.tolist(), strict=True)
 
 
 NOTHING: Final = UncutStretches(
