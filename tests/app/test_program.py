@@ -89,7 +89,7 @@ def test_a_tool_gets_another_number_and_the_cursor_follows_it() -> None:
     operator = opened().press("f6", "f2", "shift+tab", "shift+tab").type("12")
     assert [tool.number for tool in operator.session.program.tools] == [1, 12]
     operator.press("shift+tab").type("1")
-    assert operator.said == "!! There is a tool 1 already."
+    assert operator.said.startswith("!! There is a tool 1 already. Type another one.")
 
 
 @pytest.mark.parametrize("text", ["0", "-1"])
