@@ -73,6 +73,9 @@ def text_of(row: Row) -> str:
 @lru_cache(2048)
 def padded(row: Row, width: int) -> Row:
     """The row cut or filled with blanks to exactly `width` cells; most rows of a picture were in the one before."""
+    text = text_of(row)
+    if len(text) == width and NARROW.fullmatch(text):
+        return row
     spans: list[Span] = []
     left = width
     for span in row:

@@ -269,9 +269,10 @@ def _erased(deleted: Deletions) -> tuple[Erased, ...]:
     """One line for every pair of pieces that erased segments, corner arcs left out; told again when the table comes."""
     groups: dict[tuple[float, float, float, float], list[float]] = {}
     for by, at, one in zip(deleted.by.tolist(), deleted.at.tolist(), deleted.segments.tolist(), strict=True):
-        groups.setdefault((*by, *at), []).append(one)
-    told = (one for one in groups.items() if any(number.is_integer() for number in one[1]))
-    return tuple(Erased(pair, segments) for pair, segments in told)
+        segments = groups.setdefault((*by, *at), [])
+        if one.is_integer():
+            segments.append(one)
+    return tuple(Erased(pair, segments) for pair, segments in groups.items() if segments)
 
 
 def _erasing(line: Erased, unit: Unit) -> Row:

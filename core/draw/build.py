@@ -16,7 +16,7 @@ def contour_scene(
     surface: Path,
     *,
     unit: Unit | None = None,
-    sketches: Sequence[Path] = (),
+    sketches: Parts = NO_PARTS,
     path: Path = EMPTY,
     further: Sequence[Path] = (),
     leads: Sequence[Path] = (),
@@ -37,7 +37,7 @@ def contour_scene(
     `cutter` (centre, radius); `current` the segment under the cursor; `start` the contour's START.
     """
     layers = (
-        *_layers(sketches, Style.SURFACE, dashed=True),
+        *_parts(sketches, Style.SURFACE, dashed=True),
         *_layers((surface,), Style.SURFACE),
         *_layers(rough, Style.RAPID, dashed=True),
         *_layers(leads, Style.LEAD),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +12,7 @@ from core.comp.result import Compensated
 from core.draw.build import contour_scene
 from core.draw.scene import Scene, joined_scenes
 from core.geometry.path import EMPTY, Floats, Path
-from core.geometry.piece import Piece, Point
+from core.geometry.piece import Line, Piece, Point
 from core.geometry.stretch import NO_PARTS, Parts, pieces_joined, stretches
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock, Loop, Work
@@ -71,7 +72,7 @@ def _surface(found: DerivedBlock) -> Path:
     return Path.from_pieces([piece for _, piece in pieces], [float(number) for number, _ in pieces])
 
 
-def _sketches(found: DerivedBlock) -> list[Path]:
+def _sketches(found: DerivedBlock) -> Parts:
     """Segments not determined yet: what is known of them, or the solutions the operator picks from."""
     pieces: list[Piece] = []
     for one in found.solved.segments[found.solved.determined :]:
@@ -79,7 +80,9 @@ def _sketches(found: DerivedBlock) -> list[Path]:
             pieces.append(one.piece)
         else:
             pieces += one.choices or ((one.sketch,) if one.sketch is not None else ())
-    return [Path.from_pieces([piece]) for piece in pieces]
+    # a line between each and the next, which is not drawn: behind a number of one digit there may be a hundred
+    parts = [part for one, behind in pairwise(pieces) for part in (one, Line(one.end, behind.start))] + pieces[-1:]
+    return Parts(Path.from_pieces(parts), np.arange(len(parts)) % 2 == 0)
 
 
 def _deleted(one: Compensated) -> Parts:
@@ -124,7 +127,7 @@ def _place(loops: Sequence[Loop], one: Compensated | None, segment: int) -> Plac
         if not segment and parts:
             return Place(_point(parts[0].points[0]))
         for part in reversed(parts):
-            if len(rows := np.flatnonzero(part.numbers == segment)):
+            if len(rows := (part.numbers == segment).nonzero()[0]):
                 return Place(_point(part.ends[rows[-1]]))
     return None if one is None else _passed(one, segment)
 

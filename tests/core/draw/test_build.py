@@ -16,7 +16,7 @@ LEAD = Path.from_pieces([Arc((-1, -2), (0, -1), (0, -2), Turn.CW)])
 def test_the_current_segment_lies_over_everything_and_the_surface_below():
     one, parts = (SHIFTED,), Parts(SHIFTED, np.array([True]))
     scene = contour_scene(
-        SQUARE, path=SHIFTED, leads=(LEAD,), deleted=parts, uncut=parts, rough=one, current=SHIFTED, sketches=(LEAD,)
+        SQUARE, path=SHIFTED, leads=(LEAD,), deleted=parts, uncut=parts, rough=one, current=SHIFTED, sketches=parts
     )
     assert [(layer.style, layer.dashed) for layer in scene.layers] == [
         (Style.SURFACE, True),

@@ -8,7 +8,7 @@ import pytest
 from app.files import example
 from core.pipeline.derive import derive
 from core.pipeline.plot import block_scene, cutter_at, svg_of
-from core.program.model import CutterComp, Entry, LineSegment, PathChoice
+from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, PathChoice
 from core.program.store import load
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
@@ -51,6 +51,16 @@ def test_where_nothing_is_determined_no_cutter_is_drawn():
     for segment in (4, 5, 6):
         assert cutter_at(found, segment) is None
         assert block_scene(found, segment, Unit.IN).circles == ()
+
+
+def test_segments_that_are_not_determined_are_drawn_each_by_itself():
+    arc = ArcSegment(Direction.CCW, x_end=Entry(-1.0), y_end=Entry(0.0), radius=Entry(2.0))
+    one = block([(0.0, 0.0), (1.0, 0.0)], CutterComp.LEFT)
+    found = derived(program(replace(one, segments=(*one.segments, arc))))
+    choices = found.solved.segments[1].choices
+    assert len(choices) > 1
+    (dashed,) = [layer for layer in block_scene(found, 2, Unit.IN).layers if layer.dashed]
+    assert [tuple(part) for part in dashed.parts] == [(choice,) for choice in choices]
 
 
 def test_the_best_path_has_its_cutter_in_every_loop_and_none_where_it_does_not_run():
