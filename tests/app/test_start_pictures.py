@@ -52,7 +52,8 @@ async def guided(pilot: Pilot[int]) -> None:
     app = pilot.app
     assert isinstance(app, CutcompApp)
     app.desk = begin(app.desk)
-    await pilot.press("enter", "enter", "l", "tab", "tab", "1", "enter", "0", "enter", "0", "enter", "tab", "pagedown")
+    await pilot.press("enter", "enter", "l", "tab", "tab", "1", "enter", "0", "enter", "0", "enter")
+    await pilot.press(*"-.25", "enter", "pagedown")
 
 
 @pytest.mark.parametrize("screen", [at_start, guided])
