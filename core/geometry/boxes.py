@@ -18,8 +18,11 @@ FAN: Final = 4
 RUN: Final = 8
 """Consecutive boxes that are compared with RUN others at once."""
 
+FEW: Final = 8_192
+"""Pairs all of which are compared."""
+
 AT_ONCE: Final = 65_536
-"""Pairs that are compared at once, without a tree."""
+"""Pairs that are compared without a tree: each box with groups of others, and the groups' members."""
 
 RUNS_AT_ONCE: Final = 1_000
 """Pairs of runs whose members are compared at once: few enough to stay in a processor's cache."""
@@ -27,8 +30,12 @@ RUNS_AT_ONCE: Final = 1_000
 
 def near_pairs(first: Floats, second: Floats, reach: float) -> tuple[Rows, Rows]:
     """Indices (i, j), in rising order of i, of all boxes no farther apart than `reach`."""
-    if first.shape[1] * second.shape[1] <= AT_ONCE:
-        i, j = np.divmod(np.flatnonzero(_near(first[:, :, None], second[:, None, :], reach)), second.shape[1])
+    count = first.shape[1] * second.shape[1]
+    if count <= AT_ONCE:
+        others = grouped(second) if count > FEW else second
+        i, j = np.divmod(np.flatnonzero(_near(first[:, :, None], others[:, None, :], reach)), others.shape[1])
+        if count > FEW:
+            i, j = _brood(i, j, second.shape[1])
         keep = reaching(first.take(i, axis=1), second.take(j, axis=1), reach).nonzero()[0]
         return i[keep], j[keep]
     one, two = _runs(first), _runs(second)
