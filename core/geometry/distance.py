@@ -28,13 +28,19 @@ def distance(pieces: Measured, points: Points) -> Floats:
 
 
 def _line_foot(line: Measured, points: Points) -> Floats:
-    size = np.where(line.length == 0.0, 1.0, line.length)
-    return _clipped(((points - line.start) * np.conj(line.vector)).real / (size * size))
+    return _line_share(line, points - line.start)
 
 
 def _line_distance(line: Measured, points: Points) -> Floats:
-    gap: Floats = np.abs(points - line.start - _line_foot(line, points) * line.vector)
+    off = points - line.start
+    gap: Floats = np.abs(off - _line_share(line, off) * line.vector)
     return gap
+
+
+def _line_share(line: Measured, off: Points) -> Floats:
+    """Fractions at which lines are nearest to points `off` from their starts."""
+    size = np.where(line.length == 0.0, 1.0, line.length)
+    return _clipped((off * np.conj(line.vector)).real / (size * size))
 
 
 def _arc_foot(arc: Measured, points: Points) -> Floats:

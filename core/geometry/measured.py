@@ -7,7 +7,6 @@ a place on a whole path is the length s travelled since its first point.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from math import tau
 from typing import Any, Final
 
@@ -17,6 +16,7 @@ from numpy.typing import NDArray
 from core.geometry.path import Path
 from core.geometry.piece import SLIVER
 from core.geometry.planes import planes
+from core.records import dataclass
 from core.tolerance import ARC_RADII, ON_PATH
 
 FEW: Final = 300
@@ -283,9 +283,7 @@ def travelled(arc: Measured, towards: Points) -> Floats:
 
 def place(pieces: Measured, stations: Floats, s: Floats) -> tuple[Rows, Floats]:
     """Piece index and fraction of the places `s` along the whole path; at a joint the piece that begins there."""
-    index = stations.searchsorted(s, side="right")
-    index -= 1
-    np.minimum(np.maximum(index, 0, out=index), len(pieces) - 1, out=index)
-    length = pieces.length[index]
-    t = (s - stations[index]) / np.where(length == 0.0, 1.0, length)
+    index = stations[1:-1].searchsorted(s, side="right")
+    length = pieces.length.take(index)
+    t = (s - stations.take(index)) / np.where(length == 0.0, 1.0, length)
     return index, np.minimum(np.maximum(t, 0.0), 1.0)

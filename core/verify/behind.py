@@ -6,7 +6,6 @@ beyond which there is no side.  Parted there it has one side in each part: that 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -14,6 +13,7 @@ import numpy as np
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import distance, foot, on_line
 from core.geometry.measured import Flags, Floats, Points, Rows, at, direction, place
+from core.records import dataclass
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.farthest import FINE, farthest
 from core.verify.gouge import Gouging
@@ -224,7 +224,7 @@ def _wrong(pairs: Pairs, s: Floats, sides: Sided, radius: float) -> Flags:
 def _deepest(pairs: Pairs, parts: Stretches, radius: float) -> Behind:
     """Of each part the place farthest inside, without those that are nowhere farther than GOUGE."""
     middle = (parts.first + parts.last) / 2.0
-    far = farthest(pairs.centre, parts, pairs.surface, np.full((2, len(parts)), -1), np.inf)
+    far = farthest(pairs.centre, parts, pairs.surface, pairs.surface_boxes, np.full((2, len(parts)), -1), np.inf)
     keep = far.apart > GOUGE
     middle, where, apart = middle[keep], far.place[keep], far.apart[keep]
     index, _ = place(pairs.centre, pairs.centre_stations, middle)

@@ -11,7 +11,6 @@ run: where nothing is nearer than the radius, it may be so much nearer, and a go
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi
 from typing import Final, NamedTuple
 
@@ -19,6 +18,7 @@ import numpy as np
 
 from core.geometry.aligned import Runs
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows
+from core.records import dataclass
 from core.tolerance import GOUGE
 
 HALF: Final = pi * (1.0 + 1e-12)

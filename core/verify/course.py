@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from core.geometry.bounds import boxes
 from core.geometry.measured import Floats, Measured, stacked
 from core.geometry.path import Path
+from core.records import dataclass
 from core.verify.columns import columns as columns_of
 
 FEW: Final = 2_000

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi
 from typing import Final
 
@@ -11,6 +10,7 @@ import numpy as np
 from core.geometry.aligned import aligned_pairs
 from core.geometry.distance import between, distance, foot, nearest_places
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction
+from core.records import dataclass
 from core.tolerance import JOINED
 from core.verify.course import Course
 from core.verify.unproved import clear

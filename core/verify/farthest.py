@@ -8,14 +8,13 @@ equally far, until both agree within `FINE`: if no third piece is nearer there, 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
-from core.geometry.bounds import boxes
 from core.geometry.distance import between, distance, farthest_places
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place
+from core.geometry.measured import Floats, Measured, Points, Rows, at, place
+from core.records import dataclass
 from core.tolerance import GOUGE
 from core.verify.reach import Stretches, nearest
 
@@ -31,6 +30,9 @@ SECTIONS: Final = np.linspace(0.0, 1.0, 17)[:, None]
 
 NARROWINGS: Final = 3
 """Times that a span is narrowed to the section in which the other piece becomes the nearer one."""
+
+LEAST_SHARE: Final = 1e-3
+"""Share of a span nearer than which to its ends it is not divided."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -52,8 +54,7 @@ class _Spans:
     apart: Floats
     near: Rows
 
-    def take(self, keep: Flags) -> _Spans:
-        rows = keep.nonzero()[0]
+    def take(self, rows: Rows) -> _Spans:
         s, apart, near = self.s.take(rows, axis=1), self.apart.take(rows, axis=1), self.near.take(rows, axis=1)
         return _Spans(self.owner[rows], self.index[rows], s, apart, near)
 
@@ -78,7 +79,8 @@ class _Search:
         """The same, where `near` is -1; elsewhere the nearest piece is `near`."""
         apart, near = np.empty(len(s)), near.copy()
         new, old = (near < 0).nonzero()[0], (near >= 0).nonzero()[0]
-        apart[old] = distance(self.other.take(near[old]), self.points(s[old]))
+        if len(old):
+            apart[old] = distance(self.other.take(near[old]), self.points(s[old]))
         if len(new):
             apart[new], near[new] = self.look(s[new], known[new])
         return apart, near
@@ -94,19 +96,23 @@ class _Search:
         return at(self.walked.take(index), t)
 
 
-def farthest(walked: Measured, stretches: Stretches, other: Measured, near: Rows, ends: float) -> Farthest:
+def farthest(
+    walked: Measured, stretches: Stretches, other: Measured, around: Floats, near: Rows, ends: float
+) -> Farthest:
     """The largest distance from `other`, within FINE, on each stretch of `walked`; `other` has at least one piece.
 
+    `around` are the boxes of `other`.
     `near` (2, k) are the pieces of `other` nearest to the stretches' ends, -1 where unknown; where they are known the
     distance is at most `ends`.
     """
-    search = _Search(walked, walked.stations, other, boxes(other), GOUGE + 2.0 * float(walked.slack.max(initial=0.0)))
+    search = _Search(walked, walked.stations, other, around, GOUGE + 2.0 * float(walked.slack.max(initial=0.0)))
     spans, best = _begin(search, stretches, near, ends)
     for turn in range(ROUNDS):
-        spans = spans.take(_bounds(search, spans) > best.apart[spans.owner] + FINE)
-        if not len(spans.owner):
+        rows = (_bounds(search, spans) > best.apart[spans.owner] + FINE).nonzero()[0]
+        if not len(rows):
             break
-        share = _equally_far(search, spans) if turn % 3 < 2 else np.full(len(spans.owner), 0.5)
+        spans = spans.take(rows)
+        share = _shares(search, spans) if turn % 3 < 2 else np.full(len(rows), 0.5)
         spans, best = _divide(search, spans, share, best)
     return best
 
@@ -161,8 +167,20 @@ def _bounds(search: _Search, spans: _Spans) -> Floats:
     return bounds
 
 
+def _shares(search: _Search, spans: _Spans) -> Floats:
+    """Where to divide each span: the share of it at which the nearest pieces of its two ends are equally far, kept off
+    both ends.  One piece that is nearest to both is so from the beginning on."""
+    share = np.full(len(spans.index), LEAST_SHARE)
+    several = (spans.near[0] != spans.near[1]).nonzero()[0]
+    if len(several):
+        met = _equally_far(search, spans.take(several))
+        met[np.isnan(met)] = 0.5
+        share[several] = np.minimum(np.maximum(met, LEAST_SHARE), 1.0 - LEAST_SHARE)
+    return share
+
+
 def _equally_far(search: _Search, spans: _Spans) -> Floats:
-    """The share of each span at which the nearest pieces of its two ends are equally far, kept off both ends."""
+    """The share of each span at which the nearest pieces of its two ends are equally far."""
     piece, (one, other) = search.walked.take(spans.index), (search.other.take(near) for near in spans.near)
     first, last = search.fractions(spans)
     low, high, each = first, last, np.arange(len(first))
@@ -174,8 +192,7 @@ def _equally_far(search: _Search, spans: _Spans) -> Floats:
         (low, high), (before, after) = ((of[behind - 1, each], of[behind, each]) for of in (places, nearer))
     met = low + (high - low) * np.where(before > after, before / (before - after), 0.5)
     share: Floats = (met - first) / (last - first)
-    share[np.isnan(share)] = 0.5
-    return np.minimum(np.maximum(share, 1e-3), 1.0 - 1e-3)
+    return share
 
 
 def _within_span(piece: Measured, near: Measured, t: Floats) -> Floats:

@@ -7,7 +7,6 @@ nothing else of the path is nearer to the place where it is met; every other gap
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -16,6 +15,7 @@ from core.geometry.aligned import aligned_pairs
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import distance
 from core.geometry.measured import Flags, Floats, Points, Rows, at, place, travelled
+from core.records import dataclass
 from core.tolerance import ON_PATH
 from core.verify.farthest import FINE, Farthest, farthest
 from core.verify.pairs import Pairs
@@ -183,7 +183,7 @@ def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: fl
     known[rest] = True
     grant = float(pairs.grant.max(initial=0.0))
     at_ends = np.where(pairs.centre.slack.any() or pairs.surface.slack.any(), -1, near[:, rest])
-    far = farthest(pairs.surface, gaps.keep(known), pairs.centre, at_ends, radius + grant)
+    far = farthest(pairs.surface, gaps.keep(known), pairs.centre, pairs.centre_boxes, at_ends, radius + grant)
     where, apart = bound.place.copy(), bound.apart.copy()
     where[rest], apart[rest] = far.place, far.apart
     return Farthest(where, apart)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from core.geometry.distance import foot
 from core.geometry.measured import Floats, Rows, at
 from core.geometry.path import Path
+from core.records import dataclass
 from core.tolerance import JOINED, ON_PATH
 from core.verify.pairs import Approaches, Pairs
 from core.verify.reach import Parts, Stretches, changes, joined, union, within

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from math import inf, isfinite, isinf, nan
 from typing import Final
 
@@ -12,6 +11,7 @@ import numpy as np
 from core.geometry.measured import Floats, Measured
 from core.geometry.path import Path
 from core.geometry.side import Side
+from core.records import dataclass
 from core.tolerance import CLOSED, GOUGE, LARGEST
 from core.verify.behind import behind, deepened
 from core.verify.beside import NOBODY, Beside, beside

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from core.geometry.distance import foot
 from core.geometry.measured import at
 from core.geometry.path import Path
 from core.geometry.piece import Point
+from core.records import dataclass
 from core.tolerance import GOUGE, ON_PATH
 from core.verify.course import courses
 from core.verify.judge import judgeable

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import ulp
 
 import numpy as np
@@ -10,6 +9,7 @@ import numpy as np
 from core.geometry.boxes import closest_pairs, near_pairs
 from core.geometry.distance import between, nearest_places
 from core.geometry.measured import Floats, Measured, Rows, blocks
+from core.records import dataclass
 from core.tolerance import UNCUT
 from core.verify.beside import NOBODY, Beside
 from core.verify.course import Course

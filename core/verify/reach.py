@@ -7,7 +7,6 @@ within the radius of the centre path) and moves away from the part.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -15,6 +14,7 @@ import numpy as np
 from core.geometry.boxes import nearest_boxes
 from core.geometry.distance import band_places, between, distance
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, blocks
+from core.records import dataclass
 from core.tolerance import ON_PATH
 
 FEW: Final = 400

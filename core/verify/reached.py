@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from core.geometry.distance import band_places, feet
 from core.geometry.measured import Floats, Rows
+from core.records import dataclass
 from core.tolerance import STOCK
 from core.verify.pairs import Pairs
 from core.verify.reach import Parts, Stretches, joined, within

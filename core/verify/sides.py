@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -10,6 +9,7 @@ import numpy as np
 from core.geometry.distance import foot
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place
 from core.geometry.side import Side
+from core.records import dataclass
 from core.tolerance import ARC_RADII, CLOSED, JOINED, ON_PATH
 from core.verify.crossing import Crossings, at_joints
 from core.verify.gouge import Gouging

@@ -6,13 +6,13 @@ piece travelled backwards, is a mistake worth seeing.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isinf
 
 import numpy as np
 
 from core.geometry.path import Path
 from core.geometry.piece import Point
+from core.records import dataclass
 from core.tolerance import GOUGE
 from core.verify.contact import backwards
 from core.verify.course import courses

@@ -7,7 +7,6 @@ all; both are seen from their ends.  The few others are told, and are left to `r
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from math import tau
 from typing import Final, NamedTuple
 
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 
 from core.geometry.distance import foot
 from core.geometry.measured import Flags, Floats, Measured, Rows
+from core.records import dataclass
 from core.tolerance import ON_PATH, STOCK
 from core.verify.columns import CENTRE, STRAIGHT, Columns, arc_to_arc, line_to_arc, lines_cross, middle, taken, to_piece
 from core.verify.course import Course
