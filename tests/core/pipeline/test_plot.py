@@ -55,7 +55,7 @@ def test_where_nothing_is_determined_no_cutter_is_drawn():
 
 def test_segments_that_are_not_determined_are_drawn_each_by_itself():
     arc = ArcSegment(Direction.CCW, x_end=Entry(-1.0), y_end=Entry(0.0), radius=Entry(2.0))
-    one = block([(0.0, 0.0), (1.0, 0.0)], CutterComp.LEFT)
+    one = block(((0.0, 0.0), (1.0, 0.0)), CutterComp.LEFT)
     found = derived(program(replace(one, segments=(*one.segments, arc))))
     choices = found.solved.segments[1].choices
     assert len(choices) > 1
