@@ -6,6 +6,7 @@ Imported only when the numeric library is loaded, after the first screen stands.
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -93,9 +94,8 @@ def _rows(picture: Picture) -> list[Row]:
     begins[:, 1:] = styles[:, 1:] != styles[:, :-1]
     # of all cells one behind the other: that is asked once for the picture, and not row by row
     heads = begins.reshape(-1).nonzero()[0]
-    starts, looks, rows = heads.tolist(), styles.reshape(-1)[heads].tolist(), list[list[Span]]()
-    for head, tail, style in zip(starts, [*starts[1:], len(text)], looks, strict=True):
-        if head % styles.shape[1] == 0:
-            rows.append([])
-        rows[-1].append(Span(text[head:tail], BY_STYLE[style]))
-    return [tuple(row) for row in rows]
+    starts, looks = heads.tolist(), styles.reshape(-1)[heads].tolist()
+    both = zip(starts, [*starts[1:], len(text)], looks, strict=True)
+    spans = [Span(text[head:tail], BY_STYLE[style]) for head, tail, style in both]
+    edges = (heads % styles.shape[1] == 0).nonzero()[0].tolist()
+    return [tuple(spans[first:behind]) for first, behind in pairwise([*edges, len(spans)])]
