@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from itertools import repeat
 from math import isinf
 from typing import Final
@@ -13,7 +12,7 @@ from core.geometry.stretch import stretch_lengths
 from core.tolerance import STOCK
 from core.verify.names import Names, by_number
 from core.verify.stray import Away, Stray
-from core.verify.verdict import Gouge, Uncut, Verdict
+from core.verify.verdict import Gouge, Uncut, UncutStretches, Verdict
 
 DIGIT: Final = 0.00254
 """Millimetres: the last digit of a form in inches."""
@@ -38,12 +37,11 @@ def findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple
     """
     if not verdict.judged:
         return (_unjudged(),)
-    uncut = tuple(verdict.uncut)
     return (
         *(_gouge(gouge, names, verdict.radius) for gouge in verdict.gouges),
         *_wrong_side(verdict),
         *_crosses_itself(verdict),
-        *map(_uncut, uncut, _shares(uncut, surface), repeat(surface)),
+        *map(_uncut, verdict.uncut, _shares(verdict.uncut, surface), repeat(surface)),
     )
 
 
@@ -149,9 +147,9 @@ def _uncut(uncut: Uncut, shares: Shares, surface: Path) -> Finding:
     )
 
 
-def _shares(uncut: Sequence[Uncut], surface: Path) -> list[Shares]:
+def _shares(uncut: UncutStretches, surface: Path) -> list[Shares]:
     """How much of each segment a stretch takes, in the contour's order; few enough to be read."""
-    parts = stretch_lengths(surface, [(one.first_number, one.start, one.last_number, one.end) for one in uncut])
+    parts = stretch_lengths(surface, uncut.ends)
     return [[one for one in part if one[1] > STOCK] if len(part) <= LISTED else [] for part in parts]
 
 
