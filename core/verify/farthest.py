@@ -3,7 +3,8 @@
 The distance to a path is the least of the distances to its pieces, so along a span it is bounded from above by
 the largest distance to any one of them, which has a formula, and from below by its value anywhere.  A span
 whose bound exceeds the best value found on its stretch is divided where its two ends' nearest pieces are
-equally far, until both agree within `FINE`: if no third piece is nearer there, that is at once.
+equally far, or where the one that is nearest to both is farthest, until both agree within `FINE`: if no other piece is
+nearer there, that is at once.
 """
 
 from __future__ import annotations
@@ -108,11 +109,12 @@ def farthest(
     search = _Search(walked, walked.stations, other, around, GOUGE + 2.0 * float(walked.slack.max(initial=0.0)))
     spans, best = _begin(search, stretches, near, ends)
     for turn in range(ROUNDS):
-        rows = (_bounds(search, spans) > best.apart[spans.owner] + FINE).nonzero()[0]
+        bounds, peaks = _bounds(search, spans)
+        rows = (bounds > best.apart[spans.owner] + FINE).nonzero()[0]
         if not len(rows):
             break
         spans = spans.take(rows)
-        share = _shares(search, spans) if turn % 3 < 2 else np.full(len(rows), 0.5)
+        share = _shares(search, spans, peaks[rows]) if turn % 3 < 2 else np.full(len(rows), 0.5)
         spans, best = _divide(search, spans, share, best)
     return best
 
@@ -155,28 +157,26 @@ def _better(best: Farthest, owner: Rows, s: Floats, apart: Floats) -> Farthest:
     return Farthest(where, size)
 
 
-def _bounds(search: _Search, spans: _Spans) -> Floats:
-    """What the distance cannot exceed on each span."""
+def _bounds(search: _Search, spans: _Spans) -> tuple[Floats, Floats]:
+    """What the distance cannot exceed on each span, and the share of it where the piece nearest to its beginning may be
+    farthest, any where that is at an end."""
     t, count = search.fractions(spans), len(spans.index)
     twice = np.concatenate((spans.index, spans.index))
     piece, near = search.walked.take(twice), search.other.take(spans.near.ravel())
     across = distance(near, at(piece, t[::-1].ravel()))
-    highest = np.maximum(_within_span(piece, near, np.concatenate((t, t), axis=1)), across)
+    highest, peaks = _within_span(piece, near, np.concatenate((t, t), axis=1))
+    np.maximum(highest, across, out=highest)
     np.maximum(highest, spans.apart.ravel(), out=highest)
-    bounds: Floats = np.minimum(highest[:count], highest[count:])
-    return bounds
+    return np.minimum(highest[:count], highest[count:]), (peaks[:count] - t[0]) / (t[1] - t[0])
 
 
-def _shares(search: _Search, spans: _Spans) -> Floats:
-    """Where to divide each span: the share of it at which the nearest pieces of its two ends are equally far, kept off
-    both ends.  One piece that is nearest to both is so from the beginning on."""
-    share = np.full(len(spans.index), LEAST_SHARE)
-    several = (spans.near[0] != spans.near[1]).nonzero()[0]
+def _shares(search: _Search, spans: _Spans, peaks: Floats) -> Floats:
+    """Where to divide each span, kept off both ends: at its peak if one piece is nearest to both."""
+    share, several = peaks, (spans.near[0] != spans.near[1]).nonzero()[0]
     if len(several):
-        met = _equally_far(search, spans.take(several))
-        met[np.isnan(met)] = 0.5
-        share[several] = np.minimum(np.maximum(met, LEAST_SHARE), 1.0 - LEAST_SHARE)
-    return share
+        share[several] = _equally_far(search, spans.take(several))
+    share[np.isnan(share)] = 0.5
+    return np.minimum(np.maximum(share, LEAST_SHARE), 1.0 - LEAST_SHARE)
 
 
 def _equally_far(search: _Search, spans: _Spans) -> Floats:
@@ -195,14 +195,16 @@ def _equally_far(search: _Search, spans: _Spans) -> Floats:
     return share
 
 
-def _within_span(piece: Measured, near: Measured, t: Floats) -> Floats:
-    """Largest distance to one nearest piece at the places inside the span `t` (2, m) where it can be largest."""
+def _within_span(piece: Measured, near: Measured, t: Floats) -> tuple[Floats, Floats]:
+    """Largest distance to one nearest piece at the places inside the span `t` (2, m) where it can be largest, and the
+    place, if there is one."""
     places = farthest_places(piece, near)
     inside = (places > t[0]) & (places < t[1])
     if not inside.any():
-        return np.zeros(len(piece))
-    bound: Floats = np.max(np.where(inside, between(piece, near, places), 0.0), axis=0)
-    return bound
+        return np.zeros(len(piece)), t[0]
+    apart = np.where(inside, between(piece, near, places), 0.0)
+    best, each = apart.argmax(axis=0), np.arange(len(piece))
+    return apart[best, each], places[best, each]
 
 
 def _divide(search: _Search, spans: _Spans, share: Floats, best: Farthest) -> tuple[_Spans, Farthest]:

@@ -1,0 +1,36 @@
+"""Where a path is farthest from another one, by a search that is over as soon as one piece is the nearest."""
+
+from __future__ import annotations
+
+from math import asin
+
+import numpy as np
+import pytest
+
+from core.geometry.bounds import boxes
+from core.geometry.measured import measured
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Turn
+from core.verify import farthest as module
+from core.verify.farthest import farthest
+from core.verify.reach import Stretches
+from tests.core.verify.shapes import lines
+
+
+@pytest.mark.parametrize("begin", [-3.0, -2.0, -0.1])
+@pytest.mark.parametrize("floor", [lines((-10, 0), (10, 0)), lines((-10, 0), (-2.5, 0), (2.5, 0), (10, 0))])
+def test_the_top_of_an_arc_is_found_at_once(begin: float, floor: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One wall is nearest to both ends of what is left: it knows itself where it is farthest."""
+    monkeypatch.setattr(module, "ROUNDS", 4)
+    walked = measured(Path.from_pieces([Arc((begin, (25 - begin**2) ** 0.5 - 3.0), (3.0, 1.0), (0.0, -3.0), Turn.CW)]))
+    other, whole = measured(floor), Stretches(np.zeros(1), walked.length)
+    far = farthest(walked, whole, other, boxes(other), np.full((2, 1), -1), np.inf)
+    assert far.apart.item() == pytest.approx(2.0, abs=1e-14)
+    assert far.place.item() == pytest.approx(5.0 * asin(-begin / 5.0), abs=1e-9)
+
+
+def test_between_two_walls_it_is_where_both_are_as_far(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "ROUNDS", 2)
+    walked, other = measured(lines((0, 0), (4, 0))), measured(lines((-1, -1), (-1, 9), (5, 9), (5, -1)))
+    far = farthest(walked, Stretches(np.zeros(1), walked.length), other, boxes(other), np.full((2, 1), -1), np.inf)
+    assert (far.place.item(), far.apart.item()) == pytest.approx((2.0, 3.0), abs=1e-12)
