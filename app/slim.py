@@ -54,6 +54,7 @@ def read(parameters: str) -> Style:
     return Style(frozenset(attributes), ink, paper)
 
 
+@lru_cache(512)
 def change(now: Style, then: Style) -> str:
     """What makes one style of another."""
     if now == then:
