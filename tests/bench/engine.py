@@ -25,13 +25,11 @@ from core.verify.judge import judge
 from tests.bench import peers
 from tests.bench.families import FAMILIES, Work, gear
 from tests.bench.keys import gear as typed_gear
-from tests.bench.pace import pace
+from tests.bench.pace import RS274_SECONDS, SEGMENTS, pace
 
 LOOKAHEAD: Final = 8
 SIZES: Final = (10, 100, 1_000, 10_000, 100_000)
 OURS: Final = ("control path", "verdict", "best path")
-RS274_SECONDS: Final = 0.7
-"""What rs274 took for the gear of 100,000 segments where the bars in milliseconds were set."""
 LEAST_SECONDS: Final = 0.002
 """A measurement repeats what is quicker until it has taken so long."""
 
@@ -183,7 +181,7 @@ def small(rounds: int, slower: float | None) -> None:
 
 def slowness(row: Mapping[str, float], count: int) -> float | None:
     """How many times slower than there this machine is, by rs274's own time for the gear; None where it did not run."""
-    if count != SIZES[-1] or "rs274" not in row:
+    if count != SEGMENTS or "rs274" not in row:
         return None
     return row["rs274"] / (1000.0 * RS274_SECONDS)
 

@@ -34,7 +34,7 @@ from pathlib import Path
 from core.program.edit import new_block
 from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, Program, Segment, Tool
 from core.program.store import save
-from tests.bench.pace import pace
+from tests.bench.pace import witnessed
 from tests.bench.work import at_work, worked
 from tests.terminal import Terminal, running
 
@@ -259,7 +259,7 @@ def main() -> None:
     parser.add_argument("--starts", type=int, default=9, help="starts of the empty app and of ours")
     parser.add_argument("--keys", type=int, default=6, help="keys of each kind")
     options = parser.parse_args()
-    print(pace())
+    print(witnessed())
     with tempfile.TemporaryDirectory() as folder:
         program = Path(folder) / "gear.toml"
         save(gear(200), program)
@@ -273,7 +273,7 @@ def main() -> None:
     for contour, name, number in ((plate(), "plate", 105), (gear(200), "gear", 101)):
         for row in rows_of(contour, name, number, options.keys):
             print(row, flush=True)
-        print(pace())
+        print(witnessed())
 
 
 def _ends(program: Program, number: int) -> tuple[float, float]:
