@@ -75,12 +75,13 @@ def _worked(found: DerivedBlock, program: Program) -> Work:
 def _told(found: DerivedBlock, work: Work, program: Program) -> DerivedBlock:
     """The block with its paths, and with what is to be said of them."""
     assert found.radius is not None
-    trouble: tuple[Finding, ...] = ()
+    closed, trouble, back = found.solved.closed, tuple[Finding, ...](), tuple[Finding, ...]()
     if work.verdict is not None:
-        back = turning_back(work.surface, closed=found.solved.closed)
-        trouble = (*path_findings(work), *size_warning(found.radius, work.surface), *back)
-    trouble += open_finding(work.surface, 2 * found.radius, closed=found.solved.closed)
-    return _checked(replace(found, work=work, findings=by_weight((*found.findings, *trouble))), program)
+        # what is typed wrong comes before what follows from it
+        back = turning_back(work.surface, closed=closed)
+        trouble = (*path_findings(work), *size_warning(found.radius, work.surface))
+    trouble += open_finding(work.surface, 2 * found.radius, closed=closed)
+    return _checked(replace(found, work=work, findings=by_weight((*back, *found.findings, *trouble))), program)
 
 
 def _checked(found: DerivedBlock, program: Program) -> DerivedBlock:

@@ -30,5 +30,5 @@ def _turned(surface: Path, row: int, behind: int) -> Finding:
     before, number = f"{surface.numbers[row]:g}", float(surface.numbers[behind])
     arcs = bool(surface.turns[row] or surface.turns[behind])
     check = "its DIRECTION and its end" if arcs else "its end"
-    text = f"Segment {number:g} begins straight back along segment {before}, at X {{x}} Y {{y}}. Check {check}."
+    text = f"It begins straight back along segment {before}, at X {{x}} Y {{y}}. Check {check}."
     return Finding("TURNS_BACK", Severity.WARNING, text, number, at=tuple(surface.points[row + 1].tolist()))

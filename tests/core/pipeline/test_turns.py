@@ -51,9 +51,10 @@ def test_it_is_a_warning_beside_the_path_that_names_the_place_and_what_to_do() -
     (found,) = derive(program(block(((0, 0), (2, 0), (1, 0), (1, 3)), CutterComp.LEFT))).blocks
     (one,) = (one for one in found.findings if one.code == "TURNS_BACK")
     assert one.severity is Severity.WARNING
-    assert sentence(one, Unit.IN) == (
-        "Segment 2 begins straight back along segment 1, at X 2.0000 Y 0.0000. Check its end."
-    )
+    assert sentence(one, Unit.IN) == "It begins straight back along segment 1, at X 2.0000 Y 0.0000. Check its end."
+    warnings = [told for told in found.findings if told.severity is Severity.WARNING]
+    assert warnings[0] == one
+    assert {told.code for told in warnings[1:]} == {"PLUNGE_FED", "CROSSES_ITSELF"}
 
 
 def test_where_the_centre_runs_on_the_contour_it_may() -> None:
