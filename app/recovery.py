@@ -171,7 +171,8 @@ def _told(keeping: Keeping, session: Session, path: Path, found: Recovered) -> l
     ]
     stamp, base = session.guard.stamp, found.head.stamp
     if session.file is not None and stamp is not None and (base is None or not stamp.same_content(base)):
-        lines.append(f"The file was written by somebody else since, {times.told(times.of(stamp.changed), today)}.")
+        who = "by somebody else, or by this program just before its end"
+        lines.append(f"The file was written since, {times.told(times.of(stamp.changed), today)}: {who}.")
     if alive(owner) and owner != keeping.me:
         lines.append("The other terminal may still be in use: who sits there can go on typing, and is told at saving.")
     if not _own(keeping, path, found):

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 
 UNREADABLE: Final = "It is no program any more."
+AS_OPENED: Final = "It holds the same program as when it was opened here."
 
 
 def asked(desk: Desk, path: Path, message: Save) -> Desk | None:
@@ -98,7 +99,8 @@ def _changed(desk: Desk, path: Path, message: Save) -> Desk | None:
     mine = beside(path, "mine", today)
     name, when, theirs = printable(path.name), times.told(times.of(now.changed), today), _theirs(desk.session, path)
     title, label = "CHANGED MEANWHILE", "THEIRS"
-    told = (f"{name} was changed by somebody else {when}.", *shortened(theirs or (UNREADABLE,))[:2])
+    differing = (UNREADABLE,) if theirs is None else theirs or (AS_OPENED,)
+    told = (f"{name} was changed by somebody else {when}.", *shortened(differing)[:2])
     if stamp is None and theirs is None:
         # nobody need have changed it: it could not be read when it was opened
         title, label = "REPLACE THE FILE?", "THE FILE AS IT IS"

@@ -63,12 +63,12 @@ class Terminal:
             self.stream.feed(data)
         return Answer(count, first, last)
 
-    def until(self, text: str, *, longest: float = 10.0) -> float:
-        """Seconds until `text` stands on the screen; AssertionError with the screen if it never does."""
+    def until(self, *texts: str, longest: float = 10.0) -> float:
+        """Seconds until one of `texts` stands on the screen; AssertionError with the screen if none ever does."""
         begun = time.perf_counter()
-        while text not in self.text:
+        while not any(text in self.text for text in texts):
             if time.perf_counter() - begun > longest:
-                raise AssertionError(f"{text!r} did not appear:\n{self.text}")
+                raise AssertionError(f"{' or '.join(texts)} did not appear:\n{self.text}")
             self.read(quiet=0.02, longest=0.02)
         return time.perf_counter() - begun
 

@@ -19,9 +19,12 @@ def test_a_file_written_by_another_since_the_crash_is_told_and_kept(own: Path, p
     started(own, part).press("tab").type("7").killed()
     part.write_text(dumps(load(example("notch"))))
     operator = started(own, part)
-    assert "The file was written by somebody else since" in asked(operator)
+    assert "by somebody else, or by this program just before its end" in asked(operator)
     operator.press("r", "ctrl+s")
     assert "CHANGED MEANWHILE" in operator.part("header")
+    told = " ".join(operator.part("body").split())
+    assert "It holds the same program as when it was opened here." in told
+    assert "no program" not in told
     assert load(part) == load(example("notch"))
 
 

@@ -171,10 +171,18 @@ def restored(terminal: Terminal, *, offered: bool) -> None:
 
 
 def compared(part: Part, terminal: Terminal, tally: Tally) -> None:
-    """Saved by the real program, what came back is what the desk in memory has."""
+    """Saved by the real program, what came back is what the desk in memory has.
+
+    Killed behind a save and before its journal says so, it asks: the file is not the one that the journal is about.
+    """
     terminal.send(b"\x13")
     part.press("ctrl+s")
-    terminal.until("Saved")
+    terminal.until("Saved", "CHANGED MEANWHILE")
+    if "CHANGED MEANWHILE" in terminal.text:
+        tally.moments["killed between a save and its journal"] += 1
+        assert "It holds the same program as when it was opened here." in " ".join(terminal.text.split())
+        terminal.send(b"y")
+        terminal.until("Saved")
     if load(part.file) != part.states[-1].program:
         lose(part, tally, History(load(part.file)))
 
