@@ -43,6 +43,19 @@ def test_the_last_segment_meets_the_first_where_the_contour_is_closed() -> None:
     assert turned(*pieces, closed=True) == [1.0]
 
 
+def test_where_scallops_meet_they_may() -> None:
+    scallops = [Arc((2 * k, 0), (2 * k + 2, 0), (2 * k + 1, 0), Turn.CW) for k in range(3)]
+    assert turned(*scallops) == []
+    assert turned(Line((0, -1), (0, 0)), *scallops) == []
+    assert turned(Line((0, 1), (0, 0)), *scallops) == [2.0]
+
+
+def test_the_arc_is_named_whichever_of_the_two_it_is() -> None:
+    path = Path.from_pieces(rounded(Turn.CW), [1.0, 2.0, 3.0])
+    told = [sentence(one, Unit.MM).partition("Check ")[2] for one in turning_back(path, closed=False)]
+    assert told == ["its DIRECTION and its end.", "DIRECTION of segment 2."]
+
+
 def test_a_circle_does_not() -> None:
     assert turned(Arc((1, 0), (1, 0), (0, 0), Turn.CCW), closed=True) == []
 
