@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, assert_never
 from app.files import empty_program, examples, is_nc, opened
 from app.folders import asking, chosen, outside, told_path, written_at
 from app.messages import Browse, Close, Do, Leave, Load, Open, Post, Save, Say, Swap
-from app.naming import with_suffix
+from app.naming import is_folder, with_suffix
 from app.patience import FILE, within
 from app.saving import asked, leads_elsewhere, put_theirs_aside, replacing, there
 from app.screens.ask import Ask, Option
@@ -136,6 +136,8 @@ def _post(desk: Desk, message: Post) -> Desk:
         refuse_program(path)
     except StoreError as error:
         return _failed(desk, error)
+    if is_folder(path):
+        return _failed(desk, f"{told_path(path)} is not written: this is a folder. Type a file's name.")
     question = _before_posting(desk.session.file, path, message)
     if question is not None and message.clear:
         return desk.take(Open(question))

@@ -7,7 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from app.files import example
 from app.naming import is_folder, typed, with_suffix
+from core.pipeline.derive import derive
+from core.program.store import load
 from tests.app.operator import Operator
 
 LONG = "中" * 100
@@ -52,4 +55,8 @@ def test_what_is_wrong_with_a_name_is_said(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.chdir(tmp_path)
     assert "the name is too long" in Operator.at().press("f8", "ctrl+s", *LONG, "enter").said
     assert "this is a folder" in Operator.at().press("f8", "ctrl+s", "/", "enter").said
+    for keys in (("f6",), ("f6", "f5")):
+        operator = Operator.at(load(example("pocket")))
+        operator.desk = operator.desk.knowing(derive(operator.session.program))
+        assert "this is a folder" in operator.press("f8", *keys, "delete", "/", "f1").said
     assert "no such file" in Operator.at().press("f8", "ctrl+s", *"~nobody_at_all/x", "enter").said
