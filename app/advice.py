@@ -80,7 +80,7 @@ class Advice:
     def _keep(self, found: DerivedBlock, program: Program) -> None:
         """The table, and small notes with it: a picture for each of the two takes longer than they do."""
         self.app.engine.keep_table(found, program)
-        if self.app.engine.fast("notes", part=SMALL):
+        if "notes" in self.app.engine.took and self.app.engine.fast("notes", part=SMALL):
             self.app.engine.keep_notes(found)
 
     def _note(self) -> None:
