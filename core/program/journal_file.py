@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
 SUFFIX: Final = ".cutcomp-journal"
 
+NAMELESS: Final[int] = getattr(os, "O_TMPFILE", 0)
+"""Opens a file without a name in a folder; 0 where the system has none."""
+
 LARGEST_KEPT: Final = 1_000_000
 """Bytes of a journal that is kept in memory over a save; of a longer one undo behind the next crash ends there."""
 
@@ -77,19 +80,48 @@ class JournalFile:
                 self.aside = set_aside(self.path, "kept")
             else:
                 self.path.unlink()
+        handle = self._filled_first()
+        if handle is None:
+            handle = self._named_first()
+        sync_folder(self.path.parent)
+        self.handle, self.length, self.unwritten = handle, len(self.unwritten), b""
+
+    def _filled_first(self) -> int | None:
+        """A file that has its name when all is in it; None where the file system has no files without a name.
+
+        Behind a save it begins with all that the one before held: the first half of it would be older work, and would
+        be offered instead of what was saved.
+        """
+        if not NAMELESS:
+            return None
+        try:
+            handle = os.open(self.path.parent, NAMELESS | os.O_RDWR | os.O_APPEND | os.O_CLOEXEC, 0o600)
+        except OSError:
+            return None
+        try:
+            self._fill(handle)
+            _name(handle, self.path)
+        except OSError:
+            os.close(handle)
+            return None
+        return handle
+
+    def _named_first(self) -> int:
         handle = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_APPEND | os.O_CLOEXEC, 0o600)
         try:
-            if self.program is not None:
-                _share(handle, self.program)
-            write_all(handle, self.unwritten)
-            os.fsync(handle)
+            self._fill(handle)
         except OSError:
             os.close(handle)
             with suppress(OSError):
                 self.path.unlink()
             raise
-        sync_folder(self.path.parent)
-        self.handle, self.length, self.unwritten = handle, len(self.unwritten), b""
+        return handle
+
+    def _fill(self, handle: int) -> None:
+        if self.program is not None:
+            _share(handle, self.program)
+        write_all(handle, self.unwritten)
+        os.fsync(handle)
 
     def replace(self, records: Iterable[Record]) -> None:
         """Put a shorter journal in the place of this one, in one step; StoreError leaves the long one."""
@@ -185,6 +217,16 @@ def set_aside(path: Path, why: str) -> Path:
     path.rename(aside)
     sync_folder(aside.parent)
     return aside
+
+
+def _name(handle: int, path: Path) -> None:
+    """Give an open file without a name this one; OSError where it is taken."""
+    folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    try:
+        # only with a folder it is the file that is named, and not the link to it in /proc
+        os.link(f"/proc/self/fd/{handle}", path.name, dst_dir_fd=folder, follow_symlinks=True)
+    finally:
+        os.close(folder)
 
 
 def _share(handle: int, program: Path) -> None:

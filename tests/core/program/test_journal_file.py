@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from pathlib import Path
 
@@ -44,6 +45,55 @@ def test_a_journal_is_as_readable_as_its_program(tmp_path: Path) -> None:
     file = JournalFile(journal_path(program), program=program)
     file.add([head_record(HEAD, PART, CURSOR)])
     assert journal_path(program).stat().st_mode & 0o777 == 0o664
+
+
+class Killed(BaseException):
+    """The program ends here, whatever it is doing."""
+
+
+def test_a_journal_that_begins_with_all_of_the_one_before_is_there_whole_or_not_at_all(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = begun(tmp_path / "j")
+    history = add(file, History(PART), typed(2.0))
+    assert file.put_away()
+
+    def half(handle: int, data: bytes) -> None:
+        os.write(handle, data[: len(data) // 2])
+        raise Killed
+
+    monkeypatch.setattr("core.program.journal_file.write_all", half)
+    with pytest.raises(Killed):
+        add(file, history, typed(3.0))
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("nameless", [0, None])
+def test_where_files_have_their_name_first_it_is_the_same_journal(
+    nameless: int | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if nameless is not None:
+        monkeypatch.setattr("core.program.journal_file.NAMELESS", nameless)
+    file = begun(tmp_path / "j")
+    history = add(file, History(PART), typed(2.0))
+    assert read((tmp_path / "j").read_bytes()).history == history
+    assert file.standing() == tmp_path / "j"
+    assert (tmp_path / "j").stat().st_mode & 0o777 == 0o600
+
+
+def test_a_full_disk_leaves_no_half_journal(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(handle: int, data: bytes) -> None:
+        os.write(handle, data[:1])
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    file = JournalFile(tmp_path / "j")
+    with monkeypatch.context() as patch:
+        patch.setattr("core.program.journal_file.write_all", full)
+        with pytest.raises(OSError, match="No space"):
+            file.add([head_record(HEAD, PART, CURSOR)])
+    assert list(tmp_path.iterdir()) == []
+    file.add([])
+    assert read((tmp_path / "j").read_bytes()).history == History(PART)
 
 
 @pytest.mark.skipif(os.getuid() != 0, reason="only root may give a file to a group it is not in")
