@@ -106,10 +106,18 @@ def of_file(file: Path, own: Path) -> Iterator[Path]:
 def never_saved(folder: Path, own: Path) -> list[Path]:
     """The programs of a folder that have no file yet, of which there is a journal; OSError where it cannot be read."""
     beside = [folder / path.name[1:].removesuffix(SUFFIX) for path in folder.iterdir() if path.name.endswith(SUFFIX)]
-    there = [path for path in beside if journal_path(path).exists()]
+    there = [path for path in beside if _holds(journal_path(path))]
     named = ((path, path.name.removesuffix(SUFFIX).rpartition("-")[0]) for path in _inside(own))
-    there += [folder / name for path, name in named if elsewhere(folder / name, own) == path]
+    there += [folder / name for path, name in named if elsewhere(folder / name, own) == path and _holds(path)]
     return sorted({path for path in there if path.suffix == ".toml" and not path.exists()})
+
+
+def _holds(path: Path) -> bool:
+    """Whether there is something in a file."""
+    try:
+        return path.stat().st_size > 0
+    except OSError:
+        return False
 
 
 def _offered(path: Path) -> bool:

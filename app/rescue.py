@@ -20,5 +20,8 @@ def rescued(path: Path, error: StoreError, earlier: Path | None = None) -> Sessi
     dead = (found for _, found in places.left(path, places.own_folder(), user()) if not alive(found.head.owner))
     wanted = None if earlier is None else places.read(earlier)
     if (found := wanted or next(dead, None)) is None:
+        if not path.exists() and any(places.found_of(path, places.own_folder())):
+            # never saved, and what was left of it cannot be read: that is said on an empty program
+            return Session.of(empty_program(), path)
         raise error
     return Session.of(empty_program(found.history.program.unit), path)

@@ -86,7 +86,10 @@ def _without_file(path: Path) -> Facts:
         if any(not alive(found.head.owner) for found in works):
             return _left(gone)
         if works:
-            return replace(gone, word="open", trouble="Somebody is typing this program and has not saved it yet.")
+            return replace(gone, word="open", trouble="This program is open and has not been saved yet.")
+        if any(places.found_of(path, places.own_folder())):
+            told = "Unsaved work on this program was left behind and cannot be read. It is kept; opening it says where."
+            return replace(gone, word="unreadable", trouble=told)
     return gone
 
 

@@ -17,7 +17,6 @@ from app.session import Session
 from app.settings import Settings, taken_up
 from app.starting import begun, first_folder
 from app.survey import Facts, facts_of
-from core.program.journal_file import SUFFIX
 from core.program.store import load, save
 from core.units import Unit
 from tests.app.kept import ELSEWHERE, started
@@ -203,38 +202,6 @@ def test_work_left_behind_on_a_named_file_stands_in_the_list(
     assert facts_of(path, left) == left
     started(own, path).press("d", "y").keeping.leave()
     assert facts_of(path, left).word == "GOUGE"
-
-
-@pytest.mark.parametrize("closed", [False, True])
-def test_work_left_behind_on_a_program_that_was_never_saved_stands_in_the_list(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, *, closed: bool
-) -> None:
-    own = folder / "own"
-    monkeypatch.setattr("app.places.own_folder", lambda: own)
-    path = folder / "flap.toml"
-    if closed:
-        monkeypatch.setattr("os.access", lambda *_: False)
-    started(own, path).press("tab").type("7").killed()
-    (folder / f".lost.nc{SUFFIX}").write_text("an NC program's own")
-    operator = looked(at_start())
-    assert [line.split() for line in lines(operator)[3:5]] == [
-        ["flap", "not", "saved"],
-        ["notch", "2001-09-09", "1", "1", "GOUGE"],
-    ]
-    assert "Opening it asks whether you want it back" in operator.said
-    assert "never saved: flap.toml" in operator.press("f4").part("body")
-    back = started(own, path).press("r")
-    back.press("ctrl+s").keeping.leave()
-    assert facts_of(path).word == "not ready"
-    assert [entry.name for entry in page(at_start()).entries].count("flap") == 1
-
-
-def test_a_program_that_somebody_types_and_has_not_saved_is_open(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    own = folder / "own"
-    monkeypatch.setattr("app.places.own_folder", lambda: own)
-    started(own, folder / "flap.toml", ELSEWHERE).press("tab").type("7")
-    assert facts_of(folder / "flap.toml").word == "open"
-    assert "flap" in {entry.name for entry in page(at_start()).entries}
 
 
 def test_work_that_goes_on_elsewhere_is_none_that_was_left(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
