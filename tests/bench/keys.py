@@ -5,6 +5,7 @@ side by side.  Keys are typed into two contours of 200 segments: a plate whose e
 gear none of whose 50 gaps it enters, where every remedy is tried after every change.
 
 Times are milliseconds; `work` is how long the program ran in them, which a busy machine changes little.
+`there` is the work of both as it would be where the bars were set, by what rs274 takes before these rows.
 `changed` is the time from the key to the first screen that shows the derived path, `finished` that to the last byte:
 by then the look-ahead table stands, and what the contour needs.  Where half-typed numbers are tried out in a thread,
 `changed` is the screen with the digit, on which the accepted path still stands: then only `finished` tells the rest.
@@ -34,7 +35,7 @@ from pathlib import Path
 from core.program.edit import new_block
 from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, Program, Segment, Tool
 from core.program.store import save
-from tests.bench.pace import witnessed
+from tests.bench.pace import slowness, witnessed
 from tests.bench.work import at_work, worked
 from tests.terminal import Terminal, running
 
@@ -210,13 +211,14 @@ def tabs_and_idle(program: Program, count: int) -> tuple[list[Answer], int]:
         return answers, terminal.read(quiet=IDLE, longest=IDLE).count
 
 
-def report(name: str, answers: list[Answer]) -> str:
-    """One line of the table: milliseconds and bytes, median and 95th percentile."""
+def report(name: str, answers: list[Answer], slower: float | None = None) -> str:
+    """One line of the table: milliseconds and bytes, median and 95th percentile; then the work as it would be there."""
     times = ((one.changed, one.work[0], one.finished, one.work[1]) for one in answers)
-    told = (_middle_and_high([1000 * value for value in column]) for column in zip(*times, strict=True))
+    told = [_middle_and_high([1000 * value for value in column]) for column in zip(*times, strict=True)]
     sizes = _middle_and_high([float(one.count) for one in answers])
-    columns = "".join(f"{middle:8.1f}{high:7.1f}" for middle, high in told)
-    return f"{name:<33}{columns}{sizes[0]:7.0f}{sizes[1]:6.0f}{len(answers):5}"
+    there = [] if slower is None else [(middle / slower, high / slower) for middle, high in told[1::2]]
+    here, beyond = ("".join(f"{middle:8.1f}{high:7.1f}" for middle, high in columns) for columns in (told, there))
+    return f"{name:<33}{here}{sizes[0]:7.0f}{sizes[1]:6.0f}{len(answers):5}{beyond}"
 
 
 def _middle_and_high(values: list[float]) -> tuple[float, float]:
@@ -234,22 +236,22 @@ def line_keys(program: Program, number: int) -> Iterator[bytes]:
     yield b"\t"
 
 
-def rows_of(program: Program, name: str, number: int, count: int) -> Iterator[str]:
+def rows_of(program: Program, name: str, number: int, count: int, slower: float | None) -> Iterator[str]:
     """The table of one program, `count` keys of each kind; `number` is a LINE whose X END is moved to and fro."""
     x, _ = _ends(program, number)
     digits = [str(digit % 10).encode() for digit in range(count)]
-    yield report(f"{name}: a digit of TOOL", key_answers(program, [b"\t"], digits))
+    yield report(f"{name}: a digit of TOOL", key_answers(program, [b"\t"], digits), slower)
     there = [str(number).encode(), b"\r", b"\t"]
     typed = [key for digit in digits for key in (digit, b"\x7f")]
-    yield report(f"{name}: a digit of X END", key_answers(program, [*there, str(x).encode()], typed)[::2])
+    yield report(f"{name}: a digit of X END", key_answers(program, [*there, str(x).encode()], typed)[::2], slower)
     tabs, idle = tabs_and_idle(program, count)
-    yield report(f"{name}: Tab", tabs)
+    yield report(f"{name}: Tab", tabs, slower)
     depths = [key for row in range(count) for key in (f"-.{row + 26}".encode(), b"\r", b"\x1b[A")]
-    yield report(f"{name}: Enter, another Z BOTTOM", key_answers(program, [b"\t"] * 7, depths)[1::3])
+    yield report(f"{name}: Enter, another Z BOTTOM", key_answers(program, [b"\t"] * 7, depths)[1::3], slower)
     points = [key for row in range(count) for key in (f"{x + 0.004 * (row % 5 + 1):.4f}".encode(), b"\r", b"\x1b[A")]
-    yield report(f"{name}: Enter, another X END", key_answers(program, there, points)[1::3])
+    yield report(f"{name}: Enter, another X END", key_answers(program, there, points)[1::3], slower)
     lines = [key for line in range(max(1, count // 3)) for key in line_keys(program, number + 4 * line)]
-    yield report(f"{name}: a LINE as it is typed", key_answers(program, there, lines))
+    yield report(f"{name}: a LINE as it is typed", key_answers(program, there, lines), slower)
     yield f"{f'{name}: idle for {IDLE:.0f} s':<93}{idle:7}"
 
 
@@ -259,7 +261,8 @@ def main() -> None:
     parser.add_argument("--starts", type=int, default=9, help="starts of the empty app and of ours")
     parser.add_argument("--keys", type=int, default=6, help="keys of each kind")
     options = parser.parse_args()
-    print(witnessed())
+    slower = slowness()
+    print(witnessed(slower))
     with tempfile.TemporaryDirectory() as folder:
         program = Path(folder) / "gear.toml"
         save(gear(200), program)
@@ -269,11 +272,13 @@ def main() -> None:
         return
     print(
         f"{'median and 95th percentile':<33}{'changed':>15}{'work':>15}{'finished':>15}{'work':>15}{'bytes':>13}    n"
+        f"{'there':>15}{'there':>15}"
     )
     for contour, name, number in ((plate(), "plate", 105), (gear(200), "gear", 101)):
-        for row in rows_of(contour, name, number, options.keys):
+        for row in rows_of(contour, name, number, options.keys, slower):
             print(row, flush=True)
-        print(witnessed())
+        slower = slowness()
+        print(witnessed(slower))
 
 
 def _ends(program: Program, number: int) -> tuple[float, float]:

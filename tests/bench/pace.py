@@ -25,19 +25,24 @@ def pace() -> str:
     return f"Python {platform.python_version()}: {STEPS} additions in {took:.1f} ms"
 
 
-def witnessed() -> str:
-    """The pace, and that of rs274, which is no Python, beside the machine the bars were set on; where it is installed.
+def slowness() -> float | None:
+    """How many times slower rs274, which is no Python, is here and now than where the bars were set; None without it.
 
     A time in milliseconds divided by it is what that machine would take.
     """
     with tempfile.TemporaryDirectory() as folder:
         process = peers.interpreter(gear(SEGMENTS), File(folder))
         if process is None:
-            return pace()
+            return None
         begun = time.perf_counter()
         process()
-        took = time.perf_counter() - begun
-    return f"{pace()}; rs274 takes {took / RS274_SECONDS:.1f} times what it took where the bars were set"
+        return (time.perf_counter() - begun) / RS274_SECONDS
+
+
+def witnessed(slower: float | None) -> str:
+    """The pace, with that of rs274 where it is known."""
+    beside = "" if slower is None else f"; rs274 takes {slower:.1f} times what it took where the bars were set"
+    return f"{pace()}{beside}"
 
 
 def _loop() -> float:
