@@ -4,11 +4,11 @@ The empty Textual app is started in turn with the program, so that both see the 
 side by side.  Keys are typed into two contours of 200 segments: a plate whose every corner the tool reaches, and a
 gear none of whose 50 gaps it enters, where every remedy is tried after every change.
 
-Times are milliseconds; `work` is how long the program ran in them, which a busy machine changes little.
-`changed` is the time from the key to the first screen that shows the derived path, `finished` that to the last byte:
-by then the look-ahead table stands, and what the contour needs.  `there` is the work of the one and of the other as it
-would be where the bars were set, by what rs274 takes before these rows.  Where half-typed numbers are tried out in a
-thread, `changed` is the screen with the digit, on which the accepted path still stands: then only `finished` tells the rest.
+Times are milliseconds; `work` is how long the program ran in them, which a busy machine changes little.  `changed` is
+the time from the key to the first screen that shows the derived path, `finished` that to the last byte: by then the
+look-ahead table stands, and what the contour needs.  `there` is the work of the one and of the other as it would be
+where the bars were set, by what rs274 takes before these rows.  Where half-typed numbers are tried out in a thread,
+`changed` is the screen with the digit, on which the accepted path still stands: then only `finished` tells the rest.
 The next key is typed when the program is at rest: no byte comes and none of its threads has run for a while.  So what
 would help has been tried for a half-typed number before Enter, as for an operator who looks at the screen; behind keys
 without a rest it follows Enter.  `idle` are the bytes sent while nobody types, which must be 0.
