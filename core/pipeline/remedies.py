@@ -22,7 +22,7 @@ from core.geometry.piece import Arc, Piece, Point
 from core.pipeline.beginning import FEWEST, Walls, gouge_at_once, gouging
 from core.pipeline.table import Row, Trial, table_of
 from core.tolerance import CLOSED
-from core.verify.judge import judge_all
+from core.verify.judge import rulings
 
 STEP: Final = 0.001
 """Millimetres to which the largest diameter is found."""
@@ -211,8 +211,8 @@ class Cuts:
 
     def _rows(self, paths: list[Compensated]) -> list[Row]:
         trial, wholes = self._trial, [one.whole for one in paths]
-        verdicts = judge_all(trial.surface, trial.side, trial.radius, wholes, trial.ground) if paths else ()
-        return [Row(one.lookahead, one, verdict) for one, verdict in zip(paths, verdicts, strict=True)]
+        found = rulings(trial.surface, trial.side, trial.radius, wholes, trial.ground) if paths else ()
+        return [Row(one.lookahead, one, ruling) for one, ruling in zip(paths, found, strict=True)]
 
 
 def _steps(diameter: float) -> int:

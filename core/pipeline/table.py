@@ -19,7 +19,8 @@ from core.pipeline.compensation import parameter
 from core.pipeline.derive import stocks
 from core.pipeline.derived import DerivedBlock
 from core.program.model import Program
-from core.verify.judge import Ground, judge_all
+from core.verify.judge import Ground, rulings
+from core.verify.ruling import Ruling
 from core.verify.verdict import Verdict
 
 
@@ -29,18 +30,23 @@ class Row:
 
     value: int
     compensated: Compensated
-    verdict: Verdict
-    rough: tuple[Verdict, ...] = ()
+    ruling: Ruling
+    rough: tuple[Ruling, ...] = ()
+
+    @property
+    def verdict(self) -> Verdict:
+        """All there is to say of the finish path."""
+        return self.ruling.verdict
 
     @property
     def clean(self) -> bool:
         """There is a path, and neither it nor a roughing pass gouges anything."""
-        return len(self.compensated.path) > 0 and self.verdict.clean and all(one.clean for one in self.rough)
+        return len(self.compensated.path) > 0 and self.ruling.clean and all(one.clean for one in self.rough)
 
     @property
     def gouge(self) -> float:
         """Depth of the deepest gouge, roughing passes included, 0 for none."""
-        return max(one.depth for one in (self.verdict, *self.rough))
+        return max(one.verdict.depth for one in (self.ruling, *self.rough))
 
     @property
     def uncut(self) -> float:
@@ -118,14 +124,14 @@ def _judged(found: DerivedBlock) -> Judged | None:
     work = found.work
     if work is None or work.verdict is None or work.compensated is None or work.best is not None:
         return None
-    return Judged(work.compensated, work.verdict, work.crossed)
+    return Judged(work.compensated, Ruling.of(work.verdict), work.crossed)
 
 
 class Judged(NamedTuple):
     """A path whose verdict is known, and what all look-aheads' paths are made of, as far as that was kept."""
 
     compensated: Compensated
-    verdict: Verdict
+    ruling: Ruling
     crossed: Crossed | None = None
 
 
@@ -135,31 +141,31 @@ def table_of(trial: Trial, judged: Judged | None = None) -> Table:
     `judged` is a finish path that has been judged already, against this contour with this radius.
     """
     values = range(LOWEST, HIGHEST + 1)
-    every, verdicts = _all(trial, trial.radius, trial.radius, judged)
+    every, finish = _all(trial, trial.radius, trial.radius, judged)
     rougher = trial.radius if trial.rougher is None else trial.rougher
     passes = [_all(trial, rougher + stock, rougher)[1] for stock in trial.stocks]
     rough = list(zip(*passes, strict=True)) or [()] * len(values)
-    rows = [Row(*row) for row in zip(values, every, verdicts, rough, strict=True)]
+    rows = [Row(*row) for row in zip(values, every, finish, rough, strict=True)]
     return Table(tuple(rows), recommended(_fates(rows)))
 
 
 def _fates(rows: Sequence[Row]) -> list[Row]:
-    """Of rows with the same verdicts the first, whose value is the smallest."""
-    return list({(id(row.verdict), *map(id, row.rough)): row for row in reversed(rows)}.values())
+    """Of rows with the same rulings the first, whose value is the smallest."""
+    return list({(id(row.ruling), *map(id, row.rough)): row for row in reversed(rows)}.values())
 
 
 def _all(
     trial: Trial, radius: float, cutter: float, judged: Judged | None = None
-) -> tuple[Sequence[Compensated], Sequence[Verdict]]:
+) -> tuple[Sequence[Compensated], Sequence[Ruling]]:
     """The path at `radius` of every value, and what a cutter of radius `cutter` does on it."""
     every = _every(trial, radius, judged)
     # values that test the same crossings have one path between them
     paths = {id(one.path): one for one in every}
-    known = {} if judged is None else {key: judged.verdict for key, one in paths.items() if _same(one, judged)}
+    known = {} if judged is None else {key: judged.ruling for key, one in paths.items() if _same(one, judged)}
     rest = {key: one.whole for key, one in paths.items() if key not in known}
-    told = judge_all(trial.surface, trial.side, cutter, list(rest.values()), trial.ground) if rest else ()
-    verdicts = known | dict(zip(rest, told, strict=True))
-    return every, [verdicts[id(one.path)] for one in every]
+    told = rulings(trial.surface, trial.side, cutter, list(rest.values()), trial.ground) if rest else ()
+    found = known | dict(zip(rest, told, strict=True))
+    return every, [found[id(one.path)] for one in every]
 
 
 def _every(trial: Trial, radius: float, judged: Judged | None) -> tuple[Compensated, ...]:

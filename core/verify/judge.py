@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from math import inf, isfinite, isinf, nan
 from typing import Final
 
@@ -18,8 +19,9 @@ from core.verify.beside import NOBODY, Beside, beside
 from core.verify.contact import backwards, loose
 from core.verify.course import Course, courses
 from core.verify.crossing import Crossings, crossings
-from core.verify.gouge import gouges, gouging
-from core.verify.pairs import approaches, clearance, granted, pairs_of
+from core.verify.gouge import Gouging, gouges, gouging
+from core.verify.pairs import Approaches, Pairs, approaches, clearance, granted, pairs_of
+from core.verify.ruling import Ruling
 from core.verify.sides import sided, wrong_side
 from core.verify.uncut import uncut
 from core.verify.verdict import NOTHING, Verdict
@@ -49,7 +51,7 @@ def judge_together(surface: Path, side: Side, radius: float, centres: Sequence[P
 
 
 def judge_on_ground(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> tuple[Verdict, Ground | None]:
-    """The verdict of `judge_together`, and the surface as it is judged, for `judge_all`; None where it is not."""
+    """The verdict of `judge_together`, and the surface as it is judged, for `rulings`; None where it is not."""
     with np.errstate(all="ignore"):
         if not judgeable(radius, surface, *centres):
             return _unjudged(radius), None
@@ -58,28 +60,27 @@ def judge_on_ground(surface: Path, side: Side, radius: float, centres: Sequence[
         walls, moves = courses((surface,), centres)
         numbers = np.concatenate((np.empty(0), *(centre.numbers for centre in centres)))
         ground = _ground(surface, walls)
-        return _judged(ground, side, radius, numbers, moves), ground
+        return _ruled(ground, side, radius, numbers, moves).verdict, ground
 
 
-def judge_all(
+def rulings(
     surface: Path, side: Side, radius: float, centres: Sequence[Path], ground: Ground | None = None
-) -> tuple[Verdict, ...]:
-    """The verdict of `judge` on each centre path; the surface is looked at once, and equal paths are judged once.
+) -> tuple[Ruling, ...]:
+    """Whether each centre path is clean, with the verdict of `judge` on it.
 
-    `ground` saves to look at the surface again; one of another surface is not used.
+    The surface is looked at once, and equal paths are judged once.  `ground` saves to look at the surface again; one of
+    another surface is not used.
     """
     keys = [_key(centre) for centre in centres] if len(centres) > 1 else [()] * len(centres)
     paths = dict(zip(keys, centres, strict=True))
     with np.errstate(all="ignore"):
-        verdicts = dict(zip(paths, _each(surface, side, radius, tuple(paths.values()), ground), strict=True))
-    return tuple(verdicts[key] for key in keys)
+        found = dict(zip(paths, _each(surface, side, radius, tuple(paths.values()), ground), strict=True))
+    return tuple(found[key] for key in keys)
 
 
-def _each(
-    surface: Path, side: Side, radius: float, centres: Sequence[Path], ground: Ground | None
-) -> Iterator[Verdict]:
+def _each(surface: Path, side: Side, radius: float, centres: Sequence[Path], ground: Ground | None) -> Iterator[Ruling]:
     if not len(surface) or not judgeable(radius, surface):
-        yield from (judge(surface, side, radius, centre) for centre in centres)
+        yield from (Ruling.of(judge(surface, side, radius, centre)) for centre in centres)
         return
     if ground is None or ground.surface is not surface:
         found = courses((surface,), *((centre,) for centre in centres))
@@ -87,7 +88,10 @@ def _each(
     else:
         found = courses(*((centre,) for centre in centres))
     for centre, moves in zip(centres, found, strict=True):
-        yield _judged(ground, side, radius, centre.numbers, moves) if judgeable(radius, centre) else _unjudged(radius)
+        if judgeable(radius, centre):
+            yield _ruled(ground, side, radius, centre.numbers, moves)
+        else:
+            yield Ruling.of(_unjudged(radius))
 
 
 def judgeable(radius: float, *paths: Path) -> bool:
@@ -127,17 +131,33 @@ def _nothing_to_cut(radius: float) -> Verdict:
     return Verdict(radius, inf, (), NOTHING, 0.0, crosses_itself=False)
 
 
-def _judged(ground: Ground, side: Side, radius: float, numbers: Floats, moves: Course) -> Verdict:
+def _ruled(ground: Ground, side: Side, radius: float, numbers: Floats, moves: Course) -> Ruling:
+    """Not clean where anything is gouged: what else there is to say of a small path is then left until it is read."""
     surface, walls = ground.surface, ground.walls
     slack = float(walls.pieces.slack.max() + moves.pieces.slack.max(initial=0.0))
     if isinf(slack):
-        return _unjudged(radius)
-    reach = radius + 10.0 * GOUGE
+        return Ruling.of(_unjudged(radius))
     own = _own(moves.pieces, numbers, walls.pieces, surface.numbers, side, radius)
-    pairs = pairs_of(moves, walls, radius, reach + slack, own)
+    pairs = pairs_of(moves, walls, radius, radius + 10.0 * GOUGE + slack, own)
     near = approaches(pairs, radius - GOUGE)
     found = gouging(pairs, near)
-    length = float(walls.stations[-1])
+    complete = partial(_judged, ground, side, radius, numbers, slack, pairs, near, found)
+    return Ruling(complete, clean=False) if len(found.i) and len(walls.pieces) <= FEW else Ruling.of(complete())
+
+
+@np.errstate(all="ignore")
+def _judged(
+    ground: Ground,
+    side: Side,
+    radius: float,
+    numbers: Floats,
+    slack: float,
+    pairs: Pairs,
+    near: Approaches,
+    found: Gouging,
+) -> Verdict:
+    surface, length = ground.surface, float(ground.walls.stations[-1])
+    reach = radius + 10.0 * GOUGE
     sides = sided(side, ground.crossed, length, closed=ground.closed)
     inside = behind(pairs, near, found, sides, radius)
     deeper = deepened(found, inside, radius, slack)

@@ -13,7 +13,7 @@ from core.pipeline.beginning import Walls, gouge_at_once, gouging
 from core.pipeline.derive import derive
 from core.pipeline.remedies import started
 from core.pipeline.table import Trial, table_of, trial_of
-from core.verify.judge import judge_all
+from core.verify.judge import rulings
 from tests.bench.keys import gear
 from tests.core.comp.contours import lines, mixed, shut
 
@@ -86,6 +86,6 @@ def test_a_path_that_gouges_beyond_doubt_is_judged_so(contour, side, radius, clo
     surface = shut(contour) if closed else contour
     every = compensate_all(surface, side, radius, (1, 3, 8), closed=closed, blend=blend)
     wholes = [one.whole for one in every if len(one.path)]
-    told = judge_all(surface, side, radius, wholes)
+    told = rulings(surface, side, radius, wholes)
     found = gouging(wholes, radius, Walls.of(surface))
-    assert not any(no and verdict.clean for no, verdict in zip(found, told, strict=True))
+    assert not any(no and ruling.clean for no, ruling in zip(found, told, strict=True))

@@ -6,7 +6,7 @@ import pytest
 
 from core.geometry.path import EMPTY
 from core.geometry.side import Side
-from core.verify.judge import Ground, judge, judge_all, judge_on_ground
+from core.verify.judge import Ground, judge, judge_on_ground, rulings
 from tests.core.verify.shapes import lines, square
 
 PLATE = square(40.0)
@@ -23,17 +23,18 @@ def known() -> Ground:
 @pytest.mark.parametrize("side", list(Side))
 @pytest.mark.parametrize("radius", [3.0, 1.0, -1.0])
 def test_other_sides_and_radii_are_judged_over_it_as_anew(side: Side, radius: float) -> None:
-    for verdict, path in zip(judge_all(PLATE, side, radius, (ROUND, THROUGH), known()), (ROUND, THROUGH), strict=True):
-        alone = judge(PLATE, side, radius, path)
+    for ruling, path in zip(rulings(PLATE, side, radius, (ROUND, THROUGH), known()), (ROUND, THROUGH), strict=True):
+        alone, verdict = judge(PLATE, side, radius, path), ruling.verdict
+        assert ruling.clean == verdict.clean
         assert (verdict.gouges, verdict.wrong_side, verdict.judged) == (alone.gouges, alone.wrong_side, alone.judged)
         assert verdict.uncut == alone.uncut
 
 
 def test_that_of_another_surface_is_not_used() -> None:
     smaller = square(20.0)
-    (verdict,) = judge_all(smaller, Side.RIGHT, 3.0, (lines((-3, -3), (23, 2)),), known())
-    assert verdict.gouges == judge(smaller, Side.RIGHT, 3.0, lines((-3, -3), (23, 2))).gouges
-    assert verdict.gouges
+    (ruling,) = rulings(smaller, Side.RIGHT, 3.0, (lines((-3, -3), (23, 2)),), known())
+    assert ruling.verdict.gouges == judge(smaller, Side.RIGHT, 3.0, lines((-3, -3), (23, 2))).gouges
+    assert ruling.verdict.gouges
 
 
 def test_no_surface_and_what_is_not_judged_leave_none() -> None:

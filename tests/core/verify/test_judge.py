@@ -11,7 +11,7 @@ from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Turn
 from core.geometry.side import Side
 from core.tolerance import GOUGE
-from core.verify.judge import judge, judge_all, judge_together
+from core.verify.judge import judge, judge_together, rulings
 from tests.core.verify.shapes import around, circle, lines, moved, square
 
 R = 0.25
@@ -229,9 +229,10 @@ def test_far_from_the_origin_rounding_is_still_rounding() -> None:
 
 def test_many_paths_over_one_surface_are_judged_as_each_alone() -> None:
     centres = (MID_SIDE_PATH, EMPTY, lines((0, 0), (1, nan)), MID_SIDE_PATH, lines((1, 0.1), (1.5, 0.1)))
-    together = judge_all(MID_SIDE, Side.LEFT, R, centres)
-    for verdict, centre in zip(together, centres, strict=True):
-        alone = judge(MID_SIDE, Side.LEFT, R, centre)
+    together = rulings(MID_SIDE, Side.LEFT, R, centres)
+    for ruling, centre in zip(together, centres, strict=True):
+        alone, verdict = judge(MID_SIDE, Side.LEFT, R, centre), ruling.verdict
+        assert ruling.clean == alone.clean == verdict.clean
         assert verdict.gouges == alone.gouges
         assert verdict.uncut == alone.uncut
         assert verdict.judged == alone.judged

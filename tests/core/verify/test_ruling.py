@@ -1,0 +1,54 @@
+"""A ruling says at once whether a path is clean, and all else when it is read."""
+
+from __future__ import annotations
+
+import pytest
+
+from core.geometry.side import Side
+from core.verify.judge import judge, rulings
+from core.verify.ruling import Ruling
+from core.verify.verdict import Verdict
+from tests.core.verify.shapes import lines, square
+
+PLATE = square(40.0)
+AROUND = lines((-3, -3), (43, -3), (43, 43), (-3, 43), (-3, -3))
+THROUGH = lines((-3, -3), (43, 2), (43, 43))
+
+
+class Completing:
+    """A verdict to be completed, and how often that was done."""
+
+    def __init__(self) -> None:
+        self.done = 0
+
+    def __call__(self) -> Verdict:
+        self.done += 1
+        return judge(PLATE, Side.RIGHT, 3.0, THROUGH)
+
+
+def test_it_is_completed_once_and_not_before_it_is_read() -> None:
+    complete = Completing()
+    ruling = Ruling(complete, clean=False)
+    assert not ruling.clean
+    assert complete.done == 0
+    assert ruling.verdict is ruling.verdict
+    assert complete.done == 1
+
+
+def test_that_of_a_verdict_is_as_clean_as_that_and_has_it() -> None:
+    for path in (AROUND, THROUGH):
+        verdict = judge(PLATE, Side.RIGHT, 3.0, path)
+        assert Ruling.of(verdict).clean is verdict.clean
+        assert Ruling.of(verdict).verdict is verdict
+
+
+@pytest.mark.parametrize("radius", [0.0, 1.0, 3.0, 3.5, float("nan")])
+@pytest.mark.parametrize("side", list(Side))
+def test_what_it_says_at_once_the_verdict_says_too(side: Side, radius: float) -> None:
+    for ruling, path in zip(rulings(PLATE, side, radius, (AROUND, THROUGH)), (AROUND, THROUGH), strict=True):
+        alone = judge(PLATE, side, radius, path)
+        assert ruling.clean is alone.clean
+        assert ruling.verdict.clean is alone.clean
+        assert ruling.verdict.gouges == alone.gouges
+        assert ruling.verdict.wrong_side == alone.wrong_side
+        assert ruling.verdict.uncut == alone.uncut
