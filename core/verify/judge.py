@@ -19,7 +19,7 @@ from core.verify.beside import NOBODY, Beside, beside
 from core.verify.contact import backwards, loose
 from core.verify.course import Course, courses
 from core.verify.crossing import Crossings, crossings
-from core.verify.gouge import Gouging, gouges, gouging
+from core.verify.gouge import gouges, gouging
 from core.verify.pairs import Approaches, Pairs, approaches, clearance, granted, pairs_of
 from core.verify.ruling import Ruling
 from core.verify.sides import sided, wrong_side
@@ -140,9 +140,9 @@ def _ruled(ground: Ground, side: Side, radius: float, numbers: Floats, moves: Co
     own = _own(moves.pieces, numbers, walls.pieces, surface.numbers, side, radius)
     pairs = pairs_of(moves, walls, radius, radius + 10.0 * GOUGE + slack, own)
     near = approaches(pairs, radius - GOUGE)
-    found = gouging(pairs, near)
-    complete = partial(_judged, ground, side, radius, numbers, slack, pairs, near, found)
-    return Ruling(complete, clean=False) if len(found.i) and len(walls.pieces) <= FEW else Ruling.of(complete())
+    complete = partial(_judged, ground, side, radius, numbers, slack, pairs, near)
+    # each of these pairs is in some gouge
+    return Ruling(complete, clean=False) if len(near.i) and len(walls.pieces) <= FEW else Ruling.of(complete())
 
 
 @np.errstate(all="ignore")
@@ -154,10 +154,9 @@ def _judged(
     slack: float,
     pairs: Pairs,
     near: Approaches,
-    found: Gouging,
 ) -> Verdict:
     surface, length = ground.surface, float(ground.walls.stations[-1])
-    reach = radius + 10.0 * GOUGE
+    reach, found = radius + 10.0 * GOUGE, gouging(pairs, near)
     sides = sided(side, ground.crossed, length, closed=ground.closed)
     inside = behind(pairs, near, found, sides, radius)
     deeper = deepened(found, inside, radius, slack)
