@@ -1,7 +1,9 @@
 """Advice: what is said beside a path and its verdict, after them and never late for a key.
 
 The look-ahead table comes with the path while both are fast.  What a better path would cut and what the contour needs
-take longer: they follow in threads, and where they have nothing to say the screen stays as it is.
+take longer: they follow in threads, and where they have nothing to say the screen stays as it is.  Both are told of
+what has been accepted alone: of a half-typed number they are found out once no key has come for a while, so that Enter
+has them.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
     from core.program.model import Program
 
 QUIET: Final = 0.05
-"""Seconds without a key behind which remedies are tried: one try takes as long as a picture."""
+"""Seconds without a key behind which a half-typed number is advised on: that takes longer than a picture."""
 ONE_PICTURE: Final = 0.5
 """The part of the engine's limit in which path and table come together; else the path does not wait for the table."""
 SMALL: Final = 0.25
@@ -63,7 +65,25 @@ class Advice:
 
     def seek(self) -> None:
         """Whatever is not known yet of the block that is shown."""
+        if self.resting is not None:
+            self.resting.stop()
+        self.noting.forget()
+        self.needing.forget()
+        self.about = about_of(self.app.shown.found)
         self._tabulate()
+        if self.app.trial is None:
+            self._advise()
+        elif self.app.return_code is None and self._lacks:
+            self.resting = self.app.set_timer(QUIET, self._advise)
+
+    @property
+    def _lacks(self) -> bool:
+        """Whether there is anything to find out about the block that is shown, now that its table is there."""
+        engine, found = self.app.engine, self.app.shown.found
+        return engine.lacks_notes(found) or engine.lacks_needs(found)
+
+    def _advise(self) -> None:
+        """What a better path would cut, and what the contour needs."""
         self._note()
         self._need()
 
@@ -75,43 +95,30 @@ class Advice:
         elif engine.fast("derive", "table", part=ONE_PICTURE):
             engine.keep_table(found, program)
         elif self.tabling.doing is not found.work:
-            self.tabling.ask(lambda: self._keep(found, program), found.work)
+            told = self.app.trial is None
+            self.tabling.ask(lambda: self._keep(found, program, told=told), found.work)
 
-    def _keep(self, found: DerivedBlock, program: Program) -> None:
-        """The table, and small notes with it: a picture for each of the two takes longer than they do."""
+    def _keep(self, found: DerivedBlock, program: Program, *, told: bool) -> None:
+        """The table, and small notes with it where they are told: a picture for each of the two takes longer."""
         self.app.engine.keep_table(found, program)
-        if "notes" in self.app.engine.took and self.app.engine.fast("notes", part=SMALL):
+        if told and "notes" in self.app.engine.took and self.app.engine.fast("notes", part=SMALL):
             self.app.engine.keep_notes(found)
 
     def _note(self) -> None:
         """What a better path would cut: at once or with the table where that is small, else behind it."""
         engine, found = self.app.engine, self.app.shown.found
         if not engine.lacks_notes(found):
-            self.noting.forget()
-        elif engine.fast("derive", "table", "notes", part=SMALL):
+            return
+        if engine.fast("derive", "table", "notes", part=SMALL):
             engine.keep_notes(found)
         elif found.work not in (self.noting.doing, self.tabling.doing):
             self.noting.ask(lambda: engine.keep_notes(found), found.work)
 
     def _need(self) -> None:
-        """What the contour needs where CAL is not clean: why, and what would help.
-
-        Of a half-typed number it is found out too, once no key has come for a while, and told when it is accepted.
-        """
-        if self.resting is not None:
-            self.resting.stop()
-        self.needing.forget()
-        self.about = about_of(self.app.shown.found)
-        if self.app.return_code is not None or not self.app.engine.lacks_needs(self.app.shown.found):
-            return
-        if self.app.trial is None:
-            self._try()
-        else:
-            self.resting = self.app.set_timer(QUIET, self._try)
-
-    def _try(self) -> None:
-        """Remedies, one after the other."""
+        """What the contour needs where CAL is not clean: why, and what would help, tried one after the other."""
         engine, found, program = self.app.engine, self.app.shown.found, self.app.shown.program
+        if self.app.return_code is not None or not engine.lacks_needs(found):
+            return
         about, since = about_of(found), self.app.touched
         if self.needing.doing != about:
             self.needing.ask(lambda: engine.keep_needs(found, program, lambda: self._wanted(about, since)), about)

@@ -208,7 +208,7 @@ class Engine:
     def known(self, found: DerivedBlock, trial: Session | None, accepted: DerivedBlock | None = None) -> Known:
         """What the screens may show of this block; `accepted` is it without the half-typed number, where there is one.
 
-        What a block needs is told of what has been accepted, even if it has been found out before.
+        Advice is told of what has been accepted, even if it has been found out before.
         """
         own = accepted is None or accepted.work is found.work
         return Known(self._table(found, own=own), self.ready, self.memory, trial)
@@ -226,10 +226,10 @@ class Engine:
         table, notes = self._made(found), self._notes(found)
         if table is None:
             return None
-        needs = self._needing(found) if own else None
         complete = notes is not None and not (own and self.lacks_needs(found))
-        every = (*(() if needs is None else needs.sentences), *(notes or ()))
-        about = (table, notes, needs, complete)
+        needs, better = (self._needing(found), notes) if own else (None, None)
+        every = (*(() if needs is None else needs.sentences), *(better or ()))
+        about = (table, better, needs, complete)
         return self.memory.recall("table", about, lambda: replace(table, notes=every, complete=complete))
 
     def _needing(self, found: DerivedBlock) -> Needing | None:

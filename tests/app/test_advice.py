@@ -128,13 +128,41 @@ async def test_small_notes_come_in_one_picture_with_a_table_that_comes_behind_th
         await at_rest(pilot, app)
         app.engine.limit = 1.0
         app.engine.took |= {"table": 1e7, "notes": 0.0}
-        await pilot.press(*TO_X_END)
+        await pilot.press(*TO_X_END, "3")
+        # as if the number had been typed too fast to be tried out
+        app.engine.derived = ()
         monkeypatch.setattr(Frame, "show", kept)
-        await pilot.press("3")
+        await pilot.press("enter")
         await until(pilot, lambda: app.engine.tabulated(app.shown.found))
         await at_rest(pilot, app)
         assert not app.engine.lacks_notes(app.shown.found)
         assert len(shown) == 2  # that of the key, and that of all that follows
+
+
+async def test_what_a_better_path_would_cut_is_found_out_at_rest_and_told_with_enter(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    app, asked = app_on("pocket"), list[DerivedBlock]()
+
+    def better(found: DerivedBlock) -> tuple[Finding, ...]:
+        asked.append(found)
+        return (FURTHER,)
+
+    async with app.run_test(size=(132, 43)) as pilot:
+        await loaded(pilot)
+        await at_rest(pilot, app)
+        monkeypatch.setattr(stages, "better", better)
+        await pilot.press(*TO_X_END)
+        for key in "3.5":
+            app.key(key, key)
+            assert not asked
+        await until(pilot, lambda: bool(asked) and not app.engine.lacks_notes(app.shown.found))
+        await at_rest(pilot, app)
+        assert app.trial is not None
+        assert FURTHER.text not in lines(app)
+        await pilot.press("enter")
+        assert FURTHER.text in lines(app)
+        assert [found.work for found in asked] == [app.shown.found.work]
 
 
 class Remedies:

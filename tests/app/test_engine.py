@@ -16,6 +16,7 @@ from app.screens.lookahead import LookaheadTable
 from app.screens.page import WHOLE, Surface
 from app.session import Session
 from app.widgets.rows import text_of
+from core.finding import Finding, Severity
 from core.pipeline.derive import derive
 from core.pipeline.derived import DerivedBlock, Work
 from core.pipeline.needs import needs
@@ -184,6 +185,18 @@ def test_needs_are_remembered_and_told_of_what_is_accepted_alone(engine: Engine)
         assert table is not None
         assert any(one.code == "CAL_NOT_CLEAN" for one in table.notes) is told
     assert not engine.lacks_needs(tried[0])
+
+
+def test_what_a_better_path_would_cut_is_told_of_what_is_accepted_alone(engine: Engine) -> None:
+    accepted, (found, program) = derive(PART).blocks[0], changed(Where(1, 1), "x_end", 2.5)
+    note = Finding("BEST_DIFFERS", Severity.INFO, "A better path would cut more.")
+    engine.keep_table(found, program)
+    assert found.work is not None
+    engine.notes = ((found.work, (note,)),)
+    for before, told in ((accepted, False), (found, True), (None, True)):
+        table = engine.known(found, None, before).table
+        assert table is not None
+        assert (note in table.notes) is told
 
 
 def test_what_is_said_of_one_calculated_value_is_never_said_of_another(engine: Engine) -> None:
