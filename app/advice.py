@@ -1,9 +1,9 @@
 """Advice: what is said beside a path and its verdict, after them and never late for a key.
 
-The look-ahead table comes with the path while both are fast.  What a better path would cut and what the contour needs
-take longer: they follow in threads, and where they have nothing to say the screen stays as it is.  Both are told of
-what has been accepted alone: of a half-typed number they are found out once no key has come for a while, so that Enter
-has them.
+The look-ahead table comes with the path where it takes less than another picture.  What a better path would cut and
+what the contour needs take longer: they follow in threads, and where they have nothing to say the screen stays as it
+is.  Both are told of what has been accepted alone: of a half-typed number they are found out once no key has come for a
+while, so that Enter has them.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 QUIET: Final = 0.05
 """Seconds without a key behind which a half-typed number is advised on: that takes longer than a picture."""
-ONE_PICTURE: Final = 0.5
-"""The part of the engine's limit in which path and table come together; else the path does not wait for the table."""
+AT_ONCE: Final = 0.1
+"""The part of the engine's limit for which a path waits for its table: a picture of their own takes no less."""
 SMALL: Final = 0.25
 """The part of it in which a small contour's notes come with them."""
 
@@ -92,7 +92,7 @@ class Advice:
         engine, found, program = self.app.engine, self.app.shown.found, self.app.shown.program
         if engine.tabulated(found):
             self.tabling.forget()
-        elif engine.fast("derive", "table", part=ONE_PICTURE):
+        elif engine.fast("table", part=AT_ONCE):
             engine.keep_table(found, program)
         elif self.tabling.doing is not found.work:
             told = self.app.trial is None
