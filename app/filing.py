@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, assert_never
 
 from app.files import empty_program, examples, is_nc, opened
 from app.folders import asking, chosen, outside, told_path, written_at
+from app.guard import THE_WAY
 from app.messages import Browse, Close, Do, Leave, Load, Open, Post, Save, Say, Swap
 from app.naming import is_folder, with_suffix
 from app.patience import FILE, within
 from app.saving import asked, leads_elsewhere, put_theirs_aside, replacing, there
 from app.screens.ask import Ask, Option
 from app.screens.browse import BrowsePage, listed
-from app.screens.save import THE_WAY, SaveAsPage
+from app.screens.save import SaveAsPage
 from app.session import Session, Tone
 from app.widgets.words import in_spite, placed
 from core.finding import Severity

@@ -9,6 +9,9 @@ from core.program.lock import Lock
 from core.program.stamp import Stamp
 from core.records import dataclass, field
 
+THE_WAY: Final = "SAVE AS: F8 until PROGRAM, then F7, F3."
+"""How to come to SAVE AS from every screen: no key does it at once."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Guard:

@@ -102,7 +102,7 @@ def _told(keeping: NcKeeping, page: ProofPage, path: Path, found: Found) -> tupl
     if page.file is not None and not page.file.exists():
         lines.append("The file itself is gone: saving makes it anew.")
     elif found.file != mark(page.listing.origin):
-        lines.append("The file was written by somebody else since.")
+        lines.append("The file was written since: by somebody else, or by this program just before its end.")
     if not _own(keeping, path, found):
         lines.append(f"They stay kept for {printable(found.owner.user)}, whatever you answer.")
     if found.damaged:

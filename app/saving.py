@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from app import times
 from app.folders import asking, outside, told_path
+from app.guard import THE_WAY
 from app.messages import Close, Open, Post, Save, Say
 from app.naming import is_folder
 from app.screens.ask import Ask
@@ -34,7 +35,7 @@ def asked(desk: Desk, path: Path, message: Save) -> Desk | None:
         return desk.take(Say(f"{told_path(path)} is not saved: this is a folder. Type a file's name.", Tone.ERROR))
     session, own = desk.session, path == desk.session.file
     if own and session.guard.looking:
-        return desk.take(Say(f"{session.guard.looking} SAVE AS makes a copy of your own.", Tone.ERROR))
+        return desk.take(Say(f"{session.guard.looking} Save your own copy. {THE_WAY}", Tone.ERROR))
     if not own and outside(path, session.file) and not message.linked:
         agreed = message._replace(path=path, linked=True, overwrite=True)
         return desk.take(Open(asking(path, session.file, agreed)))

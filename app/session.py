@@ -11,7 +11,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from app.guard import UNGUARDED, Guard
+from app.guard import THE_WAY, UNGUARDED, Guard
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.outline import outline
 from core.program.edit import Edited, Refused, Where
@@ -112,7 +112,9 @@ class Session:
         if isinstance(edited, Refused):
             return self.saying(edited.text, Tone.ERROR)
         if self.guard.looking:
-            return self.saying(f"{self.guard.looking} Nothing can be changed: SAVE AS makes your own copy.", Tone.ERROR)
+            return self.saying(
+                f"{self.guard.looking} Nothing can be changed but in your own copy. {THE_WAY}", Tone.ERROR
+            )
         return self._with(self.history.do(edited, label))
 
     def undo(self) -> Session:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Final, Self
+from typing import Self
 
 from app.messages import Close, Message, Save, Say
 from app.naming import typed, with_suffix
@@ -14,9 +14,6 @@ from app.widgets.field import Editing
 from app.widgets.header import header
 from app.widgets.rows import Look, plain
 from core.records import dataclass
-
-THE_WAY: Final = "SAVE AS: F8 until PROGRAM, then F7, F3."
-"""How to come here from every screen: no key does it at once."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

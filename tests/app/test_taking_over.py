@@ -36,8 +36,10 @@ def test_the_second_opener_may_look(own: Path, part: Path) -> None:
     assert "bob on office has this program open since 4 Mar 2025 at 05:00." in asked(later)
     operator.press("l", "tab").type("7")
     assert operator.session.program == load(part)
-    assert "Nothing can be changed" in operator.said
-    assert "SAVE AS makes a copy" in operator.press("escape", "ctrl+s").said
+    assert operator.said.endswith(
+        "Nothing can be changed but in your own copy. SAVE AS: F8 until PROGRAM, then F7, F3."
+    )
+    assert "Save your own copy. SAVE AS: F8 until" in operator.press("escape", "ctrl+s").said
     operator.press("f8", "f7", "f3", "delete", *str(part.with_name("mine.toml")), "enter", "enter", "tab").type("7")
     assert operator.session.file == part.with_name("mine.toml")
     assert operator.session.history.undo_count == 1
