@@ -7,7 +7,10 @@ A finding's text is a sentence for the operator.  Lengths in it stand as `{value
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import StrEnum
+from operator import attrgetter
+from typing import Final
 
 from core.records import dataclass
 
@@ -41,3 +44,45 @@ class Finding:
     line: int | None = None
     column: int | None = None
     area: float | None = None
+
+
+_FIELDS: Final = Finding.__match_args__
+_values: Final = attrgetter(*_FIELDS)
+
+
+class Unworded(Finding):
+    """A finding of which everything but what it is and where it belongs is made by `tell` when it is first read.
+
+    A hundred sentences that nobody reads take longer than a picture.  It equals the finding that `tell` makes.
+    """
+
+    __slots__ = ("tell",)
+
+    tell: Callable[[], Finding]
+
+    @staticmethod
+    def of(code: str, severity: Severity, segment: float, tell: Callable[[], Finding]) -> Finding:
+        """A finding of a segment and of no field."""
+        made, put = object.__new__(Unworded), object.__setattr__
+        put(made, "code", code)
+        put(made, "severity", severity)
+        put(made, "segment", segment)
+        put(made, "field", None)
+        put(made, "tell", tell)
+        return made
+
+    def __getattr__(self, name: str) -> object:
+        """A value that is not made yet: all of them are."""
+        if name not in _FIELDS:
+            raise AttributeError(name, name=name, obj=self)
+        for field, value in zip(_FIELDS, _values(self.tell()), strict=True):
+            object.__setattr__(self, field, value)
+        return getattr(self, name)
+
+    def __eq__(self, other: object) -> bool:
+        """By value; of another code it is another one before it is read."""
+        if not isinstance(other, Finding):
+            return NotImplemented
+        return self.code == other.code and _values(self) == _values(other)
+
+    __hash__ = Finding.__hash__

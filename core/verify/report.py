@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from functools import cache, partial
 from itertools import repeat
 from math import isinf
 from typing import Final
 
-from core.finding import Finding, Severity
+from core.finding import Finding, Severity, Unworded
 from core.geometry.path import Path
 from core.geometry.stretch import stretch_lengths
 from core.tolerance import STOCK
@@ -26,6 +28,9 @@ SHOWN_AREA: Final = 0.033
 Shares = list[tuple[float, float]]
 """Segments by their numbers, and how much of each."""
 
+UNCUT: Final = "UNCUT"
+"""The code of a stretch that stays uncut."""
+
 LISTED: Final = 12
 """A stretch over more segments is told by its first and its last alone."""
 
@@ -41,7 +46,7 @@ def findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple
         *(_gouge(gouge, names, verdict.radius) for gouge in verdict.gouges),
         *_wrong_side(verdict),
         *_crosses_itself(verdict),
-        *map(_uncut, verdict.uncut, _shares(verdict.uncut, surface), repeat(surface)),
+        *_uncut(verdict.uncut, surface),
     )
 
 
@@ -117,7 +122,22 @@ def _crosses_itself(verdict: Verdict) -> tuple[Finding, ...]:
     return (Finding("CROSSES_ITSELF", Severity.WARNING, text, at=verdict.crossing_at),)
 
 
-def _uncut(uncut: Uncut, shares: Shares, surface: Path) -> Finding:
+def _uncut(uncut: UncutStretches, surface: Path) -> Iterator[Finding]:
+    """A finding for each stretch; all are put into words where one of them is read."""
+
+    @cache
+    def worded() -> list[Finding]:
+        return list(map(_told, uncut, _shares(uncut, surface), repeat(surface)))
+
+    for row, number in enumerate(uncut.columns[0].tolist()):
+        yield Unworded.of(UNCUT, Severity.INFO, number, partial(_row, worded, row))
+
+
+def _row(worded: Callable[[], list[Finding]], row: int) -> Finding:
+    return worded()[row]
+
+
+def _told(uncut: Uncut, shares: Shares, surface: Path) -> Finding:
     """The segment is the one the stretch begins on; `lengths` holds the largest thickness, then each share.
 
     There is no thickness where there is no path.
@@ -136,7 +156,7 @@ def _uncut(uncut: Uncut, shares: Shares, surface: Path) -> Finding:
         text = f"{{value}} of {where} stays uncut{told}, {thick} at the thickest, at X {{x}} Y {{y}}{area}."
         lengths = (uncut.thickness, *[length for _, length in shares], DIGIT)
     return Finding(
-        "UNCUT",
+        UNCUT,
         Severity.INFO,
         text,
         segment=uncut.first_number,
