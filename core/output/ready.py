@@ -25,7 +25,10 @@ MOST_PASSES: Final = 2000
 
 def forbidding(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> tuple[Finding, ...]:
     """The errors that stand against posting, each named once; those the operator overrode are left out."""
-    found = [finding for job in jobs for finding in (*job.errors, *_new(_objections(job, grid), job))]
+    found: list[Finding] = []
+    for job in jobs:
+        errors = job.errors
+        found += (*errors, *_new(_objections(job, grid), errors))
     if len({job.work_offset for job in jobs}) > 1:
         found.append(Finding("WORK_OFFSET", Severity.ERROR, "The blocks name different work offsets."))
     if override == OVERRIDE:
@@ -33,11 +36,11 @@ def forbidding(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> tupl
     return tuple(dict.fromkeys(found))
 
 
-def _new(objections: Iterable[Finding], job: Job) -> Iterator[Finding]:
-    """Objections that no error of the job tells already: those about a field that has none, and a path that is due."""
-    told = {finding.field for finding in job.errors}
+def _new(objections: Iterable[Finding], errors: Sequence[Finding]) -> Iterator[Finding]:
+    """Objections that none of a job's errors tells already: about a field that has none, and a path that is due."""
+    told = {finding.field for finding in errors}
     for one in objections:
-        due = one.code == "NO_PATH" and any(finding.code not in OVERRIDABLE for finding in job.errors)
+        due = one.code == "NO_PATH" and any(finding.code not in OVERRIDABLE for finding in errors)
         if not due and (one.field is None or one.field not in told):
             yield one
 

@@ -88,7 +88,9 @@ def _checked(found: DerivedBlock, program: Program) -> DerivedBlock:
     """With what forbids posting though every path is right, such as a SPEED of 0, and the steps in Z."""
     due = job(found, program, noted=False)
     against = forbidding([due], Grid(program.unit), override=None)
-    new = (*(one for one in against if one not in found.findings), *step_findings(due))
+    # what forbids posting is an error: only errors can say the same
+    told = due.errors
+    new = (*(one for one in against if one not in told), *step_findings(due))
     return replace(found, findings=by_weight((*found.findings, *new))) if new else found
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from core.finding import Finding, Severity
 from core.geometry.path import Path
+from core.geometry.planes import onward, planes
 
 STRAIGHT_BACK: Final = sin(radians(1.0))
 """Sine of the angle between two segments below which they lie on each other: an end typed to the last digit of a
@@ -21,13 +22,15 @@ def turning_back(surface: Path, *, closed: bool) -> tuple[Finding, ...]:
 
     Two arcs do so where scallops meet, and are left alone.
     """
-    come, go = surface.end_directions, surface.start_directions
-    leave, into = (come, np.roll(go, -1, axis=0)) if closed else (come[:-1], go[1:])
-    ahead = np.einsum("nk,nk->n", leave, into)
-    across = leave[:, 0] * into[:, 1] - leave[:, 1] * into[:, 0]
-    straight = surface.turns == 0
-    either = (straight | np.roll(straight, -1))[: len(ahead)]
-    back = (either & (ahead < 0.0) & (np.abs(across) < STRAIGHT_BACK)).nonzero()[0].tolist()
+    points, centres, turns = planes(surface.points), planes(surface.centres), surface.turns
+    straight, quarter = turns == 0, 1j * turns
+    span = points[1:] - points[:-1]
+    leave = np.where(straight, span, quarter * (points[1:] - centres))
+    into = np.where(straight, span, quarter * (points[:-1] - centres))
+    last = len(turns) if closed else len(turns) - 1
+    turned = leave[:last].conj() * onward(into)[:last]
+    either = (straight | onward(straight))[:last]
+    back = (either & (turned.real < 0.0) & (np.abs(turned.imag) < STRAIGHT_BACK * np.abs(turned))).nonzero()[0].tolist()
     return tuple(_turned(surface, row, (row + 1) % len(surface)) for row in back)
 
 
