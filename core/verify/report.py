@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import cache, partial
-from itertools import repeat
 from math import isinf
 from typing import Final
 
@@ -123,18 +122,17 @@ def _crosses_itself(verdict: Verdict) -> tuple[Finding, ...]:
 
 
 def _uncut(uncut: UncutStretches, surface: Path) -> Iterator[Finding]:
-    """A finding for each stretch; all are put into words where one of them is read."""
+    """A finding for each stretch, put into words when it is read; the shares of all are found for the first of them."""
 
     @cache
-    def worded() -> list[Finding]:
-        return list(map(_told, uncut, _shares(uncut, surface), repeat(surface)))
+    def shared() -> list[tuple[Uncut, Shares]]:
+        return list(zip(uncut, _shares(uncut, surface), strict=True))
+
+    def told(row: int) -> Finding:
+        return _told(*shared()[row], surface)
 
     for row, number in enumerate(uncut.columns[0].tolist()):
-        yield Unworded.of(UNCUT, Severity.INFO, number, partial(_row, worded, row))
-
-
-def _row(worded: Callable[[], list[Finding]], row: int) -> Finding:
-    return worded()[row]
+        yield Unworded.of(UNCUT, Severity.INFO, number, partial(told, row))
 
 
 def _told(uncut: Uncut, shares: Shares, surface: Path) -> Finding:
