@@ -106,13 +106,13 @@ def _deletions(chain: Chain, others: Crossings, met: Indices) -> Deletions:
     """The segments between the two pieces of each event, a row in `met`, by the first event that spans them."""
     if not len(met):
         return Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))
-    events = others.chosen(met)
-    between = events.b - events.a - 1
-    event = np.repeat(np.arange(len(events), dtype=np.int32), between)
-    piece = np.arange(len(event), dtype=np.int32) + (events.b - np.cumsum(between, dtype=np.int32))[event]
+    a, b = others.a[met], others.b[met]
+    between = b - a - 1
+    event = np.repeat(np.arange(len(met), dtype=np.int32), between)
+    piece = np.arange(len(event), dtype=np.int32) + (b - np.cumsum(between, dtype=np.int32))[event]
     spanned = np.full(len(chain), -1, np.int32)
     spanned[piece[::-1]] = event[::-1]
     deleted = ((spanned >= 0) & (chain.places % 2 == 0)).nonzero()[0]
     event, numbers = spanned[deleted], chain.raw.numbers
-    by = np.stack((numbers[events.a[event]], numbers[events.b[event]]), axis=1)
-    return Deletions(numbers[deleted], by, coordinates(events.points[event]))
+    by = np.stack((numbers[a[event]], numbers[b[event]]), axis=1)
+    return Deletions(numbers[deleted], by, coordinates(others.points[met[event]]))
