@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.comp.offset import Chain, Part, stacked
-from core.geometry.intersect import Indices, Masks, Meeting, Planes, meet, planes
+from core.geometry.intersect import Indices, Masks, Meeting, Meetings, Planes, meet, planes
 from core.geometry.path import Floats, Turns
 from core.tolerance import ON_PATH
 
@@ -82,9 +82,10 @@ def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
         if closed:
             tested = joint | (a > 0) | (b < len(chain) - 1)
             a, b, joint = a[tested], b[tested], joint[tested]
-        found, is_joint = _meet(chain, a, b, joint)
-        joints.append(found if is_joint.all() else found.chosen(is_joint))
-        others.append(found.chosen(~is_joint) if is_joint.any() else found)
+        met = meet(chain.raw, a, chain.raw, b)
+        at_joint, crossed = joint[met.pair], met.kinds[met.pair] == Meeting.CROSS.value
+        joints.append(_found(met, a, b, at_joint))
+        others.append(_found(met, a, b, crossed & ~at_joint))
     far = _all(others)
     return Candidates(_all(joints), far, chain.places[far.b] - chain.places[far.a])
 
@@ -98,26 +99,19 @@ def _all(parts: list[Crossings]) -> Crossings:
     return Crossings(*stacked(rows))
 
 
-def _meet(chain: Chain, a: Indices, b: Indices, joint: Masks) -> tuple[Crossings, Masks]:
-    """The crossings of candidate pairs, and which of them are joints."""
-    if not len(a):
-        none = np.empty(0)
-        rows, masks = np.empty(0, np.int32), np.empty(0, np.bool_)
-        return Crossings(rows, rows, none, none, masks, masks, np.empty(0, np.complex128)), masks
-    met = meet(chain.raw, a, chain.raw, b)
-    counts = (met.kinds == Meeting.CROSS.value) | joint
-    kept = counts[met.pair]
-    pair = met.pair[kept]
-    found = Crossings(
+def _found(met: Meetings, a: Indices, b: Indices, chosen: Masks) -> Crossings:
+    """Some of the points at which pairs of pieces a, b have met."""
+    rows = chosen.nonzero()[0]
+    pair = met.pair[rows]
+    return Crossings(
         a[pair].astype(np.int32),
         b[pair].astype(np.int32),
-        met.along_a[kept],
-        met.along_b[kept],
-        met.rest_a[kept] <= ON_PATH,
-        met.rest_b[kept] <= ON_PATH,
-        planes(met.points)[kept],
+        met.along_a[rows],
+        met.along_b[rows],
+        met.rest_a[rows] <= ON_PATH,
+        met.rest_b[rows] <= ON_PATH,
+        planes(met.points)[rows],
     )
-    return found, joint[pair]
 
 
 def _pairs(chain: Chain, first: int, last: int, reach: int) -> tuple[Indices, Indices]:
