@@ -49,9 +49,9 @@ def pieces_joined(path: Path, rows: NDArray[np.intp]) -> Parts:
     """Single pieces of a path, by their rows, each a part of its own."""
     if not len(rows):
         return NO_PARTS
-    points = np.stack((path.starts[rows], path.ends[rows]), axis=1).reshape(-1, 2)
+    points = np.stack((path.points.take(rows, axis=0), path.points.take(rows + 1, axis=0)), axis=1).reshape(-1, 2)
     centres, turns, own = points[:-1].copy(), np.zeros(len(points) - 1, np.int8), np.zeros(len(points) - 1, np.bool_)
-    centres[::2], turns[::2], own[::2] = path.centres[rows], path.turns[rows], True
+    centres[::2], turns[::2], own[::2] = path.centres.take(rows, axis=0), path.turns[rows], True
     return Parts(Path(points, centres, turns, np.repeat(path.numbers[rows], 2)[:-1]), own)
 
 
@@ -82,7 +82,8 @@ def _cut_out(surface: Path, wanted: Sequence[Ends]) -> tuple[Path, list[tuple[in
     behind = np.cumsum(counts)
     heads, tails = behind - counts, behind - 1
     rows = (np.arange(behind[-1]) + np.repeat(np.array([one[0] for one in known]) - heads, counts)) % count
-    points, centres, turns = surface.points[rows], surface.centres[rows], surface.turns[rows]
+    # rows of pairs: an array's own `take` takes a fifth of the time of an index
+    points, centres, turns = surface.points.take(rows, axis=0), surface.centres.take(rows, axis=0), surface.turns[rows]
     points[heads], points[tails] = [one[1] for one in known], [one[3] for one in known]
     turns[tails] = 0
     # a line has its own start for a centre

@@ -80,6 +80,8 @@ def _sketches(found: DerivedBlock) -> Parts:
             pieces.append(one.piece)
         else:
             pieces += one.choices or ((one.sketch,) if one.sketch is not None else ())
+    if not pieces:
+        return NO_PARTS
     # a line between each and the next, which is not drawn: behind a number of one digit there may be a hundred
     parts = [part for one, behind in pairwise(pieces) for part in (one, Line(one.end, behind.start))] + pieces[-1:]
     return Parts(Path.from_pieces(parts), np.arange(len(parts)) % 2 == 0)
