@@ -38,9 +38,12 @@ def _line_distance(line: Measured, points: Points) -> Floats:
 
 
 def _line_share(line: Measured, off: Points) -> Floats:
-    """Fractions at which lines are nearest to points `off` from their starts."""
-    size = np.where(line.length == 0.0, 1.0, line.length)
-    return _clipped((off * np.conj(line.vector)).real / (size * size))
+    """Fractions at which lines are nearest to points `off` from their starts.
+
+    What is so short that its square is 0 is a point.
+    """
+    square = line.length * line.length
+    return _clipped((off * np.conj(line.vector)).real / np.where(square == 0.0, 1.0, square))
 
 
 def _arc_foot(arc: Measured, points: Points) -> Floats:

@@ -233,9 +233,7 @@ def test_many_paths_over_one_surface_are_judged_as_each_alone() -> None:
     for ruling, centre in zip(together, centres, strict=True):
         alone, verdict = judge(MID_SIDE, Side.LEFT, R, centre), ruling.verdict
         assert ruling.clean == alone.clean == verdict.clean
-        assert verdict.gouges == alone.gouges
-        assert verdict.uncut == alone.uncut
-        assert verdict.judged == alone.judged
+        assert (verdict.gouges, verdict.uncut, verdict.judged) == (alone.gouges, alone.uncut, alone.judged)
     assert together[0] is together[3]
 
 

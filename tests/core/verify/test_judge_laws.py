@@ -14,9 +14,9 @@ from core.geometry.side import Side
 from core.tolerance import GOUGE
 from core.verify.judge import judge
 from tests.core.verify import oracle
-from tests.core.verify.shapes import mirrored, moved, paths
+from tests.core.verify.shapes import lines, mirrored, moved, paths
 
-NASTY = st.sampled_from((0.0, 1.0, -1.0, 2.0, 1e-12, 1e-9, 1e-7, 1e-6, 5e-324, 1e7, -9.9e6, 0.1, 1e4))
+NASTY = st.sampled_from((0.0, 1.0, -1.0, 2.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-200, 5e-324, 1e7, -9.9e6, 0.1, 1e4))
 
 
 @st.composite
@@ -38,6 +38,17 @@ def test_nothing_is_raised_whatever_the_paths(surface: Path, centre: Path, radiu
     assert verdict.judged != isnan(verdict.clearance)
     assert all(np.isfinite((gouge.depth, gouge.extent, *gouge.at, *gouge.surface_at)).all() for gouge in verdict.gouges)
     assert all(np.isfinite((stretch.length, *stretch.start, *stretch.end)).all() for stretch in verdict.uncut)
+
+
+@pytest.mark.parametrize("size", [5e-324, 1e-310, 1e-200, 1e-163, 1e-155])
+@pytest.mark.parametrize("radius", [0.0, 1.0])
+def test_a_segment_so_short_that_its_square_is_nothing_is_a_point(size: float, radius: float) -> None:
+    surface, point = lines((0.0, 0.0), (size, 0.0)), lines((0.0, 0.0), (0.0, 0.0))
+    path = lines((1.0, 0.0), (20.0, 2.0), (0.0, -5.0), (size, 2.0))
+    verdict, alike = judge(surface, Side.LEFT, radius, path), judge(point, Side.LEFT, radius, path)
+    assert verdict.clearance == pytest.approx(alike.clearance)
+    assert len(verdict.gouges) == len(alike.gouges)
+    assert judge(path, Side.LEFT, radius, surface).judged
 
 
 STEP = 4e-3
