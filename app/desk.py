@@ -284,7 +284,9 @@ class Desk:
     def _undo(self) -> Desk:
         """Undo; a half-typed text is what is taken back first."""
         answer = self.page.escape(self.session)
-        return self.take(Undo()) if answer is None or answer.messages else self._answered(answer)
+        if answer is None or answer.messages:
+            return self.take(Undo())
+        return self._answered(answer).take(Say("What was half typed is gone. Ctrl+Z again undoes a change."))
 
     def _save(self) -> Desk:
         if self.session.file is None:

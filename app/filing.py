@@ -184,7 +184,10 @@ def _leave(desk: Desk, message: Leave) -> Desk:
         without = ("l", "LEAVE UNSAVED", (Leave(unsaved=True),))
         return desk.take(Open(Ask("LEAVE?", lines, (*saves, without), _name_of_listing(desk))))
     options = (("s", "SAVE AND LEAVE", (Close(), Save(leave=True))), ("l", "LEAVE UNSAVED", (Leave(unsaved=True),)))
-    return desk.take(Open(Ask("LEAVE?", ("The program has changes that are not saved.",), options)))
+    lost = "The program has changes that are not saved."
+    if desk.session.file is None:
+        lost = "It was never saved: leaving unsaved gives it all up."
+    return desk.take(Open(Ask("LEAVE?", (lost,), options)))
 
 
 def _listing_saved(desk: Desk) -> tuple[Option, ...]:

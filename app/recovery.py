@@ -198,7 +198,7 @@ def restored(keeping: Keeping, desk: Desk, path: Path, found: Recovered) -> Desk
         keeping.adopt(session, None)
         return desk.take(Say(f"Restored, but the journal cannot be written: {_reason(error)}", Tone.WARNING))
     keeping.adopt(session, journal)
-    said = "Your work is back as it was. Ctrl+Z takes it back step by step, Ctrl+S saves it."
+    said = "Your work is back. Ctrl+Z takes it back step by step, Ctrl+S saves it."
     copy = f"{whole(aside.name)} stays; Ctrl+O lists it. " if aside is not None else ""
     return desk.take(Say(f"{copy}{said}"))
 

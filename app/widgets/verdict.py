@@ -103,9 +103,11 @@ def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | Non
     notes = () if table is None else table.notes
     gravest = 1 if case is not None and case.verdict.gouges else 0
     cause = _misplaced(findings) if gravest else []
-    rest = [one for one in rest if one not in cause]
+    # what the errors behind the deepest gouge may come of
+    ends = [one for one in rest if gravest and one.code == "NEARLY_CLOSED"]
+    rest = [one for one in rest if one not in cause and one not in ends]
     told = [replace(one, segment=None) for one in cause]
-    return [first, *told, *lines[:gravest], *errors, *lines[gravest:], *notes, *rest]
+    return [first, *told, *lines[:gravest], *ends, *errors, *lines[gravest:], *notes, *rest]
 
 
 def _misplaced(findings: list[Finding]) -> list[Finding]:

@@ -189,17 +189,19 @@ def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
 def open_finding(surface: Path, diameter: float, *, closed: bool) -> tuple[Finding, ...]:
     """That a contour is open: a warning where START and the end are no farther apart than the tool is wide.
 
-    Such a gap is seldom meant, and no look at the path shows it.  Fewer than three segments enclose nothing.
+    Such a gap is seldom meant, and no look at the path shows it; nor one so small that the contour counts as closed,
+    beside which the path gouges as deep.  Fewer than three segments enclose nothing.
     """
-    if closed or len(surface) < FEWEST:
-        return ()
-    gap = surface.points[0] - surface.points[-1]
+    gap = surface.points[0] - surface.points[-1] if len(surface) else np.zeros(2)
     apart = float(np.hypot(*gap))
+    if apart <= GOUGE or (not closed and len(surface) < FEWEST):
+        return ()
     number, place = float(surface.numbers[-1]), tuple(surface.points[-1].tolist())
-    if apart > diameter:
+    if not closed and apart > diameter:
         text = "The contour is open: it ends {value} from START."
         return (Finding("OPEN", Severity.INFO, text, number, None, place, apart),)
-    text = "The contour is not closed: it ends at X {x} Y {y}, {value} from START. Check START and the last segment."
+    what = "counts as closed, but" if closed else "is not closed:"
+    text = f"The contour {what} it ends at X {{x}} Y {{y}}, {{value}} from START. Check START and the last segment."
     return (Finding("NEARLY_CLOSED", Severity.WARNING, text, number, None, place, apart),)
 
 

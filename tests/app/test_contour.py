@@ -201,3 +201,12 @@ def test_two_solutions_are_picked_by_softkey_or_field() -> None:
     operator.press("f2")
     assert operator.typed("choice")[-1] == 1
     assert "2 of 2" in operator.part("body")
+
+
+def test_two_solutions_about_one_center_are_told_apart_by_their_ends() -> None:
+    operator = square().press("ctrl+end", "right", "a", "c", "enter").type("", "0.5", "", "0.5", "0")
+    labels = " ".join(operator.part("softkeys").replace("│", " ").split())
+    ends = sorted(piece.end[0] / 25.4 for piece in operator.session.found.solved.segments[-1].choices)
+    assert ends == pytest.approx([-0.5, 1.5])
+    for number, piece in enumerate(operator.session.found.solved.segments[-1].choices, 1):
+        assert f"SOLUTION {number} {piece.end[0] / 25.4:.4f} 0.5000" in labels

@@ -84,6 +84,7 @@ def test_leaving_says_in_one_meaning_of_the_word_what_becomes_of_the_work() -> N
         "  Esc back, nothing changes",
     ]
     assert "F2 LEAVE UNSAVED" in operator.part("softkeys")
+    assert "It was never saved: leaving unsaved gives it all up." in operator.part("body")
     assert operator.press("l").desk.exit
 
 

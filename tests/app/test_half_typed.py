@@ -41,6 +41,8 @@ def test_undo_on_the_form_takes_back_the_half_typed_text_first() -> None:
     operator = edited().press("ctrl+z")
     assert operator.session.field == "plunge_feed"
     assert operator.block.z_bottom == Entry(-0.5)
+    assert operator.said == "What was half typed is gone. Ctrl+Z again undoes a change."
+    assert operator.press("ctrl+z").said.startswith("Undone:")
 
 
 def test_a_choice_takes_no_number_and_no_blank() -> None:

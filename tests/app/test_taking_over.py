@@ -92,7 +92,7 @@ def test_restoring_it_then_keeps_it_in_a_journal_of_its_own(own: Path, part: Pat
     second = started(own, part, DEAD).press("t")
     first.press("ctrl+s", "w")
     second.press("r")
-    assert "Your work is back as it was." in second.said
+    assert "Your work is back." in second.said
     assert second.keeping.journal is not None
     second.killed()
     assert started(own, part).session.history.program == second.session.program

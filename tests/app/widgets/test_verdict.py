@@ -43,12 +43,14 @@ def test_an_over_run_begins_with_its_gouge() -> None:
     assert text_of(verdict_rows(found, None, Unit.IN, None)[1]).startswith(" GOUGE ")
 
 
-def test_a_contour_that_does_not_cross_itself_begins_with_its_gouge() -> None:
+def test_a_contour_that_does_not_cross_itself_begins_with_its_gouge_and_where_it_is_not_closed() -> None:
     pocket = load(example("pocket"))
     (block,) = pocket.blocks
     (found,) = derive(replace(pocket, blocks=(replace(block, y_start=Entry(0.5)),))).blocks
     assert "CROSSES_ITSELF" not in {one.code for one in found.findings}
-    assert text_of(verdict_rows(found, None, Unit.IN, None)[1]).startswith(" GOUGE ")
+    _, gouge, end, *_ = (text_of(row) for row in verdict_rows(found, None, Unit.IN, None))
+    assert gouge.startswith(" GOUGE ")
+    assert "is not closed: it ends at X 2.0000 Y 0.2500, 0.2500 from START" in end
 
 
 def test_beside_every_value_of_the_table_stands_what_the_contour_needs_and_nothing_of_the_path_in_force() -> None:

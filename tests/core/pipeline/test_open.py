@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core.finding import Finding
+from core.finding import Finding, Severity
 from core.pipeline.derive import derive
 from core.program.model import CutterComp
 from tests.core.pipeline.parts import OUTSIDE_SQUARE, Points, block, program
@@ -28,6 +28,15 @@ def test_the_gap_is_a_warning_where_it_is_no_wider_than_the_tool(end: tuple[floa
 
 def test_a_closed_contour_is_not_open() -> None:
     assert told(OUTSIDE_SQUARE) == []
+
+
+def test_a_gap_with_which_it_counts_as_closed_is_told_since_the_path_gouges_beside_it() -> None:
+    (found,) = derive(program(block((*OUTSIDE_SQUARE[:-1], (0, 0.0001)), CutterComp.RIGHT))).blocks
+    assert found.solved.closed
+    (one,) = (one for one in found.findings if one.code == "NEARLY_CLOSED")
+    assert one.severity is Severity.WARNING
+    assert "counts as closed, but it ends at" in one.text
+    assert one.value == pytest.approx(0.00254)
 
 
 def test_two_lines_enclose_nothing() -> None:
