@@ -25,6 +25,8 @@ QUIET: Final = 0.05
 """Seconds without a key behind which a half-typed number is advised on: that takes longer than a picture."""
 AT_ONCE: Final = 0.1
 """The part of the engine's limit for which a path waits for its table: a picture of their own takes no less."""
+ONE_PICTURE: Final = 0.5
+"""The part of it in which path and table come together: what was measured may have been a smaller contour's."""
 SMALL: Final = 0.25
 """The part of it in which a small contour's notes come with them."""
 
@@ -74,13 +76,20 @@ class Advice:
         if self.app.trial is None:
             self._advise()
         elif self.app.return_code is None and self._lacks:
-            self.resting = self.app.set_timer(QUIET, self._advise)
+            self.resting = self.app.set_timer(QUIET, self._rested)
 
     @property
     def _lacks(self) -> bool:
         """Whether there is anything to find out about the block that is shown, now that its table is there."""
         engine, found = self.app.engine, self.app.shown.found
         return engine.lacks_notes(found) or engine.lacks_needs(found)
+
+    def _rested(self) -> None:
+        """No key has come for a while.  A half-typed number may lead to the path in force: then all of it is shown."""
+        notes = self.app.engine.notes
+        self._advise()
+        if self.app.engine.notes is not notes:
+            self.app.refresh_screen()
 
     def _advise(self) -> None:
         """What a better path would cut, and what the contour needs."""
@@ -92,24 +101,31 @@ class Advice:
         engine, found, program = self.app.engine, self.app.shown.found, self.app.shown.program
         if engine.tabulated(found):
             self.tabling.forget()
-        elif engine.fast("table", part=AT_ONCE):
+        elif self._at_once:
             engine.keep_table(found, program)
         elif self.tabling.doing is not found.work:
             told = self.app.trial is None
             self.tabling.ask(lambda: self._keep(found, program, told=told), found.work)
 
+    @property
+    def _at_once(self) -> bool:
+        """Whether the table takes no longer than a picture: the last one did not, and its paths came as fast."""
+        engine = self.app.engine
+        return engine.small("table", AT_ONCE) and engine.fast("derive", "table", part=ONE_PICTURE)
+
     def _keep(self, found: DerivedBlock, program: Program, *, told: bool) -> None:
         """The table, and small notes with it where they are told: a picture for each of the two takes longer."""
-        self.app.engine.keep_table(found, program)
-        if told and "notes" in self.app.engine.took and self.app.engine.fast("notes", part=SMALL):
-            self.app.engine.keep_notes(found)
+        engine = self.app.engine
+        engine.keep_table(found, program)
+        if told and engine.small("notes", SMALL) and engine.fast("rows", "notes", part=SMALL):
+            engine.keep_notes(found)
 
     def _note(self) -> None:
         """What a better path would cut: at once or with the table where that is small, else behind it."""
         engine, found = self.app.engine, self.app.shown.found
         if not engine.lacks_notes(found):
             return
-        if engine.fast("derive", "table", "notes", part=SMALL):
+        if engine.fast("derive", "table", "rows", "notes", part=SMALL):
             engine.keep_notes(found)
         elif found.work not in (self.noting.doing, self.tabling.doing):
             self.noting.ask(lambda: engine.keep_notes(found), found.work)

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from importlib import import_module
+from math import inf
 from time import thread_time
 from typing import TYPE_CHECKING, Final, NamedTuple, TypeVar
 
@@ -139,6 +140,10 @@ class Engine:
         """Whether these tasks may all be done before the next picture, or in a part of that time."""
         return self.ready and sum(self.took.get(task, 0.0) for task in tasks) <= part * self.limit
 
+    def small(self, task: str, part: float) -> bool:
+        """Whether a task took no longer than this part of that time lately: one never done may take any time."""
+        return self.ready and self.took.get(task, inf) <= part * self.limit
+
     def timed(self, task: str, work: Callable[[], Result]) -> Result:
         """Do a task and remember how much work it was: waiting for a busy machine does not count."""
         begun = thread_time()
@@ -178,10 +183,13 @@ class Engine:
         return self._made(found) is not None and self._notes(found) is None
 
     def keep_notes(self, found: DerivedBlock) -> None:
-        """Find out what a better path would cut."""
+        """Find out what a better path would cut, and all there is to say of the table's paths."""
         from core.pipeline.derive import better
 
         if found.work is not None and self._notes(found) is None:
+            table = self._made(found)
+            if table is not None:
+                self.timed("rows", table.work_out)
             notes = self.timed("notes", lambda: better(found))
             self.notes = ((found.work, notes), *self.notes)[:KEPT]
 

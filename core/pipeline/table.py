@@ -72,6 +72,12 @@ class Table:
     notes: tuple[Finding, ...] = ()
     complete: bool = False
 
+    def work_out(self) -> None:
+        """Complete what there is to say of every row, before it is read where nobody wants to wait."""
+        for row in self.rows:
+            for ruling in (row.ruling, *row.rough):
+                ruling.complete()
+
     def row(self, value: int) -> Row:
         """The row of a look-ahead value."""
         return self.rows[value - LOWEST]

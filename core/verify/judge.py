@@ -29,6 +29,9 @@ from core.verify.verdict import NOTHING, Verdict
 FEW: Final = 300
 """Walls of which measuring every pair costs less than proving what runs beside them."""
 
+FEW_PAIRS: Final = 2_000
+"""Pairs of a path that is judged when its verdict is read: that takes no longer than a picture."""
+
 
 def judge(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
     """What a cutter of this radius does whose centre runs along `centre`, lead moves included, beside `surface`.
@@ -60,7 +63,9 @@ def judge_on_ground(surface: Path, side: Side, radius: float, centres: Sequence[
         walls, moves = courses((surface,), centres)
         numbers = np.concatenate((np.empty(0), *(centre.numbers for centre in centres)))
         ground = _ground(surface, walls)
-        return _ruled(ground, side, radius, numbers, moves).verdict, ground
+        measured = _measured(ground, side, radius, numbers, moves)
+        verdict = _unjudged(radius) if measured is None else _judged(ground, side, radius, numbers, measured)
+        return verdict, ground
 
 
 def rulings(
@@ -89,7 +94,7 @@ def _each(surface: Path, side: Side, radius: float, centres: Sequence[Path], gro
         found = courses(*((centre,) for centre in centres))
     for centre, moves in zip(centres, found, strict=True):
         if judgeable(radius, centre):
-            yield _ruled(ground, side, radius, centre.numbers, moves)
+            yield _ruled(ground, side, radius, centre, moves)
         else:
             yield Ruling.of(_unjudged(radius))
 
@@ -131,35 +136,52 @@ def _nothing_to_cut(radius: float) -> Verdict:
     return Verdict(radius, inf, (), NOTHING, 0.0, crosses_itself=False)
 
 
-def _ruled(ground: Ground, side: Side, radius: float, numbers: Floats, moves: Course) -> Ruling:
-    """Not clean where anything is gouged: what else there is to say of a small path is then left until it is read."""
-    surface, walls = ground.surface, ground.walls
-    slack = float(walls.pieces.slack.max() + moves.pieces.slack.max(initial=0.0))
-    if isinf(slack):
+def _ruled(ground: Ground, side: Side, radius: float, centre: Path, moves: Course) -> Ruling:
+    """Not clean where any pair is too near: a path with few pairs is then judged when its verdict is read."""
+    measured = _measured(ground, side, radius, centre.numbers, moves)
+    if measured is None:
         return Ruling.of(_unjudged(radius))
-    own = _own(moves.pieces, numbers, walls.pieces, surface.numbers, side, radius)
-    pairs = pairs_of(moves, walls, radius, radius + 10.0 * GOUGE + slack, own)
-    near = approaches(pairs, radius - GOUGE)
-    complete = partial(_judged, ground, side, radius, numbers, slack, pairs, near)
-    # each of these pairs is in some gouge
-    return Ruling(complete, clean=False) if len(near.i) and len(walls.pieces) <= FEW else Ruling.of(complete())
+    if len(measured.near.i) and len(measured.pairs.i) <= FEW_PAIRS:
+        # nothing of what is measured here is kept: a table's twenty paths would hold more than all the rest
+        return Ruling(partial(_again, ground, side, radius, centre), clean=False)
+    return Ruling.of(_judged(ground, side, radius, centre.numbers, measured))
 
 
 @np.errstate(all="ignore")
-def _judged(
-    ground: Ground,
-    side: Side,
-    radius: float,
-    numbers: Floats,
-    slack: float,
-    pairs: Pairs,
-    near: Approaches,
-) -> Verdict:
+def _again(ground: Ground, side: Side, radius: float, centre: Path) -> Verdict:
+    (moves,) = courses((centre,))
+    measured = _measured(ground, side, radius, centre.numbers, moves)
+    assert measured is not None
+    return _judged(ground, side, radius, centre.numbers, measured)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Measured:
+    """The pairs of a path and a surface, those that are too near, and what uneven arcs leave open."""
+
+    pairs: Pairs
+    near: Approaches
+    slack: float
+
+
+def _measured(ground: Ground, side: Side, radius: float, numbers: Floats, moves: Course) -> _Measured | None:
+    """None where an arc's radii leave everything open."""
+    surface, walls = ground.surface, ground.walls
+    slack = float(walls.pieces.slack.max() + moves.pieces.slack.max(initial=0.0))
+    if isinf(slack):
+        return None
+    own = _own(moves.pieces, numbers, walls.pieces, surface.numbers, side, radius)
+    pairs = pairs_of(moves, walls, radius, radius + 10.0 * GOUGE + slack, own)
+    return _Measured(pairs, approaches(pairs, radius - GOUGE), slack)
+
+
+def _judged(ground: Ground, side: Side, radius: float, numbers: Floats, measured: _Measured) -> Verdict:
     surface, length = ground.surface, float(ground.walls.stations[-1])
-    reach, found = radius + 10.0 * GOUGE, gouging(pairs, near)
+    pairs, near, reach = measured.pairs, measured.near, radius + 10.0 * GOUGE
+    found = gouging(pairs, near)
     sides = sided(side, ground.crossed, length, closed=ground.closed)
     inside = behind(pairs, near, found, sides, radius)
-    deeper = deepened(found, inside, radius, slack)
+    deeper = deepened(found, inside, radius, measured.slack)
     return Verdict(
         radius=radius,
         clearance=clearance(pairs, near, reach),

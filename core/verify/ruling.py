@@ -10,15 +10,15 @@ from core.verify.verdict import Verdict
 class Ruling:
     """A verdict that is completed when it is read first; `clean` is what the verdict will say of itself.
 
-    Most paths of a look-ahead table gouge, and nobody reads more of them than that they do.  Two threads that read it
-    at once may both complete it: the same way.
+    While a number is typed nobody reads more of a look-ahead table's paths than that they gouge.  Two threads that read
+    it at once may both complete it: the same way.
     """
 
-    __slots__ = ("_complete", "_verdict", "clean")
+    __slots__ = ("_verdict", "_work", "clean")
 
-    def __init__(self, complete: Callable[[], Verdict], *, clean: bool) -> None:
+    def __init__(self, work: Callable[[], Verdict], *, clean: bool) -> None:
         self.clean = clean
-        self._complete: Callable[[], Verdict] | None = complete
+        self._work: Callable[[], Verdict] | None = work
         self._verdict: Verdict | None = None
 
     @staticmethod
@@ -29,10 +29,14 @@ class Ruling:
     @property
     def verdict(self) -> Verdict:
         """All that is to be said of the path."""
-        complete = self._complete
-        if self._verdict is None and complete is not None:
-            self._verdict = complete()
+        return self.complete()
+
+    def complete(self) -> Verdict:
+        """The verdict, worked out unless it was before."""
+        work = self._work
+        if self._verdict is None and work is not None:
+            self._verdict = work()
         # what it was made of is not needed again
-        self._complete = None
+        self._work = None
         assert self._verdict is not None
         return self._verdict

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from asyncio import sleep
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from math import inf
 from pathlib import Path
 
@@ -13,6 +13,8 @@ from app.application import CutcompApp
 from app.engine import Engine
 from app.files import empty_program, example
 from app.session import Session
+from app.widgets.painted import Rows
+from app.widgets.rows import text_of
 from core.program.model import Program
 from core.program.store import load
 from tests.app.operator import FROZEN
@@ -49,3 +51,22 @@ async def typed(pilot: Pilot[int], texts: Iterable[str]) -> None:
     """Texts, each followed by Enter."""
     for text in texts:
         await pilot.press(*text, "enter")
+
+
+async def until(pilot: Pilot[int], true: Callable[[], bool]) -> None:
+    """Wait for what follows a key."""
+    for _ in range(1000):
+        if true():
+            return
+        await pilot.pause(0.01)
+    raise AssertionError("it never came")
+
+
+async def at_rest(pilot: Pilot[int], app: CutcompApp) -> None:
+    """Nothing is calculated any more."""
+    await until(pilot, lambda: not (app.advice.tabling.busy or app.advice.noting.busy or app.advice.needing.busy))
+    await pilot.pause()
+
+
+def lines(app: CutcompApp) -> str:
+    return "\n".join(text_of(row) for row in app.screen.query_one(Rows).rows)

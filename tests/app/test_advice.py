@@ -9,15 +9,13 @@ from math import inf
 from threading import Event
 
 import pytest
-from textual.pilot import Pilot
 
 from app.advice import about_of
 from app.application import CutcompApp
 from app.files import example
 from app.screens.frame import Frame
 from app.surroundings import Surroundings
-from app.widgets.painted import Rows
-from app.widgets.rows import Row, text_of
+from app.widgets.rows import Row
 from core.finding import Finding, Severity
 from core.pipeline import derive as stages
 from core.pipeline import needs as remedies
@@ -26,36 +24,17 @@ from core.pipeline.needs import Needs
 from core.program.edit import Where
 from core.program.model import Program
 from core.program.store import load
-from tests.app.pilots import app_on, loaded
+from tests.app.pilots import app_on, at_rest, lines, loaded, until
 from tests.reports.reference import Reference
 
 FURTHER = Finding("BETTER", Severity.INFO, "A better path would cut more.")
 TO_X_END = ("1", "enter", "tab")
 
 
-def lines(app: CutcompApp) -> str:
-    return "\n".join(text_of(row) for row in app.screen.query_one(Rows).rows)
-
-
 def slow_notes(app: CutcompApp) -> None:
     """Path and table come with the key, notes always behind it."""
     app.engine.limit = 1e6
     app.engine.took["notes"] = 1e7
-
-
-async def until(pilot: Pilot[int], true: Callable[[], bool]) -> None:
-    """Wait for what follows a key."""
-    for _ in range(1000):
-        if true():
-            return
-        await pilot.pause(0.01)
-    raise AssertionError("it never came")
-
-
-async def at_rest(pilot: Pilot[int], app: CutcompApp) -> None:
-    """Nothing is calculated any more."""
-    await until(pilot, lambda: not (app.advice.tabling.busy or app.advice.noting.busy or app.advice.needing.busy))
-    await pilot.pause()
 
 
 async def test_notes_follow_the_verdict_and_nobody_says_before_that_there_are_none(
@@ -69,6 +48,7 @@ async def test_notes_follow_the_verdict_and_nobody_says_before_that_there_are_no
 
     async with app.run_test(size=(132, 43)) as pilot:
         await loaded(pilot)
+        await at_rest(pilot, app)
         slow_notes(app)
         monkeypatch.setattr(stages, "better", better)
         await pilot.press(*TO_X_END, "3", ".", "5", "enter")
@@ -101,6 +81,7 @@ async def test_what_has_nothing_to_say_changes_nothing_on_the_screen(monkeypatch
 
     async with app.run_test(size=(132, 43)) as pilot:
         await loaded(pilot)
+        await at_rest(pilot, app)
         slow_notes(app)
         monkeypatch.setattr(stages, "better", better)
         monkeypatch.setattr(Frame, "show", kept)
@@ -108,6 +89,7 @@ async def test_what_has_nothing_to_say_changes_nothing_on_the_screen(monkeypatch
         await until(pilot, lambda: app.advice.noting.busy)
         painted = len(shown)
         go.set()
+        await until(pilot, lambda: not app.engine.lacks_notes(app.shown.found))
         await at_rest(pilot, app)
         assert not app.engine.lacks_notes(app.shown.found)
         assert all(rows == shown[painted - 1] for rows in shown[painted:])
@@ -137,32 +119,6 @@ async def test_small_notes_come_in_one_picture_with_a_table_that_comes_behind_th
         await at_rest(pilot, app)
         assert not app.engine.lacks_notes(app.shown.found)
         assert len(shown) == 2  # that of the key, and that of all that follows
-
-
-async def test_what_a_better_path_would_cut_is_found_out_at_rest_and_told_with_enter(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    app, asked = app_on("pocket"), list[DerivedBlock]()
-
-    def better(found: DerivedBlock) -> tuple[Finding, ...]:
-        asked.append(found)
-        return (FURTHER,)
-
-    async with app.run_test(size=(132, 43)) as pilot:
-        await loaded(pilot)
-        await at_rest(pilot, app)
-        monkeypatch.setattr(stages, "better", better)
-        await pilot.press(*TO_X_END)
-        for key in "3.5":
-            app.key(key, key)
-            assert not asked
-        await until(pilot, lambda: bool(asked) and not app.engine.lacks_notes(app.shown.found))
-        await at_rest(pilot, app)
-        assert app.trial is not None
-        assert FURTHER.text not in lines(app)
-        await pilot.press("enter")
-        assert FURTHER.text in lines(app)
-        assert [found.work for found in asked] == [app.shown.found.work]
 
 
 class Remedies:

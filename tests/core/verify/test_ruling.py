@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from core.geometry.side import Side
+from core.verify import judge as judging
 from core.verify.judge import judge, rulings
 from core.verify.ruling import Ruling
 from core.verify.verdict import Verdict
@@ -40,6 +41,23 @@ def test_that_of_a_verdict_is_as_clean_as_that_and_has_it() -> None:
         verdict = judge(PLATE, Side.RIGHT, 3.0, path)
         assert Ruling.of(verdict).clean is verdict.clean
         assert Ruling.of(verdict).verdict is verdict
+
+
+def test_of_a_path_that_gouges_nothing_more_is_worked_out_before_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    around, through = rulings(PLATE, Side.RIGHT, 3.0, (AROUND, THROUGH))
+    monkeypatch.setattr(judging, "uncut", None)
+    assert around.verdict.clean
+    with pytest.raises(TypeError):
+        through.complete()
+    monkeypatch.undo()
+    assert through.complete() is through.verdict
+
+
+def test_of_a_path_with_many_pairs_everything_is_known_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(judging, "FEW_PAIRS", 2)
+    (through,) = rulings(PLATE, Side.RIGHT, 3.0, (THROUGH,))
+    monkeypatch.setattr(judging, "uncut", None)
+    assert through.verdict.gouges
 
 
 @pytest.mark.parametrize("radius", [0.0, 1.0, 3.0, 3.5, float("nan")])
