@@ -59,7 +59,7 @@ def test_the_work_of_ann_is_offered_to_bob_and_still_to_ann_when_bob_has_saved(p
     with operator(part, "ann") as ann:
         ann.until("TOOL 7, was 9")
         ann.send(b"r")
-        ann.until("is back as it was")
+        ann.until("Your work is back")
         saved_over(ann)
     assert load(part).blocks[0].tool == Entry(7.0)
 
@@ -89,7 +89,7 @@ def typed_on_after_a_take_over(part: Path, first: Terminal) -> None:
         second.send(b"t")
         second.until("WORK THAT WAS NOT SAVED")
         second.send(b"r")
-        second.until("is back as it was")
+        second.until("Your work is back")
         first.send(b"\x1b[A\x1b[A\x1b[A2\t")
         first.until("has this program open")
         first.until("undo 2")

@@ -165,7 +165,7 @@ def restored(terminal: Terminal, *, offered: bool) -> None:
     terminal.until("RESTORE" if offered else "MILL CONTOUR")
     if offered:
         terminal.send(b"r")
-        terminal.until("is back as it was")
+        terminal.until("Your work is back")
     else:
         assert "RESTORE" not in terminal.text
 
