@@ -6,15 +6,16 @@ gear none of whose 50 gaps it enters, where every remedy is tried after every ch
 
 Times are milliseconds; `work` is how long the program ran in them, which a busy machine changes little.  `changed` is
 the time from the key to the first screen that shows the derived path, `finished` that to the last byte: by then the
-look-ahead table stands, and what the contour needs.  `there` is the work of the one and of the other as it would be
-where the bars were set, by what rs274 takes before these rows.  Where half-typed numbers are tried out in a thread,
-`changed` is the screen with the digit, on which the accepted path still stands: then only `finished` tells the rest.
+look-ahead table stands, and what the contour needs.  `there` is the work of both as it would be where the bars were
+set: by how many times slower a minimal Textual app starts here or rs274 runs, the smaller of the two.
+Where half-typed numbers are tried out in a thread, `changed` is the screen with the digit, on which the accepted path
+still stands: then only `finished` tells the rest.
 The next key is typed when the program is at rest: no byte comes and none of its threads has run for a while.  So what
 would help has been tried for a half-typed number before Enter, as for an operator who looks at the screen; behind keys
 without a rest it follows Enter.  `idle` are the bytes sent while nobody types, which must be 0.
 
-The rows of single keys show what each kind costs.  `a LINE as it is typed` is every key of typing the ends of lines
-anew, in the mix in which an operator presses them: half a number is another contour, often a wild one.
+`a LINE as it is typed` is every key of typing the ends of lines anew, in the mix in which an operator presses them:
+half a number is another contour, often a wild one.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ from pathlib import Path
 from core.program.edit import new_block
 from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, Program, Segment, Tool
 from core.program.store import save
-from tests.bench.pace import slowness, witnessed
+from tests.bench.pace import EMPTY_SECONDS, Slowness, rs274_slowness
 from tests.bench.work import at_work, worked
 from tests.terminal import Terminal, running
 
@@ -175,13 +176,24 @@ def first_paint(arguments: list[str], text: str) -> float:
         return time.perf_counter() - begun
 
 
-def side_by_side(program: Path, rounds: int) -> tuple[float, float]:
-    """Median first paint of the empty app and of ours, started in turn."""
-    empty, ours = [], []
-    for _ in range(rounds):
-        empty.append(first_paint([sys.executable, "-c", EMPTY_APP], "READY"))
-        ours.append(first_paint([sys.executable, "-m", "app", str(program)], "MILL CONTOUR"))
-    return statistics.median(empty), statistics.median(ours)
+def empty_paint() -> float:
+    """The same of the empty app."""
+    return first_paint([sys.executable, "-c", EMPTY_APP], "READY")
+
+
+def slowness(rounds: int) -> Slowness:
+    """How much slower than where the bars were set the empty app is here, and rs274."""
+    empty = statistics.median(empty_paint() for _ in range(rounds))
+    return Slowness(rs274_slowness(), empty / EMPTY_SECONDS)
+
+
+def side_by_side(program: Program, rounds: int) -> tuple[float, float]:
+    """Median first paint of the empty app and of ours on a program, started in turn."""
+    with tempfile.TemporaryDirectory() as folder:
+        save(program, path := Path(folder) / "part.toml")
+        ours = [sys.executable, "-m", "app", str(path)]
+        empty, own = zip(*((empty_paint(), first_paint(ours, "MILL CONTOUR")) for _ in range(rounds)), strict=True)
+    return statistics.median(empty), statistics.median(own)
 
 
 @contextmanager
@@ -236,7 +248,7 @@ def line_keys(program: Program, number: int) -> Iterator[bytes]:
     yield b"\t"
 
 
-def rows_of(program: Program, name: str, number: int, count: int, slower: float | None) -> Iterator[str]:
+def rows_of(program: Program, name: str, number: int, count: int, slower: float) -> Iterator[str]:
     """The table of one program, `count` keys of each kind; `number` is a LINE whose X END is moved to and fro."""
     x, _ = _ends(program, number)
     digits = [str(digit % 10).encode() for digit in range(count)]
@@ -261,12 +273,7 @@ def main() -> None:
     parser.add_argument("--starts", type=int, default=9, help="starts of the empty app and of ours")
     parser.add_argument("--keys", type=int, default=6, help="keys of each kind")
     options = parser.parse_args()
-    slower = slowness()
-    print(witnessed(slower))
-    with tempfile.TemporaryDirectory() as folder:
-        program = Path(folder) / "gear.toml"
-        save(gear(200), program)
-        empty, ours = side_by_side(program, options.starts)
+    empty, ours = side_by_side(gear(200), options.starts)
     print(f"first paint   empty app {1000 * empty:.0f} ms   cutcomp {1000 * ours:.0f} ms   {ours / empty:.2f}:1")
     if not options.keys:
         return
@@ -275,10 +282,10 @@ def main() -> None:
         f"{'there':>15}{'there':>15}"
     )
     for contour, name, number in ((plate(), "plate", 105), (gear(200), "gear", 101)):
-        for row in rows_of(contour, name, number, options.keys, slower):
+        print((slower := slowness(options.starts)).told())
+        for row in rows_of(contour, name, number, options.keys, slower.least):
             print(row, flush=True)
-        slower = slowness()
-        print(witnessed(slower))
+    print(slowness(options.starts).told())
 
 
 def _ends(program: Program, number: int) -> tuple[float, float]:
