@@ -153,8 +153,8 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
             self.refresh()
 
     def refresh_screen(self, width: int = 0, height: int = 0) -> None:
-        """Paint what changed, on a terminal of this size if one is given."""
-        frame = self.screen
+        """Paint what changed, on a terminal of this size if one is given; too late there is no screen any more."""
+        frame = self.screen if self.screen_stack else None
         if isinstance(frame, Frame) and frame.is_mounted:
             frame.show(self.picture(width or self.size.width, height or self.size.height))
 

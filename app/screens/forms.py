@@ -167,11 +167,21 @@ class FormPage(Page):
         return Answer(self._without_text(), (edit, Say(f"{one.label}: {_short(bad.text)} is taken back, {now}.")))
 
     def reason(self, session: Session) -> Said | None:
-        """Why the field with the cursor cannot be used as it stands."""
+        """Why the field with the cursor cannot be used as it stands, or that what is being typed does not count yet."""
         one = self.field(session)
         held = None if one is None else self.value(session, one.name)
         text = None if one is None else unusable(held, one, session.program.unit)
-        return None if text is None else Said(text, Tone.ERROR)
+        return self._not_counted(session, one) if text is None else Said(text, Tone.ERROR)
+
+    def _not_counted(self, session: Session, one: Field | None) -> Said | None:
+        """Whose path and verdict are shown while there is half a text in the field that cannot be tried out."""
+        if one is None or self.editing is None or one.kind is Kind.TEXT:
+            return None
+        typed, held = self.editing.text, self.text(session, one)
+        if typed == held or isinstance(understood(typed, one, session.program.unit), Entry):
+            return None
+        told = f"{_short(typed)} does not count yet" if typed.strip() else "A blank does not count before Enter"
+        return Said(f"{told}: path and verdict are still those of {held or 'the blank field'}.")
 
     def shared_trouble(self, session: Session) -> Said | None:
         """What the verdict on any block says of the field with the cursor, which belongs to all of them."""

@@ -126,3 +126,14 @@ async def test_a_half_typed_number_that_leads_to_the_path_in_force_shows_its_not
         assert app.trial is not None
         assert app.shown.found.work is app.desk.session.found.work
         await until(pilot, lambda: FURTHER.text in lines(app))
+
+
+async def test_a_number_typed_while_the_program_is_left_is_not_painted_any_more() -> None:
+    app = app_on("pocket")
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        await pilot.press(*TO_X_END, "3")
+    assert not app.screen_stack
+    # what a clock does that has run down meanwhile
+    app.advice._rested()
+    app.refresh_screen()
