@@ -75,7 +75,13 @@ class Unworded(Finding):
         """A value that is not made yet: all of them are."""
         if name not in _FIELDS:
             raise AttributeError(name, name=name, obj=self)
-        for field, value in zip(_FIELDS, _values(self.tell()), strict=True):
+        try:
+            values = _values(self.tell())
+        except AttributeError as error:
+            # whoever asks whether there is such an attribute would take it for a no
+            message = f"{self.code} of segment {self.segment} cannot be put into words"
+            raise RuntimeError(message) from error
+        for field, value in zip(_FIELDS, values, strict=True):
             object.__setattr__(self, field, value)
         return getattr(self, name)
 

@@ -54,6 +54,19 @@ def test_it_equals_the_finding_from_both_sides() -> None:
     assert late() != object()
 
 
+def test_an_error_in_the_wording_is_no_missing_attribute() -> None:
+    one = late(lambda: replace(WHOLE, text=WHOLE.txt))  # type: ignore[attr-defined]
+    for asked in (
+        lambda: hasattr(one, "text"),
+        lambda: getattr(one, "at", None),
+        lambda: repr(one),
+        lambda: one == WHOLE,
+    ):
+        with pytest.raises(RuntimeError, match=r"UNCUT of segment 3\.0") as raised:
+            asked()
+        assert isinstance(raised.value.__cause__, AttributeError)
+
+
 def test_one_of_another_code_differs_unread() -> None:
     other = Finding("OPEN", Severity.INFO, "text")
     assert late(untold) not in [other]
