@@ -12,10 +12,14 @@ from hypothesis import strategies as st
 from core.controls.laps import unlapped
 from core.controls.report import Run
 from core.controls.verdicts import depth, findings, judged
+from core.geometry.measured import at
 from core.geometry.path import Path
 from core.geometry.side import Side
-from core.tolerance import ON_PATH
+from core.tolerance import GOUGE, ON_PATH
+from core.verify.course import courses
+from core.verify.gouge import gouging
 from core.verify.judge import judge
+from core.verify.pairs import approaches, pairs_of
 from core.verify.verdict import Verdict
 from tests.core.controls.hand import ran
 
@@ -32,6 +36,9 @@ O7
 M99
 """
 LAP = "G1 Y0\nY30\nX40\nY0\nG2 X20 Y0 I-10 J0\nG1 X0"
+SHARES = 7
+"""Places that are looked at on each piece of a centre path."""
+
 STEPS = ((0.0, 30.0), (40.1, 0.0), (0.0, -30.0), (-40.1, 0.0))
 
 
@@ -166,9 +173,14 @@ block = st.tuples(pieces, st.integers(1, 5))
 
 @st.composite
 def lapped(draw: st.DrawFn) -> Path:
-    """Blocks of moves, some of them several times over: closed after their first move, since they end where it did."""
+    """Blocks of moves, some of them several times over: closed after their first move, since they end where it did.
+
+    A move may go to its end by another way than in the other laps.
+    """
     blocks = draw(st.lists(block, min_size=1, max_size=4))
     way = [piece for moves, times in blocks for piece in moves * times]
+    for row in draw(st.lists(st.integers(0, len(way) - 1), max_size=2)):
+        way[row] = (way[row][0], draw(st.sampled_from((0, 1, -1))))
     return _chain([draw(corner), *(at for at, _ in way)], [turn for _, turn in way])
 
 
@@ -176,7 +188,20 @@ def _told(verdict: Verdict) -> tuple[object, ...]:
     """What does not depend on how often a place is passed: laps on each other cross, which leaves sides unknown."""
     uncut = {(*np.round(one.thickest, 6), round(one.thickness, 6)) for one in verdict.uncut}
     thickest = max((one[2] for one in uncut), default=0.0)
-    return verdict.judged, not verdict.gouges, round(verdict.depth, 9), round(verdict.clearance, 9), thickest
+    return verdict.judged, round(verdict.clearance, 9), thickest
+
+
+def _gouging(surface: Path, radius: float, centre: Path) -> set[tuple[float, float]]:
+    """Places of the centre path within its gouges: of one that runs over several laps the verdict tells one alone."""
+    with np.errstate(all="ignore"):
+        walls, moves = courses((surface,), (centre,))
+        pairs = pairs_of(moves, walls, radius, radius + 1e-5)
+        stretches = gouging(pairs, approaches(pairs, radius - GOUGE)).stretches
+    piece, t = np.divmod(np.arange(SHARES * len(moves.pieces)), SHARES)
+    s = pairs.centre_stations[piece] + (t + 0.5) / SHARES * moves.pieces.length[piece]
+    inside = (s[:, None] > stretches.first + 1e-5) & (s[:, None] < stretches.last - 1e-5)
+    points = at(moves.pieces.take(piece), (t + 0.5) / SHARES)[inside.any(axis=1)]
+    return set(zip((points.real.round(6) + 0.0).tolist(), (points.imag.round(6) + 0.0).tolist(), strict=True))
 
 
 @settings(max_examples=150, deadline=None, derandomize=True)
@@ -187,6 +212,10 @@ def test_the_verdict_is_that_on_all_the_laps(surface: Path, shape: Path, side: S
     whole = judge(surface, side, radius, centre)
     once = judge(unlapped(surface), side, radius, unlapped(centre))
     assert _told(once) == _told(whole)
-    assert once.wrong_side or not whole.wrong_side
+    assert _gouging(unlapped(surface), radius, unlapped(centre)) == _gouging(surface, radius, centre)
+    assert once.depth >= whole.depth - 1e-9
+    assert once.depth <= whole.depth + 1e-9 or once.crosses_itself < whole.crosses_itself
+    # of a surface that crosses itself laps decide how much of it is an over-run, which has no side
+    assert once.wrong_side or once.crosses_itself or not whole.wrong_side
     kept = {tuple(point) for point in unlapped(surface).points.tolist()}
     assert kept == {tuple(point) for point in surface.points.tolist()}
