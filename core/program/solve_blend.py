@@ -39,10 +39,11 @@ def blended(
     `radii` holds their typed radii (mm), `empty` the segments without length.
     """
     made = Blends(list(pieces))
+    known = empty.union(index for index, piece in enumerate(pieces) if piece is not None)
     for index in blends:
         fault = _misplaced(typed, index)
         if fault is None and index in radii:
-            fault = _blend(made, index, radii[index], empty)
+            fault = _blend(made, index, radii[index], known)
         if fault is not None:
             made.faults[index] = fault
         if made.pieces[index] is None:
@@ -66,11 +67,11 @@ def _misplaced(typed: Sequence[Segment], index: int) -> Finding | None:
     return None
 
 
-def _blend(made: Blends, index: int, radius: float, empty: frozenset[int]) -> Finding | None:
+def _blend(made: Blends, index: int, radius: float, known: frozenset[int]) -> Finding | None:
     """Put the blend in and shorten its neighbours, or tell why not; nothing while a neighbour is not determined."""
     before, behind = made.pieces[index - 1], made.pieces[index + 1]
     if before is None or behind is None:
-        return _beside_nothing(made, index, empty)
+        return _beside_nothing(made, index, known)
     found = fillet(before, behind, radius)
     match found:
         case Fillet(first, arc, last):
@@ -82,10 +83,10 @@ def _blend(made: Blends, index: int, radius: float, empty: frozenset[int]) -> Fi
             assert_never(found)
 
 
-def _beside_nothing(made: Blends, index: int, empty: frozenset[int]) -> Finding | None:
+def _beside_nothing(made: Blends, index: int, known: frozenset[int]) -> Finding | None:
+    """What is wrong where a neighbour has no length, or none any more; `known` are the determined segments."""
     for beside in (index - 1, index + 1):
-        used_up = beside == index - 1 and index >= 2 and made.pieces[index - 2] is not None
-        if made.pieces[beside] is None and (beside in empty or used_up):
+        if made.pieces[beside] is None and beside in known:
             text = f"Segment {beside + 1} has no length left to blend: correct it or delete this BLEND ARC."
             return _wrong("BLEND_RADIUS", text)
     return None

@@ -100,6 +100,8 @@ def test_a_blend_waits_for_its_neighbours():
     assert [one.segment for one in block.every_finding] == [3]
     assert block.determined == 1
     assert block.segments[0].piece == Line((0.0, 0.0), (10.0, 0.0))
+    behind = solved(RIGHT, LineSegment(), blend(1.0), UP)
+    assert [one.segment for one in behind.every_finding] == [2]
 
 
 def test_beside_a_segment_without_length():
