@@ -20,6 +20,7 @@ from core.comp.result import Compensated, Deletions
 from core.finding import Finding
 from core.geometry.intersect import Indices, planes
 from core.geometry.path import EMPTY, Path
+from core.geometry.piece import Arc, Piece
 from core.geometry.side import Side
 from core.tolerance import JOINED
 
@@ -179,10 +180,15 @@ def _with_length(contour: Path) -> tuple[Path, list[Finding]]:
     """The contour without its zero-length segments, and a finding for each of them."""
     points = planes(contour.points)
     near = (np.abs(points[1:] - points[:-1]) <= JOINED).nonzero()[0]
-    dropped = np.array([row for row in near.tolist() if contour[row].length <= JOINED], np.intp)
+    dropped = np.array([row for row in near.tolist() if _is_point(contour[row])], np.intp)
     if not len(dropped):
         return contour, []
     return _without(contour, dropped), trouble.zero_length(contour, dropped)
+
+
+def _is_point(piece: Piece) -> bool:
+    """No longer than JOINED, of a piece whose ends are as near; an arc with an end in its centre has no direction."""
+    return piece.length <= JOINED or (isinstance(piece, Arc) and piece.centre in (piece.start, piece.end))
 
 
 def _without(contour: Path, dropped: Indices) -> Path:

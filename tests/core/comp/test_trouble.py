@@ -13,7 +13,7 @@ from core.comp.result import Compensated
 from core.comp.trouble import NAMED_AT_MOST, spoken
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Arc, Line, Point, Turn
+from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.geometry.side import Side
 from tests.core.comp.contours import lines
 
@@ -101,6 +101,20 @@ def test_arcs_that_are_points_are_passed_over():
     done = compensate(contour, Side.LEFT, 0.25, 2, closed=False)
     assert _only(done).code == "ZERO_LENGTH"
     assert done.path.numbers.tolist() == [1, 3]
+
+
+@pytest.mark.parametrize("turn", list(Turn))
+@pytest.mark.parametrize("far", [(0.0, 6e-8), (-6e-8, 0.0), (4e-8, -4e-8)])
+def test_arcs_about_an_end_of_their_own_no_farther_off_than_a_point_are_passed_over(turn, far):
+    """Their length is that of an arc through any angle at all: there is no direction from the centre to that end."""
+    for start, end, centre in (((0, 0), far, far), (far, (0, 0), (0, 0)), (far, (0, 0), far)):
+        first, last = Arc(start, end, centre, turn), Line(end, (10, 0))
+        round_: list[Piece] = [first, last, Line((10, 0), (0, 10)), Line((0, 10), start)]
+        for pieces, closed in ((round_[1:] + round_[:1], True), (round_, True), (round_[3:] + round_[:2], False)):
+            done = compensate(Path.from_pieces(pieces), Side.RIGHT, 1.0, 3, closed=closed, blend=1.0)
+            assert [one.code for one in done.findings] == ["ZERO_LENGTH"]
+            assert len(done.path)
+            assert np.isfinite(done.whole.points).all()
 
 
 def test_contour_of_points_alone():
