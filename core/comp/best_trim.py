@@ -177,9 +177,10 @@ def _within_arcs(raw: Raw, rows: Indices, spots: Planes, limit: float) -> tuple[
     """The same of arcs, of two stretches the one nearer to an arc's middle; NaN for an arc's own centre."""
     arm, towards = raw.start[rows] - raw.centre[rows], spots - raw.centre[rows]
     radius, apart = np.abs(arm), np.abs(towards)
-    off_centre = apart > JOINED
-    cosine = (radius * radius + apart * apart - limit * limit) / (2.0 * radius * np.where(off_centre, apart, 1.0))
-    half = np.arccos(np.where(off_centre & (cosine < 1.0), np.maximum(cosine, -1.0), np.nan))
+    off_centre, off = apart > JOINED, apart - radius
+    # the sine of half the angle: of a large arc its cosine differs from 1 by less than rounding
+    square = (limit - off) * (limit + off) / (4.0 * radius * np.where(off_centre, apart, 1.0))
+    half = 2.0 * np.arcsin(np.sqrt(np.where(off_centre & (square > 0.0), np.minimum(square, 1.0), np.nan)))
     middle = raw.lengths[rows] / radius / 2.0
     angle = np.angle(arm.conj() * towards) * raw.turns[rows] - middle
     angle = angle - 2.0 * np.pi * np.round(angle / (2.0 * np.pi)) + middle

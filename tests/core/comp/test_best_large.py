@@ -1,4 +1,5 @@
-"""The best path where the cutter is far larger than the segments, and where a contour's end turns into itself."""
+"""The best path where the cutter is far larger than the segments, where an arc is far larger than the cutter, and where
+a contour's end turns into itself."""
 
 from __future__ import annotations
 
@@ -9,6 +10,7 @@ from core.comp.best import best_path
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
 from core.geometry.side import Side
+from core.verify.judge import judge_together
 from tests.core.comp.best_truth import assert_true, distance
 from tests.core.comp.contours import lines
 
@@ -40,6 +42,27 @@ def hook(sweep: float) -> Path:
 @pytest.mark.parametrize("radius", [0.05, 0.3, 0.6, 0.9])
 def test_an_open_contour_whose_end_turns_into_itself_is_cut_by_its_other_side_too(side, sweep, radius):
     assert_true(hook(sweep), side, radius, closed=False)
+
+
+@pytest.mark.parametrize("inch", [False, True])
+@pytest.mark.parametrize("size", [1e5, 1e6, 3e6, 9e6])
+def test_arcs_of_kilometres_have_a_path_on_both_sides(size: float, inch: bool):
+    """A joint of the surface is exactly the radius away from all of the offset that its own arc has there."""
+    rng = np.random.default_rng(int(size))
+    for _ in range(12):
+        radius, turn, angles = size * rng.uniform(0.3, 1.1), rng.choice((-1, 1)), rng.uniform(0.0, 6.0, 2)
+        ends = radius * np.array([(np.cos(angle), np.sin(angle)) for angle in angles])
+        first, last = np.round(ends / 25.4, 5) * 25.4 if inch else np.round(ends, 4)
+        for points in ((first, last), (first, last, first), (first, first)):
+            count = len(points) - 1
+            arcs = Path.of(np.array(points), np.zeros((count, 2)), np.full(count, turn, np.int8))
+            for side in Side:
+                best = best_path(arcs, side, 3.0, closed=bool((points[0] == points[-1]).all()))
+                assert [finding.code for finding in best.findings] == []
+                verdict = judge_together(arcs, side, 3.0, best.loops)
+                assert verdict.judged
+                assert not verdict.gouges
+                assert not verdict.uncut
 
 
 def test_s_curves_of_half_circles_are_no_crossing():
