@@ -2,6 +2,8 @@
 
 Pieces that follow each other lie beside each other, so groups of consecutive boxes make a good tree without any
 sorting.  Boxes are (4, n) arrays: least x, least y, largest x, largest y.
+
+A bound that is no number parts nothing, and makes that of its group none: what is asked is whether boxes are apart.
 """
 
 from __future__ import annotations
@@ -79,13 +81,16 @@ def _members(first: Floats, second: Floats, one: Rows, two: Rows, reach: float) 
     for start in range(0, len(one), RUNS_AT_ONCE):
         left, right = one[start : start + RUNS_AT_ONCE], two[start : start + RUNS_AT_ONCE]
         low, high = a.take(left, axis=2)[:, :, None], b.take(right, axis=2)[:, None]
-        near = low[0] <= high[2]
-        near &= high[0] <= low[2]
-        near &= low[1] <= high[3]
-        near &= high[1] <= low[3]
-        where = np.flatnonzero(near.reshape(RUN * RUN, -1).T)
+        apart = low[0] > high[2]
+        apart |= high[0] > low[2]
+        apart |= low[1] > high[3]
+        apart |= high[1] > low[3]
+        where = np.flatnonzero(~apart.reshape(RUN * RUN, -1).T)
         pair, member = where // (RUN * RUN), where & (RUN * RUN - 1)
         i, j = RUN * left[pair] + member // RUN, RUN * right[pair] + (member & (RUN - 1))
+        # a box that is no number is near those nowhere too
+        real = (i < first.shape[1]) & (j < second.shape[1])
+        i, j = i[real], j[real]
         keep = reaching(first.take(i, axis=1), second.take(j, axis=1), reach)
         found.append(np.stack((i[keep], j[keep])))
     i, j = np.concatenate(found, axis=1)
@@ -128,7 +133,7 @@ def nearest_boxes(points: Points, boxes: Floats, within: Floats, slack: float) -
 
 def _contenders(i: Rows, j: Rows, low: Floats, high: Floats) -> tuple[Rows, Rows]:
     a, b = low.take(i, axis=1), high.take(j, axis=1)
-    keep = _apart(a, b) <= np.min(_span(a, b))
+    keep = ~(_apart(a, b) > np.fmin.reduce(_span(a, b)))
     return i[keep], j[keep]
 
 
@@ -174,10 +179,10 @@ def _brood(keep: Rows, grow: Rows, count: int) -> tuple[Rows, Rows]:
 
 def _near(a: Floats, b: Floats, reach: float) -> Flags:
     """Boxes no farther apart than `reach` in x and in y."""
-    near = a[:2] - reach <= b[2:]
-    near &= b[:2] - reach <= a[2:]
-    both: Flags = near[0] & near[1]
-    return both
+    apart = a[:2] - reach > b[2:]
+    apart |= b[:2] - reach > a[2:]
+    near: Flags = ~(apart[0] | apart[1])
+    return near
 
 
 def _apart(a: Floats, b: Floats) -> Floats:
@@ -193,17 +198,17 @@ def _between(a: Floats, b: Floats) -> Floats:
 
 def meeting(a: Floats, b: Floats) -> Flags:
     """Boxes that have a point in common."""
-    met = a[:2] <= b[2:]
-    met &= b[:2] <= a[2:]
-    both: Flags = met[0] & met[1]
-    return both
+    apart = a[:2] > b[2:]
+    apart |= b[:2] > a[2:]
+    met: Flags = ~(apart[0] | apart[1])
+    return met
 
 
 def reaching(a: Floats, b: Floats, reach: float) -> Flags:
     """Boxes no farther apart than `reach`."""
     gaps = _between(a, b)
     gaps *= gaps
-    near: Flags = gaps[0] + gaps[1] <= reach * reach
+    near: Flags = ~(gaps[0] + gaps[1] > reach * reach)
     return near
 
 

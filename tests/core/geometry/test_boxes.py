@@ -44,6 +44,42 @@ def test_near_pairs(n: int, m: int, reach: float) -> None:
 
 
 @pytest.mark.usefixtures("at_once")
+@pytest.mark.parametrize(("n", "m"), [(1, 1), (3, 40), (57, 5), (130, 131), (256, 64), (300, 300)])
+@pytest.mark.parametrize("reach", [0.0, 0.7])
+def test_a_box_that_is_no_number_is_near_all_and_hides_none(n: int, m: int, reach: float) -> None:
+    a, b = wander(1, n), wander(2, m)
+    unknown = np.zeros((n, m), np.bool_)
+    for boxes, of in ((a, unknown), (b, unknown.T)):
+        row = boxes.shape[1] // 2
+        boxes[:, row], of[row] = np.nan, True
+    i, j = near_pairs(a, b, reach)
+    wanted = np.nonzero((apart(a, b) <= reach) | unknown)
+    assert set(zip(i.tolist(), j.tolist(), strict=True)) == set(zip(*map(np.ndarray.tolist, wanted), strict=True))
+
+
+@pytest.mark.usefixtures("at_once")
+def test_a_bound_that_is_no_number_hides_neither_its_box_nor_its_group() -> None:
+    for bound in range(4):
+        a, b = wander(1, 130), wander(2, 131)
+        wanted = np.nonzero(apart(a, b) <= 0.7)
+        a[bound, ::7] = np.nan
+        for i, j in (near_pairs(a, b, 0.7), near_pairs(b, a, 0.7)[::-1]):
+            assert set(zip(*map(np.ndarray.tolist, wanted), strict=True)) <= set(
+                zip(i.tolist(), j.tolist(), strict=True)
+            )
+
+
+@pytest.mark.usefixtures("at_once")
+def test_closest_pairs_are_held_beside_a_box_that_is_no_number() -> None:
+    a, b = wander(1, 40), wander(2, 50) + 100.0
+    best = divmod(int(apart(a, b).argmin()), 50)
+    other = (best[1] + 1) % 50
+    b[:, other] = np.nan
+    found = set(zip(*map(np.ndarray.tolist, closest_pairs(a, b)), strict=True))
+    assert found >= {best, *((row, other) for row in range(40))}
+
+
+@pytest.mark.usefixtures("at_once")
 @pytest.mark.parametrize(("n", "m"), [(1, 1), (3, 40), (130, 131)])
 def test_closest_pairs_hold_the_closest(n: int, m: int) -> None:
     a, b = wander(1, n), wander(2, m) + 100.0
