@@ -35,6 +35,12 @@ def chains(path: Path) -> tuple[Rows, ...]:
     return found if len(found) <= MOST_CHAINS else (whole,)
 
 
+def ways(path: Path, contours: tuple[Rows, ...]) -> tuple[bool, ...]:
+    """Which of the `chains` of a path are open ones beside closed ones: they may be no more than the way to these."""
+    places = _places(path)
+    return tuple(len(contours) > 1 and places[first] != places[last] for first, last in contours)
+
+
 def contour_of(path: Path) -> Rows:
     """The rows of the one contour without its leads; all rows where there are several, or none that is closed."""
     found = chains(path)

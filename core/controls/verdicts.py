@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import compress, pairwise
 from typing import Final
 
 import numpy as np
 
-from core.controls.chains import Rows, chains
+from core.controls.chains import MOST_LEAD, Rows, chains, ways
 from core.controls.laps import unlapped
 from core.controls.report import Run, Stretch
 from core.finding import Finding, Severity
@@ -38,7 +38,7 @@ class Judged:
     surface, since of two laps written out the one may be kept of the surface and the other of the path.
     `leads` are programmed moves taken for leads because a closed contour begins behind them or ends before them, and
     `lead_gouges` what is cut of them: they may be surface after all.  `alone`: the side changed where it begins, and
-    what is cut on the other side is not asked about.
+    what is cut on the other side is not asked about.  `way`: an open contour beside closed ones.
     """
 
     stretch: Stretch
@@ -49,6 +49,7 @@ class Judged:
     leads: tuple[int, ...] = ()
     lead_gouges: tuple[Gouge, ...] = ()
     alone: bool = False
+    way: bool = False
 
 
 def judged(run: Run) -> tuple[Judged, ...]:
@@ -76,13 +77,17 @@ def _each(run: Run, stretch: Stretch) -> list[Judged]:
     """
     whole = surface_of(stretch)
     contours = chains(whole)
+    open_ones = ways(whole, contours)
     parts, results, row = stretch.parts(), list[Judged](), 0
     sides = any(part.side is not parts[0].side for part in parts)
     for part in parts:
         own = surface_of(part)
         begin, row = row, row + len(own)
         inner = [(max(first, begin) - begin, min(last, row) - begin) for first, last in contours]
-        told = _judged(run, part, own, [both for both in inner if both[0] < both[1]] or [(0, len(own))])
+        held = [both[0] < both[1] for both in inner]
+        told = _judged(run, part, own, list(compress(inner, held)) or [(0, len(own))])
+        if any(held):
+            told = [replace(one, way=way) for one, way in zip(told, compress(open_ones, held), strict=True)]
         if sides:
             told[0] = replace(told[0], alone=bool(results))
         elif len(parts) > 1:
@@ -133,10 +138,18 @@ def _contour(stretch: Stretch, contour: Path, centre: Path, *, alone: bool) -> J
 
 def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
     """The verdicts as findings with lines: gouges and the wrong side are errors, the rest is a warning."""
+    gouged = {gouge.surface_number for result in results for gouge in result.verdict.gouges}
     return tuple(
         finding
         for result in results
-        for finding in (*_alone(result), *_cuts(result), *_leads(result), *_strays(result), *_rest(result))
+        for finding in (
+            *_alone(result),
+            *_cuts(result),
+            *_way(result, gouged),
+            *_leads(result),
+            *_strays(result),
+            *_rest(result),
+        )
     )
 
 
@@ -180,6 +193,19 @@ def _alone(result: Judged) -> list[Finding]:
     )
     line = int(result.surface.numbers[0]) if len(result.surface) else None
     return [Finding("SIDES", Severity.WARNING, text, line=line)]
+
+
+def _way(result: Judged, gouged: set[float]) -> list[Finding]:
+    """That gouged lines may be no surface at all: nothing in a program says where a contour begins."""
+    if not (result.way and gouged & result.lines):
+        return []
+    first, last = int(min(result.lines)), int(max(result.lines))
+    text = (
+        f"Lines {first} to {last}, more than {MOST_LEAD} moves beside a closed contour, are taken for a contour of "
+        "their own, and what the cutter cuts into them for a gouge; if they only lead from one contour to another, "
+        f"cancel the compensation before them, or lead there in {MOST_LEAD} moves."
+    )
+    return [Finding("WAY", Severity.WARNING, text, line=first)]
 
 
 def _leads(result: Judged) -> list[Finding]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.controls.chains import chains, contour_of
+from core.controls.chains import chains, contour_of, ways
 from core.controls.compare import compare
 from core.controls.verdicts import findings, judged
 from core.finding import Finding, Severity
@@ -95,6 +95,36 @@ OPEN_KEY = (
 def test_a_full_circle_behind_an_open_contour_does_not_hide_its_gouge(control: str, circle: str) -> None:
     found = [one for one in errors(OPEN_KEY.format(circle=circle), control) if one.code == "GOUGE"]
     assert [one.value for one in found if one.line in (6, 12)] == pytest.approx([2.0, 2.0], abs=1e-6)
+
+
+FIRST_RING, SECOND_RING = "Y30.\nX40.\nY0.\nX0.\n", "Y30.\nX140.\nY0.\nX100.\n"
+
+
+def two_rings(way: str) -> str:
+    begin = "G21 G17 G90 G94 F100\nG0 X-30. Y-30. Z5.\nG41 D1 G1 X0. Y-10.\nY0.\n"
+    return begin + FIRST_RING + way + SECOND_RING + "G40 X90. Y-40.\nM2\n"
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_long_way_between_contours_that_is_told_as_gouged_is_told_to_be_no_surface_perhaps(control: str) -> None:
+    """Nothing tells a way of three moves from an open contour: its gouges stay errors, and what to do is said."""
+    told = findings(judged(ran(two_rings("X-20.\nY-50.\nX100.\nY0.\n"), control, t1=6)))
+    assert {9.0, 10.0} & {float(one.text.split("line ")[1].split()[0]) for one in told if one.code == "GOUGE"}
+    (way,) = (one for one in told if one.code == "WAY")
+    assert (way.severity, way.line) == (Severity.WARNING, 9)
+    assert way.text.startswith("Lines 9 to 12, more than 2 moves beside a closed contour")
+    short = findings(judged(ran(two_rings("X-20. Y-50.\nX100. Y0.\n"), control, t1=6)))
+    assert not {"WAY", "GOUGE"} & {one.code for one in short}
+
+
+def test_of_contours_that_are_closed_or_alone_none_is_a_way() -> None:
+    closed = lines_through(*RING, *OTHER, (5, 5), (4, 5), (3, 5), (-1, -1))
+    assert ways(closed, chains(closed)) == (False, False, True)
+    alone = lines_through((0, 0), (1, 0), (1, 1), (5, 5))
+    assert ways(alone, chains(alone)) == (False,)
+    corners, circle = OPEN_KEY.format(circle=""), OPEN_KEY.format(circle="G2 X100. Y20. I0. J-20.\nG1 ")
+    told = [findings(judged(ran(program, "linuxcnc", t1=6))) for program in (corners, circle)]
+    assert [sum(one.code == "WAY" for one in found) for found in told] == [0, 1]
 
 
 def test_the_comparison_tells_it_too() -> None:
