@@ -156,7 +156,7 @@ class Desk:
             case Redo():
                 return self._turned(self.session.redo())
             case Open() | Swap() | Close():
-                return replace(self, pages=self._stacked(message))
+                return self._on(self._stacked(message))
             case NextMode():
                 return self._next_mode()
             case Do() | Save() | Browse() | Load() | Post() | Leave():
@@ -192,6 +192,11 @@ class Desk:
                 return self.pages[:-1] if len(self.pages) > 1 else self.pages
             case _:
                 assert_never(message)
+
+    def _on(self, pages: tuple[Page, ...]) -> Desk:
+        """The desk with these pages; a question that has come up tells by itself how it is answered."""
+        asked = pages[-1].asks and len(pages) > len(self.pages)
+        return replace(self, pages=pages, session=self.session.quiet() if asked else self.session)
 
     def _answered(self, answer: Answer) -> Desk:
         """The page as the key left it, then its messages in order, up to an edit that is refused."""

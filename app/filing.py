@@ -10,7 +10,7 @@ from app.files import empty_program, examples, is_nc, opened
 from app.folders import asking, chosen, outside, told_path, written_at
 from app.guard import THE_WAY
 from app.messages import Browse, Close, Do, Leave, Load, Open, Post, Save, Say, Swap
-from app.naming import is_folder, with_suffix
+from app.naming import as_program, is_folder, with_suffix
 from app.patience import FILE, within
 from app.saving import asked, leads_elsewhere, put_theirs_aside, replacing, there
 from app.screens.ask import Ask, Option
@@ -47,7 +47,7 @@ def carry_out(desk: Desk, message: Save | Browse | Load | Post | Leave) -> Desk:
 
 def _save(desk: Desk, message: Save) -> Desk:
     session = desk.session
-    path = session.file if message.path is None else with_suffix(chosen(message.path, session.file), ".toml")
+    path = session.file if message.path is None else _as_program(chosen(message.path, session.file), session.file)
     if path is None:
         return desk.take(Open(SaveAsPage.of(session, leave=message.leave)))
     if (question := asked(desk, path, message)) is not None:
@@ -64,6 +64,11 @@ def _save(desk: Desk, message: Save) -> Desk:
     desk = _without(replace(desk, session=named), SaveAsPage)
     other = "" if theirs is None else f" The other version is in {told_path(theirs.name)}."
     return replace(desk, exit=True) if message.leave else desk.take(Say(f"Saved: {written_at(path)}{other}"))
+
+
+def _as_program(path: Path, own: Path | None) -> Path:
+    """The name of a program; the one it has already stays whatever it is."""
+    return path if path == own else as_program(path)
 
 
 def _browse(desk: Desk, folder: Path | None) -> Desk:

@@ -52,3 +52,13 @@ def written_at(path: Path) -> str:
 def told_path(path: Path | str) -> str:
     """A whole path without control characters."""
     return "".join(one if one.isprintable() else "?" for one in str(path))
+
+
+def folder_told(file: Path | None) -> str:
+    """The chosen folder in words, asked of no disk: a folder of a network may not answer."""
+    if file is not None:
+        return told_path(file.parent)
+    try:
+        return told_path(Path.cwd())
+    except OSError:
+        return "the folder it was started in, which is gone"

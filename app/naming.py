@@ -23,8 +23,14 @@ def is_folder(path: Path) -> bool:
 
 
 def with_suffix(path: Path, suffix: str) -> Path:
-    """The path with a suffix if it has none and is no folder."""
-    return path if path.suffix or is_folder(path) else path.with_suffix(suffix)
+    """The path with a suffix if it has none and is no folder: in `bracket 1.5` the 5 is none."""
+    own = path.suffix[1:]
+    return path if is_folder(path) or (own.isalnum() and own[0].isalpha()) else path.with_name(path.name + suffix)
+
+
+def as_program(path: Path) -> Path:
+    """The path as the name of a program, which ends in .toml: no other file is listed."""
+    return path if is_folder(path) or path.suffix.lower() == ".toml" else path.with_name(f"{path.name}.toml")
 
 
 def program_named(path: Path) -> Path:
@@ -33,4 +39,4 @@ def program_named(path: Path) -> Path:
         found = path.exists() or path.is_symlink()
     except OSError:
         return path
-    return path if found else with_suffix(path, ".toml")
+    return path if found else as_program(path)

@@ -181,8 +181,14 @@ def _told(keeping: Keeping, session: Session, path: Path, found: Recovered) -> l
         lines.append("The end of it cannot be read and is kept aside.")
     if stamp is None and session.file is not None and session.file.exists():
         lines.append(f"{printable(session.file.name)} itself cannot be read as a program any more; it stays as it is.")
-    against = "a new program" if stamp is None else "the saved file"
-    return [*lines, f"Against {against}:"]
+    return [*lines, f"Against {_against(session)}:"]
+
+
+def _against(session: Session) -> str:
+    """What the differences are told against."""
+    if session.guard.stamp is not None:
+        return "the saved file"
+    return f"the example {session.title}" if session.title else "a new program"
 
 
 def restored(keeping: Keeping, desk: Desk, path: Path, found: Recovered) -> Desk:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from textwrap import wrap
 from typing import ClassVar
 
-from app.messages import Close, Message
+from app.messages import Close, Message, Say
 from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View, unseen
 from app.session import Said, Session
 from app.widgets.header import header
@@ -35,11 +35,16 @@ class Ask(Page):
         return {**keys, 8: Softkey("CANCEL", (Close(),))}
 
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
-        """An answer's letter."""
+        """An answer's letter; whatever else is typed answers nothing, and is told so."""
         for letter, _, messages in self.options:
             if character is not None and character.lower() == letter:
                 return Answer(self, messages)
-        return None
+        typed = key == "enter" or (character is not None and character.isalnum())
+        return Answer(self, (Say(self.way_out()),)) if typed else None
+
+    def way_out(self) -> str:
+        """The letters that answer, as a sentence."""
+        return f"Press {letters(self.options)}; Esc goes back and nothing changes."
 
     def escape(self, session: Session) -> Answer | None:
         """No answer."""
@@ -58,6 +63,11 @@ class Ask(Page):
             ((), *asked, (), *answers, _answer("Esc", "back, nothing changes")),
             Said("Press the softkey or the letter of an answer."),
         )
+
+
+def letters(options: tuple[Option, ...]) -> str:
+    """The letters that answer."""
+    return " or ".join(letter.upper() if len(letter) == 1 else letter for letter, _, _ in options)
 
 
 def _answer(letter: str, label: str) -> Row:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar, Final
 
-from app.messages import Message, Say
-from app.screens.ask import Ask
+from app.messages import Say
+from app.screens.ask import Ask, letters
 from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
 from app.screens.text import paragraph
 from app.session import Said, Session
@@ -28,16 +28,13 @@ class Decide(Ask):
         """The answers."""
         return {number: Softkey(label, messages) for number, (_, label, messages) in enumerate(self.options, 1)}
 
-    def press(self, key: str, character: str | None, session: Session) -> Answer | None:
-        """An answer's letter; nothing else closes the question."""
-        if key == "enter":
-            return self.escape(session)
-        return Ask.press(self, key, character, session)
+    def way_out(self) -> str:
+        """There is no way around."""
+        return f"Press {letters(self.options)}."
 
     def escape(self, session: Session) -> Answer | None:
         """No way around."""
-        asked: tuple[Message, ...] = (Say(f"Press {' or '.join(one[0].upper() for one in self.options)}."),)
-        return Answer(self, asked)
+        return Answer(self, (Say(self.way_out()),))
 
     def everywhere(self, key: str, session: Session) -> Answer | None:
         """Nothing of its own: Esc does not leave this question."""

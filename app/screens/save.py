@@ -3,30 +3,35 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Self
+from typing import Final, Self
 
+from app.folders import folder_told
 from app.messages import Close, Message, Save, Say
-from app.naming import typed, with_suffix
+from app.naming import typed
 from app.screens.entry import EntryPage, entry_row
 from app.screens.page import Answer, Softkey, Softkeys, Surface, View
+from app.screens.text import paragraph
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header
 from app.widgets.rows import Look, plain
 from core.records import dataclass
 
+HOW: Final = "The folder must exist. A name that does not end in .toml gets it."
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SaveAsPage(EntryPage):
-    """Asks for a name; `leave` leaves the program after saving."""
+    """Asks for a name; `leave` leaves the program after saving, `folder` is where a name without one leads."""
 
     leave: bool = False
+    folder: str = ""
 
     @classmethod
     def of(cls, session: Session, *, leave: bool = False) -> Self:
         """The page with the name the program has."""
         name = Path("part.toml") if session.file is None else session.file
-        return cls(Editing.of(str(name)), leave=leave)
+        return cls(Editing.of(str(name)), leave=leave, folder=folder_told(session.file))
 
     def softkeys(self, session: Session) -> Softkeys:
         """Save, or not."""
@@ -44,17 +49,18 @@ class SaveAsPage(EntryPage):
         text = self.entry.text.strip()
         if not text:
             return (Say("Type a name for the file.", Tone.ERROR),)
-        return (Save(with_suffix(typed(text), ".toml"), leave=self.leave),)
+        return (Save(typed(text), leave=self.leave),)
 
     def view(self, session: Session, surface: Surface) -> View:
         """The name."""
+        lines = (HOW, f"A name without a folder goes into {self.folder}")
         return View(
             header("SAVE AS", plain(""), session, surface.width),
             (
                 (),
                 entry_row("FILE", self.entry, surface.width, fresh=self.replaced),
                 (),
-                plain(" The folder must exist. .toml is added where nothing is.", Look.LABEL),
+                *(row for line in lines for row in paragraph(line, surface.width, Look.LABEL, "  ")),
             ),
             Said("Type the name of the file, Enter saves. Left arrow changes the name that stands there."),
             1,

@@ -18,23 +18,36 @@ STRIP: Final = 59
 
 
 def strip(found: DerivedBlock, table: Table | None, unit: Unit) -> Row:
-    """The verdict's first line: every value's fate and which is best; the value in force alone before that is known."""
+    """The verdict's first line: every value's fate and which is best; the value in force alone before that is known.
+
+    Of a contour that is not determined to its end it tells what all of the verdict is about, and advises nothing.
+    """
     if found.side is None:
         told = ": the tool's centre runs on the contour." if found.known else "   calculating ..."
         return plain(f" CUTTER COMP. ON{told}", Look.LABEL)
     if table is None:
-        return plain(f" look-ahead [{found.lookahead.value}]{'' if found.known else '   calculating ...'}", Look.LABEL)
+        more = _alone(found) if found.known else "calculating ..."
+        return plain(f" look-ahead [{found.lookahead.value}]   {more}".rstrip(), Look.LABEL)
     here = found.lookahead.value
     spans = [Span(" look-ahead", Look.LABEL)]
     for first, last, mark in _runs(table, here):
         spans.append(_run(first, last, mark, here=first == here == last))
-    advice = _advice(table, here)
+    alone = _alone(found)
+    advice = alone or _advice(table, here)
     left = STRIP - sum(len(span.text) for span in spans)
-    if (price := _price(table, here, unit)) and left >= len(advice) + len(price) + 4:
+    if not alone and (price := _price(table, here, unit)) and left >= len(advice) + len(price) + 4:
         advice = f"{advice} {price}"
     if left < len(advice) + 2:
         spans = _shortened(spans, STRIP - len(advice) - 6)
     return (*spans, Span(f"   {advice}", Look.LABEL))
+
+
+def _alone(found: DerivedBlock) -> str:
+    """Which segments the verdict is about where that is not all of the contour."""
+    if found.solved.whole or not found.solved.pieces:
+        return ""
+    last = found.solved.pieces[-1][0]
+    return "of segment 1 alone" if last == 1 else f"of segments 1-{last} alone"
 
 
 def _run(first: int, last: int, mark: str, *, here: bool) -> Span:

@@ -80,7 +80,8 @@ def _told(found: DerivedBlock, work: Work, program: Program) -> DerivedBlock:
         # what is typed wrong comes before what follows from it
         back = turning_back(work.surface, closed=closed)
         trouble = (*path_findings(work), *size_warning(found.radius, work.surface))
-    trouble += open_finding(work.surface, 2 * found.radius, closed=closed)
+    if found.solved.whole:
+        trouble += open_finding(work.surface, 2 * found.radius, closed=closed)
     return _checked(replace(found, work=work, findings=by_weight((*back, *found.findings, *trouble))), program)
 
 

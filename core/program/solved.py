@@ -86,7 +86,12 @@ class SolvedBlock:
         return self.findings + tuple(finding for segment in self.segments for finding in segment.findings)
 
     @property
+    def whole(self) -> bool:
+        """Every segment is determined: what is known of the surface is all of it."""
+        return self.determined == len(self.segments)
+
+    @property
     def postable(self) -> bool:
         """Everything is read and determined."""
-        whole = self.determined == len(self.segments) and bool(self.pieces)
-        return whole and all(finding.severity is not Severity.ERROR for finding in self.every_finding)
+        sound = all(finding.severity is not Severity.ERROR for finding in self.every_finding)
+        return self.whole and bool(self.pieces) and sound

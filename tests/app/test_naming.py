@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
 import pytest
 
 from app.files import example
-from app.naming import is_folder, typed, with_suffix
+from app.naming import as_program, is_folder, program_named, typed, with_suffix
 from core.pipeline.derive import derive
 from core.program.store import load
 from tests.app.operator import Operator
@@ -33,7 +34,38 @@ def test_a_suffix_where_there_is_none() -> None:
     assert with_suffix(Path("part.tap"), ".nc") == Path("part.tap")
     assert with_suffix(Path("/"), ".nc") == Path("/")
     assert with_suffix(Path(LONG), ".nc") == Path(f"{LONG}.nc")
+    assert with_suffix(Path("bracket 1.5"), ".nc") == Path("bracket 1.5.nc")
+    assert with_suffix(Path("part.theirs-2026-01-02"), ".nc") == Path("part.theirs-2026-01-02.nc")
     assert not is_folder(Path(LONG))
+
+
+@pytest.mark.parametrize("name", ["bracket 1.5", "part.nc", "part.", "part"])
+def test_a_program_ends_in_toml_or_no_list_would_show_it(name: str) -> None:
+    assert as_program(Path(name)) == program_named(Path(name)) == Path(f"{name}.toml")
+
+
+def test_a_program_under_another_name_is_found_and_saved_under_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "part.cfg"
+    path.write_bytes(example("pocket").read_bytes())
+    assert program_named(Path("part.cfg")) == Path("part.cfg")
+    operator = Operator.at(load(path))
+    operator.desk = replace(operator.desk, session=replace(operator.session, file=path))
+    operator.press("f8", "f2", "enter")
+    assert "SAVE AS" not in operator.screen()[0]
+    assert [one.name for one in tmp_path.iterdir()] == ["part.cfg"]
+
+
+def test_the_name_of_a_program_with_a_point_in_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    operator = Operator.at(load(example("pocket"))).press("f8", "ctrl+s")
+    assert f"Anamewithoutafoldergoesinto{tmp_path}" in "".join(operator.part("body").split())
+    operator.press(*("space" if one == " " else one for one in "bracket 1.5"), "enter")
+    assert operator.said == "Saved: bracket 1.5.toml"
+    assert (tmp_path / "bracket 1.5.toml").exists()
+    assert "bracket 1.5" in operator.screen()[1]
 
 
 @pytest.mark.parametrize(

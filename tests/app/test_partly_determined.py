@@ -1,0 +1,47 @@
+"""Of a contour that is not determined to its end, every screen says which segments the verdict is about."""
+
+from __future__ import annotations
+
+import pytest
+
+from app.files import example
+from app.widgets.rows import text_of
+from app.widgets.strip import strip
+from core.pipeline.derive import derive
+from core.pipeline.table import look_ahead_table
+from core.program.edit import Refused, Where, type_field
+from core.program.model import Program
+from core.program.store import load
+
+
+def without(number: int, name: str, part: str = "pocket") -> Program:
+    """An example with a field of a segment blank."""
+    outcome = type_field(load(example(part)), Where(1, number), name, None)
+    assert not isinstance(outcome, Refused)
+    return outcome
+
+
+@pytest.mark.parametrize(
+    ("part", "number", "alone"),
+    [("overrun-square", 2, "of segment 1 alone"), ("pocket", 6, "of segments 1-5 alone")],
+)
+def test_the_strip_tells_what_was_judged_and_recommends_nothing(part: str, number: int, alone: str) -> None:
+    program = without(number, "y_end", part)
+    found = derive(program).blocks[0]
+    table = look_ahead_table(found, program)
+    assert table is not None
+    for known in (table, None):
+        told = text_of(strip(found, known, program.unit))
+        assert told.endswith(alone)
+        assert "best" not in told
+
+
+def test_what_is_whole_says_nothing_of_it() -> None:
+    program = load(example("pocket"))
+    found = derive(program).blocks[0]
+    assert "alone" not in text_of(strip(found, look_ahead_table(found, program), program.unit))
+
+
+def test_an_end_that_is_not_known_is_not_told_to_be_open() -> None:
+    found = derive(without(6, "y_end")).blocks[0]
+    assert not {"OPEN", "NEARLY_CLOSED"} & {one.code for one in found.findings}
