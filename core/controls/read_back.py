@@ -117,12 +117,14 @@ def _other_move(made: Run, meant: Meant) -> Finding | None:
         other = bool(moves.rapid[row]) != (travel.feed is None) or int(moves.turns[row]) != travel.turn
         if other and (int(moves.lines[row]) == number or travel.turn):
             return refusal(f"{meant.control} makes another move of line {number} of the program.")
-        off = np.abs(moves.points[row] - (travel.x, travel.y, travel.z)).max()
+        offs = np.abs(moves.points[row] - (travel.x, travel.y, travel.z))
         if travel.turn:
-            off = max(off, np.abs(moves.centres[row, :2] - travel.centre).max(), _longer(moves, row, before, travel))
-        if off > meant.tolerance:
+            aside = np.abs(moves.centres[row, :2] - travel.centre)
+            offs = np.concatenate((offs, aside, (_longer(moves, row, before, travel),)))
+        # what is no number is not near
+        if not (offs <= meant.tolerance).all():
             text = f"{meant.control} ends line {number} of the program {{0}} elsewhere."
-            return refusal(text, lengths=(float(off),))
+            return refusal(text, lengths=(float(offs.max()),))
     return None
 
 
@@ -174,8 +176,9 @@ def _compared(made: Path, cut: Cut, meant: Meant) -> Told:
     elif max(len(inner), len(whole)) > PIECES:
         return Told((refusal("The control's path differs, and is too long for finding out how far."),))
     else:
-        apart, number = max(farthest(inner, whole), _by_segment(farthest(whole, inner), inner))
-    trouble = _trouble(made, inner, cut, meant, moved=apart > tolerance)
+        both = farthest(inner, whole), _by_segment(farthest(whole, inner), inner)
+        apart, number = both[int(np.argmax([one for one, _ in both]))]
+    trouble = _trouble(made, inner, cut, meant, moved=not apart <= tolerance)
     if trouble is not None:
         return Told((trouble,))
     if apart <= tolerance:
@@ -201,16 +204,17 @@ def same(made: Path, whole: Path, tolerance: float) -> bool:
 
 
 def farthest(path: Path, other: Path) -> tuple[float, float]:
-    """How far the ends and middles of a path's pieces lie from another path at most, and the number of that piece."""
+    """How far the ends and middles of a path's pieces lie from another path at most, and the number of that piece.
+
+    A distance that is no number is farther than any other.
+    """
     pieces, onto = measured(path), measured(other)
     if not len(pieces) or not len(onto):
         return (np.inf, 0.0) if len(pieces) or len(onto) else (0.0, 0.0)
-    found = (0.0, float(path.numbers[0]))
-    for part in (0.0, 0.25, 0.5, 0.75, 1.0):
-        for row, place in enumerate(at(pieces, np.full(len(pieces), part))):
-            apart = float(np.min(distance(onto, np.full(len(onto), place))))
-            found = max(found, (apart, float(path.numbers[row])))
-    return found
+    places = np.concatenate([at(pieces, np.full(len(pieces), part)) for part in (0.0, 0.25, 0.5, 0.75, 1.0)])
+    apart = np.array([np.min(distance(onto, np.full(len(onto), place))) for place in places])
+    most = apart.max()
+    return float(most), float(np.tile(path.numbers[pieces.rows], 5)[~(apart < most)].max())
 
 
 def _trouble(made: Path, inner: Path, cut: Cut, meant: Meant, *, moved: bool) -> Finding | None:

@@ -132,10 +132,11 @@ def stacked(paths: Sequence[Path]) -> Measured:
     centre = np.concatenate([_NO_POINTS, *(planes(path.centres) for path in paths)])
     turn = np.concatenate([_NO_TURNS, *(path.turns for path in paths)])
     whole = _measured(start, end, centre, turn)
-    keep = whole.length > ON_PATH
-    if keep.all():
+    short = whole.length <= ON_PATH
+    if not short.any():
         return whole
-    first = 0
+    # a length that is no number is none of no length: nothing is said of its piece by leaving it out
+    keep, first = ~short, 0
     for path in paths:
         if len(path) and not keep[first : first + len(path)].any():
             keep[first] = True

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import sqrt
+from math import nan, sqrt
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
-from core.controls.contouring import Line
+from core.controls.contouring import Cut, Line
 from core.controls.iso_style import STYLES
-from core.controls.read_back import Meant, farthest, read_back, same
+from core.controls.read_back import Meant, _compared, farthest, read_back, same
 from core.controls.registry import names
 from core.controls.write_iso import Frame, tools_of
 from core.controls.write_own import NotWritten, Own, write_own
@@ -132,6 +132,29 @@ def test_farthest_finds_the_piece_that_is_off() -> None:
     apart, number = farthest(bent, SQUARE)
     assert apart / INCH == pytest.approx(0.5)
     assert number in (3.0, 4.0)
+
+
+def test_farthest_names_the_piece_behind_those_of_no_length() -> None:
+    bent = outline((1, 0), (1, 0), (1, 0), (2, 0), (2, 1), (2.5, 2), (0, 2))
+    short = (bent.points[1:] == bent.points[:-1]).all(axis=1)
+    assert short.any()
+    assert farthest(bent, SQUARE)[1] in (3.0 + short.sum(), 4.0 + short.sum())
+
+
+@pytest.mark.parametrize("row", range(4))
+@pytest.mark.parametrize("end", [0, 1])
+def test_what_is_no_number_is_never_near(row: int, end: int) -> None:
+    """A maximum that is taken by comparisons passes it over."""
+    points = SQUARE.points.copy()
+    points[row, end] = nan
+    bad = Path.of(points, SQUARE.centres, SQUARE.turns)
+    assert not same(bad, SQUARE, 1e-3)
+    assert not farthest(bad, SQUARE)[0] <= 1e-3
+    assert not farthest(SQUARE, bad)[0] <= 1e-3
+    given = meant()
+    (one,) = given.cuts
+    assert isinstance(one, Cut)
+    assert _compared(bad, one, replace(given, leads=False)).errors
 
 
 @settings(max_examples=120, deadline=None, derandomize=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf, pi, sqrt
+from math import inf, nan, pi, sqrt
 
 import numpy as np
 import pytest
@@ -45,6 +45,11 @@ def test_pieces_without_length_are_left_out_but_for_a_lone_one() -> None:
     assert measured(lines((0, 0), (0, 0), (1, 0), (1, 0))).rows.tolist() == [1]
     assert measured(lines((1, 1), (1, 1), (1, 1))).rows.tolist() == [0]
     assert len(measured(EMPTY)) == 0
+
+
+def test_a_piece_that_is_no_number_is_not_one_of_no_length() -> None:
+    path = lines((0, 0), (1, 0), (1, 0), (nan, 1), (2, 1))
+    assert measured(path).rows.tolist() == [0, 2, 3]
 
 
 def test_an_uneven_arc_gets_a_circle_through_both_ends() -> None:
