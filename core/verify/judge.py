@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
-from math import inf, isfinite, isinf, nan
+from math import inf, isfinite, isinf, isnan, nan
 from typing import Final
 
 import numpy as np
@@ -165,14 +165,15 @@ class _Measured:
 
 
 def _measured(ground: Ground, side: Side, radius: float, numbers: Floats, moves: Course) -> _Measured | None:
-    """None where an arc's radii leave everything open."""
+    """None where an arc's radii leave everything open, or a distance is no number."""
     surface, walls = ground.surface, ground.walls
     slack = float(walls.pieces.slack.max() + moves.pieces.slack.max(initial=0.0))
     if isinf(slack):
         return None
     own = _own(moves.pieces, numbers, walls.pieces, surface.numbers, side, radius)
     pairs = pairs_of(moves, walls, radius, radius + 10.0 * GOUGE + slack, own)
-    return _Measured(pairs, approaches(pairs, radius - GOUGE), slack)
+    near = approaches(pairs, radius - GOUGE)
+    return None if isnan(near.least) else _Measured(pairs, near, slack)
 
 
 def _judged(ground: Ground, side: Side, radius: float, numbers: Floats, measured: _Measured) -> Verdict:

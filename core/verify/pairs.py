@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ulp
+from math import isnan, ulp
 
 import numpy as np
 
@@ -58,7 +58,8 @@ def pairs_of(
         if pieces.slack.any():
             grant += pieces.slack[rows]
     touch = touches(centre, i, surface, j, radius, grant)
-    near = (touch.apart <= reach).nonzero()[0]
+    # what is no number is kept, for the judge to see
+    near = (~(touch.apart > reach)).nonzero()[0]
     if len(near) < len(i):
         i, j, grant, touch = i[near], j[near], grant[near], touch.take(near)
     stations, bounds = (centre.stations, surface.stations), (centre.boxes, surface.boxes)
@@ -76,7 +77,7 @@ class Approaches:
     """The least distance among all pairs, infinite without any, and the pairs nearer than was asked for.
 
     Of these: places (8, m) on pieces `i` of the centre path where they may be nearest to pieces `j`, how near they are
-    there, and what each pair was asked for.
+    there, and what each pair was asked for.  The least is no number if any distance is none.
     """
 
     least: float
@@ -95,6 +96,7 @@ def approaches(pairs: Pairs, limit: float) -> Approaches:
         return _none(least, pairs.i[:0])
     deep = (pairs.touch.apart < limit).nonzero()[0]
     near = measure(pairs, pairs.i[deep], pairs.j[deep], limit)
+    least = near.least if isnan(near.least) else least
     return Approaches(least, near.i, near.j, near.places, near.apart, near.limit)
 
 
@@ -107,7 +109,8 @@ def measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
         for block in blocks(pairs.centre.arcs[i], pairs.surface.arcs[j])
     ]
     columns = zip(*((one.i, one.j, one.places, one.apart, one.limit) for one in found), strict=True)
-    return Approaches(min(one.least for one in found), *(np.concatenate(column, axis=-1) for column in columns))
+    least = float(np.min([one.least for one in found]))
+    return Approaches(least, *(np.concatenate(column, axis=-1) for column in columns))
 
 
 def _none(least: float, nobody: Rows) -> Approaches:
