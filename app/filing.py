@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, assert_never
+from typing import TYPE_CHECKING, Final, assert_never
 
 from app.files import empty_program, examples, is_nc, opened
 from app.folders import asking, chosen, outside, told_path, written_at
@@ -26,6 +26,9 @@ from core.units import Unit
 if TYPE_CHECKING:
     from app.desk import Desk
     from core.output.post import Posted
+
+MARKED: Final = frozenset({"UNREADABLE", "OUT_OF_RANGE"})
+"""Findings of fields that the form marks ERR."""
 
 
 def carry_out(desk: Desk, message: Save | Browse | Load | Post | Leave) -> Desk:
@@ -63,7 +66,17 @@ def _save(desk: Desk, message: Save) -> Desk:
     named = session.named(path, stamp_of_data(text.encode()), linked=message.linked and leads_elsewhere(path))
     desk = _without(replace(desk, session=named), SaveAsPage)
     other = "" if theirs is None else f" The other version is in {told_path(theirs.name)}."
-    return replace(desk, exit=True) if message.leave else desk.take(Say(f"Saved: {written_at(path)}{other}"))
+    return (
+        replace(desk, exit=True)
+        if message.leave
+        else desk.take(Say(f"Saved: {written_at(path)}{other}{_marked(session)}"))
+    )
+
+
+def _marked(session: Session) -> str:
+    """That what cannot be used is in the file too."""
+    marked = any(one.code in MARKED for found in session.derived.blocks for one in found.errors)
+    return "; what is marked ERR is in it as it was typed." if marked else ""
 
 
 def _as_program(path: Path, own: Path | None) -> Path:

@@ -12,7 +12,6 @@ from app.guard import THE_WAY
 from app.messages import Close, Open, Post, Save, Say
 from app.naming import is_folder
 from app.screens.ask import Ask
-from app.screens.decide import shortened
 from app.session import Session, Tone
 from core.program.difference import differences
 from core.program.disk import why
@@ -22,11 +21,16 @@ from core.program.store import StoreError, load, write_data
 from core.units import printable
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from app.desk import Desk
+    from core.program.model import Program
 
 
 UNREADABLE: Final = "It is no program any more."
 AS_OPENED: Final = "It holds the same program as when it was opened here."
+FEW: Final = 3
+"""Lines that tell a difference."""
 
 
 def asked(desk: Desk, path: Path, message: Save) -> Desk | None:
@@ -98,26 +102,41 @@ def _changed(desk: Desk, path: Path, message: Save) -> Desk | None:
         return None
     today = times.now()
     mine = beside(path, "mine", today)
-    name, when, theirs = printable(path.name), times.told(times.of(now.changed), today), _theirs(desk.session, path)
+    name, when, theirs = printable(path.name), times.told(times.of(now.changed), today), _read(path)
     title, label = "CHANGED MEANWHILE", "THEIRS"
-    differing = (UNREADABLE,) if theirs is None else theirs or (AS_OPENED,)
-    told = (f"{name} was changed by somebody else {when}.", *shortened(differing)[:2])
+    told = (f"{name} was changed by somebody else {when}.", *_differing(desk.session, theirs))
     if stamp is None and theirs is None:
         # nobody need have changed it: it could not be read when it was opened
         title, label = "REPLACE THE FILE?", "THE FILE AS IT IS"
         told = (f"{name} cannot be read as a program. It was written {when}.",)
-    both = f"Both are kept. Which gets the name? The other one is copied: yours to {told_path(mine.name)}."
+    copy = f"yours to {told_path(mine.name)}, with which you go on"
+    both = f"Both are kept. Which gets the name? The other one is copied: {copy}."
     keep = ("t", label, (Close(), Save(mine, leave=message.leave)))
     yours = ("y", "YOURS", (Close(), message._replace(changed=True)))
     return desk.take(Open(Ask(title, (*told, both), (keep, yours))))
 
 
-def _theirs(session: Session, path: Path) -> tuple[str, ...] | None:
-    """What differs in the file, None where it is no program."""
+def _read(path: Path) -> Program | None:
+    """The program in the file, None where it is none."""
     try:
-        return differences(session.saved, load(path))
+        return load(path)
     except StoreError:
         return None
+
+
+def _differing(session: Session, theirs: Program | None) -> Iterator[str]:
+    """What was changed in the file since it was opened, and what yours has otherwise."""
+    if theirs is None:
+        yield UNREADABLE
+        return
+    yield from _few(differences(session.saved, theirs) or (AS_OPENED,))
+    if yours := differences(theirs, session.program):
+        yield "Against that yours has:"
+        yield from _few(yours)
+
+
+def _few(lines: tuple[str, ...]) -> tuple[str, ...]:
+    return lines if len(lines) <= FEW else (*lines[: FEW - 1], f"And {len(lines) - FEW + 1} more.")
 
 
 def put_theirs_aside(path: Path) -> Path:

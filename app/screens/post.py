@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from textwrap import wrap
@@ -205,12 +206,18 @@ def _left(session: Session) -> tuple[Row, ...]:
 
 def _against(against: tuple[tuple[int, Finding], ...], session: Session, width: int) -> tuple[Row, ...]:
     known = all(found.known for found in session.derived.blocks)
-    if known and not against:
-        return (plain(" Nothing stands against posting.", Look.GOOD),)
-    rows = [] if known else [UNKNOWN]
-    for block, finding in against:
-        rows += _wrapped(f"!! {_where(block, finding)}: {_told(finding, session)}", width, Look.ERROR)
+    clear = [plain(" Nothing stands against posting.", Look.GOOD)] if known and not against else []
+    rows = clear if known else [UNKNOWN]
+    for block, finding in (*against, *_warnings(session)):
+        mark, look = ("!!", Look.ERROR) if finding.severity is Severity.ERROR else ("! ", Look.WARNING)
+        rows += _wrapped(f"{mark} {_where(block, finding)}: {_told(finding, session)}", width, look)
     return tuple(rows)
+
+
+def _warnings(session: Session) -> Iterator[tuple[int, Finding]]:
+    """What is posted all the same, and should be known before."""
+    for found in session.derived.blocks:
+        yield from ((found.number, one) for one in found.findings if one.severity is Severity.WARNING)
 
 
 def _wrapped(text: str, width: int, look: Look) -> list[Row]:

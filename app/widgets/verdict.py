@@ -235,18 +235,28 @@ def _sentence(finding: Finding, unit: Unit) -> Row:
 
 
 def _case_lines(case: Case, unit: Unit) -> Iterator[Row | Erased]:
+    """The deepest gouge, what is deleted, what stays uncut.
+
+    Where several pairs delete, all but the first stand last: there may be more of them than the screen has lines.
+    """
     verdict = case.verdict
     if verdict.gouges:
         yield _gouge(verdict, unit)
-    if case.compensated is not None:
-        yield from _erased(case.compensated.deleted)
+    erased = () if case.compensated is None else _erased(case.compensated.deleted)
+    yield from erased[:1]
+    yield _uncut(verdict, unit)
+    yield from erased[1:]
+
+
+def _uncut(verdict: Verdict, unit: Unit) -> Row:
+    """What stays uncut, whether it gouges, and the least distance."""
     uncut = f"{length(verdict.uncut_length, unit)} of {length(verdict.surface_length, unit)}"
     row: Row = (Span(" UNCUT   ", Look.LABEL), Span(uncut, Look.WARNING if verdict.uncut else Look.TYPED))
     if not verdict.gouges:
         clean = verdict.clean
         word = Span("none" if clean else "wrong side", Look.GOOD if clean else Look.ERROR)
         row = (*row, Span("  GOUGE ", Look.LABEL), word)
-    yield (*row, *_nearest(verdict, unit, STRIP - len(text_of(row))))
+    return (*row, *_nearest(verdict, unit, STRIP - len(text_of(row))))
 
 
 def _nearest(verdict: Verdict, unit: Unit, room: int) -> Row:

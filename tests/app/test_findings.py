@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from app.desk import Desk
@@ -189,3 +191,14 @@ def test_lines_that_have_no_room_are_counted_without_being_put_into_words(name: 
         few = verdict_rows(*about, None, height)
         assert few == [*rows[:height], *[()] * (len(rows) - height)]
         assert fitted(few, height, width) == fitted(rows, height, width)
+
+
+def test_the_dialog_tells_the_warnings_with_which_it_posts() -> None:
+    operator = derived("pocket")
+    first = replace(operator.segments[0], feed=None)
+    program = operator.session.program
+    block = replace(program.blocks[0], segments=(first, *program.blocks[0].segments[1:]))
+    blank = replace(program, blocks=(block,))
+    operator.desk = Desk(Session.of(blank)).knowing(derive(blank))
+    told = " ".join(operator.press("f8", "f6").part("body").split())
+    assert "Nothing stands against posting. ! block 1, segment 1: FEED is blank:" in told

@@ -34,6 +34,8 @@ def unnamed() -> Operator:
 
 WAYS = {"post": ("f8", "f6"), "save": ("f8", "f7", "f3"), "sheet": ("f8", "f7", "f7", "f2")}
 """The keys to each dialog that asks for a name."""
+NAMES = {"post": "x.txt", "save": "x.toml", "sheet": "x.txt"}
+"""A name that each takes as it is."""
 
 
 def named(operator: Operator, way: str, name: str) -> Operator:
@@ -50,27 +52,27 @@ def body(operator: Operator) -> str:
 
 @pytest.mark.parametrize("way", WAYS)
 def test_a_bare_name_is_taken_beside_the_program_and_said_with_its_folder(other: Path, way: str) -> None:
-    operator = named(at(), way, "x.txt")
-    assert files(other.parent) == ["job/p.toml", "job/x.txt"]
+    operator = named(at(), way, NAMES[way])
+    assert files(other.parent) == ["job/p.toml", f"job/{NAMES[way]}"]
     assert str(other.parent / "job").replace(" ", "")[:40] in operator.said.replace(" ", "")
 
 
 @pytest.mark.parametrize("way", WAYS)
 def test_a_bare_name_without_a_program_s_file_is_in_the_current_folder(other: Path, way: str) -> None:
-    operator = named(unnamed(), way, "x.txt")
-    assert files(other) == ["x.txt"]
-    assert "x.txt" in operator.said
+    operator = named(unnamed(), way, NAMES[way])
+    assert files(other) == [NAMES[way]]
+    assert NAMES[way] in operator.said
     assert str(other) not in operator.said.replace(" ", "")
 
 
 @pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("name", ["../x.txt", "../other/x.txt", "{tmp}/x.txt", "../job/link.txt"])
+@pytest.mark.parametrize("name", ["../{own}", "../other/{own}", "{tmp}/{own}", "../job/link-{own}"])
 def test_a_path_outside_is_asked_once_with_the_whole_path(other: Path, way: str, name: str) -> None:
     job = other.parent / "job"
-    (job / "link.txt").symlink_to(other.parent / "led.txt")
+    (job / f"link-{NAMES[way]}").symlink_to(other.parent / "led.txt")
     before = files(other.parent)
-    name = name.format(tmp=other.parent)
-    target = {"../job/link.txt": other.parent / "led.txt"}.get(name, (other / name).resolve())
+    name = name.format(tmp=other.parent, own=NAMES[way])
+    target = other.parent / "led.txt" if "link" in name else (other / name).resolve()
     operator = named(at(), way, name)
     assert isinstance(operator.desk.page, Ask)
     assert "WRITE IN ANOTHER FOLDER?" in operator.part("header")
@@ -85,18 +87,18 @@ def test_a_path_outside_is_asked_once_with_the_whole_path(other: Path, way: str,
 
 @pytest.mark.parametrize("way", WAYS)
 def test_a_file_that_stands_outside_is_asked_about_in_the_same_question(other: Path, way: str) -> None:
-    (other / "x.txt").write_text("somebody's")
-    operator = named(at(), way, "../other/x.txt")
+    (other / NAMES[way]).write_text("somebody's")
+    operator = named(at(), way, f"../other/{NAMES[way]}")
     assert "existsalready.Itscontentisreplaced." in body(operator)
     operator.press("w")
-    assert (other / "x.txt").read_text() != "somebody's"
+    assert (other / NAMES[way]).read_text() != "somebody's"
 
 
 @pytest.mark.parametrize("way", WAYS)
 def test_a_folder_inside_the_program_s_is_not_outside(other: Path, way: str) -> None:
     (other.parent / "job" / "nc").mkdir()
-    named(at(), way, "../job/nc/x.txt")
-    assert (other.parent / "job" / "nc" / "x.txt").exists()
+    named(at(), way, f"../job/nc/{NAMES[way]}")
+    assert (other.parent / "job" / "nc" / NAMES[way]).exists()
 
 
 def test_the_name_that_is_offered_is_beside_the_program(other: Path) -> None:

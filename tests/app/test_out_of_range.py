@@ -152,3 +152,11 @@ def test_a_safe_z_that_is_set_aside_is_said_on_its_screen_and_on_the_form() -> N
     assert "SAFE Z -1.0000 is below Z 0.1000" in operator.said
     operator.press("f8", "ctrl+f")
     assert "SAFE Z -1.0000 is below Z 0.1000" in " ".join(" ".join(operator.screen()).split())
+
+
+def test_saving_says_that_what_cannot_be_used_is_in_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    operator = Operator.at().press("tab", "x", "enter").press("f8", "f7", "f3", "delete", *"part", "enter")
+    assert operator.said == "Saved: part.toml; what is marked ERR is in it as it was typed."
+    operator.press("enter", "tab", "1", "enter", "ctrl+s")
+    assert operator.said == "Saved: part.toml"

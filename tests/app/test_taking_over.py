@@ -23,7 +23,8 @@ def test_a_file_written_by_another_since_the_crash_is_told_and_kept(own: Path, p
     operator.press("r", "ctrl+s")
     assert "CHANGED MEANWHILE" in operator.part("header")
     told = " ".join(operator.part("body").split())
-    assert "It holds the same program as when it was opened here." in told
+    assert "It holds the same program as when it was opened here. Against that yours has:" in told
+    assert "TOOL 7, was 1" in told
     assert "no program" not in told
     assert load(part) == load(example("notch"))
 
@@ -121,7 +122,11 @@ def test_a_file_changed_by_another_is_noticed_and_both_are_kept(
     other = load(part)
     assert other != theirs
     operator.press("ctrl+s")
-    assert "was changed by somebody else" in " ".join(operator.part("body").split())
+    told = " ".join(operator.part("body").split())
+    assert "was changed by somebody else" in told
+    since, yours = told.split("Against that yours has:")
+    assert "Block 1: TOOL 3, was 1." in since
+    assert "Block 1: TOOL 7, was 3." in yours
     operator.press(key)
     assert load(part).blocks[0].tool == Entry(tool)
     copies = [name for name in names(part) if whose in name and name.endswith(".toml")]

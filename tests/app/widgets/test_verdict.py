@@ -63,3 +63,13 @@ def test_beside_every_value_of_the_table_stands_what_the_contour_needs_and_nothi
     told = [text_of(row) for row in verdict_rows(found, replace(table, notes=(why, apart)), Unit.IN, 3)]
     assert told[-1] == " !  Why."
     assert " i  Apart." not in told
+
+
+def test_what_stays_uncut_stands_behind_the_first_pair_that_deletes() -> None:
+    pocket = load(example("pocket"))
+    program = replace(pocket, tools=tuple(replace(tool, diameter=Entry(2.625)) for tool in pocket.tools))
+    (found,) = derive(program).blocks
+    told = [text_of(row) for row in verdict_rows(found, None, Unit.IN, None)]
+    begins = [row.split()[0] for row in told if row.split()[0] in ("DELETED", "UNCUT")]
+    assert begins[:2] == ["DELETED", "UNCUT"]
+    assert begins.count("DELETED") > 1
