@@ -7,6 +7,7 @@ Everything between a key and the next picture is here and pure, but for the mess
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Final, assert_never
 
 from app.joined import TOLD
@@ -279,7 +280,7 @@ class Desk:
     def _findings(self) -> Desk:
         """FINDINGS on top, where the screen is about a block."""
         if self.page.layout in (Layout.FORM, Layout.TABLE, Layout.DRAW):
-            return self._settled(Open(doors.findings))
+            return self._settled(Open(partial(doors.findings, self.page.look())))
         return self.take(Say("Ctrl+F shows the findings of a block: from its form."))
 
     def _helped(self) -> Desk:

@@ -26,11 +26,11 @@ def draw() -> DrawPage:
     return DrawPage()
 
 
-def findings() -> FindingsPage:
-    """FINDINGS."""
+def findings(look: int | None = None) -> FindingsPage:
+    """FINDINGS, of a look-ahead value or of the one in force."""
     from app.screens.findings import FindingsPage
 
-    return FindingsPage()
+    return FindingsPage(value=look)
 
 
 def keys_and_help(about: tuple[str, ...], file: str = "") -> HelpPage:

@@ -71,6 +71,10 @@ class LookaheadTable(Page):
         """Back without taking a value."""
         return Answer(self, (Close(),))
 
+    def look(self) -> int:
+        """The value under the cursor."""
+        return self.at
+
     def view(self, session: Session, surface: Surface) -> View:
         """The table, or why there is none yet."""
         ahead = session.found.lookahead

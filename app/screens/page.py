@@ -183,6 +183,10 @@ class Page:
         """What undo, redo and save mean here where they are not the program's; None where they are."""
         return None
 
+    def look(self) -> int | None:
+        """The look-ahead value that the screen is about, None where it is the one in force."""
+        return None
+
     def covered(self) -> Page:
         """The page once another one lies on it: what it is when it is seen again."""
         return self

@@ -84,7 +84,7 @@ def verdict_rows(
 def _worded(line: Line, unit: Unit) -> Row:
     """A line in words."""
     if isinstance(line, Finding):
-        return _sentence(line, unit)
+        return finding_row(line, unit)
     return _erasing(line, unit) if isinstance(line, Erased) else line
 
 
@@ -145,7 +145,7 @@ def before_first(found: DerivedBlock, unit: Unit) -> tuple[Row, ...] | None:
 def deepest_gouge(found: DerivedBlock, unit: Unit) -> list[Row]:
     """The deepest gouge's finding in full, which the verdict's own line tells in short."""
     told = _untold(found.findings, _case(found, None, None))
-    return [_sentence(one, unit) for one in found.findings if one not in told]
+    return [finding_row(one, unit) for one in found.findings if one not in told]
 
 
 def nearest_place(found: DerivedBlock, unit: Unit) -> list[Row]:
@@ -227,7 +227,8 @@ def _case(found: DerivedBlock, table: Table | None, look: int | None) -> Case | 
     return Case(work.compensated if work.best is None else None, work.verdict)
 
 
-def _sentence(finding: Finding, unit: Unit) -> Row:
+def finding_row(finding: Finding, unit: Unit) -> Row:
+    """A finding in words, behind the mark of its weight and where it belongs."""
     look = Look.ERROR if finding.severity is Severity.ERROR else Look.WARNING
     mark = MARKS[finding.severity]
     where = "" if not finding.segment else f"{segment(finding.segment)}: "

@@ -11,6 +11,7 @@ from app.files import example
 from app.screens.contour import Contour
 from app.screens.findings import FindingsPage
 from app.screens.help import HelpPage
+from app.screens.page import Surface
 from app.session import Session
 from app.widgets.rows import Span, plain, text_of
 from app.widgets.verdict import fitted, verdict_rows
@@ -202,3 +203,19 @@ def test_the_dialog_tells_the_warnings_with_which_it_posts() -> None:
     operator.desk = Desk(Session.of(blank)).knowing(derive(blank))
     told = " ".join(operator.press("f8", "f6").part("body").split())
     assert "Nothing stands against posting. ! block 1, segment 1: FEED is blank:" in told
+
+
+def test_the_findings_of_a_value_of_the_table_are_those_of_its_path() -> None:
+    operator = derived("pocket").press(*["tab"] * 11)
+    assert operator.session.field == "lookahead"
+    operator.press("f4", "home")
+    program, found = operator.session.program, operator.session.found
+    operator.press("ctrl+f")
+    page = operator.desk.page
+    assert isinstance(page, FindingsPage)
+    assert "FINDINGS AT LOOK-AHEAD 1" in operator.part("header")
+    told = [text_of(row) for row in page.lines(operator.session, Surface(59, 18, look_ahead_table(found, program), 59))]
+    assert told[2].startswith(" GOUGE ")
+    assert any("gouges segment" in row for row in told)
+    assert not any("DELETED 9" in row for row in told)
+    assert "AT LOOK-AHEAD" not in operator.press("escape", "escape", "ctrl+f").part("header")
