@@ -27,18 +27,18 @@ def shortened(text: str, width: int) -> str:
 
 
 def number(segment: float) -> str:
-    """A segment's number; the corner arc behind segment 3 is 3.5."""
-    return f"{segment:g}"
+    """A segment's number; the corner arc behind segment 3, which is 3.5, stands between two segments."""
+    return f"{segment:g}" if segment == int(segment) else f"corner {int(segment)}-{int(segment) + 1}"
 
 
-def segment(number: float) -> str:
-    """A segment by its number; the corner arc behind segment 3, which is 3.5, stands between two segments."""
-    return f"segment {number:g}" if number == int(number) else f"corner {int(number)}-{int(number) + 1}"
+def segment(place: float) -> str:
+    """A segment by its number, or a corner by those of its segments."""
+    return f"segment {place:g}" if place == int(place) else number(place)
 
 
 def placed(finding: Finding, unit: Unit) -> str:
     """A finding's sentence behind its segment."""
-    where = "" if finding.segment is None else f"Segment {finding.segment:g}: "
+    where = "" if finding.segment is None else f"{segment(finding.segment).capitalize()}: "
     return f"{where}{sentence(finding, unit)}"
 
 

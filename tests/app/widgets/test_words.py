@@ -20,7 +20,7 @@ def test_lengths_come_in_program_units() -> None:
     assert length(12.7, Unit.IN) == "0.5000"
     assert length(12.7, Unit.MM) == "12.700"
     assert place((25.4, -12.7), Unit.IN) == "X 1.0000 Y -0.5000"
-    assert number(3.5) == "3.5"
+    assert number(3.5) == "corner 3-4"
 
 
 def test_a_corner_stands_between_two_segments() -> None:
