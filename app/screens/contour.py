@@ -180,7 +180,8 @@ def _trouble(session: Session, one: Field) -> Said | None:
     for finding in session.found.findings if session.block.segments else _unmissed(session):
         here = int(finding.segment or 0) == session.where.segment
         if finding.field == one.name and here and finding.severity is Severity.ERROR:
-            return Said(sentence(finding, session.program.unit), Tone.ERROR)
+            tone = Tone.WARNING if finding.code in NOT_YET else Tone.ERROR
+            return Said(sentence(finding, session.program.unit), tone)
     return None
 
 

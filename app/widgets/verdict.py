@@ -32,6 +32,8 @@ IN_FORCE: Final = frozenset({"NO_BEST", "BEST_DIFFERS"})
 """Notes that compare the path in force with the best one."""
 MARKS: Final = {Severity.ERROR: "!!", Severity.WARNING: "! ", Severity.INFO: "i "}
 """What each weight of a finding begins with."""
+ASKS: Final = "? "
+"""The same where only something is still to be typed, which is no mistake."""
 READ_ON: Final = "Ctrl+F"
 """The key that shows every finding in full, behind how many more there are and behind one that is cut."""
 UNKNOWN: Final = plain(" The verdict is being calculated.", Look.WARNING)
@@ -229,8 +231,9 @@ def _case(found: DerivedBlock, table: Table | None, look: int | None) -> Case | 
 
 def finding_row(finding: Finding, unit: Unit) -> Row:
     """A finding in words, behind the mark of its weight and where it belongs."""
-    look = Look.ERROR if finding.severity is Severity.ERROR else Look.WARNING
-    mark = MARKS[finding.severity]
+    asks = finding.code in NOT_YET
+    look = Look.ERROR if finding.severity is Severity.ERROR and not asks else Look.WARNING
+    mark = ASKS if asks else MARKS[finding.severity]
     where = "" if not finding.segment else f"{segment(finding.segment)}: "
     return plain(f" {mark} {where}{sentence(finding, unit)}", look)
 

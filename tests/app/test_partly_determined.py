@@ -12,6 +12,7 @@ from core.pipeline.table import look_ahead_table
 from core.program.edit import Refused, Where, type_field
 from core.program.model import Program
 from core.program.store import load
+from tests.app.operator import Operator
 
 
 def without(number: int, name: str, part: str = "pocket") -> Program:
@@ -45,3 +46,14 @@ def test_what_is_whole_says_nothing_of_it() -> None:
 def test_an_end_that_is_not_known_is_not_told_to_be_open() -> None:
     found = derive(without(6, "y_end")).blocks[0]
     assert not {"OPEN", "NEARLY_CLOSED"} & {one.code for one in found.findings}
+
+
+def test_what_is_still_to_be_typed_is_asked_for_and_is_no_error() -> None:
+    program = without(6, "y_end")
+    operator = Operator.at(program)
+    operator.desk = operator.desk.knowing(derive(program))
+    operator.press("6", "enter", "tab", "tab")
+    assert operator.session.field == "y_end"
+    assert operator.said.startswith("! Not determined yet")
+    assert " ?  segment 6: Not determined yet" in operator.part("verdict")
+    assert "!!" not in "\n".join(operator.screen())
