@@ -6,6 +6,7 @@ from functools import partial
 
 from app.messages import Close, Edit, Message, Move, Open, Say
 from app.screens import doors
+from app.screens.contour_cells import form_at
 from app.screens.page import Softkey, Softkeys
 from app.session import SEGMENT, Session, Tone
 from core.pipeline.derived import Tag
@@ -63,7 +64,8 @@ def _segment_keys(session: Session) -> dict[int, Softkey]:
     insert: Message = Open(partial(doors.new_segment, where.segment))
     if where.segment == 0:
         insert = Say("START comes first: nothing goes before it.", Tone.ERROR)
-    told = Say(f"Deleted segment {where.segment}. Ctrl+Z brings it back.")
+    left = len(session.block.segments) - 1
+    told = Say(f"Deleted segment {where.segment}, {form_at(session)}; {left} left. Ctrl+Z brings it back.")
     return {1: Softkey("DELETE SEGMENT", (deleted, told)), 2: Softkey("INSERT SEGMENT BEFORE", (insert,))}
 
 

@@ -50,7 +50,7 @@ def test_what_is_no_segment_number_is_told_and_opens_nothing(text: str) -> None:
 
 def test_deleting_says_how_to_get_it_back() -> None:
     operator = square().press("ctrl+end", "f1")
-    assert "Deleted segment 4. Ctrl+Z brings it back." in operator.said
+    assert "Deleted segment 4, LINE; 3 left. Ctrl+Z brings it back." in operator.said
     assert "Deleted tool 1. Ctrl+Z brings it back." in operator.press("ctrl+home", "f6", "f1").said
     operator.press("escape", "f8", "f3", "f1")
     assert operator.said == "Deleted block 2. Ctrl+Z brings it back."
