@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.widgets.rows import Look, Row, Span, padded, plain, text_of
 from app.widgets.strip import STRIP, strip
-from app.widgets.words import length, number, numbers, place, segment
+from app.widgets.words import length, number, numbers, pair, place, segment
 from core.finding import Finding, Severity
 from core.pipeline.derived import DerivedBlock
 from core.records import dataclass
@@ -293,5 +293,5 @@ def _erased(deleted: Deletions) -> tuple[Erased, ...]:
 
 def _erasing(line: Erased, unit: Unit) -> Row:
     first, second, x, y = line.pair
-    by = f"by {number(first)} and {number(second)} at {place((x, y), unit)}"
+    by = f"by {pair(first, second)} at {place((x, y), unit)}"
     return (Span(" DELETED ", Look.LABEL), Span(f"{numbers(line.segments)}  {by}", Look.WARNING))

@@ -28,7 +28,18 @@ def shortened(text: str, width: int) -> str:
 
 def number(segment: float) -> str:
     """A segment's number; the corner arc behind segment 3, which is 3.5, stands between two segments."""
-    return f"{segment:g}" if segment == int(segment) else f"corner {int(segment)}-{int(segment) + 1}"
+    return f"{segment:g}" if segment == int(segment) else f"corner {_between(segment)}"
+
+
+def pair(first: float, second: float) -> str:
+    """Two segments or corners, as `number` tells each."""
+    if first != int(first) and second != int(second):
+        return f"corners {_between(first)} and {_between(second)}"
+    return f"{number(first)} and {number(second)}"
+
+
+def _between(corner: float) -> str:
+    return f"{int(corner)}-{int(corner) + 1}"
 
 
 def segment(place: float) -> str:

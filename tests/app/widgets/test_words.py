@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.widgets.words import length, number, numbers, place, segment, shortened
+from app.widgets.words import length, number, numbers, pair, place, segment, shortened
 from core.units import Unit
 
 
@@ -26,6 +26,9 @@ def test_lengths_come_in_program_units() -> None:
 def test_a_corner_stands_between_two_segments() -> None:
     assert segment(3.0) == "segment 3"
     assert segment(3.5) == "corner 3-4"
+    assert pair(3.0, 5.0) == "3 and 5"
+    assert pair(3.0, 5.5) == "3 and corner 5-6"
+    assert pair(3.5, 5.5) == "corners 3-4 and 5-6"
 
 
 def test_what_does_not_fit_is_left_out_by_whole_words() -> None:
