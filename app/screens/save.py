@@ -22,16 +22,16 @@ HOW: Final = "The folder must exist. A name that does not end in .toml gets it."
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SaveAsPage(EntryPage):
-    """Asks for a name; `leave` leaves the program after saving, `folder` is where a name without one leads."""
+    """Asks for a name; `leave` leaves the program after saving, `leads` is the folder of a name without one."""
 
     leave: bool = False
-    folder: str = ""
+    leads: str = ""
 
     @classmethod
     def of(cls, session: Session, *, leave: bool = False) -> Self:
         """The page with the name the program has."""
         name = Path("part.toml") if session.file is None else session.file
-        return cls(Editing.of(str(name)), leave=leave, folder=folder_told(session.file))
+        return cls(Editing.of(str(name)), leave=leave, leads=folder_told(session.file))
 
     def softkeys(self, session: Session) -> Softkeys:
         """Save, or not."""
@@ -53,7 +53,7 @@ class SaveAsPage(EntryPage):
 
     def view(self, session: Session, surface: Surface) -> View:
         """The name."""
-        lines = (HOW, f"A name without a folder goes into {self.folder}")
+        lines = (HOW, f"A name without a folder goes into {self.leads}")
         return View(
             header("SAVE AS", plain(""), session, surface.width),
             (
