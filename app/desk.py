@@ -280,7 +280,7 @@ class Desk:
     def _findings(self) -> Desk:
         """FINDINGS on top, where the screen is about a block."""
         if self.page.layout in (Layout.FORM, Layout.TABLE, Layout.DRAW):
-            return self._settled(Open(partial(doors.findings, self.page.look())))
+            return self._settled(Open(partial(doors.findings, self.session, self.page.look())))
         return self.take(Say("Ctrl+F shows the findings of a block: from its form."))
 
     def _helped(self) -> Desk:

@@ -26,11 +26,12 @@ def draw() -> DrawPage:
     return DrawPage()
 
 
-def findings(look: int | None = None) -> FindingsPage:
+def findings(session: Session, look: int | None = None) -> FindingsPage:
     """FINDINGS, of a look-ahead value or of the one in force."""
+    from app.at_value import AtValue
     from app.screens.findings import FindingsPage
 
-    return FindingsPage(value=look)
+    return FindingsPage(asked=AtValue.of(session, look))
 
 
 def keys_and_help(about: tuple[str, ...], file: str = "") -> HelpPage:

@@ -86,7 +86,7 @@ def verdict_rows(
 def _worded(line: Line, unit: Unit) -> Row:
     """A line in words."""
     if isinstance(line, Finding):
-        return finding_row(line, unit)
+        return _sentence(line, unit)
     return _erasing(line, unit) if isinstance(line, Erased) else line
 
 
@@ -97,7 +97,7 @@ def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | Non
     if hint := _beginning(found):
         return [first, plain(f" {hint}", Look.LABEL)]
     if look is not None and case is not None:
-        return [first, *_case_lines(case, unit), *_needed(table)]
+        return [first, *_case_lines(case, unit), *needed(table)]
     findings = _untold(found.findings, case)
     errors = [one for one in findings if one.severity is Severity.ERROR]
     rest = [one for one in findings if one.severity is not Severity.ERROR]
@@ -121,7 +121,7 @@ def _misplaced(findings: list[Finding]) -> list[Finding]:
     return [one for one in findings if come_of_it and one.code == "OPEN"]
 
 
-def _needed(table: Table | None) -> list[Finding]:
+def needed(table: Table | None) -> list[Finding]:
     """Of the table's notes those on the contour, which hold beside every value: why CAL's is not clean, what helps."""
     return [] if table is None else [note for note in table.notes if note.code not in IN_FORCE]
 
@@ -147,7 +147,7 @@ def before_first(found: DerivedBlock, unit: Unit) -> tuple[Row, ...] | None:
 def deepest_gouge(found: DerivedBlock, unit: Unit) -> list[Row]:
     """The deepest gouge's finding in full, which the verdict's own line tells in short."""
     told = _untold(found.findings, _case(found, None, None))
-    return [finding_row(one, unit) for one in found.findings if one not in told]
+    return [_sentence(one, unit) for one in found.findings if one not in told]
 
 
 def nearest_place(found: DerivedBlock, unit: Unit) -> list[Row]:
@@ -229,8 +229,7 @@ def _case(found: DerivedBlock, table: Table | None, look: int | None) -> Case | 
     return Case(work.compensated if work.best is None else None, work.verdict)
 
 
-def finding_row(finding: Finding, unit: Unit) -> Row:
-    """A finding in words, behind the mark of its weight and where it belongs."""
+def _sentence(finding: Finding, unit: Unit) -> Row:
     asks = finding.code in NOT_YET
     look = Look.ERROR if finding.severity is Severity.ERROR and not asks else Look.WARNING
     mark = ASKS if asks else MARKS[finding.severity]

@@ -18,6 +18,7 @@ from app.widgets.verdict import fitted, verdict_rows
 from core.pipeline.derive import derive
 from core.pipeline.outline import outline
 from core.pipeline.table import look_ahead_table
+from core.program.model import Entry, Program
 from core.program.store import load
 from tests.app.operator import Operator
 
@@ -205,17 +206,54 @@ def test_the_dialog_tells_the_warnings_with_which_it_posts() -> None:
     assert "Nothing stands against posting. ! block 1, segment 1: FEED is blank:" in told
 
 
-def test_the_findings_of_a_value_of_the_table_are_those_of_its_path() -> None:
-    operator = derived("pocket").press(*["tab"] * 11)
-    assert operator.session.field == "lookahead"
-    operator.press("f4", "home")
-    program, found = operator.session.program, operator.session.found
-    operator.press("ctrl+f")
-    page = operator.desk.page
+def on_table(program: Program, *keys: str) -> Operator:
+    """FINDINGS asked for on the look-ahead table, and what it asks for answered."""
+    operator = Operator(Desk(Session.of(program).knowing(derive(program, outline(program)))))
+    operator.press(*["tab"] * 11, "f4", *keys, "ctrl+f")
+    question = operator.desk.page.question
+    if question is not None:
+        operator.desk = operator.desk.told(question.answer())
+    return operator
+
+
+def told_of(operator: Operator) -> str:
+    """All lines of FINDINGS, whatever the screen has room for."""
+    page, session = operator.desk.page, operator.session
     assert isinstance(page, FindingsPage)
+    surface = Surface(table=look_ahead_table(session.found, session.program))
+    return "\n".join(text_of(row) for row in page.lines(session, surface))
+
+
+def test_the_findings_of_a_value_of_the_table_are_those_of_its_path() -> None:
+    operator = on_table(load(example("pocket")), "home")
     assert "FINDINGS AT LOOK-AHEAD 1" in operator.part("header")
-    told = [text_of(row) for row in page.lines(operator.session, Surface(59, 18, look_ahead_table(found, program), 59))]
-    assert told[2].startswith(" GOUGE ")
-    assert any("gouges segment" in row for row in told)
-    assert not any("DELETED 9" in row for row in told)
+    told = told_of(operator)
+    assert told.startswith(" look-ahead [1!] 2-20*   best 2 (deletes 9)")
+    assert "gouges segment 10" in told
+    assert "DELETED 9" not in told
+    assert "was typed" not in told
     assert "AT LOOK-AHEAD" not in operator.press("escape", "escape", "ctrl+f").part("header")
+
+
+def test_roughing_and_blends_of_a_value_are_told_as_they_are_of_the_one_in_force() -> None:
+    pocket = load(example("pocket"))
+    rough = replace(pocket, parameters=replace(pocket.parameters, finish_xy=Entry(0.05)))
+    (block,) = rough.blocks
+    rough = replace(rough, blocks=(replace(block, finish_tool=Entry(1.0)),))
+    assert "The roughing pass that leaves 0.0500 gouges" in told_of(on_table(rough, "home"))
+    blend = replace(pocket, parameters=replace(pocket.parameters, blend_offset=Entry(1.6)))
+    assert "The blend-in arc gouges" in told_of(on_table(blend, "home"))
+
+
+def test_the_value_in_force_has_the_findings_of_the_block() -> None:
+    operator = on_table(load(example("pocket")))
+    assert "AT LOOK-AHEAD" not in operator.part("header")
+    assert told_of(operator) == told_of(derived("pocket").press("ctrl+f"))
+
+
+def test_findings_of_a_value_go_with_the_program_they_were_asked_of() -> None:
+    operator = on_table(load(example("pocket")), "home")
+    program = operator.session.program
+    operator.desk = replace(operator.desk, session=operator.session.apply(replace(program, tools=()), "a change"))
+    assert "AT LOOK-AHEAD" not in operator.part("header")
+    assert "[1!]" not in told_of(operator)
