@@ -12,6 +12,7 @@ from app.guard import THE_WAY
 from app.messages import Close, Open, Post, Save, Say
 from app.naming import is_folder
 from app.screens.ask import Ask
+from app.screens.decide import Choose, shortened
 from app.session import Session, Tone
 from core.program.difference import differences
 from core.program.disk import why
@@ -28,9 +29,9 @@ if TYPE_CHECKING:
 
 
 UNREADABLE: Final = "It is no program any more."
-AS_OPENED: Final = "It holds the same program as when it was opened here."
 FEW: Final = 3
-"""Lines that tell a difference."""
+"""Differences of either version that are told one by one."""
+AS_OPENED: Final = "It holds the same program as when it was opened here."
 
 
 def asked(desk: Desk, path: Path, message: Save) -> Desk | None:
@@ -104,16 +105,16 @@ def _changed(desk: Desk, path: Path, message: Save) -> Desk | None:
     mine = beside(path, "mine", today)
     name, when, theirs = printable(path.name), times.told(times.of(now.changed), today), _read(path)
     title, label = "CHANGED MEANWHILE", "THEIRS"
-    told = (f"{name} was changed by somebody else {when}.", *_differing(desk.session, theirs))
+    told, details = f"{name} was changed by somebody else {when}.", tuple(_differing(desk.session, theirs))
     if stamp is None and theirs is None:
         # nobody need have changed it: it could not be read when it was opened
         title, label = "REPLACE THE FILE?", "THE FILE AS IT IS"
-        told = (f"{name} cannot be read as a program. It was written {when}.",)
+        told, details = f"{name} cannot be read as a program. It was written {when}.", ()
     copy = f"yours to {told_path(mine.name)}, with which you go on"
     both = f"Both are kept. Which gets the name? The other one is copied: {copy}."
     keep = ("t", label, (Close(), Save(mine, leave=message.leave)))
     yours = ("y", "YOURS", (Close(), message._replace(changed=True)))
-    return desk.take(Open(Ask(title, (*told, both), (keep, yours))))
+    return desk.take(Open(Choose(title, (told, both), (keep, yours), details=details)))
 
 
 def _read(path: Path) -> Program | None:
@@ -129,14 +130,10 @@ def _differing(session: Session, theirs: Program | None) -> Iterator[str]:
     if theirs is None:
         yield UNREADABLE
         return
-    yield from _few(differences(session.saved, theirs) or (AS_OPENED,))
+    yield from shortened(differences(session.saved, theirs) or (AS_OPENED,), FEW)
     if yours := differences(theirs, session.program):
         yield "Against that yours has:"
-        yield from _few(yours)
-
-
-def _few(lines: tuple[str, ...]) -> tuple[str, ...]:
-    return lines if len(lines) <= FEW else (*lines[: FEW - 1], f"And {len(lines) - FEW + 1} more.")
+        yield from shortened(yours, FEW)
 
 
 def put_theirs_aside(path: Path) -> Path:

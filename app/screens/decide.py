@@ -1,4 +1,5 @@
-"""Decide: a question that must be answered before the work goes on; leaving the program answers nothing."""
+"""Decide: a question that must be answered before the work goes on, leaving the program answers nothing; Choose: one
+that need not be."""
 
 from __future__ import annotations
 
@@ -55,8 +56,24 @@ class Decide(Ask):
         )
 
 
-def shortened(details: tuple[str, ...]) -> tuple[str, ...]:
+@dataclass(frozen=True, eq=False, slots=True)
+class Choose(Ask):
+    """A question that may be left unanswered; `details` stand under the answers, as far as there is room."""
+
+    layout: ClassVar[Layout] = Layout.TEXT
+    details: tuple[str, ...] = ()
+
+    def view(self, session: Session, surface: Surface) -> View:
+        """The question, the answers, and what they are about."""
+        asked = Ask.view(self, session, surface)
+        told = [row for line in self.details for row in paragraph(line, surface.width, Look.LABEL, "  ")]
+        room = max(surface.body - len(asked.body) - 1, 0)
+        told = told if len(told) <= room else [*told[: room - 1], plain(" And more.", Look.LABEL)][:room]
+        return asked._replace(body=(*asked.body, (), *told))
+
+
+def shortened(details: tuple[str, ...], most: int = MOST) -> tuple[str, ...]:
     """The first few, and how many more there are."""
-    if len(details) <= MOST:
+    if len(details) <= most:
         return details
-    return (*details[:MOST], f"And {len(details) - MOST} more.")
+    return (*details[:most], f"And {len(details) - most} more.")

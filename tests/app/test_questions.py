@@ -6,7 +6,7 @@ import pytest
 
 from app.messages import Close, Open, Say
 from app.screens.ask import Ask
-from app.screens.decide import Decide
+from app.screens.decide import Choose, Decide
 from tests.app.operator import Operator
 
 OPTIONS = (("c", "CONVERT", (Close(), Say("Converted."))), ("k", "KEEP", (Close(),)))
@@ -32,3 +32,13 @@ def test_an_answer_is_taken(key: str) -> None:
 
 def test_under_a_question_stands_nothing_that_was_said_before_it() -> None:
     assert asked(Decide).said == "Press the softkey or the letter of an answer."
+
+
+def test_details_for_which_there_is_no_room_are_said_to_be_more() -> None:
+    operator = Operator.at()
+    details = tuple(f"Detail {number}." for number in range(40))
+    operator.desk = operator.desk.take(Open(Choose("UNITS", ("Convert?",), OPTIONS, details=details)))
+    told = operator.part("body").rstrip().splitlines()
+    assert told[-1] == " And more."
+    assert " Detail 0." in told
+    assert any("C   CONVERT" in row for row in told)

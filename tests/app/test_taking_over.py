@@ -127,6 +127,8 @@ def test_a_file_changed_by_another_is_noticed_and_both_are_kept(
     since, yours = told.split("Against that yours has:")
     assert "Block 1: TOOL 3, was 1." in since
     assert "Block 1: TOOL 7, was 3." in yours
+    assert "Both are kept. Which gets the name?" in since
+    assert "T THEIRS Y YOURS Esc back, nothing changes" in since
     operator.press(key)
     assert load(part).blocks[0].tool == Entry(tool)
     copies = [name for name in names(part) if whose in name and name.endswith(".toml")]
@@ -179,3 +181,14 @@ def test_an_nc_file_is_never_written_through_a_link_unasked(own: Path, part: Pat
     assert "leads there." in " ".join(operator.part("body").split())
     assert "WRITE IN ANOTHER FOLDER?" in operator.part("header")
     assert not (part.parent.parent / "elsewhere.nc").exists()
+
+
+def test_many_differences_leave_the_question_and_its_answers_on_the_screen(own: Path, part: Path) -> None:
+    operator = started(own, part)
+    for number in range(1, 9):
+        operator.press(str(number), "enter", "tab").type(f"{number}.5").press("home", *["up"] * 8)
+    part.write_text(dumps(load(example("flange"))))
+    told = " ".join(operator.press("ctrl+s").part("body").split())
+    assert "Which gets the name?" in told
+    assert "T THEIRS Y YOURS Esc back, nothing changes" in told
+    assert "Against that yours has:" in told
