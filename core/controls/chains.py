@@ -35,10 +35,13 @@ def chains(path: Path) -> tuple[Rows, ...]:
     return found if len(found) <= MOST_CHAINS else (whole,)
 
 
-def ways(path: Path, contours: tuple[Rows, ...]) -> tuple[bool, ...]:
-    """Which of the `chains` of a path are open ones beside closed ones: they may be no more than the way to these."""
+def ways(path: Path, contours: tuple[Rows, ...]) -> dict[Rows, frozenset[float]]:
+    """The `chains` of a path that are open ones beside closed ones, with their lines: perhaps only the way to these."""
+    if len(contours) == 1:
+        return {}
     places = _places(path)
-    return tuple(len(contours) > 1 and places[first] != places[last] for first, last in contours)
+    open_ones = [rows for rows in contours if places[rows[0]] != places[rows[1]]]
+    return {(first, last): frozenset(path.numbers[first:last].tolist()) for first, last in open_ones}
 
 
 def contour_of(path: Path) -> Rows:

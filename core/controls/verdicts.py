@@ -38,7 +38,8 @@ class Judged:
     surface, since of two laps written out the one may be kept of the surface and the other of the path.
     `leads` are programmed moves taken for leads because a closed contour begins behind them or ends before them, and
     `lead_gouges` what is cut of them: they may be surface after all.  `alone`: the side changed where it begins, and
-    what is cut on the other side is not asked about.  `way`: an open contour beside closed ones.
+    what is cut on the other side is not asked about.  `way`: the lines of all of an open contour beside closed ones, of
+    which this is the first part.
     """
 
     stretch: Stretch
@@ -49,7 +50,7 @@ class Judged:
     leads: tuple[int, ...] = ()
     lead_gouges: tuple[Gouge, ...] = ()
     alone: bool = False
-    way: bool = False
+    way: frozenset[float] = frozenset()
 
 
 def judged(run: Run) -> tuple[Judged, ...]:
@@ -77,7 +78,7 @@ def _each(run: Run, stretch: Stretch) -> list[Judged]:
     """
     whole = surface_of(stretch)
     contours = chains(whole)
-    open_ones = ways(whole, contours)
+    untold = ways(whole, contours)
     parts, results, row = stretch.parts(), list[Judged](), 0
     sides = any(part.side is not parts[0].side for part in parts)
     for part in parts:
@@ -86,8 +87,8 @@ def _each(run: Run, stretch: Stretch) -> list[Judged]:
         inner = [(max(first, begin) - begin, min(last, row) - begin) for first, last in contours]
         held = [both[0] < both[1] for both in inner]
         told = _judged(run, part, own, list(compress(inner, held)) or [(0, len(own))])
-        if any(held):
-            told = [replace(one, way=way) for one, way in zip(told, compress(open_ones, held), strict=True)]
+        for place, rows in enumerate(compress(contours, held)):
+            told[place] = replace(told[place], way=untold.pop(rows, frozenset()))
         if sides:
             told[0] = replace(told[0], alone=bool(results))
         elif len(parts) > 1:
@@ -197,9 +198,9 @@ def _alone(result: Judged) -> list[Finding]:
 
 def _way(result: Judged, gouged: set[float]) -> list[Finding]:
     """That gouged lines may be no surface at all: nothing in a program says where a contour begins."""
-    if not (result.way and gouged & result.lines):
+    if not gouged & result.way:
         return []
-    first, last = int(min(result.lines)), int(max(result.lines))
+    first, last = int(min(result.way)), int(max(result.way))
     text = (
         f"Lines {first} to {last}, more than {MOST_LEAD} moves beside a closed contour, are taken for a contour of "
         "their own, and what the cutter cuts into them for a gouge; if they only lead from one contour to another, "

@@ -117,11 +117,34 @@ def test_a_long_way_between_contours_that_is_told_as_gouged_is_told_to_be_no_sur
     assert not {"WAY", "GOUGE"} & {one.code for one in short}
 
 
+@pytest.mark.parametrize("way", ["X-20.\nG42 Y-50.\nX100.\nY0.\n", "X-20.\nY-50.\nX100.\nG42 Y0.\n"])
+def test_a_way_on_which_the_side_changes_is_told_once_and_whole(way: str) -> None:
+    told = findings(judged(ran(two_rings(way), "nine-series:a", t1=6)))
+    assert "SIDES" in {one.code for one in told}
+    (way_told,) = (one for one in told if one.code == "WAY")
+    assert way_told.line == 9
+    assert way_told.text.startswith("Lines 9 to 12, more than 2 moves")
+
+
+NECK = "Y30.\nX10.\nY20.\nX5.\nY10.\nX19.\nY20.\nX14.\nY30.\nX40.\nY0.\nX0.\n"
+
+
+@pytest.mark.parametrize("control", CONTROLS)
+@pytest.mark.parametrize(("ring", "gouged"), [(FIRST_RING, False), (NECK, True)])
+def test_of_a_long_way_that_is_not_gouged_nothing_is_said(control: str, ring: str, gouged: bool) -> None:
+    way = "G21 G17 G90 G94 F100\nG0 X-30. Y60. Z5.\nG41 D1 G1 X-60. Y30.\nY0.\nX-40.\nX-20.\nX0.\n"
+    results = judged(ran(way + ring + "G40 X0. Y-40.\nM2\n", control, t1=6))
+    assert any(one.way for one in results)
+    codes = {one.code for one in findings(results)}
+    assert ("GOUGE" in codes) is gouged
+    assert "WAY" not in codes
+
+
 def test_of_contours_that_are_closed_or_alone_none_is_a_way() -> None:
     closed = lines_through(*RING, *OTHER, (5, 5), (4, 5), (3, 5), (-1, -1))
-    assert ways(closed, chains(closed)) == (False, False, True)
+    assert ways(closed, chains(closed)) == {(8, 12): {9.0, 10.0, 11.0, 12.0}}
     alone = lines_through((0, 0), (1, 0), (1, 1), (5, 5))
-    assert ways(alone, chains(alone)) == (False,)
+    assert not ways(alone, chains(alone))
     corners, circle = OPEN_KEY.format(circle=""), OPEN_KEY.format(circle="G2 X100. Y20. I0. J-20.\nG1 ")
     told = [findings(judged(ran(program, "linuxcnc", t1=6))) for program in (corners, circle)]
     assert [sum(one.code == "WAY" for one in found) for found in told] == [0, 1]
