@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, assert_never
+from typing import TYPE_CHECKING, assert_never
 
 from app.files import empty_program, examples, is_nc, opened
 from app.folders import asking, chosen, outside, told_path, written_at
@@ -19,6 +19,8 @@ from app.screens.save import SaveAsPage
 from app.session import Session, Tone
 from app.widgets.words import in_spite, placed
 from core.finding import Severity
+from core.program.entries import unread
+from core.program.model import Program
 from core.program.stamp import stamp_of_data
 from core.program.store import StoreError, dumps, refuse_program, write_output, write_text
 from core.units import Unit
@@ -26,9 +28,6 @@ from core.units import Unit
 if TYPE_CHECKING:
     from app.desk import Desk
     from core.output.post import Posted
-
-MARKED: Final = frozenset({"UNREADABLE", "OUT_OF_RANGE"})
-"""Findings of fields that the form marks ERR."""
 
 
 def carry_out(desk: Desk, message: Save | Browse | Load | Post | Leave) -> Desk:
@@ -69,14 +68,13 @@ def _save(desk: Desk, message: Save) -> Desk:
     return (
         replace(desk, exit=True)
         if message.leave
-        else desk.take(Say(f"Saved: {written_at(path)}{other}{_marked(session)}"))
+        else desk.take(Say(f"Saved: {written_at(path)}{other}{_marked(session.program)}"))
     )
 
 
-def _marked(session: Session) -> str:
+def _marked(program: Program) -> str:
     """That what cannot be used is in the file too."""
-    marked = any(one.code in MARKED for found in session.derived.blocks for one in found.errors)
-    return "; what is marked ERR is in it as it was typed." if marked else ""
+    return ", what is marked ERR as it was typed." if any(unread(program)) else ""
 
 
 def _as_program(path: Path, own: Path | None) -> Path:

@@ -56,9 +56,7 @@ def told_path(path: Path | str) -> str:
 
 def folder_told(file: Path | None) -> str:
     """The chosen folder in words, asked of no disk: a folder of a network may not answer."""
-    if file is not None:
-        return told_path(file.parent)
     try:
-        return told_path(Path.cwd())
+        return told_path(Path.cwd() if file is None else Path.cwd() / file.parent)
     except OSError:
         return "the folder it was started in, which is gone"

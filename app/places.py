@@ -109,7 +109,7 @@ def never_saved(folder: Path, own: Path) -> list[Path]:
     there = [path for path in beside if _holds(journal_path(path))]
     named = ((path, path.name.removesuffix(SUFFIX).rpartition("-")[0]) for path in _inside(own))
     there += [folder / name for path, name in named if elsewhere(folder / name, own) == path and _holds(path)]
-    return sorted({path for path in there if path.suffix == ".toml" and not path.exists()})
+    return sorted({path for path in there if path.suffix.lower() == ".toml" and not path.exists()})
 
 
 def _holds(path: Path) -> bool:

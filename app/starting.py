@@ -138,7 +138,7 @@ def _inside(folder: Path) -> Iterator[Entry]:
     with os.scandir(folder) as found:
         inside = sorted(found, key=lambda one: one.name.lower())
     yield Entry(Group.FOLDER, folder.parent, "..", folder=True)
-    programs = [one for one in inside if one.name.endswith(".toml") and not one.is_dir()]
+    programs = [one for one in inside if one.name.lower().endswith(".toml") and not one.is_dir()]
     folders = [one for one in inside if not one.name.startswith(".") and one.is_dir()]
     saved = [path for path in (Path(one.path) for one in programs[:SHOWN]) if files.is_program(path)]
     for path in sorted((*saved, *places.never_saved(folder, places.own_folder())), key=lambda path: path.name.lower()):

@@ -96,7 +96,7 @@ def _item(item: Item, *, on_it: bool) -> Row:
 
 
 def _is_program(path: Path) -> bool:
-    return path.suffix == ".toml" and path.is_file() and is_program(path)
+    return path.suffix.lower() == ".toml" and path.is_file() and is_program(path)
 
 
 def listed(folder: Path) -> tuple[Item, ...]:

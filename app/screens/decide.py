@@ -8,7 +8,7 @@ from typing import ClassVar, Final
 from app.messages import Say
 from app.screens.ask import Ask, letters
 from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
-from app.screens.text import paragraph
+from app.screens.text import fitting, paragraph
 from app.session import Said, Session
 from app.widgets.header import header
 from app.widgets.rows import Look, Span, plain
@@ -67,9 +67,7 @@ class Choose(Ask):
         """The question, the answers, and what they are about."""
         asked = Ask.view(self, session, surface)
         told = [row for line in self.details for row in paragraph(line, surface.width, Look.LABEL, "  ")]
-        room = max(surface.body - len(asked.body) - 1, 0)
-        told = told if len(told) <= room else [*told[: room - 1], plain(" And more.", Look.LABEL)][:room]
-        return asked._replace(body=(*asked.body, (), *told))
+        return asked._replace(body=(*asked.body, (), *fitting(told, surface.body - len(asked.body) - 1)))
 
 
 def shortened(details: tuple[str, ...], most: int = MOST) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ from core.finding import Severity
 from core.pipeline.derived import Tag
 from core.program.edit import Refused
 from core.program.entries import AGAIN, misfit, unread_reason
-from core.program.fields import SOLUTION, Field, check, range_of
+from core.program.fields import SOLUTION, Field, check
 from core.program.model import Entry, Program, Unread
 from core.program.solved import Solved, Value
 from core.records import dataclass
@@ -167,7 +167,7 @@ class FormPage(Page):
         return Answer(self._without_text(), (edit, Say(f"{one.label}: {_short(bad.text)} is taken back, {now}.")))
 
     def reason(self, session: Session) -> Said | None:
-        """Why the field with the cursor cannot be used as it stands, or that what is being typed does not count yet."""
+        """Why the field with the cursor cannot be used as it stands, or that what is being typed does not count."""
         one = self.field(session)
         held = None if one is None else self.value(session, one.name)
         text = None if one is None else unusable(held, one, session.program.unit)
@@ -178,10 +178,10 @@ class FormPage(Page):
         if one is None or self.editing is None or one.kind is Kind.TEXT:
             return None
         typed, held = self.editing.text, self.text(session, one)
-        if typed == held or isinstance(understood(typed, one, session.program.unit), Entry):
+        if typed.strip() == held or isinstance(understood(typed, one, session.program.unit), Entry):
             return None
-        told = f"{_short(typed)} does not count yet" if typed.strip() else "A blank does not count before Enter"
-        return Said(f"{told}: path and verdict are still those of {held or 'the blank field'}.")
+        told = f"{_short(typed)} does not count" if typed.strip() else "A blank does not count before Enter"
+        return Said(f"{told}: path and verdict are still those of {held or 'before'}.")
 
     def shared_trouble(self, session: Session) -> Said | None:
         """What the verdict on any block says of the field with the cursor, which belongs to all of them."""
@@ -193,7 +193,11 @@ class FormPage(Page):
     def help(self, session: Session) -> tuple[str, ...]:
         """The prompt of the field, its range, and the keys that change it."""
         one = self.field(session)
-        return () if one is None else field_help(one, session.program.unit)
+        if one is None:
+            return ()
+        from app.screens.field_help import field_help
+
+        return field_help(one, session.program.unit)
 
 
 def prompt_of(one: Field) -> str:
@@ -281,27 +285,3 @@ def cell_of(one: Field, held: Value | str, unit: Unit, column: int, line: int, *
             return Cell(one.name, one.label, "?", column, line, State.NEEDED, "", choice)
         case _:
             return Cell(one.name, one.label, text, column, line, State.TYPED, "", choice)
-
-
-def field_help(one: Field, unit: Unit) -> tuple[str, ...]:
-    """What a field means and what may be typed into it, in sentences, then its picture."""
-    from app.screens.topics import topic_of
-
-    lines = [one.label, one.prompt]
-    if one.choices:
-        lines.append(f"Choices: {', '.join(one.choices)}. Space, left and right step; letters spell one.")
-    elif one.kind is not Kind.TEXT:
-        lines.append(_HOW[one.kind])
-    if taken := range_of(one, unit):
-        lines.append(f"{taken[0].upper()}{taken[1:]}.")
-    topic = topic_of(one)
-    return tuple(lines) if topic is None else (*lines[:2], topic.words, *lines[2:], *topic.picture)
-
-
-_HOW = {
-    Kind.LENGTH: "A number, a fraction (1 1/2), a sum (2.5-.125, 25.4/2), or another unit (12.7mm, .5in).",
-    Kind.FEED: "A number in program units a minute, or another unit (500mm, 20in).",
-    Kind.ANGLE: "Degrees, counter-clockwise from +X.",
-    Kind.COUNT: "A whole number.",
-    Kind.PERCENT: "A percentage.",
-}

@@ -13,6 +13,7 @@ from app.naming import typed, with_suffix
 from app.own_post import OwnPost, OwnPosted
 from app.screens.entry import EntryPage, entry_row
 from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, View
+from app.screens.text import fitting
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header
@@ -131,7 +132,8 @@ class PostPage(EntryPage):
         elif against:
             said = Said("Enter the name of the NC file. The findings stand against posting.", Tone.WARNING)
         told = _against(against, session, surface.width) if self.asked is None else self._met(session, surface.width)
-        body = ((), *rows, (), *_unsaved(session), *_left(session), *told)
+        body = ((), *rows, (), *_unsaved(session), *_left(session))
+        body = (*body, *fitting(told, surface.body - len(body), "And more: Ctrl+F on a block's form tells all."))
         return View(header("POST NC", plain(""), session, surface.width), body, said, 1)
 
     def _met(self, session: Session, width: int) -> tuple[Row, ...]:

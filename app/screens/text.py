@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from textwrap import wrap
 from typing import ClassVar
@@ -59,6 +60,13 @@ class TextPage(Page):
         )
         first = header(self.title(session), plain(""), session, surface.width, self.about_file())
         return View(first, ((), *lines[top : top + room]), Said(prompt))
+
+
+def fitting(rows: Sequence[Row], room: int, more: str = "And more.") -> tuple[Row, ...]:
+    """The rows for which there is room, the last of them saying that there are more where there are."""
+    if len(rows) <= room:
+        return tuple(rows)
+    return (*rows[: room - 1], plain(f" {more}", Look.LABEL)) if room > 0 else ()
 
 
 def paragraph(text: str, width: int, look: Look = Look.PLAIN, indent: str = "") -> tuple[Row, ...]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Final
 
 from core.program.fields import Field, check
-from core.program.model import Entry, Typed, Unread
+from core.program.model import Entry, Program, Typed, Unread
 from core.units import Unit, Unreadable, parse, printable
 
 AGAIN: Final = "Type it again."
@@ -20,6 +21,15 @@ def read(text: str, one: Field, unit: Unit) -> Typed:
         return Unread(text, value.reason)
     outside = misfit(text, one, unit)
     return Entry(value) if outside is None else Unread(text, outside)
+
+
+def unread(program: Program) -> Iterator[Unread]:
+    """Every text of a program that stands as it was typed, on whatever form."""
+    blocks = program.blocks
+    segments = (segment for block in blocks for segment in block.segments)
+    for part in (program.parameters, program.setup, *program.tools, *blocks, *segments):
+        held = (getattr(part, name) for name in part.__match_args__)
+        yield from (value for value in held if isinstance(value, Unread))
 
 
 def misfit(text: str, one: Field, unit: Unit) -> str | None:

@@ -257,3 +257,14 @@ def test_findings_of_a_value_go_with_the_program_they_were_asked_of() -> None:
     operator.desk = replace(operator.desk, session=operator.session.apply(replace(program, tools=()), "a change"))
     assert "AT LOOK-AHEAD" not in operator.part("header")
     assert "[1!]" not in told_of(operator)
+
+
+def test_findings_for_which_the_dialog_has_no_room_are_said_to_be_more() -> None:
+    program = load(example("overrun-square"))
+    (block,) = program.blocks
+    crowded = replace(program, blocks=(replace(block, segments=(*block.segments, *block.segments[-1:] * 8)),))
+    operator = Operator(Desk(Session.of(crowded))).press("f8", "f6")
+    operator.desk = operator.desk.knowing(derive(crowded))
+    told = operator.part("body").rstrip().splitlines()
+    assert told[-1] == " And more: Ctrl+F on a block's form tells all."
+    assert "!! block 1, segment" in "\n".join(told)

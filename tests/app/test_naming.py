@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import product
 from pathlib import Path
 
 import pytest
 
-from app.files import example
+from app.desk import Desk
+from app.files import example, opened
+from app.folders import folder_told
 from app.naming import as_program, is_folder, program_named, typed, with_suffix
+from app.screens.browse import listed
 from core.pipeline.derive import derive
 from core.program.store import load
 from tests.app.operator import Operator
@@ -51,10 +53,9 @@ def test_a_program_under_another_name_is_found_and_saved_under_it(
     path = tmp_path / "part.cfg"
     path.write_bytes(example("pocket").read_bytes())
     assert program_named(Path("part.cfg")) == Path("part.cfg")
-    operator = Operator.at(load(path))
-    operator.desk = replace(operator.desk, session=replace(operator.session, file=path))
-    operator.press("f8", "f2", "enter")
-    assert "SAVE AS" not in operator.screen()[0]
+    operator = Operator(Desk(opened(path)))
+    operator.press("f8", "f7", "f3", "enter")
+    assert operator.said == "Saved: part.cfg"
     assert [one.name for one in tmp_path.iterdir()] == ["part.cfg"]
 
 
@@ -66,6 +67,19 @@ def test_the_name_of_a_program_with_a_point_in_it(tmp_path: Path, monkeypatch: p
     assert operator.said == "Saved: bracket 1.5.toml"
     assert (tmp_path / "bracket 1.5.toml").exists()
     assert "bracket 1.5" in operator.screen()[1]
+
+
+def test_a_bare_name_leads_beside_the_file_that_is_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for file, folder in ((Path("p.toml"), tmp_path), (Path("job/p.toml"), tmp_path / "job"), (Path("/x/p.toml"), "/x")):
+        assert folder_told(file) == str(folder)
+
+
+def test_a_suffix_in_capitals_is_one_and_is_listed(tmp_path: Path) -> None:
+    path = tmp_path / "x.TOML"
+    assert as_program(path) == path
+    path.write_bytes(example("pocket").read_bytes())
+    assert "x.TOML" in [one.name for one in listed(tmp_path)]
 
 
 @pytest.mark.parametrize(

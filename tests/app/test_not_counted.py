@@ -21,7 +21,7 @@ def prompt(operator: Operator) -> str:
 @pytest.mark.parametrize(("keys", "told"), [("-", "-"), ("-.x", "-.x"), ("1/", "1/")])
 def test_half_a_number_does_not_count(keys: str, told: str) -> None:
     operator = on_x_end().press(*keys)
-    assert prompt(operator) == f"{told} does not count yet: path and verdict are still those of 4.0000."
+    assert prompt(operator) == f"{told} does not count: path and verdict are still those of 4.0000."
 
 
 def test_nor_does_a_field_that_was_emptied() -> None:
@@ -37,13 +37,13 @@ def test_a_number_is_tried_and_nothing_is_said(keys: str) -> None:
 
 def test_a_diameter_of_nothing_does_not_count() -> None:
     operator = Operator.at(load(example("pocket"))).press("f6", "tab", "tab", "0", ".", "0")
-    assert prompt(operator) == "0.0 does not count yet: path and verdict are still those of 0.5000."
+    assert prompt(operator) == "0.0 does not count: path and verdict are still those of 0.5000."
     assert "count" not in prompt(operator.press("5"))
 
 
-def test_in_a_blank_field_the_verdict_is_that_of_the_blank() -> None:
+def test_in_a_blank_field_the_verdict_is_that_of_before() -> None:
     operator = on_x_end().press("backspace", "enter", "shift+tab", "-")
-    assert prompt(operator) == "- does not count yet: path and verdict are still those of the blank field."
+    assert prompt(operator) == "- does not count: path and verdict are still those of before."
 
 
 def test_what_is_marked_already_says_why() -> None:

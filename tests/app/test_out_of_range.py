@@ -11,6 +11,7 @@ from app.screens.forms import FormPage
 from app.screens.tools import ToolsPage
 from core.pipeline.outline import outline
 from core.program.coding import block_of, packed_block
+from core.program.entries import unread
 from core.program.fields import TABLES, Form, check
 from core.program.model import ArcSegment, BlendSegment, Block, Entry, LineSegment, Program, Unread
 from core.program.store import dumps, load, loads
@@ -92,9 +93,9 @@ def test_it_stays_marked_in_its_field_however_the_cursor_leaves(form: Form, name
     operator = on(form, name)
     before = held(operator, form, name)
     operator.press(*text, key)
-    unread = held(operator, form, name)
-    assert isinstance(unread, Unread)
-    assert unread.text == text
+    typed = held(operator, form, name)
+    assert isinstance(typed, Unread)
+    assert typed.text == text
     assert "must be" in operator.said
     assert "ERR" in operator.part("body")
     operator.press("down", "up")
@@ -108,6 +109,7 @@ def test_it_blocks_posting_and_is_saved_and_journaled(form: Form, name: str) -> 
     text = wild(form, name)
     operator = on(form, name).press(*text, "enter")
     now = operator.session.program
+    assert [one.text for one in unread(now)] == [text]
     found = [
         one for block in outline(now).blocks for one in block.errors if one.field == (name, "tool")[name == "diameter"]
     ]
@@ -157,6 +159,6 @@ def test_a_safe_z_that_is_set_aside_is_said_on_its_screen_and_on_the_form() -> N
 def test_saving_says_that_what_cannot_be_used_is_in_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     operator = Operator.at().press("tab", "x", "enter").press("f8", "f7", "f3", "delete", *"part", "enter")
-    assert operator.said == "Saved: part.toml; what is marked ERR is in it as it was typed."
+    assert operator.said == "Saved: part.toml, what is marked ERR as it was typed."
     operator.press("enter", "tab", "1", "enter", "ctrl+s")
     assert operator.said == "Saved: part.toml"
