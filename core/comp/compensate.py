@@ -187,8 +187,8 @@ def _with_length(contour: Path) -> tuple[Path, list[Finding]]:
 
 
 def _is_point(piece: Piece) -> bool:
-    """No longer than JOINED, of a piece whose ends are as near; an arc with an end in its centre has no direction."""
-    return piece.length <= JOINED or (isinstance(piece, Arc) and piece.centre in (piece.start, piece.end))
+    """No longer than JOINED, of a piece whose ends are as near; an arc about its end has no direction there."""
+    return piece.length <= JOINED or (isinstance(piece, Arc) and piece.centre == piece.end)
 
 
 def _without(contour: Path, dropped: Indices) -> Path:

@@ -133,7 +133,7 @@ def nearest_boxes(points: Points, boxes: Floats, within: Floats, slack: float) -
 
 def _contenders(i: Rows, j: Rows, low: Floats, high: Floats) -> tuple[Rows, Rows]:
     a, b = low.take(i, axis=1), high.take(j, axis=1)
-    keep = ~(_apart(a, b) > np.fmin.reduce(_span(a, b)))
+    keep = ~(_apart(a, b) > np.min(_span(a, b)))
     return i[keep], j[keep]
 
 
