@@ -206,15 +206,15 @@ def same(made: Path, whole: Path, tolerance: float) -> bool:
 def farthest(path: Path, other: Path) -> tuple[float, float]:
     """How far the ends and middles of a path's pieces lie from another path at most, and the number of that piece.
 
-    A distance that is no number is farther than any other.
+    A distance that is no number is farther than any other; of several pieces as far off it is that of the first place.
     """
     pieces, onto = measured(path), measured(other)
     if not len(pieces) or not len(onto):
         return (np.inf, 0.0) if len(pieces) or len(onto) else (0.0, 0.0)
     places = np.concatenate([at(pieces, np.full(len(pieces), part)) for part in (0.0, 0.25, 0.5, 0.75, 1.0)])
     apart = np.array([np.min(distance(onto, np.full(len(onto), place))) for place in places])
-    most = apart.max()
-    return float(most), float(np.tile(path.numbers[pieces.rows], 5)[~(apart < most)].max())
+    most = int(apart.argmax())
+    return float(apart[most]), float(path.numbers[pieces.rows[most % len(pieces)]])
 
 
 def _trouble(made: Path, inner: Path, cut: Cut, meant: Meant, *, moved: bool) -> Finding | None:

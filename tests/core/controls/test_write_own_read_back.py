@@ -5,14 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from math import nan, sqrt
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
-from core.controls.contouring import Cut, Line
+from core.controls import read_back as reading
+from core.controls.contouring import Cut, Line, Travel
 from core.controls.iso_style import STYLES
-from core.controls.read_back import Meant, _compared, farthest, read_back, same
+from core.controls.read_back import Meant, Told, _compared, _other_move, farthest, read_back, same
 from core.controls.registry import names
 from core.controls.write_iso import Frame, tools_of
 from core.controls.write_own import NotWritten, Own, write_own
@@ -151,10 +153,49 @@ def test_what_is_no_number_is_never_near(row: int, end: int) -> None:
     assert not same(bad, SQUARE, 1e-3)
     assert not farthest(bad, SQUARE)[0] <= 1e-3
     assert not farthest(SQUARE, bad)[0] <= 1e-3
+    assert farthest(bad, SQUARE)[1] in (row, row + 1)
     given = meant()
     (one,) = given.cuts
     assert isinstance(one, Cut)
     assert _compared(bad, one, replace(given, leads=False)).errors
+
+
+@pytest.mark.parametrize("found", [((0.0, 1.0), (nan, 1.0)), ((nan, 1.0), (0.0, 1.0))])
+def test_a_distance_that_is_no_number_in_one_direction_is_not_near(
+    found: tuple[tuple[float, float], ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given, rest = meant(), iter(found)
+    monkeypatch.setattr(reading, "same", lambda *_: False)
+    monkeypatch.setattr(reading, "farthest", lambda *_: next(rest))
+    (one,) = given.cuts
+    assert isinstance(one, Cut)
+    assert _compared(one.compensated.whole, one, replace(given, leads=False)) != Told()
+
+
+UNCOMPENSATED = (
+    Line("G21 G17 G90 G94 F100"),
+    Line("G0 X10. Y0. Z5.", travel=Travel(10.0, 0.0, 5.0, None, 0, (10.0, 0.0))),
+    Line("G1 X20.", travel=Travel(20.0, 0.0, 5.0, 100.0, 0, (20.0, 0.0))),
+    Line("G3 X30. Y10. I0. J10.", travel=Travel(30.0, 10.0, 5.0, 100.0, 1, (20.0, 10.0))),
+    Line("M2"),
+)
+
+
+@pytest.mark.parametrize("bad", [nan, 0.5])
+@pytest.mark.parametrize(
+    ("array", "line", "axis"),
+    [*(("points", line, axis) for line in (2, 3, 4) for axis in range(3)), ("centres", 4, 0), ("centres", 4, 1)],
+)
+def test_a_move_that_ends_at_no_number_is_another_one(array: str, line: int, axis: int, bad: float) -> None:
+    plain = replace(meant(), lines=UNCOMPENSATED)
+    made = made_by("linuxcnc", plain.text)
+    assert _other_move(made, plain) is None
+    values = getattr(made.moves, array).copy()
+    values[np.flatnonzero(made.moves.lines == line), axis] += bad
+    spoilt = replace(made, moves=replace(made.moves, **{array: values}))
+    found = _other_move(spoilt, plain)
+    assert found is not None
+    assert f"ends line {line} " in found.text
 
 
 @settings(max_examples=120, deadline=None, derandomize=True)
