@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import count
 from math import nan
 from typing import Any
 
@@ -39,6 +40,16 @@ def test_nor_one_whose_places_are_no_numbers(monkeypatch: pytest.MonkeyPatch) ->
     _spoilt(monkeypatch, "nearest_places", lambda places: places * nan)
     assert not judge(WALL, Side.LEFT, 1.0, DEEP).judged
     assert not rulings(WALL, Side.LEFT, 1.0, [DEEP])[0].clean
+
+
+@pytest.mark.parametrize("bad", range(3))
+def test_nor_where_one_block_of_pairs_has_them(bad: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A least of all blocks that is taken by comparisons passes it over, unless it is the first."""
+    monkeypatch.setattr(pairing, "blocks", lambda first, _: np.arange(len(first))[:, None])
+    block = count()
+    _spoilt(monkeypatch, "nearest_places", lambda places: places * nan if next(block) == bad else places)
+    assert not judge(WALL, Side.LEFT, 1.0, DEEP).judged
+    assert next(block) > bad
 
 
 ODD = (1e7, -1e7, 9.9e6, 1e6, 1e-7, 1e-9, 1e-10, 1e-160, 5e-324, 0.0)
