@@ -4,7 +4,7 @@ Random keys go to the App itself, without a terminal and without threads, on pro
 programs; a part goes through Textual.  After every few keys the screen must be that which somebody draws who knows
 nothing but the desk, the program must come back equal from its file's text, and what is not saved from its journal,
 be it a program or an NC file under proof.
-Now and then the program dies, or its file is somebody else's; work is then offered back as on any day.
+Now and then the program dies, or its file is somebody else's or written by them; work is offered back as on any day.
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ class Life:
             self.look()
 
     def look(self) -> None:
-        """The screen, the file's text, the journal."""
+        """The screen, the file's text, the journal; then somebody else may have written the file."""
         self.tally.looks += 1
         width, height = self.monkey.chance.choice(SIZES)
         shown, fresh = cells(self.app.rows(width, height)), cells(self.drawn_anew(width, height))
@@ -112,13 +112,13 @@ class Life:
             if one != other or len(one) != width:
                 self.wrong(f"{width}x{height} line {number}: {text(one)!r}, drawn anew {text(other)!r}")
                 break
-        program = self.session.program
-        if loads(dumps(program), "monkey") != program:
+        if loads(dumps(self.session.program), "monkey") != self.session.program:
             self.wrong("the program does not come back from its file's text")
         if not self.kept():
             self.wrong("the journal does not bring back the program")
         if not self.listings_kept():
             self.wrong("the journal does not bring back the NC file")
+        self.monkey.meddle(self.session.file)
 
     def drawn_anew(self, width: int, height: int) -> tuple[Row, ...]:
         """The screen as one draws it who remembers nothing and derives everything from the program."""

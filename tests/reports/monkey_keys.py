@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 import re
+import shutil
 import string
 from collections import Counter
 from dataclasses import dataclass, field
@@ -37,6 +38,8 @@ ACTING: Final = frozenset({"enter", "right", "left", *(f"f{number}" for number i
 """Keys that may write or open what a name says."""
 WORD: Final = re.compile(r"[A-Z]{2,}")
 """What stays of a softkey's label; numbers and letters between them are values."""
+MEDDLED: Final = 0.02
+"""How often somebody else has written the file."""
 LAST: Final = ("ProgramPage", "StartPage", "ProofPage")
 """Screens whose EXIT may leave the program: lives would be short."""
 
@@ -134,8 +137,15 @@ class Monkey:
     def caged(self, desk: Desk, key: str) -> str:
         """The key, or Esc where it could act on a name outside the cage."""
         outside = any(not self._inside(page) for page in desk.pages)
-        acting = key in ACTING or desk.armed or type(desk.page).__name__ in ("Ask", "Decide")
+        acting = key in ACTING or desk.armed or type(desk.page).__name__ in ("Ask", "Choose", "Decide")
         return "escape" if outside and acting else key
+
+    def meddle(self, file: Path | None) -> None:
+        """Now and then somebody else saves another program under the name of the one that is open."""
+        if file is None or not file.is_file() or self.cage not in _resolved(file).parents:
+            return
+        if self.chance.random() < MEDDLED:
+            shutil.copy(self.cage / "examples" / "notch.toml", file)
 
     def _inside(self, page: Page) -> bool:
         folder = getattr(page, "folder", Path.cwd())
