@@ -15,7 +15,7 @@ from app.behind import Behind
 from core.records import dataclass
 
 if TYPE_CHECKING:
-    from textual.timer import Timer
+    from asyncio import TimerHandle
 
     from app.application import CutcompApp
     from core.pipeline.derived import DerivedBlock, Work
@@ -42,7 +42,7 @@ class Advice:
     tabling: Behind[None]
     noting: Behind[None]
     needing: Behind[None]
-    resting: Timer | None = None
+    resting: TimerHandle | None = None
     about: About | None = None
     """What the needs of the block that is shown are about."""
 
@@ -68,7 +68,7 @@ class Advice:
     def seek(self) -> None:
         """Whatever is not known yet of the block that is shown."""
         if self.resting is not None:
-            self.resting.stop()
+            self.resting.cancel()
         self.noting.forget()
         self.needing.forget()
         self.about = about_of(self.app.shown.found)
@@ -76,7 +76,7 @@ class Advice:
         if self.app.trial is None:
             self._advise()
         elif self.app.return_code is None and self._lacks:
-            self.resting = self.app.set_timer(QUIET, self._rested)
+            self.resting = self.app.after(QUIET, self._rested)
 
     @property
     def _lacks(self) -> bool:

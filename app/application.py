@@ -4,29 +4,26 @@ from __future__ import annotations
 
 import gc
 import sys
+from asyncio import TimerHandle, get_running_loop
 from collections.abc import Callable
-from dataclasses import replace
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, ClassVar, Final
+from typing import Any, ClassVar, Final
 
+from textual import events
 from textual.app import App
 
 from app.advice import Advice
-from app.behind import Behind
+from app.behind import Behind, raised
 from app.desk import Desk
 from app.engine import Engine, bearing
 from app.screens.frame import Frame, heard, picture
 from app.screens.page import Question
 from app.session import Session
 from app.surroundings import Surroundings, real
+from app.surveying import Surveying
 from app.widgets.rows import Row
 from core.pipeline.derived import Derived
 from core.pipeline.outline import outline
-
-if TYPE_CHECKING:
-    from textual.timer import Timer
-
-    from app.survey import Facts
 
 MINUTE: Final = 60.0
 ARMED_FOR: Final = 2.0
@@ -67,23 +64,23 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self.trial: Session | None = None
         self.around = around or real()
         self.engine = engine or Engine()
-        self.advice = Advice.of(self)
+        self.advice, self.surveying = Advice.of(self), Surveying.of(self)
         # when the last key came, and the surroundings then
         self.touched, self.then = 0.0, self.around.now()
         self._loading = Behind(self, self._loaded)
         self._deriving = Behind(self, self._derived)
         self._trying = Behind(self, self._tried)
-        self._surveying = Behind(self, self._surveyed)
         self._asking: Behind[object] = Behind(self, self._answered)
         self._asked: Question | None = None
-        self._arming: Timer | None = None
+        self._arming: TimerHandle | None = None
         self._late = False
         self._painted = 0.0
 
     @property
     def behind(self) -> tuple[Behind[Any], ...]:
         """The desks of all that is calculated in threads."""
-        return (self._loading, self._deriving, self._trying, self._surveying, self._asking, *self.advice.behind)
+        own = (self._loading, self._deriving, self._trying, self._asking)
+        return (*own, self.surveying.reading, *self.advice.behind)
 
     @property
     def shown(self) -> Session:
@@ -104,6 +101,15 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self.desk = self.keep(self.desk)
         program = self.desk.session.program
         self._loading.ask(lambda: self.engine.load(program))
+
+    async def on_event(self, event: events.Event) -> None:
+        """A key goes to the desk at once: by way of the screen's queue it would take another turn of the loop."""
+        frame = self.screen_stack[-1] if self.screen_stack else None
+        # what waits for the screen, such as pasted text, was typed before it
+        if isinstance(event, events.Key) and frame is not None and frame.is_mounted and not frame.message_queue_size:
+            self.key(event.key, event.character)
+        else:
+            await super().on_event(event)
 
     def key(self, key: str, character: str | None) -> None:
         """A key was pressed."""
@@ -136,8 +142,19 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
     def _wait_for_digit(self) -> None:
         """Behind a lone Esc, so long and no longer."""
         if self._arming is not None:
-            self._arming.stop()
-        self._arming = self.set_timer(ARMED_FOR, self._disarm) if self.desk.armed else None
+            self._arming.cancel()
+        self._arming = self.after(ARMED_FOR, self._disarm) if self.desk.armed else None
+
+    def after(self, seconds: float, call: Callable[[], None]) -> TimerHandle:
+        """Have this called once; one of Textual's timers is a task, which takes ten times as long with every key."""
+
+        def called() -> None:
+            try:
+                call()
+            except Exception as error:  # noqa: BLE001  # raised again in the App
+                self.call_later(raised, error)
+
+        return get_running_loop().call_later(seconds, called)
 
     def _disarm(self) -> None:
         self.desk = self.desk.disarmed()
@@ -173,7 +190,7 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
             self.trial = None
             if not self._late:
                 self._late = True
-                self.screen.call_later(self._caught_up)
+                self.call_later(self._caught_up)
             return
         self._proceed()
 
@@ -196,7 +213,7 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self._late = False
         self._try()
         self.advice.seek()
-        self._survey()
+        self.surveying.seek()
         self._ask()
         self.refresh_screen()
         self._painted = perf_counter()
@@ -258,30 +275,6 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
             self.trial = self.desk.session.trying(derived)
             self.advice.seek()
             self.refresh_screen()
-
-    def _survey(self) -> None:
-        """The start screen's files, one after the other, once the numeric library is there."""
-        if not self.engine.ready or self._surveying.busy:
-            return
-        from app.screens.start import StartPage
-        from app.survey import facts_of
-
-        page = self.desk.page
-        if not isinstance(page, StartPage):
-            return
-        if (path := page.wanted) is not None:
-            known = page.facts.get(path)
-            self._surveying.ask(lambda: facts_of(path, known))
-
-    def _surveyed(self, facts: Facts) -> None:
-        """What is known of one file; dropped when the start screen is gone."""
-        from app.screens.start import StartPage
-
-        page = self.desk.page
-        if isinstance(page, StartPage):
-            self.desk = replace(self.desk, pages=(*self.desk.pages[:-1], page.knowing(facts)))
-        self._survey()
-        self.refresh_screen()
 
     def _ask(self) -> None:
         """What the page that is seen wants calculated: now while that is fast, else in a thread."""

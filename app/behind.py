@@ -39,6 +39,11 @@ def in_thread(work: Callable[[], Callable[[], None]]) -> None:
     loop.call_soon(begin)
 
 
+def raised(error: BaseException) -> None:
+    """For the App's queue: it ends of the error and shows it."""
+    raise error
+
+
 @dataclass(slots=True)
 class Behind(Generic[Result]):
     """A desk for one kind of work; `done` is called in the App's own thread with what came of it.
@@ -81,11 +86,7 @@ class Behind(Generic[Result]):
         # whoever waits for this desk meanwhile must not wait for ever
         self._over()
         if not self._left:
-            self.app.call_later(self._raised, error)
-
-    def _raised(self, error: BaseException) -> None:
-        """In the App's queue: it ends of the error and shows it."""
-        raise error
+            self.app.call_later(raised, error)
 
     @property
     def _left(self) -> bool:

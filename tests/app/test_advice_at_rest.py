@@ -105,7 +105,7 @@ async def test_nobody_rests_for_what_is_known_already_or_once_the_program_is_lef
         app.engine.notes = ()
         app.advice.seek()
         assert app.advice.resting is not None
-        app.advice.resting.stop()
+        app.advice.resting.cancel()
         app.advice.resting, app._return_code = None, 0
         app.advice.seek()
         assert app.advice.resting is None
@@ -137,3 +137,20 @@ async def test_a_number_typed_while_the_program_is_left_is_not_painted_any_more(
     # what a clock does that has run down meanwhile
     app.advice._rested()
     app.refresh_screen()
+
+
+async def test_what_fails_when_its_time_has_come_ends_the_program_with_its_error() -> None:
+    app = app_on("pocket")
+
+    def fail() -> None:
+        raise ZeroDivisionError
+
+    async def through() -> None:
+        async with app.run_test(size=(80, 24)) as pilot:
+            await loaded(pilot)
+            app.after(0.0, fail)
+            await until(pilot, lambda: app.return_code is not None)
+
+    with pytest.raises(ZeroDivisionError):
+        await through()
+    assert app.return_code == 1

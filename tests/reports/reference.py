@@ -41,7 +41,7 @@ class Reference(CutcompApp):
     def refresh_screen(self, width: int = 0, height: int = 0) -> None:
         del width, height
 
-    def set_timer(self, *_: Any, **__: Any) -> Any:
+    def after(self, *_: Any, **__: Any) -> Any:
         """Nothing runs out here: the digit behind Esc is the next key, and nobody rests while a number is typed."""
 
     def exit(self, *_: Any, **__: Any) -> None:
