@@ -18,6 +18,9 @@ from core.records import dataclass
 class Severity(StrEnum):
     """How much a finding weighs: an error blocks posting, a warning is shown, info explains."""
 
+    # an enumeration's own is written in Python
+    __hash__ = str.__hash__
+
     ERROR = "error"
     WARNING = "warning"
     INFO = "info"

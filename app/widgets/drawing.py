@@ -15,7 +15,7 @@ from app.screens.page import Sketch
 from app.widgets.rows import Look, Row, Span
 from core.draw.mode import Mode
 from core.draw.raster import Picture, draw
-from core.draw.scene import Box, Scene, Style, Symbol
+from core.draw.scene import Box, Gathered, Scene, Style, Symbol
 from core.draw.view import View
 from core.geometry.piece import Point
 
@@ -48,13 +48,20 @@ def picture_rows(scene: Scene, sketch: Sketch, columns: int, rows: int, mode: st
     """The scene in columns x rows cells, in the window the sketch gives."""
     if rows < ROOM_FOR_SCALE:
         scene = replace(scene, unit=None)
-    view = view_of(scene, sketch, columns, rows)
-    return () if view is None else tuple(_rows(draw(scene, view, columns, rows, Mode(mode))))
+    gathered = scene.gathered
+    view = _view_of(gathered, sketch, columns, rows)
+    return () if view is None else tuple(_rows(draw(scene, view, columns, rows, Mode(mode), gathered)))
 
 
 def view_of(scene: Scene, sketch: Sketch, columns: int, rows: int) -> View | None:
     """The window the sketch gives; None where there is nothing to be seen."""
-    bounds = bounds_of(scene)
+    return _view_of(scene.gathered, sketch, columns, rows)
+
+
+def _view_of(gathered: Gathered, sketch: Sketch, columns: int, rows: int) -> View | None:
+    scene = gathered.scene
+    # parts of the surface that are drawn once more cannot widen what spans the drawing
+    bounds = gathered.bounds(without=AGAIN)
     if bounds is None:
         return None
     return (
@@ -80,11 +87,6 @@ def _fitted(bounds: Box, columns: int, rows: int, *, scaled: bool) -> View:
     if not scaled:
         return View.fit(bounds, columns, rows)
     return View.fit(bounds, columns, rows - 1).pan(0.0, -0.5 / rows, columns, rows)
-
-
-def bounds_of(scene: Scene) -> Box | None:
-    """The bounds of what spans the drawing: parts of the surface that are drawn once more cannot widen it."""
-    return Scene(tuple(layer for layer in scene.layers if layer.style not in AGAIN), scene.circles).bounds
 
 
 def _rows(picture: Picture) -> list[Row]:

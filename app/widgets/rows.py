@@ -18,6 +18,9 @@ from rich.cells import cell_len
 class Look(StrEnum):
     """The role of a piece of text; `app.widgets.looks` gives each role its colours."""
 
+    # an enumeration's own is written in Python, and a row is looked up by the looks of all its spans
+    __hash__ = str.__hash__
+
     PLAIN = "plain"
     LABEL = "label"
     HEAD = "head"

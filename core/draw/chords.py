@@ -7,16 +7,16 @@ before they are divided, so that no zoom makes them expensive.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import hypot, tau
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.draw.scene import BEYOND, Layer, Pieces, gathered
+from core.draw.scene import BEYOND, Arcs, Gathered, Pieces
 from core.draw.view import TALL, View
 from core.geometry.path import Floats, Turns, swept
+from core.geometry.planes import coordinates
 from core.records import dataclass
 
 SAG: Final = 0.1
@@ -35,142 +35,149 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Chords:
-    """m chords `starts`, `ends` (m,) in window coordinates, ordered by `layers` (m,).
+    """m chords in window coordinates, ordered by `layers` (m,): each from `starts` by `runs` (m,).
 
     `along` (m,) is the length travelled on the layer's path up to the chord's start, in cells' widths.
     """
 
     starts: Points
-    ends: Points
+    runs: Points
     layers: Rows
     along: Floats
+
+    def only(self, keep: Rows) -> Chords:
+        """These chords, by their numbers."""
+        return Chords(self.starts[keep], self.runs[keep], self.layers[keep], self.along[keep])
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Pieces:
-    """n pieces (n,) in window coordinates, and k `arcs` among them: their rows, centres, turns, sweeps, radii and
-    the directions in which they begin (k,)."""
+class _Arcs:
+    """k arcs (k,) in window coordinates: the `rows` of their pieces, and the directions in which they `begin`."""
 
-    starts: Points
-    ends: Points
-    layers: Rows
-    along: Floats
-    arcs: Rows
+    rows: Rows
     centres: Points
     turns: Turns
     sweeps: Floats
     radii: Floats
     begin: Floats
 
+    def only(self, keep: Rows) -> _Arcs:
+        """These arcs, by their numbers."""
+        rows, centres, turns = self.rows[keep], self.centres[keep], self.turns[keep]
+        return _Arcs(rows, centres, turns, self.sweeps[keep], self.radii[keep], self.begin[keep])
 
-def chords(layers: Sequence[Layer], view: View, columns: int, rows: int) -> Chords:
-    """Chords of all layers' paths that may touch the window of columns x rows cells; a layer is known by its index."""
-    given = [(index, layer) for index, layer in enumerate(layers) if len(layer.path)]
-    if not given:
-        none = np.empty(0, np.complex128)
-        return Chords(none, none, np.empty(0, np.intp), np.empty(0))
+
+def chords(gathered: Gathered, axes: Chords, view: View, columns: int, rows: int) -> Chords:
+    """The axes and chords of all layers' pieces that may touch the window of columns x rows cells.
+
+    A layer is known by its index among those of `gathered`.
+    """
     with np.errstate(invalid="ignore", over="ignore"):
-        pieces = _gathered(given, view)
-    if not len(pieces.arcs):
-        return Chords(pieces.starts, pieces.ends, pieces.layers, pieces.along)
-    arcs = _divided(pieces, hypot(columns / 2, rows * TALL / 2) + 1.0)
-    straight = np.ones(len(pieces.starts), np.bool_)
-    straight[pieces.arcs] = False
-    lines = straight.nonzero()[0]
-    found = np.concatenate((pieces.layers[lines], arcs.layers))
-    order = np.argsort(found, kind="stable")
-    starts, ends = (pieces.starts[lines], arcs.starts), (pieces.ends[lines], arcs.ends)
-    along = np.concatenate((pieces.along[lines], arcs.along))
-    return Chords(np.concatenate(starts)[order], np.concatenate(ends)[order], found[order], along[order])
+        pieces, given, along = _near(gathered, view)
+        points, arcs = _in_window(pieces.points, view), _arcs(given, view)
+    starts = points[pieces.rows]
+    every = Chords(starts, points[pieces.rows + 1] - starts, pieces.layers, along / view.scale)
+    if not len(arcs.rows):
+        return _ordered(axes, every)
+    straight = np.ones(len(starts), np.bool_)
+    straight[arcs.rows] = False
+    bent = _divided(arcs, every, hypot(columns / 2, rows * TALL / 2) + 1.0)
+    return _ordered(axes, every.only(straight.nonzero()[0]), bent)
 
 
-def _gathered(given: Sequence[tuple[int, Layer]], view: View) -> _Pieces:
-    """The pieces of all layers in window coordinates, in order; arcs shorter than SHORT are lines here."""
-    pieces = gathered([layer for _, layer in given])
-    layers = np.array([index for index, _ in given])[pieces.layers]
-    along = _travelled([layer for _, layer in given], pieces.layers) / view.scale
-    points, centres = _in_window(pieces.points, view), _in_window(pieces.centres, view)
-    limit = BEYOND / view.scale
-    if not (_within(points, limit).all() and _within(centres, limit).all()):
-        near = _within(points, limit)
-        shown = near[pieces.rows] & near[pieces.rows + 1] & _within(centres, limit) & np.isfinite(along)
-        keep = shown.nonzero()[0]
-        pieces, layers, along, centres = pieces.only(keep), layers[keep], along[keep], centres[keep]
-    starts, ends = points[pieces.rows], points[pieces.rows + 1]
-    arcs = pieces.turns.nonzero()[0]
-    sweeps, radial = _sweeps(pieces.only(arcs)), starts[arcs] - centres[arcs]
-    radii = np.abs(radial)
-    curved = (radii * sweeps > SHORT).nonzero()[0]
-    arcs, radii, begin = arcs[curved], radii[curved], np.angle(radial[curved])
-    return _Pieces(starts, ends, layers, along, arcs, centres[arcs], pieces.turns[arcs], sweeps[curved], radii, begin)
+def _ordered(*parts: Chords) -> Chords:
+    """All chords in the order of their layers."""
+    layers = np.concatenate([part.layers for part in parts])
+    return Chords(
+        np.concatenate([part.starts for part in parts]),
+        np.concatenate([part.runs for part in parts]),
+        layers,
+        np.concatenate([part.along for part in parts]),
+    ).only(layers.argsort(kind="stable"))
 
 
-def _sweeps(arcs: Pieces) -> Floats:
-    """(k,) angles that arcs travel: whether one is a full circle only its own millimetres tell."""
-    starts, ends = arcs.starts, arcs.ends
-    return swept(starts - arcs.centres, ends - arcs.centres, arcs.turns, starts == ends)
+def _near(gathered: Gathered, view: View) -> tuple[Pieces, Arcs, Floats]:
+    """The pieces that are drawn at all, the arcs among them, and how far each is along its path, in millimetres."""
+    pieces, arcs, along, centre = gathered.pieces, gathered.arcs, _travelled(gathered), complex(*view.centre)
+    reach = BEYOND - abs(centre)
+    # a comparison with what is not a number is false
+    if np.abs(pieces.points).max(initial=0.0) <= reach and np.abs(arcs.centres).max(initial=0.0) <= reach:
+        return pieces, arcs, along
+    near = _within(pieces.points - centre)
+    shown = near[pieces.rows] & near[pieces.rows + 1] & np.isfinite(along)
+    shown[arcs.rows] &= _within(arcs.centres - centre)
+    keep = shown.nonzero()[0]
+    pieces = pieces.only(keep)
+    return pieces, pieces.arcs, along[keep]
 
 
-def _within(points: Points, limit: float) -> Mask:
+def _within(points: Points) -> Mask:
     """(n,) which points are drawn at all."""
-    within: Mask = (np.abs(points.real) <= limit) & (np.abs(points.imag) <= limit)
+    within: Mask = (np.abs(points.real) <= BEYOND) & (np.abs(points.imag) <= BEYOND)
     return within
 
 
-def _in_window(points: Floats, view: View) -> Points:
-    window: Points = np.ascontiguousarray(points).view(np.complex128)[:, 0] - complex(*view.centre)
+def _in_window(points: Points, view: View) -> Points:
+    window: Points = points - complex(*view.centre)
     window /= view.scale
     return window
 
 
-def _travelled(layers: Sequence[Layer], owners: Rows) -> Floats:
-    """(n,) millimetres from its path's start to each piece of a dashed layer; `owners` (n,) are the pieces' layers.
+def _travelled(gathered: Gathered) -> Floats:
+    """(n,) millimetres from its path's start to each piece of a dashed layer.
 
     Where only parts of a path are drawn each piece's dashes begin with it.
     """
+    owners = gathered.pieces.layers
     along = np.zeros(len(owners))
-    for index, layer in enumerate(layers):
+    for index, layer in enumerate(gathered.layers):
         if layer.dashed and layer.own is None and len(layer.path) > 1:
             lengths, first = layer.path.lengths, int(np.searchsorted(owners, index))
             along[first : first + len(lengths)] = np.cumsum(lengths) - lengths
     return along
 
 
-def _divided(pieces: _Pieces, reach: float) -> Chords:
-    """Chords of the arcs among the pieces within `reach` of the window's centre."""
-    arc, low, high = _visible(pieces, reach)
-    span, radii, turns = high - low, pieces.radii[arc], pieces.turns[arc]
-    counts = np.ceil(span / np.minimum(np.sqrt(8.0 * SAG / np.maximum(radii, SAG)), STEP)).astype(np.intp)
+def _arcs(given: Arcs, view: View) -> _Arcs:
+    """The arcs in window coordinates, without those shorter than SHORT: these are lines here."""
+    first, last = given.starts - given.centres, given.ends - given.centres
+    # whether one is a full circle only its own millimetres tell
+    same = coordinates(given.starts) == coordinates(given.ends)
+    sweeps, radii = swept(coordinates(first), coordinates(last), given.turns, same), given.radii / view.scale
+    centres, begin = _in_window(given.centres, view), np.arctan2(first.imag, first.real)
+    return _Arcs(given.rows, centres, given.turns, sweeps, radii, begin).only((radii * sweeps > SHORT).nonzero()[0])
+
+
+def _divided(arcs: _Arcs, pieces: Chords, reach: float) -> Chords:
+    """Chords of arcs among the pieces within `reach` of the window's centre."""
+    arcs, low, span = _visible(arcs, reach)
+    counts = np.ceil(span / np.minimum(np.sqrt(8.0 * SAG / np.maximum(arcs.radii, SAG)), STEP)).astype(np.intp)
     pace = span / np.maximum(counts, 1)
-    row = np.repeat(np.arange(len(arc)), counts)
-    nth = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
-    turned = low[row] + nth * pace[row]
-    angle = pieces.begin[arc][row] + turns[row] * turned
-    starts = radii[row] * np.exp(1j * angle)
-    ends = starts * np.exp(1j * turns * pace)[row]
-    centres, piece = pieces.centres[arc][row], pieces.arcs[arc]
-    along = pieces.along[piece][row] + turned * radii[row]
-    return Chords(centres + starts, centres + ends, pieces.layers[piece][row], along)
+    arc = np.arange(len(counts)).repeat(counts)
+    nth = np.arange(len(arc)) - (counts.cumsum() - counts)[arc]
+    turned, turns, radii, piece = low[arc] + nth * pace[arc], arcs.turns, arcs.radii[arc], arcs.rows[arc]
+    starts = radii * np.exp(1j * (arcs.begin[arc] + turns[arc] * turned))
+    runs = starts * (np.exp(1j * turns * pace) - 1.0)[arc]
+    return Chords(arcs.centres[arc] + starts, runs, pieces.layers[piece], pieces.along[piece] + turned * radii)
 
 
-def _visible(pieces: _Pieces, reach: float) -> tuple[Rows, Floats, Floats]:
-    """(m,) arcs, and the angles travelled, from and to, between which each runs within `reach` of the window's centre.
+def _visible(arcs: _Arcs, reach: float) -> tuple[_Arcs, Floats, Floats]:
+    """m parts of arcs that run within `reach` of the window's centre: (m,) the angle travelled to each, and its own.
 
     The circle meets the disc of that reach symmetrically about the direction to the window's centre, over a half
     angle h with sin^2(h / 2) = (reach^2 - (d - r)^2) / (4 d r), d being the distance of the two centres.
     """
-    distance, radii, sweeps = np.abs(pieces.centres), pieces.radii, pieces.sweeps
+    distance, radii, sweeps = np.abs(arcs.centres), arcs.radii, arcs.sweeps
+    if (distance + radii).max() <= reach:
+        return arcs, np.zeros(len(sweeps)), sweeps
     within = reach * reach - (distance - radii) ** 2
     part = np.minimum(np.maximum(within / np.maximum(4.0 * distance * radii, CONCENTRIC), 0.0), 1.0)
     whole, hidden = part >= 1.0, within <= 0.0
-    if whole.all() and not hidden.any():
-        return np.arange(len(sweeps)), np.zeros(len(sweeps)), sweeps
     half = 2.0 * np.arcsin(np.sqrt(part))
-    middle = np.mod((np.angle(-pieces.centres) - pieces.begin) * pieces.turns, tau)
+    middle = np.mod((np.angle(-arcs.centres) - arcs.begin) * arcs.turns, tau)
     turned = np.array([[-tau], [0.0], [tau]])
     low = np.maximum(middle - half + turned, 0.0)
     high = np.minimum(middle + half + turned, sweeps)
     low[:, whole], high[:, whole | hidden] = 0.0, 0.0
     high[1] = np.where(whole & ~hidden, sweeps, high[1])
     shown, arc = np.nonzero(high > low)
-    return arc, low[shown, arc], high[shown, arc]
+    return arcs.only(arc), low[shown, arc], (high - low)[shown, arc]

@@ -6,6 +6,8 @@ the mode's table.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -13,10 +15,10 @@ from numpy.typing import NDArray
 
 from core.draw.chords import Chords, Points, Rows, chords
 from core.draw.mode import Cells, Mode, cells
-from core.draw.scene import Circle, Layer, Scene, Style
+from core.draw.scene import BEYOND, Gathered, Layer, Scene, Style
 from core.draw.signs import Styles, write_signs
 from core.draw.view import TALL, View
-from core.geometry.path import EMPTY, Floats, Path
+from core.geometry.path import Floats
 from core.records import dataclass
 
 DASH: Final = (3.0, 1.8)
@@ -24,8 +26,8 @@ DASH: Final = (3.0, 1.8)
 AXIS_DASH: Final = (4.0, 1.0)
 NUDGE: Final = 1e-6
 """Parts of a dot: a line exactly between two rows of dots must not change rows where rounding does."""
-AXES: Final = 2
-"""The first layers drawn are the two axes."""
+AXIS: Final = -1
+"""The layer of both axes, which lie under all others."""
 FAINT: Final = (Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID)
 """Roles that do not make a cell one of the surface."""
 STRUCK: Final = "#"
@@ -34,6 +36,8 @@ PHASE: Final = 0.25
 """Where in its period an axis begins at the window's edge: away from where rounding could decide."""
 
 Bits = NDArray[np.bool_]
+
+NO_AXES: Final = Chords(np.empty(0, np.complex128), np.empty(0, np.complex128), np.empty(0, np.intp), np.empty(0))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -44,18 +48,20 @@ class Picture:
     styles: NDArray[np.uint8]
 
 
-def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Picture:
+def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode, gathered: Gathered | None = None) -> Picture:
     """The part of the scene that `view` shows, in columns x rows cells; either may be 0.
 
     Dots of all layers stay lit.  A cell takes the style of the last layer in it, then of the last circle, of the last
-    mark.  What is not finite, or beyond every machine, is left out.
+    mark.  What is not finite, or beyond every machine, is left out.  `gathered` are the scene's pieces where they are
+    gathered already.
     """
     if columns < 1 or rows < 1:
         return Picture(("",) * max(rows, 0), np.zeros((max(rows, 0), max(columns, 0)), np.uint8))
     look = cells(mode)
-    layers = (*_axes(scene, view, columns, rows), *scene.layers, *map(_outline, scene.circles))
-    found = _clipped(chords(layers, view, columns, rows), columns / 2, rows * TALL / 2)
-    lit, styles, strong, struck = _light(found, layers, look, columns, rows)
+    gathered = scene.gathered if gathered is None else gathered
+    axes = _axes(view, columns / 2, rows * TALL / 2) if scene.axes else NO_AXES
+    found = _clipped(chords(gathered, axes, view, columns, rows), columns / 2, rows * TALL / 2)
+    lit, styles, strong, struck = _light(found, gathered.layers, look, columns, rows)
     codes = np.packbits(lit, bitorder="little")
     characters = look.table[codes]
     if look.faint is not None:
@@ -66,46 +72,36 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
     return Picture(tuple("".join(row) for row in characters.tolist()), styles)
 
 
-def _outline(circle: Circle) -> Layer:
-    """The whole circle as a layer."""
-    (x, y), radius = circle.centre, circle.radius
-    rim = np.array([[x + radius, y], [x + radius, y]])
-    return Layer(Path.of(rim, np.array([[x, y]]), np.array([1], np.int8)), circle.style)
-
-
-def _axes(scene: Scene, view: View, columns: int, rows: int) -> tuple[Layer, Layer]:
-    """The parts of the X and Y axis inside the window; an axis outside is an empty layer."""
-    (left, top), (right, bottom) = view.at(0, 0, columns, rows), view.at(columns, rows, columns, rows)
-    level = bottom <= 0.0 <= top and scene.axes
-    upright = left <= 0.0 <= right and scene.axes
-    return (
-        Layer(_straight(left, 0.0, right, 0.0) if level else EMPTY, Style.AXIS, dashed=True),
-        Layer(_straight(0.0, top, 0.0, bottom) if upright else EMPTY, Style.AXIS, dashed=True),
-    )
-
-
-def _straight(x0: float, y0: float, x1: float, y1: float) -> Path:
-    return Path.of(np.array([[x0, y0], [x1, y1]]), np.array([[x0, y0]]), np.array([0], np.int8))
+def _axes(view: View, half_width: float, half_height: float) -> Chords:
+    """The parts of the X and the Y axis inside the window, from left to right and from top to bottom."""
+    (x, y), limit = view.centre, BEYOND / view.scale
+    across, up = -x / view.scale, -y / view.scale
+    found = []
+    if abs(up) <= half_height and max(half_width, abs(up)) <= limit:
+        found.append((complex(-half_width, up), complex(2.0 * half_width, 0.0)))
+    if abs(across) <= half_width and max(half_height, abs(across)) <= limit:
+        found.append((complex(across, half_height), complex(0.0, -2.0 * half_height)))
+    starts, runs = np.array(found, np.complex128).reshape(-1, 2).T
+    return Chords(starts, runs, np.full(len(found), AXIS), np.zeros(len(found)))
 
 
 def _clipped(found: Chords, half_width: float, half_height: float) -> Chords:
     """What of the chords lies inside the window (Liang and Barsky's parameters)."""
-    run = found.ends - found.starts
-    if _inside(found.starts, half_width, half_height) and _inside(found.ends, half_width, half_height):
-        # as below, to the last digit
-        return Chords(found.starts, found.starts + run, found.layers, found.along)
+    starts, run = found.starts, found.runs
+    if _inside(np.concatenate((starts, starts + run)), half_width, half_height):
+        return found
     enter, leave = np.zeros(len(run)), np.ones(len(run))
     for start, step, limit in (
-        (found.starts.real, run.real, half_width),
-        (found.starts.imag, run.imag, half_height),
+        (starts.real, run.real, half_width),
+        (starts.imag, run.imag, half_height),
     ):
         low, high = _between(start, step, limit)
         np.maximum(enter, low, out=enter)
         np.minimum(leave, high, out=leave)
     keep = (enter <= leave).nonzero()[0]
-    starts, run, enter, leave = found.starts[keep], run[keep], enter[keep], leave[keep]
+    starts, run, enter, leave = starts[keep], run[keep], enter[keep], leave[keep]
     along = found.along[keep] + enter * np.abs(run)
-    return Chords(starts + enter * run, starts + leave * run, found.layers[keep], along)
+    return Chords(starts + enter * run, (leave - enter) * run, found.layers[keep], along)
 
 
 def _inside(points: Points, half_width: float, half_height: float) -> bool:
@@ -126,60 +122,62 @@ def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]
 
 
 def _light(
-    found: Chords, layers: tuple[Layer, ...], look: Cells, columns: int, rows: int
-) -> tuple[Bits, Styles, NDArray[np.bool_], NDArray[np.bool_]]:
-    """Bits lit (rows x columns x 8,), styles (rows x columns,), which cells more than centre paths are in, and which
-    have deleted surface."""
-    chord, part, across, down = _dots(found, look, columns, rows)
+    found: Chords, layers: Sequence[Layer], look: Cells, columns: int, rows: int
+) -> tuple[Bits, Styles, Bits | None, Rows]:
+    """Bits lit (rows x columns x 8,), styles (rows x columns,), which cells more than centre paths are in where that is
+    asked for, and cells that have deleted surface."""
+    chord, part, dot = _dots(found, look, columns, rows)
+    bits = _bits(look, columns, rows)[dot] if look.by_dot else dot * 8 + _slants(found)[chord]
     layer = found.layers[chord]
-    row, column = down // look.down, across // look.across
-    cell = row * columns + column
-    if look.by_dot:
-        bit = look.bit[(down - row * look.down) * look.across + across - column * look.across]
-    else:
-        bit = _slants(found)[chord]
-    shown = _dashes(found, layers, layer, chord, part).nonzero()[0]
-    bits, cell = (cell * 8 + bit)[shown], cell[shown]
-    role = np.frombuffer(bytes(each.style for each in layers), np.uint8)[layer[shown]]
-    lit = np.zeros(rows * columns * 8, np.bool_)
+    shown = _dashes(found, layers, layer, chord, part)
+    bits, layer = bits[shown], layer[shown]
+    # the axes have no layer of their own: theirs is the last style, at -1
+    role = np.array([*(each.style for each in layers), Style.AXIS], np.uint8)[layer]
+    cell = bits >> 3
+    lit, styles = np.zeros(rows * columns * 8, np.bool_), np.zeros(rows * columns, np.uint8)
     lit[bits] = True
-    styles = np.zeros(rows * columns, np.uint8)
     styles[cell] = role
-    strong = np.zeros(rows * columns, np.bool_)
+    strong = None
     if look.faint is not None:
+        strong = np.zeros(rows * columns, np.bool_)
         strong[cell[~np.isin(role, FAINT)]] = True
-    struck = np.zeros(rows * columns, np.bool_)
-    struck[cell[role == Style.DELETED.value]] = True
-    return lit, styles, strong, struck
+    return lit, styles, strong, cell[role == Style.DELETED.value]
 
 
-def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Floats, Rows, Rows]:
-    """Chord, part of it that lies before the dot, dot across and dot down (m,) of every dot, in order of chords."""
-    run = found.ends - found.starts
-    wide, high = look.dot
-    steps = np.ceil(np.maximum(np.abs(run.real) / wide, np.abs(run.imag) / high)).astype(np.intp)
+@lru_cache(8)
+def _bits(look: Cells, columns: int, rows: int) -> Rows:
+    """(dots,) the bit that each dot of a window lights, row by row: eight to a cell."""
+    down, across = np.divmod(np.arange(rows * look.down * columns * look.across), columns * look.across)
+    cell = down // look.down * columns + across // look.across
+    bits: Rows = cell * 8 + look.bit[down % look.down * look.across + across % look.across]
+    return bits
+
+
+def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Floats, Rows]:
+    """Chord, part of it that lies before the dot, and dot (m,) counted row by row, of every dot in order of chords."""
+    (wide, high), start, run = look.dot, found.starts, found.runs
+    x, y = (start.real + columns / 2) / wide + NUDGE, (rows * TALL / 2 - start.imag) / high + NUDGE
+    over, under = run.real / wide, run.imag / -high
+    steps = np.ceil(np.maximum(np.abs(over), np.abs(under))).astype(np.intp)
     counts = steps + 1
-    chord = np.repeat(np.arange(len(counts)), counts)
-    nth = np.arange(len(chord)) - (np.cumsum(counts) - counts)[chord]
+    chord = np.arange(len(counts)).repeat(counts)
+    nth = np.arange(len(chord)) - (counts.cumsum() - counts)[chord]
     part = nth * (1.0 / np.maximum(steps, 1))[chord]
-    places = found.starts[chord] + part * run[chord]
-    across = ((places.real + columns / 2) / wide + NUDGE).astype(np.intp)
-    down = ((rows * TALL / 2 - places.imag) / high + NUDGE).astype(np.intp)
-    np.minimum(across, columns * look.across - 1, out=across)
-    np.minimum(down, rows * look.down - 1, out=down)
-    np.maximum(across, 0, out=across)
-    np.maximum(down, 0, out=down)
-    return chord, part, across, down
+    across = (x[chord] + part * over[chord]).astype(np.intp)
+    down = (y[chord] + part * under[chord]).astype(np.intp)
+    width, height = columns * look.across, rows * look.down
+    across, down = np.minimum(across, width - 1), np.minimum(down, height - 1)
+    return chord, part, np.maximum(down, 0) * width + np.maximum(across, 0)
 
 
-def _dashes(found: Chords, layers: tuple[Layer, ...], layer: Rows, chord: Rows, part: Floats) -> NDArray[np.bool_]:
+def _dashes(found: Chords, layers: Sequence[Layer], layer: Rows, chord: Rows, part: Floats) -> Bits:
     """Which dots (m,) are lit: all of a whole line, part of each period of a dashed one."""
-    dashed = np.array([each.dashed and each.style is not Style.DELETED for each in layers])
+    dashed = np.array([*(each.dashed and each.style is not Style.DELETED for each in layers), True])
     rows = dashed[layer].nonzero()[0]
     shown = np.ones(len(layer), np.bool_)
     own = chord[rows]
-    along = found.along[own] + part[rows] * np.abs(found.ends - found.starts)[own]
-    axis = layer[rows] < AXES
+    along = found.along[own] + part[rows] * np.abs(found.runs)[own]
+    axis = layer[rows] == AXIS
     period, lit = np.where(axis, AXIS_DASH[0], DASH[0]), np.where(axis, AXIS_DASH[1], DASH[1])
     shown[rows] = np.mod(along + PHASE * axis, period) < lit
     return shown
@@ -187,8 +185,7 @@ def _dashes(found: Chords, layers: tuple[Layer, ...], layer: Rows, chord: Rows, 
 
 def _slants(found: Chords) -> Rows:
     """The line character's bit of each chord: 0 level, 1 rising, 2 upright, 3 falling, as it looks in tall cells."""
-    run = found.ends - found.starts
-    across, up = run.real, run.imag
+    across, up = found.runs.real, found.runs.imag
     steep = np.abs(up) / TALL
     slants = np.where(across * up > 0.0, 1, 3)
     slants[steep > np.abs(across) * np.tan(3 * np.pi / 8)] = 2

@@ -5,7 +5,7 @@ Later layers win a cell's style, circles win over layers, marks over circles; do
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from enum import Enum, IntEnum, auto
 from itertools import accumulate
 from typing import Final
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from core.geometry.path import Floats, Path, Turns
 from core.geometry.piece import Point
+from core.geometry.planes import Planes, coordinates, planes
 from core.geometry.stretch import Parts
 from core.records import dataclass
 from core.tolerance import LARGEST
@@ -30,6 +31,9 @@ ALIKE: Final = 1e-9
 
 class Style(IntEnum):
     """The role of what is drawn; a screen gives each role its looks."""
+
+    # an enumeration's own is written in Python
+    __hash__ = int.__hash__
 
     BACKGROUND = 0
     AXIS = 1
@@ -49,6 +53,9 @@ class Style(IntEnum):
 
 class Symbol(Enum):
     """What a mark says; the raster picks a character for it that the mode's terminals have."""
+
+    # as of `Style`
+    __hash__ = object.__hash__
 
     START = auto()
     ARROW = auto()
@@ -107,57 +114,120 @@ class Scene:
     @property
     def bounds(self) -> Box | None:
         """Least x, least y, largest x, largest y of all that can be drawn; None for an empty scene."""
-        boxes = [_box_of(circle.centre, circle.radius) for circle in self.circles]
-        boxes += [_box_of(mark.at, 0.0) for mark in self.marks]
-        layers = [layer for layer in self.layers if len(layer.path)]
+        return self.gathered.bounds([mark.at for mark in self.marks])
+
+    @property
+    def gathered(self) -> Gathered:
+        """The scene's pieces, to be asked once and not layer by layer."""
+        layers = [layer for layer in (*self.layers, *map(_outline, self.circles)) if len(layer.path)]
+        pieces = _gathered(layers) if layers else NO_PIECES
+        return Gathered(self, layers, pieces, pieces.arcs)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Arcs:
+    """k arcs among some pieces: their `rows` among them, ends, centres, turns and radii (k,), in millimetres."""
+
+    rows: NDArray[np.intp]
+    starts: Planes
+    ends: Planes
+    centres: Planes
+    turns: Turns
+    radii: Floats
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Pieces:
+    """The n pieces of several layers one behind the other, in millimetres, points as complex numbers.
+
+    `points` (m,) are those of all paths; piece i runs from `points[rows[i]]` to the next one and belongs to the layer
+    `layers[i]`.  `centres` (n,) and `turns` (n,) as a path has them.
+    """
+
+    points: Planes
+    rows: NDArray[np.intp]
+    centres: Planes
+    turns: Turns
+    layers: NDArray[np.intp]
+
+    def only(self, keep: NDArray[np.intp]) -> Pieces:
+        """These pieces, by their numbers."""
+        return Pieces(self.points, self.rows[keep], self.centres[keep], self.turns[keep], self.layers[keep])
+
+    @property
+    def arcs(self) -> Arcs:
+        """The arcs among them."""
+        arcs = self.turns.nonzero()[0]
+        rows, centres = self.rows[arcs], self.centres[arcs]
+        starts = self.points[rows]
         with np.errstate(invalid="ignore", over="ignore"):
-            boxes += _boxes(gathered(layers)) if layers else []
+            radii = np.abs(starts - centres)
+        return Arcs(arcs, starts, self.points[rows + 1], centres, self.turns[arcs], radii)
+
+
+_NONE: Final = np.empty(0, np.complex128)
+_NO_ROWS: Final = np.empty(0, np.intp)
+NO_PIECES: Final = Pieces(_NONE, _NO_ROWS, _NONE, np.empty(0, np.int8), _NO_ROWS)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Gathered:
+    """A scene's pieces, gathered once for its bounds and its picture, and the `arcs` among them.
+
+    `layers` are those that have pieces, and behind them the outlines of the circles.
+    """
+
+    scene: Scene
+    layers: Sequence[Layer]
+    pieces: Pieces
+    arcs: Arcs
+
+    def bounds(self, spots: Sequence[Point] = (), without: Container[Style] = ()) -> Box | None:
+        """Least x, least y, largest x, largest y of all spots, circles and layers, but for layers `without`."""
+        boxes = [_box_of(circle.centre, circle.radius) for circle in self.scene.circles]
+        boxes += [_box_of(spot, 0.0) for spot in spots]
+        count = len(self.layers) - len(self.scene.circles)
+        spanning = [row < count and layer.style not in without for row, layer in enumerate(self.layers)]
+        with np.errstate(invalid="ignore", over="ignore"):
+            boxes += self._boxes(spanning) if any(spanning) else []
         kept = [box for box in boxes if _drawn(box)]
         if not kept:
             return None
         left, low, right, high = zip(*kept, strict=True)
         return min(left), min(low), max(right), max(high)
 
+    def _boxes(self, spanning: list[bool]) -> list[Box]:
+        """Boxes that span the same as those of all pieces of some layers: of their points, and of arcs that reach over.
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Pieces:
-    """The n pieces of several layers one behind the other, in millimetres.
-
-    `points` (m, 2) are those of all paths; piece i runs from row `rows[i]` of them to the next one and belongs to the
-    layer `layers[i]`.  `centres` (n, 2) and `turns` (n,) as a path has them.
-    """
-
-    points: Floats
-    rows: NDArray[np.intp]
-    centres: Floats
-    turns: Turns
-    layers: NDArray[np.intp]
-
-    def only(self, keep: NDArray[np.intp]) -> Pieces:
-        """These pieces, by their numbers."""
-        # rows of pairs: an array's own `take` takes a fifth of the time of an index
-        centres = self.centres.take(keep, axis=0)
-        return Pieces(self.points, self.rows[keep], centres, self.turns[keep], self.layers[keep])
-
-    @property
-    def starts(self) -> Floats:
-        """(n, 2) first point of each piece."""
-        return self.points.take(self.rows, axis=0)
-
-    @property
-    def ends(self) -> Floats:
-        """(n, 2) last point of each piece."""
-        return self.points.take(self.rows + 1, axis=0)
+        Where a coordinate can be no part of a drawing each piece has its own, so that it can be left out.
+        """
+        spans, pieces, arcs = np.array(spanning), self.pieces, self.arcs
+        points = pieces.points[spans.repeat([len(layer.path.points) for layer in self.layers])]
+        x, y = points.real, points.imag
+        left, low, right, high = box = float(x.min()), float(y.min()), float(x.max()), float(y.max())
+        # what is not a number is neither the least nor the largest, but comes out of both
+        if not _drawn(box):
+            return _each(pieces.only(spans[pieces.layers].nonzero()[0]))
+        x, y, reach = arcs.centres.real, arcs.centres.imag, ALIKE - arcs.radii
+        over = arcs.rows[(left - x > reach) | (low - y > reach) | (x - right > reach) | (y - high > reach)]
+        return [box, *_each(pieces.only(over[spans[pieces.layers[over]]]))] if len(over) else [box]
 
 
-def gathered(layers: Sequence[Layer]) -> Pieces:
-    """All pieces that are drawn of layers with paths that are not empty, to be asked once and not layer by layer."""
+def _outline(circle: Circle) -> Layer:
+    """The whole circle as a layer."""
+    (x, y), radius = circle.centre, circle.radius
+    rim = np.array([[x + radius, y], [x + radius, y]])
+    return Layer(Path.of(rim, np.array([[x, y]]), np.array([1], np.int8)), circle.style)
+
+
+def _gathered(layers: Sequence[Layer]) -> Pieces:
+    """All pieces that are drawn of layers with paths that are not empty."""
     paths, counts = [layer.path for layer in layers], [len(layer.path.turns) for layer in layers]
-    owners = np.repeat(np.arange(len(counts)), counts)
+    owners = np.arange(len(counts)).repeat(counts)
     every = Pieces(
-        np.concatenate([path.points for path in paths]),
+        planes(np.concatenate([path.points for path in paths])),
         np.arange(len(owners)) + owners,
-        np.concatenate([path.centres for path in paths]),
+        planes(np.concatenate([path.centres for path in paths])),
         np.concatenate([path.turns for path in paths]),
         owners,
     )
@@ -170,24 +240,6 @@ def gathered(layers: Sequence[Layer]) -> Pieces:
     return every.only(drawn.nonzero()[0])
 
 
-def _boxes(pieces: Pieces) -> list[Box]:
-    """Boxes that span the same as those of all pieces: that of all points, and of the arcs that reach over it.
-
-    Where a coordinate can be no part of a drawing each piece has its own, so that it can be left out.
-    """
-    x, y = pieces.points[:, 0], pieces.points[:, 1]
-    left, low, right, high = box = float(x.min()), float(y.min()), float(x.max()), float(y.max())
-    # what is not a number is neither the least nor the largest, but comes out of both
-    if not _drawn(box):
-        return _each(pieces)
-    arcs = pieces.turns.nonzero()[0]
-    bent = pieces.only(arcs)
-    starts, x, y = bent.starts, bent.centres[:, 0], bent.centres[:, 1]
-    reach = ALIKE - np.hypot(starts[:, 0] - x, starts[:, 1] - y)
-    over = ((left - x > reach) | (low - y > reach) | (x - right > reach) | (y - high > reach)).nonzero()[0]
-    return [box, *_each(bent.only(over))] if len(over) else [box]
-
-
 def _drawn(box: Box) -> bool:
     """Whether nothing of a box is beyond every drawing, or no number."""
     left, low, right, high = box
@@ -196,11 +248,14 @@ def _drawn(box: Box) -> bool:
 
 def _each(pieces: Pieces) -> list[Box]:
     """The boxes of all pieces, taken from a path of them with a line from each to the next."""
-    points = np.empty((2 * len(pieces.rows), 2))
-    points[::2], points[1::2] = pieces.starts, pieces.ends
+    if not len(pieces.rows):
+        return []
+    points = np.empty(2 * len(pieces.rows), np.complex128)
+    points[::2], points[1::2] = pieces.points[pieces.rows], pieces.points[pieces.rows + 1]
     centres, turns = points[:-1].copy(), np.zeros(len(points) - 1, np.int8)
     centres[::2], turns[::2] = pieces.centres, pieces.turns
-    return [(a, b, c, d) for a, b, c, d in Path.of(points, centres, turns).boxes[::2].tolist()]
+    path = Path.of(coordinates(points), coordinates(centres), turns)
+    return [(a, b, c, d) for a, b, c, d in path.boxes[::2].tolist()]
 
 
 def _box_of(centre: Point, radius: float) -> Box:
