@@ -7,17 +7,17 @@ nothing else of the path is nearer to the place where it is met; every other gap
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from core.geometry.aligned import aligned_pairs
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import distance
-from core.geometry.measured import Flags, Floats, Points, Rows, at, place, travelled
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place, travelled
 from core.records import dataclass
 from core.tolerance import ON_PATH
-from core.verify.farthest import FINE, Farthest, farthest
+from core.verify.farthest import FINE, farthest
 from core.verify.pairs import Pairs
 from core.verify.reach import Stretches, changes
 from core.verify.unproved import company_boxes
@@ -32,7 +32,8 @@ ON_EDGE: Final = 1e-7
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Bound:
-    """(k,) for each gap an end of a path's piece, the place farthest from it along the surface, and how far it is.
+    """(k,) for each gap an end of a path's piece, and what of the gap is farthest from it: the place along the surface,
+    its point and the surface piece `j` it is on, and how far it is.
 
     `sector` is the area between the gap and the circle of the radius about that end, as seen from it, positive where
     the gap runs counter-clockwise; nan where an end of the gap that is reached is not on that circle.
@@ -40,36 +41,21 @@ class Bound:
 
     corner: Points
     place: Floats
+    point: Points
+    j: Rows
     apart: Floats
     sector: Floats
 
     def keep(self, chosen: Flags) -> Bound:
         """Those for which `chosen` (k,) is True."""
-        return Bound(self.corner[chosen], self.place[chosen], self.apart[chosen], self.sector[chosen])
-
-
-def bounds(pairs: Pairs, gaps: Stretches, near: Rows, radius: float) -> Bound:
-    """What no place of each gap is farther from the path than; `near` (2, k) are the pieces at its ends."""
-    parts = _parts(pairs, gaps)
-    corner = _corner(pairs, near, parts)
-    off = _off(parts, corner, near, radius)
-    _to_common_ends(pairs, parts, corner, (off & (near >= 0).all(axis=0)).nonzero()[0], radius)
-    off[off] = _off(parts, corner, near, radius)[off]
-    seen = parts.points - corner[parts.owner]
-    apart = np.abs(seen)
-    sector = _sectors(pairs, parts, seen, radius)
-    sector[off] = np.nan
-    _to_arcs(pairs, parts, corner, apart)
-    most = np.maximum.reduceat(apart, parts.begins)
-    where = (apart == most[parts.owner]).nonzero()[0]
-    first = where[changes(parts.owner[where])]
-    return Bound(corner, parts.s[first], most, sector)
+        corner, spot, point, j = self.corner[chosen], self.place[chosen], self.point[chosen], self.j[chosen]
+        return Bound(corner, spot, point, j, self.apart[chosen], self.sector[chosen])
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Parts:
-    """What of each gap, `owner`, lies on one surface piece `j`, in order: its first place, and the gap's last place
-    as one more; `begins` and `ends` are the first and the last of each gap."""
+class GapParts:
+    """What of each gap, `owner`, lies on one surface piece `j`, in order: its first place and point, and the gap's last
+    ones as one more; `begins` and `ends` are the first and the last of each gap."""
 
     owner: Rows
     j: Rows
@@ -79,65 +65,95 @@ class _Parts:
     ends: Rows
 
 
-def _parts(pairs: Pairs, gaps: Stretches) -> _Parts:
+def parts_of(pairs: Pairs, gaps: Stretches) -> GapParts:
+    """The gaps parted at the joints within them: an end at a joint is on the piece within the gap."""
     stations = pairs.surface_stations
     count = len(gaps)
-    places = np.concatenate((gaps.first, gaps.last))
-    places[:count] += ON_PATH
-    places[count:] -= ON_PATH
-    index, t = place(pairs.surface, stations, places)
-    low, high = index[:count], index[count:]
-    np.maximum(low, high, out=high)
+    s = np.concatenate((gaps.first, gaps.last))
+    inward = s.copy()
+    inward[:count] += ON_PATH
+    inward[count:] -= ON_PATH
+    index = stations[1:-1].searchsorted(inward, side="right")
+    low, high = index[:count], np.maximum(index[:count], index[count:])
     counts = high - low + 2
-    ends = np.cumsum(counts) - 1
-    begins = ends - counts + 1
-    owner = np.repeat(np.arange(len(low)), counts)
+    behind = counts.cumsum()
+    begins, ends = behind - counts, behind - 1
+    owner = np.repeat(np.arange(count), counts)
     j = np.arange(len(owner)) - (begins - low)[owner]
     j[ends] = high
-    s, points = stations[j], pairs.surface.start[j]
-    found = at(pairs.surface.take(index), t)
-    s[begins], s[ends] = gaps.first, gaps.last
-    points[begins], points[ends] = found[:count], found[count:]
-    return _Parts(owner, j, s, points, begins, ends)
+    at_ends, pieces = np.concatenate((begins, ends)), pairs.surface.take(index)
+    t = (s - stations[index]) / np.where(pieces.length == 0.0, 1.0, pieces.length)
+    places, points = stations[j], pairs.surface.start[j]
+    places[at_ends], points[at_ends] = s, at(pieces, np.minimum(np.maximum(t, 0.0), 1.0))
+    return GapParts(owner, j, places, points, begins, ends)
 
 
-def _corner(pairs: Pairs, near: Rows, parts: _Parts) -> Points:
+def bounds(pairs: Pairs, parts: GapParts, near: Rows, radius: float) -> Bound:
+    """What no place of each gap is farther from the path than; `near` (2, k) are the pieces at its ends."""
+    corner = _corner(pairs, near, parts)
+    off = _off(parts, corner, near, radius)
+    lost = (off & (near >= 0).all(axis=0)).nonzero()[0]
+    if len(lost):
+        _to_common_ends(pairs, parts, corner, lost, radius)
+        off = _off(parts, corner, near, radius)
+    seen = parts.points - corner[parts.owner]
+    apart = np.abs(seen)
+    bends = _bends(pairs, parts)
+    sector = _sectors(parts, bends, seen, radius)
+    sector[off] = np.nan
+    s, points = (parts.s, parts.points) if bends is None else _to_arcs(parts, bends, corner, apart)
+    most = np.maximum.reduceat(apart, parts.begins)
+    where = (apart == most[parts.owner]).nonzero()[0]
+    first = where[changes(parts.owner[where])]
+    return Bound(corner, s[first], points[first], parts.j[first], most, sector)
+
+
+def _corner(pairs: Pairs, near: Rows, parts: GapParts) -> Points:
     """(k,) of the ends of the pieces at each gap's ends the one nearest to that of these which is farther from it."""
     known = np.where(near < 0, near[::-1], near)
     start = pairs.centre.start[known]
     ends = np.concatenate((start, start + pairs.centre.vector[known]))
     first, last = parts.points[parts.begins], parts.points[parts.ends]
     apart = np.maximum(np.abs(ends - first), np.abs(ends - last))
-    best: Points = ends[0]
-    least = apart[0]
-    for end, far in zip(ends[1:], apart[1:], strict=True):
-        nearer = far < least
-        best, least = np.where(nearer, end, best), np.where(nearer, far, least)
+    best: Points = ends[apart.argmin(axis=0), np.arange(len(first))]
     return best
 
 
-def _to_arcs(pairs: Pairs, parts: _Parts, corner: Points, apart: Floats) -> None:
-    """Parts on arcs that have their farthest place within them: it replaces the first one."""
-    rows = (pairs.surface.turn[parts.j[:-1]] * (parts.owner[1:] == parts.owner[:-1])).nonzero()[0]
-    if not len(rows):
-        return
-    arc, p = pairs.surface.take(parts.j[rows]), corner[parts.owner[rows]]
-    s = pairs.surface_stations[parts.j[rows]] + travelled(arc, arc.centre - p) * arc.radius
-    inner = (s > parts.s[rows]) & (s < parts.s[rows + 1])
-    parts.s[rows[inner]] = s[inner]
-    apart[rows[inner]] = (np.abs(arc.centre - p) + arc.radius)[inner]
+class _Bends(NamedTuple):
+    """The parts on arcs, by their rows, these arcs, and the lengths travelled at the arcs' starts."""
+
+    rows: Rows
+    arc: Measured
+    start: Floats
 
 
-def _sectors(pairs: Pairs, parts: _Parts, seen: Points, radius: float) -> Floats:
+def _bends(pairs: Pairs, parts: GapParts) -> _Bends | None:
+    j, within = parts.j[:-1], parts.owner[1:] == parts.owner[:-1]
+    rows = (within & (pairs.surface.turn[j] != 0.0)).nonzero()[0]
+    return _Bends(rows, pairs.surface.take(j[rows]), pairs.surface_stations[j[rows]]) if len(rows) else None
+
+
+def _to_arcs(parts: GapParts, bends: _Bends, corner: Points, apart: Floats) -> tuple[Floats, Points]:
+    """The parts' first places and points: where a part on an arc has its farthest place within it, that instead."""
+    rows, arc = bends.rows, bends.arc
+    away = arc.centre - corner[parts.owner[rows]]
+    s, size = bends.start + travelled(arc, away) * arc.radius, np.abs(away)
+    inner = ((s > parts.s[rows]) & (s < parts.s[rows + 1])).nonzero()[0]
+    places, points, chosen = parts.s.copy(), parts.points.copy(), rows[inner]
+    places[chosen], apart[chosen] = s[inner], (size + arc.radius)[inner]
+    points[chosen] = (arc.centre + away / size * arc.radius)[inner]
+    return places, points
+
+
+def _sectors(parts: GapParts, bends: _Bends | None, seen: Points, radius: float) -> Floats:
     """(k,) area between each gap and the circle about the point from which its parts begin at `seen`."""
     turned = np.conj(seen[:-1]) * seen[1:]
     angle, area = np.angle(turned), 0.5 * turned.imag
-    rows = pairs.surface.turn[parts.j[:-1]].nonzero()[0]
-    if len(rows):
-        arc = pairs.surface.take(parts.j[rows])
+    if bends is not None:
+        rows, arc = bends.rows, bends.arc
         sweep = (parts.s[rows + 1] - parts.s[rows]) / arc.radius
         area[rows] += 0.5 * arc.turn * arc.radius**2 * (sweep - np.sin(sweep))
-        t = (parts.s[rows] - pairs.surface_stations[parts.j[rows]]) / arc.length
+        t = (parts.s[rows] - bends.start) / arc.length
         middle = seen[rows] + at(arc, t + 0.5 * sweep / arc.angle) - parts.points[rows]
         angle[rows] = np.angle(np.conj(seen[rows]) * middle) + np.angle(np.conj(middle) * seen[rows + 1])
     area -= 0.5 * radius * radius * angle
@@ -146,20 +162,19 @@ def _sectors(pairs: Pairs, parts: _Parts, seen: Points, radius: float) -> Floats
     return sums
 
 
-def _off(parts: _Parts, corner: Points, near: Rows, radius: float) -> Flags:
+def _off(parts: GapParts, corner: Points, near: Rows, radius: float) -> Flags:
     """Gaps of which an end that is reached is not as far from the corner as the cutter's edge."""
     ends = parts.points[np.array((parts.begins, parts.ends))]
-    off: Flags = np.any((np.abs(np.abs(ends - corner) - radius) > ON_EDGE) & (near >= 0), axis=0)
+    away: Flags = (np.abs(np.abs(ends - corner) - radius) > ON_EDGE) & (near >= 0)
+    off: Flags = away[0] | away[1]
     return off
 
 
-def _to_common_ends(pairs: Pairs, parts: _Parts, corner: Points, gaps: Rows, radius: float) -> None:
+def _to_common_ends(pairs: Pairs, parts: GapParts, corner: Points, gaps: Rows, radius: float) -> None:
     """Corners of these gaps moved to an end of a piece that has both ends of the gap on the cutter's edge, if any has.
 
     Several pieces may reach the one end of a gap, such as all that roll about a joint, and any of them stands for it.
     """
-    if not len(gaps):
-        return
     first, last = parts.points[parts.begins[gaps]], parts.points[parts.ends[gaps]]
     spots = np.array((first.real, first.imag, first.real, first.imag))
     k, i = near_pairs(spots, pairs.centre_boxes, radius + ON_EDGE)
@@ -170,45 +185,45 @@ def _to_common_ends(pairs: Pairs, parts: _Parts, corner: Points, gaps: Rows, rad
     corner[gaps[k[::-1][pair]]] = ends[::-1, ::-1][end, pair]
 
 
-def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: float) -> Farthest:
-    """The largest distance from the path, within FINE, on each gap.
+def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: float) -> tuple[Points, Floats]:
+    """(k,) the point of each gap that is farthest from the path, and its distance within FINE.
 
     Uneven arcs leave open which piece is the nearest at the end of a gap.
     """
     proved = _proved(pairs, near, bound, radius)
     rest = (~proved).nonzero()[0]
     if not len(rest):
-        return Farthest(bound.place, bound.apart)
-    known = np.zeros(len(gaps), np.bool_)
-    known[rest] = True
+        return bound.point, bound.apart
     grant = float(pairs.grant.max(initial=0.0))
     at_ends = np.where(pairs.centre.slack.any() or pairs.surface.slack.any(), -1, near[:, rest])
-    far = farthest(pairs.surface, gaps.keep(known), pairs.centre, pairs.centre_boxes, at_ends, radius + grant)
-    where, apart = bound.place.copy(), bound.apart.copy()
-    where[rest], apart[rest] = far.place, far.apart
-    return Farthest(where, apart)
+    far = farthest(pairs.surface, gaps.keep(~proved), pairs.centre, pairs.centre_boxes, at_ends, radius + grant)
+    points, apart = bound.point.copy(), bound.apart.copy()
+    index, t = place(pairs.surface, pairs.surface_stations, far.place)
+    points[rest], apart[rest] = at(pairs.surface.take(index), t), far.apart
+    return points, apart
 
 
 def _proved(pairs: Pairs, near: Rows, bound: Bound, radius: float) -> Flags:
     """Gaps whose bound is the distance of its place from the path."""
     proved = bound.apart <= WIDE * radius
     rows = proved.nonzero()[0]
-    index, t = place(pairs.surface, pairs.surface_stations, bound.place[rows])
-    points, apart = at(pairs.surface.take(index), t), bound.apart[rows]
-    around = np.array((points.real - apart, points.imag - apart, points.real + apart, points.imag + apart))
-    k, i = _moves_about(pairs, around, _at_joints(pairs, near[:, rows], bound.keep(proved), index))
-    nearer = distance(pairs.centre.take(i), points[k]) < apart[k] - FINE
+    some = bound if len(rows) == len(proved) else bound.keep(proved)
+    x, y, apart = some.point.real, some.point.imag, some.apart
+    k, i = _moves_about(
+        pairs, np.array((x - apart, y - apart, x + apart, y + apart)), _at_joints(pairs, near[:, rows], some)
+    )
+    nearer = distance(pairs.centre.take(i), some.point[k]) < apart[k] - FINE
     proved[rows[k[nearer]]] = False
     return proved
 
 
-def _at_joints(pairs: Pairs, near: Rows, bound: Bound, index: Rows) -> Rows:
+def _at_joints(pairs: Pairs, near: Rows, bound: Bound) -> Rows:
     """The wall behind each gap whose place is the joint of two straight walls with own pieces that meet at its corner.
 
     Those pieces run beside their walls up to the corner, whose feet are not beyond the joint: no other place of them
     is nearer to it.  -1 for any other gap.
     """
-    own, surface, centre = pairs.own, pairs.surface, pairs.centre
+    own, surface, centre, index = pairs.own, pairs.surface, pairs.centre, bound.j
     if not len(own.piece):
         return np.full(len(index), -1)
     before = np.maximum(index - 1, 0)

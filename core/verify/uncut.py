@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from math import nan
+from math import inf, nan
 
 import numpy as np
 
-from core.geometry.measured import Floats, Points, Rows, at, place
+from core.geometry.measured import Flags, Floats, Points
 from core.geometry.path import Path
 from core.geometry.side import Side
-from core.tolerance import CLOSED, ON_PATH, STOCK
-from core.verify.farthest import Farthest
-from core.verify.gaps import Bound, bounds, thickest
+from core.tolerance import CLOSED, STOCK
+from core.verify.gaps import Bound, GapParts, bounds, parts_of, thickest
 from core.verify.pairs import Pairs
-from core.verify.reach import Stretches
 from core.verify.reached import covered, reached
 from core.verify.verdict import NOTHING, UncutStretches
 
@@ -30,20 +28,23 @@ def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool, side: Sid
     gaps, near = reached(pairs, radius).gaps(total)
     if not len(gaps):
         return NOTHING
+    parts = parts_of(pairs, gaps)
     if not len(pairs.centre):
-        nowhere = Farthest(gaps.first, np.full(len(gaps), np.inf))
-        return _told(pairs, gaps, nowhere, radius, surface, np.full(len(gaps), nan))
+        every, far, unknown = np.ones(len(gaps), np.bool_), np.full(len(gaps), inf), np.full(len(gaps), nan)
+        return _told(pairs, surface, parts, every, parts.points[parts.begins], far, unknown)
     over = closed and bool(gaps.first[0] == 0.0 and gaps.last[-1] == total)
-    bound = bounds(pairs, gaps, near, radius)
+    bound = bounds(pairs, parts, near, radius)
     thick = bound.apart > radius + STOCK
     if over and (thick[0] or thick[-1]):
         thick[0] = thick[-1] = True
     if not thick.any():
         return NOTHING
-    gaps, near, bound = gaps.keep(thick), near[:, thick], bound.keep(thick)
+    if not thick.all():
+        gaps, near, bound = gaps.keep(thick), near[:, thick], bound.keep(thick)
     sign = 0 if side is None else side.sign
     area = _areas(np.where((near < 0).any(axis=0), nan, bound.sector), sign)
-    told = _told(pairs, gaps, thickest(pairs, gaps, near, bound, radius), radius, surface, area)
+    points, apart = thickest(pairs, gaps, near, bound, radius)
+    told = _told(pairs, surface, parts, thick, points, apart - radius, area)
     if over and len(told) > 1:
         told = told.over_start(_area_over_start(bound, sign))
     return told.keep(told.thickness > STOCK)
@@ -60,25 +61,10 @@ def _area_over_start(bound: Bound, sign: int) -> float:
     return float(_areas(bound.sector[:1] + bound.sector[-1:], sign)[0]) if one else nan
 
 
-def _told(pairs: Pairs, gaps: Stretches, far: Farthest, radius: float, surface: Path, area: Floats) -> UncutStretches:
-    inward = np.repeat((ON_PATH, -ON_PATH, 0.0), len(gaps))
-    points, rows = _points(pairs, np.concatenate((gaps.first, gaps.last, far.place)), inward)
-    (start, end, thickest), (first, last, _) = points.reshape(3, -1), rows.reshape(3, -1)
-    return UncutStretches(
-        surface.numbers[first],
-        surface.numbers[last],
-        start,
-        end,
-        gaps.last - gaps.first,
-        far.apart - radius,
-        thickest,
-        area,
-    )
-
-
-def _points(pairs: Pairs, s: Floats, inward: Floats) -> tuple[Points, Rows]:
-    """Points of the surface at places along it, and the contour's rows they are on, at a joint the one `inward`."""
-    index, _ = place(pairs.surface, pairs.surface_stations, s + inward)
-    piece = pairs.surface.take(index)
-    t = (s - pairs.surface_stations[index]) / np.where(piece.length == 0.0, 1.0, piece.length)
-    return at(piece, np.minimum(np.maximum(t, 0.0), 1.0)), piece.rows
+def _told(
+    pairs: Pairs, surface: Path, parts: GapParts, chosen: Flags, thickest: Points, thickness: Floats, area: Floats
+) -> UncutStretches:
+    begins, ends = parts.begins[chosen], parts.ends[chosen]
+    numbers, first, last = surface.numbers[pairs.surface.rows], parts.j[begins], parts.j[ends]
+    start, end, length = parts.points[begins], parts.points[ends], parts.s[ends] - parts.s[begins]
+    return UncutStretches(numbers[first], numbers[last], start, end, length, thickness, thickest, area)
