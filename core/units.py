@@ -9,6 +9,7 @@ import re
 from collections.abc import Mapping
 from enum import Enum, StrEnum, auto
 from fractions import Fraction
+from functools import cache, lru_cache
 from math import degrees, isfinite, radians
 from types import MappingProxyType
 from typing import Final, assert_never
@@ -174,8 +175,15 @@ def _told_from(value: float, other: float, unit: Unit) -> str:
     return f"{value:.{next(enough, fewest + CLOSER)}f}"
 
 
+@lru_cache(8)
 def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:
-    """The value of an operator's text in program units (degrees for an angle), or why there is none."""
+    """The value of an operator's text in program units (degrees for an angle), or why there is none.
+
+    One key asks it of one text several times.
+    """
+    if kind in _DECIMAL and _PLAIN.fullmatch(text):
+        # the same number, without the fractions that a sum needs; no zero is negative
+        return float(text) + 0.0
     try:
         exact = total(text, _scales(kind, unit), _EXPECTED.get(kind, ""))
     except NotASumError as fault:
@@ -188,8 +196,12 @@ def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:
 
 
 _MEASURES: Final = (Kind.LENGTH, Kind.FEED)
+_DECIMAL: Final = (*_MEASURES, Kind.ANGLE, Kind.PERCENT)
+_PLAIN: Final = re.compile(r"-?(?:[0-9]{1,5}(?:\.[0-9]{0,12})?|\.[0-9]{1,12})")
+"""A decimal number as it is typed mostly, too short to be too large for a machine."""
 
 
+@cache
 def _scales(kind: Kind, unit: Unit) -> Mapping[str, Fraction]:
     """What each suffix that a kind takes multiplies by to give program units."""
     match kind:

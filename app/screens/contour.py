@@ -11,13 +11,14 @@ from app.screens.contour_cells import cells_at, fields_at, form_at, value_at
 from app.screens.forms import FormPage, prompt_of
 from app.screens.page import Answer, Softkeys, Surface, View
 from app.session import SEGMENT, Said, Session, Tone
-from app.widgets.field import press, understood
+from app.widgets.field import press
 from app.widgets.form import cursor_line, form_rows
 from app.widgets.header import block_line, header, segment_line
 from app.widgets.rows import Row
 from app.widgets.verdict import NOT_YET
 from core.finding import Finding, Severity
 from core.program.edit import Where, choose, type_field
+from core.program.entries import read
 from core.program.fields import SEGMENT_PROMPT, Field
 from core.program.solved import Value
 from core.records import dataclass
@@ -64,7 +65,7 @@ class Contour(FormPage):
 
     def edit(self, session: Session, one: Field, text: str) -> Edit:
         """The text read and put into the field."""
-        typed = understood(text, one, session.program.unit)
+        typed = read(text, one, session.program.unit)
         return Edit(type_field(session.program, session.where, one.name, typed), _label(one, session.where))
 
     def pick(self, session: Session, one: Field, choice: str) -> Answer:

@@ -3,14 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache
 from typing import Final
 
-from core.program.entries import read
-from core.program.fields import Field
-from core.program.model import Typed
 from core.records import dataclass
-from core.units import Unit
 
 LONGEST: Final = 200
 """Characters a field takes; more is a key that got stuck."""
@@ -47,12 +42,6 @@ class Editing:
     def at(self, caret: int) -> Editing:
         """The caret moved, within the text."""
         return replace(self, caret=min(max(caret, 0), len(self.text)))
-
-
-@lru_cache(8)
-def understood(text: str, one: Field, unit: Unit) -> Typed:
-    """What a text is in a field of numbers: a key asks it twice, and Enter once more."""
-    return read(text, one, unit)
 
 
 def press(editing: Editing | None, shown: str, key: str, character: str | None) -> Editing | None:

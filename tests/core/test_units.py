@@ -54,6 +54,18 @@ def test_parse(text, kind, unit, value):
     assert parse(text, kind, unit) == value
 
 
+@settings(derandomize=True, max_examples=300)
+@given(
+    st.from_regex(r"-?([0-9]{1,7}(\.[0-9]{0,14})?|\.[0-9]{1,14})", fullmatch=True),
+    st.sampled_from((Kind.LENGTH, Kind.FEED, Kind.ANGLE, Kind.PERCENT)),
+    st.sampled_from(Unit),
+)
+def test_a_plain_number_is_the_same_as_in_a_sum(text: str, kind: Kind, unit: Unit) -> None:
+    plain, exact = parse(text, kind, unit), parse(f"({text})", kind, unit)
+    assert plain == exact
+    assert str(plain) == str(exact), "no zero is negative"
+
+
 @pytest.mark.parametrize(
     ("text", "kind", "reason"),
     [
