@@ -26,6 +26,8 @@ from core.pipeline.derived import Derived
 from core.pipeline.outline import outline
 
 MINUTE: Final = 60.0
+SECOND: Final = 1.0
+"""Clock and free memory are asked for no more often: to read them takes a hundredth of a key."""
 ARMED_FOR: Final = 2.0
 """Seconds in which a digit behind a lone Esc is a softkey; slow links part the two by some 0.3."""
 FRAME: Final = 1 / 60
@@ -65,8 +67,8 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self.around = around or real()
         self.engine = engine or Engine()
         self.advice, self.surveying = Advice.of(self), Surveying.of(self)
-        # when the last key came, and the surroundings then
-        self.touched, self.then = 0.0, self.around.now()
+        # when the last key came, and the surroundings when a key asked for them last
+        self.touched, self.asked, self.then = 0.0, 0.0, self.around.now()
         self._loading = Behind(self, self._loaded)
         self._deriving = Behind(self, self._derived)
         self._trying = Behind(self, self._tried)
@@ -132,7 +134,10 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self._advance()
 
     def _touch(self) -> None:
-        self.touched, self.then = perf_counter(), self.around.now()
+        now = perf_counter()
+        if now - self.asked >= SECOND:
+            self.asked, self.then = now, self.around.now()
+        self.touched = now
 
     def _tick(self) -> None:
         """The clock goes on."""

@@ -11,7 +11,7 @@ from core.records import dataclass
 
 MEMORY: Final = Path("/proc/meminfo")
 HEAD: Final = 256
-"""Bytes of it that hold its first lines, the one asked for among them: it is read at every key."""
+"""Bytes of it that hold its first lines, the one asked for among them: it is read while keys are typed."""
 
 
 @dataclass(frozen=True, slots=True)
