@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 
 from core.draw.scene import BEYOND, Arcs, Gathered, Pieces
 from core.draw.view import TALL, View
-from core.geometry.path import Floats, Turns, swept
-from core.geometry.planes import coordinates
+from core.geometry.path import Floats, Turns
 from core.records import dataclass
 
 SAG: Final = 0.1
@@ -139,12 +138,9 @@ def _travelled(gathered: Gathered) -> Floats:
 
 def _arcs(given: Arcs, view: View) -> _Arcs:
     """The arcs in window coordinates, without those shorter than SHORT: these are lines here."""
-    first, last = given.starts - given.centres, given.ends - given.centres
-    # whether one is a full circle only its own millimetres tell
-    same = coordinates(given.starts) == coordinates(given.ends)
-    sweeps, radii = swept(coordinates(first), coordinates(last), given.turns, same), given.radii / view.scale
-    centres, begin = _in_window(given.centres, view), np.arctan2(first.imag, first.real)
-    return _Arcs(given.rows, centres, given.turns, sweeps, radii, begin).only((radii * sweeps > SHORT).nonzero()[0])
+    radii, keep = given.radii / view.scale, (given.radii * given.sweeps > SHORT * view.scale).nonzero()[0]
+    centres = _in_window(given.centres, view)
+    return _Arcs(given.rows, centres, given.turns, given.sweeps, radii, given.begin).only(keep)
 
 
 def _divided(arcs: _Arcs, pieces: Chords, reach: float) -> Chords:

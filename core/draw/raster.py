@@ -132,7 +132,7 @@ def _light(
     shown = _dashes(found, layers, layer, chord, part)
     bits, layer = bits[shown], layer[shown]
     # the axes have no layer of their own: theirs is the last style, at -1
-    role = np.array([*(each.style for each in layers), Style.AXIS], np.uint8)[layer]
+    role = np.frombuffer(bytes((*(each.style for each in layers), Style.AXIS)), np.uint8)[layer]
     cell = bits >> 3
     lit, styles = np.zeros(rows * columns * 8, np.bool_), np.zeros(rows * columns, np.uint8)
     lit[bits] = True

@@ -8,12 +8,13 @@ from __future__ import annotations
 from collections.abc import Container, Sequence
 from enum import Enum, IntEnum, auto
 from itertools import accumulate
+from math import tau
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Floats, Path, Turns
+from core.geometry.path import Floats, Path, Turns, swept
 from core.geometry.piece import Point
 from core.geometry.planes import Planes, coordinates, planes
 from core.geometry.stretch import Parts
@@ -27,6 +28,9 @@ BEYOND: Final = 10 * LARGEST
 """A coordinate larger than this, or not a number, is neither drawn nor fitted into a view."""
 ALIKE: Final = 1e-9
 """Millimetres by which an arc may reach over the points without its being seen: rounding does, where it ends there."""
+
+_SIDES: Final = np.array([[tau / 2], [3 * tau / 4], [0.0], [tau / 4]])
+"""(4, 1) the directions in which a circle reaches farthest to each side of a box."""
 
 
 class Style(IntEnum):
@@ -126,14 +130,24 @@ class Scene:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Arcs:
-    """k arcs among some pieces: their `rows` among them, ends, centres, turns and radii (k,), in millimetres."""
+    """k arcs among some pieces: their `rows` among them, centres, turns and radii (k,), in millimetres.
+
+    `begin` (k,) are the directions in which they start from their centres, `sweeps` (k,) the angles they travel.
+    """
 
     rows: NDArray[np.intp]
-    starts: Planes
-    ends: Planes
     centres: Planes
     turns: Turns
     radii: Floats
+    begin: Floats
+    sweeps: Floats
+
+    def boxes(self, keep: NDArray[np.bool_], box: Box) -> list[Box]:
+        """Of some arcs with their ends in a box that box, as far out as each arc reaches on every side it passes."""
+        x, y, radii = self.centres.real[keep], self.centres.imag[keep], self.radii[keep]
+        passed = np.mod((_SIDES - self.begin[keep]) * self.turns[keep], tau) < self.sweeps[keep]
+        sides = np.where(passed, (x - radii, y - radii, x + radii, y + radii), np.array(box)[:, None])
+        return [(left, low, right, high) for left, low, right, high in sides.T.tolist()]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -158,11 +172,12 @@ class Pieces:
     def arcs(self) -> Arcs:
         """The arcs among them."""
         arcs = self.turns.nonzero()[0]
-        rows, centres = self.rows[arcs], self.centres[arcs]
-        starts = self.points[rows]
+        rows, centres, turns = self.rows[arcs], self.centres[arcs], self.turns[arcs]
+        starts, ends = self.points[rows], self.points[rows + 1]
         with np.errstate(invalid="ignore", over="ignore"):
-            radii = np.abs(starts - centres)
-        return Arcs(arcs, starts, self.points[rows + 1], centres, self.turns[arcs], radii)
+            first, last, same = starts - centres, ends - centres, coordinates(starts) == coordinates(ends)
+            sweeps = swept(coordinates(first), coordinates(last), turns, same)
+            return Arcs(arcs, centres, turns, np.abs(first), np.arctan2(first.imag, first.real), sweeps)
 
 
 _NONE: Final = np.empty(0, np.complex128)
@@ -209,15 +224,15 @@ class Gathered:
         if not _drawn(box):
             return _each(pieces.only(spans[pieces.layers].nonzero()[0]))
         x, y, reach = arcs.centres.real, arcs.centres.imag, ALIKE - arcs.radii
-        over = arcs.rows[(left - x > reach) | (low - y > reach) | (x - right > reach) | (y - high > reach)]
-        return [box, *_each(pieces.only(over[spans[pieces.layers[over]]]))] if len(over) else [box]
+        over = (left - x > reach) | (low - y > reach) | (x - right > reach) | (y - high > reach)
+        return [box, *arcs.boxes(over & spans[pieces.layers[arcs.rows]], box)] if over.any() else [box]
 
 
 def _outline(circle: Circle) -> Layer:
     """The whole circle as a layer."""
     (x, y), radius = circle.centre, circle.radius
     rim = np.array([[x + radius, y], [x + radius, y]])
-    return Layer(Path.of(rim, np.array([[x, y]]), np.array([1], np.int8)), circle.style)
+    return Layer(Path(rim, np.array([[x, y]]), np.ones(1, np.int8), np.ones(1)), circle.style)
 
 
 def _gathered(layers: Sequence[Layer]) -> Pieces:
@@ -248,8 +263,6 @@ def _drawn(box: Box) -> bool:
 
 def _each(pieces: Pieces) -> list[Box]:
     """The boxes of all pieces, taken from a path of them with a line from each to the next."""
-    if not len(pieces.rows):
-        return []
     points = np.empty(2 * len(pieces.rows), np.complex128)
     points[::2], points[1::2] = pieces.points[pieces.rows], pieces.points[pieces.rows + 1]
     centres, turns = points[:-1].copy(), np.zeros(len(points) - 1, np.int8)

@@ -32,18 +32,13 @@ def write_signs(characters: Characters, styles: Styles, scene: Scene, view: View
             _name_axes(characters, styles, view)
         if scene.unit is not None:
             _write(characters, styles, rows - 1, scale_bar(view.scale, columns, scene.unit, look.bar), Style.SCALE)
-    # a cell shows its last mark: all are written at once, since writing one by one takes as long as a layer
-    signs: dict[int, tuple[str, Style]] = {}
     for mark in scene.marks:
         column, row = view.cell(mark.at, columns, rows)
         # what is not a number is in no cell
         if 0 <= column < columns and 0 <= row < rows:
-            arrowed = mark.symbol is Symbol.ARROW
-            sign = arrow(mark.direction, look.arrows) if arrowed else look.symbols[mark.symbol]
-            signs[int(row) * columns + int(column)] = sign, mark.style
-    if signs:
-        where, (texts, roles) = list(signs), zip(*signs.values(), strict=True)
-        characters.flat[where], styles.flat[where] = texts, roles
+            here, arrowed = (int(row), int(column)), mark.symbol is Symbol.ARROW
+            characters[here] = arrow(mark.direction, look.arrows) if arrowed else look.symbols[mark.symbol]
+            styles[here] = mark.style
 
 
 def scale_bar(scale: float, columns: int, unit: Unit, ends: str) -> str:
