@@ -7,7 +7,7 @@ A finding's text is a sentence for the operator.  Lengths in it stand as `{value
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from enum import StrEnum
 from operator import attrgetter
 from typing import Final
@@ -53,33 +53,44 @@ _FIELDS: Final = Finding.__match_args__
 _values: Final = attrgetter(*_FIELDS)
 
 
+_PUT: Final = tuple(Finding.__dict__[name].__set__ for name in ("code", "severity", "segment", "field"))
+"""The slots' own setters."""
+
+
 class Unworded(Finding):
-    """A finding of which everything but what it is and where it belongs is made by `tell` when it is first read.
+    """A finding of which everything but what it is and where it belongs is made by `tell(row)` when it is first read.
 
     A hundred sentences that nobody reads take longer than a picture.  It equals the finding that `tell` makes.
     """
 
-    __slots__ = ("tell",)
+    __slots__ = ("row", "tell")
 
-    tell: Callable[[], Finding]
+    row: int
+    tell: Callable[[int], Finding]
 
     @staticmethod
-    def of(code: str, severity: Severity, segment: float, tell: Callable[[], Finding]) -> Finding:
-        """A finding of a segment and of no field."""
-        made, put = object.__new__(Unworded), object.__setattr__
-        put(made, "code", code)
-        put(made, "severity", severity)
-        put(made, "segment", segment)
-        put(made, "field", None)
-        put(made, "tell", tell)
-        return made
+    def each(
+        code: str, severity: Severity, segments: Sequence[float], tell: Callable[[int], Finding]
+    ) -> Iterator[Finding]:
+        """A finding of each segment and of no field; `tell` makes the one of a row of `segments`."""
+        put_code, put_severity, put_segment, put_field = _PUT
+        put_row, put_tell = (Unworded.__dict__[name].__set__ for name in Unworded.__slots__)
+        for row, segment in enumerate(segments):
+            made = object.__new__(Unworded)
+            put_code(made, code)
+            put_severity(made, severity)
+            put_segment(made, segment)
+            put_field(made, None)
+            put_row(made, row)
+            put_tell(made, tell)
+            yield made
 
     def __getattr__(self, name: str) -> object:
         """A value that is not made yet: all of them are."""
         if name not in _FIELDS:
             raise AttributeError(name, name=name, obj=self)
         try:
-            values = _values(self.tell())
+            values = _values(self.tell(self.row))
         except AttributeError as error:
             # whoever asks whether there is such an attribute would take it for a no
             message = f"{self.code} of segment {self.segment} cannot be put into words"

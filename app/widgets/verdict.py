@@ -283,8 +283,9 @@ def _gouge(verdict: Verdict, unit: Unit) -> Row:
 def _erased(deleted: Deletions) -> tuple[Erased, ...]:
     """One line for every pair of pieces that erased segments, corner arcs left out; told again when the table comes."""
     groups: dict[tuple[float, float, float, float], list[float]] = {}
-    for by, at, one in zip(deleted.by.tolist(), deleted.at.tolist(), deleted.segments.tolist(), strict=True):
-        segments = groups.setdefault((*by, *at), [])
+    met = zip(*deleted.by.T.tolist(), *deleted.at.T.tolist(), strict=True)
+    for by, one in zip(met, deleted.segments.tolist(), strict=True):
+        segments = groups.setdefault(by, [])
         if one.is_integer():
             segments.append(one)
     return tuple(Erased(pair, segments) for pair, segments in groups.items() if segments)

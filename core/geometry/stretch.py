@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import EMPTY, Path
+from core.geometry.path import EMPTY, Floats, Path
 from core.geometry.piece import Arc, Line, Piece, Point
+from core.geometry.planes import Indices, Planes, coordinates, planes
 
-Ends = tuple[float, Point, float, Point]
-"""A stretch's first segment and the point on it, its last segment and the point on that."""
+
+class Ends(NamedTuple):
+    """k stretches (k,): the first segment of each and the point on it, its last segment and the point on that.
+
+    Points are complex numbers.
+    """
+
+    first: Floats
+    start: Planes
+    last: Floats
+    end: Planes
 
 
 class Parts(NamedTuple):
@@ -34,14 +43,14 @@ class Parts(NamedTuple):
 NO_PARTS: Final = Parts(EMPTY, np.empty(0, np.bool_))
 
 
-def stretches(surface: Path, wanted: Sequence[Ends]) -> Parts:
+def stretches(surface: Path, wanted: Ends) -> Parts:
     """The parts of a surface from a point on one segment to a point on another, without those of unknown segments.
 
     One runs past a closed contour's start if its last segment lies before its first.
     """
-    whole, spans = _cut_out(surface, wanted)
+    whole, _, tails = _cut_out(surface, wanted)
     own = np.ones(len(whole), np.bool_)
-    own[[tail for _, tail in spans[:-1]]] = False
+    own[tails[:-1]] = False
     return Parts(whole, own)
 
 
@@ -49,55 +58,70 @@ def pieces_joined(path: Path, rows: NDArray[np.intp]) -> Parts:
     """Single pieces of a path, by their rows, each a part of its own."""
     if not len(rows):
         return NO_PARTS
-    points = np.stack((path.points.take(rows, axis=0), path.points.take(rows + 1, axis=0)), axis=1).reshape(-1, 2)
+    given, points = planes(path.points), np.empty(2 * len(rows), np.complex128)
+    points[::2], points[1::2] = given[rows], given[rows + 1]
     centres, turns, own = points[:-1].copy(), np.zeros(len(points) - 1, np.int8), np.zeros(len(points) - 1, np.bool_)
-    centres[::2], turns[::2], own[::2] = path.centres.take(rows, axis=0), path.turns[rows], True
-    return Parts(Path(points, centres, turns, np.repeat(path.numbers[rows], 2)[:-1]), own)
+    centres[::2], turns[::2], own[::2] = planes(path.centres)[rows], path.turns[rows], True
+    return Parts(Path(coordinates(points), coordinates(centres), turns, path.numbers[rows].repeat(2)[:-1]), own)
 
 
-def stretch_lengths(surface: Path, wanted: Sequence[Ends]) -> list[list[tuple[float, float]]]:
+def stretch_lengths(surface: Path, wanted: Ends) -> list[list[tuple[float, float]]]:
     """Of the same stretches, each by itself, the pieces' segments and lengths."""
-    whole, spans = _cut_out(surface, wanted)
+    whole, heads, tails = _cut_out(surface, wanted)
     each = list(zip(whole.numbers.tolist(), whole.lengths.tolist(), strict=True))
-    return [each[head:tail] for head, tail in spans]
+    return [each[head:tail] for head, tail in zip(heads.tolist(), tails.tolist(), strict=True)]
 
 
-def _cut_out(surface: Path, wanted: Sequence[Ends]) -> tuple[Path, list[tuple[int, int]]]:
+def _cut_out(surface: Path, wanted: Ends) -> tuple[Path, Indices, Indices]:
     """The stretches one behind the other with a line between them, and the first row and one behind the last of each.
 
     Those of unknown segments are left out.
     """
-    numbers, count = surface.numbers.tolist(), len(surface)
-    begins = dict(zip(reversed(numbers), reversed(range(count)), strict=True))
-    ends = dict(zip(numbers, range(count), strict=True))
-    known = [
-        (begins[first], start, ends[last], end)
-        for first, start, last, end in wanted
-        if first in begins and last in ends
-    ]
-    if not known:
-        return EMPTY, []
+    begins, lasts, wanted = _rows(surface, wanted)
+    if not len(begins):
+        return EMPTY, begins, begins
     # rows of points, one more than of pieces: behind the last piece of each stretch its end
-    counts = np.array([_steps(surface, *one) for one in known]) + 2
-    behind = np.cumsum(counts)
+    counts = _steps(surface, begins, lasts, wanted) + 2
+    behind = counts.cumsum()
     heads, tails = behind - counts, behind - 1
-    rows = (np.arange(behind[-1]) + np.repeat(np.array([one[0] for one in known]) - heads, counts)) % count
-    # rows of pairs: an array's own `take` takes a fifth of the time of an index
-    points, centres, turns = surface.points.take(rows, axis=0), surface.centres.take(rows, axis=0), surface.turns[rows]
-    points[heads], points[tails] = [one[1] for one in known], [one[3] for one in known]
-    turns[tails] = 0
+    rows = (np.arange(behind[-1]) + (begins - heads).repeat(counts)) % len(surface)
+    points, centres, turns = planes(surface.points)[rows], planes(surface.centres)[rows], surface.turns[rows]
+    points[heads], points[tails], turns[tails] = wanted.start, wanted.end, 0
     # a line has its own start for a centre
-    lines = np.concatenate((heads[turns[heads] == 0], tails))
+    lines = (turns == 0).nonzero()[0]
     centres[lines] = points[lines]
-    whole = Path(points, centres[:-1], turns[:-1], surface.numbers[rows[:-1]])
-    return whole, list(zip(heads.tolist(), tails.tolist(), strict=True))
+    whole = Path(coordinates(points), coordinates(centres[:-1]), turns[:-1], surface.numbers[rows[:-1]])
+    return whole, heads, tails
 
 
-def _steps(surface: Path, row: int, start: Point, last: int, end: Point) -> int:
+def _rows(surface: Path, wanted: Ends) -> tuple[Indices, Indices, Ends]:
+    """Of stretches on known segments the first segment's first row and the last one's last row, and their ends."""
+    numbers = surface.numbers
+    if not len(numbers):
+        return np.empty(0, np.intp), np.empty(0, np.intp), wanted
+    order = numbers.argsort(kind="stable")
+    ranked = numbers[order]
+    begins = order.take(ranked.searchsorted(wanted.first), mode="clip")
+    lasts = order.take(ranked.searchsorted(wanted.last, "right") - 1, mode="clip")
+    known = (numbers[begins] == wanted.first) & (numbers[lasts] == wanted.last)
+    if known.all():
+        return begins, lasts, wanted
+    return begins[known], lasts[known], Ends(*(column[known] for column in wanted))
+
+
+def _steps(surface: Path, begins: Indices, lasts: Indices, wanted: Ends) -> Indices:
     """Rows from a point on one row to a point on another, or all round to the same one."""
-    # from its start back to its start an arc is a full turn: what begins there ends behind that on any piece
-    around = last == row and start != surface[row].start and _before(surface[row], end, start)
-    return (last - row) % len(surface) + len(surface) * around
+    steps: Indices = (lasts - begins) % len(surface)
+    for one in (begins == lasts).nonzero()[0].tolist():
+        piece, start, end = surface[int(begins[one])], _point(wanted.start[one]), _point(wanted.end[one])
+        # from its start back to its start an arc is a full turn: what begins there ends behind that on any piece
+        if start != piece.start and _before(piece, end, start):
+            steps[one] += len(surface)
+    return steps
+
+
+def _point(place: np.complex128) -> Point:
+    return float(place.real), float(place.imag)
 
 
 def _cut(piece: Piece, start: Point, end: Point) -> Piece:

@@ -27,8 +27,7 @@ def forbidding(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> tupl
     """The errors that stand against posting, each named once; those the operator overrode are left out."""
     found: list[Finding] = []
     for job in jobs:
-        errors = job.errors
-        found += (*errors, *_new(_objections(job, grid), errors))
+        found += (*job.errors, *objections(job, grid))
     if len({job.work_offset for job in jobs}) > 1:
         found.append(Finding("WORK_OFFSET", Severity.ERROR, "The blocks name different work offsets."))
     if override == OVERRIDE:
@@ -36,12 +35,13 @@ def forbidding(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> tupl
     return tuple(dict.fromkeys(found))
 
 
-def _new(objections: Iterable[Finding], errors: Sequence[Finding]) -> Iterator[Finding]:
-    """Objections that none of a job's errors tells already: about a field that has none, and a path that is due."""
+def objections(job: Job, grid: Grid) -> Iterator[Finding]:
+    """What is wrong with a job and none of its errors tells: about a field that has none, and a path that is due."""
+    errors = job.errors
     told = {finding.field for finding in errors}
-    for one in objections:
+    for one in _objections(job, grid):
         due = one.code == "NO_PATH" and any(finding.code not in OVERRIDABLE for finding in errors)
-        if not due and (one.field is None or one.field not in told):
+        if not due and (one.field is None or one.field not in told) and one not in errors:
             yield one
 
 

@@ -9,7 +9,7 @@ from core.comp.best import best_path, separation
 from core.finding import Finding
 from core.geometry.path import EMPTY, Path
 from core.output.grid import Grid
-from core.output.ready import forbidding
+from core.output.ready import objections
 from core.pipeline.compensation import Compensation, parameter
 from core.pipeline.derived import Derived, DerivedBlock, Loop, RoughPass, Work
 from core.pipeline.jobs import job
@@ -88,10 +88,7 @@ def _told(found: DerivedBlock, work: Work, program: Program) -> DerivedBlock:
 def _checked(found: DerivedBlock, program: Program) -> DerivedBlock:
     """With what forbids posting though every path is right, such as a SPEED of 0, and the steps in Z."""
     due = job(found, program, noted=False)
-    against = forbidding([due], Grid(program.unit), override=None)
-    # what forbids posting is an error: only errors can say the same
-    told = due.errors
-    new = (*(one for one in against if one not in told), *step_findings(due))
+    new = (*dict.fromkeys(objections(due, Grid(program.unit))), *step_findings(due))
     return replace(found, findings=by_weight((*found.findings, *new))) if new else found
 
 

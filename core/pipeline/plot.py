@@ -43,7 +43,7 @@ def block_scene(found: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         leads=[lead for loop in loops for lead in (loop.lead_in, loop.lead_out)],
         rough=() if row is not None else _behind(work),
         deleted=NO_PARTS if one is None else _deleted(one),
-        meetings=() if one is None else list(dict.fromkeys((x, y) for x, y in one.deleted.at.tolist())),
+        meetings=() if one is None else list(dict.fromkeys(zip(*one.deleted.at.T.tolist(), strict=True))),
         gouges=() if verdict is None else [gouge.surface_at for gouge in verdict.gouges],
         uncut=NO_PARTS if verdict is None or not verdict.uncut else stretches(surface, verdict.uncut.ends),
         cutter=_cutter(found, loops, one, segment),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import radians, sin
+from math import cos, radians
 from typing import Final
 
 import numpy as np
@@ -11,8 +11,8 @@ from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.planes import onward, planes
 
-STRAIGHT_BACK: Final = sin(radians(1.0))
-"""Sine of the angle between two segments below which they lie on each other: an end typed to the last digit of a
+STRAIGHT_BACK: Final = cos(radians(1.0))
+"""Cosine of the angle between two segments below which they lie on each other: an end typed to the last digit of a
 drawing misses the tangent of a small arc by less."""
 
 
@@ -23,15 +23,14 @@ def turning_back(surface: Path, *, closed: bool) -> tuple[Finding, ...]:
     Two arcs do so where scallops meet, and are left alone.
     """
     points, centres, turns = planes(surface.points), planes(surface.centres), surface.turns
-    straight, quarter = turns == 0, 1j * turns
-    span = points[1:] - points[:-1]
-    leave = np.where(straight, span, quarter * (points[1:] - centres))
-    into = np.where(straight, span, quarter * (points[:-1] - centres))
-    last = len(turns) if closed else len(turns) - 1
-    turned = leave[:last].conj() * onward(into)[:last]
-    either = (straight | onward(straight))[:last]
-    back = (either & (turned.real < 0.0) & (np.abs(turned.imag) < STRAIGHT_BACK * np.abs(turned))).nonzero()[0].tolist()
-    return tuple(_turned(surface, row, (row + 1) % len(surface)) for row in back)
+    # a line has its own start for a centre: from there to its end it runs as it is
+    straight, quarter = turns == 0, np.where(turns == 0, 1.0, 1j * turns)
+    leave = quarter * (points[1:] - centres)
+    into = np.where(straight, leave, quarter * (points[:-1] - centres))
+    turned = leave.conj() * onward(into)
+    rows = (turned.real < -STRAIGHT_BACK * np.abs(turned)).nonzero()[0].tolist()
+    joints = [(row, (row + 1) % len(turns)) for row in rows if closed or row + 1 < len(turns)]
+    return tuple(_turned(surface, row, behind) for row, behind in joints if straight[row] or straight[behind])
 
 
 def _turned(surface: Path, row: int, behind: int) -> Finding:

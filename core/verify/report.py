@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache, partial
+from functools import cache
 from math import isinf
 from typing import Final
 
@@ -131,8 +131,7 @@ def _uncut(uncut: UncutStretches, surface: Path) -> Iterator[Finding]:
     def told(row: int) -> Finding:
         return _told(*shared()[row], surface)
 
-    for row, number in enumerate(uncut.columns[0].tolist()):
-        yield Unworded.of(UNCUT, Severity.INFO, number, partial(told, row))
+    return Unworded.each(UNCUT, Severity.INFO, uncut.columns[0].tolist(), told)
 
 
 def _told(uncut: Uncut, shares: Shares, surface: Path) -> Finding:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.piece import Point
+from core.geometry.stretch import Ends
 from core.records import dataclass
 
 
@@ -92,10 +93,10 @@ class UncutStretches(Sequence[Uncut]):
     __hash__ = None  # type: ignore[assignment]
 
     @property
-    def ends(self) -> list[tuple[float, Point, float, Point]]:
+    def ends(self) -> Ends:
         """Each stretch's first segment and the point on it, its last segment and the point on that."""
-        firsts, lasts, starts, ends = self.columns[:4]
-        return list(zip(firsts.tolist(), _points(starts), lasts.tolist(), _points(ends), strict=True))
+        first, last, start, end = self.columns[:4]
+        return Ends(first, start, last, end)
 
     def keep(self, chosen: NDArray[np.bool_]) -> UncutStretches:
         """The stretches for which `chosen` (k,) is True."""

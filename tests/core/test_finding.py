@@ -13,7 +13,8 @@ WHOLE = Finding("UNCUT", Severity.INFO, "{value} of it, {0}.", 3.0, None, (1.0, 
 
 
 def late(tell: Callable[[], Finding] = lambda: WHOLE) -> Finding:
-    return Unworded.of("UNCUT", Severity.INFO, 3.0, tell)
+    (one,) = Unworded.each("UNCUT", Severity.INFO, [3.0], lambda _row: tell())
+    return one
 
 
 def untold() -> Finding:
@@ -42,6 +43,11 @@ def test_it_is_told_once_and_not_before_it_is_read() -> None:
     assert one.lengths == WHOLE.lengths
     assert one.line is None
     assert calls == [1]
+
+
+def test_each_tells_its_own_row() -> None:
+    told = [replace(WHOLE, segment=number, text=str(number)) for number in (3.0, 5.0)]
+    assert list(Unworded.each("UNCUT", Severity.INFO, [3.0, 5.0], lambda row: told[row])) == told
 
 
 def test_it_equals_the_finding_from_both_sides() -> None:

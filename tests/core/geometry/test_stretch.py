@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Arc, Line, Turn
+from core.geometry.piece import Arc, Line, Point, Turn
 from core.geometry.stretch import Ends, pieces_joined, stretch_lengths, stretches
 
 SQUARE = Path.from_pieces([Line((0, 0), (4, 0)), Line((4, 0), (4, 4)), Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
@@ -14,8 +14,18 @@ def points(path: Path) -> list[list[float]]:
     return [[x, y] for x, y in path.points.tolist()]
 
 
-def stretch(surface: Path, *ends: *Ends) -> Path:
-    return next(iter(stretches(surface, [ends]).paths), EMPTY)
+Stretch = tuple[float, Point, float, Point]
+
+
+def ends(*wanted: Stretch) -> Ends:
+    """Stretches as columns."""
+    firsts, starts, lasts, behind = zip(*wanted, strict=True) if wanted else ((),) * 4
+    begin, end = ([complex(*place) for place in places] for places in (starts, behind))
+    return Ends(np.array(firsts, float), np.array(begin, complex), np.array(lasts, float), np.array(end, complex))
+
+
+def stretch(surface: Path, *one: *Stretch) -> Path:
+    return next(iter(stretches(surface, ends(one)).paths), EMPTY)
 
 
 def test_a_stretch_of_one_segment():
@@ -63,12 +73,19 @@ def test_its_pieces_keep_their_segments_numbers():
 
 def test_a_stretch_of_unknown_segments_is_empty():
     assert len(stretch(SQUARE, 7, (0, 0), 8, (1, 1))) == 0
-    assert [len(one) for one in stretches(SQUARE, [(7, (0, 0), 8, (1, 1)), (1, (1, 0), 2, (4, 1))]).paths] == [2]
-    assert stretches(SQUARE, []).paths == []
+    assert [len(one) for one in stretches(SQUARE, ends((7, (0, 0), 8, (1, 1)), (1, (1, 0), 2, (4, 1)))).paths] == [2]
+    assert stretches(SQUARE, ends()).paths == []
+    assert stretches(EMPTY, ends((1, (1, 0), 2, (4, 1)))).paths == []
+
+
+def test_a_stretch_begins_on_the_first_and_ends_on_the_last_piece_of_its_segments_whatever_their_order():
+    outline = Path.of(SQUARE.points, SQUARE.centres, SQUARE.turns, np.array([5.0, 5.0, 2.0, 2.0]))
+    assert points(stretch(outline, 5, (1, 0), 2, (0, 1))) == [[1, 0], [4, 0], [4, 4], [0, 4], [0, 1]]
+    assert points(stretch(outline, 2, (2, 4), 5, (4, 3))) == [[2, 4], [0, 4], [0, 0], [4, 0], [4, 3]]
 
 
 def test_stretches_are_one_path_with_lines_between_them_that_are_not_theirs():
-    found = stretches(SQUARE, [(1, (1, 0), 2, (4, 1)), (3, (3, 4), 3, (1, 4))])
+    found = stretches(SQUARE, ends((1, (1, 0), 2, (4, 1)), (3, (3, 4), 3, (1, 4))))
     assert found.own.tolist() == [True, True, False, True]
     assert points(found.path) == [[1, 0], [4, 0], [4, 1], [3, 4], [1, 4]]
     assert [points(one) for one in found.paths] == [[[1, 0], [4, 0], [4, 1]], [[3, 4], [1, 4]]]
@@ -95,12 +112,9 @@ def test_a_stretch_is_as_long_as_what_lies_between_its_ends(first, last, begin, 
     (x0, y0), (x1, y1) = (
         SQUARE.points[row] + part * (SQUARE.ends - SQUARE.starts)[row] for row, part in ((first, begin), (last, end))
     )
-    found = stretch(SQUARE, first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))
-    (same,) = stretches(SQUARE, [(first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))]).paths
-    assert (same.points.tolist(), same.numbers.tolist()) == (found.points.tolist(), found.numbers.tolist())
-    before, lengths = stretch_lengths(
-        SQUARE, [(2, (4, 1), 3, (2, 4)), (first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))]
-    )
+    wanted = (first + 1, (float(x0), float(y0)), last + 1, (float(x1), float(y1)))
+    found = stretch(SQUARE, *wanted)
+    before, lengths = stretch_lengths(SQUARE, ends((2, (4, 1), 3, (2, 4)), wanted))
     assert before == [(2, 3.0), (3, 2.0)]
     assert lengths == list(zip(found.numbers.tolist(), found.lengths.tolist(), strict=True))
     assert found.lengths.sum() == pytest.approx((to - at) % 16.0)
