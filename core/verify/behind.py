@@ -47,28 +47,32 @@ NOWHERE: Final = Behind(np.zeros(0, np.intp), np.zeros(0), np.zeros(0), np.zeros
 """Nothing is behind the surface."""
 
 
-def behind(pairs: Pairs, near: Approaches, found: Gouging, sides: Sided, radius: float) -> Behind:
-    """The parts of gouging stretches that are more than GOUGE on the part's side; `near` is what gouges.
+NO_PARTS: Final = Stretches(np.zeros(0), np.zeros(0))
+"""Nothing meets the surface."""
+
+
+def parted(pairs: Pairs, near: Approaches, found: Gouging, sides: Sided, radius: float) -> Stretches:
+    """Gouging stretches parted where the centre path may change sides; `near` is what gouges.
 
     A cutter of no radius gouges nothing: of its path the pieces that meet walls without running along one are asked.
     Where a surface crosses itself the sides of its walls contradict each other, and nothing is asked.
     """
     stretches = found.stretches
     if sides.crossed or not (len(stretches) or radius <= GOUGE):
-        return NOWHERE
+        return NO_PARTS
     met = _meeting(pairs, radius)
     if radius <= GOUGE:
         stretches = union(pairs.centre_stations[pairs.i[met]], pairs.centre_stations[pairs.i[met] + 1])
     if not len(stretches):
-        return NOWHERE
+        return NO_PARTS
     cuts = _crossed_at(pairs, near, met, radius), _ends_passed(pairs, stretches, sides), _joints(pairs, sides)
-    runs = _parts(stretches, np.concatenate(cuts))
-    if not sides.endless:
-        runs = _parts(runs, _between_arms(pairs, runs, sides, radius))
-    runs = runs.keep(_wrong(pairs, (runs.first + runs.last) / 2.0, sides, radius))
-    if not len(runs):
-        return NOWHERE
-    return _deepest(pairs, _parts(runs, pairs.centre_stations[1:-1]), radius)
+    parts = _parts(stretches, np.concatenate(cuts))
+    return parts if sides.endless else _parts(parts, _between_arms(pairs, parts, sides, radius))
+
+
+def behind(pairs: Pairs, runs: Stretches, radius: float) -> Behind:
+    """Of `runs`, parts on the part's side, parted at the joints within them, what is more than GOUGE there."""
+    return _deepest(pairs, _parts(runs, pairs.centre_stations[1:-1]), radius) if len(runs) else NOWHERE
 
 
 def deepened(found: Gouging, inside: Behind, radius: float, slack: float) -> Gouging:

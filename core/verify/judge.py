@@ -14,7 +14,7 @@ from core.geometry.path import Path
 from core.geometry.side import Side
 from core.records import dataclass
 from core.tolerance import CLOSED, GOUGE, LARGEST
-from core.verify.behind import behind, deepened
+from core.verify.behind import behind, deepened, parted
 from core.verify.beside import NOBODY, Beside, beside
 from core.verify.contact import backwards, loose
 from core.verify.course import Course, courses
@@ -181,7 +181,11 @@ def _judged(ground: Ground, side: Side, radius: float, numbers: Floats, measured
     pairs, near, reach = measured.pairs, measured.near, radius + 10.0 * GOUGE
     found = gouging(pairs, near)
     sides = sided(side, ground.crossed, length, closed=ground.closed)
-    inside = behind(pairs, near, found, sides, radius)
+    parts = parted(pairs, near, found, sides, radius)
+    wrong, told = wrong_side(pairs, found, sides, reach, parts)
+    inside = behind(pairs, parts.keep(told), radius)
+    # of a piece that meets the surface a part is behind it
+    wrong[inside.index] = True
     deeper = deepened(found, inside, radius, measured.slack)
     return Verdict(
         radius=radius,
@@ -190,7 +194,7 @@ def _judged(ground: Ground, side: Side, radius: float, numbers: Floats, measured
         uncut=uncut(pairs, radius, surface, closed=ground.closed, side=side),
         surface_length=length,
         crosses_itself=len(ground.crossed) > 0,
-        wrong_side=wrong_side(pairs, found, sides, reach, inside.index),
+        wrong_side=tuple(pairs.centre.rows[wrong].tolist()),
         loose=loose(pairs),
         backwards=backwards(pairs, radius),
         crossing_at=_first(ground.crossed),

@@ -14,7 +14,7 @@ from core.tolerance import ARC_RADII, CLOSED, JOINED, ON_PATH
 from core.verify.crossing import Crossings, at_joints
 from core.verify.gouge import Gouging
 from core.verify.pairs import Pairs
-from core.verify.reach import Nearest, changes, least_of, nearest
+from core.verify.reach import Nearest, Stretches, changes, least_of, nearest
 
 CLEARLY: Final = 1e-6
 """Sine of an angle to the surface's tangent below which a point is on neither side."""
@@ -54,39 +54,42 @@ def sided(side: Side, crossings: Crossings, total: float, *, closed: bool) -> Si
     return Sided(side, first, last, closed, len(crossings) > 0)
 
 
-def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, known: Rows) -> tuple[int, ...]:
-    """Rows of the centre path of which some point is clearly on the part's side, in rising order.
+def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, parts: Stretches) -> tuple[Flags, Flags]:
+    """(n,) pieces of the centre path of which some point is clearly on the part's side, and which of the `parts` of it,
+    that have one side each, are there.
 
-    `known` are the pieces of which a part is found behind the surface: all that meet it.  A piece that does not is on
-    one side of a closed contour.  It is judged in its middle if that is within `reach` of a closed one, or if it keeps
-    to an inner wall of an open one; any other piece in its middle and at its ends, or with the others of a path that is
-    on one side.  Beside an open contour, which has a side only as far as something is nearest to more than its ends,
-    the nearest wall decides: a gouge is asked at its ends too, in its middle and where it is deepest, and a piece that
-    meets no wall may be on another side between these places.
+    The parts stand for all pieces that meet the surface.  A piece that does not is on one side of a closed contour.  It
+    is judged in its middle if that is within `reach` of a closed one, or if it keeps to an inner wall of an open one;
+    any other piece in its middle and at its ends, or with the others of a path that is on one side.  Beside an open
+    contour, which has a side only as far as something is nearest to more than its ends, the nearest wall decides: a
+    gouge is asked at its ends too, in its middle and where it is deepest, and a piece that meets no wall may be on
+    another side between these places.
     """
+    wrong = np.zeros(len(pairs.centre), np.bool_)
     if not len(pairs.surface) or not len(pairs.centre):
-        return ()
+        return wrong, np.zeros(len(parts), np.bool_)
     rows, near = _contact(pairs, reach, ON_PATH)
     count, settled = len(rows), pairs.own.settled(len(pairs.centre))
     settled[rows] = True if surface.endless else _kept(pairs, found)[rows] | settled[rows]
     asked, gouged = (~settled).nonzero()[0], _gouged(found, surface)
     alike = count > 0 and len(asked) > 0 and _on_one_side(pairs, surface, reach)
     index, t = _samples(rows, asked[:0] if alike else asked)
-    if len(gouged):
-        owners, shares = place(pairs.centre, pairs.centre_stations, gouged)
+    places = np.concatenate((gouged, (parts.first + parts.last) / 2.0))
+    if len(places):
+        owners, shares = place(pairs.centre, pairs.centre_stations, places)
         index, t = np.concatenate((index, owners)), np.concatenate((t, shares))
     points = at(pairs.centre.take(index), t)
     if len(index) > count:
         near = near.followed(nearest(points[count:], pairs.surface, pairs.surface_boxes, tie=ON_PATH), count)
     told = on_part_side(pairs, points, near, surface)
     if surface.crossed:
-        places = pairs.centre_stations[index] + t * pairs.centre.length[index]
-        places[len(places) - len(gouged) :] = gouged
-        told &= ~_inside(found, places)
-    wrong = np.zeros(len(pairs.centre), np.bool_)
-    wrong[index[told]], wrong[known] = True, True
-    wrong[asked] |= alike and told.any()
-    return tuple(pairs.centre.rows[wrong].tolist())
+        s = pairs.centre_stations[index] + t * pairs.centre.length[index]
+        s[len(s) - len(places) :] = places
+        told &= ~_inside(found, s)
+    moves, behind = told[: len(told) - len(parts)], told[len(told) - len(parts) :]
+    wrong[index[: len(moves)][moves]] = True
+    wrong[asked] |= alike and moves.any()
+    return wrong, behind
 
 
 def _on_one_side(pairs: Pairs, surface: Sided, reach: float) -> bool:
