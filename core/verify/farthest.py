@@ -17,7 +17,7 @@ from core.geometry.distance import between, distance, farthest_places
 from core.geometry.measured import Floats, Measured, Points, Rows, at, place
 from core.records import dataclass
 from core.tolerance import GOUGE
-from core.verify.reach import Stretches, nearest
+from core.verify.reach import Stretches, changes, nearest
 
 FINE: Final = 1e-8
 """Millimetres between the bounds of a largest distance at which it counts as known."""
@@ -73,15 +73,16 @@ class _Search:
     def look(self, s: Floats, known: Floats) -> tuple[Floats, Rows]:
         """Distance of each place from the other path, no larger than `known`, and the piece it is nearest to."""
         found = nearest(self.points(s), self.other, self.bounds, known=known + self.give)
-        first = np.searchsorted(found.k, np.arange(len(s)))
+        first = found.k.searchsorted(np.arange(len(s)))
         return found.apart[first], found.j[first]
 
     def look_or_measure(self, s: Floats, near: Rows, known: Floats) -> tuple[Floats, Rows]:
         """The same, where `near` is -1; elsewhere the nearest piece is `near`."""
-        apart, near = np.empty(len(s)), near.copy()
         new, old = (near < 0).nonzero()[0], (near >= 0).nonzero()[0]
-        if len(old):
-            apart[old] = distance(self.other.take(near[old]), self.points(s[old]))
+        if not len(old):
+            return self.look(s, known)
+        apart, near = np.empty(len(s)), near.copy()
+        apart[old] = distance(self.other.take(near[old]), self.points(s[old]))
         if len(new):
             apart[new], near[new] = self.look(s[new], known[new])
         return apart, near
@@ -133,9 +134,9 @@ def _begin(search: _Search, stretches: Stretches, near: Rows, ends: float) -> tu
     most = ends + _from_ends(stretches, near, owners, s)
     apart, near = search.look_or_measure(s, known, most)
     pairs = ((owners[1:] == owners[:-1]) & (s[1:] > s[:-1])).nonzero()[0]
-    both = np.stack((pairs, pairs + 1))
+    both = np.array((pairs, pairs + 1))
     none = Farthest(np.zeros(len(each)), np.full(len(each), -np.inf))
-    index, _ = place(search.walked, search.stations, (s[pairs] + s[pairs + 1]) / 2.0)
+    index = joints.searchsorted((s[pairs] + s[pairs + 1]) / 2.0, side="right")
     return _Spans(owners[pairs], index, s[both], apart[both], near[both]), _better(none, owners, s, apart)
 
 
@@ -150,10 +151,11 @@ def _from_ends(stretches: Stretches, near: Rows, owner: Rows, s: Floats) -> Floa
 def _better(best: Farthest, owner: Rows, s: Floats, apart: Floats) -> Farthest:
     """`best` with the places `s` of stretches `owner` where these are farther."""
     where, size = best.place.copy(), best.apart.copy()
-    order = np.lexsort((apart, owner))
-    last = order[np.append(owner[order][1:] != owner[order][:-1], True).nonzero()[0]]
-    last = last[apart[last] > size[owner[last]]]
-    where[owner[last]], size[owner[last]] = s[last], apart[last]
+    # of each stretch the largest comes first
+    order = np.lexsort((apart, owner))[::-1]
+    first = order[changes(owner[order])]
+    first = first[apart[first] > size[owner[first]]]
+    where[owner[first]], size[owner[first]] = s[first], apart[first]
     return Farthest(where, size)
 
 

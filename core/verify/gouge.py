@@ -32,7 +32,7 @@ def gouging(pairs: Pairs, near: Approaches) -> Gouging:
     if not len(near.i):
         return Gouging(Stretches(near.limit, near.limit), near.limit, near.limit, near.i, near.j)
     parts = within(pairs.centre, near.i, pairs.surface, near.j, near.limit)
-    k, pair = np.nonzero(near.apart < near.limit)
+    k, pair = (near.apart < near.limit).nonzero()
     spots = pairs.centre_stations[near.i[pair]] + near.places[k, pair] * pairs.centre.length[near.i[pair]]
     every = joined((parts, Parts(spots, spots, spots, near.apart[k, pair], pair)))
     return _deepest(every, near.i, near.j)

@@ -33,7 +33,7 @@ class Stretches:
 
     def index(self, s: Floats) -> Rows:
         """The stretch each place `s` is in or follows; -1 before the first."""
-        return np.searchsorted(self.first, s, side="right") - 1
+        return self.first.searchsorted(s, side="right") - 1
 
     def keep(self, chosen: Flags) -> Stretches:
         """The stretches for which `chosen` (k,) is True."""
@@ -77,7 +77,7 @@ def _within_block(pieces: Measured, others: Measured, starts: Floats, reach: Flo
     places = band_places(pieces, others, reach)
     middles = (places[1:] + places[:-1]) / 2.0
     apart = between(pieces, others, middles)
-    part, pair = np.nonzero((apart < reach) & (places[1:] > places[:-1]))
+    part, pair = ((apart < reach) & (places[1:] > places[:-1])).nonzero()
     start, length, spot = starts.take(pair), pieces.length.take(pair), part * len(rows) + pair
     first, last, middle = places.take(spot), places.take(spot + len(rows)), middles.take(spot)
     return Parts(start + first * length, start + last * length, start + middle * length, apart.take(spot), rows[pair])
@@ -92,7 +92,7 @@ def changes(owner: Rows) -> Rows:
 
 def union(first: Floats, last: Floats) -> Stretches:
     """Overlapping and touching parts as stretches."""
-    order = np.argsort(first, kind="stable")
+    order = first.argsort(kind="stable")
     first, furthest = first[order], np.maximum.accumulate(last[order])
     begins = np.ones(len(first), np.bool_)
     begins[1:] = first[1:] > furthest[:-1] + ON_PATH

@@ -46,12 +46,13 @@ def reached(pairs: Pairs, radius: float) -> Reached:
     """
     touch = pairs.touch
     sure = (~touch.unsure & (touch.first <= touch.last)).nonzero()[0]
-    start, length = pairs.surface_stations[pairs.j[sure]], pairs.surface.length[pairs.j[sure]]
-    first, last = start + touch.first[sure] * length, start + touch.last[sure] * length
+    walls = pairs.j.take(sure)
+    start, length = pairs.surface_stations.take(walls), pairs.surface.length.take(walls)
+    first, last = start + touch.first.take(sure) * length, start + touch.last.take(sure) * length
     parts = Parts(first, last, first, first, sure)
-    walls = (pairs.own.piece >= 0).nonzero()[0]
-    if len(walls):
-        parts = joined((_by_own(pairs, walls), parts))
+    own = (pairs.own.piece >= 0).nonzero()[0]
+    if len(own):
+        parts = joined((_by_own(pairs, own), parts))
     unsure = touch.unsure.nonzero()[0]
     if len(unsure):
         more = within(pairs.surface, pairs.j[unsure], pairs.centre, pairs.i[unsure], radius + pairs.grant[unsure])
@@ -68,8 +69,8 @@ def _by_own(pairs: Pairs, walls: Rows) -> Parts:
 
 def _settled(pairs: Pairs, parts: Parts, radius: float) -> Reached:
     """Parts as stretches; their ends drawn in to where an unsure pair reaches them with the radius alone."""
-    order = np.argsort(parts.first, kind="stable")
-    first, last = parts.first[order], parts.last[order]
+    order = parts.first.argsort(kind="stable")
+    first, last = parts.first.take(order), parts.last.take(order)
     furthest = np.maximum.accumulate(last)
     begins = np.ones(len(first), np.bool_)
     begins[1:] = first[1:] > furthest[:-1]
