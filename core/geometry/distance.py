@@ -128,7 +128,10 @@ def band_places(pieces: Measured, other: Measured, reach: Floats) -> Floats:
     These are its meetings with the outline of all points within `reach` (n,) of the partner: the partner moved
     sideways both ways, and the circles about its ends; and its own ends.
     """
-    return np.sort(_inside(np.concatenate((_ends(pieces), _outline(pieces, other, reach)))), axis=0)
+    places = np.empty((10, len(pieces)))
+    places[0], places[1], places[2:] = 0.0, 1.0, _inside(_outline(pieces, other, reach))
+    places.sort(axis=0)
+    return places
 
 
 def _outline(pieces: Measured, other: Measured, reach: Floats) -> Floats:

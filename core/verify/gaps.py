@@ -148,7 +148,7 @@ def _to_arcs(parts: GapParts, bends: _Bends, corner: Points, apart: Floats) -> t
 def _sectors(parts: GapParts, bends: _Bends | None, seen: Points, radius: float) -> Floats:
     """(k,) area between each gap and the circle about the point from which its parts begin at `seen`."""
     turned = np.conj(seen[:-1]) * seen[1:]
-    angle, area = np.angle(turned), 0.5 * turned.imag
+    angle, area = np.arctan2(turned.imag, turned.real), 0.5 * turned.imag
     if bends is not None:
         rows, arc = bends.rows, bends.arc
         sweep = (parts.s[rows + 1] - parts.s[rows]) / arc.radius
