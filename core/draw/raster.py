@@ -88,8 +88,10 @@ def _axes(view: View, half_width: float, half_height: float) -> Chords:
 def _clipped(found: Chords, half_width: float, half_height: float) -> Chords:
     """What of the chords lies inside the window (Liang and Barsky's parameters)."""
     starts, run = found.starts, found.runs
-    if _inside(np.concatenate((starts, starts + run)), half_width, half_height):
-        return found
+    ends = starts + run
+    if _inside(np.concatenate((starts, ends)), half_width, half_height):
+        # as below, to the last digit
+        return Chords(starts, ends - starts, found.layers, found.along)
     enter, leave = np.zeros(len(run)), np.ones(len(run))
     for start, step, limit in (
         (starts.real, run.real, half_width),
@@ -100,8 +102,9 @@ def _clipped(found: Chords, half_width: float, half_height: float) -> Chords:
         np.minimum(leave, high, out=leave)
     keep = (enter <= leave).nonzero()[0]
     starts, run, enter, leave = starts[keep], run[keep], enter[keep], leave[keep]
-    along = found.along[keep] + enter * np.abs(run)
-    return Chords(starts + enter * run, (leave - enter) * run, found.layers[keep], along)
+    along, ends = found.along[keep] + enter * np.abs(run), starts + leave * run
+    starts = starts + enter * run
+    return Chords(starts, ends - starts, found.layers[keep], along)
 
 
 def _inside(points: Points, half_width: float, half_height: float) -> bool:

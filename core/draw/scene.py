@@ -177,7 +177,8 @@ class Pieces:
         with np.errstate(invalid="ignore", over="ignore"):
             first, last, same = starts - centres, ends - centres, coordinates(starts) == coordinates(ends)
             sweeps = swept(coordinates(first), coordinates(last), turns, same)
-            return Arcs(arcs, centres, turns, np.abs(first), np.arctan2(first.imag, first.real), sweeps)
+            x, y = first.real, first.imag
+            return Arcs(arcs, centres, turns, np.hypot(x, y), np.arctan2(y, x), sweeps)
 
 
 _NONE: Final = np.empty(0, np.complex128)
@@ -263,6 +264,8 @@ def _drawn(box: Box) -> bool:
 
 def _each(pieces: Pieces) -> list[Box]:
     """The boxes of all pieces, taken from a path of them with a line from each to the next."""
+    if not len(pieces.rows):
+        return []
     points = np.empty(2 * len(pieces.rows), np.complex128)
     points[::2], points[1::2] = pieces.points[pieces.rows], pieces.points[pieces.rows + 1]
     centres, turns = points[:-1].copy(), np.zeros(len(points) - 1, np.int8)

@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -67,3 +68,17 @@ def test_bounds_take_in_arcs_circles_and_marks_and_pass_over_what_is_not_finite(
     )
     assert scene.bounds == pytest.approx((-1.0, -2.0, 6.0, 9.0))
     assert Scene().bounds is None
+    none = Layer(far, Style.DELETED, own=np.array([False]))
+    assert Scene((none,)).bounds is None
+
+
+def test_bounds_can_do_without_some_layers_and_reach_as_far_as_their_arcs():
+    """An arc over the top and one round the right that begins before it: each tells the side that it passes."""
+    over = Path.from_pieces([Arc((3.0, 4.0), (-3.0, 4.0), (0.0, 0.0), Turn.CCW), Line((-3.0, 4.0), (3.0, -4.0))])
+    right = Path.from_pieces([Arc((3.0, -4.0), (4.0, 3.0), (0.0, 0.0), Turn.CCW)])
+    wide = Path.from_pieces([Arc((-7.0, 0.0), (7.0, 0.0), (0.0, 0.0), Turn.CW)])
+    scene = Scene((Layer(over, Style.SURFACE), Layer(wide, Style.UNCUT), Layer(right, Style.PATH)))
+    assert scene.bounds == (-7.0, -4.0, 7.0, 7.0)
+    assert scene.gathered.bounds(without={Style.UNCUT}) == (-3.0, -4.0, 5.0, 5.0)
+    assert scene.gathered.bounds([(9.0, -9.0)], {Style.UNCUT, Style.PATH}) == (-3.0, -9.0, 9.0, 5.0)
+    assert scene.gathered.bounds(without=set(Style)) is None
