@@ -11,7 +11,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from core.geometry.measured import Flags, Floats, Measured, Rows
+from core.geometry.measured import Flags, Floats, Measured
 
 SHORT: Final = 1e-3
 """Chords shorter than this part of the radius do not say where an arc's middle is to the last digit."""
@@ -82,30 +82,14 @@ def _middles(pieces: Measured, square: Floats) -> tuple[Floats, Floats]:
     return x, y
 
 
-def taken(block: Floats, rows: Rows, bent: Flags) -> Floats:
-    """The columns of these pieces of all; only those of lines where none of them is `bent`."""
-    return (block if np.count_nonzero(bent) else block[:STRAIGHT]).take(rows, axis=1)
+def line_middle(line: Columns) -> tuple[Floats, Floats]:
+    """x and y of the middles of lines."""
+    return line.x + 0.5 * line.along, line.y + 0.5 * line.up
 
 
-def middle(pieces: Columns, bent: Flags) -> tuple[Floats, Floats]:
-    """The middles of pieces, of which those that are `bent` are arcs."""
-    x, y = pieces.x + 0.5 * pieces.along, pieces.y + 0.5 * pieces.up
-    if not np.count_nonzero(bent):
-        return x, y
-    arc_x = pieces.centre_x + pieces.radius * pieces.middle_x
-    arc_y = pieces.centre_y + pieces.radius * pieces.middle_y
-    return np.where(bent, arc_x, x), np.where(bent, arc_y, y)
-
-
-def to_piece(x: Floats, y: Floats, pieces: Columns, bent: Flags) -> tuple[Floats, Floats]:
-    """Distances of points (k, ..., m) from pieces (..., m), and the fractions of those that are no arcs they are
-    nearest to."""
-    arcs = np.count_nonzero(bent)
-    if arcs == bent.size:
-        return to_arc(x, y, pieces), x
-    square, t = to_line(x, y, pieces)
-    apart = np.sqrt(square, out=square)
-    return (np.where(bent, to_arc(x, y, pieces), apart) if arcs else apart), t
+def arc_middle(arc: Columns) -> tuple[Floats, Floats]:
+    """x and y of the middles of arcs."""
+    return arc.centre_x + arc.radius * arc.middle_x, arc.centre_y + arc.radius * arc.middle_y
 
 
 def to_line(x: Floats, y: Floats, line: Columns) -> tuple[Floats, Floats]:
@@ -191,8 +175,9 @@ def arc_to_arc(pairs: Floats) -> Floats:
     both = Columns(*pairs)
     (x, y), (one, other) = pairs[CENTRE, 1] - pairs[CENTRE, 0], both.radius
     size, between = np.sqrt(x * x + y * y), x + 1j * y
+    both_radii, more = one + other, one - other
     # from both centres, ahead and behind along the line through them, and to both crossings of the circles
-    share = (size * size + (one - other) * (one + other)) / (2.0 * size * size)
+    share = (size * size + more * both_radii) / (2.0 * size * size)
     height = np.sqrt(np.maximum((one / size) ** 2 - share * share, 0.0))
     met, to = share + 1j * height, np.empty((4, 2, len(x)), np.complex128)
     to[0], to[1], to[2], to[3] = between, -between, between * met, between * np.conj(met)
@@ -203,5 +188,5 @@ def arc_to_arc(pairs: Floats) -> Floats:
     # about one centre an end of the one is as near as it gets, or both are nowhere side by side
     apart: Floats = np.where(within & (size > 0.0), np.abs(gaps), np.inf).min(axis=0)
     crossed = (first[0] & first[1]) | (second[0] & second[1])
-    apart[crossed & (size > np.abs(one - other)) & (size < one + other)] = 0.0
+    apart[crossed & (size > np.abs(more)) & (size < both_radii)] = 0.0
     return apart

@@ -11,17 +11,24 @@ from math import tau
 from typing import Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.geometry.distance import foot
 from core.geometry.measured import Flags, Floats, Measured, Rows
 from core.records import dataclass
 from core.tolerance import ON_PATH, STOCK
-from core.verify.columns import CENTRE, STRAIGHT, Columns, arc_to_arc, line_to_arc, lines_cross, middle, taken, to_piece
+from core.verify.columns import (
+    CENTRE,
+    STRAIGHT,
+    Columns,
+    arc_middle,
+    arc_to_arc,
+    line_middle,
+    line_to_arc,
+    lines_cross,
+    to_arc,
+    to_line,
+)
 from core.verify.course import Course
-
-FEW: Final = 1_000
-"""Pairs of which measuring all in one go, by the formulas of lines and of arcs, costs less than parting them."""
 
 BLOCK: Final = 4_000
 """Pairs worked out at a time: few enough to stay in a processor's cache."""
@@ -56,21 +63,38 @@ class Touches:
         return Touches(*columns, self.middle[rows], self.along[rows])
 
 
-class _Block(NamedTuple):
-    """m pairs worked out at once: their pieces, their columns, and which of them are arcs.
+class _Group(NamedTuple):
+    """The lines of a block's pairs, or the arcs: their columns (5 or 15, n), and x and y of their starts, ends and
+    middles, `spots` (2, 3, n).
 
-    Few pairs have the columns of both in one array `pair` (15 or 5, 2, m), and `bent` (2, m): the steps cost more than
-    the pairs.
+    First stand the `mixed` of the centre path whose partners are of the other kind; then the `alike` whose partners are
+    of this kind, then these partners, in the same order; and last the partners of the other kind's first ones.
+    """
+
+    columns: Floats
+    spots: Floats
+    mixed: int
+    alike: int
+
+    @property
+    def parts(self) -> tuple[slice, slice, slice, slice]:
+        """The four, in this order."""
+        partners = self.mixed + self.alike
+        last = partners + self.alike
+        return slice(self.mixed), slice(self.mixed, partners), slice(partners, last), slice(last, None)
+
+
+class _Block(NamedTuple):
+    """m pairs worked out at once: first those of a line and an arc, then of two lines, an arc and a line, two arcs.
+
+    `bent` (2, m) are the pieces, of the centre path and of the surface, that are arcs.
     """
 
     i: Rows
     j: Rows
-    one: Floats
-    other: Floats
-    bent_one: Flags
-    bent_other: Flags
-    pair: Floats | None = None
-    bent: Flags | None = None
+    bent: Flags
+    lines: _Group
+    arcs: _Group
 
 
 def touches(centre: Course, i: Rows, surface: Course, j: Rows, radius: float, grant: Floats) -> Touches:
@@ -94,42 +118,56 @@ def _blank(count: int) -> Touches:
     return Touches(apart, first, last, flags[0], middle, flags[1])
 
 
-def _blocks(centre: Course, i: Rows, surface: Course, j: Rows) -> Iterator[tuple[Rows | slice, _Block]]:
-    """Indices of pairs, parted by which of the two pieces are arcs, at most BLOCK at a time; few pairs all at once."""
-    one, other = centre.pieces.arcs[i], surface.pieces.arcs[j]
-    if len(i) <= FEW:
-        yield slice(None), _few(centre.columns, i, surface.columns, j, np.array((one, other)))
-        return
-    kinds = _kinds(one, other)
-    for kind in range(4):
-        rows = (kinds == kind).nonzero()[0]
-        for start in range(0, len(rows), BLOCK):
-            some = rows[start : start + BLOCK]
-            bent = one[some], other[some]
-            columns = taken(centre.columns, i[some], bent[0]), taken(surface.columns, j[some], bent[1])
-            yield some, _Block(i[some], j[some], *columns, *bent)
+def _blocks(centre: Course, i: Rows, surface: Course, j: Rows) -> Iterator[tuple[Rows, _Block]]:
+    """Indices of pairs, in the order of their kinds, at most BLOCK at a time: each formula is asked for its own pieces
+    alone, and what it yields is put together from slices."""
+    bent = np.array((centre.pieces.arcs.take(i), surface.pieces.arcs.take(j)))
+    other = bent[1].view(np.int8)
+    kinds = np.where(bent[0], 2 + other, 1 - other)
+    order = kinds.argsort(kind="stable")
+    for start in range(0, len(i), BLOCK):
+        rows = order[start : start + BLOCK]
+        some_i, some_j = i.take(rows), j.take(rows)
+        counts = np.bincount(kinds.take(rows), minlength=4).tolist()
+        yield rows, _Block(some_i, some_j, bent.take(rows, axis=1), *_groups(centre, some_i, surface, some_j, *counts))
 
 
-def _few(centre: Floats, i: Rows, surface: Floats, j: Rows, bent: Flags) -> _Block:
-    """All pairs as one block; a line's arc columns mean nothing."""
-    rows = len(Columns._fields) if np.count_nonzero(bent) else STRAIGHT
-    pair = np.zeros((rows, 2, len(i)))
-    pair[: len(centre), 0], pair[: len(surface), 1] = centre[:rows].take(i, axis=1), surface[:rows].take(j, axis=1)
-    return _Block(i, j, pair[:, 0], pair[:, 1], bent[0], bent[1], pair, bent)
+def _groups(
+    centre: Course, i: Rows, surface: Course, j: Rows, line_arc: int, lines: int, arc_line: int, arcs: int
+) -> tuple[_Group, _Group]:
+    """The lines and the arcs of a block's pairs, of which there are so many of each kind."""
+    bent, both = line_arc + lines, line_arc + lines + arc_line
+    straight = _columns(centre, i[:bent], surface, j[line_arc:both], STRAIGHT)
+    curved = _columns(centre, i[bent:], surface, np.concatenate((j[both:], j[:line_arc])), len(Columns._fields))
+    line, arc = Columns(*straight), Columns(*curved)
+    return (
+        _Group(straight, _spots(line, *line_middle(line)), line_arc, lines),
+        _Group(curved, _spots(arc, *arc_middle(arc)), arc_line, arcs),
+    )
 
 
-def _kinds(one: Flags, other: Flags) -> NDArray[np.int8]:
-    """(m,) 0 for two lines, 1 for a line and an arc, 2 for an arc and a line, 3 for two arcs."""
-    kinds: NDArray[np.int8] = 2 * one.view(np.int8) + other.view(np.int8)
-    return kinds
+def _columns(centre: Course, i: Rows, surface: Course, j: Rows, count: int) -> Floats:
+    """So many columns of pieces `i` of the centre path and then of `j` of the surface; without arcs a path has few."""
+    found = np.empty((count, len(i) + len(j)))
+    if len(i):
+        found[:, : len(i)] = centre.columns[:count].take(i, axis=1)
+    if len(j):
+        found[:, len(i) :] = surface.columns[:count].take(j, axis=1)
+    return found
 
 
-def _measure(found: Touches, rows: Rows | slice, block: _Block, limit: Floats) -> tuple[Flags, Floats]:
+def _spots(pieces: Columns, x: Floats, y: Floats) -> Floats:
+    """Starts, ends and the middles."""
+    return np.array(((pieces.x, pieces.x + pieces.along, x), (pieces.y, pieces.y + pieces.up, y)))
+
+
+def _measure(found: Touches, rows: Rows, block: _Block, limit: Floats) -> tuple[Flags, Floats]:
     """Distances of the pairs; (4, m) whether the surface pieces' ends and the centre pieces' ends, start and end of
     each, are within the limit of the other piece; and (4, m) fractions of surface lines nearest to these."""
     mine, theirs, nearest = _to_ends(block)
-    ends, places = np.concatenate((theirs, mine[:2])), np.empty((4, len(limit)))
-    places[0], places[1], places[2:] = 0.0, 1.0, nearest
+    ends, places = np.concatenate((theirs[:2], mine[:2])), np.zeros((4, len(limit)))
+    places[1] = 1.0
+    places[2:, block.lines.mixed : block.lines.mixed + nearest.shape[1]] = nearest
     found.middle[rows] = mine[2]
     found.along[rows] = mine.max(axis=0) <= limit + STOCK
     found.apart[rows] = np.minimum(ends.min(axis=0), _between_ends(block))
@@ -137,54 +175,47 @@ def _measure(found: Touches, rows: Rows | slice, block: _Block, limit: Floats) -
 
 
 def _to_ends(block: _Block) -> tuple[Floats, Floats, Floats]:
-    """(3, m) distances of the centre pieces' starts, ends and middles from the surface pieces, (2, m) of the surface
-    pieces' ends from the centre pieces, and (2, m) fractions of surface lines nearest to the centre pieces' ends."""
-    if block.pair is not None and block.bent is not None:
-        both = Columns(*block.pair)
-        x, y = _spots(both, block.bent)
-        # each piece is asked for the spots of the other one
-        apart, nearest = to_piece(x[:, ::-1], y[:, ::-1], both, block.bent)
-        return apart[:, 1], apart[:2, 0], nearest[:2, 1]
-    a, b = Columns(*block.one), Columns(*block.other)
-    mine, nearest = to_piece(*_spots(a, block.bent_one), b, block.bent_other)
-    x, y = np.array((b.x, b.x + b.along)), np.array((b.y, b.y + b.up))
-    theirs, _ = to_piece(x, y, a, block.bent_one)
-    return mine, theirs, nearest[:2]
+    """(3, m) distances of the centre pieces' starts, ends and middles from the surface pieces, and the same the other
+    way round; and (2, k) fractions of the k surface lines nearest to the centre pieces' starts and ends."""
+    lines, arcs = block.lines, block.arcs
+    square, t = to_line(*_partners(lines, arcs), Columns(*lines.columns))
+    apart, own = np.sqrt(square, out=square), lines.mixed + lines.alike
+    if not arcs.columns.size:
+        return apart[:, own:], apart[:, :own], t[:2, own:]
+    bent = to_arc(*_partners(arcs, lines), Columns(*arcs.columns))
+    _, _, alike, mixed = arcs.parts
+    mine = np.concatenate((bent[:, mixed], apart[:, own:], bent[:, alike]), axis=1)
+    theirs = np.concatenate((apart[:, :own], bent[:, : arcs.mixed + arcs.alike]), axis=1)
+    return mine, theirs, t[:2, own:]
 
 
-def _spots(pieces: Columns, bent: Flags) -> tuple[Floats, Floats]:
-    """Starts, ends and middles."""
-    x, y = middle(pieces, bent)
-    return np.array((pieces.x, pieces.x + pieces.along, x)), np.array((pieces.y, pieces.y + pieces.up, y))
+def _partners(group: _Group, other: _Group) -> tuple[Floats, Floats]:
+    """x and y (3, n) of the spots of each one's partner, some of which are of the `other` kind."""
+    _, mine, theirs, _ = group.parts
+    first, _, _, last = other.parts
+    x, y = np.concatenate(
+        (other.spots[..., last], group.spots[..., theirs], group.spots[..., mine], other.spots[..., first]), axis=2
+    )
+    return x, y
 
 
 def _between_ends(block: _Block) -> Floats:
     """Least distances that lie between the ends of both pieces; infinite where there is none."""
-    if block.pair is not None and block.bent is not None:
-        return _between_few(block.pair, block.bent)
-    bent_one, bent_other = block.bent_one[0], block.bent_other[0]
-    if bent_one and bent_other:
-        return arc_to_arc(np.stack((block.one, block.other), axis=1))
-    if bent_one:
-        return line_to_arc(block.other, block.one)
-    return line_to_arc(block.one, block.other) if bent_other else lines_cross(block.one, block.other)
-
-
-def _between_few(pair: Floats, bent: Flags) -> Floats:
-    """The same of pairs of any kinds."""
-    either = bent[0] | bent[1]
-    lines, arcs = (~either).nonzero()[0], (bent[0] & bent[1]).nonzero()[0]
-    if len(lines) == len(either):
-        return lines_cross(pair[:, 0], pair[:, 1])
-    apart = np.empty(len(either))
-    if len(lines):
-        apart[lines] = lines_cross(*pair[:STRAIGHT].take(lines, axis=2).swapaxes(0, 1))
-    if len(arcs):
-        apart[arcs] = arc_to_arc(pair.take(arcs, axis=2))
-    if len(lines) + len(arcs) < len(either):
-        mixed = (bent[0] != bent[1]).nonzero()[0]
-        arc = bent[1, mixed].view(np.int8)
-        apart[mixed] = line_to_arc(pair[:STRAIGHT, 1 - arc, mixed], pair[:, arc, mixed])
+    lines, arcs = block.lines, block.arcs
+    straight = lines.mixed + lines.alike
+    bent = len(block.i) - arcs.alike
+    apart = np.empty(len(block.i))
+    if lines.alike:
+        _, one, other, _ = lines.parts
+        apart[one] = lines_cross(lines.columns[:, one], lines.columns[:, other])
+    if arcs.alike:
+        pairs = arcs.columns[:, arcs.mixed : arcs.mixed + 2 * arcs.alike]
+        apart[bent:] = arc_to_arc(pairs.reshape(len(pairs), 2, arcs.alike))
+    if lines.mixed + arcs.mixed:
+        line = np.concatenate([lines.columns[:, part] for part in lines.parts[::3]], axis=1)
+        arc = np.concatenate([arcs.columns[:, part] for part in arcs.parts[::-3]], axis=1)
+        passed = line_to_arc(line, arc)
+        apart[: lines.mixed], apart[straight:bent] = passed[: lines.mixed], passed[lines.mixed :]
     return apart
 
 
@@ -194,9 +225,9 @@ def _hull(within: Flags, places: Floats, block: _Block, centre: Measured, surfac
     The distance from a line is convex along another: what lies between is within too.  On arcs the feet are looked for
     of those ends only that are not beside an end of the arc.
     """
-    if np.count_nonzero(block.bent_other):
+    if block.bent[1].any():
         within[2:] &= ~(within[0] & within[1])
-        end, row = (within[2:] & block.bent_other).nonzero()
+        end, row = (within[2:] & block.bent[1]).nonzero()
         if len(row):
             i, j = block.i[row], block.j[row]
             places[end + 2, row] = foot(surface.take(j), centre.start[i] + end * centre.vector[i])
@@ -205,28 +236,29 @@ def _hull(within: Flags, places: Floats, block: _Block, centre: Measured, surfac
     return first, last
 
 
-def _unsure(found: Touches, rows: Rows | slice, block: _Block, centre: Measured, surface: Measured) -> Flags:
+def _unsure(found: Touches, rows: Rows, block: _Block, centre: Measured, surface: Measured) -> Flags:
     """Touches with arcs that are more than a point, unless both arcs are about one centre and overlap but once."""
-    unsure = block.bent_one | block.bent_other
-    if not np.count_nonzero(unsure):
+    unsure: Flags = block.bent[0] | block.bent[1]
+    if not unsure.any():
         return unsure
     unsure &= (found.last[rows] - found.first[rows]) * surface.length[block.j] > POINT
-    both = (unsure & block.bent_one & block.bent_other).nonzero()[0]
+    _, mine, theirs, _ = block.arcs.parts
+    one, other, begin = block.arcs.columns[:, mine], block.arcs.columns[:, theirs], len(unsure) - block.arcs.alike
+    both = unsure[begin:].nonzero()[0]
     if len(both):
-        one, other = block.one[CENTRE].take(both, axis=1), block.other[CENTRE].take(both, axis=1)
-        both = both[np.hypot(*(one - other)) <= ON_PATH]
-        angles = centre.angle[block.i[both]] + surface.angle[block.j[both]]
-        unsure[both] = _meet_twice(block, both, angles)
+        both = both[np.hypot(*(one[CENTRE].take(both, axis=1) - other[CENTRE].take(both, axis=1))) <= ON_PATH]
+        angles = centre.angle[block.i[begin + both]] + surface.angle[block.j[begin + both]]
+        unsure[begin + both] = _meet_twice(one.take(both, axis=1), other.take(both, axis=1), angles)
     return unsure
 
 
-def _meet_twice(block: _Block, rows: Rows, angles: Floats) -> Flags:
+def _meet_twice(arcs: Floats, others: Floats, angles: Floats) -> Flags:
     """Pairs of arcs about one centre, of so many radians together, that may overlap at both ends: the directions of
     their middles are no farther apart than half a turn."""
-    twice = angles >= tau - 2.0 * POINT
+    twice: Flags = angles >= tau - 2.0 * POINT
     some = twice.nonzero()[0]
     if len(some):
-        one, other = Columns(*block.one[:, rows[some]]), Columns(*block.other[:, rows[some]])
+        one, other = Columns(*arcs[:, some]), Columns(*others[:, some])
         cross = one.middle_x * other.middle_y - one.middle_y * other.middle_x
         dot = one.middle_x * other.middle_x + one.middle_y * other.middle_y
         twice[some] = angles[some] / 2.0 + np.arctan2(np.abs(cross), dot) >= tau - POINT
