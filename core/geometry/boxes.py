@@ -35,7 +35,8 @@ def near_pairs(first: Floats, second: Floats, reach: float) -> tuple[Rows, Rows]
     count = first.shape[1] * second.shape[1]
     if count <= AT_ONCE:
         others = grouped(second) if count > FEW else second
-        i, j = np.divmod(np.flatnonzero(_near(first[:, :, None], others[:, None, :], reach)), others.shape[1])
+        near = _near(first[:, :, None], others[:, None, :], reach).ravel()
+        i, j = np.divmod(near.nonzero()[0], others.shape[1])
         if count > FEW:
             i, j = _brood(i, j, second.shape[1])
         keep = reaching(first.take(i, axis=1), second.take(j, axis=1), reach).nonzero()[0]
@@ -159,7 +160,8 @@ def _tree(boxes: Floats, most: int) -> list[Floats]:
 def grouped(boxes: Floats) -> Floats:
     """The boxes around every FAN of these."""
     starts = np.arange(0, boxes.shape[1], FAN)
-    return np.vstack((np.minimum.reduceat(boxes[:2], starts, axis=1), np.maximum.reduceat(boxes[2:], starts, axis=1)))
+    around = np.minimum.reduceat(boxes[:2], starts, axis=1), np.maximum.reduceat(boxes[2:], starts, axis=1)
+    return np.concatenate(around)
 
 
 def children(i: Rows, j: Rows, first: int, second: int) -> tuple[Rows, Rows]:
@@ -172,7 +174,7 @@ def children(i: Rows, j: Rows, first: int, second: int) -> tuple[Rows, Rows]:
 def _brood(keep: Rows, grow: Rows, count: int) -> tuple[Rows, Rows]:
     """Each group in `grow` replaced by its members below `count`, its partner in `keep` repeated."""
     members = (grow[:, None] * FAN + np.arange(FAN)).ravel()
-    partners = np.repeat(keep, FAN)
+    partners = keep.repeat(FAN)
     real = members < count
     return partners[real], members[real]
 

@@ -98,8 +98,9 @@ def at_joints(surface: Measured, rows: Rows, following: Rows) -> Points:
 def _overlapping(bounds: Floats) -> Flags:
     """(n - 1,) boxes that share more with the next one than the surroundings of a joint, where neighbours are one."""
     shared = np.minimum(bounds[2:, 1:], bounds[2:, :-1]) - np.maximum(bounds[:2, 1:], bounds[:2, :-1])
-    wide: Flags = np.any(shared > 5.0 * JOINED, axis=0)
-    return wide
+    wide = shared > 5.0 * JOINED
+    either: Flags = wide[0] | wide[1]
+    return either
 
 
 def _turns_half_round(surface: Measured) -> bool:

@@ -108,6 +108,8 @@ def measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
         _measure_block(pairs, i[block], j[block], limit)
         for block in blocks(pairs.centre.arcs[i], pairs.surface.arcs[j])
     ]
+    if len(found) == 1:
+        return found[0]
     columns = zip(*((one.i, one.j, one.places, one.apart, one.limit) for one in found), strict=True)
     least = float(np.min([one.least for one in found]))
     return Approaches(least, *(np.concatenate(column, axis=-1) for column in columns))
