@@ -179,7 +179,7 @@ def _dashes(found: Chords, layers: Sequence[Layer], layer: Rows, chord: Rows, pa
     rows = dashed[layer].nonzero()[0]
     shown = np.ones(len(layer), np.bool_)
     own = chord[rows]
-    along = found.along[own] + part[rows] * np.abs(found.runs)[own]
+    along = found.along[own] + part[rows] * np.abs(found.runs[own])
     axis = layer[rows] == AXIS
     period, lit = np.where(axis, AXIS_DASH[0], DASH[0]), np.where(axis, AXIS_DASH[1], DASH[1])
     shown[rows] = np.mod(along + PHASE * axis, period) < lit

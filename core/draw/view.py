@@ -6,7 +6,6 @@ view stays the same when the mode of drawing changes.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Final
 
 from core.draw.scene import Box
@@ -40,14 +39,14 @@ class View:
         """Enlarged by `factor` about a point (mm), else the window's centre, between limits that still make sense."""
         scale = _held(self.scale / factor)
         if about is None:
-            return replace(self, scale=scale)
+            return View(self.centre, scale)
         (x, y), part = self.centre, 1.0 - scale / self.scale
         return View((x + part * (about[0] - x), y + part * (about[1] - y)), scale)
 
     def pan(self, dx: float, dy: float, columns: int, rows: int) -> View:
         """Moved over the part by fractions of the window: dx to the right, dy up."""
         x, y = self.centre
-        return replace(self, centre=(x + dx * columns * self.scale, y + dy * rows * TALL * self.scale))
+        return View((x + dx * columns * self.scale, y + dy * rows * TALL * self.scale), self.scale)
 
     def at(self, column: float, row: float, columns: int, rows: int) -> Point:
         """The point (mm) at a place in the window: (0, 0) is its top left, (0.5, 0.5) the first cell's middle."""
