@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from operator import attrgetter
+from typing import Final
 
 from core.comp.lookahead import HIGHEST, LOWEST, calculated
 from core.finding import Finding, Severity
@@ -70,8 +72,7 @@ def outline_block(number: int, block: Block, program: Program, before: DerivedBl
 
 def look_ahead(block: Block, solved: SolvedBlock) -> LookAhead:
     """The look-ahead in force: the operator's value, or the calculated one."""
-    told = (segment.findings for segment in solved.segments if segment.findings)
-    empty = sum(any(one.code == "ZERO_LENGTH" for one in findings) for findings in told)
+    empty = sum(one.code == "ZERO_LENGTH" for one in solved.every_finding)
     value = calculated(len(solved.segments) - empty, closed=solved.closed)
     match block.lookahead:
         case Entry(typed) if LOWEST <= typed <= HIGHEST:
@@ -85,6 +86,9 @@ def _heights(solved: SolvedBlock) -> Iterator[Finding]:
     if solved.z_start is None or solved.z_bottom is None:
         return
     high, low = solved.z_start + JOINED, solved.z_bottom - JOINED
+    # few contours end at more than one depth
+    if all(low <= depth <= high for depth in set(map(_depth, solved.segments))):
+        return
     for one in solved.segments:
         if low <= one.z_end <= high or not isinstance(one.values.get("z_end"), Entry):
             continue
@@ -94,6 +98,9 @@ def _heights(solved: SolvedBlock) -> Iterator[Finding]:
         elif one.z_end < low:
             text = "Z END {value} lies below Z BOTTOM {0}: no pass goes so deep. Enter Z END between Z START "
             yield _height(one.number, text + "and Z BOTTOM.", one.z_end, solved.z_bottom)
+
+
+_depth: Final = attrgetter("z_end")
 
 
 def _height(number: int, text: str, height: float, limit: float) -> Finding:

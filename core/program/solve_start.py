@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
+from typing import Final
+
 from core.finding import Finding, Severity
 from core.geometry.piece import Point
 from core.program.fields import Form, field
@@ -28,6 +31,14 @@ class Start:
     tool: Called
     finish: Called
     findings: tuple[Finding, ...]
+
+
+_typed: Final = attrgetter(*(name for name in Block.__match_args__ if name != "segments"))
+
+
+def made_of(block: Block, program: Program) -> tuple[object, ...]:
+    """All that START of a block depends on."""
+    return *_typed(block), program.tools, program.unit, not block.segments
 
 
 def solve_start(block: Block, program: Program) -> Start:

@@ -7,7 +7,9 @@ it into something typed.  Needs no numpy.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from itertools import chain
+from operator import attrgetter
+from typing import TYPE_CHECKING, Final
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Piece, Point
@@ -15,7 +17,7 @@ from core.program.model import Entry, Unread
 from core.records import dataclass, field
 
 if TYPE_CHECKING:
-    from core.program.assist import Draft
+    from core.program.assist import Making
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +28,8 @@ class Solved:
 
 
 Value = Entry | Solved | Unread | None
+
+_findings: Final = attrgetter("findings")
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,15 +79,15 @@ class SolvedBlock:
     speed: float | None
     peck_depth: float
     findings: tuple[Finding, ...]
+    making: Making = field(compare=False)
+    """What it was made of, for the block that an edit makes of this one."""
     pieces: tuple[tuple[int, Piece], ...] = ()
     """(segment number, piece) of the determined surface from START on; segments without length are passed over."""
-    drafts: tuple[Draft, ...] = field(default=(), compare=False)
-    """What each segment is by itself, for the block that an edit makes of this one."""
 
     @property
     def every_finding(self) -> tuple[Finding, ...]:
         """Findings of START and of all segments."""
-        return self.findings + tuple(finding for segment in self.segments for finding in segment.findings)
+        return (*self.findings, *chain.from_iterable(map(_findings, self.segments)))
 
     @property
     def whole(self) -> bool:
