@@ -6,7 +6,7 @@ n + 1 points, so that it is joined by construction.  Millimetres and radians, ri
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import tau
 from typing import Final
@@ -75,6 +75,17 @@ class Path:
             np.array(turns, np.int8),
             np.array(given, np.float64),
         )
+
+    def altered(self, others: Iterable[tuple[int, float, Piece]]) -> Path:
+        """The path with other pieces in some rows, each with its number; they too join those beside them."""
+        points, centres = self.points.copy(), self.centres.copy()
+        turns, numbers = self.turns.copy(), self.numbers.copy()
+        for row, number, piece in others:
+            if row == 0:
+                points[0] = piece.start
+            points[row + 1], numbers[row] = piece.end, number
+            centres[row], turns[row] = (piece.centre, piece.turn) if isinstance(piece, Arc) else (piece.start, 0)
+        return Path(points, centres, turns, numbers)
 
     def __len__(self) -> int:
         return len(self.turns)

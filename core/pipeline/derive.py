@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import compress, count
+from operator import is_not
 from typing import Final
 
 from core.comp.best import best_path, separation
@@ -39,7 +41,7 @@ def derive_block(number: int, block: Block, program: Program, before: Derived | 
     if not found.solved.pieces or found.radius is None:
         return found
     if old is None or then is None or old.work is None or _cuts(found, program) != _cuts(old, then):
-        return _told(found, _worked(found, program), program)
+        return _told(found, _worked(found, program, old), program)
     return _told(found, old.work, program)
 
 
@@ -56,9 +58,19 @@ def _cuts(found: DerivedBlock, program: Program) -> tuple[object, ...]:
     return (*shape, found.radius, solved.tool_diameter, solved.finish_diameter, program.parameters, program.unit)
 
 
-def _worked(found: DerivedBlock, program: Program) -> Work:
-    numbers, pieces = zip(*found.solved.pieces, strict=True)
-    surface = Path.from_pieces(pieces, numbers)
+def _surface(found: DerivedBlock, old: DerivedBlock | None) -> Path:
+    """The surface; where an edit left nearly all of its pieces the objects they were, the others are put into it."""
+    new = found.solved.pieces
+    if old is not None and old.work is not None and len(old.solved.pieces) == len(new):
+        rows = [*compress(count(), map(is_not, new, old.solved.pieces))]
+        if 4 * len(rows) < len(new):
+            return old.work.surface.altered((row, *new[row]) for row in rows)
+    numbers, pieces = zip(*new, strict=True)
+    return Path.from_pieces(pieces, numbers)
+
+
+def _worked(found: DerivedBlock, program: Program, old: DerivedBlock | None) -> Work:
+    surface = _surface(found, old)
     if found.side is None:
         return Work(surface, (Loop(surface, EMPTY, EMPTY),), None, None)
     assert found.radius is not None
