@@ -118,7 +118,8 @@ class Crossed:
         chain, candidates = self.found
         last_wins = self.asked.closed and len(self.asked.contour) == 2
         made = {} if known is None else dict(zip(candidates.counts([known.lookahead]), [known], strict=True))
-        counts = candidates.counts(lookaheads)
+        # one that is alone shares its path with none
+        counts = candidates.counts(lookaheads) if made or len(lookaheads) > 1 else [0] * len(lookaheads)
         for value, count in zip(lookaheads, counts, strict=True):
             if count not in made:
                 pruned = prune(chain, candidates.joints, candidates.within(value), last_wins=last_wins)

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.comp.offset import Chain, Part, stacked
-from core.geometry.intersect import Indices, Masks, Meeting, Meetings, Planes, meet, planes
-from core.geometry.path import Floats, Turns
+from core.geometry.intersect import Indices, Masks, Meeting, Meetings, Planes, coordinates, meet, planes
+from core.geometry.path import Floats, Path, Turns
 from core.tolerance import ON_PATH
 
 _STRETCH: Final = 8192
@@ -74,12 +74,13 @@ def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
     Tangent touches of pieces that are not neighbours are left out: a cutter that just fits passes.  The first and
     the last segment of a closed contour are never tested against each other, unless they are neighbours.
     """
-    bounds = [*range(0, len(chain), _STRETCH), len(chain)]
+    partners = (chain.parts <= Part.CORNER.value).nonzero()[0]
+    bounds = [*range(0, max(len(partners), 1), _STRETCH), len(partners)]
     joints, others = [], []
     for first, last in pairwise(bounds):
-        a, b = _pairs(chain, first, last, 2 * lookahead)
+        a, b = _pairs(chain, partners, first, last, 2 * lookahead)
         joint = (b - a == 2) & (chain.parts[b - 1] == Part.BRIDGE.value)
-        if closed:
+        if closed and chain.places[-1] - chain.places[0] <= 2 * lookahead:
             tested = joint | (a > 0) | (b < len(chain) - 1)
             a, b, joint = a[tested], b[tested], joint[tested]
         met = meet(chain.raw, a, chain.raw, b)
@@ -114,57 +115,60 @@ def _found(met: Meetings, a: Indices, b: Indices, chosen: Masks) -> Crossings:
     )
 
 
-def _pairs(chain: Chain, first: int, last: int, reach: int) -> tuple[Indices, Indices]:
-    """Pairs a < b, b in first ... last - 1, not next to each other, within reach and with boxes that meet.
+def _pairs(chain: Chain, partners: Indices, first: int, last: int, reach: int) -> tuple[Indices, Indices]:
+    """Pairs a < b of `partners`, not next to each other in the chain, within reach and with boxes that meet.
 
-    Each row of the comparison is one distance b - a in the chain, most distant first.
+    b are the partners first ... last - 1.  Each row of the comparison is one distance among them, most distant first.
     """
-    places = chain.places
-    farthest = places.searchsorted(places[first:last] - reach)
-    window = int((np.arange(first, last) - farthest).max())
-    if window < 2:
+    # no two have the same place: there are no more within reach
+    before = min(first, reach)
+    rows = partners[first - before : last]
+    places = chain.places[rows]
+    farthest = places.searchsorted(places[before:] - reach)
+    window = int((np.arange(before, len(rows)) - farthest).max(initial=0))
+    if not window:
         return np.empty(0, np.intp), np.empty(0, np.intp)
-    boxes = _boxes(chain, first - window, last)
+    boxes = _boxes(chain.raw, rows[max(before - window, 0) :], max(window - before, 0))
     meeting = _shifted(boxes[0], window) <= boxes[2, window:]
     meeting &= _shifted(boxes[2], window) >= boxes[0, window:]
     meeting &= _shifted(boxes[1], window) <= boxes[3, window:]
     meeting &= _shifted(boxes[3], window) >= boxes[1, window:]
-    b, a = np.divmod(meeting.T.ravel().nonzero()[0], window - 1)
-    b += first
+    b, a = np.divmod(meeting.T.ravel().nonzero()[0], window)
+    b += before
     a += b - window
     near = places[b] - places[a] <= reach
+    a, b = rows[a], rows[b]
+    near &= b - a > 1
     return a[near], b[near]
 
 
 def _shifted(values: Floats, window: int) -> Floats:
-    """(window - 1, k) view of (window + k,) values: row i is shifted by i."""
+    """(window, k) view of (window + k,) values: row i is shifted by i."""
     count = len(values) - window
-    return np.ndarray((window - 1, count), np.float64, values, 0, (values.itemsize, values.itemsize))
+    return np.ndarray((window, count), np.float64, values, 0, (values.itemsize, values.itemsize))
 
 
-def _boxes(chain: Chain, first: int, last: int) -> Floats:
-    """(4, last - first) boxes that hold the pieces: least x, least y, largest x, largest y.
+def _boxes(raw: Path, rows: Indices, pad: int) -> Floats:
+    """(4, pad + len(rows)) boxes that hold these pieces: least x, least y, largest x, largest y.
 
-    Pieces that are no partners, and rows before the chain's first, get the empty box.
+    The first `pad` are empty.
     """
-    begin, pad = max(first, 0), max(-first, 0)
-    points, turns = planes(chain.raw.points)[begin : last + 1], chain.raw.turns[begin:last]
-    boxes = np.empty((4, last - first))
+    points, turns = planes(raw.points), raw.turns[rows]
+    start, end = points[rows], points[rows + 1]
+    boxes = np.empty((4, pad + len(rows)))
     boxes[:2, :pad], boxes[2:, :pad] = np.inf, -np.inf
-    for axis, at in enumerate((points.real, points.imag)):
-        np.minimum(at[:-1], at[1:], out=boxes[axis, pad:])
-        np.maximum(at[:-1], at[1:], out=boxes[axis + 2, pad:])
+    both = coordinates(start).T, coordinates(end).T
+    np.minimum(*both, out=boxes[:2, pad:])
+    np.maximum(*both, out=boxes[2:, pad:])
     arcs = turns.nonzero()[0]
     if len(arcs):
-        lift, beyond = _lifts(points[arcs], points[arcs + 1], planes(chain.raw.centres)[begin:last][arcs], turns[arcs])
+        lift, beyond = _lifts(start[arcs], end[arcs], planes(raw.centres)[rows[arcs]], turns[arcs])
+        up = coordinates(lift).T
         arcs += pad
-        for axis, up in enumerate((lift.real, lift.imag)):
-            boxes[axis, arcs] += np.minimum(up, 0.0) - beyond
-            boxes[axis + 2, arcs] += np.maximum(up, 0.0) + beyond
+        boxes[:2, arcs] += np.minimum(up, 0.0) - beyond
+        boxes[2:, arcs] += np.maximum(up, 0.0) + beyond
     boxes[:2] -= ON_PATH
     boxes[2:] += ON_PATH
-    none = (chain.parts[begin:last] > Part.CORNER.value).nonzero()[0] + pad
-    boxes[:2, none], boxes[2:, none] = np.inf, -np.inf
     return boxes
 
 
@@ -178,5 +182,5 @@ def _lifts(start: Planes, end: Planes, centre: Planes, turns: Turns) -> tuple[Pl
     radius, half = np.abs(first), np.abs(chord) / 2.0
     small = ((first.conj() * last).imag * turns > 0.0) & (half > 0.0)
     height = radius - np.sqrt(np.maximum((radius - half) * (radius + half), 0.0))
-    lift = -1j * turns * chord * np.where(small, height / np.where(small, 2.0 * half, 1.0), 0.0)
+    lift = -1j * turns * chord * np.divide(height, 2.0 * half, out=np.zeros(len(half)), where=small)
     return lift, np.abs(np.abs(last) - radius) + np.where(small, 0.0, 2.0 * radius)

@@ -158,6 +158,6 @@ def _joints(beside: _Beside, sign: int, radius: float, count: int) -> tuple[Indi
 def _close_circles(points: Planes, contour: Path, places: NDArray[np.int32]) -> None:
     """Keep full circles full where the next piece's start was taken for their end: equal ends are what makes them."""
     ends = planes(contour.points)
-    circles = ((contour.turns != 0) & (ends[1:] == ends[:-1])).nonzero()[0]
+    circles = (ends[1:] == ends[:-1]).nonzero()[0]
     for row in places.searchsorted(2 * circles)[::-1].tolist() if len(circles) else ():
         points[row] = points[row + 1]

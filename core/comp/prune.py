@@ -68,7 +68,7 @@ def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, 
 
 def _what_is_left(chain: Chain, left: Left) -> tuple[Path, tuple[Masks, Indices]]:
     """The path of the pieces that still stand; which of them are bridges, and their rows in the chain."""
-    alive = ((np.frombuffer(left.gone, np.uint8) == 0) & (left.standing != 0)).nonzero()[0]
+    alive = (left.standing > np.frombuffer(left.gone, np.uint8)).nonzero()[0]
     starts = np.concatenate((left.starts[alive], planes(chain.raw.points)[-1:]))
     real = _not_slivers(chain, left, alive, starts)
     if not real.all():
@@ -108,11 +108,12 @@ def _deletions(chain: Chain, others: Crossings, met: Indices) -> Deletions:
         return Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))
     a, b = others.a[met], others.b[met]
     between = b - a - 1
-    event = np.repeat(np.arange(len(met), dtype=np.int32), between)
-    piece = np.arange(len(event), dtype=np.int32) + (b - np.cumsum(between, dtype=np.int32))[event]
+    event = np.arange(len(met), dtype=np.int32).repeat(between)
+    piece = np.arange(len(event), dtype=np.int32) + (b - between.cumsum(dtype=np.int32))[event]
     spanned = np.full(len(chain), -1, np.int32)
     spanned[piece[::-1]] = event[::-1]
     deleted = ((spanned >= 0) & (chain.places % 2 == 0)).nonzero()[0]
     event, numbers = spanned[deleted], chain.raw.numbers
-    by = np.stack((numbers[a[event]], numbers[b[event]]), axis=1)
+    by = np.empty((len(event), 2))
+    by[:, 0], by[:, 1] = numbers[a[event]], numbers[b[event]]
     return Deletions(numbers[deleted], by, coordinates(others.points[met[event]]))

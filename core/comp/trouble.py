@@ -136,8 +136,14 @@ def long_way(contour: Path, pruned: Pruned) -> list[Finding]:
     deleted = pruned.deleted.segments
     if not len(deleted):
         return []
+    rows = _rows(contour.numbers, deleted)
+    points = planes(contour.points)
+    lines = np.where(contour.turns == 0, np.abs(points[1:] - points[:-1]), 0.0)
+    if not contour.turns[rows].any() and lines[rows].sum() <= lines.sum() / 2.0:
+        # so it is with the arcs, which take longer to measure
+        return []
     lengths = contour.lengths
-    erased = float(lengths[_rows(contour.numbers, deleted)].sum())
+    erased = float(lengths[rows].sum())
     if erased <= lengths.sum() / 2.0:
         return []
     text = f"The look-ahead deletes the longer way round: {spoken(deleted)}, {{value}} of surface."

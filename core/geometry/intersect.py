@@ -132,7 +132,8 @@ def _lines(a: Pieces, b: Pieces) -> _Solved:
     on = (_within(along_a, length_a) & _within(along_b, length_b) & ~parallel).nonzero()[0]
     rests = (length_a - along_a)[on], (length_b - along_b)[on]
     found = _Points(on, along_a[on], along_b[on], *rests, (a.start + part * span_a)[on])
-    kinds = _kinds(len(cross), on, parallel)
+    kinds = np.zeros(len(cross), np.int8)
+    kinds[on] = Meeting.CROSS.value
     rows = (parallel & (length_a > 0.0) & (length_b > 0.0)).nonzero()[0]
     if len(rows):
         kinds[rows], touches = _parallel(_taken(a, rows), _taken(b, rows))
