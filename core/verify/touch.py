@@ -106,8 +106,9 @@ def touches(centre: Course, i: Rows, surface: Course, j: Rows, radius: float, gr
     found = _blank(len(i))
     for rows, block in _blocks(centre, i, surface, j):
         within, places = _measure(found, rows, block, limit[rows])
-        found.first[rows], found.last[rows] = _hull(within, places, block, centre.pieces, surface.pieces)
-        found.unsure[rows] = _unsure(found, rows, block, centre.pieces, surface.pieces)
+        first, last = _hull(within, places, block, centre.pieces, surface.pieces)
+        found.first[rows], found.last[rows] = first, last
+        found.unsure[rows] = _unsure(last - first, block, centre.pieces, surface.pieces)
     np.logical_or(found.unsure, found.apart < radius - grant, out=found.unsure)
     return found
 
@@ -230,18 +231,19 @@ def _hull(within: Flags, places: Floats, block: _Block, centre: Measured, surfac
         end, row = (within[2:] & block.bent[1]).nonzero()
         if len(row):
             i, j = block.i[row], block.j[row]
-            places[end + 2, row] = foot(surface.take(j), centre.start[i] + end * centre.vector[i])
+            places[end + 2, row] = foot(surface.take(j), centre.start.take(i) + end * centre.vector.take(i))
     first: Floats = np.where(within, places, NONE).min(axis=0)
     last: Floats = np.where(within, places, -NONE).max(axis=0)
     return first, last
 
 
-def _unsure(found: Touches, rows: Rows, block: _Block, centre: Measured, surface: Measured) -> Flags:
-    """Touches with arcs that are more than a point, unless both arcs are about one centre and overlap but once."""
+def _unsure(share: Floats, block: _Block, centre: Measured, surface: Measured) -> Flags:
+    """Touches with arcs that are more than a point, such a `share` of the surface piece, unless both arcs are about one
+    centre and overlap but once."""
     unsure: Flags = block.bent[0] | block.bent[1]
     if not unsure.any():
         return unsure
-    unsure &= (found.last[rows] - found.first[rows]) * surface.length[block.j] > POINT
+    unsure &= share * surface.length.take(block.j) > POINT
     _, mine, theirs, _ = block.arcs.parts
     one, other, begin = block.arcs.columns[:, mine], block.arcs.columns[:, theirs], len(unsure) - block.arcs.alike
     both = unsure[begin:].nonzero()[0]
