@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 QUIET: Final = 0.05
 """Seconds without a key behind which a half-typed number is advised on: that takes longer than a picture."""
-AT_ONCE: Final = 0.1
+AT_ONCE: Final = 0.05
 """The part of the engine's limit for which a path waits for its table: a picture of their own takes no less."""
 ONE_PICTURE: Final = 0.5
 """The part of it in which path and table come together: what was measured may have been a smaller contour's."""

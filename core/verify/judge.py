@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from core.geometry.boxes import near_pairs
 from core.geometry.measured import Floats, Measured
 from core.geometry.path import Path
 from core.geometry.side import Side
@@ -138,6 +139,8 @@ def _nothing_to_cut(radius: float) -> Verdict:
 
 def _ruled(ground: Ground, side: Side, radius: float, centre: Path, moves: Course) -> Ruling:
     """Not clean where any pair is too near: a path with few pairs is then judged when its verdict is read."""
+    if _cuts_in(moves, ground.walls, radius):
+        return Ruling(partial(_again, ground, side, radius, centre), clean=False)
     measured = _measured(ground, side, radius, centre.numbers, moves)
     if measured is None:
         return Ruling.of(_unjudged(radius))
@@ -147,12 +150,25 @@ def _ruled(ground: Ground, side: Side, radius: float, centre: Path, moves: Cours
     return Ruling.of(_judged(ground, side, radius, centre.numbers, measured))
 
 
+def _cuts_in(moves: Course, walls: Course, radius: float) -> bool:
+    """Whether a corner of the path is too near to one of the surface, which most paths that gouge tell at a glance.
+
+    The pairs of both are then measured when the verdict is read.  What rounding leaves open is not told here.
+    """
+    limit = radius - 2.0 * GOUGE - float(walls.pieces.slack.max() + moves.pieces.slack.max(initial=0.0))
+    if limit <= 0.0:
+        return False
+    i, j = near_pairs(moves.boxes, walls.boxes, limit)
+    if len(i) > FEW_PAIRS:
+        return False
+    return bool((np.abs(moves.pieces.start.take(i) - walls.pieces.start.take(j)) < limit).any())
+
+
 @np.errstate(all="ignore")
 def _again(ground: Ground, side: Side, radius: float, centre: Path) -> Verdict:
     (moves,) = courses((centre,))
     measured = _measured(ground, side, radius, centre.numbers, moves)
-    assert measured is not None
-    return _judged(ground, side, radius, centre.numbers, measured)
+    return _unjudged(radius) if measured is None else _judged(ground, side, radius, centre.numbers, measured)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

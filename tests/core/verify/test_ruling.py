@@ -14,6 +14,7 @@ from tests.core.verify.shapes import lines, square
 PLATE = square(40.0)
 AROUND = lines((-3, -3), (43, -3), (43, 43), (-3, 43), (-3, -3))
 THROUGH = lines((-3, -3), (43, 2), (43, 43))
+CORNER = lines((-3, -3), (-1, -1), (43, -3))
 
 
 class Completing:
@@ -53,17 +54,38 @@ def test_of_a_path_that_gouges_nothing_more_is_worked_out_before_it_is_read(monk
     assert through.complete() is through.verdict
 
 
+def test_a_path_with_a_corner_too_near_to_one_of_the_surface_is_not_measured_before_it_is_read(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(judging, "pairs_of", None)
+    (ruling,) = rulings(PLATE, Side.RIGHT, 3.0, (CORNER,))
+    assert not ruling.clean
+    with pytest.raises(TypeError):
+        rulings(PLATE, Side.RIGHT, 3.0, (AROUND,))
+    monkeypatch.undo()
+    assert ruling.verdict.gouges == judge(PLATE, Side.RIGHT, 3.0, CORNER).gouges != ()
+
+
+def test_a_path_that_turns_out_to_be_unjudged_when_it_is_read_is_told_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    (ruling,) = rulings(PLATE, Side.RIGHT, 3.0, (CORNER,))
+    monkeypatch.setattr(judging, "_measured", lambda *_: None)
+    assert not ruling.clean
+    assert not ruling.verdict.judged
+    assert not ruling.verdict.clean
+
+
 def test_of_a_path_with_many_pairs_everything_is_known_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(judging, "FEW_PAIRS", 2)
-    (through,) = rulings(PLATE, Side.RIGHT, 3.0, (THROUGH,))
+    many = rulings(PLATE, Side.RIGHT, 3.0, (THROUGH, CORNER))
     monkeypatch.setattr(judging, "uncut", None)
-    assert through.verdict.gouges
+    assert all(one.verdict.gouges for one in many)
 
 
 @pytest.mark.parametrize("radius", [0.0, 1.0, 3.0, 3.5, float("nan")])
 @pytest.mark.parametrize("side", list(Side))
 def test_what_it_says_at_once_the_verdict_says_too(side: Side, radius: float) -> None:
-    for ruling, path in zip(rulings(PLATE, side, radius, (AROUND, THROUGH)), (AROUND, THROUGH), strict=True):
+    paths = (AROUND, THROUGH, CORNER)
+    for ruling, path in zip(rulings(PLATE, side, radius, paths), paths, strict=True):
         alone = judge(PLATE, side, radius, path)
         assert ruling.clean is alone.clean
         assert ruling.verdict.clean is alone.clean
