@@ -19,7 +19,7 @@ from core.geometry.planes import planes
 from core.records import dataclass
 from core.tolerance import ARC_RADII, ON_PATH
 
-FEW: Final = 300
+FEW: Final = 500
 """Pieces for which working out both formulas costs less than parting lines from arcs."""
 
 BLOCK: Final = 16_000
