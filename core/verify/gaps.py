@@ -138,7 +138,8 @@ def _to_arcs(parts: GapParts, bends: _Bends, corner: Points, apart: Floats) -> t
     rows, arc = bends.rows, bends.arc
     away = arc.centre - corner[parts.owner[rows]]
     s, size = bends.start + travelled(arc, away) * arc.radius, np.abs(away)
-    inner = ((s > parts.s[rows]) & (s < parts.s[rows + 1])).nonzero()[0]
+    # about its own centre all of an arc is equally far
+    inner = ((s > parts.s[rows]) & (s < parts.s[rows + 1]) & (size > 0.0)).nonzero()[0]
     places, points, chosen = parts.s.copy(), parts.points.copy(), rows[inner]
     places[chosen], apart[chosen] = s[inner], (size + arc.radius)[inner]
     points[chosen] = (arc.centre + away / size * arc.radius)[inner]
@@ -212,7 +213,8 @@ def _proved(pairs: Pairs, near: Rows, bound: Bound, radius: float) -> Flags:
     k, i = _moves_about(
         pairs, np.array((x - apart, y - apart, x + apart, y + apart)), _at_joints(pairs, near[:, rows], some)
     )
-    nearer = distance(pairs.centre.take(i), some.point[k]) < apart[k] - FINE
+    # of what is no number nothing is proved
+    nearer = ~(distance(pairs.centre.take(i), some.point[k]) >= apart[k] - FINE)
     proved[rows[k[nearer]]] = False
     return proved
 
