@@ -67,7 +67,7 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self.around = around or real()
         self.engine = engine or Engine()
         self.advice, self.surveying = Advice.of(self), Surveying.of(self)
-        # when the last key came, and the surroundings when a key asked for them last
+        # when the last key came and when one asked for the surroundings, and these as they are told
         self.touched, self.asked, self.then = 0.0, 0.0, self.around.now()
         self._loading = Behind(self, self._loaded)
         self._deriving = Behind(self, self._derived)
@@ -105,11 +105,11 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self._loading.ask(lambda: self.engine.load(program))
 
     async def on_event(self, event: events.Event) -> None:
-        """A key goes to the desk at once: by way of the screen's queue it would take another turn of the loop."""
-        frame = self.screen_stack[-1] if self.screen_stack else None
-        # what waits for the screen, such as pasted text, was typed before it
-        if isinstance(event, events.Key) and frame is not None and frame.is_mounted and not frame.message_queue_size:
+        """Keys and pasted text go to the desk as they come: in the screen's queue they would wait for another turn."""
+        if isinstance(event, events.Key):
             self.key(event.key, event.character)
+        elif isinstance(event, events.Paste):
+            self.paste(event.text)
         else:
             await super().on_event(event)
 
@@ -118,20 +118,21 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         self._touch()
         if key == AGAIN:
             self.paint_again()
-            return
-        if not heard(self.desk, key, *self.size):
-            return
-        self.desk = self.keep(self.desk.press(key, character))
-        self._wait_for_digit()
-        self._advance()
+        elif self._heard(key):
+            self.desk = self.keep(self.desk.press(key, character))
+            self._wait_for_digit()
+            self._advance()
 
     def paste(self, text: str) -> None:
         """Text was pasted."""
         self._touch()
-        if not heard(self.desk, "", *self.size):
-            return
-        self.desk = self.keep(self.desk.paste(text))
-        self._advance()
+        if self._heard(""):
+            self.desk = self.keep(self.desk.paste(text))
+            self._advance()
+
+    def _heard(self, key: str) -> bool:
+        """Whether a key, or pasted text as an empty one, may do anything: behind the key that leaves none does."""
+        return not self.desk.exit and heard(self.desk, key, *self.size)
 
     def _touch(self) -> None:
         now = perf_counter()

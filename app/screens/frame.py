@@ -31,24 +31,13 @@ PASSING: Final = frozenset({"escape", "ctrl+q"})
 
 
 class Frame(Screen[None], inherit_bindings=False, inherit_css=False):
-    """One widget over the whole terminal.  Nothing takes the focus: keys go to the App, the cursor is the session's."""
+    """One widget over the whole terminal.  Nothing takes the focus: keys are the App's, the cursor the session's."""
 
     app: CutcompApp
 
     def compose(self) -> ComposeResult:
         """The widget with the first picture in it: one layout, one painting."""
         yield Rows(self.app.picture(self.app.size.width, self.app.size.height))
-
-    def on_key(self, event: events.Key) -> None:
-        """Every key goes to the desk."""
-        event.stop()
-        event.prevent_default()
-        self.app.key(event.key, event.character)
-
-    def on_paste(self, event: events.Paste) -> None:
-        """Pasted text is typed."""
-        event.stop()
-        self.app.paste(event.text)
 
     def on_resize(self, event: events.Resize) -> None:
         """Another terminal size: everything in its new place."""

@@ -136,6 +136,20 @@ async def test_another_key_ends_the_wait(monkeypatch: pytest.MonkeyPatch) -> Non
         assert app._arming is None
 
 
+async def test_a_second_esc_counts_from_its_own_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.application.ARMED_FOR", 0.4)
+    app = app_on("pocket")
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        await pilot.press("escape")
+        first = app._arming
+        await pilot.press("tab", "escape")
+        assert first is not None
+        assert first.cancelled()
+        assert app._arming is not None
+        assert not app._arming.cancelled()
+
+
 async def _disarmed(pilot: Pilot[int]) -> None:
     while pilot.app.desk.armed:  # type: ignore[attr-defined]
         await asyncio.sleep(0.01)

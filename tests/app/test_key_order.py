@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+from math import inf
+from pathlib import Path
+
 import pytest
-from textual.events import Key, Paste
+from textual.events import Event, Key, Paste
 from textual.pilot import Pilot
 
 from app.application import CutcompApp
+from app.engine import Engine
+from app.files import example, opened
 from app.screens.forms import FormPage
 from app.widgets.field import Editing
-from tests.app.pilots import app_on, at_rest, loaded
+from tests.app.operator import FROZEN
+from tests.app.pilots import app_on, at_rest, loaded, until
 
 TO_X_END = ("1", "enter", "tab")
 
@@ -43,9 +49,26 @@ async def test_a_key_takes_no_turn_in_the_screen_s_queue() -> None:
     app = app_on("pocket")
     async with app.run_test(size=(80, 24)) as pilot:
         await _typing(pilot, app)
-        key = Key("7", "7")
-        await app.on_event(key)
-        assert not key.is_forwarded
+        await app.on_event(Key("7", "7"))
         page = app.desk.page
         assert isinstance(page, FormPage)
         assert page.editing == Editing.of("7")
+
+
+@pytest.mark.parametrize("behind", [Key("s", "s"), Paste("s")])
+async def test_what_comes_behind_the_key_that_leaves_does_nothing(tmp_path: Path, behind: Event) -> None:
+    path = tmp_path / "p.toml"
+    path.write_text(example("pocket").read_text())
+    app = CutcompApp(opened(path), FROZEN, Engine(limit=inf))
+    async with app.run_test(size=(80, 24)) as pilot:
+        await loaded(pilot)
+        await pilot.press("enter", "tab", "tab", "tab", "9", "enter")
+        assert app.desk.session.unsaved
+        for message in (Key("ctrl+q", None), Key("l", "l"), behind):
+            app.post_message(message)
+        await until(pilot, lambda: app.return_code is not None)
+        desk = app.desk
+        app.key("s", "s")
+        app.paste("s")
+        assert app.desk is desk
+    assert path.read_text() == example("pocket").read_text()
