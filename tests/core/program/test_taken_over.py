@@ -88,3 +88,20 @@ def test_start_is_taken_over_only_from_the_same():
         after = solved(other, before)
         assert after.making.start is not before.making.start
         assert after == solved(other)
+
+
+def test_a_blend_that_does_not_fit_is_told_anew_where_its_neighbour_is_another():
+    part = program(SIDES[0], blend(9.0), *SIDES[1:])
+    before = solved(part)
+    other = edited(part, ("change", 2, line(x_end=4.0, y_end=1.0)))
+    assert solved(other, before) == solved(other)
+    fitting = edited(part, ("change", 1, blend(0.5)))
+    assert solved(part, solved(fitting)) == before
+    assert solved(other, solved(fitting, before)) == solved(other)
+
+
+def test_a_blend_behind_an_undetermined_segment_is_told_anew_where_it_is_last_no_more():
+    part = program(line(), blend(0.5))
+    after = edited(part, ("put in", 2, SIDES[0]))
+    assert solved(after, solved(part)) == solved(after)
+    assert solved(part, solved(after)) == solved(part)
