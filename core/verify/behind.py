@@ -6,6 +6,7 @@ beyond which there is no side.  Parted there it has one side in each part: that 
 
 from __future__ import annotations
 
+from math import inf
 from typing import Final
 
 import numpy as np
@@ -70,9 +71,9 @@ def parted(pairs: Pairs, near: Approaches, found: Gouging, sides: Sided, radius:
     return parts if sides.endless else _parts(parts, _between_arms(pairs, parts, sides, radius))
 
 
-def behind(pairs: Pairs, runs: Stretches) -> Behind:
+def behind(pairs: Pairs, runs: Stretches, radius: float) -> Behind:
     """Of `runs`, parts on the part's side, parted at the joints within them, what is more than GOUGE there."""
-    return _deepest(pairs, _parts(runs, pairs.centre_stations[1:-1])) if len(runs) else NOWHERE
+    return _deepest(pairs, _parts(runs, pairs.centre_stations[1:-1]), radius) if len(runs) else NOWHERE
 
 
 def deepened(found: Gouging, inside: Behind, radius: float, slack: float) -> Gouging:
@@ -225,13 +226,13 @@ def _wrong(pairs: Pairs, s: Floats, sides: Sided, radius: float) -> Flags:
     return on_part_side(pairs, *_nearest(pairs, s, radius), sides)
 
 
-def _deepest(pairs: Pairs, parts: Stretches) -> Behind:
+def _deepest(pairs: Pairs, parts: Stretches, radius: float) -> Behind:
     """Of each part the place farthest inside, without those that are nowhere farther than GOUGE."""
     middle = (parts.first + parts.last) / 2.0
-    far = farthest(pairs.centre, parts, pairs.surface, pairs.surface_boxes, np.full((2, len(parts)), -1), np.inf)
+    # what gouges is nowhere farther from the surface
+    most = radius - GOUGE if radius > GOUGE else inf
+    far = farthest(pairs.centre, parts, pairs.surface, pairs.surface_boxes, most=most, tie=ON_PATH)
     keep = far.apart > GOUGE
-    middle, where, apart = middle[keep], far.place[keep], far.apart[keep]
+    middle = middle[keep]
     index = pairs.centre_stations[1:-1].searchsorted(middle, side="right")
-    on, t = place(pairs.centre, pairs.centre_stations, where)
-    near = nearest(at(pairs.centre.take(on), t), pairs.surface, pairs.surface_boxes, tie=ON_PATH)
-    return Behind(index, middle, where, apart, near.j[near.k.searchsorted(np.arange(len(where)))])
+    return Behind(index, middle, far.place[keep], far.apart[keep], far.near[keep])

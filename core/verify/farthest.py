@@ -9,6 +9,7 @@ nearer there, that is at once.
 
 from __future__ import annotations
 
+from math import inf
 from typing import Final
 
 import numpy as np
@@ -38,10 +39,12 @@ LEAST_SHARE: Final = 1e-3
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Farthest:
-    """(k,) for each stretch the place, in length travelled, that is farthest from the other path, and how far it is."""
+    """(k,) for each stretch the place, in length travelled, that is farthest from the other path, how far it is, and
+    the first of the other path's pieces that are nearest to it."""
 
     place: Floats
     apart: Floats
+    near: Rows
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -62,19 +65,23 @@ class _Spans:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Search:
-    """The path that is walked, its stations, the other path and its boxes; `give` is for rounding and uneven arcs."""
+    """The path that is walked, its stations, the other path and its boxes; `give` is for rounding and uneven arcs.
+
+    Of pieces that are equally near, within `tie`, the first one is told.
+    """
 
     walked: Measured
     stations: Floats
     other: Measured
     bounds: Floats
     give: float
+    tie: float
 
     def look(self, s: Floats, known: Floats) -> tuple[Floats, Rows]:
-        """Distance of each place from the other path, no larger than `known`, and the piece it is nearest to."""
-        found = nearest(self.points(s), self.other, self.bounds, known=known + self.give)
+        """Distance of each place from the other path, no larger than `known`, and the first piece it is nearest to."""
+        found = nearest(self.points(s), self.other, self.bounds, tie=self.tie, known=known + self.give)
         first = found.k.searchsorted(np.arange(len(s)))
-        return found.apart[first], found.j[first]
+        return np.minimum.reduceat(found.apart, first), found.j[first]
 
     def look_or_measure(self, s: Floats, near: Rows, known: Floats) -> tuple[Floats, Rows]:
         """The same, where `near` is -1; elsewhere the nearest piece is `near`."""
@@ -99,17 +106,32 @@ class _Search:
 
 
 def farthest(
-    walked: Measured, stretches: Stretches, other: Measured, around: Floats, near: Rows, ends: float
+    walked: Measured,
+    stretches: Stretches,
+    other: Measured,
+    around: Floats,
+    *,
+    near: Rows | None = None,
+    ends: float = inf,
+    most: float = inf,
+    tie: float = 0.0,
 ) -> Farthest:
     """The largest distance from `other`, within FINE, on each stretch of `walked`; `other` has at least one piece.
 
     `around` are the boxes of `other`.
     `near` (2, k) are the pieces of `other` nearest to the stretches' ends, -1 where unknown; where they are known the
-    distance is at most `ends`.
+    distance is at most `ends`.  No distance is larger than `most`: a place as far as that is the farthest.  Of pieces
+    that are equally near, within `tie`, the first one is told.
     """
-    search = _Search(walked, walked.stations, other, around, GOUGE + 2.0 * float(walked.slack.max(initial=0.0)))
+    near = np.full((2, len(stretches)), -1) if near is None else near
+    search = _Search(walked, walked.stations, other, around, GOUGE + 2.0 * float(walked.slack.max(initial=0.0)), tie)
     spans, best = _begin(search, stretches, near, ends)
     for turn in range(ROUNDS):
+        rows = (best.apart[spans.owner] < most - FINE).nonzero()[0]
+        if not len(rows):
+            break
+        if len(rows) < len(spans.index):
+            spans = spans.take(rows)
         bounds, peaks = _bounds(search, spans)
         rows = (bounds > best.apart[spans.owner] + FINE).nonzero()[0]
         if not len(rows):
@@ -135,9 +157,9 @@ def _begin(search: _Search, stretches: Stretches, near: Rows, ends: float) -> tu
     apart, near = search.look_or_measure(s, known, most)
     pairs = ((owners[1:] == owners[:-1]) & (s[1:] > s[:-1])).nonzero()[0]
     both = np.array((pairs, pairs + 1))
-    none = Farthest(np.zeros(len(each)), np.full(len(each), -np.inf))
+    none = Farthest(np.zeros(len(each)), np.full(len(each), -np.inf), np.full(len(each), -1))
     index = joints.searchsorted((s[pairs] + s[pairs + 1]) / 2.0, side="right")
-    return _Spans(owners[pairs], index, s[both], apart[both], near[both]), _better(none, owners, s, apart)
+    return _Spans(owners[pairs], index, s[both], apart[both], near[both]), _better(none, owners, s, apart, near)
 
 
 def _from_ends(stretches: Stretches, near: Rows, owner: Rows, s: Floats) -> Floats:
@@ -148,15 +170,16 @@ def _from_ends(stretches: Stretches, near: Rows, owner: Rows, s: Floats) -> Floa
     return nearer
 
 
-def _better(best: Farthest, owner: Rows, s: Floats, apart: Floats) -> Farthest:
+def _better(best: Farthest, owner: Rows, s: Floats, apart: Floats, near: Rows) -> Farthest:
     """`best` with the places `s` of stretches `owner` where these are farther."""
-    where, size = best.place.copy(), best.apart.copy()
+    where, size, by = best.place.copy(), best.apart.copy(), best.near.copy()
     # of each stretch the largest comes first
     order = np.lexsort((apart, owner))[::-1]
     first = order[changes(owner[order])]
     first = first[apart[first] > size[owner[first]]]
-    where[owner[first]], size[owner[first]] = s[first], apart[first]
-    return Farthest(where, size)
+    chosen = owner[first]
+    where[chosen], size[chosen], by[chosen] = s[first], apart[first], near[first]
+    return Farthest(where, size, by)
 
 
 def _bounds(search: _Search, spans: _Spans) -> tuple[Floats, Floats]:
@@ -217,6 +240,6 @@ def _divide(search: _Search, spans: _Spans, share: Floats, best: Farthest) -> tu
         np.array((np.concatenate((kept[0], new)), np.concatenate((new, kept[1]))))
         for kept, new in ((spans.s, s), (spans.apart, apart), (spans.near, near))
     ]
-    best = _better(best, spans.owner, s, apart)
+    best = _better(best, spans.owner, s, apart, near)
     owner, index = np.concatenate((spans.owner, spans.owner)), np.concatenate((spans.index, spans.index))
     return _Spans(owner, index, *halves), best

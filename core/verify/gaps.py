@@ -197,7 +197,8 @@ def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: fl
         return bound.point, bound.apart
     grant = float(pairs.grant.max(initial=0.0))
     at_ends = np.where(pairs.centre.slack.any() or pairs.surface.slack.any(), -1, near[:, rest])
-    far = farthest(pairs.surface, gaps.keep(~proved), pairs.centre, pairs.centre_boxes, at_ends, radius + grant)
+    rest_of = gaps.keep(~proved)
+    far = farthest(pairs.surface, rest_of, pairs.centre, pairs.centre_boxes, near=at_ends, ends=radius + grant)
     points, apart = bound.point.copy(), bound.apart.copy()
     index, t = place(pairs.surface, pairs.surface_stations, far.place)
     points[rest], apart[rest] = at(pairs.surface.take(index), t), far.apart

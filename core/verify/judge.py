@@ -199,7 +199,7 @@ def _judged(ground: Ground, side: Side, radius: float, numbers: Floats, measured
     sides = sided(side, ground.crossed, length, closed=ground.closed)
     parts = parted(pairs, near, found, sides, radius)
     wrong, told = wrong_side(pairs, found, sides, reach, parts)
-    inside = behind(pairs, parts.keep(told))
+    inside = behind(pairs, parts.keep(told), radius)
     # of a piece that meets the surface a part is behind it
     wrong[inside.index] = True
     deeper = deepened(found, inside, radius, measured.slack)

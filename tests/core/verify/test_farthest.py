@@ -24,7 +24,7 @@ def test_the_top_of_an_arc_is_found_at_once(begin: float, floor: Path, monkeypat
     monkeypatch.setattr(module, "ROUNDS", 4)
     walked = measured(Path.from_pieces([Arc((begin, (25 - begin**2) ** 0.5 - 3.0), (3.0, 1.0), (0.0, -3.0), Turn.CW)]))
     other, whole = measured(floor), Stretches(np.zeros(1), walked.length)
-    far = farthest(walked, whole, other, boxes(other), np.full((2, 1), -1), np.inf)
+    far = farthest(walked, whole, other, boxes(other))
     assert far.apart.item() == pytest.approx(2.0, abs=1e-14)
     assert far.place.item() == pytest.approx(5.0 * asin(-begin / 5.0), abs=1e-9)
 
@@ -32,5 +32,5 @@ def test_the_top_of_an_arc_is_found_at_once(begin: float, floor: Path, monkeypat
 def test_between_two_walls_it_is_where_both_are_as_far(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "ROUNDS", 2)
     walked, other = measured(lines((0, 0), (4, 0))), measured(lines((-1, -1), (-1, 9), (5, 9), (5, -1)))
-    far = farthest(walked, Stretches(np.zeros(1), walked.length), other, boxes(other), np.full((2, 1), -1), np.inf)
+    far = farthest(walked, Stretches(np.zeros(1), walked.length), other, boxes(other))
     assert (far.place.item(), far.apart.item()) == pytest.approx((2.0, 3.0), abs=1e-12)
