@@ -9,6 +9,7 @@ import numpy as np
 from core.geometry.boxes import closest_pairs, near_pairs
 from core.geometry.distance import between, nearest_places
 from core.geometry.measured import Floats, Measured, Rows, blocks
+from core.geometry.remembered import remembered
 from core.records import dataclass
 from core.tolerance import UNCUT
 from core.verify.beside import NOBODY, Beside
@@ -122,11 +123,17 @@ def _none(least: float, nobody: Rows) -> Approaches:
 
 def _measure_block(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
     piece, other = pairs.centre.take(i), pairs.surface.take(j)
-    places = nearest_places(piece, other)
-    apart = between(piece, other, places)
+    places, apart = _measured(piece, other)
     limits = limit - piece.slack - other.slack
     deep = (apart < limits).any(axis=0)
     return Approaches(float(apart.min()), i[deep], j[deep], places[:, deep], apart[:, deep], limits[deep])
+
+
+@remembered
+def _measured(piece: Measured, other: Measured) -> tuple[Floats, Floats]:
+    """(8, m) places where the pieces may be nearest to their partners, and how far they are there."""
+    places = nearest_places(piece, other)
+    return places, between(piece, other, places)
 
 
 def clearance(pairs: Pairs, near: Approaches, reach: float) -> float:

@@ -14,6 +14,7 @@ import numpy as np
 from core.geometry.boxes import nearest_boxes
 from core.geometry.distance import band_places, between, distance
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, blocks
+from core.geometry.remembered import remembered
 from core.records import dataclass
 from core.tolerance import ON_PATH
 
@@ -74,13 +75,19 @@ def joined(found: Sequence[Parts]) -> Parts:
 
 
 def _within_block(pieces: Measured, others: Measured, starts: Floats, reach: Floats, rows: Rows) -> Parts:
-    places = band_places(pieces, others, reach)
-    middles = (places[1:] + places[:-1]) / 2.0
-    apart = between(pieces, others, middles)
+    places, middles, apart = _bands(pieces, others, reach)
     part, pair = ((apart < reach) & (places[1:] > places[:-1])).nonzero()
     start, length, spot = starts.take(pair), pieces.length.take(pair), part * len(rows) + pair
     first, last, middle = places.take(spot), places.take(spot + len(rows)), middles.take(spot)
     return Parts(start + first * length, start + last * length, start + middle * length, apart.take(spot), rows[pair])
+
+
+@remembered
+def _bands(pieces: Measured, others: Measured, reach: Floats) -> tuple[Floats, Floats, Floats]:
+    """(10, m) where the pieces are parted, and (9, m) middles of the parts and their distances from the partners."""
+    places = band_places(pieces, others, reach)
+    middles = (places[1:] + places[:-1]) / 2.0
+    return places, middles, between(pieces, others, middles)
 
 
 def changes(owner: Rows) -> Rows:

@@ -23,6 +23,10 @@ from tests.core.verify.shapes import lines
 WALL, DEEP = lines((0, 0), (10, 0), (20, 0)), lines((1, 0.5), (9, 0.5), (19, 0.5))
 
 
+def _lost(found: tuple[NDArray[np.float64], ...]) -> tuple[NDArray[np.float64], ...]:
+    return tuple(array * nan for array in found)
+
+
 def _spoilt(monkeypatch: pytest.MonkeyPatch, name: str, spoil: Callable[[Any], Any]) -> None:
     real = getattr(pairing, name)
     monkeypatch.setattr(pairing, name, lambda *given: spoil(real(*given)))
@@ -37,7 +41,7 @@ def test_a_pair_whose_distance_is_no_number_is_not_judged(monkeypatch: pytest.Mo
 
 
 def test_nor_one_whose_places_are_no_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
-    _spoilt(monkeypatch, "nearest_places", lambda places: places * nan)
+    _spoilt(monkeypatch, "_measured", _lost)
     assert not judge(WALL, Side.LEFT, 1.0, DEEP).judged
     assert not rulings(WALL, Side.LEFT, 1.0, [DEEP])[0].clean
 
@@ -47,7 +51,7 @@ def test_nor_where_one_block_of_pairs_has_them(bad: int, monkeypatch: pytest.Mon
     """A least of all blocks that is taken by comparisons passes it over, unless it is the first."""
     monkeypatch.setattr(pairing, "blocks", lambda first, _: np.arange(len(first))[:, None])
     block = count()
-    _spoilt(monkeypatch, "nearest_places", lambda places: places * nan if next(block) == bad else places)
+    _spoilt(monkeypatch, "_measured", lambda found: _lost(found) if next(block) == bad else found)
     assert not judge(WALL, Side.LEFT, 1.0, DEEP).judged
     assert next(block) > bad
 
