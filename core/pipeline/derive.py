@@ -79,7 +79,8 @@ def _worked(found: DerivedBlock, program: Program, old: DerivedBlock | None) -> 
     control = how.control(found.radius) if crossed is None else crossed.at([how.lookahead])[0]
     best = how.best(found.radius) if program.parameters.path is PathChoice.BEST else None
     chosen = how.posted(control, found.radius, best)
-    verdict, ground = judge_on_ground(surface, found.side, found.radius, [loop.whole for loop in chosen])
+    before = None if old is None or old.work is None else old.work.ground
+    verdict, ground = judge_on_ground(surface, found.side, found.radius, [loop.whole for loop in chosen], before)
     kept = None if crossed is None else ground
     return Work(surface, chosen, control, verdict, _rough(found, how), best, crossed, kept)
 

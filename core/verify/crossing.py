@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.aligned import aligned_pairs
+from core.geometry.boxes import near_pairs
 from core.geometry.distance import between, distance, foot, nearest_places
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction
 from core.records import dataclass
@@ -30,14 +31,23 @@ class Crossings:
         return len(self.points)
 
 
-def crossings(course: Course, *, closed: bool) -> Crossings:
-    """Where pieces that are not neighbours come within JOINED of each other, and neighbours away from their joint."""
+NOWHERE: Final = Crossings(np.zeros((0, 2)), np.zeros(0, np.complex128))
+"""A surface that does not meet itself."""
+
+
+def crossings(course: Course, *, closed: bool, free: Course | None = None) -> Crossings:
+    """Where pieces that are not neighbours come within JOINED of each other, and neighbours away from their joint.
+
+    `free` is a course, closed as this one is, that does not meet itself: where nothing meets what is not in it, neither
+    does this one.
+    """
     surface, stations = course.pieces, course.stations
-    i, j = _candidates(surface, course.boxes, closed=closed)
-    # what is so far apart does not meet, and is told by a tenth of the steps
-    i, j = i[unclear := ~clear(surface, i, surface, j, 2.0 * JOINED)], j[unclear]
+    rows = None if free is None else _altered(surface, free.pieces)
+    i, j = _unclear(course, closed=closed, rows=rows)
+    if len(i) and rows is not None:
+        i, j = _unclear(course, closed=closed)
     if not len(i):
-        return Crossings(np.zeros((0, 2)), np.zeros(0, np.complex128))
+        return NOWHERE
     following = j == i + 1
     around = (i == 0) & (j == len(surface) - 1) if closed else np.zeros(len(i), np.bool_)
     one, other = surface.take(i), surface.take(j)
@@ -53,10 +63,37 @@ def crossings(course: Course, *, closed: bool) -> Crossings:
     return Crossings(np.stack((first, second), axis=1)[order], points[k, pair][order])
 
 
-def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Rows, Rows]:
-    """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbours that come back."""
-    i, j = aligned_pairs(bounds, bounds, JOINED, 2, both=False)
+def _altered(pieces: Measured, before: Measured) -> Rows | None:
+    """The pieces that are not what those of the same index were before; None where these are many."""
+    if len(pieces) != len(before):
+        return None
+    other = pieces.start != before.start
+    other |= pieces.vector != before.vector
+    other |= pieces.arm != before.arm
+    other |= pieces.turn != before.turn
+    rows: Rows = other.nonzero()[0]
+    return rows if 4 * len(rows) < len(pieces) else None
+
+
+def _unclear(course: Course, *, closed: bool, rows: Rows | None = None) -> tuple[Rows, Rows]:
+    """Candidates of which the sides of lines do not tell that they are apart, which takes a tenth of the steps."""
+    surface = course.pieces
+    i, j = _candidates(surface, course.boxes, closed=closed, rows=rows)
+    unclear = (~clear(surface, i, surface, j, 2.0 * JOINED)).nonzero()[0]
+    return i[unclear], j[unclear]
+
+
+def _candidates(surface: Measured, bounds: Floats, *, closed: bool, rows: Rows | None) -> tuple[Rows, Rows]:
+    """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbours that come back.
+
+    Only those of which one is among `rows`, where these are given; both are told twice then.
+    """
+    i, j = aligned_pairs(bounds, bounds, JOINED, 2, both=False) if rows is None else _near(bounds, rows)
     again = (_overlapping(bounds) & _may_come_back(surface)).nonzero()[0]
+    if rows is not None:
+        asked = np.zeros(len(surface), np.bool_)
+        asked[rows] = True
+        again = again[asked[again] | asked[again + 1]]
     if len(again):
         again = again[_turned(surface, again, again + 1) > pi - TURN]
         i, j = np.concatenate((i, again)), np.concatenate((j, again + 1))
@@ -65,6 +102,14 @@ def _candidates(surface: Measured, bounds: Floats, *, closed: bool) -> tuple[Row
         if seam.any() and not _turns_half_round(surface):
             i, j = i[~seam], j[~seam]
     return i, j
+
+
+def _near(bounds: Floats, rows: Rows) -> tuple[Rows, Rows]:
+    """Pairs i < j of near boxes that are no neighbours, one of which is among `rows`."""
+    one, other = near_pairs(bounds.take(rows, axis=1), bounds, JOINED)
+    one = rows.take(one)
+    far = (np.abs(one - other) >= 2).nonzero()[0]
+    return np.minimum(one[far], other[far]), np.maximum(one[far], other[far])
 
 
 def _may_come_back(surface: Measured) -> Flags:

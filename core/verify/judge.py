@@ -54,8 +54,13 @@ def judge_together(surface: Path, side: Side, radius: float, centres: Sequence[P
     return judge_on_ground(surface, side, radius, centres)[0]
 
 
-def judge_on_ground(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> tuple[Verdict, Ground | None]:
-    """The verdict of `judge_together`, and the surface as it is judged, for `rulings`; None where it is not."""
+def judge_on_ground(
+    surface: Path, side: Side, radius: float, centres: Sequence[Path], before: Ground | None = None
+) -> tuple[Verdict, Ground | None]:
+    """The verdict of `judge_together`, and the surface as it is judged, for `rulings`; None where it is not.
+
+    `before` is another surface, of which this one may have most pieces.
+    """
     with np.errstate(all="ignore"):
         if not judgeable(radius, surface, *centres):
             return _unjudged(radius), None
@@ -63,7 +68,7 @@ def judge_on_ground(surface: Path, side: Side, radius: float, centres: Sequence[
             return _nothing_to_cut(radius), None
         walls, moves = courses((surface,), centres)
         numbers = np.concatenate((np.empty(0), *(centre.numbers for centre in centres)))
-        ground = _ground(surface, walls)
+        ground = _ground(surface, walls, before)
         measured = _measured(ground, side, radius, numbers, moves)
         verdict = _unjudged(radius) if measured is None else _judged(ground, side, radius, numbers, measured)
         return verdict, ground
@@ -123,10 +128,11 @@ class Ground:
     crossed: Crossings
 
 
-def _ground(surface: Path, walls: Course) -> Ground:
+def _ground(surface: Path, walls: Course, before: Ground | None = None) -> Ground:
     pieces = walls.pieces
     closed = bool(abs(pieces.start[-1] + pieces.vector[-1] - pieces.start[0]) <= CLOSED)
-    return Ground(surface, walls, closed, crossings(walls, closed=closed))
+    free = None if before is None or before.closed != closed or len(before.crossed) else before.walls
+    return Ground(surface, walls, closed, crossings(walls, closed=closed, free=free))
 
 
 def _unjudged(radius: float) -> Verdict:
