@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.comp.offset import Chain, Part, stacked
+from core.comp.offset import BRIDGE, CORNER, Chain, stacked
 from core.geometry.intersect import Indices, Masks, Meeting, Meetings, Planes, coordinates, meet, planes
 from core.geometry.path import Floats, Path, Turns
 from core.tolerance import ON_PATH
@@ -74,12 +74,12 @@ def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
     Tangent touches of pieces that are not neighbours are left out: a cutter that just fits passes.  The first and
     the last segment of a closed contour are never tested against each other, unless they are neighbours.
     """
-    partners = (chain.parts <= Part.CORNER.value).nonzero()[0]
+    partners = (chain.parts <= CORNER).nonzero()[0]
     bounds = [*range(0, max(len(partners), 1), _STRETCH), len(partners)]
     joints, others = [], []
     for first, last in pairwise(bounds):
         a, b = _pairs(chain, partners, first, last, 2 * lookahead)
-        joint = (b - a == 2) & (chain.parts[b - 1] == Part.BRIDGE.value)
+        joint = (b - a == 2) & (chain.parts[b - 1] == BRIDGE)
         if closed and chain.places[-1] - chain.places[0] <= 2 * lookahead:
             tested = joint | (a > 0) | (b < len(chain) - 1)
             a, b, joint = a[tested], b[tested], joint[tested]
@@ -128,11 +128,10 @@ def _pairs(chain: Chain, partners: Indices, first: int, last: int, reach: int) -
     window = int((np.arange(before, len(rows)) - farthest).max(initial=0))
     if not window:
         return np.empty(0, np.intp), np.empty(0, np.intp)
-    boxes = _boxes(chain.raw, rows[max(before - window, 0) :], max(window - before, 0))
-    meeting = _shifted(boxes[0], window) <= boxes[2, window:]
-    meeting &= _shifted(boxes[2], window) >= boxes[0, window:]
-    meeting &= _shifted(boxes[1], window) <= boxes[3, window:]
-    meeting &= _shifted(boxes[3], window) >= boxes[1, window:]
+    lows, highs = _boxes(chain.raw, rows[max(before - window, 0) :], max(window - before, 0))
+    beside = _shifted(lows, window) <= highs[:, None, window:]
+    beside &= _shifted(highs, window) >= lows[:, None, window:]
+    meeting = beside[0] & beside[1]
     b, a = np.divmod(meeting.T.ravel().nonzero()[0], window)
     b += before
     a += b - window
@@ -143,33 +142,33 @@ def _pairs(chain: Chain, partners: Indices, first: int, last: int, reach: int) -
 
 
 def _shifted(values: Floats, window: int) -> Floats:
-    """(window, k) view of (window + k,) values: row i is shifted by i."""
-    count = len(values) - window
-    return np.ndarray((window, count), np.float64, values, 0, (values.itemsize, values.itemsize))
+    """(2, window, k) view of (2, window + k) values: row i is shifted by i."""
+    count = values.shape[1] - window
+    step = values.itemsize
+    return np.ndarray((2, window, count), np.float64, values, 0, (values.strides[0], step, step))
 
 
-def _boxes(raw: Path, rows: Indices, pad: int) -> Floats:
-    """(4, pad + len(rows)) boxes that hold these pieces: least x, least y, largest x, largest y.
-
-    The first `pad` are empty.
-    """
+def _boxes(raw: Path, rows: Indices, pad: int) -> tuple[Floats, Floats]:
+    """Boxes that hold these pieces: least and largest x and y, each (2, pad + len(rows)); the first `pad` are empty."""
     points, turns = planes(raw.points), raw.turns[rows]
     start, end = points[rows], points[rows + 1]
-    boxes = np.empty((4, pad + len(rows)))
-    boxes[:2, :pad], boxes[2:, :pad] = np.inf, -np.inf
-    both = coordinates(start).T, coordinates(end).T
-    np.minimum(*both, out=boxes[:2, pad:])
-    np.maximum(*both, out=boxes[2:, pad:])
+    lows, highs = np.empty((2, pad + len(rows))), np.empty((2, pad + len(rows)))
+    lows[:, :pad], highs[:, :pad] = np.inf, -np.inf
+    low, high, both = lows[:, pad:], highs[:, pad:], (coordinates(start).T, coordinates(end).T)
+    np.minimum(*both, out=low)
+    np.maximum(*both, out=high)
     arcs = turns.nonzero()[0]
+    beyond = np.zeros(len(rows))
     if len(arcs):
-        lift, beyond = _lifts(start[arcs], end[arcs], planes(raw.centres)[rows[arcs]], turns[arcs])
+        lift = np.zeros(len(rows), np.complex128)
+        lift[arcs], beyond[arcs] = _lifts(start[arcs], end[arcs], planes(raw.centres)[rows[arcs]], turns[arcs])
         up = coordinates(lift).T
-        arcs += pad
-        boxes[:2, arcs] += np.minimum(up, 0.0) - beyond
-        boxes[2:, arcs] += np.maximum(up, 0.0) + beyond
-    boxes[:2] -= ON_PATH
-    boxes[2:] += ON_PATH
-    return boxes
+        low += np.minimum(up, 0.0)
+        high += np.maximum(up, 0.0)
+    beyond += ON_PATH
+    low -= beyond
+    high += beyond
+    return lows, highs
 
 
 def _lifts(start: Planes, end: Planes, centre: Planes, turns: Turns) -> tuple[Planes, Floats]:
@@ -178,9 +177,9 @@ def _lifts(start: Planes, end: Planes, centre: Planes, turns: Turns) -> tuple[Pl
     An arc of half a turn or less lies in the rectangle of its chord and its height, on the chord's right if
     counter-clockwise; a larger one within a diameter of its ends.  An arc whose radii differ grows by that.
     """
-    first, last, chord = start - centre, end - centre, end - start
-    radius, half = np.abs(first), np.abs(chord) / 2.0
+    first, last, run = start - centre, end - centre, (end - start) / 2.0
+    radius, half = np.abs(first), np.abs(run)
     small = ((first.conj() * last).imag * turns > 0.0) & (half > 0.0)
     height = radius - np.sqrt(np.maximum((radius - half) * (radius + half), 0.0))
-    lift = -1j * turns * chord * np.divide(height, 2.0 * half, out=np.zeros(len(half)), where=small)
+    lift = -1j * run * (turns * height / np.where(small, half, np.inf))
     return lift, np.abs(np.abs(last) - radius) + np.where(small, 0.0, 2.0 * radius)

@@ -35,7 +35,8 @@ class Part(IntEnum):
     VANISHED = 3
 
 
-_SEGMENT, _CORNER, _BRIDGE, _VANISHED = (np.uint8(part) for part in Part)
+CORNER, BRIDGE, VANISHED = (np.uint8(part) for part in (Part.CORNER, Part.BRIDGE, Part.VANISHED))
+"""As they stand in a chain: a member of an enumeration takes longer to compare than the rest of it."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -62,27 +63,29 @@ class _Stretch(NamedTuple):
 
 
 class _Beside(NamedTuple):
-    """Offset segments: start and end points, unit normals there towards the cutter's left, and which vanish."""
+    """n offset segments: their starts and ends (2, n), and the unit normals there towards the cutter's left (2, n).
 
-    starts: Planes
+    `arcs` are the rows of arcs that do not vanish, `vanished` those of the arcs that do.
+    """
+
     ends: Planes
-    start_normals: Planes
-    end_normals: Planes
-    vanished: Masks
+    normals: Planes
+    arcs: Indices
+    vanished: Indices
 
 
 def offset(contour: Path, side: Side, radius: float) -> Chain:
     """The raw chain of a contour without zero-length segments, at `radius` > 0 millimetres to `side`."""
     count = len(contour)
     bounds = [*range(0, count, _STRETCH), count]
-    points, centres, turns, numbers, parts, places = stacked(
-        [_stretch(contour, side.sign, radius, first, last) for first, last in pairwise(bounds)]
-    )
-    _close_circles(points, contour, places)
-    return Chain(Path(coordinates(points), coordinates(centres), turns, numbers), parts, places)
+    parts = [_stretch(contour, side.sign, radius, first, last) for first, last in pairwise(bounds)]
+    chain = parts.pop() if len(parts) == 1 else _Stretch(*stacked(parts))
+    _close_circles(chain.points, contour, chain.places)
+    raw = Path(coordinates(chain.points), coordinates(chain.centres), chain.turns, chain.numbers)
+    return Chain(raw, chain.parts, chain.places)
 
 
-def stacked(rows: list[tuple[Any, ...]]) -> Iterator[Any]:
+def stacked(rows: list[Any]) -> Iterator[Any]:
     """Each column of arrays as one array; the rows are taken apart, so that a column's parts go when it is done."""
     columns = [list(column) for column in zip(*rows, strict=True)][::-1]
     rows.clear()
@@ -92,67 +95,61 @@ def stacked(rows: list[tuple[Any, ...]]) -> Iterator[Any]:
 
 
 def _stretch(contour: Path, sign: int, radius: float, first: int, last: int) -> _Stretch:
-    """The chain's part of segments first ... last - 1, with the joint behind each but the contour's last."""
+    """The chain's part of segments first ... last - 1, with the joint behind each but the contour's last.
+
+    Each segment has two slots, for itself and for its joint with the next one or its end; the chain takes some of them.
+    """
     count, joints = last - first, min(last, len(contour) - 1) - first
-    beside = _beside(contour, sign * radius, first, first + joints + 1 if joints == count else last)
-    link, outside = _joints(beside, sign, radius, joints)
-    between = link + np.arange(1, len(link) + 1)
-    own = np.ones(count + len(link), np.bool_)
-    own[between] = False
-    # the segment of each piece: its own, or the one before the joint
-    rows = own.cumsum()
-    rows -= 1
-    starts = beside.starts[rows]
-    starts[between] = beside.ends[link]
-    vanished = beside.vanished[rows]
-    turns = contour.turns[first:last][rows]
-    turns[vanished] = 0
-    turns[between] = 0
-    arcs = turns.nonzero()[0]
-    centres = starts.copy()
-    centres[arcs] = planes(contour.centres)[first:last][rows[arcs]]
-    corners = between[outside]
-    centres[corners], turns[corners] = planes(contour.points)[first + 1 + link[outside]], -sign
-    parts = np.where(vanished, _VANISHED, _SEGMENT)
-    parts[between] = np.where(outside, _CORNER, _BRIDGE)
-    numbers = contour.numbers[first:last][rows]
-    numbers[between] += 0.5
-    places = (2 * (rows + first)).astype(np.int32)
-    places[between] += 1
-    points = starts if joints == count else np.concatenate((starts, beside.ends[-1:]))
-    return _Stretch(points, centres, turns, numbers, parts, places)
+    reached = slice(first, first + joints + 1)
+    beside = _beside(contour, sign * radius, reached)
+    link, outside = _joints(beside.normals, sign, radius)
+    own, between, many = slice(0, None, 2), slice(1, -1, 2), 2 * (joints + 1)
+    taken, turns, parts = np.zeros(many, np.bool_), np.zeros(many, np.int8), np.zeros(many, np.uint8)
+    points, numbers = np.empty(many, np.complex128), np.empty(many)
+    # behind the contour's last segment there is the chain's end
+    taken[: 2 * count : 2], taken[between], taken[-1] = True, link, joints < count
+    points[own], points[1::2] = beside.ends[0], beside.ends[1]
+    numbers[own] = contour.numbers[reached]
+    numbers[1::2] = numbers[own] + 0.5
+    centres, arcs = points.copy(), beside.arcs
+    turns[own][arcs], centres[own][arcs] = contour.turns[reached][arcs], planes(contour.centres)[reached][arcs]
+    corners = outside.nonzero()[0]
+    turns[between][corners], centres[between][corners] = -sign, planes(contour.points)[1:][reached][corners]
+    parts[own][beside.vanished], parts[between] = VANISHED, BRIDGE
+    parts[between][corners] = CORNER
+    slots = taken.nonzero()[0]
+    pieces = slots[:-1] if joints < count else slots
+    places = pieces.astype(np.int32)
+    places += 2 * first
+    return _Stretch(points[slots], centres[pieces], turns[pieces], numbers[pieces], parts[pieces], places)
 
 
-def _beside(contour: Path, shift: float, first: int, last: int) -> _Beside:
-    """Segments first ... last - 1 moved by `shift` along their left normals."""
-    points, centres = planes(contour.points)[first : last + 1], planes(contour.centres)[first:last]
-    turns = contour.turns[first:last]
-    straight = turns == 0
-    across = 1j * (points[1:] - points[:-1])
-    radial = points[:-1] - centres
-    size = np.abs(radial)
-    start_normals = _unit(np.where(straight, across, -turns * radial))
-    end_normals = _unit(np.where(straight, across, turns * (centres - points[1:])))
-    vanished = ~straight & (size - turns * shift <= JOINED)
-    starts, ends = points[:-1] + shift * start_normals, points[1:] + shift * end_normals
-    return _Beside(starts, ends, start_normals, end_normals, vanished)
+def _beside(contour: Path, shift: float, rows: slice) -> _Beside:
+    """A run of segments moved by `shift` along their left normals."""
+    points, turns = planes(contour.points), contour.turns[rows]
+    starts, stops, arcs = points[:-1][rows], points[1:][rows], turns.nonzero()[0]
+    ends, normals = np.empty((2, len(turns)), np.complex128), np.empty((2, len(turns)), np.complex128)
+    ends[0], ends[1] = starts, stops
+    normals[0] = normals[1] = 1j * (stops - starts)
+    centres, around = planes(contour.centres)[rows][arcs], turns[arcs].astype(np.float64)
+    normals[0][arcs], normals[1][arcs] = (centres - starts[arcs]) * around, (centres - stops[arcs]) * around
+    sizes = np.abs(normals)
+    normals /= sizes
+    ends += shift * normals
+    vanish = sizes[0][arcs] - shift * around <= JOINED
+    return _Beside(ends, normals, arcs[~vanish], arcs[vanish])
 
 
-def _unit(vectors: Planes) -> Planes:
-    return vectors / np.abs(vectors)
-
-
-def _joints(beside: _Beside, sign: int, radius: float, count: int) -> tuple[Indices, Masks]:
-    """Which of the first `count` joints need a link, and which of those are outside corners.
+def _joints(normals: Planes, sign: int, radius: float) -> tuple[Masks, Masks]:
+    """Which joints of segments with each other need a link, and which are outside corners.
 
     The offset ends' distance decides about tangency: the radius times that of the normals.
     An exact reversal is an outside corner: its offsets would meet nowhere on the other side.
     """
-    before, behind = beside.end_normals[:count], beside.start_normals[1 : count + 1]
-    link = (radius * np.abs(behind - before) > JOINED).nonzero()[0]
-    bend = before[link].conj() * behind[link]
+    before, behind = normals[1, :-1], normals[0, 1:]
+    bend = before.conj() * behind
     reversal = (bend.real < 0.0) & (radius * np.abs(bend.imag) <= JOINED)
-    return link, (sign * bend.imag < 0.0) | reversal
+    return radius * np.abs(behind - before) > JOINED, (sign * bend.imag < 0.0) | reversal
 
 
 def _close_circles(points: Planes, contour: Path, places: NDArray[np.int32]) -> None:

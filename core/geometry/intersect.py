@@ -86,10 +86,12 @@ def meet_pieces(one: Pieces, a: Indices, other: Pieces, b: Indices) -> Meetings:
     and lines within ON_PATH of tangency touch.
     """
     kinds = np.zeros(len(a), np.int8)
-    combination = (one.turn[a] != 0) + 2 * (other.turn[b] != 0)
+    arc_a, arc_b = one.turn[a].astype(np.bool_), other.turn[b].astype(np.bool_)
+    line_a, line_b = ~arc_a, ~arc_b
+    which = (line_a & line_b, _lines), (arc_a & line_b, _arc_line), (line_a & arc_b, _line_arc), (arc_a & arc_b, _arcs)
     parts = []
-    for which, solve in enumerate((_lines, _arc_line, _line_arc, _arcs)):
-        rows = (combination == which).nonzero()[0]
+    for these, solve in which:
+        rows = these.nonzero()[0]
         if len(rows):
             kinds[rows], found = solve(_taken(one, a[rows]), _taken(other, b[rows]))
             parts.append(found._replace(pair=rows[found.pair]))
