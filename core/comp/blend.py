@@ -10,8 +10,10 @@ from cmath import rect
 from math import inf
 from typing import Final
 
-from core.geometry.path import EMPTY, Path, joined
-from core.geometry.piece import Arc, Line, Piece, Point, Turn
+import numpy as np
+
+from core.geometry.path import EMPTY, Floats, Path, joined
+from core.geometry.piece import Arc, Line, Piece, Point
 from core.geometry.side import Side
 from core.tolerance import CLOSED, JOINED
 
@@ -26,7 +28,7 @@ def blend_in(path: Path, side: Side, blend: float) -> Path:
     first = path[0]
     along = direction(first, first.start)
     start, centre = _quarter(first.start, -along, along, side, blend)
-    return Path.from_pieces([Arc(start, first.start, centre, Turn(side.sign))], [float(path.numbers[0])])
+    return _arc(start, first.start, centre, side, path.numbers[:1])
 
 
 def blend_out(path: Path, side: Side, blend: float, overlap: float, *, closed: bool) -> Path:
@@ -42,7 +44,12 @@ def blend_out(path: Path, side: Side, blend: float, overlap: float, *, closed: b
     last = whole[-1]
     along = direction(last, last.end)
     end, centre = _quarter(last.end, along, along, side, blend)
-    return joined((again, Path.from_pieces([Arc(last.end, end, centre, Turn(side.sign))], [float(whole.numbers[-1])])))
+    return joined((again, _arc(last.end, end, centre, side, whole.numbers[-1:])))
+
+
+def _arc(start: Point, end: Point, centre: Point, side: Side, number: Floats) -> Path:
+    turn = np.array((side.sign,), np.int8)
+    return Path(np.array((start, end)), np.array((centre,)), turn, number)
 
 
 def past_start(path: Path, overlap: float) -> Path:
@@ -67,7 +74,8 @@ def past_start(path: Path, overlap: float) -> Path:
 
 
 def _gap(path: Path) -> complex:
-    return complex(*path.points[-1]) - complex(*path.points[0])
+    (x, y), (x_start, y_start) = path.points[-1].tolist(), path.points[0].tolist()
+    return complex(x - x_start, y - y_start)
 
 
 def _from(start: Point, piece: Piece) -> Piece:

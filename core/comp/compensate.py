@@ -72,12 +72,11 @@ def crossed(
     overlap: float = 0.0,
 ) -> Crossed:
     """The stages of `compensate` that no look-ahead changes, as far as any of `lookaheads` has to know of them."""
-    asked = _Asked(contour, side, radius, closed, blend, overlap)
     refused = trouble.refusal(contour, radius, lookaheads)
     if refused or not lookaheads:
-        return Crossed(asked, None, refused)
+        return Crossed(_Asked(contour, side, radius, closed, blend, overlap), None, refused)
     surface, common = _with_length(contour)
-    asked = asked._replace(contour=surface)
+    asked = _Asked(surface, side, radius, closed, blend, overlap)
     if not len(surface):
         return Crossed(asked, None, (*common, *trouble.refusal(surface, radius, lookaheads)))
     if closed:
@@ -179,11 +178,12 @@ def _nothing(asked: _Asked, lookahead: int, findings: tuple[Finding, ...]) -> Co
 
 def _with_length(contour: Path) -> tuple[Path, list[Finding]]:
     """The contour without its zero-length segments, and a finding for each of them."""
-    points = planes(contour.points)
-    near = (np.abs(points[1:] - points[:-1]) <= JOINED).nonzero()[0]
-    dropped = np.array([row for row in near.tolist() if _is_point(contour[row])], np.intp)
-    if not len(dropped):
+    ends = planes(contour.points)
+    near = (np.abs(ends[1:] - ends[:-1]) <= JOINED).nonzero()[0]
+    points = [row for row in near.tolist() if _is_point(contour[row])]
+    if not points:
         return contour, []
+    dropped = np.array(points)
     return _without(contour, dropped), trouble.zero_length(contour, dropped)
 
 

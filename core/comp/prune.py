@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.comp.crossings import Crossings
-from core.comp.offset import Chain, Part
+from core.comp.offset import BRIDGE, Chain
 from core.comp.result import Deletions
 from core.comp.walk import Left, Walk
 from core.geometry.intersect import Indices, Masks, coordinates, planes
@@ -45,22 +45,24 @@ def prune(chain: Chain, joints: Crossings, others: Crossings, *, last_wins: bool
     if len(others) or len(unsettled):
         met = Walk(chain, left, joints, others).visit(unsettled)
     path, bridges = _what_is_left(chain, left)
+    gone = np.frombuffer(left.gone, np.bool_)
     del left
-    return Pruned(path, *bridges, _deletions(chain, others, met))
+    return Pruned(path, *bridges, _deletions(chain, others, met, gone))
 
 
 def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, Indices]:
     """Trim every inside corner at its first crossing; also the pieces whose start is trimmed beyond their end."""
     count = len(chain)
-    starts = planes(chain.raw.points)[:-1].copy()
-    left = Left(np.zeros(count), np.full(count, np.inf), starts, np.ones(count, np.uint8), bytearray(count))
+    high, standing = np.empty(count), np.empty(count, np.uint8)
+    high.fill(np.inf)
+    standing.fill(1)
+    left = Left(np.zeros(count), high, planes(chain.raw.points)[:-1].copy(), standing, bytearray(count))
     if not len(joints):
         return left, np.empty(0, np.intp)
-    first = np.ones(len(joints), np.bool_)
-    first[1:] = joints.b[1:] != joints.b[:-1]
-    if last_wins:
-        first = np.append(first[1:], True)[: len(joints)]
-    trims = joints if first.all() else joints.chosen(first)
+    again = joints.b[1:] == joints.b[:-1]
+    trims = joints
+    if again.any():
+        trims = joints.chosen(~np.append(again, False) if last_wins else ~np.append(False, again))
     left.high[trims.a], left.low[trims.b], left.starts[trims.b] = trims.along_a, trims.along_b, trims.points
     left.standing[trims.b - 1] = 0
     return left, (left.low > left.high + ON_PATH).nonzero()[0] + 2
@@ -73,11 +75,12 @@ def _what_is_left(chain: Chain, left: Left) -> tuple[Path, tuple[Masks, Indices]
     real = _not_slivers(chain, left, alive, starts)
     if not real.all():
         alive, starts = alive[real], starts[np.append(real, True)]
-    bridged = chain.parts[alive] >= Part.BRIDGE.value
+    bridged = chain.parts[alive] >= BRIDGE
     if not len(alive):
         return EMPTY, (bridged, alive)
     turns = chain.raw.turns[alive]
-    centres = np.where(turns == 0, starts[:-1], planes(chain.raw.centres)[alive])
+    centres, arcs = starts[:-1].copy(), turns.nonzero()[0]
+    centres[arcs] = planes(chain.raw.centres)[alive[arcs]]
     path = Path(coordinates(starts), coordinates(centres), turns, chain.raw.numbers[alive])
     return path, (bridged, alive[bridged])
 
@@ -102,18 +105,17 @@ def _not_slivers(chain: Chain, left: Left, alive: Indices, starts: NDArray[np.co
     return real
 
 
-def _deletions(chain: Chain, others: Crossings, met: Indices) -> Deletions:
-    """The segments between the two pieces of each event, a row in `met`, by the first event that spans them."""
+def _deletions(chain: Chain, others: Crossings, met: Indices, gone: Masks) -> Deletions:
+    """The segments among the pieces that are gone, each by the first event, a row in `met`, that spans it."""
     if not len(met):
         return Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))
+    deleted = gone.nonzero()[0]
+    deleted = deleted[chain.places[deleted] % 2 == 0]
     a, b = others.a[met], others.b[met]
-    between = b - a - 1
-    event = np.arange(len(met), dtype=np.int32).repeat(between)
-    piece = np.arange(len(event), dtype=np.int32) + (b - between.cumsum(dtype=np.int32))[event]
-    spanned = np.full(len(chain), -1, np.int32)
-    spanned[piece[::-1]] = event[::-1]
-    deleted = ((spanned >= 0) & (chain.places % 2 == 0)).nonzero()[0]
-    event, numbers = spanned[deleted], chain.raw.numbers
-    by = np.empty((len(event), 2))
+    # events come in the order of b: the first that ends behind a piece spans it unless it begins behind it too
+    event = b.searchsorted(deleted, side="right")
+    while (behind := a[event] >= deleted).any():
+        event[behind] += 1
+    numbers, by = chain.raw.numbers, np.empty((len(event), 2))
     by[:, 0], by[:, 1] = numbers[a[event]], numbers[b[event]]
     return Deletions(numbers[deleted], by, coordinates(others.points[met[event]]))

@@ -72,7 +72,8 @@ class Walk:
         One's very end at the other's very start is no crossing.  The earlier piece then ends there, the later one
         starts there, everything between is gone.  `agenda` holds pieces whose joint is to be made anew, last first.
         """
-        low, high, gone, met = self._low, self._high, self._left.gone, list[int]()
+        low, high, gone = self._low, self._high, self._left.gone
+        met: list[int] = []
         piece, over = -1, True
         for row, (b, a, at, on, a_ends, b_ends) in enumerate(_rows(self._others)):
             if b != piece:
@@ -98,21 +99,20 @@ class Walk:
         """Join anew what no longer holds, up to the joint of piece `until` with its predecessor."""
         low, high = self._low, self._high
         while agenda and agenda[-1] <= until:
-            follower = agenda.pop()
-            if high[follower - 2] < low[follower - 2] - ON_PATH:
-                self._join(follower)
-            if follower < until and high[follower] < low[follower] - ON_PATH:
-                agenda.append(follower + 2)
-
-    def _join(self, piece: int) -> None:
-        """Trim predecessor and piece at their other crossing, if they have one that is left, else bridge them."""
-        row = bisect_right(self._joint, piece) - 1
-        if self._along_a[row] >= self._low[piece - 2] - ON_PATH:
-            self._high[piece - 2], self._low[piece] = self._along_a[row], self._along_b[row]
-            self._rejoined.append(row)
-        else:
-            self._high[piece - 2], self._low[piece] = inf, 0.0
-            self._bridged.append(piece)
+            piece = agenda.pop()
+            start = low[piece - 2] - ON_PATH
+            if high[piece - 2] < start:
+                # at their other crossing, if they have one that is left, else by a bridge
+                row = bisect_right(self._joint, piece) - 1
+                along = self._along_a[row]
+                if along >= start:
+                    high[piece - 2], low[piece] = along, self._along_b[row]
+                    self._rejoined.append(row)
+                else:
+                    high[piece - 2], low[piece] = inf, 0.0
+                    self._bridged.append(piece)
+            if piece < until and high[piece] < low[piece] - ON_PATH:
+                agenda.append(piece + 2)
 
 
 def _numbers(values: Floats) -> memoryview[float]:
