@@ -7,8 +7,10 @@ A finding's text is a sentence for the operator.  Lengths in it stand as `{value
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections import deque
+from collections.abc import Callable, Iterable, Sequence
 from enum import StrEnum
+from itertools import count, repeat
 from operator import attrgetter
 from typing import Final
 
@@ -71,19 +73,15 @@ class Unworded(Finding):
     @staticmethod
     def each(
         code: str, severity: Severity, segments: Sequence[float], tell: Callable[[int], Finding]
-    ) -> Iterator[Finding]:
+    ) -> Sequence[Finding]:
         """A finding of each segment and of no field; `tell` makes the one of a row of `segments`."""
-        put_code, put_severity, put_segment, put_field = _PUT
-        put_row, put_tell = (Unworded.__dict__[name].__set__ for name in Unworded.__slots__)
-        for row, segment in enumerate(segments):
-            made = object.__new__(Unworded)
-            put_code(made, code)
-            put_severity(made, severity)
-            put_segment(made, segment)
-            put_field(made, None)
-            put_row(made, row)
-            put_tell(made, tell)
-            yield made
+        made = [object.__new__(Unworded) for _ in segments]
+        own = (Unworded.__dict__[name].__set__ for name in Unworded.__slots__)
+        values: list[Iterable[object]] = [repeat(code), repeat(severity), segments, repeat(None), count(), repeat(tell)]
+        for put, each in zip((*_PUT, *own), values, strict=True):
+            # all of them in one go: nothing but the setter is called
+            deque(map(put, made, each), 0)
+        return made
 
     def __getattr__(self, name: str) -> object:
         """A value that is not made yet: all of them are."""

@@ -37,9 +37,9 @@ def derive_block(number: int, block: Block, program: Program, before: Derived | 
     old, then = former(number, before), None if before is None else before.program
     if old is not None and then is not None and old.known and _alike(block, program, old.block, then):
         return old
-    found = replace(outline_block(number, block, program, old), known=True)
+    found = outline_block(number, block, program, old)
     if not found.solved.pieces or found.radius is None:
-        return found
+        return replace(found, known=True)
     if old is None or then is None or old.work is None or _cuts(found, program) != _cuts(old, then):
         return _told(found, _worked(found, program, old), program)
     return _told(found, old.work, program)
@@ -88,14 +88,17 @@ def _worked(found: DerivedBlock, program: Program, old: DerivedBlock | None) -> 
 def _told(found: DerivedBlock, work: Work, program: Program) -> DerivedBlock:
     """The block with its paths, and with what is to be said of them."""
     assert found.radius is not None
-    closed, trouble, back = found.solved.closed, tuple[Finding, ...](), tuple[Finding, ...]()
+    closed = found.solved.closed
+    trouble: tuple[Finding, ...] = ()
+    back: tuple[Finding, ...] = ()
     if work.verdict is not None:
         # what is typed wrong comes before what follows from it
         back = turning_back(work.surface, closed=closed)
         trouble = (*path_findings(work), *size_warning(found.radius, work.surface))
     if found.solved.whole:
         trouble += open_finding(work.surface, 2 * found.radius, closed=closed)
-    return _checked(replace(found, work=work, findings=by_weight((*back, *found.findings, *trouble))), program)
+    findings = by_weight((*back, *found.findings, *trouble))
+    return _checked(replace(found, work=work, known=True, findings=findings), program)
 
 
 def _checked(found: DerivedBlock, program: Program) -> DerivedBlock:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from operator import attrgetter
 from typing import Final
 
@@ -46,7 +46,8 @@ def former(number: int, before: Derived | None) -> DerivedBlock | None:
 def outline_block(number: int, block: Block, program: Program, before: DerivedBlock | None = None) -> DerivedBlock:
     """One block's outline."""
     solved = solve_block(block, program, None if before is None else before.solved)
-    lookahead = look_ahead(block, solved)
+    told = solved.every_finding
+    lookahead = look_ahead(block, solved, told)
     side = _SIDES[block.cutter_comp]
     diameter = solved.finish_diameter if solved.finish_diameter is not None else solved.tool_diameter
     return DerivedBlock(
@@ -61,7 +62,7 @@ def outline_block(number: int, block: Block, program: Program, before: DerivedBl
         known=False,
         findings=(
             *shared_findings(program),
-            *solved.every_finding,
+            *told,
             *_heights(solved),
             *safe_height_findings(solved, program),
             *unsaid_findings(block, solved, program),
@@ -70,9 +71,9 @@ def outline_block(number: int, block: Block, program: Program, before: DerivedBl
     )
 
 
-def look_ahead(block: Block, solved: SolvedBlock) -> LookAhead:
-    """The look-ahead in force: the operator's value, or the calculated one."""
-    empty = sum(one.code == "ZERO_LENGTH" for one in solved.every_finding)
+def look_ahead(block: Block, solved: SolvedBlock, told: Iterable[Finding]) -> LookAhead:
+    """The look-ahead in force: the operator's value, or the calculated one; `told` is all that is found in fields."""
+    empty = sum(one.code == "ZERO_LENGTH" for one in told)
     value = calculated(len(solved.segments) - empty, closed=solved.closed)
     match block.lookahead:
         case Entry(typed) if LOWEST <= typed <= HIGHEST:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import inf
+from math import dist, inf
 from typing import Final
-
-import numpy as np
 
 from core.comp.best import BestPath, Separation
 from core.comp.result import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path
+from core.geometry.planes import planes
 from core.pipeline.derived import DerivedBlock, Loop, RoughPass, Work
 from core.tolerance import GOUGE
 from core.verify.names import Names, move_name
@@ -51,7 +50,7 @@ def strayed(work: Work, verdict: Verdict) -> Stray:
         rows = range(begin, begin + len(loop.path))
         if any(row in rows for row in verdict.loose):
             away += stray(work.surface, verdict.radius, loop.path).away
-        against += [row for row in verdict.backwards if row in range(first, last)]
+        against += [row for row in verdict.backwards if first <= row < last]
         first = last
     return Stray(tuple(away), tuple(against))
 
@@ -76,7 +75,7 @@ def _move_name(loop: Loop, path: Path, row: int, surface: Path) -> str:
     if path is loop.lead_in:
         return "The blend-in arc"
     # the overlap's arcs are the path's own, the blend's is not
-    again = bool((loop.path.centres == path.centres[row]).all(axis=1).any())
+    again = bool((planes(loop.path.centres) == planes(path.centres)[row]).any())
     if row == len(path) - 1 and path.turns[row] and not again:
         return "The blend-out arc"
     return f"{move_name(path, row, surface)} past START"
@@ -175,9 +174,11 @@ def better_findings(best: BestPath, apart: Separation) -> tuple[Finding, ...]:
 
 def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
     """A tool that is larger than the whole contour is mostly a wrong one."""
-    # the contour is no smaller than what its points span
-    if len(surface) and 2 * radius <= float((surface.points.max(axis=0) - surface.points.min(axis=0)).max()):
-        return ()
+    if len(surface):
+        # the contour is no smaller than what two of its points span: seldom is more to be asked
+        (x, y), (x_far, y_far) = surface.points[0].tolist(), surface.points[len(surface) // 2].tolist()
+        if 2 * radius <= max(abs(x_far - x), abs(y_far - y)):
+            return ()
     boxes = surface.boxes
     extent = max((boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0)).tolist(), default=inf)
     if 2 * radius <= extent:
@@ -192,8 +193,7 @@ def open_finding(surface: Path, diameter: float, *, closed: bool) -> tuple[Findi
     Such a gap is seldom meant, and no look at the path shows it; nor one so small that the contour counts as closed,
     beside which the path gouges as deep.  Fewer than three segments enclose nothing.
     """
-    gap = surface.points[0] - surface.points[-1] if len(surface) else np.zeros(2)
-    apart = float(np.hypot(*gap))
+    apart = dist(surface.points[0].tolist(), surface.points[-1].tolist()) if len(surface) else 0.0
     if apart <= GOUGE or (not closed and len(surface) < FEWEST):
         return ()
     number, place = float(surface.numbers[-1]), tuple(surface.points[-1].tolist())

@@ -24,13 +24,14 @@ def turning_back(surface: Path, *, closed: bool) -> tuple[Finding, ...]:
     """
     points, centres, turns = planes(surface.points), planes(surface.centres), surface.turns
     # a line has its own start for a centre: from there to its end it runs as it is
-    straight, quarter = turns == 0, np.where(turns == 0, 1.0, 1j * turns)
-    leave = quarter * (points[1:] - centres)
-    into = np.where(straight, leave, quarter * (points[:-1] - centres))
+    leave, arcs = points[1:] - centres, turns.nonzero()[0]
+    into, quarter = leave.copy(), 1j * turns[arcs]
+    leave[arcs] *= quarter
+    into[arcs] = quarter * (points[arcs] - centres[arcs])
     turned = leave.conj() * onward(into)
     rows = (turned.real < -STRAIGHT_BACK * np.abs(turned)).nonzero()[0].tolist()
     joints = [(row, (row + 1) % len(turns)) for row in rows if closed or row + 1 < len(turns)]
-    return tuple(_turned(surface, row, behind) for row, behind in joints if straight[row] or straight[behind])
+    return tuple(_turned(surface, row, behind) for row, behind in joints if not (turns[row] and turns[behind]))
 
 
 def _turned(surface: Path, row: int, behind: int) -> Finding:

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import compress, count
 from math import hypot
-from operator import is_not
+from operator import is_, is_not
 
 from core.geometry.piece import Piece
 from core.program.model import BlendSegment, Block, Program
@@ -71,7 +71,7 @@ def _others(new: Sequence[object], old: Sequence[object]) -> list[int]:
 
 def _start(block: Block, program: Program, old: Making | None) -> Start:
     """START of a block, the one of before if all it is made of are the same objects."""
-    if old is not None and not _others(made_of(block, program), made_of(old.block, old.program)):
+    if old is not None and all(map(is_, made_of(block, program), made_of(old.block, old.program))):
         return old.start
     return solve_start(block, program)
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import cache
+from collections.abc import Sequence
 from math import isinf
 from typing import Final
 
@@ -121,15 +120,14 @@ def _crosses_itself(verdict: Verdict) -> tuple[Finding, ...]:
     return (Finding("CROSSES_ITSELF", Severity.WARNING, text, at=verdict.crossing_at),)
 
 
-def _uncut(uncut: UncutStretches, surface: Path) -> Iterator[Finding]:
+def _uncut(uncut: UncutStretches, surface: Path) -> Sequence[Finding]:
     """A finding for each stretch, put into words when it is read; the shares of all are found for the first of them."""
-
-    @cache
-    def shared() -> list[tuple[Uncut, Shares]]:
-        return list(zip(uncut, _shares(uncut, surface), strict=True))
+    shared: list[tuple[Uncut, Shares]] = []
 
     def told(row: int) -> Finding:
-        return _told(*shared()[row], surface)
+        if not shared:
+            shared.extend(zip(uncut, _shares(uncut, surface), strict=True))
+        return _told(*shared[row], surface)
 
     return Unworded.each(UNCUT, Severity.INFO, uncut.columns[0].tolist(), told)
 
