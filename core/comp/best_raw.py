@@ -82,7 +82,7 @@ def untrimmed(surface: Path, side: Side, radius: float, *, closed: bool, crossin
         return _untrimmed(chain, 2 * len(surface) - 1, planes(both.points), rings=(len(chain),))
     whole = joined((surface.part(0, 1).reversed(), surface, surface.part(len(surface) - 1, len(surface)).reversed()))
     chain = _without_cusps(offset(whole, side, radius), whole, side)
-    chain = Chain(chain.raw, chain.parts, chain.places - np.int32(2))
+    chain = Chain(chain.raw, chain.parts, chain.places - 2)
     return _untrimmed(chain, 2 * len(surface) - 1, planes(surface.points), rings=())
 
 
@@ -152,7 +152,7 @@ def _both(one: Chain, two: Chain, places: int) -> Chain:
     )
     bridge = np.full(1, Part.BRIDGE.value, np.uint8)
     parts = np.concatenate((one.parts, bridge, two.parts))
-    return Chain(path, parts, np.concatenate((one.places, one.places[-1:] + 1, two.places + np.int32(places))))
+    return Chain(path, parts, np.concatenate((one.places, one.places[-1:] + 1, two.places + places)))
 
 
 def _untrimmed(chain: Chain, sides: int, joints: Planes, *, rings: tuple[int, ...]) -> Untrimmed:

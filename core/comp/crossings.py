@@ -12,11 +12,11 @@ from itertools import pairwise
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.comp.offset import BRIDGE, CORNER, Chain, stacked
-from core.geometry.intersect import Indices, Masks, Meeting, Meetings, Planes, coordinates, meet, planes
-from core.geometry.path import Floats, Path, Turns
+from core.geometry.intersect import Meeting, Meetings, meet_pieces
+from core.geometry.path import Floats
+from core.geometry.planes import Indices, Masks, Pieces, Planes, coordinates, pieces_of, planes, taken
 from core.tolerance import ON_PATH
 
 _STRETCH: Final = 8192
@@ -31,8 +31,8 @@ class Crossings:
     a's raw end, `b_ends` at b's.  `points` are complex numbers.
     """
 
-    a: NDArray[np.int32]
-    b: NDArray[np.int32]
+    a: Indices
+    b: Indices
     along_a: Floats
     along_b: Floats
     a_ends: Masks
@@ -53,7 +53,7 @@ class Candidates:
 
     joints: Crossings
     others: Crossings
-    reach: NDArray[np.int32]
+    reach: Indices
 
     def within(self, lookahead: int) -> Crossings:
         """The crossings of pieces that are not neighbours and that this look-ahead tests."""
@@ -74,16 +74,16 @@ def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
     Tangent touches of pieces that are not neighbours are left out: a cutter that just fits passes.  The first and
     the last segment of a closed contour are never tested against each other, unless they are neighbours.
     """
-    partners = (chain.parts <= CORNER).nonzero()[0]
+    pieces, partners = pieces_of(chain.raw), (chain.parts <= CORNER).nonzero()[0]
     bounds = [*range(0, max(len(partners), 1), _STRETCH), len(partners)]
     joints, others = [], []
     for first, last in pairwise(bounds):
-        a, b = _pairs(chain, partners, first, last, 2 * lookahead)
+        a, b = _pairs(pieces, chain.places, partners, first, last, 2 * lookahead)
         joint = (b - a == 2) & (chain.parts[b - 1] == BRIDGE)
         if closed and chain.places[-1] - chain.places[0] <= 2 * lookahead:
             tested = joint | (a > 0) | (b < len(chain) - 1)
             a, b, joint = a[tested], b[tested], joint[tested]
-        met = meet(chain.raw, a, chain.raw, b)
+        met = meet_pieces(pieces, a, pieces, b)
         at_joint, crossed = joint[met.pair], met.kinds[met.pair] == Meeting.CROSS.value
         joints.append(_found(met, a, b, at_joint))
         others.append(_found(met, a, b, crossed & ~at_joint))
@@ -105,8 +105,8 @@ def _found(met: Meetings, a: Indices, b: Indices, chosen: Masks) -> Crossings:
     rows = chosen.nonzero()[0]
     pair = met.pair[rows]
     return Crossings(
-        a[pair].astype(np.int32),
-        b[pair].astype(np.int32),
+        a[pair],
+        b[pair],
         met.along_a[rows],
         met.along_b[rows],
         met.rest_a[rows] <= ON_PATH,
@@ -115,7 +115,9 @@ def _found(met: Meetings, a: Indices, b: Indices, chosen: Masks) -> Crossings:
     )
 
 
-def _pairs(chain: Chain, partners: Indices, first: int, last: int, reach: int) -> tuple[Indices, Indices]:
+def _pairs(
+    pieces: Pieces, every_place: Indices, partners: Indices, first: int, last: int, reach: int
+) -> tuple[Indices, Indices]:
     """Pairs a < b of `partners`, not next to each other in the chain, within reach and with boxes that meet.
 
     b are the partners first ... last - 1.  Each row of the comparison is one distance among them, most distant first.
@@ -123,12 +125,12 @@ def _pairs(chain: Chain, partners: Indices, first: int, last: int, reach: int) -
     # no two have the same place: there are no more within reach
     before = min(first, reach)
     rows = partners[first - before : last]
-    places = chain.places[rows]
+    places = every_place[rows]
     farthest = places.searchsorted(places[before:] - reach)
     window = int((np.arange(before, len(rows)) - farthest).max(initial=0))
     if not window:
         return np.empty(0, np.intp), np.empty(0, np.intp)
-    lows, highs = _boxes(chain.raw, rows[max(before - window, 0) :], max(window - before, 0))
+    lows, highs = _boxes(taken(pieces, rows[max(before - window, 0) :]), max(window - before, 0))
     beside = _shifted(lows, window) <= highs[:, None, window:]
     beside &= _shifted(highs, window) >= lows[:, None, window:]
     meeting = beside[0] & beside[1]
@@ -148,20 +150,18 @@ def _shifted(values: Floats, window: int) -> Floats:
     return np.ndarray((2, window, count), np.float64, values, 0, (values.strides[0], step, step))
 
 
-def _boxes(raw: Path, rows: Indices, pad: int) -> tuple[Floats, Floats]:
-    """Boxes that hold these pieces: least and largest x and y, each (2, pad + len(rows)); the first `pad` are empty."""
-    points, turns = planes(raw.points), raw.turns[rows]
-    start, end = points[rows], points[rows + 1]
-    lows, highs = np.empty((2, pad + len(rows))), np.empty((2, pad + len(rows)))
+def _boxes(pieces: Pieces, pad: int) -> tuple[Floats, Floats]:
+    """Boxes that hold n pieces: least and largest x and y, each (2, pad + n); the first `pad` are empty."""
+    count = len(pieces.turn)
+    lows, highs = np.empty((2, pad + count)), np.empty((2, pad + count))
     lows[:, :pad], highs[:, :pad] = np.inf, -np.inf
-    low, high, both = lows[:, pad:], highs[:, pad:], (coordinates(start).T, coordinates(end).T)
+    low, high, both = lows[:, pad:], highs[:, pad:], (coordinates(pieces.start).T, coordinates(pieces.end).T)
     np.minimum(*both, out=low)
     np.maximum(*both, out=high)
-    arcs = turns.nonzero()[0]
-    beyond = np.zeros(len(rows))
+    arcs, beyond = pieces.turn.nonzero()[0], np.zeros(count)
     if len(arcs):
-        lift = np.zeros(len(rows), np.complex128)
-        lift[arcs], beyond[arcs] = _lifts(start[arcs], end[arcs], planes(raw.centres)[rows[arcs]], turns[arcs])
+        lift = np.zeros(count, np.complex128)
+        lift[arcs], beyond[arcs] = _lifts(taken(pieces, arcs))
         up = coordinates(lift).T
         low += np.minimum(up, 0.0)
         high += np.maximum(up, 0.0)
@@ -171,15 +171,15 @@ def _boxes(raw: Path, rows: Indices, pad: int) -> tuple[Floats, Floats]:
     return lows, highs
 
 
-def _lifts(start: Planes, end: Planes, centre: Planes, turns: Turns) -> tuple[Planes, Floats]:
+def _lifts(arcs: Pieces) -> tuple[Planes, Floats]:
     """By how much arcs lie beside their chords, as vectors, and by how much a box must grow on all sides besides.
 
     An arc of half a turn or less lies in the rectangle of its chord and its height, on the chord's right if
     counter-clockwise; a larger one within a diameter of its ends.  An arc whose radii differ grows by that.
     """
-    first, last, run = start - centre, end - centre, (end - start) / 2.0
+    first, last, run = arcs.start - arcs.centre, arcs.end - arcs.centre, (arcs.end - arcs.start) / 2.0
     radius, half = np.abs(first), np.abs(run)
-    small = ((first.conj() * last).imag * turns > 0.0) & (half > 0.0)
+    small = ((first.conj() * last).imag * arcs.turn > 0.0) & (half > 0.0)
     height = radius - np.sqrt(np.maximum((radius - half) * (radius + half), 0.0))
-    lift = -1j * run * (turns * height / np.where(small, half, np.inf))
+    lift = -1j * run * (arcs.turn * height / np.where(small, half, np.inf))
     return lift, np.abs(np.abs(last) - radius) + np.where(small, 0.0, 2.0 * radius)

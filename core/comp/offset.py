@@ -45,7 +45,7 @@ class Chain:
 
     raw: Path
     parts: NDArray[np.uint8]
-    places: NDArray[np.int32]
+    places: Indices
 
     def __len__(self) -> int:
         return len(self.parts)
@@ -59,7 +59,7 @@ class _Stretch(NamedTuple):
     turns: Turns
     numbers: Floats
     parts: NDArray[np.uint8]
-    places: NDArray[np.int32]
+    places: Indices
 
 
 class _Beside(NamedTuple):
@@ -119,8 +119,7 @@ def _stretch(contour: Path, sign: int, radius: float, first: int, last: int) -> 
     parts[between][corners] = CORNER
     slots = taken.nonzero()[0]
     pieces = slots[:-1] if joints < count else slots
-    places = pieces.astype(np.int32)
-    places += 2 * first
+    places = pieces + 2 * first
     return _Stretch(points[slots], centres[pieces], turns[pieces], numbers[pieces], parts[pieces], places)
 
 
@@ -152,7 +151,7 @@ def _joints(normals: Planes, sign: int, radius: float) -> tuple[Masks, Masks]:
     return radius * np.abs(behind - before) > JOINED, (sign * bend.imag < 0.0) | reversal
 
 
-def _close_circles(points: Planes, contour: Path, places: NDArray[np.int32]) -> None:
+def _close_circles(points: Planes, contour: Path, places: Indices) -> None:
     """Keep full circles full where the next piece's start was taken for their end: equal ends are what makes them."""
     ends = planes(contour.points)
     circles = (ends[1:] == ends[:-1]).nonzero()[0]

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from core.geometry.path import Floats, Path
 from core.geometry.piece import SLIVER
-from core.geometry.planes import Indices, Masks, Pieces, Planes, coordinates, pieces_of, planes
+from core.geometry.planes import Indices, Masks, Pieces, Planes, coordinates, pieces_of, planes, taken
 from core.tolerance import JOINED, ON_PATH
 
 __all__ = [
@@ -93,14 +93,10 @@ def meet_pieces(one: Pieces, a: Indices, other: Pieces, b: Indices) -> Meetings:
     for these, solve in which:
         rows = these.nonzero()[0]
         if len(rows):
-            kinds[rows], found = solve(_taken(one, a[rows]), _taken(other, b[rows]))
+            kinds[rows], found = solve(taken(one, a[rows]), taken(other, b[rows]))
             parts.append(found._replace(pair=rows[found.pair]))
     found = _joined(parts)
     return Meetings(kinds, *found[:5], coordinates(found.point))
-
-
-def _taken(pieces: Pieces, rows: Indices) -> Pieces:
-    return Pieces._make(column[rows] for column in pieces)
 
 
 def _joined(parts: list[_Points]) -> _Points:
@@ -138,7 +134,7 @@ def _lines(a: Pieces, b: Pieces) -> _Solved:
     kinds[on] = Meeting.CROSS.value
     rows = (parallel & (length_a > 0.0) & (length_b > 0.0)).nonzero()[0]
     if len(rows):
-        kinds[rows], touches = _parallel(_taken(a, rows), _taken(b, rows))
+        kinds[rows], touches = _parallel(taken(a, rows), taken(b, rows))
         found = _joined([found, touches._replace(pair=rows[touches.pair])])
     return kinds, found
 
@@ -173,9 +169,9 @@ def _line_arc(line: Pieces, arc: Pieces) -> _Solved:
     on = _within(along, length[pair]).nonzero()[0]
     pair, along = pair[on], along[on]
     points = line.start[pair] + along * unit[pair]
-    near = _in_sector(points, _taken(arc, pair)).nonzero()[0]
+    near = _in_sector(points, taken(arc, pair)).nonzero()[0]
     pair, along, points = pair[near], along[near], points[near]
-    run, rest = _along_arc(points, _taken(arc, pair), radius[pair])
+    run, rest = _along_arc(points, taken(arc, pair), radius[pair])
     found = _on_both(_Points(pair, along, run, length[pair] - along, rest, points))
     return _kinds(len(room), found.pair, np.abs(room) <= ON_PATH), found
 
@@ -196,16 +192,16 @@ def _arcs(a: Pieces, b: Pieces) -> _Solved:
     pair, half = _half_chords(np.sqrt(np.maximum(area, 0.0)) / (2.0 * divisor), room)
     foot = (apart + differ * total / divisor) / 2.0
     points = a.centre[pair] + (between / divisor)[pair] * (foot[pair] + 1j * half)
-    near = _in_sector(points, _taken(a, pair)).nonzero()[0]
-    near = near[_in_sector(points[near], _taken(b, pair[near]))]
+    near = _in_sector(points, taken(a, pair)).nonzero()[0]
+    near = near[_in_sector(points[near], taken(b, pair[near]))]
     pair, points = pair[near], points[near]
-    run_a, rest_a = _along_arc(points, _taken(a, pair), big[pair])
-    run_b, rest_b = _along_arc(points, _taken(b, pair), small[pair])
+    run_a, rest_a = _along_arc(points, taken(a, pair), big[pair])
+    run_b, rest_b = _along_arc(points, taken(b, pair), small[pair])
     found = _as_travelled(_on_both(_Points(pair, run_a, run_b, rest_a, rest_b, points)))
     kinds = _kinds(len(room), found.pair, np.abs(room) <= ON_PATH)
     rows = (concentric & (np.abs(differ) <= ON_PATH)).nonzero()[0]
     if len(rows):
-        kinds[rows[_overlap(_taken(a, rows), _taken(b, rows))]] = Meeting.OVERLAP.value
+        kinds[rows[_overlap(taken(a, rows), taken(b, rows))]] = Meeting.OVERLAP.value
     return kinds, found
 
 

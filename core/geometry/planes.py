@@ -46,3 +46,8 @@ def pieces_of(path: Path) -> Pieces:
     """The pieces of a path, without a copy."""
     points = planes(path.points)
     return Pieces(points[:-1], points[1:], planes(path.centres), path.turns)
+
+
+def taken(pieces: Pieces, rows: Indices) -> Pieces:
+    """Some of the pieces."""
+    return Pieces._make(column[rows] for column in pieces)
