@@ -6,7 +6,7 @@ The stages: zero-length segments dropped, offset to the raw chain, crossings fou
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -22,6 +22,7 @@ from core.geometry.intersect import Indices, planes
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Piece
 from core.geometry.side import Side
+from core.records import dataclass
 from core.tolerance import JOINED
 
 

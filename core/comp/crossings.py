@@ -7,7 +7,6 @@ decides which of those points are left.  The walk itself then needs no geometry.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final
 
@@ -17,6 +16,7 @@ from core.comp.offset import BRIDGE, CORNER, Chain, stacked
 from core.geometry.intersect import Meeting, Meetings, meet_pieces
 from core.geometry.path import Floats
 from core.geometry.planes import Indices, Masks, Pieces, Planes, coordinates, pieces_of, planes, taken
+from core.records import dataclass
 from core.tolerance import ON_PATH
 
 _STRETCH: Final = 8192

@@ -9,7 +9,6 @@ between it and the next, so that two parts are within a look-ahead of v when the
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from enum import IntEnum
 from itertools import pairwise
 from typing import Any, Final, NamedTuple
@@ -20,6 +19,7 @@ from numpy.typing import NDArray
 from core.geometry.intersect import Indices, Masks, Planes, coordinates, planes
 from core.geometry.path import Floats, Path, Turns
 from core.geometry.side import Side
+from core.records import dataclass
 from core.tolerance import JOINED
 
 _STRETCH: Final = 16384

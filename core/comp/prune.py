@@ -8,8 +8,6 @@ along it, so that the walk compares numbers and visits only pieces at which some
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,6 +17,7 @@ from core.comp.result import Deletions
 from core.comp.walk import Left, Walk
 from core.geometry.intersect import Indices, Masks, coordinates, planes
 from core.geometry.path import EMPTY, Path
+from core.records import dataclass
 from core.tolerance import JOINED, ON_PATH
 
 

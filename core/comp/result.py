@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 from core.finding import Finding
 from core.geometry.path import Floats, Path, joined
 from core.geometry.side import Side
+from core.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

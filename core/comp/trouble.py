@@ -138,7 +138,8 @@ def long_way(contour: Path, pruned: Pruned) -> list[Finding]:
         return []
     rows = _rows(contour.numbers, deleted)
     points = planes(contour.points)
-    lines = np.where(contour.turns == 0, np.abs(points[1:] - points[:-1]), 0.0)
+    lines = np.abs(points[1:] - points[:-1])
+    lines[contour.turns.nonzero()[0]] = 0.0
     if not contour.turns[rows].any() and lines[rows].sum() <= lines.sum() / 2.0:
         # so it is with the arcs, which take longer to measure
         return []

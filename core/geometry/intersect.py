@@ -8,7 +8,6 @@ are complex numbers: conj(u) v has the dot product as real and the cross product
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import IntEnum
 from math import tau
 from typing import Final, NamedTuple
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 from core.geometry.path import Floats, Path
 from core.geometry.piece import SLIVER
 from core.geometry.planes import Indices, Masks, Pieces, Planes, coordinates, pieces_of, planes, taken
+from core.records import dataclass
 from core.tolerance import JOINED, ON_PATH
 
 __all__ = [

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
 from core.comp.best import BestPath, best_path
@@ -15,6 +14,7 @@ from core.geometry.side import Side
 from core.pipeline.derived import Loop
 from core.program.fields import default
 from core.program.model import Entry, PathChoice, Program
+from core.records import dataclass
 from core.units import to_mm
 
 SHARED: Final = 1000
