@@ -10,7 +10,7 @@ from core.comp.result import Compensated
 from core.geometry.path import Path
 from core.geometry.piece import Arc
 from core.geometry.side import Side
-from tests.core.comp.contours import mixed, polygons, shut
+from tests.core.comp.contours import lines, mixed, polygons, shut
 from tests.core.comp.walked import Cut, Walk, walk
 
 NEAR = 1e-9
@@ -60,3 +60,10 @@ def test_open_contours_of_lines_and_arcs_are_walked_alike(contour, side, radius,
 @given(mixed | polygons, st.sampled_from(Side), radii, lookaheads)
 def test_closed_contours_are_walked_alike(contour, side, radius, lookahead):
     _agree(shut(contour), side, radius, lookahead, closed=True)
+
+
+def test_a_segment_before_those_that_meet_first_goes_with_the_pair_that_spans_it():
+    contour = lines((0, 0), (-2, -2), (-4, -2), (-1, 0), (-3, -1), (-5, -1), (-3, -3))
+    _agree(contour, Side.LEFT, 0.5, 20, closed=False)
+    deleted = compensate(contour, Side.LEFT, 0.5, 20, closed=False).deleted
+    assert [(one.segment, one.by) for one in deleted] == [(3, (2, 6)), (4, (3, 5)), (5, (2, 6))]

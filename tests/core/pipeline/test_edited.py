@@ -50,13 +50,18 @@ def edited(part: Program, row: int, out: float) -> Program:
 
 
 def alike(found: DerivedBlock, fresh: DerivedBlock) -> bool:
-    """Surface, paths, what is told and the verdict's own numbers."""
+    """Surface, chain, paths and deletions, what is told and the verdict's own numbers."""
     if found.findings != fresh.findings or (found.work is None) != (fresh.work is None):
         return False
     if found.work is None or fresh.work is None:
         return True
     paths = [(found.work.surface, fresh.work.surface)]
     paths += [(one.whole, other.whole) for one, other in zip(found.work.loops, fresh.work.loops, strict=True)]
+    made, anew = found.work.compensated, fresh.work.compensated
+    if made is not None and anew is not None:
+        paths.append((made.raw, anew.raw))
+        if list(made.deleted) != list(anew.deleted) or made.findings != anew.findings:
+            return False
     names = ("points", "centres", "turns", "numbers")
     return all(np.array_equal(getattr(a, name), getattr(b, name)) for a, b in paths for name in names)
 
