@@ -94,7 +94,7 @@ def meet_pieces(one: Pieces, a: Indices, other: Pieces, b: Indices) -> Meetings:
         rows = these.nonzero()[0]
         if len(rows):
             kinds[rows], found = solve(taken(one, a[rows]), taken(other, b[rows]))
-            parts.append(found._replace(pair=rows[found.pair]))
+            parts.append(_Points(rows[found.pair], *found[1:]))
     found = _joined(parts)
     return Meetings(kinds, *found[:5], coordinates(found.point))
 

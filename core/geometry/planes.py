@@ -50,4 +50,4 @@ def pieces_of(path: Path) -> Pieces:
 
 def taken(pieces: Pieces, rows: Indices) -> Pieces:
     """Some of the pieces."""
-    return Pieces._make(column[rows] for column in pieces)
+    return Pieces(pieces.start[rows], pieces.end[rows], pieces.centre[rows], pieces.turn[rows])
