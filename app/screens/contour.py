@@ -48,7 +48,11 @@ class Contour(FormPage):
 
     def cursor(self, session: Session) -> str:
         """The session's field, or SEGMENT where that is not shown (as the look-ahead while comp is ON)."""
-        return session.field if any(one.name == session.field for one in fields_at(session)) else SEGMENT
+        return SEGMENT if self.field(session) is None else session.field
+
+    def field(self, session: Session) -> Field | None:
+        """The session's field where that is shown."""
+        return next((one for one in fields_at(session) if one.name == session.field), None)
 
     def moved(self, session: Session, name: str) -> Answer:
         """The session's cursor on another field."""
@@ -151,22 +155,21 @@ class Contour(FormPage):
 
     def view(self, session: Session, surface: Surface) -> View:
         """The form as it stands."""
-        cursor, cells = self.cursor(session), cells_at(session)
+        one, cells = self.field(session), cells_at(session)
+        cursor = SEGMENT if one is None else one.name
         return View(
-            header(block_line(session), self._segment_line(session), session, surface.width),
+            header(block_line(session), self._segment_line(session, on_it=one is None), session, surface.width),
             ((), *form_rows(cells, cursor, self.editing, surface.width), ()),
-            self._prompt(session),
+            self._prompt(session, one),
             1 + cursor_line(cells, cursor, surface.width),
         )
 
-    def _segment_line(self, session: Session) -> Row:
-        on_it = self.cursor(session) == SEGMENT
+    def _segment_line(self, session: Session, *, on_it: bool) -> Row:
         typed = self.editing.text if on_it and self.editing is not None else None
         number = str(session.where.segment) if typed is None else typed
         return segment_line(number, form_at(session), cursor=on_it, typing=typed is not None)
 
-    def _prompt(self, session: Session) -> Said:
-        one = self.field(session)
+    def _prompt(self, session: Session, one: Field | None) -> Said:
         if one is None:
             return Said(SEGMENT_PROMPT if session.block.segments else FIRST_SEGMENT)
         return self.reason(session) or _trouble(session, one) or Said(prompt_of(one))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from functools import lru_cache
 from types import MappingProxyType
 from typing import Final
@@ -128,11 +127,11 @@ def _missing(session: Session) -> tuple[str, ...]:
 def _cell(one: Field, held: Value | str, unit: Unit, place: tuple[int, int], *, needed: bool) -> Cell:
     cell = cell_of(one, held, unit, *place, needed=needed)
     if one.name == "lookahead" and cell.state is State.TYPED:
-        return replace(cell, tag=str(Tag.USR))
+        return cell._replace(tag=str(Tag.USR))
     if one.name in ZERO and cell.state is State.CALCULATED:
-        return replace(cell, tag="DEF")
+        return cell._replace(tag="DEF")
     if one.name == "choice":
-        return replace(cell, text=f"{int(cell.text) + 1} of 2" if cell.text else "?")
+        return cell._replace(text=f"{int(cell.text) + 1} of 2" if cell.text else "?")
     return cell
 
 

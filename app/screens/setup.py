@@ -65,7 +65,7 @@ class SetupPage(FormPage):
         usual = default(one.name, unit)
         if held is not None or usual is None:
             return cell
-        return replace(cell, text=show(usual, one.kind, unit), tag="DEF", state=State.CALCULATED)
+        return cell._replace(text=show(usual, one.kind, unit), tag="DEF", state=State.CALCULATED)
 
     def view(self, session: Session, surface: Surface) -> View:
         """The form as it stands."""

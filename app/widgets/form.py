@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from enum import StrEnum
 from functools import lru_cache
-from typing import Final
+from typing import Final, NamedTuple
 
 from app.widgets.field import Editing, window
 from app.widgets.rows import Look, Row, Span, padded
-from core.records import dataclass
 
 WIDTH: Final = 59
 """Cells from the left edge to the softkeys' frame."""
@@ -27,8 +26,7 @@ class State(StrEnum):
     READ_ONLY = "read-only"
 
 
-@dataclass(frozen=True, slots=True)
-class Cell:
+class Cell(NamedTuple):
     """One field of a form: where it stands (column 0 left, 1 right, 2 across; line from 0) and what it shows.
 
     `text` is the value as shown; `tag` stands to the left of it.  A choice takes no text.
@@ -44,8 +42,7 @@ class Cell:
     choice: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(NamedTuple):
     """A column of the form: first cell, width, and the narrowest room its values get."""
 
     first: int
@@ -78,7 +75,12 @@ def form_rows(cells: Sequence[Cell], cursor: str, editing: Editing | None, width
     by_place = {(cell.column, cell.line): cell for cell in cells}
     lines = range(max([LINES, *(cell.line + 1 for cell in cells)]))
     places = tuple(_aligned(place, cells, column) for column, place in enumerate(PLACES))
-    return tuple(_line(by_place, places, line, cursor, editing) for line in lines)
+    rows = []
+    for line in lines:
+        across = by_place.get((0, line)), by_place.get((1, line)), by_place.get((2, line))
+        on_it = any(cell is not None and cell.name == cursor for cell in across)
+        rows.append(_line(across, places, cursor if on_it else "", editing if on_it else None))
+    return tuple(rows)
 
 
 def cursor_line(cells: Sequence[Cell], cursor: str, width: int) -> int:
@@ -99,10 +101,15 @@ def _aligned(place: Place, cells: Sequence[Cell], column: int) -> Place:
     return Place(place.first, place.width, min([place.value, *beside]))
 
 
+@lru_cache(256)
 def _line(
-    cells: Mapping[tuple[int, int], Cell], places: tuple[Place, ...], line: int, cursor: str, editing: Editing | None
+    cells: tuple[Cell | None, Cell | None, Cell | None],
+    places: tuple[Place, ...],
+    cursor: str,
+    editing: Editing | None,
 ) -> Row:
-    left, right, across = (cells.get((column, line)) for column in range(3))
+    """The fields side by side, or one across; a key leaves most lines as they were."""
+    left, right, across = cells
     first, second, whole = places
     if across is not None:
         return (Span(" " * whole.first), *_on_form(across, whole, cursor, editing))

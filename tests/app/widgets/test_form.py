@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from app.widgets import form
 from app.widgets.field import Editing
 from app.widgets.form import WIDTH, Cell, State, cursor_line, form_rows
 from app.widgets.rows import Look, text_of
@@ -75,3 +76,15 @@ def test_a_text_that_is_too_long_ends_in_an_ellipsis() -> None:
 def test_a_text_can_be_typed_where_there_is_no_room_for_it(width: int) -> None:
     cell = Cell("radius", "RADIUS", "1.0000", 0, 0, State.TYPED, "CAL")
     assert form_rows([cell], "radius", Editing.of("1.25"), width)
+
+
+@pytest.mark.parametrize("width", [30, WIDTH])
+def test_lines_taken_over_are_those_made_anew(width: int) -> None:
+    below = Cell("y", "Y END", "4.0000", 0, 1)
+    for cursor in ("x", "y", "length", ""):
+        for editing in (None, Editing("2.5", 3), Editing("2.5", 1), Editing("-3.25", 5)):
+            for cells in ((X, LENGTH, below), (X._replace(text="2.5000"), LENGTH, below), (X, below)):
+                kept = form_rows(cells, cursor, editing, width)
+                form._line.cache_clear()
+                form._cell.cache_clear()
+                assert form_rows(cells, cursor, editing, width) == kept
