@@ -5,12 +5,11 @@ The strip on its first line tells every look-ahead value's fate; below it stand 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
 from math import isfinite
 from textwrap import wrap
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from app.widgets.rows import Look, Row, Span, padded, plain, text_of
 from app.widgets.strip import STRIP, strip
@@ -59,8 +58,7 @@ class Case:
     verdict: Verdict
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Erased:
+class Erased(NamedTuple):
     """Segments that a pair of pieces has erased: the numbers of the two, and where they meet."""
 
     pair: tuple[float, float, float, float]
@@ -101,7 +99,7 @@ def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | Non
     findings = _untold(found.findings, case)
     errors = [one for one in findings if one.severity is Severity.ERROR]
     rest = [one for one in findings if one.severity is not Severity.ERROR]
-    lines: list[Row | Erased] = [] if case is None else list(_case_lines(case, unit))
+    lines = [] if case is None else _case_lines(case, unit)
     notes = () if table is None else table.notes
     gravest = 1 if case is not None and case.verdict.gouges else 0
     cause = _misplaced(findings) if gravest else []
@@ -237,18 +235,15 @@ def _sentence(finding: Finding, unit: Unit) -> Row:
     return plain(f" {mark} {where}{sentence(finding, unit)}", look)
 
 
-def _case_lines(case: Case, unit: Unit) -> Iterator[Row | Erased]:
+def _case_lines(case: Case, unit: Unit) -> list[Row | Erased]:
     """The deepest gouge, what is deleted, what stays uncut.
 
     Where several pairs delete, all but the first stand last: there may be more of them than the screen has lines.
     """
     verdict = case.verdict
-    if verdict.gouges:
-        yield _gouge(verdict, unit)
+    gouge = [_gouge(verdict, unit)] if verdict.gouges else []
     erased = () if case.compensated is None else _erased(case.compensated.deleted)
-    yield from erased[:1]
-    yield _uncut(verdict, unit)
-    yield from erased[1:]
+    return [*gouge, *erased[:1], _uncut(verdict, unit), *erased[1:]]
 
 
 def _uncut(verdict: Verdict, unit: Unit) -> Row:
