@@ -6,10 +6,9 @@ Imported only when the numeric library is loaded, after the first screen stands.
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
+from functools import lru_cache
+from re import DOTALL, compile
 from typing import Final
-
-import numpy as np
 
 from app.screens.page import Sketch
 from app.widgets.rows import Look, Row, Span
@@ -42,6 +41,8 @@ LOOKS: Final = {
 """The look of each role of the drawing."""
 BY_STYLE: Final = tuple(LOOKS[style] for style in Style)
 """The same by the number of the role."""
+ALIKE: Final = compile(rb"(.)\1*", DOTALL)
+"""Cells of one style side by side."""
 
 
 def picture_rows(scene: Scene, sketch: Sketch, columns: int, rows: int, mode: str) -> tuple[Row, ...]:
@@ -50,7 +51,7 @@ def picture_rows(scene: Scene, sketch: Sketch, columns: int, rows: int, mode: st
         scene = replace(scene, unit=None)
     gathered = scene.gathered
     view = _view_of(gathered, sketch, columns, rows)
-    return () if view is None else tuple(_rows(draw(scene, view, columns, rows, Mode(mode), gathered)))
+    return () if view is None else _rows(draw(scene, view, columns, rows, Mode(mode), gathered))
 
 
 def view_of(scene: Scene, sketch: Sketch, columns: int, rows: int) -> View | None:
@@ -89,15 +90,12 @@ def _fitted(bounds: Box, columns: int, rows: int, *, scaled: bool) -> View:
     return View.fit(bounds, columns, rows - 1).pan(0.0, -0.5 / rows, columns, rows)
 
 
-def _rows(picture: Picture) -> list[Row]:
-    """The rows, their cells of one style in one span."""
-    styles, text = picture.styles, "".join(picture.rows)
-    begins = np.ones(styles.shape, np.bool_)
-    begins[:, 1:] = styles[:, 1:] != styles[:, :-1]
-    # of all cells one behind the other: that is asked once for the picture, and not row by row
-    heads = begins.reshape(-1).nonzero()[0]
-    starts, looks = heads.tolist(), styles.reshape(-1)[heads].tolist()
-    both = zip(starts, [*starts[1:], len(text)], looks, strict=True)
-    spans = [Span(text[head:tail], BY_STYLE[style]) for head, tail, style in both]
-    edges = (heads % styles.shape[1] == 0).nonzero()[0].tolist()
-    return [tuple(spans[first:behind]) for first, behind in pairwise([*edges, len(spans)])]
+def _rows(picture: Picture) -> tuple[Row, ...]:
+    styles, columns = picture.styles.tobytes(), picture.styles.shape[1]
+    return tuple(_row(text, styles[row * columns : row * columns + columns]) for row, text in enumerate(picture.rows))
+
+
+@lru_cache(256)
+def _row(text: str, styles: bytes) -> Row:
+    """A row, its cells of one style in one span; most rows of a picture were in the one before."""
+    return tuple(Span(text[run.start() : run.end()], BY_STYLE[run[0][0]]) for run in ALIKE.finditer(styles))

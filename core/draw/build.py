@@ -51,11 +51,13 @@ def contour_scene(
     return Scene(layers, () if cutter is None else (Circle(*cutter),), marks, unit)
 
 
-def _trouble(start: Point | None, meetings: Sequence[Point], gouges: Sequence[Point]) -> Iterator[Mark]:
+def _trouble(start: Point | None, meetings: Sequence[Point], gouges: Sequence[Point]) -> list[Mark]:
     """START, and over it what is wrong."""
-    yield from _spots(() if start is None else (start,), Style.START, Symbol.START)
-    yield from _spots(meetings, Style.DELETED, Symbol.DELETED)
-    yield from _spots(gouges, Style.GOUGE, Symbol.GOUGE)
+    return [
+        *_spots(() if start is None else (start,), Style.START, Symbol.START),
+        *_spots(meetings, Style.DELETED, Symbol.DELETED),
+        *_spots(gouges, Style.GOUGE, Symbol.GOUGE),
+    ]
 
 
 def _layers(paths: Sequence[Path], style: Style, *, dashed: bool = False) -> Iterator[Layer]:
@@ -67,8 +69,8 @@ def _parts(parts: Parts, style: Style, *, dashed: bool = False) -> Iterator[Laye
         yield Layer(parts.path, style, dashed, parts.own)
 
 
-def _spots(places: Sequence[Point], style: Style, symbol: Symbol) -> Iterator[Mark]:
-    return (Mark(at, style, symbol) for at in places)
+def _spots(places: Sequence[Point], style: Style, symbol: Symbol) -> list[Mark]:
+    return [Mark(at, style, symbol) for at in places]
 
 
 def _travel(path: Path) -> Iterator[Mark]:

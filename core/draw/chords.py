@@ -66,8 +66,8 @@ class _Arcs:
         return _Arcs(rows, centres, turns, self.sweeps[keep], self.radii[keep], self.begin[keep])
 
 
-def chords(gathered: Gathered, axes: Chords, view: View, columns: int, rows: int) -> Chords:
-    """The axes and chords of all layers' pieces that may touch the window of columns x rows cells.
+def chords(gathered: Gathered, view: View, columns: int, rows: int) -> Chords:
+    """The chords of all layers' pieces that may touch the window of columns x rows cells.
 
     A layer is known by its index among those of `gathered`.
     """
@@ -77,22 +77,18 @@ def chords(gathered: Gathered, axes: Chords, view: View, columns: int, rows: int
     starts = points[pieces.rows]
     every = Chords(starts, points[pieces.rows + 1] - starts, pieces.layers, along / view.scale)
     if not len(arcs.rows):
-        return _ordered(axes, every)
-    straight = np.ones(len(starts), np.bool_)
-    straight[arcs.rows] = False
-    bent = _divided(arcs, every, hypot(columns / 2, rows * TALL / 2) + 1.0)
-    return _ordered(axes, every.only(straight.nonzero()[0]), bent)
+        return every
+    return _replaced(every, arcs.rows, _divided(arcs, every, hypot(columns / 2, rows * TALL / 2) + 1.0))
 
 
-def _ordered(*parts: Chords) -> Chords:
-    """All chords in the order of their layers."""
-    layers = np.concatenate([part.layers for part in parts])
-    return Chords(
-        np.concatenate([part.starts for part in parts]),
-        np.concatenate([part.runs for part in parts]),
-        layers,
-        np.concatenate([part.along for part in parts]),
-    ).only(layers.argsort(kind="stable"))
+def _replaced(every: Chords, arcs: Rows, bent: Chords) -> Chords:
+    """All chords in the order of their layers, with those of `arcs` replaced by `bent` ones."""
+    layers = np.concatenate((every.layers, bent.layers))
+    # what is replaced is sorted behind all layers
+    layers[arcs] = every.layers[-1] + 1
+    starts, runs = np.concatenate((every.starts, bent.starts)), np.concatenate((every.runs, bent.runs))
+    found = Chords(starts, runs, layers, np.concatenate((every.along, bent.along)))
+    return found.only(layers.argsort(kind="stable")[: len(layers) - len(arcs)])
 
 
 def _near(gathered: Gathered, view: View) -> tuple[Pieces, Arcs, Floats]:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from core.draw.chords import Chords, Points, Rows, chords
 from core.draw.mode import Cells, Mode, cells
 from core.draw.scene import BEYOND, Gathered, Layer, Scene, Style
-from core.draw.signs import Styles, write_signs
+from core.draw.signs import Sheet, write_signs
 from core.draw.view import TALL, View
 from core.geometry.path import Floats
 from core.records import dataclass
@@ -26,8 +26,6 @@ DASH: Final = (3.0, 1.8)
 AXIS_DASH: Final = (4.0, 1.0)
 NUDGE: Final = 1e-6
 """Parts of a dot: a line exactly between two rows of dots must not change rows where rounding does."""
-AXIS: Final = -1
-"""The layer of both axes, which lie under all others."""
 FAINT: Final = (Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID)
 """Roles that do not make a cell one of the surface."""
 STRUCK: Final = "#"
@@ -36,8 +34,9 @@ PHASE: Final = 0.25
 """Where in its period an axis begins at the window's edge: away from where rounding could decide."""
 
 Bits = NDArray[np.bool_]
+Styles = NDArray[np.uint8]
 
-NO_AXES: Final = Chords(np.empty(0, np.complex128), np.empty(0, np.complex128), np.empty(0, np.intp), np.empty(0))
+NO_AXES: Final = np.empty(0, np.intp)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -45,7 +44,7 @@ class Picture:
     """`rows` of equally many characters, and the Style of each cell: `styles` (rows, columns)."""
 
     rows: tuple[str, ...]
-    styles: NDArray[np.uint8]
+    styles: Styles
 
 
 def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode, gathered: Gathered | None = None) -> Picture:
@@ -59,30 +58,50 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode, gathered
         return Picture(("",) * max(rows, 0), np.zeros((max(rows, 0), max(columns, 0)), np.uint8))
     look = cells(mode)
     gathered = scene.gathered if gathered is None else gathered
-    axes = _axes(view, columns / 2, rows * TALL / 2) if scene.axes else NO_AXES
-    found = _clipped(chords(gathered, axes, view, columns, rows), columns / 2, rows * TALL / 2)
-    lit, styles, strong, struck = _light(found, gathered.layers, look, columns, rows)
+    axes = _axes(view, look, columns, rows) if scene.axes else NO_AXES
+    found = _clipped(chords(gathered, view, columns, rows), columns / 2, rows * TALL / 2)
+    lit, styles, strong, struck = _light(found, gathered.layers, axes, look, columns, rows)
     codes = np.packbits(lit, bitorder="little")
     characters = look.table[codes]
     if look.faint is not None:
         characters = np.where(strong | (styles == Style.AXIS.value), characters, look.faint[codes])
     characters[struck] = STRUCK
-    characters, styles = characters.reshape(rows, columns), styles.reshape(rows, columns)
-    write_signs(characters, styles, scene, view, mode)
-    return Picture(tuple("".join(row) for row in characters.tolist()), styles)
+    sheet = Sheet(columns, rows, characters.tolist(), bytearray(styles))
+    write_signs(sheet, scene, view, mode)
+    text = "".join(sheet.characters)
+    lines = tuple(text[first : first + columns] for first in range(0, len(text), columns))
+    return Picture(lines, np.frombuffer(sheet.styles, np.uint8).reshape(rows, columns))
 
 
-def _axes(view: View, half_width: float, half_height: float) -> Chords:
-    """The parts of the X and the Y axis inside the window, from left to right and from top to bottom."""
-    (x, y), limit = view.centre, BEYOND / view.scale
-    across, up = -x / view.scale, -y / view.scale
-    found = []
+def _axes(view: View, look: Cells, columns: int, rows: int) -> Rows:
+    """The bits that the X and the Y axis light inside the window."""
+    (x, y), limit, (wide, high) = view.centre, BEYOND / view.scale, look.dot
+    across, up, half_width, half_height = -x / view.scale, -y / view.scale, columns / 2, rows * TALL / 2
+    level = upright = None
     if abs(up) <= half_height and max(half_width, abs(up)) <= limit:
-        found.append((complex(-half_width, up), complex(2.0 * half_width, 0.0)))
+        level = int((half_height - up) / high + NUDGE)
     if abs(across) <= half_width and max(half_height, abs(across)) <= limit:
-        found.append((complex(across, half_height), complex(0.0, -2.0 * half_height)))
+        upright = int((across + half_width) / wide + NUDGE)
+    return _crossing(look, columns, rows, level, upright)
+
+
+@lru_cache(8)
+def _crossing(look: Cells, columns: int, rows: int, level: int | None, upright: int | None) -> Rows:
+    """The bits of dashed lines along one row of dots, from left to right, and one column, from top to bottom."""
+    (wide, high), half_width, half_height, found = (
+        look.dot,
+        columns / 2,
+        rows * TALL / 2,
+        list[tuple[complex, complex]](),
+    )
+    if level is not None:
+        found.append((complex(-half_width, half_height - (level + 0.5) * high), complex(2.0 * half_width, 0.0)))
+    if upright is not None:
+        found.append((complex((upright + 0.5) * wide - half_width, half_height), complex(0.0, -2.0 * half_height)))
     starts, runs = np.array(found, np.complex128).reshape(-1, 2).T
-    return Chords(starts, runs, np.full(len(found), AXIS), np.zeros(len(found)))
+    lines = Chords(starts, runs, np.zeros(len(found), np.intp), np.zeros(len(found)))
+    chord, part, bits = _dots(lines, look, columns, rows)
+    return bits[np.mod(part * np.abs(runs)[chord] + PHASE, AXIS_DASH[0]) < AXIS_DASH[1]]
 
 
 def _clipped(found: Chords, half_width: float, half_height: float) -> Chords:
@@ -125,21 +144,22 @@ def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]
 
 
 def _light(
-    found: Chords, layers: Sequence[Layer], look: Cells, columns: int, rows: int
+    found: Chords, layers: Sequence[Layer], axes: Rows, look: Cells, columns: int, rows: int
 ) -> tuple[Bits, Styles, Bits | None, Rows]:
     """Bits lit (rows x columns x 8,), styles (rows x columns,), which cells more than centre paths are in where that is
-    asked for, and cells that have deleted surface."""
-    chord, part, dot = _dots(found, look, columns, rows)
-    bits = _bits(look, columns, rows)[dot] if look.by_dot else dot * 8 + _slants(found)[chord]
+    asked for, and cells that have deleted surface.  The bits of the `axes` lie under all layers."""
+    chord, part, bits = _dots(found, look, columns, rows)
     layer = found.layers[chord]
-    shown = _dashes(found, layers, layer, chord, part)
-    bits, layer = bits[shown], layer[shown]
-    # the axes have no layer of their own: theirs is the last style, at -1
+    dashed = [each.dashed and each.style is not Style.DELETED for each in layers]
+    if any(dashed):
+        shown = _dashes(found, np.array(dashed)[layer].nonzero()[0], chord, part)
+        bits, layer = bits[shown], layer[shown]
+    # the last style is no layer's: there may be no layers
     role = np.frombuffer(bytes((*(each.style for each in layers), Style.AXIS)), np.uint8)[layer]
     cell = bits >> 3
     lit, styles = np.zeros(rows * columns * 8, np.bool_), np.zeros(rows * columns, np.uint8)
-    lit[bits] = True
-    styles[cell] = role
+    lit[axes], styles[axes >> 3] = True, Style.AXIS
+    lit[bits], styles[cell] = True, role
     strong = None
     if look.faint is not None:
         strong = np.zeros(rows * columns, np.bool_)
@@ -157,7 +177,7 @@ def _bits(look: Cells, columns: int, rows: int) -> Rows:
 
 
 def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Floats, Rows]:
-    """Chord, part of it that lies before the dot, and dot (m,) counted row by row, of every dot in order of chords."""
+    """Chord, part of it that lies before the dot, and bit (m,) that it lights, of every dot in order of chords."""
     (wide, high), start, run = look.dot, found.starts, found.runs
     x, y = (start.real + columns / 2) / wide + NUDGE, (rows * TALL / 2 - start.imag) / high + NUDGE
     over, under = run.real / wide, run.imag / -high
@@ -170,19 +190,16 @@ def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Fl
     down = (y[chord] + part * under[chord]).astype(np.intp)
     width, height = columns * look.across, rows * look.down
     across, down = np.minimum(across, width - 1), np.minimum(down, height - 1)
-    return chord, part, np.maximum(down, 0) * width + np.maximum(across, 0)
+    dot = np.maximum(down, 0) * width + np.maximum(across, 0)
+    return chord, part, _bits(look, columns, rows)[dot] if look.by_dot else dot * 8 + _slants(found)[chord]
 
 
-def _dashes(found: Chords, layers: Sequence[Layer], layer: Rows, chord: Rows, part: Floats) -> Bits:
-    """Which dots (m,) are lit: all of a whole line, part of each period of a dashed one."""
-    dashed = np.array([*(each.dashed and each.style is not Style.DELETED for each in layers), True])
-    rows = dashed[layer].nonzero()[0]
-    shown = np.ones(len(layer), np.bool_)
+def _dashes(found: Chords, rows: Rows, chord: Rows, part: Floats) -> Bits:
+    """Which dots (m,) are lit: all of a whole line, part of each period of a dashed one, which has the dots `rows`."""
+    shown = np.ones(len(chord), np.bool_)
     own = chord[rows]
     along = found.along[own] + part[rows] * np.abs(found.runs[own])
-    axis = layer[rows] == AXIS
-    period, lit = np.where(axis, AXIS_DASH[0], DASH[0]), np.where(axis, AXIS_DASH[1], DASH[1])
-    shown[rows] = np.mod(along + PHASE * axis, period) < lit
+    shown[rows] = np.mod(along, DASH[0]) < DASH[1]
     return shown
 
 

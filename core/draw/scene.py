@@ -9,7 +9,7 @@ from collections.abc import Container, Sequence
 from enum import Enum, IntEnum, auto
 from itertools import accumulate
 from math import tau
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,8 +95,7 @@ class Circle:
     style: Style = Style.CUTTER
 
 
-@dataclass(frozen=True, slots=True)
-class Mark:
+class Mark(NamedTuple):
     """One character at a point; an ARROW points along `direction`."""
 
     at: Point

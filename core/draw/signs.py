@@ -5,13 +5,11 @@ from __future__ import annotations
 from math import atan2, floor, log10, tau
 from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-
-from core.draw.mode import Characters, Mode, cells
+from core.draw.mode import Mode, cells
 from core.draw.scene import Scene, Style, Symbol
 from core.draw.view import View
 from core.geometry.piece import Point
+from core.records import dataclass
 from core.units import Unit, from_mm
 
 BAR: Final = 0.3
@@ -20,25 +18,32 @@ LEAST_COLUMNS: Final = 16
 LEAST_ROWS: Final = 3
 """Smaller windows have no scale bar and no names of axes."""
 
-Styles = NDArray[np.uint8]
+
+@dataclass(eq=False, slots=True)
+class Sheet:
+    """A picture's cells row by row: `characters` and the Style of each in `styles`, both (rows * columns,)."""
+
+    columns: int
+    rows: int
+    characters: list[str]
+    styles: bytearray
 
 
-def write_signs(characters: Characters, styles: Styles, scene: Scene, view: View, mode: Mode) -> None:
-    """Write the signs of a scene over a picture's cells, `characters` and `styles` (rows, columns)."""
-    rows, columns = characters.shape
-    look = cells(mode)
+def write_signs(sheet: Sheet, scene: Scene, view: View, mode: Mode) -> None:
+    """Write the signs of a scene over a picture's cells."""
+    columns, rows, look = sheet.columns, sheet.rows, cells(mode)
     if columns >= LEAST_COLUMNS and rows >= LEAST_ROWS:
         if scene.axes:
-            _name_axes(characters, styles, view)
+            _name_axes(sheet, view)
         if scene.unit is not None:
-            _write(characters, styles, rows - 1, scale_bar(view.scale, columns, scene.unit, look.bar), Style.SCALE)
-    for mark in scene.marks:
-        column, row = view.cell(mark.at, columns, rows)
+            _write(sheet, rows - 1, scale_bar(view.scale, columns, scene.unit, look.bar), Style.SCALE)
+    for at, style, symbol, direction in scene.marks:
+        column, row = view.cell(at, columns, rows)
         # what is not a number is in no cell
         if 0 <= column < columns and 0 <= row < rows:
-            here, arrowed = (int(row), int(column)), mark.symbol is Symbol.ARROW
-            characters[here] = arrow(mark.direction, look.arrows) if arrowed else look.symbols[mark.symbol]
-            styles[here] = mark.style
+            here, arrowed = int(row) * columns + int(column), symbol is Symbol.ARROW
+            sheet.characters[here] = arrow(direction, look.arrows) if arrowed else look.symbols[symbol]
+            sheet.styles[here] = style
 
 
 def scale_bar(scale: float, columns: int, unit: Unit, ends: str) -> str:
@@ -63,16 +68,17 @@ def arrow(direction: Point, heads: str) -> str:
     return heads[round(atan2(direction[1], direction[0]) / (tau / 8)) % 8]
 
 
-def _name_axes(characters: Characters, styles: Styles, view: View) -> None:
-    rows, columns = characters.shape
+def _name_axes(sheet: Sheet, view: View) -> None:
+    columns, rows = sheet.columns, sheet.rows
     column, row = view.cell((0.0, 0.0), columns, rows)
     for name, across, down in (("X", columns - 1.0, row), ("Y", column, 0.0)):
         inside = 0 <= across < columns and 0 <= down < rows
-        if inside and int(styles[int(down), int(across)]) in (Style.BACKGROUND, Style.AXIS):
-            _write(characters, styles, int(down), name, Style.AXIS, int(across))
+        if inside and sheet.styles[int(down) * columns + int(across)] in (Style.BACKGROUND, Style.AXIS):
+            _write(sheet, int(down), name, Style.AXIS, int(across))
 
 
-def _write(characters: Characters, styles: Styles, row: int, text: str, style: Style, column: int = 0) -> None:
-    room = min(len(text), characters.shape[1] - column)
-    characters[row, column : column + room] = list(text[:room])
-    styles[row, column : column + room] = style
+def _write(sheet: Sheet, row: int, text: str, style: Style, column: int = 0) -> None:
+    text = text[: sheet.columns - column]
+    first = row * sheet.columns + column
+    sheet.characters[first : first + len(text)] = text
+    sheet.styles[first : first + len(text)] = bytes([style]) * len(text)

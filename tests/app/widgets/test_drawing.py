@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
 from app.screens.page import Sketch
-from app.widgets.drawing import picture_rows
+from app.widgets.drawing import BY_STYLE, _row, picture_rows
 from app.widgets.rows import Look
 from core.draw.mode import Mode
+from core.draw.raster import draw
 from core.draw.scene import Layer, Scene, Style
+from core.draw.view import View
 from core.geometry.path import Path
 from core.units import Unit
 
@@ -42,3 +46,17 @@ def test_a_low_drawing_has_no_scale_bar_and_all_its_rows() -> None:
     drawn = picture_rows(upright(3.0, 50.0), Sketch(), 59, 7, "ascii")
     assert not any(span.look is Look.SCALE for row in drawn for span in row)
     assert any(span.look is Look.SURFACE for span in drawn[-1])
+
+
+@pytest.mark.parametrize("mode", [mode.value for mode in Mode])
+def test_every_cell_has_its_character_and_the_look_of_its_style_taken_over_or_not(mode: str) -> None:
+    scene = upright(3.0, 50.0)
+    picture = draw(scene, View.fit(scene.bounds, 40, 11).pan(0.0, -0.5 / 12, 40, 12), 40, 12, Mode(mode))
+    for _ in range(2):
+        drawn = picture_rows(scene, Sketch(), 40, 12, mode)
+        assert ["".join(span.text for span in row) for row in drawn] == list(picture.rows)
+        looks = [[span.look for span in row for _ in span.text] for row in drawn]
+        assert looks == [[BY_STYLE[style] for style in row] for row in picture.styles.tolist()]
+        assert all(one.look is not other.look for row in drawn for one, other in pairwise(row))
+    _row.cache_clear()
+    assert picture_rows(scene, Sketch(), 40, 12, mode) == drawn
