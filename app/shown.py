@@ -12,6 +12,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache
+from itertools import compress
 from operator import ne
 from typing import Final, NamedTuple
 
@@ -98,10 +99,8 @@ class Shown:
         Every line is as long as the terminal is wide, and its cursor stays where it is.
         """
         columns, rows = self._measured()
-        if not self.lines or self.cursor is None:
-            return None
-        lines = [(row, line) for row, line in ((row, line_of(one)) for row, one in texts) if row < rows]
-        if any(len(line) != columns for _, line in lines):
+        lines = [(row, line_of(one)) for row, one in texts if row < rows]
+        if not self.lines or self.cursor is None or any(len(line) != columns for _, line in lines):
             return None
         return self._sent(lines, self.cursor)
 
@@ -169,8 +168,10 @@ _styled: Final = lru_cache(256)(Cells)
 
 def line_of(texts: Texts) -> Line:
     """The cells of texts side by side."""
-    cells = ((text, _styled(read(codes) if codes else PLAIN).__getitem__) for text, codes in texts)
-    return [cell for text, cell_of in cells for cell in map(cell_of, text)]
+    line: Line = []
+    for text, codes in texts:
+        line += map(_styled(read(codes) if codes else PLAIN).__getitem__, text)
+    return line
 
 
 def neighbours(line: Line, columns: list[int]) -> Iterator[tuple[int, str, Style]]:
@@ -230,16 +231,15 @@ class _Ink:
         """The cells of a line that differ; a line of which nothing is known is erased before."""
         if old[0] is None:
             old = self._erased(row, new)
-        changed = [column for column, differs in enumerate(map(ne, old, new)) if differs]
-        tail = self._tail(new) if changed else 0
+        changed = list(compress(range(len(new)), map(ne, old, new)))
+        tail = self._tail(new) if len(changed) >= SHORTEST else len(new)
         erased = len(changed) >= SHORTEST and changed[-SHORTEST] >= tail
         written = [column for column in changed if column < tail] if erased else changed
         for column, text, style in neighbours(new, written):
             self._to(row, column, new)
             self.pen.write(text, style)
             self._went(row, column + len(text))
-        last = new[-1]
-        if erased and last is not None:
+        if erased and (last := new[-1]) is not None:
             self._erase(row, tail, last)
 
     def move(self, row: int, column: int) -> None:
@@ -261,7 +261,7 @@ class _Ink:
             self.move(row, column)
             return
         between = [cell for cell in line[self.cursor[1] : column] if cell is not None]
-        text = "".join(cell.text for cell in between)
+        text = "".join([cell.text for cell in between])
         short = len(text.encode()) <= (3 if len(between) == 1 else 4)
         if between and short and all(self.pen.has(*cell) for cell in between):
             self.pen.out.append(text)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from rich.segment import Segment
@@ -11,6 +12,17 @@ from textual.widget import Widget
 
 from app.widgets.looks import style_of
 from app.widgets.rows import Look, Row, changed
+
+
+class Written(dict[Look, str]):
+    """The parameters of the control sequence for each look, asked for once."""
+
+    def __init__(self, codes: Callable[[Look], str]) -> None:
+        self.codes = codes
+
+    def __missing__(self, look: Look) -> str:
+        self[look] = self.codes(look)
+        return self[look]
 
 
 class Rows(Widget, inherit_css=False):
@@ -24,7 +36,7 @@ class Rows(Widget, inherit_css=False):
     def __init__(self, rows: tuple[Row, ...] = ()) -> None:
         super().__init__()
         self.rows = rows
-        self.written: dict[Look, str] = {}
+        self.written = Written(self._codes)
 
     def show(self, rows: tuple[Row, ...]) -> None:
         """Put these rows on the screen; cells that stay the same are not painted again."""
@@ -47,17 +59,14 @@ class Rows(Widget, inherit_css=False):
         paint: Any = getattr(self.app._driver, "paint", None)
         if paint is None or self.size != self.app.size:
             return False
-        lines = [(number, [(span.text, self._codes(span.look)) for span in row]) for number, row in rows]
+        codes = self.written
+        lines = [(number, [(text, codes[look]) for text, look in row]) for number, row in rows]
         return bool(paint(lines))
 
     def _codes(self, look: Look) -> str:
         """The parameters of the control sequence for a look, as Textual writes it to this terminal."""
-        codes = self.written.get(look)
-        if codes is None:
-            text = self._filtered(Strip([self._segment("x", look)])).render(self.app.console)
-            codes = text.partition("x")[0].removeprefix("\x1b[").removesuffix("m")
-            self.written[look] = codes
-        return codes
+        text = self._filtered(Strip([self._segment("x", look)])).render(self.app.console)
+        return text.partition("x")[0].removeprefix("\x1b[").removesuffix("m")
 
     def render_lines(self, crop: Region) -> list[Strip]:
         """Lines of the terminal, as Textual asks for them; none is kept, since rows change without its being told."""

@@ -145,20 +145,24 @@ class Part(NamedTuple):
 
 def composed(parts: list[Part], width: int, height: int) -> tuple[Row, ...]:
     """The whole terminal: every part in its area, blanks elsewhere.  Areas do not overlap."""
-    lines: list[list[Span]] = [[] for _ in range(height)]
-    columns = [0] * height
+    lines: list[list[tuple[int, int, Row]]] = [[] for _ in range(height)]
     for (x, y, across, down), rows, focus in sorted(parts, key=lambda part: part.area.x):
         if across <= 0:
             continue
         top = max(0, min(focus, len(rows) - 1) - down + 1)
         shown = (*rows[top : top + down], *[()] * down)
-        for line, row in zip(range(y, min(y + down, height)), shown, strict=False):
-            if x > columns[line]:
-                lines[line].append(Span(" " * (x - columns[line])))
-            lines[line] += padded(row, across)
-            columns[line] = x + across
-    return tuple(_filled(line, width - column) for line, column in zip(lines, columns, strict=True))
+        for line, row in zip(lines[y : y + down], shown, strict=False):
+            line.append((x, across, row))
+    return tuple(_side_by_side(tuple(line), width) for line in lines)
 
 
-def _filled(line: list[Span], left: int) -> Row:
-    return (*line, Span(" " * left)) if left > 0 else tuple(line)
+@lru_cache(512)
+def _side_by_side(rows: tuple[tuple[int, int, Row], ...], width: int) -> Row:
+    """Rows from a column on, so many cells wide; most lines of a picture were in the one before."""
+    spans, column = list[Span](), 0
+    for x, across, row in rows:
+        if x > column:
+            spans.append(Span(" " * (x - column)))
+        spans += padded(row, across)
+        column = x + across
+    return (*spans, Span(" " * (width - column))) if width > column else tuple(spans)
