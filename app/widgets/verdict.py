@@ -283,7 +283,8 @@ def _erased(deleted: Deletions) -> tuple[Erased, ...]:
         segments = groups.setdefault(by, [])
         if one.is_integer():
             segments.append(one)
-    return tuple(Erased(pair, segments) for pair, segments in groups.items() if segments)
+    told = {by: segments for by, segments in groups.items() if segments}
+    return tuple(map(Erased, told, told.values()))
 
 
 def _erasing(line: Erased, unit: Unit) -> Row:

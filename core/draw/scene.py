@@ -122,7 +122,7 @@ class Scene:
     @property
     def gathered(self) -> Gathered:
         """The scene's pieces, to be asked once and not layer by layer."""
-        layers = [layer for layer in (*self.layers, *map(_outline, self.circles)) if len(layer.path)]
+        layers = [layer for layer in (*self.layers, *map(_outline, self.circles)) if len(layer.path.turns)]
         pieces = _gathered(layers) if layers else NO_PIECES
         return Gathered(self, layers, pieces, pieces.arcs)
 
@@ -182,6 +182,9 @@ class Pieces:
 
 _NONE: Final = np.empty(0, np.complex128)
 _NO_ROWS: Final = np.empty(0, np.intp)
+_ROUND: Final = np.ones(1, np.int8)
+_FIRST: Final = np.ones(1)
+"""Turn and number of the one piece of a circle."""
 NO_PIECES: Final = Pieces(_NONE, _NO_ROWS, _NONE, np.empty(0, np.int8), _NO_ROWS)
 
 
@@ -232,7 +235,7 @@ def _outline(circle: Circle) -> Layer:
     """The whole circle as a layer."""
     (x, y), radius = circle.centre, circle.radius
     rim = np.array([[x + radius, y], [x + radius, y]])
-    return Layer(Path(rim, np.array([[x, y]]), np.ones(1, np.int8), np.ones(1)), circle.style)
+    return Layer(Path(rim, np.array([[x, y]]), _ROUND, _FIRST), circle.style)
 
 
 def _gathered(layers: Sequence[Layer]) -> Pieces:

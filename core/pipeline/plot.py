@@ -90,9 +90,10 @@ def _sketches(found: DerivedBlock) -> Parts:
 def _deleted(one: Compensated) -> Parts:
     if not len(one.deleted):
         return NO_PARTS
-    sought, numbers = np.sort(one.deleted.segments), one.contour.numbers
-    nearest = np.minimum(np.searchsorted(sought, numbers), len(sought) - 1)
-    return pieces_joined(one.contour, np.flatnonzero(sought[nearest] == numbers))
+    sought, numbers = one.deleted.segments.copy(), one.contour.numbers
+    sought.sort()
+    nearest = sought.take(sought.searchsorted(numbers), mode="clip")
+    return pieces_joined(one.contour, (nearest == numbers).nonzero()[0])
 
 
 def _current(found: DerivedBlock, segment: int | None) -> Path | None:
