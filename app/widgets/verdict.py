@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import lru_cache
+from itertools import islice
 from math import isfinite
 from textwrap import wrap
 from typing import TYPE_CHECKING, Final, NamedTuple
@@ -58,10 +59,14 @@ class Case:
     verdict: Verdict
 
 
-class Erased(NamedTuple):
-    """Segments that a pair of pieces has erased: the numbers of the two, and where they meet."""
+Meeting = tuple[float, float, float, float]
+"""The numbers of two pieces, and where they meet."""
 
-    pair: tuple[float, float, float, float]
+
+class Erased(NamedTuple):
+    """Segments that a pair of pieces has erased."""
+
+    pair: Meeting
     segments: list[float]
 
 
@@ -76,7 +81,7 @@ def verdict_rows(
 
     The lines behind the first `most`, which nobody reads, are empty: a hundred sentences take longer than a picture.
     """
-    lines = _lines(found, table, unit, look)
+    lines = _lines(found, table, unit, look, most)
     read = lines if most is None else lines[:most]
     return [*(_worded(one, unit) for one in read), *[()] * (len(lines) - len(read))]
 
@@ -88,18 +93,18 @@ def _worded(line: Line, unit: Unit) -> Row:
     return _erasing(line, unit) if isinstance(line, Erased) else line
 
 
-def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | None) -> list[Line]:
-    """The lines in their order, most still to be put into words."""
+def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | None, most: int | None) -> list[Line]:
+    """The lines in their order, most still to be put into words; of the erased only the first `most` can be read."""
     case = _case(found, table, look)
     first = strip(found, table, unit)
     if hint := _beginning(found):
         return [first, plain(f" {hint}", Look.LABEL)]
     if look is not None and case is not None:
-        return [first, *_case_lines(case, unit), *needed(table)]
+        return [first, *_case_lines(case, unit, most), *needed(table)]
     findings = _untold(found.findings, case)
     errors = [one for one in findings if one.severity is Severity.ERROR]
     rest = [one for one in findings if one.severity is not Severity.ERROR]
-    lines = [] if case is None else _case_lines(case, unit)
+    lines = [] if case is None else _case_lines(case, unit, most)
     notes = () if table is None else table.notes
     gravest = 1 if case is not None and case.verdict.gouges else 0
     cause = _misplaced(findings) if gravest else []
@@ -235,14 +240,16 @@ def _sentence(finding: Finding, unit: Unit) -> Row:
     return plain(f" {mark} {where}{sentence(finding, unit)}", look)
 
 
-def _case_lines(case: Case, unit: Unit) -> list[Row | Erased]:
+def _case_lines(case: Case, unit: Unit, most: int | None) -> list[Row | Erased]:
     """The deepest gouge, what is deleted, what stays uncut.
 
     Where several pairs delete, all but the first stand last: there may be more of them than the screen has lines.
     """
     verdict = case.verdict
     gouge = [_gouge(verdict, unit)] if verdict.gouges else []
-    erased = () if case.compensated is None else _erased(case.compensated.deleted)
+    groups = {} if case.compensated is None else _erased(case.compensated.deleted)
+    erased: list[Row | Erased] = [Erased(*group) for group in islice(groups.items(), most)]
+    erased += [()] * (len(groups) - len(erased))
     return [*gouge, *erased[:1], _uncut(verdict, unit), *erased[1:]]
 
 
@@ -275,16 +282,15 @@ def _gouge(verdict: Verdict, unit: Unit) -> Row:
 
 
 @lru_cache(4)
-def _erased(deleted: Deletions) -> tuple[Erased, ...]:
-    """One line for every pair of pieces that erased segments, corner arcs left out; told again when the table comes."""
-    groups: dict[tuple[float, float, float, float], list[float]] = {}
+def _erased(deleted: Deletions) -> dict[Meeting, list[float]]:
+    """Every pair of pieces that erased segments, and these, corner arcs left out; told again when the table comes."""
+    groups: dict[Meeting, list[float]] = {}
     met = zip(*deleted.by.T.tolist(), *deleted.at.T.tolist(), strict=True)
     for by, one in zip(met, deleted.segments.tolist(), strict=True):
         segments = groups.setdefault(by, [])
         if one.is_integer():
             segments.append(one)
-    told = {by: segments for by, segments in groups.items() if segments}
-    return tuple(map(Erased, told, told.values()))
+    return {by: segments for by, segments in groups.items() if segments}
 
 
 def _erasing(line: Erased, unit: Unit) -> Row:

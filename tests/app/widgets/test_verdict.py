@@ -73,3 +73,16 @@ def test_what_stays_uncut_stands_behind_the_first_pair_that_deletes() -> None:
     begins = [row.split()[0] for row in told if row.split()[0] in ("DELETED", "UNCUT")]
     assert begins[:2] == ["DELETED", "UNCUT"]
     assert begins.count("DELETED") > 1
+
+
+@pytest.mark.parametrize("look", [None, 1, 20])
+def test_lines_that_nobody_reads_are_counted_and_the_others_are_the_same(look: int | None) -> None:
+    for name, diameter in (("pocket", 2.625), ("notch", 0.5), ("overrun-square", 0.25)):
+        program = load(example(name))
+        program = replace(program, tools=tuple(replace(tool, diameter=Entry(diameter)) for tool in program.tools))
+        (found,) = derive(program).blocks
+        table = look_ahead_table(found, program)
+        every = verdict_rows(found, table, Unit.IN, look)
+        for most in range(len(every) + 2):
+            read = verdict_rows(found, table, Unit.IN, look, most)
+            assert read == [*every[:most], *[()] * (len(every) - most)]
