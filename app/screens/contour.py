@@ -79,7 +79,7 @@ class Contour(FormPage):
 
     def press(self, key: str, character: str | None, session: Session) -> Answer | None:
         """The first keys behind a new segment, then any key."""
-        page, one = replace(self, added=False, held=False), self.field(session)
+        page, one = self._at_rest, self.field(session)
         if one is not None and self.added and key == "enter" and one.kind is not Kind.CHOICE:
             told = f"The cursor is still on {one.label}: type it, or Enter again goes on."
             return Answer(replace(page, held=True), (Say(told),))
@@ -89,10 +89,15 @@ class Contour(FormPage):
 
     def settle(self, session: Session) -> Answer:
         """The half-typed text taken; a half-typed segment number is forgotten."""
-        page = replace(self, added=False, held=False)
+        page = self._at_rest
         if self.cursor(session) == SEGMENT:
             return Answer(page._without_text())
         return FormPage.settle(page, session)
+
+    @property
+    def _at_rest(self) -> Contour:
+        """The page without what holds for the first key behind a new segment."""
+        return replace(self, added=False, held=False) if self.added or self.held else self
 
     def _pressed(self, key: str, character: str | None, session: Session) -> Answer | None:
         """Walking from segment to segment, then what the field under the cursor does."""

@@ -12,7 +12,7 @@ from app.session import Session
 from app.widgets.form import Cell, State
 from core.pipeline.derived import DerivedBlock, Tag
 from core.program.fields import SOLUTION, TABLES, Field, Form, form_of
-from core.program.model import Entry, Unread
+from core.program.model import Block, Entry, Segment, Unread
 from core.program.solve_start import ZERO
 from core.program.solved import Solved, SolvedSegment, Value
 from core.units import Kind, Unit, from_mm, show
@@ -82,16 +82,25 @@ def fields_at(session: Session) -> tuple[Field, ...]:
 
 def value_at(session: Session, name: str) -> Value | str:
     """What a field holds there."""
-    segment = session.segment
-    typed = session.block if segment is None else segment
+    return _held(*_there(session), name)
+
+
+def _there(session: Session) -> tuple[DerivedBlock, Block | Segment, Mapping[str, Value]]:
+    """The block, what was typed there, and what became of it."""
+    found, segment = session.found, session.segment
+    if segment is None:
+        return found, session.block, found.solved.values
+    return found, segment, _solved(session).values
+
+
+def _held(found: DerivedBlock, typed: Block | Segment, values: Mapping[str, Value], name: str) -> Value | str:
     if name in ("cutter_comp", "direction"):
         return str(getattr(typed, name))
     if name == "choice":
         picked = getattr(typed, name)
         return "" if picked is None else str(picked)
     if name == "lookahead":
-        return _lookahead(session.found)
-    values = session.found.solved.values if segment is None else _solved(session).values
+        return _lookahead(found)
     held: Value = values.get(name, getattr(typed, name))
     return held
 
@@ -107,9 +116,9 @@ def _lookahead(found: DerivedBlock) -> Value:
 def cells_at(session: Session) -> tuple[Cell, ...]:
     """Every cell of the form there, the read-only ones too."""
     places, unit = PLACES[form_at(session)], session.program.unit
-    missing = _missing(session)
+    missing, there = _missing(session), _there(session)
     cells = (
-        _cell(one, value_at(session, one.name), unit, places[one.name], needed=one.name in missing)
+        _cell(one, _held(*there, one.name), unit, places[one.name], needed=one.name in missing)
         for one in fields_at(session)
     )
     extra = _start_extra(session.found, unit) if session.segment is None else _segment_extra(_solved(session), unit)

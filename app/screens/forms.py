@@ -79,7 +79,8 @@ class FormPage(Page):
             return self.accepted(session, key)
         if one.kind is Kind.CHOICE:
             return self._choice_key(session, one, key, character)
-        editing = press(self.editing, self.text(session, one), key, character)
+        shown = self.text(session, one) if self.editing is None else ""
+        editing = press(self.editing, shown, key, character)
         return None if editing is None else Answer(replace(self, editing=editing))
 
     def accepted(self, session: Session, key: str) -> Answer:
