@@ -187,8 +187,9 @@ class Contour(FormPage):
 def _trouble(session: Session, one: Field) -> Said | None:
     """An error that names this field; warnings stand with the verdict, so that the prompt stays."""
     for finding in session.found.findings if session.block.segments else _unmissed(session):
-        here = int(finding.segment or 0) == session.where.segment
-        if finding.field == one.name and here and finding.severity is Severity.ERROR:
+        if finding.field != one.name or finding.severity is not Severity.ERROR:
+            continue
+        if int(finding.segment or 0) == session.where.segment:
             tone = Tone.WARNING if finding.code in NOT_YET else Tone.ERROR
             return Said(sentence(finding, session.program.unit), tone)
     return None

@@ -109,8 +109,9 @@ def _lines(found: DerivedBlock, table: Table | None, unit: Unit, look: int | Non
     gravest = 1 if case is not None and case.verdict.gouges else 0
     cause = _misplaced(findings) if gravest else []
     # what the errors behind the deepest gouge may come of
-    ends = [one for one in rest if gravest and one.code == "NEARLY_CLOSED"]
-    rest = [one for one in rest if one not in cause and one not in ends]
+    ends = [one for one in rest if one.code == "NEARLY_CLOSED"] if gravest else []
+    if cause or ends:
+        rest = [one for one in rest if one not in cause and one not in ends]
     told = [replace(one, segment=None) for one in cause]
     return [first, *told, *lines[:gravest], *ends, *errors, *lines[gravest:], *notes, *rest]
 
@@ -120,8 +121,8 @@ def _misplaced(findings: list[Finding]) -> list[Finding]:
 
     A contour that only over-runs its start crosses itself too, and its gouges have other causes.
     """
-    come_of_it = {"CROSSES_ITSELF", "WRONG_SIDE"} <= {one.code for one in findings}
-    return [one for one in findings if come_of_it and one.code == "OPEN"]
+    away = [one for one in findings if one.code == "OPEN"]
+    return away if away and {"CROSSES_ITSELF", "WRONG_SIDE"} <= {one.code for one in findings} else []
 
 
 def needed(table: Table | None) -> list[Finding]:
