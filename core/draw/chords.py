@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from core.draw.scene import BEYOND, Arcs, Gathered, Pieces
 from core.draw.view import TALL, View
 from core.geometry.path import Floats, Turns
+from core.geometry.planes import coordinates
 from core.records import dataclass
 
 SAG: Final = 0.1
@@ -96,7 +97,7 @@ def _near(gathered: Gathered, view: View) -> tuple[Pieces, Arcs, Floats]:
     pieces, arcs, along, centre = gathered.pieces, gathered.arcs, _travelled(gathered), complex(*view.centre)
     reach = BEYOND - abs(centre)
     # a comparison with what is not a number is false
-    if np.abs(pieces.points).max(initial=0.0) <= reach and np.abs(arcs.centres).max(initial=0.0) <= reach:
+    if _farthest(pieces.points) <= reach and _farthest(arcs.centres) <= reach:
         return pieces, arcs, along
     near = _within(pieces.points - centre)
     shown = near[pieces.rows] & near[pieces.rows + 1] & np.isfinite(along)
@@ -104,6 +105,11 @@ def _near(gathered: Gathered, view: View) -> tuple[Pieces, Arcs, Floats]:
     keep = shown.nonzero()[0]
     pieces = pieces.only(keep)
     return pieces, pieces.arcs, along[keep]
+
+
+def _farthest(points: Points) -> float:
+    """The largest coordinate, whatever its sign."""
+    return float(np.abs(coordinates(points)).max(initial=0.0))
 
 
 def _within(points: Points) -> Mask:

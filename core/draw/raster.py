@@ -127,7 +127,9 @@ def _clipped(found: Chords, half_width: float, half_height: float) -> Chords:
 
 
 def _inside(points: Points, half_width: float, half_height: float) -> bool:
-    return bool((np.abs(points.real) <= half_width).all() and (np.abs(points.imag) <= half_height).all())
+    # what is not a number is neither more nor less
+    across, up = np.abs(points.real).max(initial=0.0), np.abs(points.imag).max(initial=0.0)
+    return bool(across <= half_width and up <= half_height)
 
 
 def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]:
@@ -149,13 +151,13 @@ def _light(
     """Bits lit (rows x columns x 8,), styles (rows x columns,), which cells more than centre paths are in where that is
     asked for, and cells that have deleted surface.  The bits of the `axes` lie under all layers."""
     chord, part, bits = _dots(found, look, columns, rows)
-    layer = found.layers[chord]
+    # the last style is no layer's: there may be no layers
+    roles = np.frombuffer(bytes((*(each.style for each in layers), Style.AXIS)), np.uint8)
+    role = roles[found.layers][chord]
     dashed = [each.dashed and each.style is not Style.DELETED for each in layers]
     if any(dashed):
-        shown = _dashes(found, np.array(dashed)[layer].nonzero()[0], chord, part)
-        bits, layer = bits[shown], layer[shown]
-    # the last style is no layer's: there may be no layers
-    role = np.frombuffer(bytes((*(each.style for each in layers), Style.AXIS)), np.uint8)[layer]
+        shown = _dashes(found, np.array(dashed)[found.layers][chord].nonzero()[0], chord, part)
+        bits, role = bits[shown], role[shown]
     cell = bits >> 3
     lit, styles = np.zeros(rows * columns * 8, np.bool_), np.zeros(rows * columns, np.uint8)
     lit[axes], styles[axes >> 3] = True, Style.AXIS

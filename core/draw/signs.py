@@ -37,8 +37,8 @@ def write_signs(sheet: Sheet, scene: Scene, view: View, mode: Mode) -> None:
             _name_axes(sheet, view)
         if scene.unit is not None:
             _write(sheet, rows - 1, scale_bar(view.scale, columns, scene.unit, look.bar), Style.SCALE)
-    for at, style, symbol, direction in scene.marks:
-        column, row = view.cell(at, columns, rows)
+    places = view.cells([mark.at for mark in scene.marks], columns, rows)
+    for (column, row), (_, style, symbol, direction) in zip(places, scene.marks, strict=True):
         # what is not a number is in no cell
         if 0 <= column < columns and 0 <= row < rows:
             here, arrowed = int(row) * columns + int(column), symbol is Symbol.ARROW

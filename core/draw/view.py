@@ -6,6 +6,7 @@ view stays the same when the mode of drawing changes.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Final
 
 from core.draw.scene import Box
@@ -55,8 +56,12 @@ class View:
 
     def cell(self, point: Point, columns: int, rows: int) -> tuple[float, float]:
         """(column, row) of a point (mm), fractions included: the inverse of `at`."""
-        x, y = self.centre
-        return (point[0] - x) / self.scale + columns / 2, (y - point[1]) / (TALL * self.scale) + rows / 2
+        return self.cells([point], columns, rows)[0]
+
+    def cells(self, points: Iterable[Point], columns: int, rows: int) -> list[tuple[float, float]]:
+        """The same of several points."""
+        (x, y), wide, high, half_width, half_height = self.centre, self.scale, TALL * self.scale, columns / 2, rows / 2
+        return [((px - x) / wide + half_width, (y - py) / high + half_height) for px, py in points]
 
 
 def _held(scale: float) -> float:
