@@ -87,8 +87,7 @@ class Desk:
         desk = self._pressed(key, character)
         if len(desk.pages) == len(self.pages):
             return desk
-        below = tuple(page.covered() for page in desk.pages[:-1])
-        return replace(desk, pages=(*below, desk.page))
+        return replace(desk, pages=(*(page.covered() for page in desk.pages[:-1]), desk.page))
 
     def _pressed(self, key: str, character: str | None) -> Desk:
         said = self.session.said
