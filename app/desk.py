@@ -85,9 +85,8 @@ class Desk:
     def press(self, key: str, character: str | None = None) -> Desk:
         """What a key makes of everything; pages that got covered are as they will be seen again."""
         desk = self._pressed(key, character)
-        if len(desk.pages) == len(self.pages):
-            return desk
-        return replace(desk, pages=(*(page.covered() for page in desk.pages[:-1]), desk.page))
+        below = (page.covered() for page in desk.pages[:-1])
+        return replace(desk, pages=(*below, desk.page)) if len(desk.pages) != len(self.pages) else desk
 
     def _pressed(self, key: str, character: str | None) -> Desk:
         said = self.session.said
