@@ -23,6 +23,9 @@ RUN: Final = 8
 FEW: Final = 8_192
 """Pairs all of which are compared."""
 
+FEW_GROUPED: Final = 500
+"""Boxes that are grouped group by group: of more of them a member of all groups at a time takes a seventh."""
+
 AT_ONCE: Final = 65_536
 """Pairs that are compared without a tree: each box with groups of others, and the groups' members."""
 
@@ -159,9 +162,18 @@ def _tree(boxes: Floats, most: int) -> list[Floats]:
 
 def grouped(boxes: Floats) -> Floats:
     """The boxes around every FAN of these."""
-    starts = np.arange(0, boxes.shape[1], FAN)
-    around = np.minimum.reduceat(boxes[:2], starts, axis=1), np.maximum.reduceat(boxes[2:], starts, axis=1)
-    return np.concatenate(around)
+    if boxes.shape[1] <= FEW_GROUPED:
+        starts = np.arange(0, boxes.shape[1], FAN)
+        around = np.minimum.reduceat(boxes[:2], starts, axis=1), np.maximum.reduceat(boxes[2:], starts, axis=1)
+        return np.concatenate(around)
+    whole = boxes[:, ::FAN].copy()
+    for first in range(1, FAN):
+        members = boxes[:, first::FAN]
+        # the last group may have no such member
+        groups = whole[:, : members.shape[1]]
+        np.minimum(groups[:2], members[:2], out=groups[:2])
+        np.maximum(groups[2:], members[2:], out=groups[2:])
+    return whole
 
 
 def children(i: Rows, j: Rows, first: int, second: int) -> tuple[Rows, Rows]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
 from core.geometry.bounds import boxes
-from core.geometry.measured import Floats, Measured, stacked
+from core.geometry.measured import Floats, Measured, Rows, stacked
 from core.geometry.path import Path
 from core.records import dataclass
 from core.verify.columns import columns as columns_of
@@ -19,12 +20,25 @@ FEW: Final = 2_000
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Course:
-    """n pieces, (n + 1,) lengths travelled at their starts and at the end, (4, n) boxes and the pieces' `columns`."""
+    """n pieces, (n + 1,) lengths travelled at their starts and at the end, (4, n) boxes and the pieces' `columns`.
+
+    Many pieces have no columns until they are `whole`: of nearly all of them nothing is asked.
+    """
 
     pieces: Measured
     stations: Floats
     boxes: Floats
-    columns: Floats
+    columns: Floats | None
+
+    def whole(self) -> Course:
+        """The course with columns of all its pieces."""
+        return self if self.columns is not None else replace(self, columns=columns_of(self.pieces))
+
+    def columns_at(self, rows: Rows, count: int) -> Floats:
+        """The first `count` columns of these pieces; without arcs among them there are few."""
+        if self.columns is None:
+            return columns_of(self.pieces.take(rows))[:count]
+        return self.columns[:count].take(rows, axis=1)
 
 
 def courses(*groups: Sequence[Path]) -> Iterator[Course]:
@@ -51,4 +65,4 @@ def courses(*groups: Sequence[Path]) -> Iterator[Course]:
 
 
 def _course(pieces: Measured) -> Course:
-    return Course(pieces, pieces.stations, boxes(pieces), columns_of(pieces))
+    return Course(pieces, pieces.stations, boxes(pieces), None)

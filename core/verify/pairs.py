@@ -58,6 +58,8 @@ def pairs_of(
     for pieces, rows in ((moves, i), (walls, j)):
         if pieces.slack.any():
             grant += pieces.slack[rows]
+    if 2 * len(i) > len(moves) + len(walls):
+        centre, surface = centre.whole(), surface.whole()
     touch = touches(centre, i, surface, j, radius, grant)
     # what is no number is kept, for the judge to see
     near = (~(touch.apart > reach)).nonzero()[0]

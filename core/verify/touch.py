@@ -151,9 +151,9 @@ def _columns(centre: Course, i: Rows, surface: Course, j: Rows, count: int) -> F
     """So many columns of pieces `i` of the centre path and then of `j` of the surface; without arcs a path has few."""
     found = np.empty((count, len(i) + len(j)))
     if len(i):
-        found[:, : len(i)] = centre.columns[:count].take(i, axis=1)
+        found[:, : len(i)] = centre.columns_at(i, count)
     if len(j):
-        found[:, len(i) :] = surface.columns[:count].take(j, axis=1)
+        found[:, len(i) :] = surface.columns_at(j, count)
     return found
 
 

@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from core.geometry import boxes as module
-from core.geometry.boxes import closest_pairs, near_pairs, nearest_boxes
+from core.geometry.boxes import FAN, closest_pairs, grouped, near_pairs, nearest_boxes
 
 Floats = NDArray[np.float64]
 
@@ -29,6 +29,17 @@ def apart(a: Floats, b: Floats) -> Floats:
 @pytest.fixture(params=[65_536, 16], ids=["at once", "by the tree"])
 def at_once(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "AT_ONCE", request.param)
+
+
+@pytest.mark.parametrize("few", [0, 500], ids=["a member of all at a time", "group by group"])
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 6, 7, 8, 61])
+def test_grouped_holds_all_of_each_group(few: int, count: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "FEW_GROUPED", few)
+    boxes = wander(3, count)
+    boxes[1, count // 2] = np.nan
+    parts = [boxes[:, first : first + FAN] for first in range(0, count, FAN)]
+    expected = [np.concatenate((part[:2].min(axis=1), part[2:].max(axis=1))) for part in parts]
+    np.testing.assert_array_equal(grouped(boxes), np.array(expected).T)
 
 
 @pytest.mark.usefixtures("at_once")

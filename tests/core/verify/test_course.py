@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from core.geometry.path import EMPTY, Path
 from core.verify import course as module
+from core.verify.columns import STRAIGHT, Columns
 from core.verify.course import Course, courses
 from tests.core.verify.shapes import lines, paths
 
@@ -32,6 +33,10 @@ def test_together_is_as_alone(groups: list[list[Path]]) -> None:
 def _same(one: Course, other: Course) -> bool:
     for field in fields(one.pieces):
         assert np.array_equal(getattr(one.pieces, field.name), getattr(other.pieces, field.name))
-    straight = len(other.columns)
-    columns = np.array_equal(one.columns[:straight], other.columns)
-    return columns and np.array_equal(one.stations, other.stations) and np.array_equal(one.boxes, other.boxes)
+    bent = one.pieces.arcs
+    for rows, count in (((~bent).nonzero()[0][::-1], STRAIGHT), (bent.nonzero()[0][::2], len(Columns._fields))):
+        if len(rows):
+            columns = one.columns_at(rows, count)
+            assert np.array_equal(columns, other.columns_at(rows, count))
+            assert np.array_equal(columns, other.whole().columns_at(rows, count))
+    return np.array_equal(one.stations, other.stations) and np.array_equal(one.boxes, other.boxes)
