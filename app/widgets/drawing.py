@@ -95,7 +95,7 @@ def _rows(picture: Picture) -> tuple[Row, ...]:
     return tuple(_row(text, styles[row * columns : row * columns + columns]) for row, text in enumerate(picture.rows))
 
 
-@lru_cache(256)
+@lru_cache(96)
 def _row(text: str, styles: bytes) -> Row:
     """A row, its cells of one style in one span; most rows of a picture were in the one before."""
     return tuple(Span(text[run.start() : run.end()], BY_STYLE[run[0][0]]) for run in ALIKE.finditer(styles))

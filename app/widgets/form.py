@@ -101,7 +101,7 @@ def _aligned(place: Place, cells: Sequence[Cell], column: int) -> Place:
     return Place(place.first, place.width, min([place.value, *beside]))
 
 
-@lru_cache(256)
+@lru_cache(64)
 def _line(
     cells: tuple[Cell | None, Cell | None, Cell | None],
     places: tuple[Place, ...],

@@ -156,7 +156,7 @@ def composed(parts: list[Part], width: int, height: int) -> tuple[Row, ...]:
     return tuple(_side_by_side(tuple(line), width) for line in lines)
 
 
-@lru_cache(512)
+@lru_cache(128)
 def _side_by_side(rows: tuple[tuple[int, int, Row], ...], width: int) -> Row:
     """Rows from a column on, so many cells wide; most lines of a picture were in the one before."""
     spans, column = list[Span](), 0

@@ -17,7 +17,7 @@ from core.geometry.measured import Given, Measured
 FEW: Final = 50
 """Pieces of which the answer is kept: more of them are seldom all as they were, and take more room."""
 
-KEPT: Final = 128
+KEPT: Final = 64
 """Answers that are kept, those asked for last: a key asks for those of the path and of up to twenty look-aheads."""
 
 Answer = tuple[NDArray[Any], ...]
