@@ -1,4 +1,4 @@
-"""What a terminal can do by its name: colours as the system's table of terminals has it, characters beyond ASCII."""
+"""What a terminal can do by its name: colors as the system's table of terminals has it, characters beyond ASCII."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ import sys
 from collections.abc import Callable, Mapping
 from typing import Final
 
-COLOURED: Final = re.compile(
+COLORED: Final = re.compile(
     r"(?:xterm|screen|tmux|linux|putty|rxvt|vte|konsole|gnome|alacritty|foot|kitty)\b|.*colou?r"
 )
 """Names that need no look into the table, which costs the start some milliseconds."""
 BARE: Final = re.compile(r"vt[1-5]\d\d\b.*|.*-(?:m|mono)\b.*")
-"""Names of terminals without colours, where the system has no table."""
+"""Names of terminals without colors, where the system has no table."""
 OLD: Final = re.compile(r"vt[1-5]\d\d\b")
 """Names of terminals that were made before there was UTF-8, and of programs that are no more than they."""
 
 
-def colours(name: str) -> int | None:
-    """How many colours the system's table says that a terminal has; None where it does not know the terminal.
+def colors(name: str) -> int | None:
+    """How many colors the system's table says that a terminal has; None where it does not know the terminal.
 
     The library looks up one name in a process; another one is not asked for.
     """
@@ -33,12 +33,12 @@ def colours(name: str) -> int | None:
         return None
 
 
-def monochrome(environment: Mapping[str, str], table: Callable[[str], int | None] = colours) -> bool:
-    """Whether a terminal has no colours; COLORTERM or a system of colours that is asked for say more than its name."""
+def monochrome(environment: Mapping[str, str], table: Callable[[str], int | None] = colors) -> bool:
+    """Whether a terminal has no colors; COLORTERM or a system of colors that is asked for say more than its name."""
     asked = environment.get("TEXTUAL_COLOR_SYSTEM", "auto").lower() != "auto"
     name = environment.get("TERM", "")
     bare = BARE.fullmatch(name) is not None
-    if asked or environment.get("COLORTERM") or (COLOURED.match(name) and not bare):
+    if asked or environment.get("COLORTERM") or (COLORED.match(name) and not bare):
         return False
     known = table(name)
     return bare if known is None else known < 2

@@ -8,11 +8,11 @@ while, so that Enter has them.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from time import perf_counter, sleep
 from typing import TYPE_CHECKING, Final
 
 from app.behind import Behind
-from core.records import dataclass
 
 if TYPE_CHECKING:
     from asyncio import TimerHandle

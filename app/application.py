@@ -57,10 +57,10 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
         engine: Engine | None = None,
         keep: Callable[[Desk], Desk] = lambda desk: desk,
         *,
-        few_colours: bool | None = None,
+        few_colors: bool | None = None,
     ) -> None:
-        # known before anything is built: the filter that takes all colours away depends on it
-        super().__init__(ansi_color=few_colours)
+        # known before anything is built: the filter that takes all colors away depends on it
+        super().__init__(ansi_color=few_colors)
         self.keep = keep
         self.desk = keep(Desk(session))
         self.trial: Session | None = None

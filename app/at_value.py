@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 from core.program.edit import Refused, Where, type_field
 from core.program.model import Entry, Program
-from core.records import dataclass
 
 if TYPE_CHECKING:
     from app.session import Session

@@ -6,13 +6,12 @@ from asyncio import get_running_loop
 from collections.abc import Callable
 from contextlib import suppress
 from contextvars import copy_context
+from dataclasses import dataclass
 from functools import partial
 from time import sleep
 from typing import Final, Generic, TypeVar
 
 from textual.app import App
-
-from core.records import dataclass
 
 Result = TypeVar("Result")
 AFTER: Final = 0.001

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from dataclasses import dataclass
 from multiprocessing import active_children, get_context
 from pathlib import Path
 from signal import SIG_IGN, SIGINT, signal
@@ -20,7 +21,6 @@ from app.checking import Answer, Asked, answer, answer_all, lines, reasons, same
 from app.control_options import Unusable, add_options, bytes_of, control_of, name_of, tools_of, unit_of
 from app.listing import SUFFIXES
 from core.controls.registry import names
-from core.records import dataclass
 
 CLEAN: Final = 0
 FINDINGS: Final = 1
@@ -115,7 +115,7 @@ def _answers(paths: list[Path], asked: Asked) -> Iterator[_Checked]:
         except BrokenProcessPool:
             raise Unusable("A process that checked files was ended from outside; the rest is not checked.") from None
         except BaseException:
-            # nobody waits for what is being worked out, nor for the pool's own thread to say that it is cancelled
+            # nobody waits for what is being worked out, nor for the pool's own thread to say that it is canceled
             threading.excepthook = lambda _: None
             _end(pool)
             raise

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
 
 from core.controls import shoprules
 from core.controls.compare import Compared, OtherLanguage, compare
+from core.controls.compensation.radius_zero import RADIUS_ZERO
 from core.controls.contours import ContourPair, Parting, contours
 from core.controls.moves import Move, Moves
-from core.controls.radius_zero import RADIUS_ZERO
 from core.controls.registry import UnknownControl, reads, run
 from core.controls.report import Run
 from core.controls.tools import ToolTable
 from core.controls.verdicts import Judged, depth, findings, judged
 from core.finding import Finding, Severity
-from core.records import dataclass
 from core.units import Kind, Unit, from_mm, sentence, show
 
 NOT_FOLLOWED: Final = ("MACRO", "LIMIT", "BEYOND")
@@ -193,7 +192,7 @@ def _move(move: Move, unit: Unit) -> dict[str, object]:
         "z": z,
     }
     if move.turn:
-        cx, cy, cz = (from_mm(value, unit) for value in move.centre)
+        cx, cy, cz = (from_mm(value, unit) for value in move.center)
         told |= {"cx": cx, "cy": cy, "cz": cz, "plane": move.plane.name, "ccw": move.turn > 0}
     told["feed"] = None if move.rapid else from_mm(move.feed, unit)
     return told

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Final
 from app.shell import CLEAN, FINDINGS, UNUSABLE, say
 from app.widgets.words import segment
 from core.comp.lookahead import HIGHEST, LOWEST
+from core.program.file.store import StoreError, load, load_from
 from core.program.model import Entry, Program
-from core.program.store import StoreError, load, load_from
 from core.units import sentence
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ def _report(derived: Derived, number: int | None) -> None:
 
 
 def path(options: argparse.Namespace) -> int:
-    """`cutcomp path`: the centre path of every block."""
+    """`cutcomp path`: the center path of every block."""
     from core.pipeline.document import path_document
     from core.pipeline.listing import path_listing
 
@@ -169,7 +169,7 @@ def _words(result: Refusal, options: argparse.Namespace) -> str:
 
 
 def _control(options: argparse.Namespace) -> str | None:
-    """The full name of the control that is asked for, None for the path of the tool's centre."""
+    """The full name of the control that is asked for, None for the path of the tool's center."""
     if options.control is None:
         return None
     from core.controls.registry import UnknownControl, resolve
@@ -178,7 +178,7 @@ def _control(options: argparse.Namespace) -> str | None:
     if isinstance(found, UnknownControl):
         raise Unusable(f"--control: {found.text}")
     if options.override is not None:
-        raise Unusable("--override goes with the centre path only: leave out --control.")
+        raise Unusable("--override goes with the center path only: leave out --control.")
     return found
 
 
@@ -195,7 +195,7 @@ def plot(options: argparse.Namespace) -> int:
 
 
 def _deliver(text: str, output: Path | None) -> None:
-    from core.program.store import write_output
+    from core.program.file.store import write_output
 
     if output is None or str(output) == DASH:
         try:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from core.controls.iso.source import shown
 from core.controls.registry import UnknownControl, resolve
-from core.controls.source import shown
 from core.controls.tools import CutterTool, ToolTable, read_table
 from core.program.tool_table import faults
 from core.units import Unit

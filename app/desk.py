@@ -6,7 +6,7 @@ Everything between a key and the next picture is here and pure, but for the mess
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Final, assert_never
 
@@ -37,7 +37,6 @@ from app.session import Session, Tone
 from app.settings import Settings
 from core.pipeline.derived import Derived
 from core.program.edit import Refused
-from core.records import dataclass, field
 
 FUNCTION_KEYS: Final = {f"f{number}": number for number in range(1, 9)}
 AT_ONCE: Final = {f"alt+{number}": number for number in range(1, 9)}
@@ -96,7 +95,7 @@ class Desk:
             return desk.take(Say(TOLD[key], Tone.WARNING))
         if key in AT_ONCE:
             return desk._at_once(AT_ONCE[key])
-        if armed and key in DIGITS and desk._labelled(int(key)):
+        if armed and key in DIGITS and desk._labeled(int(key)):
             return desk._softkey(int(key))
         if key in FUNCTION_KEYS:
             return desk._softkey(FUNCTION_KEYS[key])
@@ -219,14 +218,14 @@ class Desk:
             return desk
         return desk._answered(desk.page.softkeyed(desk.session, number, softkeys[number].messages))
 
-    def _labelled(self, number: int) -> bool:
+    def _labeled(self, number: int) -> bool:
         """Whether a softkey can be seen: a digit without one is typed, never swallowed."""
         softkey = self.page.softkeys(self.session).get(number)
         return softkey is not None and bool(softkey.label)
 
     def _at_once(self, number: int) -> Desk:
         """Esc and a digit that came together; where there is no such softkey, what Esc takes back, then the digit."""
-        if self._labelled(number):
+        if self._labeled(number):
             return self._softkey(number)
         back = self.page.escape(self.session)
         desk = self if back is None or back.messages else self._answered(back)

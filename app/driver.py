@@ -36,7 +36,7 @@ LARGEST_READ: Final = 4096
 UNFIT: Final = ("dumb", "unknown", "")
 """Values of TERM of what cannot place a cursor."""
 ERASING: Final = ("xterm", "putty", "linux", "rxvt", "alacritty", "kitty", "foot", "wezterm", "konsole", "vte", "gnome")
-"""How TERM begins where erased cells take the colour in force; others erase in their own."""
+"""How TERM begins where erased cells take the color in force; others erase in their own."""
 PLAIN: Final = ("linux", "vt1", "vt2")
 """How TERM begins where a control sequence with a $ in it may be shown."""
 
@@ -169,10 +169,10 @@ def read(handle: int) -> bytes:
         return b""
 
 
-def few_colours(environment: Mapping[str, str]) -> bool:
-    """Whether the terminal's own sixteen colours are used, or none; its name and COLORTERM are all there is to go by.
+def few_colors(environment: Mapping[str, str]) -> bool:
+    """Whether the terminal's own sixteen colors are used, or none; its name and COLORTERM are all there is to go by.
 
-    Where no colours are wanted, its own ink and paper stay, and bold, underline and reverse video say the rest.
+    Where no colors are wanted, its own ink and paper stay, and bold, underline and reverse video say the rest.
     """
     asked = environment.get("TEXTUAL_COLOR_SYSTEM", "auto").lower()
     if "NO_COLOR" in environment or asked != "auto":

@@ -7,7 +7,7 @@ needs no library, and a thread fetches the rest.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib import import_module
 from math import inf
@@ -21,7 +21,6 @@ from app.widgets.verdict import fitted, verdict_rows
 from core.pipeline.derived import Derived, DerivedBlock, Work
 from core.pipeline.outline import outline
 from core.program.model import Program
-from core.records import dataclass, field
 
 if TYPE_CHECKING:
     from app.desk import Desk

@@ -9,9 +9,9 @@ from typing import Final
 
 from app.session import Session
 from core.program.edit import new_block
+from core.program.file.stamp import stamp_of
+from core.program.file.store import load
 from core.program.model import Entry, Program, Tool
-from core.program.stamp import stamp_of
-from core.program.store import load
 from core.units import Unit
 
 _PROGRAM: Final = re.compile(rb"^\s*format\s*=", re.MULTILINE)

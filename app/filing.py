@@ -20,9 +20,9 @@ from app.session import Session, Tone
 from app.widgets.words import in_spite, placed
 from core.finding import Severity
 from core.program.entries import unread
+from core.program.file.stamp import stamp_of_data
+from core.program.file.store import StoreError, dumps, refuse_program, write_output, write_text
 from core.program.model import Program
-from core.program.stamp import stamp_of_data
-from core.program.store import StoreError, dumps, refuse_program, write_output, write_text
 from core.units import Unit
 
 if TYPE_CHECKING:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
+from core.program.file.stamp import Stamp
 from core.program.lock import Lock
-from core.program.stamp import Stamp
-from core.records import dataclass, field
 
 THE_WAY: Final = "SAVE AS: F8 until PROGRAM, then F7, F3."
 """How to come to SAVE AS from every screen: no key does it at once."""

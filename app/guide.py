@@ -7,7 +7,7 @@ its lower side, clockwise, the tool on the left.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 from app import files
@@ -22,7 +22,6 @@ from app.screens.save import SaveAsPage
 from app.session import SEGMENT, Said, Session
 from core.program.fields import Form, field, form_of
 from core.program.model import CutterComp, Entry, LineSegment
-from core.records import dataclass
 from core.units import Unit
 
 if TYPE_CHECKING:

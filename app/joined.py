@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Container, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Final
-
-from core.records import dataclass
 
 ESC: Final = "\x1b"
 TORN: Final = "torn"
@@ -34,7 +33,7 @@ PASTING: Final = 10.0
 MOST: Final = 20_000
 """Characters of pasted text that are held; no field and no line takes as many."""
 LATE: Final = 2.0
-"""Seconds behind Esc, or behind a key told torn, in which the rest of a key is recognised."""
+"""Seconds behind Esc, or behind a key told torn, in which the rest of a key is recognized."""
 LONGEST: Final = 32
 """Characters of the longest key."""
 WHOLE: Final = re.compile(r"\x1b\[\[?[0-?]*[ -/]*[A-Za-z~^@]")

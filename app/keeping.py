@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -17,10 +17,9 @@ from app.messages import Open, Say
 from app.session import Session, Tone
 from app.widgets.header import printable as whole
 from core.program.disk import why
+from core.program.file.store import StoreError
 from core.program.journal_file import JournalFile
 from core.program.lock import Held, Owner, myself, release, take, taken_by
-from core.program.store import StoreError
-from core.records import dataclass, field
 from core.units import printable
 
 if TYPE_CHECKING:

@@ -6,10 +6,8 @@ A line keeps its own line end, so that what nobody touched is written back byte 
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
-
-from core.records import dataclass
 
 LARGEST: Final = 64_000_000
 """Bytes of a file that is opened."""

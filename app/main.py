@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from app.beforehand import prepare
 from app.naming import program_named
 from app.shell import UNUSABLE, say
-from core.program.store import StoreError, load
+from core.program.file.store import StoreError, load
 
 if TYPE_CHECKING:
     from app.application import CutcompApp
@@ -64,8 +64,8 @@ def guarded(session: Session, *, first: bool = False, only: Page | None = None, 
     keeping, nc_keeping = Keeping(), NcKeeping()
     if not in_browser() and monochrome(os.environ):
         os.environ["NO_COLOR"] = "1"
-    few = not in_browser() and driver.few_colours(os.environ)
-    app = CutcompApp(session, keep=lambda desk: nc_keeping.keep(keeping.keep(desk)), few_colours=few)
+    few = not in_browser() and driver.few_colors(os.environ)
+    app = CutcompApp(session, keep=lambda desk: nc_keeping.keep(keeping.keep(desk)), few_colors=few)
     keep_settings(app, first=first)
     if only is not None:
         app.desk = nc_keeping.keep(replace(app.desk, pages=(only,)))

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any, TypeVar
-
-from core.records import dataclass, field
 
 Result = TypeVar("Result")
 

@@ -99,7 +99,7 @@ class Load(NamedTuple):
 class Post(NamedTuple):
     """Write the NC file; `override` is the sentence the operator typed to post in spite of the findings.
 
-    `control` is the full name of the control that is to compensate by itself, None for the path of the tool's centre.
+    `control` is the full name of the control that is to compensate by itself, None for the path of the tool's center.
     `linked` says that the operator agreed to write outside the folder of the program, `clear` that nothing was found to
     stand against posting: what takes long is then calculated behind the questions.
     """

@@ -10,14 +10,13 @@ import json
 import zlib
 from base64 import b85decode, b85encode
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 from difflib import SequenceMatcher
 from typing import Any, Final
 
 from app.listing import LARGEST, Change, Listing
 from core.program.journal import whole_lines
 from core.program.lock import Owner, owner_of
-from core.records import dataclass
 from core.units import printable
 
 FORMAT: Final = 1

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -17,10 +17,9 @@ from app.messages import Close, Do, Open, Say
 from app.session import Tone
 from app.widgets.header import printable as whole_name
 from core.program.disk import why
+from core.program.file.store import StoreError
 from core.program.journal_file import JournalFile
 from core.program.lock import Held, Lock, Owner, myself, release, take, take_over, taken_by
-from core.program.store import StoreError
-from core.records import dataclass, field
 
 if TYPE_CHECKING:
     from app.desk import Desk

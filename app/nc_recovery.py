@@ -19,9 +19,9 @@ from app.screens.decide import Decide
 from app.session import Tone
 from app.widgets.header import printable as whole_name
 from core.program.disk import why
+from core.program.file.store import StoreError
 from core.program.journal_file import JournalFile, set_aside, why_aside
 from core.program.lock import alive
-from core.program.store import StoreError
 from core.units import printable
 
 if TYPE_CHECKING:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from core.finding import Finding
 from core.pipeline.derived import Derived
 from core.program.model import Program
-from core.records import dataclass
 
 
 @dataclass(frozen=True, eq=False, slots=True)

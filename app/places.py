@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from stat import S_ISREG
 from typing import TYPE_CHECKING
@@ -12,7 +13,6 @@ from typing import TYPE_CHECKING
 from app import times
 from core.program.journal_file import SUFFIX, JournalFile, asides, journal_path, why_aside
 from core.program.lock import Owner, alive
-from core.records import dataclass
 
 if TYPE_CHECKING:
     from core.program.journal import Recovered

@@ -11,7 +11,7 @@ from core.pipeline.own import post_for
 
 
 def nc_text(derived: Derived, name: str, override: str | None, control: str | None) -> Posted | Refusal:
-    """The path of the tool's centre, or the program of a control that compensates by itself, by its full name."""
+    """The path of the tool's center, or the program of a control that compensates by itself, by its full name."""
     if control is not None:
         return post_for(derived, name=name, control=control)
     program = derived.program

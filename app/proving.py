@@ -6,11 +6,10 @@ Imported with the screens, so nothing here needs the numeric library before a qu
 from __future__ import annotations
 
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 from app.listing import Listing
-from core.records import dataclass
 
 if TYPE_CHECKING:
     from app.checking import Answer

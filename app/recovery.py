@@ -21,10 +21,10 @@ from app.widgets.header import printable as whole
 from core.pipeline.outline import outline
 from core.program.difference import differences
 from core.program.disk import why
+from core.program.file.store import StoreError, write_data
 from core.program.journal import Recovered, history_records, moved_record
 from core.program.journal_file import JournalFile, set_aside, why_aside
 from core.program.lock import alive, take_over
-from core.program.store import StoreError, write_data
 from core.units import printable
 
 if TYPE_CHECKING:

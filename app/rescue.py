@@ -7,8 +7,8 @@ from pathlib import Path
 from app import places
 from app.files import empty_program
 from app.session import Session
+from core.program.file.store import StoreError
 from core.program.lock import alive, user
-from core.program.store import StoreError
 
 
 def rescued(path: Path, error: StoreError, earlier: Path | None = None) -> Session:

@@ -14,11 +14,10 @@ import sys
 import termios
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass, field
 from threading import Thread
 from time import sleep
 from typing import Any, Final
-
-from core.records import dataclass, field
 
 SIGNALS: Final = (signal.SIGHUP, signal.SIGTERM, signal.SIGINT, signal.SIGQUIT)
 GRACE: Final = 2.0

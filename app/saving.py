@@ -16,9 +16,9 @@ from app.screens.decide import Choose, shortened
 from app.session import Session, Tone
 from core.program.difference import differences
 from core.program.disk import why
+from core.program.file.stamp import stamp_of
+from core.program.file.store import StoreError, load, write_data
 from core.program.lock import held_by, taken_by
-from core.program.stamp import stamp_of
-from core.program.store import StoreError, load, write_data
 from core.units import printable
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ anywhere else: a screen drawn afresh from the session equals the one that stands
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Final, NamedTuple
@@ -15,10 +15,9 @@ from app.guard import THE_WAY, UNGUARDED, Guard
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.outline import outline
 from core.program.edit import Edited, Refused, Where
+from core.program.file.stamp import Stamp
 from core.program.history import History
 from core.program.model import Block, Program, Segment
-from core.program.stamp import Stamp
-from core.records import dataclass
 
 SEGMENT: Final = "segment"
 """The name of the SEGMENT line, where the cursor walks from segment to segment."""

@@ -7,13 +7,12 @@ the program: one sentence says so, and the usual values hold.
 from __future__ import annotations
 
 import json
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app.session import Tone
-from core.program.store import LARGEST_FILE, StoreError, write_text
-from core.records import dataclass, field
+from core.program.file.store import LARGEST_FILE, StoreError, write_text
 from core.units import Unit
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ FINDINGS: Final = 1
 UNUSABLE: Final = 2
 
 HELP: Final = {
-    "path": "the centre path of every block",
+    "path": "the center path of every block",
     "lookahead": "what becomes of the path at every look-ahead value",
     "post": "write the NC file",
     "plot": "draw the program as SVG",

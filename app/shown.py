@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import compress
 from operator import ne
@@ -19,7 +20,6 @@ from typing import Final, NamedTuple
 from rich.cells import cell_len
 
 from app.slim import PLAIN, SHOWN_ON_BLANKS, TOKEN, Pen, Style, alike_on_blanks, read, slim
-from core.records import dataclass, field
 
 NEUTRAL: Final = re.compile(
     r"(?:\x1b\[\?(?:7|25|1004|2004|2026|2048)(?:h|l|\$p)|\x1b\]22;[^\x07\x1b]*(?:\x07|\x1b\\)|\x07)*"
@@ -64,7 +64,7 @@ Texts = list[tuple[str, str]]
 class Shown:
     """The cells of the terminal; `size` tells how many columns and rows it has just now.
 
-    `erases` says that erasing leaves the colour in force behind, as most terminals do it: where it does not, only
+    `erases` says that erasing leaves the color in force behind, as most terminals do it: where it does not, only
     the terminal's own paper is erased.
     """
 
@@ -174,7 +174,7 @@ def line_of(texts: Texts) -> Line:
     return line
 
 
-def neighbours(line: Line, columns: list[int]) -> Iterator[tuple[int, str, Style]]:
+def neighbors(line: Line, columns: list[int]) -> Iterator[tuple[int, str, Style]]:
     """Cells of a line in these columns: those side by side in one style as one text, with the first one's column."""
     first, text, style, behind = 0, "", PLAIN, -1
     for column in columns:
@@ -235,7 +235,7 @@ class _Ink:
         tail = self._tail(new) if len(changed) >= SHORTEST else len(new)
         erased = len(changed) >= SHORTEST and changed[-SHORTEST] >= tail
         written = [column for column in changed if column < tail] if erased else changed
-        for column, text, style in neighbours(new, written):
+        for column, text, style in neighbors(new, written):
             self._to(row, column, new)
             self.pen.write(text, style)
             self._went(row, column + len(text))
@@ -274,7 +274,7 @@ class _Ink:
         self.cursor = (row, column) if column < self.columns else None
 
     def _erased(self, row: int, new: Line) -> Line:
-        """A line in the colour of most of its blanks, if it can be erased."""
+        """A line in the color of most of its blanks, if it can be erased."""
         papers = Counter(cell.style for cell in new if cell is not None and cell.blank and self._erasable(cell.style))
         if not papers:
             return [None] * self.columns

@@ -1,16 +1,15 @@
 """The same picture in fewer bytes, for lines that are slow.
 
-Textual sends every piece of text with all of its colours before it and a reset behind it.  Here a colour is sent when
+Textual sends every piece of text with all of its colors before it and a reset behind it.  Here a color is sent when
 it changes, and blanks are sent in whatever ink there is: no one sees the ink of a blank.
 """
 
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Final, NamedTuple
-
-from core.records import dataclass, field
 
 TOKEN: Final = re.compile(
     r"\x1b\[([0-9;]*)m"
@@ -43,8 +42,8 @@ def read(parameters: str) -> Style:
         number = rest.pop(0)
         if number in ("38", "48") and rest:
             length = 2 if rest[0] == "5" else 4
-            colour, rest = ";".join([number, *rest[:length]]), rest[length:]
-            ink, paper = (colour, paper) if number == "38" else (ink, colour)
+            color, rest = ";".join([number, *rest[:length]]), rest[length:]
+            ink, paper = (color, paper) if number == "38" else (ink, color)
         elif len(number) > 1 and number[:-1] in ("3", "9"):
             ink = number
         elif number[:-1] in ("4", "10"):
@@ -67,8 +66,8 @@ def change(now: Style, then: Style) -> str:
 
 def _added(base: Style, then: Style) -> list[str]:
     """The parameters that make one style of another which has all of its attributes."""
-    colours = [new for old, new in ((base.ink, then.ink), (base.paper, then.paper)) if old != new]
-    return [*sorted(then.attributes - base.attributes), *colours]
+    colors = [new for old, new in ((base.ink, then.ink), (base.paper, then.paper)) if old != new]
+    return [*sorted(then.attributes - base.attributes), *colors]
 
 
 def alike_on_blanks(now: Style, then: Style) -> bool:

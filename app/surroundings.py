@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from time import strftime
 from typing import Final
-
-from core.records import dataclass
 
 MEMORY: Final = Path("/proc/meminfo")
 HEAD: Final = 256

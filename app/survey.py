@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -12,10 +12,9 @@ from app import places
 from app.patience import FILE, within
 from app.widgets.header import printable
 from app.widgets.rows import Look
+from core.program.file.store import StoreError, load
 from core.program.lock import alive, user
 from core.program.model import Entry, Program
-from core.program.store import StoreError, load
-from core.records import dataclass
 
 if TYPE_CHECKING:
     from core.pipeline.derived import Derived

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from app.behind import Behind
-from core.records import dataclass
 
 if TYPE_CHECKING:
     from app.application import CutcompApp

@@ -8,11 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Final
-
-from core.records import dataclass
 
 LONGEST: Final = 60
 """Characters a field reads; more is a slip of the hand."""

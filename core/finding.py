@@ -9,12 +9,11 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from enum import StrEnum
 from itertools import count, repeat
 from operator import attrgetter
 from typing import Final
-
-from core.records import dataclass
 
 
 class Severity(StrEnum):
@@ -34,8 +33,8 @@ class Finding:
 
     `code` is a stable word such as GOUGE, or a control's rule id.  `segment` is a programmed number k
     or k + 1/2 for the corner arc behind it; `field` a field's name in `core.program.fields`.
-    `at` (x, y) and `value` are millimetres, `lengths` further millimetres named in the text.
-    `line` and `column` count from 1 in a program somebody else wrote.  `area` is in square millimetres.
+    `at` (x, y) and `value` are millimeters, `lengths` further millimeters named in the text.
+    `line` and `column` count from 1 in a program somebody else wrote.  `area` is in square millimeters.
     """
 
     code: str

@@ -1,4 +1,4 @@
-"""The only tolerances of the core, each named by the question it answers, in millimetres."""
+"""The only tolerances of the core, each named by the question it answers, in millimeters."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ STOCK: Final = 1e-4
 machine is as exact, and curves drawn by many lines leave that much at every joint."""
 
 LARGEST: Final = 1e7
-"""Is a coordinate one a machine could have?  Ten kilometres; beyond it doubles lose the last digit."""
+"""Is a coordinate one a machine could have?  Ten kilometers; beyond it doubles lose the last digit."""
 
 LAST_PASS: Final = 1e-3
 """Is the rest of a depth a pass of its own?  A thinner one is cut together with the pass before it."""

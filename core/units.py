@@ -1,4 +1,4 @@
-"""Between the operator's text and millimetres and radians: the only place that knows inches and degrees.
+"""Between the operator's text and millimeters and radians: the only place that knows inches and degrees.
 
 A field takes the sums of `core.arithmetic`; a suffix (`12.7mm`, `.5in`, `.5"`, `22.5deg`) converts into program units.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 from enum import Enum, StrEnum, auto
 from fractions import Fraction
 from functools import cache, lru_cache
@@ -16,7 +17,6 @@ from typing import Final, assert_never
 
 from core.arithmetic import NotASumError, total
 from core.finding import Finding
-from core.records import dataclass
 from core.tolerance import LARGEST, ROUNDING
 
 QUOTED: Final = 24
@@ -53,7 +53,7 @@ class Unreadable:
 
 
 MM_PER: Final[Mapping[Unit, Fraction]] = MappingProxyType({Unit.IN: Fraction(127, 5), Unit.MM: Fraction(1)})
-"""Millimetres in one unit, exactly."""
+"""Millimeters in one unit, exactly."""
 
 
 KEPT: Final[Mapping[Unit, int]] = MappingProxyType({Unit.IN: 10, Unit.MM: 8})
@@ -67,12 +67,12 @@ CLOSER: Final = 6
 
 
 def to_mm(value: float, unit: Unit) -> float:
-    """Millimetres (a minute) of a length (a feed) in program units."""
+    """Millimeters (a minute) of a length (a feed) in program units."""
     return value * 25.4 if unit is Unit.IN else value
 
 
 def from_mm(value: float, unit: Unit) -> float:
-    """Program units (a minute) of a length (a feed) in millimetres."""
+    """Program units (a minute) of a length (a feed) in millimeters."""
     return value / 25.4 if unit is Unit.IN else value
 
 
@@ -89,7 +89,7 @@ def from_radians(value: float) -> float:
 def convert(value: float, old: Unit, new: Unit) -> float:
     """A typed length or feed in another unit, such that there and back gives any number of 14 digits again.
 
-    Inches keep ten decimals and millimetres eight: 3 mm is 0.1181102362 in, and that is 3 mm again.  Where these do not
+    Inches keep ten decimals and millimeters eight: 3 mm is 0.1181102362 in, and that is 3 mm again.  Where these do not
     lead back, as those of 1/3 in, there are as many more as do.
     """
     if old is new:

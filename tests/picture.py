@@ -51,7 +51,7 @@ def _font() -> ImageFont.FreeTypeFont:
     return ImageFont.truetype(BytesIO(data.read_bytes()), 16)
 
 
-def _colour(name: str, default: str) -> str:
+def _color(name: str, default: str) -> str:
     if name == "default":
         return default
     return NAMED.get(name, f"#{name}")
@@ -59,7 +59,7 @@ def _colour(name: str, default: str) -> str:
 
 def _cell(draw: ImageDraw.ImageDraw, font: ImageFont.FreeTypeFont, cell: Any, x: int, y: int) -> None:
     width, height = CELL
-    ink, paper = _colour(cell.fg, INK), _colour(cell.bg, PAPER)
+    ink, paper = _color(cell.fg, INK), _color(cell.bg, PAPER)
     if cell.reverse:
         ink, paper = paper, ink
     draw.rectangle((x, y, x + width - 1, y + height - 1), fill=paper)

@@ -22,7 +22,7 @@ SAYS = "rs274 is not installed (Debian and Ubuntu: apt install linuxcnc-uspace)"
 
 @dataclass(frozen=True)
 class Ran:
-    """What the interpreter did: `moves` are (name, x, y, z, cx, cy, turns), in program units; a line has no centre."""
+    """What the interpreter did: `moves` are (name, x, y, z, cx, cy, turns), in program units; a line has no center."""
 
     accepted: bool
     said: str

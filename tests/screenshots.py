@@ -34,9 +34,9 @@ SHOTS = (
     Shot("gouge", "overrun-square"),
     Shot("draw", "pocket", (b"8\r", F7)),
     Shot("lookahead-table", "notch", (TO_LOOKAHEAD, F4, DOWN)),
-    Shot("no-colour", "pocket", environment={"NO_COLOR": "1"}),
+    Shot("no-color", "pocket", environment={"NO_COLOR": "1"}),
     Shot(
-        "sixteen-colours",
+        "sixteen-colors",
         "overrun-square",
         (TO_LOOKAHEAD, b"4\r", b"\t" * 10, b"2..5\r"),
         environment={"TERM": "xterm"},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from textwrap import wrap
 from typing import ClassVar
 
@@ -10,7 +11,6 @@ from app.screens.page import Answer, Page, Softkey, Softkeys, Surface, View, uns
 from app.session import Said, Session
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, plain
-from core.records import dataclass
 
 Option = tuple[str, str, tuple[Message, ...]]
 """Letter, label, and what is asked of the App."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar
 
@@ -15,7 +15,6 @@ from app.session import Said, Session
 from app.widgets.field import Editing
 from app.widgets.header import printable
 from app.widgets.rows import Look, Row, Span, plain, shortened
-from core.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

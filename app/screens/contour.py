@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
 
 from app.messages import Edit, Move, Say
@@ -20,8 +20,7 @@ from core.finding import Finding, Severity
 from core.program.edit import Where, choose, type_field
 from core.program.entries import read
 from core.program.fields import SEGMENT_PROMPT, Field
-from core.program.solved import Value
-from core.records import dataclass
+from core.program.solve.solved import Value
 from core.units import Kind, sentence
 
 WALK: Final = {"pageup": -1, "pagedown": 1, "left": -1, "right": 1}

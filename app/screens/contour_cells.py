@@ -13,8 +13,8 @@ from app.widgets.form import Cell, State
 from core.pipeline.derived import DerivedBlock, Tag
 from core.program.fields import SOLUTION, TABLES, Field, Form, form_of
 from core.program.model import Block, Entry, Segment, Unread
-from core.program.solve_start import ZERO
-from core.program.solved import Solved, SolvedSegment, Value
+from core.program.solve.solved import Solved, SolvedSegment, Value
+from core.program.solve.start import ZERO
 from core.units import Kind, Unit, from_mm, show
 
 _START: Final[Mapping[str, tuple[int, int]]] = MappingProxyType(
@@ -163,8 +163,8 @@ def _read_only(label: str, text: str, column: int, line: int) -> Cell:
     return Cell(label, label, text, column, line, State.READ_ONLY)
 
 
-def _length(millimetres: float, unit: Unit) -> str:
-    return show(from_mm(millimetres, unit), Kind.LENGTH, unit)
+def _length(millimeters: float, unit: Unit) -> str:
+    return show(from_mm(millimeters, unit), Kind.LENGTH, unit)
 
 
 def _solved(session: Session) -> SolvedSegment:

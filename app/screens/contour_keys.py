@@ -89,10 +89,10 @@ def _solution_keys(session: Session) -> dict[int, Softkey]:
         return {}
     solved = session.found.solved.segments[session.where.segment - 1]
     keys = {}
-    centres = [piece.centre for piece in solved.choices if hasattr(piece, "centre")]
-    apart = len(set(centres)) > 1
+    centers = [piece.center for piece in solved.choices if hasattr(piece, "center")]
+    apart = len(set(centers)) > 1
     for index, piece in enumerate(solved.choices):
-        x, y = centres[index] if apart else piece.end
+        x, y = centers[index] if apart else piece.end
         texts = (show(from_mm(number, session.program.unit), Kind.LENGTH, session.program.unit) for number in (x, y))
         edit = Edit(
             choose(session.program, session.where, "choice", index), f"SOLUTION of segment {session.where.segment}"

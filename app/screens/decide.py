@@ -3,6 +3,7 @@ that need not be."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import ClassVar, Final
 
 from app.messages import Say
@@ -12,7 +13,6 @@ from app.screens.text import fitting, paragraph
 from app.session import Said, Session
 from app.widgets.header import header
 from app.widgets.rows import Look, Span, plain
-from core.records import dataclass
 
 MOST: Final = 6
 """Differences that are told one by one."""

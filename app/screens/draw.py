@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import ClassVar, Final
 
 from app.messages import Close, Message, Move, NextMode, Open, Say, Swap
@@ -13,7 +13,6 @@ from app.session import Said, Session
 from app.widgets.header import block_line, header, segment_line
 from app.widgets.words import number
 from core.program.edit import Where
-from core.records import dataclass, field
 
 STEP: Final = 1.25
 """One key press enlarges or shrinks by this factor."""
@@ -37,7 +36,7 @@ LEGEND: Final = (
     "# is surface that the look-ahead has deleted, x where two pieces meet that delete what is between them.",
     "! is where the path gouges. The ring is the cutter at the end of the segment's path, or where the path passes "
     "what is deleted.",
-    "With block and ASCII characters the contour has whole lines, the centre path dots.",
+    "With block and ASCII characters the contour has whole lines, the center path dots.",
 )
 FARTHEST: Final = 2.0
 """One may move so many times the whole drawing away from it."""

@@ -10,7 +10,7 @@ from core.program.entries import read
 from core.program.fields import Field
 from core.program.history import History
 from core.program.model import Entry, Program, Unread
-from core.program.solved import Value
+from core.program.solve.solved import Value
 
 
 def last_good(session: Session, one: Field, typed: Callable[[Session, str], Value | str]) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 from app.messages import Close, Message
 from app.screens.page import Answer, Page, unseen
@@ -10,7 +10,6 @@ from app.session import Session
 from app.widgets.field import Editing, press, window
 from app.widgets.form import typed_spans
 from app.widgets.rows import Look, Row, Span
-from core.records import dataclass, field
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from app.at_value import AtValue, FoundAt
@@ -12,7 +12,6 @@ from app.session import Session
 from app.widgets.rows import Look, Row, plain, text_of
 from app.widgets.verdict import UNKNOWN, deepest_gouge, nearest_place, needed, verdict_rows
 from core.pipeline.derived import DerivedBlock
-from core.records import dataclass
 from core.units import Unit
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Self
 
 from app.messages import Edit, Say
@@ -16,8 +16,7 @@ from core.program.edit import Refused
 from core.program.entries import AGAIN, misfit, read, unread_reason
 from core.program.fields import SOLUTION, Field, check
 from core.program.model import Entry, Program, Unread
-from core.program.solved import Solved, Value
-from core.records import dataclass
+from core.program.solve.solved import Solved, Value
 from core.units import Kind, Unit, sentence, show
 
 FORWARD = ("enter", "tab", "down")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final
 
 from app.screens.page import Surface
 from app.screens.text import TextPage, paragraph
 from app.session import Session
 from app.widgets.rows import Look, Row, Span, plain
-from core.records import dataclass
 
 KEYS: Final[tuple[tuple[str, str], ...]] = (
     ("Enter", "take the field and go on"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
 
 from app.messages import Close, Do, Edit, Message, Open, Say
@@ -17,9 +17,8 @@ from app.widgets.field import Editing
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, plain
 from core.finding import Finding, Severity
+from core.program.file.store import StoreError
 from core.program.model import Program, Tool
-from core.program.store import StoreError
-from core.records import dataclass
 from core.units import Unit
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from app.messages import Close, Edit
@@ -14,7 +14,6 @@ from app.widgets.words import length, numbers
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.program.edit import Where, recalculate_lookahead, type_field
 from core.program.model import Entry
-from core.records import dataclass
 from core.units import Unit
 
 if TYPE_CHECKING:

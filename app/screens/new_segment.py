@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final
 
 from app.messages import Close, Edit, Message, Move, Swap
@@ -14,7 +15,6 @@ from app.widgets.verdict import before_first
 from core.program.edit import Refused, Where, insert_segment
 from core.program.fields import TABLES, Form
 from core.program.model import ArcSegment, BlendSegment, LineSegment, Segment
-from core.records import dataclass
 
 KINDS: Final[tuple[tuple[str, Form, type[Segment], str], ...]] = (
     ("l", Form.LINE, LineSegment, "to a point, or by length and angle"),

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, ClassVar, Final, NamedTuple, Protocol
 
 from app.messages import Message, Say
 from app.session import Said, Session, Tone
 from app.widgets.rows import Row
-from core.records import dataclass
 
 if TYPE_CHECKING:
     from core.draw.scene import Scene

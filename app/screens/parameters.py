@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
 
 from app.messages import Close, Edit, Open
@@ -17,8 +17,7 @@ from core.program.edit import set_parameter, set_path_choice, set_unit
 from core.program.entries import read
 from core.program.fields import PARAMETERS, Field, default
 from core.program.model import PathChoice
-from core.program.solved import Value
-from core.records import dataclass
+from core.program.solve.solved import Value
 from core.units import Kind, Unit, show
 
 UNITS: Final = Field(

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final
 
 from app.screens.page import Layout
 from app.widgets import softkeys
 from app.widgets.rows import NOWHERE, Area
-from core.records import dataclass
 
 NATIVE: Final = (80, 24)
 """Columns and rows at which everything stands without scrolling."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from textwrap import wrap
 from typing import ClassVar, Self
@@ -22,7 +22,6 @@ from app.widgets.verdict import UNKNOWN
 from app.widgets.words import length, numbers, placed, segment
 from core.finding import Finding, Severity
 from core.output.override import OVERRIDABLE, OVERRIDE
-from core.records import dataclass
 from core.units import sentence
 
 
@@ -31,7 +30,7 @@ class PostPage(EntryPage):
     """First the file's name in `entry`; then, with `path` known, the sentence that overrides.
 
     `asked` is for the control that compensates by itself, `told` what its program meets once that is known; None posts
-    the path of the tool's centre.
+    the path of the tool's center.
     """
 
     layout: ClassVar[Layout] = Layout.TEXT
@@ -154,7 +153,7 @@ class PostPage(EntryPage):
 
     def _chosen(self) -> tuple[Row, ...]:
         """The control, and what that means."""
-        name, text = "none", "The tool centre's path, without G41 or G42."
+        name, text = "none", "The tool center's path, without G41 or G42."
         if self.control is not None:
             name, text = (
                 self.control,

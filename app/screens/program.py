@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Final
 
@@ -17,7 +17,6 @@ from core.finding import Severity
 from core.pipeline.derived import DerivedBlock
 from core.program.edit import Where, copy_block, delete_block, insert_block, move_block
 from core.program.model import Entry, Program
-from core.records import dataclass
 
 if TYPE_CHECKING:
     from app.desk import Desk

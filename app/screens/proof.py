@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Final
 
@@ -16,7 +16,6 @@ from app.widgets.field import Editing, press
 from core.controls.tools import ToolTable
 from core.finding import Finding
 from core.program.lock import Lock
-from core.records import dataclass, field
 
 STEPS: Final = {"up": -1, "down": 1, "pageup": -10, "pagedown": 10}
 ENDS: Final = {"home": 0, "ctrl+home": 0, "end": 10**9, "ctrl+end": 10**9}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from textwrap import wrap
 from typing import TYPE_CHECKING, ClassVar
 
@@ -12,7 +12,6 @@ from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, V
 from app.screens.proof_findings import BACK
 from app.session import Said, Session
 from app.widgets.rows import Look, Row, Span, plain
-from core.records import dataclass
 
 if TYPE_CHECKING:
     from app.checking import Answer as Fate

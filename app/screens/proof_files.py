@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from os.path import realpath
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
@@ -21,8 +21,7 @@ from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.rows import Look, plain
 from core.program.disk import why
-from core.program.store import StoreError, refuse_program, write_data
-from core.records import dataclass
+from core.program.file.store import StoreError, refuse_program, write_data
 from core.units import printable
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from textwrap import wrap
 from typing import TYPE_CHECKING, ClassVar, Final
 
@@ -13,7 +13,6 @@ from app.screens.proof_tool import proof_page, put, unit_of
 from app.session import Said, Session
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, plain
-from core.records import dataclass
 
 if TYPE_CHECKING:
     from app.desk import Desk

@@ -28,7 +28,7 @@ HELP: Final = (
     "t gives a tool another diameter, < and > make it a little smaller and larger: the verdict follows.",
     "+ and - zoom on the cutter, 0 shows everything, d gives the drawing the whole terminal, where the arrows move it: "
     "from then on + and - zoom on its middle, until n or p brings the cutter back.",
-    "In the drawing: the programmed contour, the path of the tool's centre, dashed rapids, ! where it gouges.",
+    "In the drawing: the programmed contour, the path of the tool's center, dashed rapids, ! where it gouges.",
 )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, ClassVar, Final
 
 from app.messages import Close, Do, Message, Say
@@ -14,7 +14,6 @@ from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.rows import Look, Row, plain
 from core.controls.tools import CutterTool, ToolTable
-from core.records import dataclass, field
 from core.units import Kind, Unit, Unreadable, parse, show
 
 if TYPE_CHECKING:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, Self
 
@@ -15,7 +16,6 @@ from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header
 from app.widgets.rows import Look, plain
-from core.records import dataclass
 
 HOW: Final = "The folder must exist. A name that does not end in .toml gets it."
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from app.messages import Close, Edit
 from app.screens.forms import FormPage, cell_of
@@ -14,8 +14,7 @@ from app.widgets.rows import plain
 from core.program.edit import set_setup
 from core.program.entries import read
 from core.program.fields import SETUP, Field, default
-from core.program.solved import Value
-from core.records import dataclass
+from core.program.solve.solved import Value
 from core.units import Kind, show
 
 

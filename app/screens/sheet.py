@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final, Self
 
@@ -16,8 +16,7 @@ from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header, printable
 from app.widgets.rows import Look, plain
-from core.program.store import StoreError, refuse_program, write_output
-from core.records import dataclass
+from core.program.file.store import StoreError, refuse_program, write_output
 
 if TYPE_CHECKING:
     from app.desk import Desk

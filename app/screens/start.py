@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
 from types import MappingProxyType
@@ -15,7 +15,6 @@ from app.session import Said, Session, Tone
 from app.survey import Facts
 from app.widgets.header import printable
 from app.widgets.rows import Look, Row, Span, plain, shortened
-from core.records import dataclass, field
 from core.units import Unit
 
 PROMPT: Final = (

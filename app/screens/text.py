@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from textwrap import wrap
 from typing import ClassVar
 
@@ -12,7 +12,6 @@ from app.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, V
 from app.session import Said, Session
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, plain
-from core.records import dataclass
 
 SCREENFUL = 16
 

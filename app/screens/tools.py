@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
 
 from app.messages import Close, Edit, Message, Open, Say
@@ -18,8 +18,7 @@ from core.program.edit import Edited, Refused, delete_tool, set_tool
 from core.program.entries import read
 from core.program.fields import TOOL, Field
 from core.program.model import Entry, Program, Tool, Unread
-from core.program.solved import Value
-from core.records import dataclass
+from core.program.solve.solved import Value
 from core.units import Unit
 
 COLUMNS: Final = {"number": (3, 6), "type": (14, 23), "diameter": (38, 12)}

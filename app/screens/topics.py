@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
 
 from core.program.fields import SOLUTION, TABLES, Field, Form
-from core.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

@@ -76,7 +76,7 @@ def _view_of(gathered: Gathered, sketch: Sketch, columns: int, rows: int) -> Vie
 def _marked(scene: Scene) -> Point | None:
     """What enlarging keeps in the window: the cutter, else the segment under the cursor, else START."""
     for circle in scene.circles:
-        return circle.centre
+        return circle.center
     for layer in scene.layers:
         if layer.style is Style.CURRENT and (box := Scene((layer,)).bounds) is not None:
             return (box[0] + box[2]) / 2, (box[1] + box[3]) / 2

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
-
-from core.records import dataclass
 
 LONGEST: Final = 200
 """Characters a field takes; more is a key that got stuck."""

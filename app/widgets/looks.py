@@ -1,7 +1,7 @@
-"""The colours of every look, one table for terminals of many colours and one for those of sixteen, or none.
+"""The colors of every look, one table for terminals of many colors and one for those of sixteen, or none.
 
 They stand here and not in the style sheet, which would be read and matched look by look before the first screen.
-One accent (blue) for the cursor and the softkeys; colour never says anything that a mark or a word does not say.
+One accent (blue) for the cursor and the softkeys; color never says anything that a mark or a word does not say.
 """
 
 from __future__ import annotations
@@ -79,12 +79,12 @@ FEW: Final[Mapping[Look, str]] = MappingProxyType(
         Look.CURRENT: "bold magenta",
     }
 )
-"""The terminal's own colours, so that surface, path and cutter stay apart on any of them; its own ink for the rest.
+"""The terminal's own colors, so that surface, path and cutter stay apart on any of them; its own ink for the rest.
 No italics: GNU screen shows them in reverse, as the cursor."""
 
 
 @lru_cache(None)
-def style_of(look: Look, *, few_colours: bool) -> Style:
+def style_of(look: Look, *, few_colors: bool) -> Style:
     """How a look is written; its paper is that of the screen where it has none of its own."""
-    written, paper = (FEW.get(look, "default"), "default") if few_colours else (MANY[look], PAPER)
+    written, paper = (FEW.get(look, "default"), "default") if few_colors else (MANY[look], PAPER)
     return Style.parse(written if " on " in written else f"{written} on {paper}")

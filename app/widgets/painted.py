@@ -73,16 +73,16 @@ class Rows(Widget, inherit_css=False):
         return [self._filtered(self.render_line(y)).crop(*crop.column_span) for y in crop.line_range]
 
     def render_line(self, y: int) -> Strip:
-        """One line, in all colours."""
+        """One line, in all colors."""
         row, width = self.rows[y] if y < len(self.rows) else (), self.size.width
         segments = [self._segment(span.text, span.look) for span in row]
         return Strip(segments).adjust_cell_length(width, self.rich_style).crop(0, width)
 
     def _segment(self, text: str, look: Look) -> Segment:
-        return Segment(text, style_of(look, few_colours=self.app.native_ansi_color))
+        return Segment(text, style_of(look, few_colors=self.app.native_ansi_color))
 
     def _filtered(self, strip: Strip) -> Strip:
-        """As this terminal has it: without colours where it has none."""
+        """As this terminal has it: without colors where it has none."""
         for one in self.get_line_filters():
             strip = strip.apply_filter(one, self.background_colors[1])
         return strip

@@ -19,7 +19,7 @@ _LOOKS: Final = {Tone.PLAIN: Look.PLAIN, Tone.WARNING: Look.WARNING, Tone.ERROR:
 
 @lru_cache(64)
 def prompt_rows(said: Said, width: int, height: int = LINES) -> tuple[Row, ...]:
-    """The sentence on its lines, marked by !! and a colour when it is an error.
+    """The sentence on its lines, marked by !! and a color when it is an error.
 
     Of what is longer, whole paths are parted between lines, then lose their middle: the reason stands behind them.
     The rest is an ellipsis.

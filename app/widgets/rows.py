@@ -16,7 +16,7 @@ from rich.cells import cell_len
 
 
 class Look(StrEnum):
-    """The role of a piece of text; `app.widgets.looks` gives each role its colours."""
+    """The role of a piece of text; `app.widgets.looks` gives each role its colors."""
 
     # an enumeration's own is written in Python, and a row is looked up by the looks of all its spans
     __hash__ = str.__hash__

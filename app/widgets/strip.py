@@ -23,7 +23,7 @@ def strip(found: DerivedBlock, table: Table | None, unit: Unit) -> Row:
     Of a contour that is not determined to its end it tells what all of the verdict is about, and advises nothing.
     """
     if found.side is None:
-        told = ": the tool's centre runs on the contour." if found.known else "   calculating ..."
+        told = ": the tool's center runs on the contour." if found.known else "   calculating ..."
         return plain(f" CUTTER COMP. ON{told}", Look.LABEL)
     if table is None:
         more = _alone(found) if found.known else "calculating ..."
@@ -57,7 +57,7 @@ def _run(first: int, last: int, mark: str, *, here: bool) -> Span:
 
 
 def _runs(table: Table, here: int) -> list[tuple[int, int, str]]:
-    """Neighbouring values of one fate; the value in force stands alone."""
+    """Neighboring values of one fate; the value in force stands alone."""
     runs: list[tuple[int, int, str]] = []
     for row in table.rows:
         mark = mark_of(row)

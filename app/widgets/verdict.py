@@ -5,7 +5,7 @@ The strip on its first line tells every look-ahead value's fate; below it stand 
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import islice
 from math import isfinite
@@ -17,7 +17,6 @@ from app.widgets.strip import STRIP, strip
 from app.widgets.words import length, number, numbers, pair, place, segment
 from core.finding import Finding, Severity
 from core.pipeline.derived import DerivedBlock
-from core.records import dataclass
 from core.units import Unit, sentence
 
 if TYPE_CHECKING:

@@ -8,13 +8,13 @@ from core.finding import Finding
 from core.units import Kind, Unit, from_mm, sentence, show
 
 
-def length(millimetres: float, unit: Unit) -> str:
-    """A length in millimetres as the form prints it."""
-    return show(from_mm(millimetres, unit), Kind.LENGTH, unit)
+def length(millimeters: float, unit: Unit) -> str:
+    """A length in millimeters as the form prints it."""
+    return show(from_mm(millimeters, unit), Kind.LENGTH, unit)
 
 
 def place(point: tuple[float, float], unit: Unit) -> str:
-    """A point in millimetres as `X 1.0000 Y 2.0000`."""
+    """A point in millimeters as `X 1.0000 Y 2.0000`."""
     return f"X {length(point[0], unit)} Y {length(point[1], unit)}"
 
 
@@ -60,7 +60,7 @@ def in_spite(overridden: Iterable[Finding]) -> str:
 
 
 def numbers(segments: Iterable[float]) -> str:
-    """Programmed segment numbers with neighbours joined: 2-4 7.  Corner arcs are left out."""
+    """Programmed segment numbers with neighbors joined: 2-4 7.  Corner arcs are left out."""
     whole = sorted({int(segment) for segment in segments if segment == int(segment)})
     runs: list[list[int]] = []
     for one in whole:

@@ -1,1 +1,1 @@
-"""Cutter compensation: the centre path under the control's look-ahead rule."""
+"""Cutter compensation: the center path under the control's look-ahead rule."""

@@ -9,7 +9,7 @@ from core.tolerance import JOINED
 
 
 class Outcome(Protocol):
-    """What one look-ahead value does to a contour: lengths in millimetres."""
+    """What one look-ahead value does to a contour: lengths in millimeters."""
 
     @property
     def value(self) -> int:

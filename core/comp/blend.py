@@ -1,7 +1,7 @@
 """Blend moves: the quarter circles on which the cutter comes to the path and leaves it.
 
 With E the path's end point, t its direction there and n the normal away from the material, a blend arc of radius B has
-its centre at E + B n; it comes from E + B n - B t (the plunge point), or leaves to E + B n + B t.
+its center at E + B n; it comes from E + B n - B t (the plunge point), or leaves to E + B n + B t.
 """
 
 from __future__ import annotations
@@ -18,23 +18,23 @@ from core.geometry.side import Side
 from core.tolerance import CLOSED, JOINED
 
 _AT_ITS_START: Final = 2.0 * CLOSED
-"""So far apart may the ends of a closed contour's path be, millimetres: a gap in the contour also turns a segment."""
+"""So far apart may the ends of a closed contour's path be, millimeters: a gap in the contour also turns a segment."""
 
 
 def blend_in(path: Path, side: Side, blend: float) -> Path:
-    """The arc of radius `blend` millimetres (0 = none) tangent to the path at its start, with its first number."""
+    """The arc of radius `blend` millimeters (0 = none) tangent to the path at its start, with its first number."""
     if not len(path) or blend <= 0.0:
         return EMPTY
     first = path[0]
     along = direction(first, first.start)
-    start, centre = _quarter(first.start, -along, along, side, blend)
-    return _arc(start, first.start, centre, side, path.numbers[:1])
+    start, center = _quarter(first.start, -along, along, side, blend)
+    return _arc(start, first.start, center, side, path.numbers[:1])
 
 
 def blend_out(path: Path, side: Side, blend: float, overlap: float, *, closed: bool) -> Path:
-    """What follows the path: the overlap, then the arc of radius `blend` millimetres, with its last number.
+    """What follows the path: the overlap, then the arc of radius `blend` millimeters, with its last number.
 
-    A closed contour whose path ends where it starts runs `overlap` millimetres past the start before it leaves:
+    A closed contour whose path ends where it starts runs `overlap` millimeters past the start before it leaves:
     its own first pieces once more, under their own numbers.
     """
     again = past_start(path, overlap) if closed else EMPTY
@@ -43,17 +43,17 @@ def blend_out(path: Path, side: Side, blend: float, overlap: float, *, closed: b
         return again
     last = whole[-1]
     along = direction(last, last.end)
-    end, centre = _quarter(last.end, along, along, side, blend)
-    return joined((again, _arc(last.end, end, centre, side, whole.numbers[-1:])))
+    end, center = _quarter(last.end, along, along, side, blend)
+    return joined((again, _arc(last.end, end, center, side, whole.numbers[-1:])))
 
 
-def _arc(start: Point, end: Point, centre: Point, side: Side, number: Floats) -> Path:
+def _arc(start: Point, end: Point, center: Point, side: Side, number: Floats) -> Path:
     turn = np.array((side.sign,), np.int8)
-    return Path(np.array((start, end)), np.array((centre,)), turn, number)
+    return Path(np.array((start, end)), np.array((center,)), turn, number)
 
 
 def past_start(path: Path, overlap: float) -> Path:
-    """The path's first `overlap` millimetres, at most one lap, if it ends where it starts; else nothing.
+    """The path's first `overlap` millimeters, at most one lap, if it ends where it starts; else nothing.
 
     A contour counts as closed though its ends are a little apart: so does the path, and the overlap then begins with
     the straight move to its start.
@@ -83,17 +83,17 @@ def _from(start: Point, piece: Piece) -> Piece:
     end = start if piece.end == piece.start else piece.end
     if isinstance(piece, Line):
         return Line(start, end)
-    return Arc(start, end, piece.centre, piece.turn)
+    return Arc(start, end, piece.center, piece.turn)
 
 
 def _beginning(piece: Piece, length: float) -> Piece:
-    """The first `length` millimetres of a piece that is longer."""
+    """The first `length` millimeters of a piece that is longer."""
     start, end = complex(*piece.start), complex(*piece.end)
     part = length / piece.length
     if isinstance(piece, Line):
         return Line(piece.start, _point(start + part * (end - start)))
-    centre, turned = complex(*piece.centre), part * piece.sweep
-    return Arc(piece.start, _point(centre + (start - centre) * rect(1.0, turned)), piece.centre, piece.turn)
+    center, turned = complex(*piece.center), part * piece.sweep
+    return Arc(piece.start, _point(center + (start - center) * rect(1.0, turned)), piece.center, piece.turn)
 
 
 def direction(piece: Piece, at: Point) -> complex:
@@ -101,14 +101,14 @@ def direction(piece: Piece, at: Point) -> complex:
     if isinstance(piece, Line):
         along = complex(*piece.end) - complex(*piece.start)
     else:
-        along = 1j * int(piece.turn) * (complex(*at) - complex(*piece.centre))
+        along = 1j * int(piece.turn) * (complex(*at) - complex(*piece.center))
     return along / abs(along)
 
 
 def _quarter(at: Point, outer: complex, along: complex, side: Side, blend: float) -> tuple[Point, Point]:
-    """The far end and the centre of the quarter circle at a path's end that reaches `outer` along it."""
-    centre = complex(*at) + blend * side.sign * 1j * along
-    return _point(centre + blend * outer), _point(centre)
+    """The far end and the center of the quarter circle at a path's end that reaches `outer` along it."""
+    center = complex(*at) + blend * side.sign * 1j * along
+    return _point(center + blend * outer), _point(center)
 
 
 def _point(place: complex) -> Point:

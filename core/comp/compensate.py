@@ -1,4 +1,4 @@
-"""Compensate: a contour's centre path under the control's look-ahead rule, every stage kept.
+"""Compensate: a contour's center path under the control's look-ahead rule, every stage kept.
 
 The stages: zero-length segments dropped, offset to the raw chain, crossings found, walked and pruned, blended.
 """
@@ -6,7 +6,7 @@ The stages: zero-length segments dropped, offset to the raw chain, crossings fou
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +22,6 @@ from core.geometry.intersect import Indices, planes
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Piece
 from core.geometry.side import Side
-from core.records import dataclass
 from core.tolerance import JOINED
 
 
@@ -36,11 +35,11 @@ def compensate(
     blend: float = 0.0,
     overlap: float = 0.0,
 ) -> Compensated:
-    """The centre path of a contour at `radius` millimetres to `side`, at one look-ahead.
+    """The center path of a contour at `radius` millimeters to `side`, at one look-ahead.
 
     `closed` is whether the programmed contour ends at its start; its first and last segments are then never tested
     against each other.  `blend` is the radius of the blend arcs, `overlap` how far a closed contour runs past its
-    start, millimetres, 0 = none.  A contour that cannot be compensated gives an empty path and an error finding.
+    start, millimeters, 0 = none.  A contour that cannot be compensated gives an empty path and an error finding.
     """
     return compensate_all(contour, side, radius, (lookahead,), closed=closed, blend=blend, overlap=overlap)[0]
 
@@ -101,7 +100,7 @@ class _Asked(NamedTuple):
 class Crossed:
     """A contour offset, with the crossings of its raw chain: what all look-aheads it was made for have in common.
 
-    `found` is None for a contour that has no centre path at any of them; `common` tells why, or what is always told.
+    `found` is None for a contour that has no center path at any of them; `common` tells why, or what is always told.
     """
 
     asked: _Asked
@@ -160,7 +159,7 @@ def _findings(surface: Path, chain: Chain, pruned: Pruned, radius: float, *, clo
 
 
 def _nothing(asked: _Asked, lookahead: int, findings: tuple[Finding, ...]) -> Compensated:
-    """The answer to a contour that has no centre path."""
+    """The answer to a contour that has no center path."""
     return Compensated(
         contour=asked.contour,
         side=asked.side,
@@ -190,7 +189,7 @@ def _with_length(contour: Path) -> tuple[Path, list[Finding]]:
 
 def _is_point(piece: Piece) -> bool:
     """No longer than JOINED, of a piece whose ends are as near; an arc about its end has no direction there."""
-    return piece.length <= JOINED or (isinstance(piece, Arc) and piece.centre == piece.end)
+    return piece.length <= JOINED or (isinstance(piece, Arc) and piece.center == piece.end)
 
 
 def _without(contour: Path, dropped: Indices) -> Path:
@@ -201,4 +200,4 @@ def _without(contour: Path, dropped: Indices) -> Path:
     whole = (contour.points[1:] == contour.points[:-1]).all(axis=1)[kept].nonzero()[0]
     for row in whole[::-1].tolist():
         points[row] = points[row + 1]
-    return Path.of(points, contour.centres[kept], contour.turns[kept], contour.numbers[kept])
+    return Path.of(points, contour.centers[kept], contour.turns[kept], contour.numbers[kept])

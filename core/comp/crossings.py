@@ -7,6 +7,7 @@ decides which of those points are left.  The walk itself then needs no geometry.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import Final
 
@@ -16,7 +17,6 @@ from core.comp.offset import BRIDGE, CORNER, Chain, stacked
 from core.geometry.intersect import Meeting, Meetings, meet_pieces
 from core.geometry.path import Floats
 from core.geometry.planes import Indices, Masks, Pieces, Planes, coordinates, pieces_of, planes, taken
-from core.records import dataclass
 from core.tolerance import ON_PATH
 
 _STRETCH: Final = 8192
@@ -27,7 +27,7 @@ _STRETCH: Final = 8192
 class Crossings:
     """p points where an earlier piece `a` and a later piece `b` of the chain meet, in order of b, then a, then along a.
 
-    `along_a`, `along_b` are distances from the pieces' raw starts in millimetres, `a_ends` marks points at
+    `along_a`, `along_b` are distances from the pieces' raw starts in millimeters, `a_ends` marks points at
     a's raw end, `b_ends` at b's.  `points` are complex numbers.
     """
 
@@ -49,14 +49,14 @@ class Crossings:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Candidates:
-    """All crossings of a chain: `joints` of path neighbours at inside corners, `others` with their reach in places."""
+    """All crossings of a chain: `joints` of path neighbors at inside corners, `others` with their reach in places."""
 
     joints: Crossings
     others: Crossings
     reach: Indices
 
     def within(self, lookahead: int) -> Crossings:
-        """The crossings of pieces that are not neighbours and that this look-ahead tests."""
+        """The crossings of pieces that are not neighbors and that this look-ahead tests."""
         rows = self.reach <= 2 * lookahead
         return self.others if rows.all() else self.others.chosen(rows)
 
@@ -71,8 +71,8 @@ class Candidates:
 def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
     """Every crossing that a look-ahead up to `lookahead` may have to know of.
 
-    Tangent touches of pieces that are not neighbours are left out: a cutter that just fits passes.  The first and
-    the last segment of a closed contour are never tested against each other, unless they are neighbours.
+    Tangent touches of pieces that are not neighbors are left out: a cutter that just fits passes.  The first and
+    the last segment of a closed contour are never tested against each other, unless they are neighbors.
     """
     pieces, partners = pieces_of(chain.raw), (chain.parts <= CORNER).nonzero()[0]
     bounds = [*range(0, max(len(partners), 1), _STRETCH), len(partners)]
@@ -177,7 +177,7 @@ def _lifts(arcs: Pieces) -> tuple[Planes, Floats]:
     An arc of half a turn or less lies in the rectangle of its chord and its height, on the chord's right if
     counter-clockwise; a larger one within a diameter of its ends.  An arc whose radii differ grows by that.
     """
-    first, last, run = arcs.start - arcs.centre, arcs.end - arcs.centre, (arcs.end - arcs.start) / 2.0
+    first, last, run = arcs.start - arcs.center, arcs.end - arcs.center, (arcs.end - arcs.start) / 2.0
     radius, half = np.abs(first), np.abs(run)
     small = ((first.conj() * last).imag * arcs.turn > 0.0) & (half > 0.0)
     height = radius - np.sqrt(np.maximum((radius - half) * (radius + half), 0.0))

@@ -9,6 +9,7 @@ between it and the next, so that two parts are within a look-ahead of v when the
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from enum import IntEnum
 from itertools import pairwise
 from typing import Any, Final, NamedTuple
@@ -19,7 +20,6 @@ from numpy.typing import NDArray
 from core.geometry.intersect import Indices, Masks, Planes, coordinates, planes
 from core.geometry.path import Floats, Path, Turns
 from core.geometry.side import Side
-from core.records import dataclass
 from core.tolerance import JOINED
 
 _STRETCH: Final = 16384
@@ -55,7 +55,7 @@ class _Stretch(NamedTuple):
     """The chain's pieces of a run of segments, as complex numbers; `points` are starts, and the chain's very end."""
 
     points: Planes
-    centres: Planes
+    centers: Planes
     turns: Turns
     numbers: Floats
     parts: NDArray[np.uint8]
@@ -75,13 +75,13 @@ class _Beside(NamedTuple):
 
 
 def offset(contour: Path, side: Side, radius: float) -> Chain:
-    """The raw chain of a contour without zero-length segments, at `radius` > 0 millimetres to `side`."""
+    """The raw chain of a contour without zero-length segments, at `radius` > 0 millimeters to `side`."""
     count = len(contour)
     bounds = [*range(0, count, _STRETCH), count]
     parts = [_stretch(contour, side.sign, radius, first, last) for first, last in pairwise(bounds)]
     chain = parts.pop() if len(parts) == 1 else _Stretch(*stacked(parts))
     _close_circles(chain.points, contour, chain.places)
-    raw = Path(coordinates(chain.points), coordinates(chain.centres), chain.turns, chain.numbers)
+    raw = Path(coordinates(chain.points), coordinates(chain.centers), chain.turns, chain.numbers)
     return Chain(raw, chain.parts, chain.places)
 
 
@@ -111,16 +111,16 @@ def _stretch(contour: Path, sign: int, radius: float, first: int, last: int) -> 
     points[own], points[1::2] = beside.ends[0], beside.ends[1]
     numbers[own] = contour.numbers[reached]
     numbers[1::2] = numbers[own] + 0.5
-    centres, arcs = points.copy(), beside.arcs
-    turns[own][arcs], centres[own][arcs] = contour.turns[reached][arcs], planes(contour.centres)[reached][arcs]
+    centers, arcs = points.copy(), beside.arcs
+    turns[own][arcs], centers[own][arcs] = contour.turns[reached][arcs], planes(contour.centers)[reached][arcs]
     corners = outside.nonzero()[0]
-    turns[between][corners], centres[between][corners] = -sign, planes(contour.points)[1:][reached][corners]
+    turns[between][corners], centers[between][corners] = -sign, planes(contour.points)[1:][reached][corners]
     parts[own][beside.vanished], parts[between] = VANISHED, BRIDGE
     parts[between][corners] = CORNER
     slots = taken.nonzero()[0]
     pieces = slots[:-1] if joints < count else slots
     places = pieces + 2 * first
-    return _Stretch(points[slots], centres[pieces], turns[pieces], numbers[pieces], parts[pieces], places)
+    return _Stretch(points[slots], centers[pieces], turns[pieces], numbers[pieces], parts[pieces], places)
 
 
 def _beside(contour: Path, shift: float, rows: slice) -> _Beside:
@@ -130,8 +130,8 @@ def _beside(contour: Path, shift: float, rows: slice) -> _Beside:
     ends, normals = np.empty((2, len(turns)), np.complex128), np.empty((2, len(turns)), np.complex128)
     ends[0], ends[1] = starts, stops
     normals[0] = normals[1] = 1j * (stops - starts)
-    centres, around = planes(contour.centres)[rows][arcs], turns[arcs].astype(np.float64)
-    normals[0][arcs], normals[1][arcs] = (centres - starts[arcs]) * around, (centres - stops[arcs]) * around
+    centers, around = planes(contour.centers)[rows][arcs], turns[arcs].astype(np.float64)
+    normals[0][arcs], normals[1][arcs] = (centers - starts[arcs]) * around, (centers - stops[arcs]) * around
     sizes = np.abs(normals)
     normals /= sizes
     ends += shift * normals

@@ -8,6 +8,8 @@ along it, so that the walk compares numbers and visits only pieces at which some
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,7 +19,6 @@ from core.comp.result import Deletions
 from core.comp.walk import Left, Walk
 from core.geometry.intersect import Indices, Masks, coordinates, planes
 from core.geometry.path import EMPTY, Path
-from core.records import dataclass
 from core.tolerance import JOINED, ON_PATH
 
 
@@ -78,9 +79,9 @@ def _what_is_left(chain: Chain, left: Left) -> tuple[Path, tuple[Masks, Indices]
     if not len(alive):
         return EMPTY, (bridged, alive)
     turns = chain.raw.turns[alive]
-    centres, arcs = starts[:-1].copy(), turns.nonzero()[0]
-    centres[arcs] = planes(chain.raw.centres)[alive[arcs]]
-    path = Path(coordinates(starts), coordinates(centres), turns, chain.raw.numbers[alive])
+    centers, arcs = starts[:-1].copy(), turns.nonzero()[0]
+    centers[arcs] = planes(chain.raw.centers)[alive[arcs]]
+    path = Path(coordinates(starts), coordinates(centers), turns, chain.raw.numbers[alive])
     return path, (bridged, alive[bridged])
 
 

@@ -1,8 +1,9 @@
-"""What compensation yields: the centre path and everything that became of the contour on the way."""
+"""What compensation yields: the center path and everything that became of the contour on the way."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,12 +11,11 @@ from numpy.typing import NDArray
 from core.finding import Finding
 from core.geometry.path import Floats, Path, joined
 from core.geometry.side import Side
-from core.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Deleted:
-    """Segment `segment` was deleted because pieces `by` met at `at` (millimetres)."""
+    """Segment `segment` was deleted because pieces `by` met at `at` (millimeters)."""
 
     segment: float
     by: tuple[float, float]
@@ -40,11 +40,11 @@ class Deletions:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Compensated:
-    """A contour's centre path at one look-ahead, with its stages.
+    """A contour's center path at one look-ahead, with its stages.
 
     `raw` is the chain of all offset pieces, corner arcs and provisional bridges before any test; `path` what is
     left of it.  `bridged` (len(path),) marks pieces of `path` that are provisional bridges still standing.
-    `lead_in` and `lead_out` are the blend moves.  Millimetres.
+    `lead_in` and `lead_out` are the blend moves.  Millimeters.
     """
 
     contour: Path

@@ -30,7 +30,7 @@ def refusal(contour: Path, radius: float, lookaheads: Sequence[int]) -> tuple[Fi
         return (_error("LOOKAHEAD", "The look-ahead must be 1 or more."),)
     if not len(contour):
         return (_error("EMPTY_CONTOUR", "The contour has no segment with a length."),)
-    if not _usable(contour.points) or not _usable(contour.centres):
+    if not _usable(contour.points) or not _usable(contour.centers):
         return (_not_finite(contour),)
     return _not_arcs(contour)
 
@@ -46,7 +46,7 @@ def _usable(values: Floats) -> bool:
 
 def _not_finite(contour: Path) -> Finding:
     points: Masks = np.logical_and.reduce(np.abs(contour.points) <= LARGEST, axis=1)
-    bad = ~(points[:-1] & points[1:] & (np.abs(contour.centres) <= LARGEST).all(axis=1))
+    bad = ~(points[:-1] & points[1:] & (np.abs(contour.centers) <= LARGEST).all(axis=1))
     text = "A coordinate of this segment is not a number a machine can have; type it again."
     return _error("NOT_FINITE", text, float(contour.numbers[np.argmax(bad)]))
 
@@ -54,27 +54,27 @@ def _not_finite(contour: Path) -> Finding:
 def _not_arcs(contour: Path) -> tuple[Finding, ...]:
     """Arcs whose radii at start and end differ by more than a blunder of rounding, or are nothing.
 
-    Where they differ by less, an arc whose ends are on one ray from its centre is a full turn or none at all.
+    Where they differ by less, an arc whose ends are on one ray from its center is a full turn or none at all.
     """
     rows = contour.turns.nonzero()[0]
     if not len(rows):
         return ()
-    points, centres = planes(contour.points), planes(contour.centres)[rows]
+    points, centers = planes(contour.points), planes(contour.centers)[rows]
     start, end = points[rows], points[rows + 1]
-    first, last = np.abs(start - centres), np.abs(end - centres)
+    first, last = np.abs(start - centers), np.abs(end - centers)
     off = np.abs(first - last)
     if off.max() <= JOINED and first.min() > 2.0 * JOINED:
         return ()
     pointed = (np.minimum(first, last) <= JOINED) & (np.abs(end - start) > JOINED)
     bad = (off > ARC_RADII) | pointed
-    text = "The arc's radius is {0} at its start and {1} at its end: check its centre."
+    text = "The arc's radius is {0} at its start and {1} at its end: check its center."
     found = _arcs_named("ARC_RADII", text, contour.numbers[rows], bad, first, last)
     doubtful = (~bad & (off > JOINED)).nonzero()[0]
     if not len(doubtful):
         return found
-    across = (start - centres)[doubtful].conj() * (end - centres)[doubtful]
+    across = (start - centers)[doubtful].conj() * (end - centers)[doubtful]
     beside = (np.abs(across.imag) <= JOINED * first[doubtful]) & (across.real > 0.0)
-    text = "The arc's end is beside its start, {0} and {1} from its centre: end it at its start, or away from there."
+    text = "The arc's end is beside its start, {0} and {1} from its center: end it at its start, or away from there."
     rows, first, last = rows[doubtful], first[doubtful], last[doubtful]
     return (*found, *_arcs_named("ARC_ENDS", text, contour.numbers[rows], beside, first, last))
 
@@ -115,7 +115,7 @@ def standing(contour: Path, chain: Chain, pruned: Pruned, radius: float) -> list
 
 def _vanished(contour: Path, chain: Chain, rows: Indices, radius: float) -> list[Finding]:
     segments = chain.places[rows] // 2
-    radii = np.abs(planes(contour.points)[segments] - planes(contour.centres)[segments])
+    radii = np.abs(planes(contour.points)[segments] - planes(contour.centers)[segments])
     small = radii < radius - JOINED
     text = "The inside radius {value} is smaller than the tool's: the path bridges it and can cut into a wall."
     numbers, at = contour.numbers[segments[small]], contour.points[segments[small]]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import chain as one_by_one
 from math import inf
 from typing import Final, cast
@@ -19,7 +20,6 @@ from core.comp.crossings import Crossings
 from core.comp.offset import Chain
 from core.geometry.intersect import Indices, planes
 from core.geometry.path import Floats
-from core.records import dataclass
 from core.tolerance import ON_PATH
 
 _GONE: Final = b"\1"

@@ -12,14 +12,14 @@ from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, compared, programmed, reads, run
 from core.controls.report import Run, Stretch
 from core.controls.tools import ToolTable
-from core.controls.traced import Untold
 from core.controls.translate import run_by_contour
 from core.controls.verdicts import Judged, depth, judged
+from core.controls.write.traced import Untold
 from core.geometry.path import EMPTY, Path
 from core.units import Unit
 
 APART: Final = 0.0005
-"""Millimetres from which on two paths are told to part."""
+"""Millimeters from which on two paths are told to part."""
 
 LEAST: Final = 0.001
 """The same where one of them is written anew, or two of its last digits where that is more."""
@@ -89,11 +89,11 @@ def _by_contour(control: str, first: Run | None, *, paths: bool) -> Compared | O
     if isinstance(made, Untold):
         return OtherLanguage(control, made.text)
     done, digit = made
-    parts = _centres_part(first, done, max(LEAST, 2 * digit)) if paths else None
+    parts = _centers_part(first, done, max(LEAST, 2 * digit)) if paths else None
     return _row(done, parts, by=first.control, of=first.control)
 
 
-def _centres_part(first: Run, other: Run, tolerance: float) -> Parting | None:
+def _centers_part(first: Run, other: Run, tolerance: float) -> Parting | None:
     """Where the paths along the contours of two runs part, leads left out; the other one may have stopped early."""
     for one, two in zip(first.stretches, other.stretches, strict=False):
         lines = set(two.programmed.lines.tolist())

@@ -16,7 +16,7 @@ from core.geometry.measured import measured
 from core.geometry.path import Path
 
 APART: Final = 0.0005
-"""Millimetres from which on two contours are told to part."""
+"""Millimeters from which on two contours are told to part."""
 
 MOST_PAIRS: Final = 20_000_000
 """Places times pieces that are worked out; of longer contours only every so manyth place is."""
@@ -24,7 +24,7 @@ MOST_PAIRS: Final = 20_000_000
 
 @dataclass(frozen=True, slots=True)
 class Parting:
-    """Where two paths part: the first line, the line at which they are farthest apart, and how far in millimetres."""
+    """Where two paths part: the first line, the line at which they are farthest apart, and how far in millimeters."""
 
     line: int
     farthest: int
@@ -99,7 +99,7 @@ def _places(path: Path) -> tuple[NDArray[np.complex128], NDArray[np.intp]]:
     """Start, middle and end of every piece as x + iy, and the rows they belong to."""
     middles = (path.starts + path.ends) / 2
     bent = path.turns != 0
-    radial = path.starts - path.centres
+    radial = path.starts - path.centers
     half = path.sweeps / 2
     turned = np.stack(
         (
@@ -108,6 +108,6 @@ def _places(path: Path) -> tuple[NDArray[np.complex128], NDArray[np.intp]]:
         ),
         axis=1,
     )
-    middles = np.where(bent[:, None], path.centres + turned, middles)
+    middles = np.where(bent[:, None], path.centers + turned, middles)
     points = np.stack((path.starts, middles, path.ends), axis=1).reshape(-1, 2)
     return points[:, 0] + 1j * points[:, 1], np.repeat(np.arange(len(path)), 3)

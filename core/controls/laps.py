@@ -26,11 +26,11 @@ SELDOM: Final = 4
 def unlapped(path: Path) -> Path:
     """The path without repeated laps: the first of them stays with its numbers, in the path's order.
 
-    A lap is as many pieces as the whole path keeps repeating with the same ends, centres and turns to ON_PATH, since
+    A lap is as many pieces as the whole path keeps repeating with the same ends, centers and turns to ON_PATH, since
     the sums of incremental programs differ in the last digit.  One that differs in a single piece stays.  The same
     path is returned when nothing is repeated, or when it has coordinates that no machine could have.
     """
-    if len(path) < 2 or not all(bool(np.abs(one).max() <= LARGEST) for one in (path.points, path.centres)):
+    if len(path) < 2 or not all(bool(np.abs(one).max() <= LARGEST) for one in (path.points, path.centers)):
         return path
     names, rows = _names(path), np.arange(len(path))
     while len(rows) > len(kept := _once(path, names, rows)):
@@ -41,8 +41,8 @@ def unlapped(path: Path) -> Path:
 def _of(path: Path, rows: Rows) -> Path:
     """These pieces, joined: a start is where the piece before ends, which may move it by rounding."""
     points, turns = np.concatenate((path.points[:1], path.ends[rows])), path.turns[rows]
-    centres = np.where(turns[:, None] == 0, points[:-1], path.centres[rows])
-    return Path.of(points, centres, turns, path.numbers[rows])
+    centers = np.where(turns[:, None] == 0, points[:-1], path.centers[rows])
+    return Path.of(points, centers, turns, path.numbers[rows])
 
 
 def _names(path: Path) -> Rows:
@@ -52,7 +52,7 @@ def _names(path: Path) -> Rows:
         # a piece that comes again brings both its ends again
         return np.arange(len(path))
     swept = np.round(path.sweeps, SWEPT)
-    columns = (at[:-1], at[1:], _alike(path.centres)[1], path.turns, swept)
+    columns = (at[:-1], at[1:], _alike(path.centers)[1], path.turns, swept)
     order = np.lexsort(columns)
     new = np.zeros(len(path), np.bool_)
     for column in columns:

@@ -1,6 +1,6 @@
 """Moves: what a control's axes do, in one neutral form for every control, as immutable numpy arrays.
 
-Millimetres and millimetres a minute.  A move goes from the end of the row before it to its own point; row 0 is
+Millimeters and millimeters a minute.  A move goes from the end of the row before it to its own point; row 0 is
 the start point, told as a rapid of line 0.  An arc's direction is seen from the positive side of the axis that
 stands on its plane; an arc that ends where it starts is a full circle; an arc that also moves along that axis is
 a helix.
@@ -57,7 +57,7 @@ class Move:
     """One move: `turn` 0 is a line, +1 counter-clockwise, -1 clockwise; `feed` is 0 where none was given."""
 
     point: Point3
-    centre: Point3
+    center: Point3
     turn: int
     plane: Plane
     rapid: bool
@@ -69,13 +69,13 @@ class Move:
 class Moves:
     """n moves, the start point first.
 
-    `points`, `centres` (n, 3) of x, y, z; a line has its own end as centre.  `turns` (n,) 0 line, +1 counter-clockwise,
+    `points`, `centers` (n, 3) of x, y, z; a line has its own end as center.  `turns` (n,) 0 line, +1 counter-clockwise,
     -1 clockwise.  `planes` (n,) values of `Plane`.  `rapid` (n,) bool.  `feeds` (n,).  `lines` (n,) of the program,
     from 1; 0 for the start point.
     """
 
     points: Floats
-    centres: Floats
+    centers: Floats
     turns: NDArray[np.int8]
     planes: NDArray[np.int8]
     rapid: NDArray[np.bool_]
@@ -83,7 +83,7 @@ class Moves:
     lines: NDArray[np.int32]
 
     def __post_init__(self) -> None:
-        for array in (self.points, self.centres, self.turns, self.planes, self.rapid, self.feeds, self.lines):
+        for array in (self.points, self.centers, self.turns, self.planes, self.rapid, self.feeds, self.lines):
             array.flags.writeable = False
 
     @staticmethod
@@ -105,7 +105,7 @@ class Moves:
     def __getitem__(self, index: int) -> Move:
         """Move `index` as plain numbers."""
         x, y, z = self.points[index].tolist()
-        cx, cy, cz = self.centres[index].tolist()
+        cx, cy, cz = self.centers[index].tolist()
         plane = Plane(int(self.planes[index]))
         turn, rapid = int(self.turns[index]), bool(self.rapid[index])
         return Move((x, y, z), (cx, cy, cz), turn, plane, rapid, float(self.feeds[index]), int(self.lines[index]))
@@ -118,7 +118,7 @@ class Moves:
         rows = slice(first, last)
         return Moves(
             self.points[rows],
-            self.centres[rows],
+            self.centers[rows],
             self.turns[rows],
             self.planes[rows],
             self.rapid[rows],
@@ -136,13 +136,13 @@ class Moves:
         moving = np.any(ends[1:] != ends[:-1], axis=1) | (turns != 0)
         points = np.vstack((ends[:1], ends[1:][moving]))
         turns = turns[moving]
-        centres = self.centres[1:][moving][:, [first, second]]
-        centres = np.where(turns[:, None] == 0, points[:-1], centres)
-        return Path.of(points, centres, turns, self.lines[1:][moving].astype(np.float64))
+        centers = self.centers[1:][moving][:, [first, second]]
+        centers = np.where(turns[:, None] == 0, points[:-1], centers)
+        return Path.of(points, centers, turns, self.lines[1:][moving].astype(np.float64))
 
 
 WIDTH: Final = 11
-"""Numbers in a row of a tape: x, y, z, centre x, y, z, turn, plane, rapid, feed, line."""
+"""Numbers in a row of a tape: x, y, z, center x, y, z, turn, plane, rapid, feed, line."""
 
 _ROW: Final = Struct(f"{WIDTH}d")
 _POINT: Final = Struct("3d")
@@ -174,15 +174,15 @@ class Tape:
         """A straight move at feed."""
         self._packed += _ROW.pack(x, y, z, x, y, z, 0, 0, False, feed, line)
 
-    def arc(self, end: Point3, centre: Point3, turn: int, plane: int, feed: float, line: int) -> None:
+    def arc(self, end: Point3, center: Point3, turn: int, plane: int, feed: float, line: int) -> None:
         """An arc or a helix at feed."""
-        self._packed += _ROW.pack(*end, *centre, turn, plane, False, feed, line)
+        self._packed += _ROW.pack(*end, *center, turn, plane, False, feed, line)
 
     def row(
-        self, end: Point3, centre: Point3, turn: int, plane: int, feed: float, line: int, *, rapid: bool
+        self, end: Point3, center: Point3, turn: int, plane: int, feed: float, line: int, *, rapid: bool
     ) -> None:  # fmt: skip
         """A move by all that its row has."""
-        self._packed += _ROW.pack(*end, *centre, turn, plane, rapid, feed, line)
+        self._packed += _ROW.pack(*end, *center, turn, plane, rapid, feed, line)
 
     def extend(self, table: Floats) -> None:
         """Many moves: rows (n, `WIDTH`)."""

@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 from typing import Final
 
-from core.controls.words import NUMBER, Block
+from core.controls.iso.words import NUMBER, Block
 from core.tolerance import LARGEST
 
 _LETTERS: Final = "XYZIJKR"
 _MOVE: Final = re.compile(
     "".join((r"(?:G0?([0-3]))?", *(rf"(?:[ \t]*+{letter}({NUMBER}))?" for letter in _LETTERS), r"[ \t]*+"))
 )
-"""G0 to G3, then positions and an arc's centre in this order, each at most once."""
+"""G0 to G3, then positions and an arc's center in this order, each at most once."""
 
 
 def plain_move(text: str, line: int) -> Block | None:

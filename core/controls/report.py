@@ -35,7 +35,7 @@ class Stretch:
 
     `programmed` are the moves as written, without compensation, its row 0 the point they start from: the part's
     surface.  `entry` and `exit` count the moves at its beginning and end that lead in and out and are no surface.
-    `first` ... `last` - 1 are the rows of the run's moves that belong to it.  `radius` is in millimetres and
+    `first` ... `last` - 1 are the rows of the run's moves that belong to it.  `radius` is in millimeters and
     positive: the side a negative one flips to is already in `side`.  `led_in` and `led_out`: it is entered and left
     along leads that the control makes, not in programmed moves.  `changes`: where its side or
     radius changes.
@@ -74,7 +74,7 @@ class Stretch:
 class Run:
     """A program on a control.
 
-    `unit` is the program's; everything else is millimetres.  `stopped_at` is the line at which the control would
+    `unit` is the program's; everything else is millimeters.  `stopped_at` is the line at which the control would
     stop with an alarm, None when it runs to the end; `moves` are those made up to there.
     """
 

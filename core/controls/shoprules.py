@@ -1,4 +1,4 @@
-"""Shop rules for applying and cancelling compensation, checked on any control's run when they are asked for.
+"""Shop rules for applying and canceling compensation, checked on any control's run when they are asked for.
 
 They are habits that hold on every control: compensation goes on and off in a move of one axis, square to a move of
 one axis, at full depth, clear of the component.  The component is what is programmed under compensation.
@@ -64,7 +64,7 @@ def _stretch(moves: Moves, stretch: Stretch) -> list[Finding]:
     last = _exit(moves, stretch, contour)
     if last is not None:
         if not stretch.led_out:
-            found += _cancelling(last, contour)
+            found += _canceling(last, contour)
         found += _clear("H6", last.start, contour.part(0, len(contour) - 1), stretch, int(contour.numbers[-1]))
     return found
 
@@ -110,17 +110,17 @@ def _applying(entry: Leg, contour: Path) -> list[Finding]:
     return found
 
 
-def _cancelling(leg: Leg, contour: Path) -> list[Finding]:
+def _canceling(leg: Leg, contour: Path) -> list[Finding]:
     found = []
     if leg.axes != 1:
-        text = "Compensation is cancelled in a move of two axes; cancel it in a move of one axis, X or Y alone."
+        text = "Compensation is canceled in a move of two axes; cancel it in a move of one axis, X or Y alone."
         found.append(_warn("H8", text, leg.line))
     way = _direction(contour.end_directions[-1].tolist())
     if not _one_axis(contour, -1):
-        text = "The last move before compensation is cancelled is not of one axis; put a move of one axis behind it."
+        text = "The last move before compensation is canceled is not of one axis; put a move of one axis behind it."
         found.append(_warn("H7", text, int(contour.numbers[-1])))
     elif not leg.square_to(way):
-        text = "Compensation is not cancelled at 90 degrees to the last move; leave square to it."
+        text = "Compensation is not canceled at 90 degrees to the last move; leave square to it."
         found.append(_warn("H7", text, leg.line))
     return found
 
@@ -142,13 +142,13 @@ def _clear(rule: str, at: Point, component: Path, stretch: Stretch, line: int) -
     away = float(np.min(distance(pieces, np.full(len(component), complex(*at)))))
     if away >= 2.0 * stretch.radius - JOINED:
         return []
-    where = "start before compensation is applied" if rule == "H2" else "finish before compensation is cancelled"
+    where = "start before compensation is applied" if rule == "H2" else "finish before compensation is canceled"
     text = f"The {where} is {{0}} from the component; if possible keep it a cutter diameter, {{1}}, away."
     return [Finding(rule, Severity.WARNING, text, lengths=(away, 2.0 * stretch.radius), line=line, column=1)]
 
 
 def _depths(moves: Moves, stretch: Stretch) -> list[Finding]:
-    """H1 and H5: the tool axis moves before compensation is applied and after it is cancelled, once at its start."""
+    """H1 and H5: the tool axis moves before compensation is applied and after it is canceled, once at its start."""
     height = stretch.plane.axes[2]
     programmed = stretch.programmed
     heights = programmed.points[:, height]
@@ -161,7 +161,7 @@ def _depths(moves: Moves, stretch: Stretch) -> list[Finding]:
     late = programmed.lines[sinking[sinking >= begin]].tolist()
     if not stretch.exit and len(late) == 0 and moves.points[stretch.last - 1, height] != heights[-1]:
         late.append(int(moves.lines[stretch.last - 1]))
-    text = "The tool axis moves under compensation; move it when compensation is cancelled."
+    text = "The tool axis moves under compensation; move it when compensation is canceled."
     return found + [_warn("H5", text, line) for line in dict.fromkeys(late)]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from core.controls.source import lines_of
+from core.controls.iso.source import lines_of
 from core.finding import Finding
 from core.program.tool_table import Listed, listed
 from core.units import Unit, to_mm
@@ -25,7 +25,7 @@ class CutterTool:
     unit: Unit | None = None
 
     def diameter_mm(self, program: Unit) -> float:
-        """Diameter in millimetres, in a program that is in this unit."""
+        """Diameter in millimeters, in a program that is in this unit."""
         return to_mm(self.diameter, self.unit or program)
 
 

@@ -12,15 +12,15 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.controls.contouring import Line
-from core.controls.iso_leads import Ready
-from core.controls.iso_style import STYLES
 from core.controls.registry import UnknownControl, run
 from core.controls.report import Run, Stretch
 from core.controls.tools import ToolTable
-from core.controls.traced import Traced, Untold, led, traced
-from core.controls.write_iso import Frame, tools_of, write
-from core.controls.write_klartext import DECIMALS, write_led
+from core.controls.write.contouring import Line
+from core.controls.write.iso import Frame, tools_of, write
+from core.controls.write.iso_leads import Ready
+from core.controls.write.iso_style import STYLES
+from core.controls.write.klartext import DECIMALS, write_led
+from core.controls.write.traced import Traced, Untold, led, traced
 from core.units import to_mm
 
 MOST_TOOLS: Final = 24
@@ -31,7 +31,7 @@ MOST_TOOLS: Final = 24
 class Translated:
     """The text for the other control; of each of its lines the program's line, 0 for none, and whether it only leads.
 
-    `tools` is what the text counts on, `digit` how fine its numbers are, in millimetres.
+    `tools` is what the text counts on, `digit` how fine its numbers are, in millimeters.
     """
 
     lines: tuple[Line, ...]

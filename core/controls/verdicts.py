@@ -27,14 +27,14 @@ GIVEN_UP: Final = "LIMIT"
 """The rule by which a run ends that repeats too much to be followed."""
 
 FINE: Final = 0.001
-"""Millimetres under which a gouge's depth cannot be shown in digits."""
+"""Millimeters under which a gouge's depth cannot be shown in digits."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Judged:
-    """A compensated stretch, the surface it cuts, the centre path with its leads, and the verdict on them.
+    """A compensated stretch, the surface it cuts, the center path with its leads, and the verdict on them.
 
-    Surface and centre path are without the laps that they repeat, each by itself; `lines` are those of the whole
+    Surface and center path are without the laps that they repeat, each by itself; `lines` are those of the whole
     surface, since of two laps written out the one may be kept of the surface and the other of the path.
     `leads` are programmed moves taken for leads because a closed contour begins behind them or ends before them, and
     `lead_gouges` what is cut of them: they may be surface after all.  `alone`: the side changed where it begins, and
@@ -44,7 +44,7 @@ class Judged:
 
     stretch: Stretch
     surface: Path
-    centre: Path
+    center: Path
     verdict: Verdict
     lines: frozenset[float]
     leads: tuple[int, ...] = ()
@@ -105,7 +105,7 @@ def _beyond(result: Judged, whole: Path, contours: tuple[Rows, ...], own: Rows) 
         edges = np.clip((first, *own, last), first, last).tolist()
         # each by itself, for a lap of another part is no repetition of the part's own one
         surface = joined([unlapped(numbered.part(*both)) for both in pairwise(edges)])
-        cut = judge(surface, part.side, part.radius, result.centre).gouges
+        cut = judge(surface, part.side, part.radius, result.center).gouges
         others = [(gouge, int(gouge.surface_number)) for gouge in cut if not own[0] <= gouge.surface_number < own[1]]
         more += (replace(gouge, surface_number=float(whole.numbers[at])) for gouge, at in others)
     gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)
@@ -114,27 +114,27 @@ def _beyond(result: Judged, whole: Path, contours: tuple[Rows, ...], own: Rows) 
 
 def _judged(run: Run, stretch: Stretch, whole: Path, contours: Sequence[Rows]) -> list[Judged]:
     """The verdict on each contour among moves of one side and radius; the first of them has what is said of leads."""
-    centre = unlapped(run.moves.part(stretch.first, stretch.last).path(stretch.plane))
-    results = [_contour(stretch, whole.part(*rows), centre, alone=len(contours) == 1) for rows in contours]
+    center = unlapped(run.moves.part(stretch.first, stretch.last).path(stretch.plane))
+    results = [_contour(stretch, whole.part(*rows), center, alone=len(contours) == 1) for rows in contours]
     inside = np.zeros(len(whole), np.bool_)
     for first, last in contours:
         inside[first:last] = True
     leads = whole.numbers[~inside].tolist()
     if leads:
-        cut = judge(unlapped(whole), stretch.side, stretch.radius, centre).gouges
+        cut = judge(unlapped(whole), stretch.side, stretch.radius, center).gouges
         cut_leads = tuple(gouge for gouge in cut if gouge.surface_number in leads)
         results[0] = replace(results[0], leads=tuple(map(int, leads)), lead_gouges=cut_leads)
     return results
 
 
-def _contour(stretch: Stretch, contour: Path, centre: Path, *, alone: bool) -> Judged:
-    """The verdict on one contour with the whole centre path: what runs along another one is on neither side of this."""
+def _contour(stretch: Stretch, contour: Path, center: Path, *, alone: bool) -> Judged:
+    """The verdict on one contour with the whole center path: what runs along another one is on neither side of this."""
     surface, lines = unlapped(contour), frozenset(contour.numbers.tolist())
-    verdict = judge(surface, stretch.side, stretch.radius, centre)
+    verdict = judge(surface, stretch.side, stretch.radius, center)
     if stretch.radius <= GOUGE or not alone:
-        # a centre on the contour itself is on neither side of it, whatever its leads cross; a later offset may not be 0
-        verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if centre.numbers[row] in lines))
-    return Judged(stretch, surface, centre, verdict, lines)
+        # a center on the contour itself is on neither side of it, whatever its leads cross; a later offset may not be 0
+        verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if center.numbers[row] in lines))
+    return Judged(stretch, surface, center, verdict, lines)
 
 
 def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
@@ -155,7 +155,7 @@ def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
 
 
 def depth(results: tuple[Judged, ...]) -> tuple[float, int | None]:
-    """The deepest gouge of a run in millimetres with its line; 0 and None if there is none, None for a line unknown."""
+    """The deepest gouge of a run in millimeters with its line; 0 and None if there is none, None for a line unknown."""
     gouges = [gouge for result in results for gouge in result.verdict.gouges]
     deepest = max(gouges, key=lambda gouge: gouge.depth, default=None)
     return (deepest.depth, _line(deepest.path_number)) if deepest else (0.0, None)
@@ -169,16 +169,16 @@ def _line(number: float) -> int | None:
 def _cuts(result: Judged) -> list[Finding]:
     verdict = result.verdict
     if not verdict.judged:
-        line = _line(result.centre.numbers[0]) if len(result.centre) else None
+        line = _line(result.center.numbers[0]) if len(result.center) else None
         return [Finding("UNJUDGED", Severity.ERROR, "This path cannot be judged: its numbers are none.", line=line)]
     found = [_gouge(gouge, verdict.radius) for gouge in verdict.gouges[:MOST_GOUGES]]
     left = len(verdict.gouges) - len(found)
     if left:
         found.append(Finding("GOUGE", Severity.ERROR, f"There are {left} more gouges, none of them deeper."))
     if verdict.wrong_side:
-        line = _line(result.centre.numbers[verdict.wrong_side[0]])
+        line = _line(result.center.numbers[verdict.wrong_side[0]])
         text = "The cutter runs on the wrong side of the contour here."
-        if 2 * len(verdict.wrong_side) > len(result.centre):
+        if 2 * len(verdict.wrong_side) > len(result.center):
             text = "The cutter runs on the wrong side of the contour; exchange G41 and G42, or RL and RR."
         found.append(Finding("WRONG-SIDE", Severity.ERROR, text, line=line))
     return found
@@ -227,25 +227,25 @@ def _leads(result: Judged) -> list[Finding]:
 
 def _strays(result: Judged) -> list[Finding]:
     """Moves between the leads that leave the surface by more than the radius, or run against it."""
-    numbers, lines = result.centre.numbers, result.lines
+    numbers, lines = result.center.numbers, result.lines
     against = tuple(row for row in result.verdict.backwards if numbers[row] in lines)
     away: tuple[Away, ...] = ()
     if any(numbers[row] in lines for row in result.verdict.loose):
-        found = stray(result.surface, result.stretch.radius, result.centre).away
-        away = tuple(one for one in found if _between_leads(one, result.centre, lines))
+        found = stray(result.surface, result.stretch.radius, result.center).away
+        away = tuple(one for one in found if _between_leads(one, result.center, lines))
     told = stray_findings(Stray(away, against))
     begun = [*(int(numbers[row]) for row in against[:1]), *(int(one.first_number) for one in away)]
     return [replace(finding, segment=None, line=line) for finding, line in zip(told, begun, strict=True)]
 
 
-def _between_leads(away: Away, centre: Path, lines: frozenset[float]) -> bool:
+def _between_leads(away: Away, center: Path, lines: frozenset[float]) -> bool:
     """Leads are at a path's two ends, or have lines of their own."""
-    ends = {tuple(centre.points[0].tolist()), tuple(centre.points[-1].tolist())}
+    ends = {tuple(center.points[0].tolist()), tuple(center.points[-1].tolist())}
     return {away.first_number, away.last_number} <= lines and not ends & {away.start, away.end}
 
 
 def _gouge(gouge: Gouge, radius: float) -> Finding:
-    much = "{value}" + or_more(gouge, radius) if gouge.depth > FINE else "less than a thousandth of a millimetre"
+    much = "{value}" + or_more(gouge, radius) if gouge.depth > FINE else "less than a thousandth of a millimeter"
     text = f"The cutter gouges the surface of line {int(gouge.surface_number)} by {much} at X {{x}} Y {{y}}."
     line = _line(gouge.path_number)
     return Finding("GOUGE", Severity.ERROR, text, at=gouge.surface_at, value=gouge.depth, line=line)

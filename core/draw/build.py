@@ -29,12 +29,12 @@ def contour_scene(
     current: Path | None = None,
     start: Point | None = None,
 ) -> Scene:
-    """Everything one contour shows, lengths in millimetres.
+    """Everything one contour shows, lengths in millimeters.
 
-    `sketches` are segments not determined yet; `further` the centre path's other loops; `leads` the blend moves,
-    the blend-in first; `rough` further centre paths; `deleted` pieces of the contour that the look-ahead erased and
+    `sketches` are segments not determined yet; `further` the center path's other loops; `leads` the blend moves,
+    the blend-in first; `rough` further center paths; `deleted` pieces of the contour that the look-ahead erased and
     `meetings` the points where the erasing pieces meet; `gouges` the spots cut into; `uncut` stretches of the surface;
-    `cutter` (centre, radius); `current` the segment under the cursor; `start` the contour's START.
+    `cutter` (center, radius); `current` the segment under the cursor; `start` the contour's START.
     """
     layers = (
         *_parts(sketches, Style.SURFACE, dashed=True),
@@ -86,7 +86,7 @@ def _middle(piece: Piece) -> tuple[Point, Point]:
     (x0, y0), (x1, y1) = piece.start, piece.end
     if isinstance(piece, Line):
         return ((x0 + x1) / 2, (y0 + y1) / 2), (x1 - x0, y1 - y0)
-    (cx, cy), half = piece.centre, piece.sweep / 2
+    (cx, cy), half = piece.center, piece.sweep / 2
     dx, dy = x0 - cx, y0 - cy
     dx, dy = dx * cos(half) - dy * sin(half), dx * sin(half) + dy * cos(half)
     return (cx + dx, cy + dy), (-dy * int(piece.turn), dx * int(piece.turn))

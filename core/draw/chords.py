@@ -1,12 +1,13 @@
 """Pieces of paths as short straight chords inside a window, vectorised.
 
-Window coordinates: the window's centre is 0, a cell is 1 wide and `TALL` high, the second axis points up.  A point is
+Window coordinates: the window's center is 0, a cell is 1 wide and `TALL` high, the second axis points up.  A point is
 one complex number here, which numpy gathers twice as fast as a pair.  Arcs are cut down to the part near the window
 before they are divided, so that no zoom makes them expensive.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import hypot, tau
 from typing import Final
 
@@ -17,7 +18,6 @@ from core.draw.scene import BEYOND, Arcs, Gathered, Pieces
 from core.draw.view import TALL, View
 from core.geometry.path import Floats, Turns
 from core.geometry.planes import coordinates
-from core.records import dataclass
 
 SAG: Final = 0.1
 """How far a chord may stray from its arc, in cells' widths: less than half a dot of the finest mode."""
@@ -26,7 +26,7 @@ STEP: Final = tau / 8
 SHORT: Final = 0.25
 """An arc shorter than this, in cells' widths, is its own chord: half a dot of the finest mode."""
 CONCENTRIC: Final = 1e-9
-"""An arc about the window's centre is all in sight or all out of it; this keeps the division finite."""
+"""An arc about the window's center is all in sight or all out of it; this keeps the division finite."""
 
 Points = NDArray[np.complex128]
 Rows = NDArray[np.intp]
@@ -37,7 +37,7 @@ Mask = NDArray[np.bool_]
 class Chords:
     """m chords in window coordinates, ordered by `layers` (m,): each from `starts` by `runs` (m,).
 
-    `along` (m,) is the length travelled on the layer's path up to the chord's start, in cells' widths.
+    `along` (m,) is the length traveled on the layer's path up to the chord's start, in cells' widths.
     """
 
     starts: Points
@@ -55,7 +55,7 @@ class _Arcs:
     """k arcs (k,) in window coordinates: the `rows` of their pieces, and the directions in which they `begin`."""
 
     rows: Rows
-    centres: Points
+    centers: Points
     turns: Turns
     sweeps: Floats
     radii: Floats
@@ -63,8 +63,8 @@ class _Arcs:
 
     def only(self, keep: Rows) -> _Arcs:
         """These arcs, by their numbers."""
-        rows, centres, turns = self.rows[keep], self.centres[keep], self.turns[keep]
-        return _Arcs(rows, centres, turns, self.sweeps[keep], self.radii[keep], self.begin[keep])
+        rows, centers, turns = self.rows[keep], self.centers[keep], self.turns[keep]
+        return _Arcs(rows, centers, turns, self.sweeps[keep], self.radii[keep], self.begin[keep])
 
 
 def chords(gathered: Gathered, view: View, columns: int, rows: int) -> Chords:
@@ -93,15 +93,15 @@ def _replaced(every: Chords, arcs: Rows, bent: Chords) -> Chords:
 
 
 def _near(gathered: Gathered, view: View) -> tuple[Pieces, Arcs, Floats]:
-    """The pieces that are drawn at all, the arcs among them, and how far each is along its path, in millimetres."""
-    pieces, arcs, along, centre = gathered.pieces, gathered.arcs, _travelled(gathered), complex(*view.centre)
-    reach = BEYOND - abs(centre)
+    """The pieces that are drawn at all, the arcs among them, and how far each is along its path, in millimeters."""
+    pieces, arcs, along, center = gathered.pieces, gathered.arcs, _traveled(gathered), complex(*view.center)
+    reach = BEYOND - abs(center)
     # a comparison with what is not a number is false
-    if _farthest(pieces.points) <= reach and _farthest(arcs.centres) <= reach:
+    if _farthest(pieces.points) <= reach and _farthest(arcs.centers) <= reach:
         return pieces, arcs, along
-    near = _within(pieces.points - centre)
+    near = _within(pieces.points - center)
     shown = near[pieces.rows] & near[pieces.rows + 1] & np.isfinite(along)
-    shown[arcs.rows] &= _within(arcs.centres - centre)
+    shown[arcs.rows] &= _within(arcs.centers - center)
     keep = shown.nonzero()[0]
     pieces = pieces.only(keep)
     return pieces, pieces.arcs, along[keep]
@@ -119,13 +119,13 @@ def _within(points: Points) -> Mask:
 
 
 def _in_window(points: Points, view: View) -> Points:
-    window: Points = points - complex(*view.centre)
+    window: Points = points - complex(*view.center)
     window /= view.scale
     return window
 
 
-def _travelled(gathered: Gathered) -> Floats:
-    """(n,) millimetres from its path's start to each piece of a dashed layer.
+def _traveled(gathered: Gathered) -> Floats:
+    """(n,) millimeters from its path's start to each piece of a dashed layer.
 
     Where only parts of a path are drawn each piece's dashes begin with it.
     """
@@ -141,12 +141,12 @@ def _travelled(gathered: Gathered) -> Floats:
 def _arcs(given: Arcs, view: View) -> _Arcs:
     """The arcs in window coordinates, without those shorter than SHORT: these are lines here."""
     radii, keep = given.radii / view.scale, (given.radii * given.sweeps > SHORT * view.scale).nonzero()[0]
-    centres = _in_window(given.centres, view)
-    return _Arcs(given.rows, centres, given.turns, given.sweeps, radii, given.begin).only(keep)
+    centers = _in_window(given.centers, view)
+    return _Arcs(given.rows, centers, given.turns, given.sweeps, radii, given.begin).only(keep)
 
 
 def _divided(arcs: _Arcs, pieces: Chords, reach: float) -> Chords:
-    """Chords of arcs among the pieces within `reach` of the window's centre."""
+    """Chords of arcs among the pieces within `reach` of the window's center."""
     arcs, low, span = _visible(arcs, reach)
     counts = np.ceil(span / np.minimum(np.sqrt(8.0 * SAG / np.maximum(arcs.radii, SAG)), STEP)).astype(np.intp)
     pace = span / np.maximum(counts, 1)
@@ -155,23 +155,23 @@ def _divided(arcs: _Arcs, pieces: Chords, reach: float) -> Chords:
     turned, turns, radii, piece = low[arc] + nth * pace[arc], arcs.turns, arcs.radii[arc], arcs.rows[arc]
     starts = radii * np.exp(1j * (arcs.begin[arc] + turns[arc] * turned))
     runs = starts * (np.exp(1j * turns * pace) - 1.0)[arc]
-    return Chords(arcs.centres[arc] + starts, runs, pieces.layers[piece], pieces.along[piece] + turned * radii)
+    return Chords(arcs.centers[arc] + starts, runs, pieces.layers[piece], pieces.along[piece] + turned * radii)
 
 
 def _visible(arcs: _Arcs, reach: float) -> tuple[_Arcs, Floats, Floats]:
-    """m parts of arcs that run within `reach` of the window's centre: (m,) the angle travelled to each, and its own.
+    """m parts of arcs that run within `reach` of the window's center: (m,) the angle traveled to each, and its own.
 
-    The circle meets the disc of that reach symmetrically about the direction to the window's centre, over a half
-    angle h with sin^2(h / 2) = (reach^2 - (d - r)^2) / (4 d r), d being the distance of the two centres.
+    The circle meets the disc of that reach symmetrically about the direction to the window's center, over a half
+    angle h with sin^2(h / 2) = (reach^2 - (d - r)^2) / (4 d r), d being the distance of the two centers.
     """
-    distance, radii, sweeps = np.abs(arcs.centres), arcs.radii, arcs.sweeps
+    distance, radii, sweeps = np.abs(arcs.centers), arcs.radii, arcs.sweeps
     if (distance + radii).max() <= reach:
         return arcs, np.zeros(len(sweeps)), sweeps
     within = reach * reach - (distance - radii) ** 2
     part = np.minimum(np.maximum(within / np.maximum(4.0 * distance * radii, CONCENTRIC), 0.0), 1.0)
     whole, hidden = part >= 1.0, within <= 0.0
     half = 2.0 * np.arcsin(np.sqrt(part))
-    middle = np.mod((np.angle(-arcs.centres) - arcs.begin) * arcs.turns, tau)
+    middle = np.mod((np.angle(-arcs.centers) - arcs.begin) * arcs.turns, tau)
     turned = np.array([[-tau], [0.0], [tau]])
     low = np.maximum(middle - half + turned, 0.0)
     high = np.minimum(middle + half + turned, sweeps)

@@ -32,7 +32,7 @@ class Cells:
     `across`, `down`: dots a cell.  `bit` (down * across,): the bit a dot lights, line by line.  In ASCII a cell has one
     dot and the bit is chosen by direction: level, rising, upright, falling.  `table` (256,): the character of every
     combination.
-    `faint` (256,): that of a cell in which only centre paths are, so that they differ from the surface without colours;
+    `faint` (256,): that of a cell in which only center paths are, so that they differ from the surface without colors;
     None where the dots are fine enough to keep the two apart.
     `symbols`: a mark's character; `arrows`: heads for 0, 45, 90 ... degrees.  `bar`: the scale bar's end, middle, end.
     """
@@ -73,7 +73,7 @@ _SYMBOLS: Final[Mapping[Symbol, str]] = MappingProxyType(
         Symbol.PLUNGE: "o",
         Symbol.GOUGE: "!",
         Symbol.DELETED: "x",
-        Symbol.CENTRE: "+",
+        Symbol.CENTER: "+",
     }
 )
 

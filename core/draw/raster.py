@@ -7,6 +7,7 @@ the mode's table.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Final
 
@@ -19,7 +20,6 @@ from core.draw.scene import BEYOND, Gathered, Layer, Scene, Style
 from core.draw.signs import Sheet, write_signs
 from core.draw.view import TALL, View
 from core.geometry.path import Floats
-from core.records import dataclass
 
 DASH: Final = (3.0, 1.8)
 """A dash's period and the lit part of it, in cells' widths."""
@@ -29,7 +29,7 @@ NUDGE: Final = 1e-6
 FAINT: Final = (Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID)
 """Roles that do not make a cell one of the surface."""
 STRUCK: Final = "#"
-"""The character of cells with deleted surface: without colours a line there would be one that is merely uncut."""
+"""The character of cells with deleted surface: without colors a line there would be one that is merely uncut."""
 PHASE: Final = 0.25
 """Where in its period an axis begins at the window's edge: away from where rounding could decide."""
 
@@ -75,7 +75,7 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode, gathered
 
 def _axes(view: View, look: Cells, columns: int, rows: int) -> Rows:
     """The bits that the X and the Y axis light inside the window."""
-    (x, y), limit, (wide, high) = view.centre, BEYOND / view.scale, look.dot
+    (x, y), limit, (wide, high) = view.center, BEYOND / view.scale, look.dot
     across, up, half_width, half_height = -x / view.scale, -y / view.scale, columns / 2, rows * TALL / 2
     level = upright = None
     if abs(up) <= half_height and max(half_width, abs(up)) <= limit:
@@ -148,7 +148,7 @@ def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]
 def _light(
     found: Chords, layers: Sequence[Layer], axes: Rows, look: Cells, columns: int, rows: int
 ) -> tuple[Bits, Styles, Bits | None, Rows]:
-    """Bits lit (rows x columns x 8,), styles (rows x columns,), which cells more than centre paths are in where that is
+    """Bits lit (rows x columns x 8,), styles (rows x columns,), which cells more than center paths are in where that is
     asked for, and cells that have deleted surface.  The bits of the `axes` lie under all layers."""
     chord, part, bits = _dots(found, look, columns, rows)
     # the last style is no layer's: there may be no layers

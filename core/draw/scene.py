@@ -1,4 +1,4 @@
-"""What is to be drawn: paths, circles and marks with the role each plays, in millimetres, before any screen.
+"""What is to be drawn: paths, circles and marks with the role each plays, in millimeters, before any screen.
 
 Later layers win a cell's style, circles win over layers, marks over circles; dots once lit stay lit.
 """
@@ -6,6 +6,7 @@ Later layers win a cell's style, circles win over layers, marks over circles; do
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
+from dataclasses import dataclass
 from enum import Enum, IntEnum, auto
 from itertools import accumulate
 from math import tau
@@ -18,7 +19,6 @@ from core.geometry.path import Floats, Path, Turns, swept
 from core.geometry.piece import Point
 from core.geometry.planes import Planes, coordinates, planes
 from core.geometry.stretch import Parts
-from core.records import dataclass
 from core.tolerance import LARGEST
 from core.units import Unit
 
@@ -27,7 +27,7 @@ Box = tuple[float, float, float, float]
 BEYOND: Final = 10 * LARGEST
 """A coordinate larger than this, or not a number, is neither drawn nor fitted into a view."""
 ALIKE: Final = 1e-9
-"""Millimetres by which an arc may reach over the points without its being seen: rounding does, where it ends there."""
+"""Millimeters by which an arc may reach over the points without its being seen: rounding does, where it ends there."""
 
 _SIDES: Final = np.array([[tau / 2], [3 * tau / 4], [0.0], [tau / 4]])
 """(4, 1) the directions in which a circle reaches farthest to each side of a box."""
@@ -66,7 +66,7 @@ class Symbol(Enum):
     PLUNGE = auto()
     GOUGE = auto()
     DELETED = auto()
-    CENTRE = auto()
+    CENTER = auto()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -88,9 +88,9 @@ class Layer:
 
 @dataclass(frozen=True, slots=True)
 class Circle:
-    """The outline of a disc, such as the cutter: `centre` and `radius` in millimetres."""
+    """The outline of a disc, such as the cutter: `center` and `radius` in millimeters."""
 
-    centre: Point
+    center: Point
     radius: float
     style: Style = Style.CUTTER
 
@@ -129,13 +129,13 @@ class Scene:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Arcs:
-    """k arcs among some pieces: their `rows` among them, centres, turns and radii (k,), in millimetres.
+    """k arcs among some pieces: their `rows` among them, centers, turns and radii (k,), in millimeters.
 
-    `begin` (k,) are the directions in which they start from their centres, `sweeps` (k,) the angles they travel.
+    `begin` (k,) are the directions in which they start from their centers, `sweeps` (k,) the angles they travel.
     """
 
     rows: NDArray[np.intp]
-    centres: Planes
+    centers: Planes
     turns: Turns
     radii: Floats
     begin: Floats
@@ -143,7 +143,7 @@ class Arcs:
 
     def boxes(self, keep: NDArray[np.bool_], box: Box) -> list[Box]:
         """Of some arcs with their ends in a box that box, as far out as each arc reaches on every side it passes."""
-        x, y, radii = self.centres.real[keep], self.centres.imag[keep], self.radii[keep]
+        x, y, radii = self.centers.real[keep], self.centers.imag[keep], self.radii[keep]
         passed = np.mod((_SIDES - self.begin[keep]) * self.turns[keep], tau) < self.sweeps[keep]
         sides = np.where(passed, (x - radii, y - radii, x + radii, y + radii), np.array(box)[:, None])
         return [(left, low, right, high) for left, low, right, high in sides.T.tolist()]
@@ -151,33 +151,33 @@ class Arcs:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pieces:
-    """The n pieces of several layers one behind the other, in millimetres, points as complex numbers.
+    """The n pieces of several layers one behind the other, in millimeters, points as complex numbers.
 
     `points` (m,) are those of all paths; piece i runs from `points[rows[i]]` to the next one and belongs to the layer
-    `layers[i]`.  `centres` (n,) and `turns` (n,) as a path has them.
+    `layers[i]`.  `centers` (n,) and `turns` (n,) as a path has them.
     """
 
     points: Planes
     rows: NDArray[np.intp]
-    centres: Planes
+    centers: Planes
     turns: Turns
     layers: NDArray[np.intp]
 
     def only(self, keep: NDArray[np.intp]) -> Pieces:
         """These pieces, by their numbers."""
-        return Pieces(self.points, self.rows[keep], self.centres[keep], self.turns[keep], self.layers[keep])
+        return Pieces(self.points, self.rows[keep], self.centers[keep], self.turns[keep], self.layers[keep])
 
     @property
     def arcs(self) -> Arcs:
         """The arcs among them."""
         arcs = self.turns.nonzero()[0]
-        rows, centres, turns = self.rows[arcs], self.centres[arcs], self.turns[arcs]
+        rows, centers, turns = self.rows[arcs], self.centers[arcs], self.turns[arcs]
         starts, ends = self.points[rows], self.points[rows + 1]
         with np.errstate(invalid="ignore", over="ignore"):
-            first, last, same = starts - centres, ends - centres, coordinates(starts) == coordinates(ends)
+            first, last, same = starts - centers, ends - centers, coordinates(starts) == coordinates(ends)
             sweeps = swept(coordinates(first), coordinates(last), turns, same)
             x, y = first.real, first.imag
-            return Arcs(arcs, centres, turns, np.hypot(x, y), np.arctan2(y, x), sweeps)
+            return Arcs(arcs, centers, turns, np.hypot(x, y), np.arctan2(y, x), sweeps)
 
 
 _NONE: Final = np.empty(0, np.complex128)
@@ -202,7 +202,7 @@ class Gathered:
 
     def bounds(self, spots: Sequence[Point] = (), without: Container[Style] = ()) -> Box | None:
         """Least x, least y, largest x, largest y of all spots, circles and layers, but for layers `without`."""
-        boxes = [_box_of(circle.centre, circle.radius) for circle in self.scene.circles]
+        boxes = [_box_of(circle.center, circle.radius) for circle in self.scene.circles]
         boxes += [_box_of(spot, 0.0) for spot in spots]
         count = len(self.layers) - len(self.scene.circles)
         spanning = [row < count and layer.style not in without for row, layer in enumerate(self.layers)]
@@ -226,14 +226,14 @@ class Gathered:
         # what is not a number is neither the least nor the largest, but comes out of both
         if not _drawn(box):
             return _each(pieces.only(spans[pieces.layers].nonzero()[0]))
-        x, y, reach = arcs.centres.real, arcs.centres.imag, ALIKE - arcs.radii
+        x, y, reach = arcs.centers.real, arcs.centers.imag, ALIKE - arcs.radii
         over = (left - x > reach) | (low - y > reach) | (x - right > reach) | (y - high > reach)
         return [box, *arcs.boxes(over & spans[pieces.layers[arcs.rows]], box)] if over.any() else [box]
 
 
 def _outline(circle: Circle) -> Layer:
     """The whole circle as a layer."""
-    (x, y), radius = circle.centre, circle.radius
+    (x, y), radius = circle.center, circle.radius
     rim = np.array([[x + radius, y], [x + radius, y]])
     return Layer(Path(rim, np.array([[x, y]]), _ROUND, _FIRST), circle.style)
 
@@ -245,7 +245,7 @@ def _gathered(layers: Sequence[Layer]) -> Pieces:
     every = Pieces(
         planes(np.concatenate([path.points for path in paths])),
         np.arange(len(owners)) + owners,
-        planes(np.concatenate([path.centres for path in paths])),
+        planes(np.concatenate([path.centers for path in paths])),
         np.concatenate([path.turns for path in paths]),
         owners,
     )
@@ -270,14 +270,14 @@ def _each(pieces: Pieces) -> list[Box]:
         return []
     points = np.empty(2 * len(pieces.rows), np.complex128)
     points[::2], points[1::2] = pieces.points[pieces.rows], pieces.points[pieces.rows + 1]
-    centres, turns = points[:-1].copy(), np.zeros(len(points) - 1, np.int8)
-    centres[::2], turns[::2] = pieces.centres, pieces.turns
-    path = Path.of(coordinates(points), coordinates(centres), turns)
+    centers, turns = points[:-1].copy(), np.zeros(len(points) - 1, np.int8)
+    centers[::2], turns[::2] = pieces.centers, pieces.turns
+    path = Path.of(coordinates(points), coordinates(centers), turns)
     return [(a, b, c, d) for a, b, c, d in path.boxes[::2].tolist()]
 
 
-def _box_of(centre: Point, radius: float) -> Box:
-    (x, y) = centre
+def _box_of(center: Point, radius: float) -> Box:
+    (x, y) = center
     return (x - radius, y - radius, x + radius, y + radius)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import atan2, floor, log10, tau
 from typing import Final
 
@@ -9,7 +10,6 @@ from core.draw.mode import Mode, cells
 from core.draw.scene import Scene, Style, Symbol
 from core.draw.view import View
 from core.geometry.piece import Point
-from core.records import dataclass
 from core.units import Unit, from_mm
 
 BAR: Final = 0.3
@@ -49,7 +49,7 @@ def write_signs(sheet: Sheet, scene: Scene, view: View, mode: Mode) -> None:
 def scale_bar(scale: float, columns: int, unit: Unit, ends: str) -> str:
     """A bar of a round length (1, 2 or 5 times a power of ten, in program units) and its name.
 
-    `scale` is millimetres to a cell's width; the bar runs from the middle of its first to that of its last cell.
+    `scale` is millimeters to a cell's width; the bar runs from the middle of its first to that of its last cell.
     """
     length, decimals = round_length(from_mm(scale * max(columns * BAR, 1.0), unit))
     width = max(round(length / from_mm(scale, unit)), 1)

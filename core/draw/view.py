@@ -1,17 +1,17 @@
 """View: which part of the plane a window of character cells shows.
 
-A terminal's cell is taken as twice as high as it is wide.  The scale is millimetres to a cell's width, so that a
+A terminal's cell is taken as twice as high as it is wide.  The scale is millimeters to a cell's width, so that a
 view stays the same when the mode of drawing changes.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Final
 
 from core.draw.scene import Box
 from core.geometry.piece import Point
-from core.records import dataclass
 
 TALL: Final = 2.0
 """A cell's height over its width."""
@@ -23,9 +23,9 @@ MARGIN: Final = 0.04
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """`centre` (x, y) in millimetres stands in the middle of the window; `scale` is millimetres to a cell's width."""
+    """`center` (x, y) in millimeters stands in the middle of the window; `scale` is millimeters to a cell's width."""
 
-    centre: Point = (0.0, 0.0)
+    center: Point = (0.0, 0.0)
     scale: float = 1.0
 
     @staticmethod
@@ -37,21 +37,21 @@ class View:
         return View(((x0 + x1) / 2, (y0 + y1) / 2), _held(scale) if scale > 0.0 else 2.0 / wide)
 
     def zoom(self, factor: float, about: Point | None = None) -> View:
-        """Enlarged by `factor` about a point (mm), else the window's centre, between limits that still make sense."""
+        """Enlarged by `factor` about a point (mm), else the window's center, between limits that still make sense."""
         scale = _held(self.scale / factor)
         if about is None:
-            return View(self.centre, scale)
-        (x, y), part = self.centre, 1.0 - scale / self.scale
+            return View(self.center, scale)
+        (x, y), part = self.center, 1.0 - scale / self.scale
         return View((x + part * (about[0] - x), y + part * (about[1] - y)), scale)
 
     def pan(self, dx: float, dy: float, columns: int, rows: int) -> View:
         """Moved over the part by fractions of the window: dx to the right, dy up."""
-        x, y = self.centre
+        x, y = self.center
         return View((x + dx * columns * self.scale, y + dy * rows * TALL * self.scale), self.scale)
 
     def at(self, column: float, row: float, columns: int, rows: int) -> Point:
         """The point (mm) at a place in the window: (0, 0) is its top left, (0.5, 0.5) the first cell's middle."""
-        x, y = self.centre
+        x, y = self.center
         return x + (column - columns / 2) * self.scale, y - (row - rows / 2) * TALL * self.scale
 
     def cell(self, point: Point, columns: int, rows: int) -> tuple[float, float]:
@@ -60,7 +60,7 @@ class View:
 
     def cells(self, points: Iterable[Point], columns: int, rows: int) -> list[tuple[float, float]]:
         """The same of several points."""
-        (x, y), wide, high, half_width, half_height = self.centre, self.scale, TALL * self.scale, columns / 2, rows / 2
+        (x, y), wide, high, half_width, half_height = self.center, self.scale, TALL * self.scale, columns / 2, rows / 2
         return [((px - x) / wide + half_width, (y - py) / high + half_height) for px, py in points]
 
 

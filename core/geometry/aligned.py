@@ -8,16 +8,16 @@ bounds is nowhere.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from core.geometry.boxes import FAN, children, grouped, meeting, near_pairs, reaching
 from core.geometry.measured import Flags, Floats, Rows
-from core.records import dataclass
 
 SHIFTS: Final = 2 * FAN
-"""From so many indices apart on, the groups of two boxes are no neighbours."""
+"""From so many indices apart on, the groups of two boxes are no neighbors."""
 
 FEW: Final = 200
 """Boxes of which comparing every pair costs less than shifting."""

@@ -29,21 +29,21 @@ def boxes(pieces: Measured) -> Floats:
     if arcs < len(pieces) > FEW:
         rows = some = bent.nonzero()[0]
         arc = pieces.take(some)
-    passed, centre, out = _quarters(arc), coordinates(arc.centre).T, arc.radius
+    passed, center, out = _quarters(arc), coordinates(arc.center).T, arc.radius
     if arcs < len(arc):
         passed &= bent
     reached = box[:, rows]
-    np.copyto(reached[:2], centre - out, where=passed[:2])
-    np.copyto(reached[2:], centre + out, where=passed[2:])
+    np.copyto(reached[:2], center - out, where=passed[:2])
+    np.copyto(reached[2:], center + out, where=passed[2:])
     box[:, rows] = reached
     return box
 
 
 def _quarters(arc: Measured) -> Flags:
-    """(4, n) whether the arcs pass the directions -x, -y, x and y seen from their centres.
+    """(4, n) whether the arcs pass the directions -x, -y, x and y seen from their centers.
 
     What doubles cannot tell, at the ends of an arc, moves no box by more than their last digit: so near to such a
-    direction an arc keeps its distance from the centre.
+    direction an arc keeps its distance from the center.
     """
     ahead = (QUARTERS - np.arctan2(arc.arm.imag, arc.arm.real)) * arc.turn
     ahead += tau * (ahead < 0.0)

@@ -1,15 +1,15 @@
-"""Points and centres from what a drawing gives, as plain numbers: every solution, in a documented order.
+"""Points and centers from what a drawing gives, as plain numbers: every solution, in a documented order.
 
-Millimetres and radians, angles counter-clockwise from +X.  `axis` 0 is X and 1 is Y.  The answers are tagged:
+Millimeters and radians, angles counter-clockwise from +X.  `axis` 0 is X and 1 is Y.  The answers are tagged:
 `One`, `Two`, `Apart` (nothing reaches so far), `Beside` (the givens say nothing about it) and `Behind`.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import atan2, cos, hypot, sin, sqrt, tau
 
 from core.geometry.piece import SLIVER, Arc, Point, Turn
-from core.records import dataclass
 from core.tolerance import ARC_RADII, JOINED, ON_PATH
 
 
@@ -61,15 +61,15 @@ def reach(start: Point, angle: float, axis: int, value: float) -> One | Beside |
     return One(_placed(axis, value, start[1 - axis] + travel * along[1 - axis]))
 
 
-def on_circle(centre: Point, radius: float, axis: int, value: float) -> One | Two | Apart:
+def on_circle(center: Point, radius: float, axis: int, value: float) -> One | Two | Apart:
     """The points of a circle whose coordinate `axis` is `value`: the one with the greater other coordinate first.
 
     A coordinate outside the circle by no more than `ARC_RADII` gives the one point beside it.
     """
-    beside = abs(value - centre[axis])
+    beside = abs(value - center[axis])
     if beside > radius + ARC_RADII:
         return Apart(beside)
-    middle = centre[1 - axis]
+    middle = center[1 - axis]
     half = sqrt(max(0.0, (radius - beside) * (radius + beside)))
     if half <= ON_PATH:
         return One(_placed(axis, value, middle))
@@ -80,8 +80,8 @@ def _placed(axis: int, value: float, other: float) -> Point:
     return (value, other) if axis == 0 else (other, value)
 
 
-def centres(start: Point, end: Point, radius: float, turn: Turn) -> One | Two | Apart | Beside:
-    """The centres of arcs from `start` to `end`: that of the arc under half a turn first, then of the longer one.
+def centers(start: Point, end: Point, radius: float, turn: Turn) -> One | Two | Apart | Beside:
+    """The centers of arcs from `start` to `end`: that of the arc under half a turn first, then of the longer one.
 
     A radius too small by no more than `ARC_RADII` gives the half circle; equal ends give `Beside`.
     """
@@ -103,10 +103,10 @@ def _above(start: Point, end: Point, height: float) -> Point:
     return (start[0] + end[0]) / 2 - dy / chord * height, (start[1] + end[1]) / 2 + dx / chord * height
 
 
-def centre_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> One | Beside:
-    """The centre about which `turn` by `sweep` (0 < sweep < a full turn) takes `start` to `end`.
+def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> One | Beside:
+    """The center about which `turn` by `sweep` (0 < sweep < a full turn) takes `start` to `end`.
 
-    Height of the centre over the chord c: c / 2 / tan(sweep / 2).
+    Height of the center over the chord c: c / 2 / tan(sweep / 2).
     """
     chord = hypot(end[0] - start[0], end[1] - start[1])
     half = sin(sweep / 2)
@@ -115,7 +115,7 @@ def centre_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> One |
     return One(_above(start, end, turn * chord / 2 * cos(sweep / 2) / half))
 
 
-def centre_by_coordinate(start: Point, end: Point, axis: int, value: float) -> One | Beside:
+def center_by_coordinate(start: Point, end: Point, axis: int, value: float) -> One | Beside:
     """The point as far from `start` as from `end` whose coordinate `axis` is `value`."""
     across, along = end[1 - axis] - start[1 - axis], end[axis] - start[axis]
     if abs(across) <= SLIVER * abs(along) or across == 0.0:
@@ -124,42 +124,42 @@ def centre_by_coordinate(start: Point, end: Point, axis: int, value: float) -> O
     return One(_placed(axis, value, middle[1 - axis] - (value - middle[axis]) * along / across))
 
 
-def rotated(point: Point, centre: Point, angle: float) -> Point:
-    """A point turned about `centre` by `angle`, positive counter-clockwise."""
-    dx, dy = point[0] - centre[0], point[1] - centre[1]
-    return centre[0] + dx * cos(angle) - dy * sin(angle), centre[1] + dx * sin(angle) + dy * cos(angle)
+def rotated(point: Point, center: Point, angle: float) -> Point:
+    """A point turned about `center` by `angle`, positive counter-clockwise."""
+    dx, dy = point[0] - center[0], point[1] - center[1]
+    return center[0] + dx * cos(angle) - dy * sin(angle), center[1] + dx * sin(angle) + dy * cos(angle)
 
 
-def swept(start: Point, end: Point, centre: Point, turn: Turn) -> float:
-    """The angle travelled from `start` to `end`, more than 0 and at most a full turn: equal ends are a full turn."""
-    first = atan2(start[1] - centre[1], start[0] - centre[0])
-    last = atan2(end[1] - centre[1], end[0] - centre[0])
+def swept(start: Point, end: Point, center: Point, turn: Turn) -> float:
+    """The angle traveled from `start` to `end`, more than 0 and at most a full turn: equal ends are a full turn."""
+    first = atan2(start[1] - center[1], start[0] - center[0])
+    last = atan2(end[1] - center[1], end[0] - center[0])
     angle = (turn * (last - first)) % tau
     return tau if angle < SLIVER else angle
 
 
-def settled(start: Point, end: Point, centre: Point, turn: Turn) -> Arc:
-    """The exact arc nearest to ends and a centre that agree within `ARC_RADII`.
+def settled(start: Point, end: Point, center: Point, turn: Turn) -> Arc:
+    """The exact arc nearest to ends and a center that agree within `ARC_RADII`.
 
-    Ends that are one point make a full circle.  Otherwise the centre moves onto the bisector of the ends; where
+    Ends that are one point make a full circle.  Otherwise the center moves onto the bisector of the ends; where
     that would take it farther than `ARC_RADII`, on a chord short against the radius, the end moves onto the circle.
     """
-    radius = hypot(start[0] - centre[0], start[1] - centre[1])
-    out = hypot(end[0] - centre[0], end[1] - centre[1])
+    radius = hypot(start[0] - center[0], start[1] - center[1])
+    out = hypot(end[0] - center[0], end[1] - center[1])
     chord = hypot(end[0] - start[0], end[1] - start[1])
     if chord <= JOINED:
-        return Arc(start, start, centre, turn)
+        return Arc(start, start, center, turn)
     if abs(out - radius) <= ON_PATH:
-        return Arc(start, end, centre, turn)
-    height = ((end[0] - start[0]) * (centre[1] - start[1]) - (end[1] - start[1]) * (centre[0] - start[0])) / chord
+        return Arc(start, end, center, turn)
+    height = ((end[0] - start[0]) * (center[1] - start[1]) - (end[1] - start[1]) * (center[0] - start[0])) / chord
     moved = _above(start, end, height)
-    if hypot(moved[0] - centre[0], moved[1] - centre[1]) <= ARC_RADII:
+    if hypot(moved[0] - center[0], moved[1] - center[1]) <= ARC_RADII:
         return Arc(start, end, moved, turn)
     scale = radius / out if out else 0.0
-    onto = (centre[0] + (end[0] - centre[0]) * scale, centre[1] + (end[1] - centre[1]) * scale)
+    onto = (center[0] + (end[0] - center[0]) * scale, center[1] + (end[1] - center[1]) * scale)
     # rounding must not decide between a full circle and nothing
     same = hypot(onto[0] - start[0], onto[1] - start[1]) <= JOINED
-    return Arc(start, start if same else onto, centre, turn)
+    return Arc(start, start if same else onto, center, turn)
 
 
 def chord_factor(sweep: float) -> float:

@@ -1,7 +1,7 @@
 """Exact distances between lines and arcs, for arrays of points and arrays of pairs of pieces.
 
 Piece k of one `Measured` is held against piece k of another.  Every extreme of the distance along a piece lies at
-one of a few places that have a formula: its ends, the feet of the other's ends and centre, the crossings.  Where a
+one of a few places that have a formula: its ends, the feet of the other's ends and center, the crossings.  Where a
 formula has no answer the place is replaced by the piece's start, which harms nobody: a place is only a proposal,
 its distance is always measured.
 """
@@ -12,7 +12,7 @@ from math import tau
 
 import numpy as np
 
-from core.geometry.measured import Floats, Measured, Points, at, by_kind, travelled
+from core.geometry.measured import Floats, Measured, Points, at, by_kind, traveled
 
 
 def foot(pieces: Measured, points: Points) -> Floats:
@@ -22,7 +22,7 @@ def foot(pieces: Measured, points: Points) -> Floats:
 
 
 def distance(pieces: Measured, points: Points) -> Floats:
-    """(..., n) least distance of each piece from its point of `points` (..., n), in millimetres."""
+    """(..., n) least distance of each piece from its point of `points` (..., n), in millimeters."""
     apart: Floats = by_kind(pieces.arcs, _line_distance, _arc_distance, pieces, points)
     return apart
 
@@ -47,16 +47,16 @@ def _line_share(line: Measured, off: Points) -> Floats:
 
 
 def _arc_foot(arc: Measured, points: Points) -> Floats:
-    towards = travelled(arc, points - arc.centre)
+    towards = traveled(arc, points - arc.center)
     beyond = np.where(tau - towards < towards - arc.angle, 0.0, 1.0)
     t: Floats = np.where(towards <= arc.angle, towards / np.where(arc.angle == 0.0, 1.0, arc.angle), beyond)
     return t
 
 
 def _arc_distance(arc: Measured, points: Points) -> Floats:
-    radial = points - arc.centre
+    radial = points - arc.center
     to_ends = np.minimum(np.abs(points - arc.start), np.abs(points - arc.end))
-    apart: Floats = np.where(travelled(arc, radial) <= arc.angle, np.abs(np.abs(radial) - arc.radius), to_ends)
+    apart: Floats = np.where(traveled(arc, radial) <= arc.angle, np.abs(np.abs(radial) - arc.radius), to_ends)
     return apart
 
 
@@ -66,9 +66,9 @@ def on_line(pieces: Measured, through: Points, unit: Points) -> Floats:
     return met
 
 
-def on_circle(pieces: Measured, centre: Points, radius: Floats) -> Floats:
+def on_circle(pieces: Measured, center: Points, radius: Floats) -> Floats:
     """(2, ..., n) fractions at which the pieces, lines prolonged, meet whole circles; nan for none."""
-    met: Floats = by_kind(pieces.arcs, _line_on_circle, _arc_on_circle, pieces, centre, radius)
+    met: Floats = by_kind(pieces.arcs, _line_on_circle, _arc_on_circle, pieces, center, radius)
     return met
 
 
@@ -79,26 +79,26 @@ def _line_on_line(line: Measured, through: Points, unit: Points) -> Floats:
 
 def _arc_on_line(arc: Measured, through: Points, unit: Points) -> Floats:
     normal = 1j * unit
-    height = ((through - arc.centre) * np.conj(normal)).real
+    height = ((through - arc.center) * np.conj(normal)).real
     return _fan(arc, normal, (arc.radius - height) / (2.0 * arc.radius))
 
 
-def _line_on_circle(line: Measured, centre: Points, radius: Floats) -> Floats:
+def _line_on_circle(line: Measured, center: Points, radius: Floats) -> Floats:
     unit = line.unit
-    seen = (centre - line.start) * np.conj(unit)
+    seen = (center - line.start) * np.conj(unit)
     half = np.sqrt((radius - seen.imag) * (radius + seen.imag))
     return np.array((seen.real - half, seen.real + half)) / line.length
 
 
-def _arc_on_circle(arc: Measured, centre: Points, radius: Floats) -> Floats:
-    between = centre - arc.centre
+def _arc_on_circle(arc: Measured, center: Points, radius: Floats) -> Floats:
+    between = center - arc.center
     size = np.abs(between)
     over = size - arc.radius
     return _fan(arc, between, (radius - over) * (radius + over) / (4.0 * arc.radius * size))
 
 
 def _fan(arc: Measured, axis: Points, share: Floats) -> Floats:
-    """Fractions at the two directions from the arc's centre at an angle to `axis`, half of which has the sine squared
+    """Fractions at the two directions from the arc's center at an angle to `axis`, half of which has the sine squared
     `share`: near a touch, where the cosine is all but 1, this keeps the digits."""
     half = 2.0 * np.arcsin(np.sqrt(share))
     turned = axis * np.conj(arc.arm)
@@ -141,8 +141,8 @@ def _outline(pieces: Measured, other: Measured, reach: Floats) -> Floats:
     if not arcs:
         caps = on_circle(pieces, np.array(ends), np.array((reach, reach)))
         return np.concatenate((caps, _sides(pieces, other, reach)), axis=1).reshape(8, -1)
-    centre, radii = other.centre, (reach, reach, other.radius + reach, np.abs(other.radius - reach))
-    met = on_circle(pieces, np.array((*ends, centre, centre)), np.array(radii))
+    center, radii = other.center, (reach, reach, other.radius + reach, np.abs(other.radius - reach))
+    met = on_circle(pieces, np.array((*ends, center, center)), np.array(radii))
     if arcs < len(bent):
         met[:, 2:] = np.where(bent, met[:, 2:], _sides(pieces, other, reach))
     return met.reshape(8, -1)
@@ -178,29 +178,29 @@ def _crossing_line(pieces: Measured, line: Measured) -> Floats:
 
 
 def _crossing_arc(pieces: Measured, arc: Measured) -> Floats:
-    return on_circle(pieces, arc.centre, arc.radius)
+    return on_circle(pieces, arc.center, arc.radius)
 
 
 def feet(pieces: Measured, other: Measured) -> Floats:
-    """(4, n) fractions at the feet of the other's two ends and, both ways, of its centre or along its normal."""
+    """(4, n) fractions at the feet of the other's two ends and, both ways, of its center or along its normal."""
     places: Floats = by_kind(pieces.arcs, _line_feet, _arc_feet, pieces, other)
     return places
 
 
 def _line_feet(line: Measured, other: Measured) -> Floats:
-    centre = other.centre
-    return _line_foot(line, np.array((other.start, other.end, centre, centre)))
+    center = other.center
+    return _line_foot(line, np.array((other.start, other.end, center, center)))
 
 
 def _arc_feet(arc: Measured, other: Measured) -> Floats:
-    normal = np.where(other.arcs, other.centre - arc.centre, 1j * other.vector)
-    towards = np.array((other.start - arc.centre, other.end - arc.centre, normal, -normal))
-    return travelled(arc, towards) / arc.angle
+    normal = np.where(other.arcs, other.center - arc.center, 1j * other.vector)
+    towards = np.array((other.start - arc.center, other.end - arc.center, normal, -normal))
+    return traveled(arc, towards) / arc.angle
 
 
 def _antipodes(arc: Measured, other: Measured) -> Floats:
-    towards = np.array((arc.centre - other.start, arc.centre - other.end))
-    return travelled(arc, towards) / arc.angle
+    towards = np.array((arc.center - other.start, arc.center - other.end))
+    return traveled(arc, towards) / arc.angle
 
 
 def _no_antipodes(line: Measured, _other: Measured) -> Floats:
@@ -209,7 +209,7 @@ def _no_antipodes(line: Measured, _other: Measured) -> Floats:
 
 def _even_places(pieces: Measured, arc: Measured) -> Floats:
     middle = arc.arm / arc.radius * np.exp(0.5j * arc.turn * arc.angle)
-    places = on_line(pieces, arc.centre, middle)
+    places = on_line(pieces, arc.center, middle)
     return np.concatenate((places, places))
 
 

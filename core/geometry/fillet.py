@@ -1,16 +1,16 @@
 """The arc that blends two pieces at their common corner, tangent to both.
 
-The centre of an arc that runs the way both pieces run lies one radius to the same side of both: on the left
-for an arc travelled counter-clockwise, on the right for a clockwise one.
+The center of an arc that runs the way both pieces run lies one radius to the same side of both: on the left
+for an arc traveled counter-clockwise, on the right for a clockwise one.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import Enum, auto
 from math import acos, atan2, cos, hypot, inf, sin, sqrt, tan, tau
 
 from core.geometry.piece import SLIVER, Arc, Line, Piece, Point, Turn
-from core.records import dataclass
 from core.tolerance import JOINED, ON_PATH
 
 
@@ -47,7 +47,7 @@ def direction(piece: Piece, at: Point) -> Point:
     if isinstance(piece, Line):
         (x0, y0), (x1, y1) = piece.start, piece.end
         return (x1 - x0) / piece.length, (y1 - y0) / piece.length
-    dx, dy = at[0] - piece.centre[0], at[1] - piece.centre[1]
+    dx, dy = at[0] - piece.center[0], at[1] - piece.center[1]
     size = hypot(dx, dy)
     return -dy / size * piece.turn, dx / size * piece.turn
 
@@ -83,15 +83,15 @@ class _Fit:
 
 def _touching(before: Piece, behind: Piece, radius: float, turn: Turn) -> list[_Fit]:
     fits = []
-    for centre in _meetings(_shifted(before, turn * radius), _shifted(behind, turn * radius)):
-        first, last = _foot(before, centre, turn * radius), _foot(behind, centre, turn * radius)
+    for center in _meetings(_shifted(before, turn * radius), _shifted(behind, turn * radius)):
+        first, last = _foot(before, center, turn * radius), _foot(behind, center, turn * radius)
         if first is None or last is None:
             continue
         kept, taken = _travel(before, first), _travel(behind, last)
         if kept < -ON_PATH or kept > before.length + ON_PATH or taken < -ON_PATH or taken > behind.length + ON_PATH:
             continue
         if hypot(first[0] - last[0], first[1] - last[1]) > JOINED:
-            fits.append(_Fit(Arc(first, last, centre, turn), before.length - kept + taken))
+            fits.append(_Fit(Arc(first, last, center, turn), before.length - kept + taken))
     return fits
 
 
@@ -107,7 +107,7 @@ class _Straight:
 class _Round:
     """A whole circle."""
 
-    centre: Point
+    center: Point
     radius: float
 
 
@@ -116,28 +116,28 @@ def _shifted(piece: Piece, left: float) -> _Straight | _Round:
     if isinstance(piece, Line):
         dx, dy = direction(piece, piece.start)
         return _Straight((piece.start[0] - dy * left, piece.start[1] + dx * left), (dx, dy))
-    return _Round(piece.centre, abs(piece.radius - piece.turn * left))
+    return _Round(piece.center, abs(piece.radius - piece.turn * left))
 
 
-def _foot(piece: Piece, centre: Point, left: float) -> Point | None:
-    """Where a circle about `centre`, `left` to the left of a piece's carrier, touches it; None about its own centre."""
+def _foot(piece: Piece, center: Point, left: float) -> Point | None:
+    """Where a circle about `center`, `left` to the left of a piece's carrier, touches it; None about its own center."""
     if isinstance(piece, Line):
         dx, dy = direction(piece, piece.start)
-        return centre[0] + dy * left, centre[1] - dx * left
+        return center[0] + dy * left, center[1] - dx * left
     shifted = piece.radius - piece.turn * left
     if abs(shifted) <= JOINED:
         return None
     scale = piece.radius / shifted
-    (ox, oy), (cx, cy) = piece.centre, centre
+    (ox, oy), (cx, cy) = piece.center, center
     return ox + (cx - ox) * scale, oy + (cy - oy) * scale
 
 
 def _travel(piece: Piece, at: Point) -> float:
-    """Length travelled from a piece's start to a point of its carrier; of an arc's two ways to it, the one on it."""
+    """Length traveled from a piece's start to a point of its carrier; of an arc's two ways to it, the one on it."""
     if isinstance(piece, Line):
         dx, dy = direction(piece, piece.start)
         return (at[0] - piece.start[0]) * dx + (at[1] - piece.start[1]) * dy
-    (cx, cy), (sx, sy) = piece.centre, piece.start
+    (cx, cy), (sx, sy) = piece.center, piece.start
     angle = piece.turn * (atan2(at[1] - cy, at[0] - cx) - atan2(sy - cy, sx - cx)) % tau
     return piece.radius * (angle - tau if angle > tau - JOINED / piece.radius else angle)
 
@@ -166,9 +166,9 @@ def _lines_meet(one: _Straight, other: _Straight) -> list[Point]:
 
 def _line_meets_circle(line: _Straight, circle: _Round) -> list[Point]:
     (px, py), (dx, dy) = line.point, line.along
-    ahead = (circle.centre[0] - px) * dx + (circle.centre[1] - py) * dy
+    ahead = (circle.center[0] - px) * dx + (circle.center[1] - py) * dy
     fx, fy = px + ahead * dx, py + ahead * dy
-    beside = hypot(fx - circle.centre[0], fy - circle.centre[1])
+    beside = hypot(fx - circle.center[0], fy - circle.center[1])
     if beside > circle.radius:
         return []
     half = sqrt((circle.radius - beside) * (circle.radius + beside))
@@ -176,14 +176,14 @@ def _line_meets_circle(line: _Straight, circle: _Round) -> list[Point]:
 
 
 def _circles_meet(one: _Round, other: _Round) -> list[Point]:
-    dx, dy = other.centre[0] - one.centre[0], other.centre[1] - one.centre[1]
+    dx, dy = other.center[0] - one.center[0], other.center[1] - one.center[1]
     apart = hypot(dx, dy)
     if apart <= JOINED or apart > one.radius + other.radius or apart < abs(one.radius - other.radius):
         return []
     ratio = (apart * apart + one.radius * one.radius - other.radius * other.radius) / (2 * apart * (one.radius or inf))
     angle, base = acos(max(-1.0, min(1.0, ratio))), atan2(dy, dx)
     ways = (base + angle, base - angle)
-    return [(one.centre[0] + one.radius * cos(way), one.centre[1] + one.radius * sin(way)) for way in ways]
+    return [(one.center[0] + one.radius * cos(way), one.center[1] + one.radius * sin(way)) for way in ways]
 
 
 def _cut(before: Piece, behind: Piece, fit: _Fit) -> Fillet:
@@ -196,4 +196,4 @@ def _cut(before: Piece, behind: Piece, fit: _Fit) -> Fillet:
 
 
 def _between(piece: Piece, start: Point, end: Point) -> Piece:
-    return Line(start, end) if isinstance(piece, Line) else Arc(start, end, piece.centre, piece.turn)
+    return Line(start, end) if isinstance(piece, Line) else Arc(start, end, piece.center, piece.turn)

@@ -8,6 +8,7 @@ are complex numbers: conj(u) v has the dot product as real and the cross product
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import IntEnum
 from math import tau
 from typing import Final, NamedTuple
@@ -18,7 +19,6 @@ from numpy.typing import NDArray
 from core.geometry.path import Floats, Path
 from core.geometry.piece import SLIVER
 from core.geometry.planes import Indices, Masks, Pieces, Planes, coordinates, pieces_of, planes, taken
-from core.records import dataclass
 from core.tolerance import JOINED, ON_PATH
 
 __all__ = [
@@ -45,8 +45,8 @@ class Meetings:
 
     `kinds` (k,) holds a `Meeting` for each pair.  `pair` (p,) is the row of each point's pair, `along_a` and
     `along_b` (p,) its distance from the start of either piece, `rest_a` and `rest_b` (p,) that from their ends,
-    `points` (p, 2) the point.  Points come in the order of pairs and, within a pair, as travelled on a; a
-    touch that is nearly a crossing may have two.  Millimetres.  An OVERLAP has no points.
+    `points` (p, 2) the point.  Points come in the order of pairs and, within a pair, as traveled on a; a
+    touch that is nearly a crossing may have two.  Millimeters.  An OVERLAP has no points.
     """
 
     kinds: NDArray[np.int8]
@@ -82,7 +82,7 @@ def meet_pieces(one: Pieces, a: Indices, other: Pieces, b: Indices) -> Meetings:
     """How pieces a (k,) of `one` meet pieces b (k,) of `other`, pair by pair.
 
     A point counts when it lies on both pieces within ON_PATH.  Lines are parallel when they part by no more
-    than ON_PATH over the longer of them; arcs are concentric when their centres are within ON_PATH; circles
+    than ON_PATH over the longer of them; arcs are concentric when their centers are within ON_PATH; circles
     and lines within ON_PATH of tangency touch.
     """
     kinds = np.zeros(len(a), np.int8)
@@ -157,11 +157,11 @@ def _parallel(a: Pieces, b: Pieces) -> _Solved:
 
 
 def _line_arc(line: Pieces, arc: Pieces) -> _Solved:
-    """Line with arc: half the chord on either side of the foot of the arc's centre."""
-    span, radius = line.end - line.start, np.abs(arc.start - arc.centre)
+    """Line with arc: half the chord on either side of the foot of the arc's center."""
+    span, radius = line.end - line.start, np.abs(arc.start - arc.center)
     length = np.abs(span)
     unit = span / np.where(length == 0.0, 1.0, length)
-    foot = unit.conj() * (arc.centre - line.start)
+    foot = unit.conj() * (arc.center - line.start)
     height = np.abs(foot.imag)
     room = radius - height
     pair, half = _half_chords(np.sqrt(np.maximum(room * (radius + height), 0.0)), room)
@@ -178,12 +178,12 @@ def _line_arc(line: Pieces, arc: Pieces) -> _Solved:
 
 def _arc_line(arc: Pieces, line: Pieces) -> _Solved:
     kinds, (pair, along, run, left, rest, points) = _line_arc(line, arc)
-    return kinds, _as_travelled(_Points(pair, run, along, rest, left, points))
+    return kinds, _as_traveled(_Points(pair, run, along, rest, left, points))
 
 
 def _arcs(a: Pieces, b: Pieces) -> _Solved:
     """Arc with arc: half the common chord by Heron's formula, which keeps its digits near tangency."""
-    between, big, small = b.centre - a.centre, np.abs(a.start - a.centre), np.abs(b.start - b.centre)
+    between, big, small = b.center - a.center, np.abs(a.start - a.center), np.abs(b.start - b.center)
     apart, total, differ = np.abs(between), big + small, big - small
     concentric = apart <= ON_PATH
     divisor = np.where(concentric, 1.0, apart)
@@ -191,13 +191,13 @@ def _arcs(a: Pieces, b: Pieces) -> _Solved:
     room = np.where(concentric, -np.inf, np.minimum(total - apart, apart - np.abs(differ)))
     pair, half = _half_chords(np.sqrt(np.maximum(area, 0.0)) / (2.0 * divisor), room)
     foot = (apart + differ * total / divisor) / 2.0
-    points = a.centre[pair] + (between / divisor)[pair] * (foot[pair] + 1j * half)
+    points = a.center[pair] + (between / divisor)[pair] * (foot[pair] + 1j * half)
     near = _in_sector(points, taken(a, pair)).nonzero()[0]
     near = near[_in_sector(points[near], taken(b, pair[near]))]
     pair, points = pair[near], points[near]
     run_a, rest_a = _along_arc(points, taken(a, pair), big[pair])
     run_b, rest_b = _along_arc(points, taken(b, pair), small[pair])
-    found = _as_travelled(_on_both(_Points(pair, run_a, run_b, rest_a, rest_b, points)))
+    found = _as_traveled(_on_both(_Points(pair, run_a, run_b, rest_a, rest_b, points)))
     kinds = _kinds(len(room), found.pair, np.abs(room) <= ON_PATH)
     rows = (concentric & (np.abs(differ) <= ON_PATH)).nonzero()[0]
     if len(rows):
@@ -210,7 +210,7 @@ def _in_sector(point: Planes, arc: Pieces) -> Masks:
 
     Of an arc of half a turn or more, and of one whose ends are nearly one point, those behind either ray.
     """
-    first, last, radial = arc.start - arc.centre, arc.end - arc.centre, point - arc.centre
+    first, last, radial = arc.start - arc.center, arc.end - arc.center, point - arc.center
     room = _ROOM * np.maximum(np.abs(first), 1.0)
     behind_first = (first.conj() * radial).imag * arc.turn >= -room
     before_last = (radial.conj() * last).imag * arc.turn >= -room
@@ -238,18 +238,18 @@ def _overlap(a: Pieces, b: Pieces) -> Masks:
 
 def _middle(arc: Pieces) -> Planes:
     """The point half way along each arc."""
-    middle: Planes = arc.centre + (arc.start - arc.centre) * np.exp(1j * _sweep(arc) / 2.0 * arc.turn)
+    middle: Planes = arc.center + (arc.start - arc.center) * np.exp(1j * _sweep(arc) / 2.0 * arc.turn)
     return middle
 
 
 def _inside(arc: Pieces, point: Planes) -> Masks:
     """Does a point of the arc's circle lie on the arc, off its ends?"""
-    run, rest = _along_arc(point, arc, np.abs(arc.start - arc.centre))
+    run, rest = _along_arc(point, arc, np.abs(arc.start - arc.center))
     return (run > ON_PATH) & (rest > ON_PATH)
 
 
 def _sweep(arc: Pieces) -> Floats:
-    """Angle travelled, 0 ... a full turn: equal ends are the full circle, rounding past the start is nothing."""
+    """Angle traveled, 0 ... a full turn: equal ends are the full circle, rounding past the start is nothing."""
     swept = _turned(arc, arc.end)
     swept[swept > tau - SLIVER] = 0.0
     swept[arc.start == arc.end] = tau
@@ -258,7 +258,7 @@ def _sweep(arc: Pieces) -> Floats:
 
 def _turned(arc: Pieces, point: Planes) -> Floats:
     """The angle from the arc's start to a point, in the arc's direction, 0 ... a full turn."""
-    across = (arc.start - arc.centre).conj() * (point - arc.centre)
+    across = (arc.start - arc.center).conj() * (point - arc.center)
     angle = np.arctan2(across.imag, across.real) * arc.turn
     turned: Floats = np.where(angle < 0.0, angle + tau, angle)
     return turned
@@ -286,8 +286,8 @@ def _on_both(points: _Points) -> _Points:
     return _Points._make(column[on] for column in points)
 
 
-def _as_travelled(points: _Points) -> _Points:
-    """Put two points of a pair in the order in which a is travelled."""
+def _as_traveled(points: _Points) -> _Points:
+    """Put two points of a pair in the order in which a is traveled."""
     pair, along = points.pair, points.along_a
     swap = ((pair[1:] == pair[:-1]) & (along[1:] < along[:-1])).nonzero()[0]
     for column in points[1:]:

@@ -1,12 +1,13 @@
 """Measured: the pieces of a path with what exact distances need, worked out once, for whole arrays of pieces.
 
-Points are complex numbers x + iy.  A place on a piece is the fraction t of it that has been travelled, 0 to 1;
-a place on a whole path is the length s travelled since its first point.
+Points are complex numbers x + iy.  A place on a piece is the fraction t of it that has been traveled, 0 to 1;
+a place on a whole path is the length s traveled since its first point.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from math import tau
 from typing import Any, Final
 
@@ -16,7 +17,6 @@ from numpy.typing import NDArray
 from core.geometry.path import Path
 from core.geometry.piece import SLIVER
 from core.geometry.planes import planes
-from core.records import dataclass
 from core.tolerance import ARC_RADII, ON_PATH
 
 FEW: Final = 500
@@ -33,10 +33,10 @@ Flags = NDArray[np.bool_]
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Measured:
-    """n pieces, (n,) arrays each, millimetres and radians.
+    """n pieces, (n,) arrays each, millimeters and radians.
 
-    `rows` are the pieces' rows in the path they come from.  `vector` is end - start.  `arm` is start - centre of an
-    arc and 1 of a line, `turn` 0 for a line, `angle` the unsigned angle travelled by an arc and 0 for a line.
+    `rows` are the pieces' rows in the path they come from.  `vector` is end - start.  `arm` is start - center of an
+    arc and 1 of a line, `turn` 0 for a line, `angle` the unsigned angle traveled by an arc and 0 for a line.
     `slack` is how far an arc of two different radii may be from the circle taken for it, infinite if the radii
     differ by more than ARC_RADII, or at all where both ends are on one ray: nobody knows then where it runs.
     """
@@ -96,8 +96,8 @@ class Measured:
         return self.start + self.vector
 
     @property
-    def centre(self) -> Points:
-        """(n,) centres of arcs; of a line a point without meaning."""
+    def center(self) -> Points:
+        """(n,) centers of arcs; of a line a point without meaning."""
         return self.start - self.arm
 
     @property
@@ -109,7 +109,7 @@ class Measured:
 
     @property
     def stations(self) -> Floats:
-        """(n + 1,) length travelled at the start of each piece, and at the end of all."""
+        """(n + 1,) length traveled at the start of each piece, and at the end of all."""
         stations = np.zeros(len(self.length) + 1)
         self.length.cumsum(out=stations[1:])
         return stations
@@ -129,9 +129,9 @@ def stacked(paths: Sequence[Path]) -> Measured:
     corners = [planes(path.points) for path in paths]
     start = np.concatenate([_NO_POINTS, *(points[:-1] for points in corners)])
     end = np.concatenate([_NO_POINTS, *(points[1:] for points in corners)])
-    centre = np.concatenate([_NO_POINTS, *(planes(path.centres) for path in paths)])
+    center = np.concatenate([_NO_POINTS, *(planes(path.centers) for path in paths)])
     turn = np.concatenate([_NO_TURNS, *(path.turns for path in paths)])
-    whole = _measured(start, end, centre, turn)
+    whole = _measured(start, end, center, turn)
     short = whole.length <= ON_PATH
     if not short.any():
         return whole
@@ -149,14 +149,14 @@ def measured(path: Path) -> Measured:
     return stacked((path,))
 
 
-def _measured(start: Points, end: Points, centre: Points, turn: Floats) -> Measured:
+def _measured(start: Points, end: Points, center: Points, turn: Floats) -> Measured:
     arc = turn.nonzero()[0]
     arm, vector = np.ones(len(turn), np.complex128), end - start
     angle, radius, slack = np.zeros((3, len(turn)))
     length = np.abs(vector)
     if len(arc):
         first, last, way = start.take(arc), end.take(arc), turn.take(arc)
-        middle, slack[arc] = _one_radius(first, last, centre.take(arc), way)
+        middle, slack[arc] = _one_radius(first, last, center.take(arc), way)
         arm[arc] = from_middle = first - middle
         radius[arc] = bend = np.abs(from_middle)
         angle[arc] = swept = _angles(from_middle, last - middle, way, first == last)
@@ -164,36 +164,36 @@ def _measured(start: Points, end: Points, centre: Points, turn: Floats) -> Measu
     return Measured(np.arange(len(turn)), start, vector, arm, turn, angle, radius, length, slack)
 
 
-def _one_radius(start: Points, end: Points, centre: Points, turn: Floats) -> tuple[Points, Floats]:
-    """Centres equally far from both ends, and by how much an arc's two radii left open where it runs.
+def _one_radius(start: Points, end: Points, center: Points, turn: Floats) -> tuple[Points, Floats]:
+    """Centers equally far from both ends, and by how much an arc's two radii left open where it runs.
 
-    A centre moves along the chord by no more than the radii differ.  Where that is not enough, which is where the chord
+    A center moves along the chord by no more than the radii differ.  Where that is not enough, which is where the chord
     is shorter than the radius, an arc of less than half a turn keeps its ends and gets the radius between its two; a
-    longer one keeps its centre: the farther it moves, the farther is the other side of the arc from where it runs.
-    With both ends on one ray from the centre it may be empty or a full circle, which its ends leave open.
+    longer one keeps its center: the farther it moves, the farther is the other side of the arc from where it runs.
+    With both ends on one ray from the center it may be empty or a full circle, which its ends leave open.
     """
-    first, last = np.abs(start - centre), np.abs(end - centre)
+    first, last = np.abs(start - center), np.abs(end - center)
     off = np.abs(first - last)
     uneven = off > ON_PATH
     if not uneven.any():
-        return centre, np.zeros(len(off))
+        return center, np.zeros(len(off))
     chord = end - start
     size = np.abs(chord)
     unit = chord / np.where(size == 0.0, 1.0, size)
     half, middle = size / 2.0, (start + end) / 2.0
-    shift = (np.conj(unit) * (centre - middle)).real
+    shift = (np.conj(unit) * (center - middle)).real
     bow = np.sqrt(np.maximum((first + last) ** 2 / 4.0 - half**2, 0.0))
-    turned = (end - centre) * np.conj(start - centre)
+    turned = (end - center) * np.conj(start - center)
     short = turned.imag * turn >= 0.0
-    far = np.where(short & (size > 0.0), middle + 1j * turn * unit * bow, centre)
-    moved = np.where(np.abs(shift) > off, far, centre - unit * shift)
+    far = np.where(short & (size > 0.0), middle + 1j * turn * unit * bow, center)
+    moved = np.where(np.abs(shift) > off, far, center - unit * shift)
     on_one_ray = (np.abs(turned.imag) <= 2.0 * SLIVER * turned.real) & (turned.real > 0.0)
     slack = np.where((off > ARC_RADII) | on_one_ray, np.inf, off)
-    return np.where(uneven, moved, centre), np.where(uneven, slack, 0.0)
+    return np.where(uneven, moved, center), np.where(uneven, slack, 0.0)
 
 
 def _angles(arm: Points, last: Points, turn: Floats, whole: Flags) -> Floats:
-    """Angles travelled from `arm` to `last`, in [0, tau]; a hair less than a full turn or no radius is an empty arc."""
+    """Angles traveled from `arm` to `last`, in [0, tau]; a hair less than a full turn or no radius is an empty arc."""
     turned = last * np.conj(arm)
     angle = np.arctan2(turned.imag * turn, turned.real)
     angle[angle < 0.0] += tau
@@ -255,7 +255,7 @@ def _line_at(line: Measured, t: Floats) -> Points:
 
 
 def _arc_at(arc: Measured, t: Floats) -> Points:
-    points: Points = arc.centre + arc.arm * np.exp(1j * (arc.turn * arc.angle) * t)
+    points: Points = arc.center + arc.arm * np.exp(1j * (arc.turn * arc.angle) * t)
     return points
 
 
@@ -275,8 +275,8 @@ def _arc_direction(arc: Measured, t: Floats) -> Points:
     return units
 
 
-def travelled(arc: Measured, towards: Points) -> Floats:
-    """Angles in [0, tau) from each arc's start to the directions `towards` (..., n), seen from its centre."""
+def traveled(arc: Measured, towards: Points) -> Floats:
+    """Angles in [0, tau) from each arc's start to the directions `towards` (..., n), seen from its center."""
     turned = towards * np.conj(arc.arm)
     angle: Floats = np.arctan2(turned.imag, turned.real) * arc.turn
     # what is within half a turn needs no division, which takes ten times as long

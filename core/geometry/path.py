@@ -1,7 +1,7 @@
 """Path: a chain of exact lines and arcs, joined end to start, as immutable numpy arrays.
 
 The one representation of geometry for ten pieces and for a hundred thousand.  A path of n pieces has
-n + 1 points, so that it is joined by construction.  Millimetres and radians, right-handed XY.
+n + 1 points, so that it is joined by construction.  Millimeters and radians, right-handed XY.
 """
 
 from __future__ import annotations
@@ -27,28 +27,28 @@ _QUARTERS: Final = np.array([[0.0], [tau / 4], [tau / 2], [3 * tau / 4]])
 class Path:
     """n joined pieces.
 
-    `points` (n + 1, 2): piece i runs from row i to row i + 1.  `centres` (n, 2): of arcs; a line has its own
+    `points` (n + 1, 2): piece i runs from row i to row i + 1.  `centers` (n, 2): of arcs; a line has its own
     start there.  `turns` (n,): 0 line, +1 counter-clockwise, -1 clockwise.  `numbers` (n,): the programmed
     segment k each piece belongs to, k + 1/2 for the corner arc between k and k + 1.  An arc whose two points
     are the same row of numbers is a full circle.  The empty path has one point or none.
     """
 
     points: Floats
-    centres: Floats
+    centers: Floats
     turns: Turns
     numbers: Floats
 
     def __post_init__(self) -> None:
-        for array in (self.points, self.centres, self.turns, self.numbers):
+        for array in (self.points, self.centers, self.turns, self.numbers):
             array.setflags(write=False)
 
     @staticmethod
-    def of(points: Floats, centres: Floats, turns: Turns, numbers: Floats | None = None) -> Path:
+    def of(points: Floats, centers: Floats, turns: Turns, numbers: Floats | None = None) -> Path:
         """A path of these arrays, made contiguous; numbers are 1 ... n unless given."""
         count = len(turns)
         return Path(
             np.ascontiguousarray(points, np.float64).reshape(-1, 2),
-            np.ascontiguousarray(centres, np.float64).reshape(-1, 2),
+            np.ascontiguousarray(centers, np.float64).reshape(-1, 2),
             np.ascontiguousarray(turns, np.int8),
             np.arange(1.0, count + 1.0) if numbers is None else np.ascontiguousarray(numbers, np.float64),
         )
@@ -59,33 +59,33 @@ class Path:
         if not pieces:
             return EMPTY
         # plain numbers one behind the other become an array in half the time of pairs
-        points, centres, turns = [*pieces[0].start], list[float](), list[int]()
+        points, centers, turns = [*pieces[0].start], list[float](), list[int]()
         for piece in pieces:
             points += piece.end
             if isinstance(piece, Arc):
-                centres += piece.centre
+                centers += piece.center
                 turns.append(piece.turn)
             else:
-                centres += piece.start
+                centers += piece.start
                 turns.append(0)
         given = range(1, len(pieces) + 1) if numbers is None else numbers
         return Path(
             np.array(points, np.float64).reshape(-1, 2),
-            np.array(centres, np.float64).reshape(-1, 2),
+            np.array(centers, np.float64).reshape(-1, 2),
             np.array(turns, np.int8),
             np.array(given, np.float64),
         )
 
     def altered(self, others: Iterable[tuple[int, float, Piece]]) -> Path:
         """The path with other pieces in some rows, each with its number; they too join those beside them."""
-        points, centres = self.points.copy(), self.centres.copy()
+        points, centers = self.points.copy(), self.centers.copy()
         turns, numbers = self.turns.copy(), self.numbers.copy()
         for row, number, piece in others:
             if row == 0:
                 points[0] = piece.start
             points[row + 1], numbers[row] = piece.end, number
-            centres[row], turns[row] = (piece.centre, piece.turn) if isinstance(piece, Arc) else (piece.start, 0)
-        return Path(points, centres, turns, numbers)
+            centers[row], turns[row] = (piece.center, piece.turn) if isinstance(piece, Arc) else (piece.start, 0)
+        return Path(points, centers, turns, numbers)
 
     def __len__(self) -> int:
         return len(self.turns)
@@ -96,7 +96,7 @@ class Path:
         start, end = self.points[index].tolist(), self.points[index + 1].tolist()
         if not self.turns[index]:
             return Line(tuple(start), tuple(end))
-        return Arc(tuple(start), tuple(end), tuple(self.centres[index].tolist()), Turn(int(self.turns[index])))
+        return Arc(tuple(start), tuple(end), tuple(self.centers[index].tolist()), Turn(int(self.turns[index])))
 
     def __iter__(self) -> Iterator[Piece]:
         return (self[index] for index in range(len(self)))
@@ -114,14 +114,14 @@ class Path:
     @property
     def radii(self) -> Floats:
         """(n,) radius of each arc, 0 for a line."""
-        radial = self.starts - self.centres
+        radial = self.starts - self.centers
         radii: Floats = np.hypot(radial[:, 0], radial[:, 1])
         return radii
 
     @property
     def sweeps(self) -> Floats:
-        """(n,) angle travelled by each arc, positive counter-clockwise, 0 for a line, a full turn for a circle."""
-        first, last = self.starts - self.centres, self.ends - self.centres
+        """(n,) angle traveled by each arc, positive counter-clockwise, 0 for a line, a full turn for a circle."""
+        first, last = self.starts - self.centers, self.ends - self.centers
         return swept(first, last, self.turns, self.starts == self.ends) * self.turns
 
     @property
@@ -131,9 +131,9 @@ class Path:
         lengths: Floats = np.hypot(span[:, 0], span[:, 1])
         arcs = self.turns.nonzero()[0]
         if len(arcs):
-            centres, starts, ends = self.centres[arcs], self.points[arcs], self.points[arcs + 1]
-            first = starts - centres
-            angles = swept(first, ends - centres, self.turns[arcs], starts == ends)
+            centers, starts, ends = self.centers[arcs], self.points[arcs], self.points[arcs + 1]
+            first = starts - centers
+            angles = swept(first, ends - centers, self.turns[arcs], starts == ends)
             lengths[arcs] = np.hypot(first[:, 0], first[:, 1]) * angles
         return lengths
 
@@ -148,7 +148,7 @@ class Path:
         return self._directions(self.ends)
 
     def _directions(self, at: Floats) -> Floats:
-        radial = at - self.centres
+        radial = at - self.centers
         along = np.stack((-radial[:, 1], radial[:, 0]), axis=1) * self.turns[:, None]
         along = np.where(self.turns[:, None] == 0, self.ends - self.starts, along)
         size = np.hypot(along[:, 0], along[:, 1])
@@ -161,32 +161,32 @@ class Path:
         low, high = np.minimum(self.starts, self.ends), np.maximum(self.starts, self.ends)
         arcs = self.turns.nonzero()[0]
         if len(arcs):
-            centres, turns = self.centres[arcs], self.turns[arcs]
+            centers, turns = self.centers[arcs], self.turns[arcs]
             starts, ends = self.points[arcs], self.points[arcs + 1]
-            first = starts - centres
+            first = starts - centers
             radii = np.hypot(first[:, 0], first[:, 1])[:, None]
             begin = np.arctan2(first[:, 1], first[:, 0])
             ahead = np.mod((_QUARTERS - begin) * turns, tau)
-            passed = (ahead < swept(first, ends - centres, turns, starts == ends)).T
-            high[arcs] = np.where(passed[:, :2], np.maximum(high[arcs], centres + radii), high[arcs])
-            low[arcs] = np.where(passed[:, 2:], np.minimum(low[arcs], centres - radii), low[arcs])
+            passed = (ahead < swept(first, ends - centers, turns, starts == ends)).T
+            high[arcs] = np.where(passed[:, :2], np.maximum(high[arcs], centers + radii), high[arcs])
+            low[arcs] = np.where(passed[:, 2:], np.minimum(low[arcs], centers - radii), low[arcs])
         return np.hstack((low, high))
 
     def reversed(self) -> Path:
-        """The same pieces travelled the other way; numbers stay with their pieces."""
+        """The same pieces traveled the other way; numbers stay with their pieces."""
         order = slice(None, None, -1)
-        centres = np.where(self.turns[:, None] == 0, self.ends, self.centres)
-        return Path.of(self.points[order], centres[order], -self.turns[order], self.numbers[order])
+        centers = np.where(self.turns[:, None] == 0, self.ends, self.centers)
+        return Path.of(self.points[order], centers[order], -self.turns[order], self.numbers[order])
 
     def part(self, first: int, last: int) -> Path:
         """Pieces first ... last - 1."""
         # rows of contiguous arrays are contiguous: nothing is copied
         keep = slice(first, last)
-        return Path(self.points[first : last + 1], self.centres[keep], self.turns[keep], self.numbers[keep])
+        return Path(self.points[first : last + 1], self.centers[keep], self.turns[keep], self.numbers[keep])
 
 
 def swept(first: Floats, last: Floats, turns: Turns, same: NDArray[np.bool_]) -> Floats:
-    """(n,) angle travelled from `first` to `last` (n, 2) from the centres, a full turn where `same` (n, 2)."""
+    """(n,) angle traveled from `first` to `last` (n, 2) from the centers, a full turn where `same` (n, 2)."""
     angle = np.arctan2(last[:, 1], last[:, 0]) - np.arctan2(first[:, 1], first[:, 0])
     turned: Floats = np.mod(angle * turns, tau)
     turned[turned > tau - SLIVER] = 0.0
@@ -202,7 +202,7 @@ def joined(parts: Sequence[Path]) -> Path:
     points = [parts[0].points, *(part.points[1:] for part in parts[1:])]
     return Path(
         np.concatenate(points),
-        np.concatenate([part.centres for part in parts]),
+        np.concatenate([part.centers for part in parts]),
         np.concatenate([part.turns for part in parts]),
         np.concatenate([part.numbers for part in parts]),
     )

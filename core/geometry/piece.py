@@ -1,16 +1,15 @@
 """Single lines and arcs as plain numbers: what a person types and what a drawing gives.
 
-A point is a pair (x, y) in millimetres.  This module and `construct` need no numpy, so that a form can
+A point is a pair (x, y) in millimeters.  This module and `construct` need no numpy, so that a form can
 be solved and painted before it is loaded; whole paths are `core.geometry.path.Path`.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import IntEnum
 from math import atan2, hypot, tau
 from typing import Final
-
-from core.records import dataclass
 
 Point = tuple[float, float]
 
@@ -19,7 +18,7 @@ SLIVER: Final = 1e-9
 
 
 class Turn(IntEnum):
-    """The direction in which an arc is travelled; NONE is a line."""
+    """The direction in which an arc is traveled; NONE is a line."""
 
     CW = -1
     NONE = 0
@@ -35,37 +34,37 @@ class Line:
 
     @property
     def length(self) -> float:
-        """Length in millimetres."""
+        """Length in millimeters."""
         return hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
 
 
 @dataclass(frozen=True, slots=True)
 class Arc:
-    """A circular piece from `start` to `end` about `centre`; equal ends mean the full circle."""
+    """A circular piece from `start` to `end` about `center`; equal ends mean the full circle."""
 
     start: Point
     end: Point
-    centre: Point
+    center: Point
     turn: Turn
 
     @property
     def radius(self) -> float:
-        """Distance of the start from the centre in millimetres."""
-        return hypot(self.start[0] - self.centre[0], self.start[1] - self.centre[1])
+        """Distance of the start from the center in millimeters."""
+        return hypot(self.start[0] - self.center[0], self.start[1] - self.center[1])
 
     @property
     def sweep(self) -> float:
-        """Angle travelled in radians, positive counter-clockwise, at most a full turn."""
+        """Angle traveled in radians, positive counter-clockwise, at most a full turn."""
         if self.start == self.end:
             return int(self.turn) * tau
-        (x0, y0), (x1, y1), (cx, cy) = self.start, self.end, self.centre
+        (x0, y0), (x1, y1), (cx, cy) = self.start, self.end, self.center
         first, last = atan2(y0 - cy, x0 - cx), atan2(y1 - cy, x1 - cx)
         swept = (int(self.turn) * (last - first)) % tau
         return int(self.turn) * (0.0 if swept > tau - SLIVER else swept)
 
     @property
     def length(self) -> float:
-        """Length in millimetres."""
+        """Length in millimeters."""
         return self.radius * abs(self.sweep)
 
 

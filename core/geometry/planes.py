@@ -18,11 +18,11 @@ Masks = NDArray[np.bool_]
 
 
 class Pieces(NamedTuple):
-    """k pieces that need not join: ends and centres as complex numbers, turns as in `Path`."""
+    """k pieces that need not join: ends and centers as complex numbers, turns as in `Path`."""
 
     start: Planes
     end: Planes
-    centre: Planes
+    center: Planes
     turn: Turns
 
 
@@ -45,9 +45,9 @@ def onward(values: NDArray[Any]) -> NDArray[Any]:
 def pieces_of(path: Path) -> Pieces:
     """The pieces of a path, without a copy."""
     points = planes(path.points)
-    return Pieces(points[:-1], points[1:], planes(path.centres), path.turns)
+    return Pieces(points[:-1], points[1:], planes(path.centers), path.turns)
 
 
 def taken(pieces: Pieces, rows: Indices) -> Pieces:
     """Some of the pieces."""
-    return Pieces(pieces.start[rows], pieces.end[rows], pieces.centre[rows], pieces.turn[rows])
+    return Pieces(pieces.start[rows], pieces.end[rows], pieces.center[rows], pieces.turn[rows])

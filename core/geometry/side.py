@@ -1,4 +1,4 @@
-"""The side of a contour on which the cutter runs, as travelled."""
+"""The side of a contour on which the cutter runs, as traveled."""
 
 from __future__ import annotations
 

@@ -60,9 +60,9 @@ def pieces_joined(path: Path, rows: NDArray[np.intp]) -> Parts:
         return NO_PARTS
     given, points = planes(path.points), np.empty(2 * len(rows), np.complex128)
     points[::2], points[1::2] = given[rows], given[rows + 1]
-    centres, turns, own = points[:-1].copy(), np.zeros(len(points) - 1, np.int8), np.zeros(len(points) - 1, np.bool_)
-    centres[::2], turns[::2], own[::2] = planes(path.centres)[rows], path.turns[rows], True
-    return Parts(Path(coordinates(points), coordinates(centres), turns, path.numbers[rows].repeat(2)[:-1]), own)
+    centers, turns, own = points[:-1].copy(), np.zeros(len(points) - 1, np.int8), np.zeros(len(points) - 1, np.bool_)
+    centers[::2], turns[::2], own[::2] = planes(path.centers)[rows], path.turns[rows], True
+    return Parts(Path(coordinates(points), coordinates(centers), turns, path.numbers[rows].repeat(2)[:-1]), own)
 
 
 def stretch_lengths(surface: Path, wanted: Ends) -> list[list[tuple[float, float]]]:
@@ -85,12 +85,12 @@ def _cut_out(surface: Path, wanted: Ends) -> tuple[Path, Indices, Indices]:
     behind = counts.cumsum()
     heads, tails = behind - counts, behind - 1
     rows = (np.arange(behind[-1]) + (begins - heads).repeat(counts)) % len(surface)
-    points, centres, turns = planes(surface.points)[rows], planes(surface.centres)[rows], surface.turns[rows]
+    points, centers, turns = planes(surface.points)[rows], planes(surface.centers)[rows], surface.turns[rows]
     points[heads], points[tails], turns[tails] = wanted.start, wanted.end, 0
-    # a line has its own start for a centre
+    # a line has its own start for a center
     lines = (turns == 0).nonzero()[0]
-    centres[lines] = points[lines]
-    whole = Path(coordinates(points), coordinates(centres[:-1]), turns[:-1], surface.numbers[rows[:-1]])
+    centers[lines] = points[lines]
+    whole = Path(coordinates(points), coordinates(centers[:-1]), turns[:-1], surface.numbers[rows[:-1]])
     return whole, heads, tails
 
 
@@ -127,7 +127,7 @@ def _point(place: np.complex128) -> Point:
 def _cut(piece: Piece, start: Point, end: Point) -> Piece:
     if isinstance(piece, Line):
         return Line(start, end)
-    return Arc(start, end, piece.centre, piece.turn)
+    return Arc(start, end, piece.center, piece.turn)
 
 
 def _before(piece: Piece, point: Point, other: Point) -> bool:

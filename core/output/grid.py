@@ -1,6 +1,6 @@
 """Rounding for NC text: coordinates as whole numbers of the last posted digit, and arcs that survive it.
 
-A machine travels what is written, not what was meant.  Rounding may turn a short arc's ends round its centre the
+A machine travels what is written, not what was meant.  Rounding may turn a short arc's ends round its center the
 other way, which a control reads as a full circle; or it may make them one point, which it reads as a full circle too.
 Every arc is therefore measured again as written.
 """
@@ -43,11 +43,11 @@ class Grid:
         return DECIMALS[self.unit]
 
     def fine(self, value: float) -> float:
-        """Millimetres in last digits, not rounded."""
+        """Millimeters in last digits, not rounded."""
         return from_mm(value, self.unit) * 10.0**self.decimals
 
     def steps(self, value: float) -> int:
-        """Millimetres in whole last digits."""
+        """Millimeters in whole last digits."""
         return round(self.fine(value))
 
     def point(self, point: Point) -> Steps:
@@ -72,11 +72,11 @@ class Chord:
 
 @dataclass(frozen=True, slots=True)
 class Bow:
-    """A circular part of a move, with its centre from the start as written, in last digits of I and J."""
+    """A circular part of a move, with its center from the start as written, in last digits of I and J."""
 
     end: Point
     part: float
-    centre: Steps
+    center: Steps
 
 
 def written(arc: Arc, grid: Grid) -> Iterator[Chord | Bow]:
@@ -87,9 +87,9 @@ def written(arc: Arc, grid: Grid) -> Iterator[Chord | Bow]:
 def _parts(arc: Arc, grid: Grid, first: float, last: float) -> Iterator[Chord | Bow]:
     start, end = _at(arc, first), _at(arc, last)
     sweep, radius = arc.sweep * (last - first), grid.fine(arc.radius)
-    centre = _centre(start, arc.centre, grid)
-    if radius >= SMALLEST and _means(start, end, centre, sweep, radius, grid):
-        yield Bow(end, last, centre)
+    center = _center(start, arc.center, grid)
+    if radius >= SMALLEST and _means(start, end, center, sweep, radius, grid):
+        yield Bow(end, last, center)
     elif _rise(radius, sweep) <= FLAT:
         yield Chord(end, last)
     else:
@@ -101,18 +101,18 @@ def _parts(arc: Arc, grid: Grid, first: float, last: float) -> Iterator[Chord | 
 def _at(arc: Arc, part: float) -> Point:
     if part in (0.0, 1.0):
         return arc.start if part == 0.0 else arc.end
-    (x, y), (cx, cy) = arc.start, arc.centre
+    (x, y), (cx, cy) = arc.start, arc.center
     angle = atan2(y - cy, x - cx) + part * arc.sweep
     return cx + arc.radius * cos(angle), cy + arc.radius * sin(angle)
 
 
-def _centre(start: Point, centre: Point, grid: Grid) -> Steps:
-    """I and J: from the start as written to the true centre."""
+def _center(start: Point, center: Point, grid: Grid) -> Steps:
+    """I and J: from the start as written to the true center."""
     x, y = grid.point(start)
-    return round((grid.fine(centre[0]) - x) * 10**FINER), round((grid.fine(centre[1]) - y) * 10**FINER)
+    return round((grid.fine(center[0]) - x) * 10**FINER), round((grid.fine(center[1]) - y) * 10**FINER)
 
 
-def _means(start: Point, end: Point, centre: Steps, sweep: float, radius: float, grid: Grid) -> bool:
+def _means(start: Point, end: Point, center: Steps, sweep: float, radius: float, grid: Grid) -> bool:
     """The bow as written turns as far as meant, and ends at its start only if it is the full circle.
 
     An end within `CLOSED` of the start is one that controls with fewer digits take for it.
@@ -122,7 +122,7 @@ def _means(start: Point, end: Point, centre: Steps, sweep: float, radius: float,
         return abs(sweep) == tau
     if first == last or max(abs(end[0] - start[0]), abs(end[1] - start[1])) <= CLOSED:
         return False
-    i, j = centre[0] / 10**FINER, centre[1] / 10**FINER
+    i, j = center[0] / 10**FINER, center[1] / 10**FINER
     away = (last[0] - first[0] - i, last[1] - first[1] - j)
     turn = 1 if sweep > 0.0 else -1
     turned = turn * (atan2(away[1], away[0]) - atan2(-j, -i)) % tau

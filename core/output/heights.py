@@ -1,6 +1,6 @@
 """How high a run's pieces lie when segments climb or fall (Z END).
 
-A segment's floor rises evenly with the part of the programmed line or arc that has been travelled.  A piece of a run
+A segment's floor rises evenly with the part of the programmed line or arc that has been traveled.  A piece of a run
 lies over the part of its segment that stands square to it, so a piece shortened at an inside corner begins and ends
 at the height the drawing gives there; where two such heights differ, the tool moves straight up or down between them.
 A corner arc keeps the height of its corner.
@@ -73,7 +73,7 @@ def _ends(path: Path, piece: int, sweep: float, ground: _Ground) -> tuple[float,
 
 
 def _fractions(ends: Floats, sweep: float, ground: _Ground, row: int) -> tuple[float, float]:
-    """Which part of the segment has been travelled at a piece's two ends, 0 to 1; `sweep` is the piece's own angle."""
+    """Which part of the segment has been traveled at a piece's two ends, 0 to 1; `sweep` is the piece's own angle."""
     surface = ground.surface
     if surface.turns[row] == 0:
         run = surface.ends[row] - surface.starts[row]
@@ -86,8 +86,8 @@ def _fractions(ends: Floats, sweep: float, ground: _Ground, row: int) -> tuple[f
 
 def _turned(surface: Path, row: int, point: Floats) -> float:
     """Radians from the arc's start to the ray through `point`, in the arc's direction."""
-    centre, start = surface.centres[row], surface.starts[row]
-    angles: Floats = np.arctan2(*(np.array((start, point)) - centre).T[::-1])
+    center, start = surface.centers[row], surface.starts[row]
+    angles: Floats = np.arctan2(*(np.array((start, point)) - center).T[::-1])
     turned = float((angles[1] - angles[0]) * surface.turns[row]) % tau
     return 0.0 if turned > tau - WRAPPED else turned
 

@@ -1,6 +1,6 @@
-"""Job: everything one MILL CONTOUR block needs to be cut and posted, in millimetres, mm a minute and radians.
+"""Job: everything one MILL CONTOUR block needs to be cut and posted, in millimeters, mm a minute and radians.
 
-Words: a *run* is one centre path with its blend moves, cut in one go at one depth; the *plunge point* is where it
+Words: a *run* is one center path with its blend moves, cut in one go at one depth; the *plunge point* is where it
 begins; a segment's *floor* is the height its Z START and Z END give it.
 """
 
@@ -17,7 +17,7 @@ from core.geometry.piece import Point
 
 @dataclass(frozen=True, slots=True)
 class Cutter:
-    """A tool as the table has it: `diameter` in millimetres."""
+    """A tool as the table has it: `diameter` in millimeters."""
 
     number: int
     diameter: float
@@ -26,7 +26,7 @@ class Cutter:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Run:
-    """One centre path with its blend moves, joined end to start; `offset` is the stock it leaves on the side (mm)."""
+    """One center path with its blend moves, joined end to start; `offset` is the stock it leaves on the side (mm)."""
 
     path: Path
     lead_in: Path = EMPTY

@@ -1,4 +1,4 @@
-"""Motion: what the tool does, as neutral moves, and passes that group them.  Millimetres and mm a minute."""
+"""Motion: what the tool does, as neutral moves, and passes that group them.  Millimeters and mm a minute."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from core.output.job import Cutter
 class Motion:
     """One move from where the tool is to (x, y, z).
 
-    A rapid has no `feed`.  `turn` NONE is a straight move; else the tool turns about `centre`, in the XY plane, and z
+    A rapid has no `feed`.  `turn` NONE is a straight move; else the tool turns about `center`, in the XY plane, and z
     changes evenly with the angle; an arc that ends where it began in XY is one full turn.
     """
 
@@ -21,7 +21,7 @@ class Motion:
     z: float
     feed: float | None = None
     turn: Turn = Turn.NONE
-    centre: Point = (0.0, 0.0)
+    center: Point = (0.0, 0.0)
 
     @property
     def rapid(self) -> bool:

@@ -16,7 +16,7 @@ FEED_DECIMALS: Final = 3
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where the tool is, in millimetres, and the feed in force as text; an axis whose place is not known is None."""
+    """Where the tool is, in millimeters, and the feed in force as text; an axis whose place is not known is None."""
 
     x: float | None = None
     y: float | None = None
@@ -38,7 +38,7 @@ class _Step:
 
     word: str
     target: Place
-    centre: str = ""
+    center: str = ""
 
 
 def nc_lines(motions: Iterable[Motion], place: Place, grid: Grid) -> Written:
@@ -83,12 +83,12 @@ def _arc(motion: Motion, place: Place, feed: str, grid: Grid) -> Iterator[_Step]
     assert place.x is not None
     assert place.y is not None
     assert place.z is not None
-    arc = Arc((place.x, place.y), (motion.x, motion.y), motion.centre, motion.turn)
+    arc = Arc((place.x, place.y), (motion.x, motion.y), motion.center, motion.turn)
     for part in written(arc, grid):
         z = motion.z if part.part == 1.0 else place.z + part.part * (motion.z - place.z)
         target = Place(*part.end, z, feed)
         if isinstance(part, Bow):
-            i, j = (grid.text(steps, FINER) for steps in part.centre)
+            i, j = (grid.text(steps, FINER) for steps in part.center)
             yield _Step(turn_word(motion.turn), target, f" I{i} J{j}")
         else:
             yield _Step("G1", target)
@@ -97,7 +97,7 @@ def _arc(motion: Motion, place: Place, feed: str, grid: Grid) -> Iterator[_Step]
 def _line(step: _Step, place: Place, grid: Grid) -> str:
     """The step as text, empty if nothing moves."""
     axes = "".join(
-        _axis(name, old, new, grid, always=bool(step.centre) and name != "Z")
+        _axis(name, old, new, grid, always=bool(step.center) and name != "Z")
         for name, old, new in (
             ("X", place.x, step.target.x),
             ("Y", place.y, step.target.y),
@@ -105,7 +105,7 @@ def _line(step: _Step, place: Place, grid: Grid) -> str:
         )
     )
     feed = f" F{step.target.feed}" if step.target.feed != place.feed else ""
-    return f"{step.word}{axes}{step.centre}{feed}" if axes else ""
+    return f"{step.word}{axes}{step.center}{feed}" if axes else ""
 
 
 def _axis(name: str, old: float | None, new: float | None, grid: Grid, *, always: bool) -> str:

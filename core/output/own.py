@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from core.controls.contouring import Cut, Plain
-from core.controls.iso_style import STYLES, Radius
-from core.controls.write_iso import Frame, offsets
-from core.controls.write_own import NotWritten, write_own
+from core.controls.write.contouring import Cut, Plain
+from core.controls.write.iso import Frame, offsets
+from core.controls.write.iso_style import STYLES, Radius
+from core.controls.write.program import NotWritten, write_own
 from core.finding import Finding, Severity
 from core.output.comment import comments
 from core.output.grid import Grid
@@ -31,7 +31,7 @@ def objections(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ...]:
             text = (
                 "A segment climbs or falls (Z END) under compensation, where the heights at corners are the control's"
             )
-            text += " own.  Post the centre path, or choose CUTTER COMP. ON."
+            text += " own.  Post the center path, or choose CUTTER COMP. ON."
             found.append(Finding("NOTWRITTEN", Severity.ERROR, f"Block {job.block}: {text}"))
     return tuple(dict.fromkeys(found))
 

@@ -163,7 +163,7 @@ def _leveled(piece: Piece, feed: float, floor: tuple[float, float], level: float
 def _motion(piece: Piece, feed: float, end: Point, z: float) -> Motion:
     if isinstance(piece, Line):
         return Motion(*end, z, feed)
-    return Motion(*end, z, feed, piece.turn, piece.centre)
+    return Motion(*end, z, feed, piece.turn, piece.center)
 
 
 def _point(piece: Piece, part: float) -> Point:
@@ -171,6 +171,6 @@ def _point(piece: Piece, part: float) -> Point:
     (x0, y0), (x1, y1) = piece.start, piece.end
     if isinstance(piece, Line):
         return x0 + part * (x1 - x0), y0 + part * (y1 - y0)
-    (cx, cy), radius = piece.centre, piece.radius
+    (cx, cy), radius = piece.center, piece.radius
     angle = atan2(y0 - cy, x0 - cx) + part * piece.sweep
     return cx + radius * cos(angle), cy + radius * sin(angle)

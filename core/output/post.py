@@ -1,4 +1,4 @@
-"""The program as ISO G-code that LinuxCNC runs: the tool centre's path, no G41 or G42.
+"""The program as ISO G-code that LinuxCNC runs: the tool center's path, no G41 or G42.
 
 What every file states before anything moves: G17 XY plane, G20 or G21, G40 no cutter compensation, G49 no tool length,
 the work offset, G80 no canned cycle, G90 absolute, G91.1 I and J from the arc's start, G94 feed a minute, and
@@ -82,7 +82,7 @@ def titles(name: str, part: str) -> tuple[str, ...]:
 def _header(jobs: Sequence[Job], unit: Unit, head: tuple[str, ...], waived: tuple[Finding, ...]) -> Iterator[str]:
     for title in head:
         yield from comments(title)
-    yield from comments("WRITTEN BY CUTCOMP.  THE PATH IS THAT OF THE TOOL CENTRE: NO G41 OR G42")
+    yield from comments("WRITTEN BY CUTCOMP.  THE PATH IS THAT OF THE TOOL CENTER: NO G41 OR G42")
     yield from comments(f"UNITS {'INCH' if unit is Unit.IN else 'MM'}")
     for cutter, role in _cutters(jobs).items():
         yield from comments(_told(cutter, role, unit))

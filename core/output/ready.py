@@ -134,7 +134,7 @@ def _sane(run: Run) -> bool:
     parts = [part for part in (run.lead_in, run.path, run.lead_out) if len(part)]
     if not parts:
         return True
-    places = np.concatenate([array for part in parts for array in (part.points, part.centres)])
+    places = np.concatenate([array for part in parts for array in (part.points, part.centers)])
     # a comparison with what is no number is false
     return bool(places.min() >= -LARGEST and places.max() <= LARGEST)
 

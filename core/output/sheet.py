@@ -117,7 +117,7 @@ _MARK = {Severity.ERROR: "!!", Severity.WARNING: "!", Severity.INFO: "-"}
 
 def _set_up(job: Job, unit: Unit) -> Iterator[Pair]:
     yield "CUTTER COMP.", job.comp
-    yield "LOOKAHEAD", job.lookahead or "none: the centre runs on the contour"
+    yield "LOOKAHEAD", job.lookahead or "none: the center runs on the contour"
     yield "TOOL", _cutter(job.cutter)
     yield "FINISH TOOL", _cutter(job.finisher) if job.finish_tool else "none"
     if len(job.surface):
@@ -203,5 +203,5 @@ def _minutes(every: Sequence[Pass]) -> str:
 def _way(before: Motion, motion: Motion) -> float:
     ends = (before.x, before.y), (motion.x, motion.y)
     straight = motion.turn is Turn.NONE
-    piece = Line(*ends) if straight else Arc(*ends, motion.centre, motion.turn)
+    piece = Line(*ends) if straight else Arc(*ends, motion.center, motion.turn)
     return hypot(piece.length, motion.z - before.z)

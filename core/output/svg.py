@@ -1,4 +1,4 @@
-"""A scene as an SVG drawing: exact arcs, line weights by role, a legend.  Lengths in it are millimetres, Y up."""
+"""A scene as an SVG drawing: exact arcs, line weights by role, a legend.  Lengths in it are millimeters, Y up."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MARGIN: Final = 0.06
 class Pen:
     """How a role is drawn: `weight` in pixels, dashes as SVG writes them, and its words in the legend."""
 
-    colour: str
+    color: str
     weight: float
     words: str
     dashes: str = ""
@@ -39,7 +39,7 @@ PENS: Final[Mapping[Style, Pen]] = MappingProxyType(
     {
         Style.AXIS: Pen("#9aa5ad", 0.7, "axes", "8 3 2 3"),
         Style.SURFACE: Pen("#1b1f23", 2.2, "part surface"),
-        Style.PATH: Pen("#0b62c4", 1.3, "centre path"),
+        Style.PATH: Pen("#0b62c4", 1.3, "center path"),
         Style.LEAD: Pen("#00856a", 1.3, "blend moves"),
         Style.RAPID: Pen("#7a8894", 0.8, "roughing passes or control's path", "2 3"),
         Style.DELETED: Pen("#b45f06", 2.2, "deleted segments", "6 4"),
@@ -66,7 +66,7 @@ def svg(scene: Scene, *, title: str) -> str:
         *_head(box, title),
         *_axes(scene, (x0 - margin / 2, y0 - margin / 2, x1 + margin / 2, y1 + margin / 2)),
         *(_path(part, layer) for layer in scene.layers for part in layer.parts),
-        *(_circle(circle) for circle in scene.circles if _finite(*circle.centre, circle.radius)),
+        *(_circle(circle) for circle in scene.circles if _finite(*circle.center, circle.radius)),
         *(_mark(mark, size * TEXT) for mark in scene.marks if _finite(*mark.at)),
         _text((x0, y1 + margin), title, size * TEXT * 1.2),
         *_legend(roles, (x0, y0 - margin - line), size * TEXT, line),
@@ -85,7 +85,7 @@ def outline(piece: Piece) -> str:
         return f"L{_at(piece.end)}"
     if abs(piece.sweep) <= pi:
         return _arc(piece, piece.end)
-    (x, y), (cx, cy) = piece.start, piece.centre
+    (x, y), (cx, cy) = piece.start, piece.center
     half = complex(x - cx, y - cy) * np.exp(0.5j * piece.sweep)
     middle = (cx + float(half.real), cy + float(half.imag))
     return f"{_arc(piece, middle)} {_arc(piece, piece.end)}"
@@ -128,7 +128,7 @@ def _head(box: Box, title: str) -> Iterator[str]:
     yield "text { font-family: monospace; fill: #1b1f23 }"
     for style, pen in PENS.items():
         dashes = f"; stroke-dasharray: {pen.dashes}" if pen.dashes else ""
-        yield f".{style.name.lower()} {{ stroke: {pen.colour}; stroke-width: {pen.weight}px{dashes} }}"
+        yield f".{style.name.lower()} {{ stroke: {pen.color}; stroke-width: {pen.weight}px{dashes} }}"
     yield ".dashed { stroke-dasharray: 6 4 }"
     yield "</style>"
     yield f'<rect x="{_number(x0)}" y="{_number(-y1)}" width="100%" height="100%" fill="#ffffff"/>'
@@ -145,7 +145,7 @@ def _axes(scene: Scene, box: Box) -> Iterator[str]:
 
 def _path(path: Path, layer: Layer) -> str:
     """One path of a layer; pieces that are not finite leave a gap."""
-    values = np.hstack((path.starts, path.ends, path.centres))
+    values = np.hstack((path.starts, path.ends, path.centers))
     sound: list[bool] = np.logical_and.reduce(np.isfinite(values), axis=1).tolist()
     words, joined = [], False
     for row in range(len(path)):
@@ -161,7 +161,7 @@ def _drawn(style: Style, data: str, *, dashed: bool = False) -> str:
 
 
 def _circle(circle: Circle) -> str:
-    (x, y), look = circle.centre, circle.style.name.lower()
+    (x, y), look = circle.center, circle.style.name.lower()
     return f'<circle class="{look}" cx="{_number(x)}" cy="{_number(-y)}" r="{_number(circle.radius)}"/>'
 
 
@@ -175,7 +175,7 @@ def _mark(mark: Mark, size: float) -> str:
         one, other = (_at((wing.real, wing.imag)) for wing in wings)
         tip = here + ahead * 0.5
         return _drawn(mark.style, f"M{one} L{_at((tip.real, tip.imag))} L{other}")
-    if mark.symbol in (Symbol.GOUGE, Symbol.DELETED, Symbol.CENTRE):
+    if mark.symbol in (Symbol.GOUGE, Symbol.DELETED, Symbol.CENTER):
         x, y = mark.at
         first = f"M{_at((x - half, y - half))} L{_at((x + half, y + half))}"
         return _drawn(mark.style, f"{first} M{_at((x - half, y + half))} L{_at((x + half, y - half))}")

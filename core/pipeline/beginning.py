@@ -26,10 +26,10 @@ from core.pipeline.table import Trial
 from core.tolerance import CLOSED, GOUGE, JOINED
 
 FEWEST: Final = 3
-"""Segments below which the first and the last one are neighbours on both sides."""
+"""Segments below which the first and the last one are neighbors on both sides."""
 
 MARGIN: Final = 1e-5
-"""Millimetres by which a thing must be wrong to be wrong beyond doubt, whatever rounding and slivers do to it."""
+"""Millimeters by which a thing must be wrong to be wrong beyond doubt, whatever rounding and slivers do to it."""
 
 AT_ONCE: Final = 8192
 """So many distances of a path's corners from walls are measured at most, before it is judged."""
@@ -114,7 +114,7 @@ class _Lead(NamedTuple):
 
     k: int
     at: complex
-    centre: complex
+    center: complex
     turn: int
     before: Piece | None
     held: Flags
@@ -161,8 +161,8 @@ def _look(found: list[bool], leads: list[_Lead], trials: Sequence[Trial], walls:
 def _quarters(leads: list[_Lead], trials: Sequence[Trial]) -> Measured:
     """The leads as pieces."""
     count = len(leads)
-    at, centre, turn = (np.array(column) for column in zip(*(lead[1:4] for lead in leads), strict=True))
-    arm = at - centre
+    at, center, turn = (np.array(column) for column in zip(*(lead[1:4] for lead in leads), strict=True))
+    arm = at - center
     blend = np.array([trials[lead.k].blend for lead in leads])
     return Measured(
         np.arange(count),
@@ -197,7 +197,7 @@ def _end(piece: Piece, at: list[float], trial: Trial) -> _End | None:
     if not length > MARGIN:
         return None
     if isinstance(piece, Arc):
-        radius, other = (abs(complex(*end) - complex(*piece.centre)) for end in (piece.start, piece.end))
+        radius, other = (abs(complex(*end) - complex(*piece.center)) for end in (piece.start, piece.end))
         if not min(radius, other) - max(piece.turn * shift, 0.0) > MARGIN:
             return None
         length *= 1.0 - piece.turn * shift / radius
@@ -219,17 +219,17 @@ def _leads(k: int, trial: Trial, ends: tuple[_End, _End], apart: Floats, held: F
 
 
 def _past(first: _End, overlap: float) -> tuple[Piece, complex]:
-    """The first `overlap` millimetres of the path, and its direction behind them."""
+    """The first `overlap` millimeters of the path, and its direction behind them."""
     start, piece = _point(first.at), first.piece
     if not isinstance(piece, Arc):
         return Line(start, _point(first.at + overlap * first.along)), first.along
-    centre = complex(*piece.centre)
-    turned = rect(1.0, piece.turn * overlap / abs(first.at - centre))
-    return Arc(start, _point(centre + (first.at - centre) * turned), piece.centre, piece.turn), first.along * turned
+    center = complex(*piece.center)
+    turned = rect(1.0, piece.turn * overlap / abs(first.at - center))
+    return Arc(start, _point(center + (first.at - center) * turned), piece.center, piece.turn), first.along * turned
 
 
 def _lead(k: int, at: complex, along: complex, way: int, trial: Trial, before: Piece | None, held: Flags) -> _Lead:
-    """The blend arc at an end of the path, from there whichever `way` it is travelled: 1 behind it, -1 before it."""
+    """The blend arc at an end of the path, from there whichever `way` it is traveled: 1 behind it, -1 before it."""
     sign = trial.side.sign
     return _Lead(k, at, at + trial.blend * sign * 1j * along, way * sign, before, held)
 

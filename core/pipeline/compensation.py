@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final
 
-from core.comp.best import BestPath, best_path
+from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.blend import blend_in, blend_out
 from core.comp.compensate import Crossed, compensate, crossed
 from core.comp.lookahead import HIGHEST, LOWEST
@@ -14,7 +15,6 @@ from core.geometry.side import Side
 from core.pipeline.derived import Loop
 from core.program.fields import default
 from core.program.model import Entry, PathChoice, Program
-from core.records import dataclass
 from core.units import to_mm
 
 SHARED: Final = 1000
@@ -22,7 +22,7 @@ SHARED: Final = 1000
 
 
 def parameter(program: Program, name: str) -> float:
-    """A program parameter as typed or its default; lengths in millimetres, a percentage as it is."""
+    """A program parameter as typed or its default; lengths in millimeters, a percentage as it is."""
     typed = getattr(program.parameters, name)
     value = typed.value if isinstance(typed, Entry) else default(name, program.unit)
     if value is None:
@@ -32,7 +32,7 @@ def parameter(program: Program, name: str) -> float:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Compensation:
-    """A surface, the side on which it is cut, and the look-ahead in force; radii in millimetres."""
+    """A surface, the side on which it is cut, and the look-ahead in force; radii in millimeters."""
 
     surface: Path
     side: Side

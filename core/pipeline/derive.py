@@ -7,7 +7,7 @@ from itertools import compress, count
 from operator import is_not
 from typing import Final
 
-from core.comp.best import best_path, separation
+from core.comp.best_path.best_path import best_path, separation
 from core.finding import Finding
 from core.geometry.path import EMPTY, Path
 from core.output.grid import Grid
@@ -127,7 +127,7 @@ def better(found: DerivedBlock) -> tuple[Finding, ...]:
 
 
 def stocks(found: DerivedBlock, program: Program) -> tuple[float, ...]:
-    """What each pass before the finish path leaves on the surface, in millimetres, outermost first.
+    """What each pass before the finish path leaves on the surface, in millimeters, outermost first.
 
     PROFILE comes in from MAX OFFSET, each pass overlapping the one before by POCKET OVERLAP percent of the cutter's
     diameter; a finish tool has a roughing pass in front of it that leaves FINISH XY.

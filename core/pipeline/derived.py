@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from core.finding import Finding, Severity
 from core.geometry.side import Side
 from core.program.model import Block, Program
-from core.program.solved import SolvedBlock
-from core.records import dataclass
+from core.program.solve.solved import SolvedBlock
 
 if TYPE_CHECKING:
-    from core.comp.best import BestPath
+    from core.comp.best_path.best_path import BestPath
     from core.comp.compensate import Crossed
     from core.comp.result import Compensated
     from core.geometry.path import Path
@@ -38,7 +38,7 @@ class LookAhead:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RoughPass:
-    """One pass before the finish path: its `loops` leave `stock` millimetres on the surface.
+    """One pass before the finish path: its `loops` leave `stock` millimeters on the surface.
 
     `compensated` is the control's path, whether posted or not.  `verdict` is that of a cutter larger by the stock: what
     it gouges deeper than the stock is cut into the part, the rest is stock that is not left.
@@ -52,7 +52,7 @@ class RoughPass:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Loop:
-    """One centre path with its blend moves, cut in one go."""
+    """One center path with its blend moves, cut in one go."""
 
     path: Path
     lead_in: Path
@@ -68,11 +68,11 @@ class Loop:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Work:
-    """What the cutter does in one block, in millimetres.
+    """What the cutter does in one block, in millimeters.
 
     `surface` is the determined part of the contour; `loops` the finish path that is posted, one or, for PATH BEST,
     one for each loop, and `verdict` what it does.  `compensated` is the control's path, whether posted or not.
-    `compensated` and `verdict` are None for CUTTER COMP. ON, where the centre runs on the contour itself.
+    `compensated` and `verdict` are None for CUTTER COMP. ON, where the center runs on the contour itself.
     `rough` comes before, outermost first.  `best` is the best path where PATH is BEST.  `crossed` is what `compensated`
     and the paths of all other look-aheads were made of, `ground` the surface as they are judged over it; both are None
     for a contour so large that they are not kept.
@@ -88,7 +88,7 @@ class Work:
     ground: Ground | None = None
 
     @property
-    def centre(self) -> Path:
+    def center(self) -> Path:
         """The first loop with its blends; the empty path if there is none."""
         from core.geometry.path import EMPTY
 
@@ -99,7 +99,7 @@ class Work:
 class DerivedBlock:
     """One block with everything that follows from it.
 
-    `radius` is the finish path's cutter radius in millimetres, None without a usable tool; `side` is None for ON.
+    `radius` is the finish path's cutter radius in millimeters, None without a usable tool; `side` is None for ON.
     `work` is None in an outline, and when there is no surface or no radius to work with; `known` tells the two apart.
     """
 

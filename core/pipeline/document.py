@@ -39,7 +39,7 @@ def _block(found: DerivedBlock, unit: Unit) -> Document:
 
 
 def _clearance(found: DerivedBlock, unit: Unit) -> float | None:
-    """The smallest distance from the centre path to the surface, blends included; None where there is none."""
+    """The smallest distance from the center path to the surface, blends included; None where there is none."""
     verdict = None if found.work is None else found.work.verdict
     if verdict is None or not isfinite(verdict.clearance):
         return None
@@ -65,15 +65,15 @@ def _block_moves(found: DerivedBlock, unit: Unit) -> Iterator[Document]:
 
 
 def _moves(path: Path, part: str, unit: Unit) -> Iterator[Document]:
-    points, centres, turns, numbers = (
-        array.tolist() for array in (path.points, path.centres, path.turns, path.numbers)
+    points, centers, turns, numbers = (
+        array.tolist() for array in (path.points, path.centers, path.turns, path.numbers)
     )
     for row, turn in enumerate(turns):
         (x0, y0), (x, y) = points[row], points[row + 1]
         ends = {"x0": from_mm(x0, unit), "y0": from_mm(y0, unit), "x": from_mm(x, unit), "y": from_mm(y, unit)}
         move = {"type": "arc" if turn else "line", "part": part, "segment": plain(numbers[row]), **ends}
         if turn:
-            cx, cy = centres[row]
+            cx, cy = centers[row]
             move |= {"cx": from_mm(cx, unit), "cy": from_mm(cy, unit), "ccw": turn > 0}
         yield move
 

@@ -12,7 +12,7 @@ from core.units import Kind, Unit, from_mm, sentence, show
 
 
 def path_listing(derived: Derived, number: int | None = None) -> Iterator[str]:
-    """Every move of the centre path, a line each, under a heading for its block."""
+    """Every move of the center path, a line each, under a heading for its block."""
     unit = derived.program.unit
     chosen = derived.blocks if number is None else (derived.block(number),)
     for found, block in zip(chosen, path_document(derived, number)["blocks"], strict=True):

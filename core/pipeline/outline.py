@@ -12,10 +12,10 @@ from core.geometry.side import Side
 from core.pipeline.derived import Derived, DerivedBlock, LookAhead, Tag
 from core.pipeline.safe_height import safe_height_findings
 from core.pipeline.unsaid import unsaid_findings
-from core.program.assist import solve_block
 from core.program.model import Block, CutterComp, Entry, Program
 from core.program.shared import shared_findings
-from core.program.solved import SolvedBlock
+from core.program.solve.solve import solve_block
+from core.program.solve.solved import SolvedBlock
 from core.tolerance import JOINED
 
 _SIDES = {

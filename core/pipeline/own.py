@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import pi
 
 from core.comp.result import Compensated
-from core.controls.contouring import Cut, Plain, Travel
+from core.controls.write.contouring import Cut, Plain, Travel
 from core.finding import Finding, Severity
 from core.geometry.construct import rotated
 from core.geometry.piece import Arc
@@ -32,10 +32,10 @@ def post_for(derived: Derived, *, name: str, control: str) -> Posted | Refusal:
 
 
 def _best(derived: Derived) -> tuple[Finding, ...]:
-    """The best path is a path of the tool's centre: no control makes it of a contour."""
+    """The best path is a path of the tool's center: no control makes it of a contour."""
     if derived.program.parameters.path is not PathChoice.BEST:
         return ()
-    text = "PATH is BEST, which no control's own compensation runs.  Post the centre path, or choose PATH CONTROL."
+    text = "PATH is BEST, which no control's own compensation runs.  Post the center path, or choose PATH CONTROL."
     return (Finding("NOTWRITTEN", Severity.ERROR, text, field="path"),)
 
 
@@ -47,7 +47,7 @@ def _cuts(found: DerivedBlock, job: Job) -> list[Cut | Plain]:
 
 
 def _plain(one: Pass, job: Job) -> Plain:
-    """A pass with nothing to compensate: the tool's centre runs on the contour."""
+    """A pass with nothing to compensate: the tool's center runs on the contour."""
     heights = [motion.z for motion in one.motions]
     return Plain(
         travels=tuple(_travels(one.motions)),
@@ -72,14 +72,14 @@ def _travels(motions: Sequence[Motion]) -> Iterator[Travel]:
     before = motions[0]
     for each in motions:
         start, end = (before.x, before.y), (each.x, each.y)
-        turn, centre, z = int(each.turn), each.centre, (before.z + each.z) / 2
+        turn, center, z = int(each.turn), each.center, (before.z + each.z) / 2
         if turn and start != end and max(abs(end[0] - start[0]), abs(end[1] - start[1])) <= CLOSED:
-            sweep = Arc(start, end, centre, each.turn).sweep
+            sweep = Arc(start, end, center, each.turn).sweep
             if abs(sweep) < pi:
                 turn = 0
             else:
-                yield Travel(*rotated(start, centre, sweep / 2), z, each.feed, turn, centre)
-        yield Travel(*end, each.z, each.feed, turn, centre)
+                yield Travel(*rotated(start, center, sweep / 2), z, each.feed, turn, center)
+        yield Travel(*end, each.z, each.feed, turn, center)
         before = each
 
 

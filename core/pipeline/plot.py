@@ -1,4 +1,4 @@
-"""What is drawn of a block: surface, centre path, blends, what was deleted, gouged and left, and the cutter."""
+"""What is drawn of a block: surface, center path, blends, what was deleted, gouged and left, and the cutter."""
 
 from __future__ import annotations
 

@@ -52,11 +52,11 @@ def prove(text: bytes, control: str, tools: ToolTable, unit: Unit | None = None)
 
 
 def ground_of(proof: Proof) -> Scene:
-    """All that does not depend on the cursor: rapids, other moves, surfaces, centre paths, gouges, what is uncut."""
+    """All that does not depend on the cursor: rapids, other moves, surfaces, center paths, gouges, what is uncut."""
     moves, plane = proof.run.moves, proof.plane
     feeds = ~moves.rapid
     for result in proof.results:
-        # these are drawn as centre paths
+        # these are drawn as center paths
         feeds[result.stretch.first + 1 : result.stretch.last] &= result.stretch.plane is not plane
     layers = [Layer(path, Style.RAPID, dashed=True) for path in _parts(moves, plane, moves.rapid)]
     layers += [Layer(path, Style.LEAD) for path in _parts(moves, plane, feeds)]
@@ -77,7 +77,7 @@ def _stretch_scene(result: Judged) -> Scene:
     verdict, surface = result.verdict, result.surface
     return contour_scene(
         surface,
-        path=result.centre,
+        path=result.center,
         gouges=[gouge.surface_at for gouge in verdict.gouges],
         uncut=stretches(surface, verdict.uncut.ends),
     )
@@ -90,7 +90,7 @@ def scene_of(ground: Scene, proof: Proof, line: int) -> Scene:
     at, row = place_of(proof, line)
     held = _stretch_at(proof, row)
     circles = () if held is None else (Circle(at, held.radius),)
-    marks = (Mark(at, Style.CUTTER, Symbol.CENTRE),)
+    marks = (Mark(at, Style.CUTTER, Symbol.CENTER),)
     return Scene((*ground.layers, *layers), circles, (*ground.marks, *marks), ground.unit)
 
 

@@ -25,7 +25,7 @@ from core.tolerance import CLOSED
 from core.verify.judge import rulings
 
 STEP: Final = 0.001
-"""Millimetres to which the largest diameter is found."""
+"""Millimeters to which the largest diameter is found."""
 
 MOST_STARTS: Final = 6
 """So many of the longest sides are tried as the start."""
@@ -45,7 +45,7 @@ USUAL: Final = (8, 3, 1, 20)
 
 @dataclass(frozen=True, slots=True)
 class ToolFits:
-    """A cutter of `diameter` millimetres is clean at `value`, one of STEP more at no value."""
+    """A cutter of `diameter` millimeters is clean at `value`, one of STEP more at no value."""
 
     diameter: float
     value: int
@@ -252,8 +252,8 @@ def start_at_end(trial: Trial, wanted: Callable[[], bool] = always) -> StartMove
         return None
     _still(wanted)
     points = np.concatenate((surface.points[-1:], surface.points[1:]))
-    centres = np.concatenate((points[:1], surface.centres[1:]))
-    closed = replace(trial, surface=Path.of(points, centres, surface.turns, surface.numbers), closed=True)
+    centers = np.concatenate((points[:1], surface.centers[1:]))
+    closed = replace(trial, surface=Path.of(points, centers, surface.turns, surface.numbers), closed=True)
     value = Cuts(closed, Walls.of(closed.surface)).recommended
     x, y = points[0].tolist()
     return None if value is None else StartMoved(float(surface.numbers[0]), (x, y), value)
@@ -280,7 +280,7 @@ def middle(piece: Piece) -> Point:
     (x0, y0), (x1, y1) = piece.start, piece.end
     if not isinstance(piece, Arc):
         return (x0 + x1) / 2.0, (y0 + y1) / 2.0
-    (cx, cy), half = piece.centre, piece.sweep / 2.0
+    (cx, cy), half = piece.center, piece.sweep / 2.0
     dx, dy = x0 - cx, y0 - cy
     return cx + dx * cos(half) - dy * sin(half), cy + dx * sin(half) + dy * cos(half)
 
@@ -290,5 +290,5 @@ def started(contour: Path, row: int) -> Path:
     at = np.array([middle(contour[row])])
     points = np.concatenate((at, contour.points[row + 1 :], contour.points[1 : row + 1], at))
     turns = np.concatenate((contour.turns[row:], contour.turns[: row + 1]))
-    centres = np.concatenate((contour.centres[row:], contour.centres[: row + 1]))
-    return Path.of(points, np.where(turns[:, None] == 0, points[:-1], centres), turns)
+    centers = np.concatenate((contour.centers[row:], contour.centers[: row + 1]))
+    return Path.of(points, np.where(turns[:, None] == 0, points[:-1], centers), turns)

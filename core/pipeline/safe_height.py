@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from core.finding import Finding, Severity
 from core.program.fields import Form, check, default, field
 from core.program.model import Entry, Program, Typed
-from core.program.solved import SolvedBlock
+from core.program.solve.solved import SolvedBlock
 from core.tolerance import JOINED
 from core.units import to_mm
 
@@ -29,7 +29,7 @@ def safe_height_findings(solved: SolvedBlock, program: Program) -> Iterator[Find
 
 
 def _length(typed: Typed, form: Form, name: str, program: Program) -> float | None:
-    """A length or its default in millimetres; None for one that is refused."""
+    """A length or its default in millimeters; None for one that is refused."""
     if typed is None:
         usual = default(name, program.unit)
         return None if usual is None else to_mm(usual, program.unit)

@@ -1,8 +1,8 @@
 """Steps in Z: where the posted path goes straight up or down between two of its moves.
 
 A segment that climbs or falls and of which a blend arc, an inside corner or the look-ahead takes the end leaves its
-neighbours at different heights; so does a Z END on a segment without length.  The tool then plunges with its whole
-width, which an end mill that does not cut at its centre cannot.
+neighbors at different heights; so does a Z END on a segment without length.  The tool then plunges with its whole
+width, which an end mill that does not cut at its center cannot.
 """
 
 from __future__ import annotations

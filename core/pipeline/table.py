@@ -26,7 +26,7 @@ from core.verify.verdict import Verdict
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Row:
-    """One look-ahead value: the path it makes and what that path does; lengths in millimetres."""
+    """One look-ahead value: the path it makes and what that path does; lengths in millimeters."""
 
     value: int
     compensated: Compensated
@@ -85,7 +85,7 @@ class Table:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Trial:
-    """A contour and how it is to be cut; lengths in millimetres, `blend` and `overlap` 0 for none.
+    """A contour and how it is to be cut; lengths in millimeters, `blend` and `overlap` 0 for none.
 
     `stocks` are what the roughing passes leave, cut by a tool of radius `rougher`, of `radius` without a finish tool.
     `ground` is the surface as paths are judged over it, where that is known.
@@ -187,5 +187,5 @@ def _every(trial: Trial, radius: float, judged: Judged | None) -> tuple[Compensa
 def _same(one: Compensated, judged: Judged) -> bool:
     """Whether two paths are the same to the last bit, and so are their blends."""
     path, other = one.path, judged.compensated.path
-    names = ("turns", "numbers", "points", "centres")
+    names = ("turns", "numbers", "points", "centers")
     return path is other or all(np.array_equal(getattr(path, name), getattr(other, name)) for name in names)

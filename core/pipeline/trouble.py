@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import dist, inf
 from typing import Final
 
-from core.comp.best import BestPath, Separation
+from core.comp.best_path.best_path import BestPath, Separation
 from core.comp.result import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path
@@ -75,7 +75,7 @@ def _move_name(loop: Loop, path: Path, row: int, surface: Path) -> str:
     if path is loop.lead_in:
         return "The blend-in arc"
     # the overlap's arcs are the path's own, the blend's is not
-    again = bool((planes(loop.path.centres) == planes(path.centres)[row]).any())
+    again = bool((planes(loop.path.centers) == planes(path.centers)[row]).any())
     if row == len(path) - 1 and path.turns[row] and not again:
         return "The blend-out arc"
     return f"{move_name(path, row, surface)} past START"
@@ -150,7 +150,7 @@ def nearest_of(found: DerivedBlock) -> Nearest | None:
 
 
 def nearest_finding(found: DerivedBlock) -> Finding | None:
-    """The least distance from the centre path to the surface against the tool's radius, and where; None for none."""
+    """The least distance from the center path to the surface against the tool's radius, and where; None for none."""
     place = nearest_of(found)
     if place is None or found.radius is None:
         return None

@@ -22,12 +22,12 @@ def turning_back(surface: Path, *, closed: bool) -> tuple[Finding, ...]:
 
     Two arcs do so where scallops meet, and are left alone.
     """
-    points, centres, turns = planes(surface.points), planes(surface.centres), surface.turns
-    # a line has its own start for a centre: from there to its end it runs as it is
-    leave, arcs = points[1:] - centres, turns.nonzero()[0]
+    points, centers, turns = planes(surface.points), planes(surface.centers), surface.turns
+    # a line has its own start for a center: from there to its end it runs as it is
+    leave, arcs = points[1:] - centers, turns.nonzero()[0]
     into, quarter = leave.copy(), 1j * turns[arcs]
     leave[arcs] *= quarter
-    into[arcs] = quarter * (points[arcs] - centres[arcs])
+    into[arcs] = quarter * (points[arcs] - centers[arcs])
     turned = leave.conj() * onward(into)
     rows = (turned.real < -STRAIGHT_BACK * np.abs(turned)).nonzero()[0].tolist()
     joints = [(row, (row + 1) % len(turns)) for row in rows if closed or row + 1 < len(turns)]

@@ -8,12 +8,12 @@ from typing import Final
 from core.finding import Finding, Severity
 from core.program.fields import Form, check, default, field
 from core.program.model import Block, CutterComp, Entry, Program, Unread
-from core.program.solved import SolvedBlock
+from core.program.solve.solved import SolvedBlock
 from core.tolerance import LAST_PASS, ON_PATH
 from core.units import Kind, from_mm, show, to_mm
 
 SHOWN: Final = 0.01
-"""A field shows a length above this, in millimetres, as something else than 0 in any unit."""
+"""A field shows a length above this, in millimeters, as something else than 0 in any unit."""
 
 
 def unsaid_findings(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
@@ -60,7 +60,7 @@ def _not_left(block: Block, program: Program) -> Iterator[Finding]:
 
 
 def _parameter(name: str, program: Program) -> float | None:
-    """A length of PROGRAM PARAMETERS in millimetres, or its default; None for one that is refused."""
+    """A length of PROGRAM PARAMETERS in millimeters, or its default; None for one that is refused."""
     typed = getattr(program.parameters, name)
     if isinstance(typed, Unread):
         return None

@@ -7,7 +7,7 @@ than a look at each of them.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Final, Generic, TypeVar
 
@@ -24,7 +24,6 @@ from core.program.coding import (
     word_of,
 )
 from core.program.model import Block, Program, changed
-from core.records import dataclass
 from core.units import Unit
 
 One = TypeVar("One")

@@ -8,7 +8,7 @@ from 1, segment 0 is START.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Final
 
@@ -30,7 +30,6 @@ from core.program.model import (
     Typed,
     changed,
 )
-from core.records import dataclass
 from core.units import Kind, Unit, printable
 
 
@@ -204,7 +203,7 @@ def set_parameter(program: Program, name: str, typed: Typed) -> Edited:
 
 
 def set_path_choice(program: Program, choice: PathChoice) -> Program:
-    """Choose which centre path is posted."""
+    """Choose which center path is posted."""
     return replace(program, parameters=replace(program.parameters, path=choice))
 
 

@@ -7,6 +7,7 @@ One table for the form, the reader of files, and the messages, so that a field h
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from enum import StrEnum
 from math import isfinite
 from types import MappingProxyType
@@ -21,7 +22,6 @@ from core.program.model import (
     PathChoice,
     Segment,
 )
-from core.records import dataclass
 from core.units import Kind, Unit, from_mm
 
 
@@ -29,7 +29,7 @@ from core.units import Kind, Unit, from_mm
 class Field:
     """One field: `low` and `high` bound what may be typed (inclusive), None is open.
 
-    Lengths and feeds are bounded in millimetres, so that a field takes the same part in both units.
+    Lengths and feeds are bounded in millimeters, so that a field takes the same part in both units.
     """
 
     name: str
@@ -56,7 +56,7 @@ class Form(StrEnum):
 
 
 FARTHEST: Final = 254000.0
-"""Largest coordinate and length in millimetres, and feed in millimetres a minute: 10000 in, beyond any machine."""
+"""Largest coordinate and length in millimeters, and feed in millimeters a minute: 10000 in, beyond any machine."""
 
 FASTEST: Final = 100000
 """Largest SPEED in revolutions a minute."""
@@ -185,7 +185,7 @@ PARAMETERS: Final = (
         "path",
         "PATH",
         Kind.CHOICE,
-        "Select which centre path is posted: the control's, or the best one.",
+        "Select which center path is posted: the control's, or the best one.",
         choices=tuple(choice.value for choice in PathChoice),
     ),
 )
@@ -290,5 +290,5 @@ _DEFAULTS: Final[Mapping[str, tuple[float, float]]] = MappingProxyType(
 
 def default(name: str, unit: Unit) -> float | None:
     """What a blank on PROGRAM PARAMETERS or PART SETUP stands for, in program units; None if it stands for nothing."""
-    inch, millimetre = _DEFAULTS.get(name, (None, None))
-    return inch if unit is Unit.IN else millimetre
+    inch, millimeter = _DEFAULTS.get(name, (None, None))
+    return inch if unit is Unit.IN else millimeter

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from core.program.model import Program
-from core.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)

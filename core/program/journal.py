@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, field, replace
 from itertools import pairwise
 from typing import Any, Final
 from zlib import crc32
@@ -16,11 +16,10 @@ from zlib import crc32
 from core.program.coding import Damaged, text_of, whole_of
 from core.program.delta import applied, delta
 from core.program.edit import Where
+from core.program.file.stamp import Stamp
 from core.program.history import History, Step
 from core.program.lock import Owner, owner_of
 from core.program.model import Program
-from core.program.stamp import Stamp
-from core.records import dataclass, field
 
 FORMAT: Final = 1
 """The format of journals that is read and written."""

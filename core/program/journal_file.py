@@ -6,13 +6,13 @@ import os
 import stat
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
+from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Final, Self
 
 from core.program.disk import sync_folder, write_all
-from core.program.store import write_text
-from core.records import dataclass
+from core.program.file.store import write_text
 
 if TYPE_CHECKING:
     from core.program.journal import Record, Recovered

@@ -1,7 +1,7 @@
 """Who has a program open: a small hidden file beside it, made in one step, with the owner's name in it.
 
 The lock tells, it does not force: a second opener may look or take over, and the first one finds another name in the
-file before it saves.  Two who recognise the same dead lock in the same moment may both believe that it is theirs;
+file before it saves.  Two who recognize the same dead lock in the same moment may both believe that it is theirs;
 before saving, one of them finds the other's name.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import os
 from contextlib import suppress
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from getpass import getuser
 from pathlib import Path
 from socket import gethostname
@@ -18,7 +18,6 @@ from time import sleep
 from typing import Final
 
 from core.program.disk import write_all
-from core.records import dataclass
 
 SUFFIX: Final = ".cutcomp-lock"
 

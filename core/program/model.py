@@ -1,17 +1,16 @@
 """The program as the operator typed it: frozen, blanks included, nothing calculated.
 
-Numbers are in program units, as typed; `core.program.assist` turns them into millimetres and calculates
+Numbers are in program units, as typed; `core.program.solve.solve` turns them into millimeters and calculates
 the blanks.  A blank is None, text that could not be read stays as `Unread`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any, TypeVar
 
-from core.records import dataclass, field
 from core.units import Unit
 
 
@@ -51,7 +50,7 @@ class Direction(StrEnum):
 
 
 class PathChoice(StrEnum):
-    """Which centre path is posted: the control's, or the true offset."""
+    """Which center path is posted: the control's, or the true offset."""
 
     CONTROL = "CONTROL"
     BEST = "BEST"
@@ -88,7 +87,7 @@ class ArcSegment:
 
 @dataclass(frozen=True, slots=True)
 class BlendSegment:
-    """A BLEND ARC as typed: tangent to both neighbours."""
+    """A BLEND ARC as typed: tangent to both neighbors."""
 
     radius: Typed = None
     feed: Typed = None

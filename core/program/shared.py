@@ -9,7 +9,7 @@ from typing import Final
 from core.finding import Finding
 from core.program.fields import Form
 from core.program.model import Program
-from core.program.reading import read
+from core.program.solve.reading import read
 
 NOWHERE: Final = 0
 """Segment number handed to `read`; these fields belong to no segment."""

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from math import isfinite
 from typing import Final
 
 from core.finding import Finding, Severity
 from core.program.fields import TOOL, check
 from core.program.model import Entry, Tool
-from core.records import dataclass, field
 from core.tolerance import LARGEST
 from core.units import Unit, convert, printable
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import isfinite
 from typing import assert_never
 
@@ -9,13 +10,12 @@ from core.finding import Finding, Severity
 from core.program.entries import misfit
 from core.program.fields import Form, check, field
 from core.program.model import Entry, Program, Tool, Typed, Unread
-from core.records import dataclass
 from core.units import Unit, printable, to_mm
 
 
 @dataclass(frozen=True, slots=True)
 class Called:
-    """A tool as a block calls it: `diameter` in millimetres, None where the table gives none that can be used."""
+    """A tool as a block calls it: `diameter` in millimeters, None where the table gives none that can be used."""
 
     type: str = ""
     diameter: float | None = None
@@ -31,7 +31,7 @@ def called(program: Program, typed: Typed, name: str, severity: Severity = Sever
     """The tool that field `name` (`tool` or `finish_tool`) calls.
 
     A blank and unreadable text call nothing and are for others to tell; 0 is no finish tool.
-    `severity` weighs a diameter that cannot be used, which hurts less when the centre runs on the contour.
+    `severity` weighs a diameter that cannot be used, which hurts less when the center runs on the contour.
     """
     if not isinstance(typed, Entry) or (name == "finish_tool" and typed.value == 0.0):
         return Called()
@@ -51,7 +51,7 @@ def called(program: Program, typed: Typed, name: str, severity: Severity = Sever
 
 
 def diameter(tool: Tool, unit: Unit) -> float | None:
-    """Diameter in millimetres, None while it is blank, unreadable or not above 0."""
+    """Diameter in millimeters, None while it is blank, unreadable or not above 0."""
     match tool.diameter:
         case Entry(value) if isfinite(value) and value > 0.0:
             return to_mm(value, unit)

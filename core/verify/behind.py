@@ -1,4 +1,4 @@
-"""Behind: where a gouging centre path is itself on the part's side of the surface, and how far inside it gets there.
+"""Behind: where a gouging center path is itself on the part's side of the surface, and how far inside it gets there.
 
 A path changes sides where it meets the surface, and beside an open contour where it passes the normal at a free end,
 beyond which there is no side.  Parted there it has one side in each part: that of the part's middle.
@@ -6,6 +6,7 @@ beyond which there is no side.  Parted there it has one side in each part: that 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import inf
 from typing import Final
 
@@ -14,7 +15,6 @@ import numpy as np
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import distance, foot, on_line
 from core.geometry.measured import Flags, Floats, Points, Rows, at, direction, place
-from core.records import dataclass
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.farthest import FINE, farthest
 from core.verify.gouge import Gouging
@@ -31,9 +31,9 @@ HALVINGS: Final = 40
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Behind:
-    """m parts of pieces `index` of the centre path that are on the part's side, in order.
+    """m parts of pieces `index` of the center path that are on the part's side, in order.
 
-    `place`, in length travelled, is where the part is farthest inside, `apart` its distance there from the surface,
+    `place`, in length traveled, is where the part is farthest inside, `apart` its distance there from the surface,
     `j` the nearest wall.
     """
 
@@ -53,7 +53,7 @@ NO_PARTS: Final = Stretches(np.zeros(0), np.zeros(0))
 
 
 def parted(pairs: Pairs, near: Approaches, found: Gouging, sides: Sided, radius: float) -> Stretches:
-    """Gouging stretches parted where the centre path may change sides; `near` is what gouges.
+    """Gouging stretches parted where the center path may change sides; `near` is what gouges.
 
     A cutter of no radius gouges nothing: of its path the pieces that meet walls without running along one are asked.
     Where a surface crosses itself the sides of its walls contradict each other, and nothing is asked.
@@ -63,7 +63,7 @@ def parted(pairs: Pairs, near: Approaches, found: Gouging, sides: Sided, radius:
         return NO_PARTS
     met = _meeting(pairs, radius)
     if radius <= GOUGE:
-        stretches = union(pairs.centre_stations[pairs.i[met]], pairs.centre_stations[pairs.i[met] + 1])
+        stretches = union(pairs.center_stations[pairs.i[met]], pairs.center_stations[pairs.i[met] + 1])
     if not len(stretches):
         return NO_PARTS
     cuts = _crossed_at(pairs, near, met, radius), _ends_passed(pairs, stretches, sides), _joints(pairs, sides)
@@ -73,7 +73,7 @@ def parted(pairs: Pairs, near: Approaches, found: Gouging, sides: Sided, radius:
 
 def behind(pairs: Pairs, runs: Stretches, radius: float) -> Behind:
     """Of `runs`, parts on the part's side, parted at the joints within them, what is more than GOUGE there."""
-    return _deepest(pairs, _parts(runs, pairs.centre_stations[1:-1]), radius) if len(runs) else NOWHERE
+    return _deepest(pairs, _parts(runs, pairs.center_stations[1:-1]), radius) if len(runs) else NOWHERE
 
 
 def deepened(found: Gouging, inside: Behind, radius: float, slack: float) -> Gouging:
@@ -98,10 +98,10 @@ def deepened(found: Gouging, inside: Behind, radius: float, slack: float) -> Gou
 
 
 def _meeting(pairs: Pairs, radius: float) -> Rows:
-    """Pairs whose pieces meet; along a wall the centre of a cutter of no radius does so everywhere."""
+    """Pairs whose pieces meet; along a wall the center of a cutter of no radius does so everywhere."""
     meets = pairs.touch.apart <= JOINED
     if radius <= GOUGE:
-        held = np.zeros(len(pairs.centre), np.bool_)
+        held = np.zeros(len(pairs.center), np.bool_)
         held[pairs.i[pairs.touch.along]] = True
         meets &= ~held[pairs.i]
     return meets.nonzero()[0]
@@ -109,28 +109,28 @@ def _meeting(pairs: Pairs, radius: float) -> Rows:
 
 def _joints(pairs: Pairs, sides: Sided) -> Floats:
     """Places between pieces at which the side may be another one: beside a closed contour those where a path ends."""
-    joints, moves = pairs.centre_stations[1:-1], pairs.centre
+    joints, moves = pairs.center_stations[1:-1], pairs.center
     return joints[np.abs(moves.end[:-1] - moves.start[1:]) > JOINED] if sides.endless else joints
 
 
 def _crossed_at(pairs: Pairs, near: Approaches, met: Rows, radius: float) -> Floats:
-    """Places of the centre path at which these pairs meet: they are all among those that gouge, but with a cutter of
+    """Places of the center path at which these pairs meet: they are all among those that gouge, but with a cutter of
     hardly any radius."""
     if radius - GOUGE - pairs.grant.max(initial=0.0) <= JOINED:
         near = measure(pairs, pairs.i[met], pairs.j[met], np.inf)
     k, pair = np.nonzero(near.apart <= JOINED)
     i = near.i[pair]
-    places: Floats = pairs.centre_stations[i] + near.places[k, pair] * pairs.centre.length[i]
+    places: Floats = pairs.center_stations[i] + near.places[k, pair] * pairs.center.length[i]
     return places
 
 
 def _ends_passed(pairs: Pairs, stretches: Stretches, sides: Sided) -> Floats:
     """Places of these stretches' pieces on the normals at the surface's two ends, or at a closed one's open seam."""
-    walls, moves = pairs.surface, pairs.centre
+    walls, moves = pairs.surface, pairs.center
     if sides.endless and abs(walls.end[-1] - walls.start[0]) <= ON_PATH:
         return np.zeros(0)
-    begin, _ = place(moves, pairs.centre_stations, stretches.first)
-    end, _ = place(moves, pairs.centre_stations, stretches.last)
+    begin, _ = place(moves, pairs.center_stations, stretches.first)
+    end, _ = place(moves, pairs.center_stations, stretches.last)
     steps = np.zeros(len(moves) + 1, np.intp)
     np.add.at(steps, begin, 1)
     np.add.at(steps, end + 1, -1)
@@ -141,7 +141,7 @@ def _ends_passed(pairs: Pairs, stretches: Stretches, sides: Sided) -> Floats:
         corner = at(one, share)
         met = foot(pieces, corner)[None] if sides.endless else on_line(pieces, corner, 1j * direction(one, share))
         k, row = np.nonzero((met > 0.0) & (met < 1.0))
-        found.append(pairs.centre_stations[rows[row]] + met[k, row] * pieces.length[row])
+        found.append(pairs.center_stations[rows[row]] + met[k, row] * pieces.length[row])
     return np.concatenate(found)
 
 
@@ -203,12 +203,12 @@ def _parts(stretches: Stretches, cuts: Floats) -> Stretches:
 
 
 def _nearest(pairs: Pairs, s: Floats, radius: float) -> tuple[Points, Nearest]:
-    """Points at places of the centre path, and what of the surface is nearest to them.
+    """Points at places of the center path, and what of the surface is nearest to them.
 
     All walls within the radius of a piece are among its pairs, unless the judge has proved where it is.
     """
-    index, t = place(pairs.centre, pairs.centre_stations, s)
-    points = at(pairs.centre.take(index), t)
+    index, t = place(pairs.center, pairs.center_stations, s)
+    points = at(pairs.center.take(index), t)
     begin = pairs.i.searchsorted(index)
     counts = pairs.i.searchsorted(index, side="right") - begin
     if len(pairs.own.piece) or not counts.all():
@@ -222,7 +222,7 @@ def _nearest(pairs: Pairs, s: Floats, radius: float) -> tuple[Points, Nearest]:
 
 
 def _wrong(pairs: Pairs, s: Floats, sides: Sided, radius: float) -> Flags:
-    """Which places along the centre path are on the part's side."""
+    """Which places along the center path are on the part's side."""
     return on_part_side(pairs, *_nearest(pairs, s, radius), sides)
 
 
@@ -231,8 +231,8 @@ def _deepest(pairs: Pairs, parts: Stretches, radius: float) -> Behind:
     middle = (parts.first + parts.last) / 2.0
     # what gouges is nowhere farther from the surface
     most = radius - GOUGE if radius > GOUGE else inf
-    far = farthest(pairs.centre, parts, pairs.surface, pairs.surface_boxes, most=most, tie=ON_PATH)
+    far = farthest(pairs.center, parts, pairs.surface, pairs.surface_boxes, most=most, tie=ON_PATH)
     keep = far.apart > GOUGE
     middle = middle[keep]
-    index = pairs.centre_stations[1:-1].searchsorted(middle, side="right")
+    index = pairs.center_stations[1:-1].searchsorted(middle, side="right")
     return Behind(index, middle, far.place[keep], far.apart[keep], far.near[keep])

@@ -1,4 +1,4 @@
-"""Beside: pieces of a centre path that run exactly a radius beside a wall of their own, as nearly all of them do.
+"""Beside: pieces of a center path that run exactly a radius beside a wall of their own, as nearly all of them do.
 
 Words: a wall is a piece of the surface; its own piece runs beside it, a radius away on the cutter's side, the same way,
 and nowhere beyond its ends.  A corner is an arc of the radius about the joint of two straight walls, from the
@@ -11,6 +11,7 @@ run: where nothing is nearer than the radius, it may be so much nearer, and a go
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import pi
 from typing import Final, NamedTuple
 
@@ -18,7 +19,6 @@ import numpy as np
 
 from core.geometry.aligned import Runs
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows
-from core.records import dataclass
 from core.tolerance import GOUGE
 
 HALF: Final = pi * (1.0 + 1e-12)
@@ -31,13 +31,13 @@ STEP: Final = 0.025
 """What every joint adds to the sum of a run, at the least: no run has more than forty."""
 
 GIVES: Final = 4.0 / GOUGE
-"""What every joint adds for each millimetre granted: it gives way by two grants, a run by half of GOUGE."""
+"""What every joint adds for each millimeter granted: it gives way by two grants, a run by half of GOUGE."""
 
 BACK: Final = -0.999999
 """Cosine of the angle by which a wall turns back on the one before it."""
 
 LEAST: Final = 1e-3
-"""Millimetres of radius below which nothing is proved: what is granted must be next to nothing of it."""
+"""Millimeters of radius below which nothing is proved: what is granted must be next to nothing of it."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -69,7 +69,7 @@ NOBODY: Final = Beside(_NO_ROWS, _NO_ROWS, _NOTHING, _NOTHING, _NOTHING, np.zero
 
 
 class _Given(NamedTuple):
-    centre: Measured
+    center: Measured
     surface: Measured
     sign: int
     radius: float
@@ -85,19 +85,19 @@ class _Runs(NamedTuple):
     apart: Floats
 
 
-def beside(centre: Measured, likely: Rows, surface: Measured, sign: int, radius: float, grant: float) -> Beside:
+def beside(center: Measured, likely: Rows, surface: Measured, sign: int, radius: float, grant: float) -> Beside:
     """The own pieces of all walls; `likely` (m,) is the wall each piece may run beside, -1 where it is none.
 
     The cutter is on the left where `sign` is 1, on the right where it is -1.  What is off by no more than `grant`
     counts as exact.
     """
-    given, count = _Given(centre, surface, sign, radius, grant), len(surface)
+    given, count = _Given(center, surface, sign, radius, grant), len(surface)
     piece = np.full(count, -1)
     rows = (likely >= 0).nonzero()[0] if radius >= LEAST else np.zeros(0, np.intp)
     piece[likely[rows]] = rows
     own, begin, end, apart = np.zeros(count, np.bool_), np.zeros(count), np.zeros(count), np.full(count, np.inf)
     chosen = (piece >= 0).nonzero()[0]
-    bent = 2 * (surface.turn[chosen] != 0.0) + (centre.turn[piece[chosen]] != 0.0)
+    bent = 2 * (surface.turn[chosen] != 0.0) + (center.turn[piece[chosen]] != 0.0)
     for kind, runs in ((0, _lines), (3, _arcs)):
         j = chosen if (bent == kind).all() else chosen[bent == kind]
         if len(j):
@@ -110,11 +110,11 @@ def beside(centre: Measured, likely: Rows, surface: Measured, sign: int, radius:
 
 
 def _lines(given: _Given, i: Rows, j: Rows) -> _Runs:
-    centre, surface, sign, radius, grant = given
+    center, surface, sign, radius, grant = given
     length = surface.length[j]
     back = np.conj(surface.vector[j] / length)
-    start = (centre.start[i] - surface.start[j]) * back
-    end = start + centre.vector[i] * back
+    start = (center.start[i] - surface.start[j]) * back
+    end = start + center.vector[i] * back
     one, other = sign * start.imag, sign * end.imag
     apart = np.minimum(one, other)
     own = (apart >= radius - grant) & (np.maximum(one, other) <= radius + grant)
@@ -123,16 +123,16 @@ def _lines(given: _Given, i: Rows, j: Rows) -> _Runs:
 
 
 def _arcs(given: _Given, i: Rows, j: Rows) -> _Runs:
-    """Arcs about one centre, the same way round, neither of more than half a turn, nor of uneven radii."""
-    centre, surface, sign, radius, grant = given
-    turn, theirs, mine = surface.turn[j], surface.radius[j], centre.radius[i]
-    off = np.abs(centre.start[i] - centre.arm[i] - (surface.start[j] - surface.arm[j]))
-    own = (np.abs(theirs - mine - turn * sign * radius) + off <= grant) & (centre.turn[i] == turn)
+    """Arcs about one center, the same way round, neither of more than half a turn, nor of uneven radii."""
+    center, surface, sign, radius, grant = given
+    turn, theirs, mine = surface.turn[j], surface.radius[j], center.radius[i]
+    off = np.abs(center.start[i] - center.arm[i] - (surface.start[j] - surface.arm[j]))
+    own = (np.abs(theirs - mine - turn * sign * radius) + off <= grant) & (center.turn[i] == turn)
     own &= (theirs - turn * sign * radius > grant) & (surface.angle[j] <= HALF)
-    own &= (surface.slack[j] == 0.0) & (centre.slack[i] == 0.0)
-    seen = centre.arm[i] * np.conj(surface.arm[j])
+    own &= (surface.slack[j] == 0.0) & (center.slack[i] == 0.0)
+    seen = center.arm[i] * np.conj(surface.arm[j])
     begin = theirs * np.arctan2(seen.imag * turn, seen.real)
-    end = begin + theirs * centre.angle[i]
+    end = begin + theirs * center.angle[i]
     own &= (begin >= -grant) & (end <= surface.length[j] + grant)
     return _Runs(own, begin, end, np.abs(theirs - mine) - off)
 
@@ -142,7 +142,7 @@ def _joints(given: _Given, piece: Rows, from_start: Flags, to_end: Flags) -> tup
 
     `from_start` and `to_end` (n,) are own pieces that begin at the wall's start, and that end at its end.
     """
-    centre, surface, grant = given.centre, given.surface, given.grant
+    center, surface, grant = given.center, given.surface, given.grant
     proved, corner = np.zeros(max(len(surface) - 1, 0), np.bool_), np.full(len(surface), -1)
     j = ((piece[:-1] >= 0) & (piece[1:] >= 0)).nonzero()[0]
     meeting = np.zeros(len(proved), np.bool_)
@@ -150,7 +150,7 @@ def _joints(given: _Given, piece: Rows, from_start: Flags, to_end: Flags) -> tup
         return proved, meeting, corner
     met = _meeting(surface, j, j + 1, grant)
     i, k = piece[j], piece[j + 1]
-    linked = (k == i + 1) & _meeting(centre, i, k, grant)
+    linked = (k == i + 1) & _meeting(center, i, k, grant)
     whole = to_end[j] & from_start[j + 1] & met
     straight = (surface.turn[j] == 0.0) & (surface.turn[j + 1] == 0.0)
     sharp, smooth = (straight & met).nonzero()[0], (~straight & linked & whole).nonzero()[0]
@@ -176,8 +176,8 @@ def _apart(given: _Given, j: Rows, i: Rows, k: Rows, linked: Flags) -> Flags:
     meet, a radius above both walls, and the piece comes down to there from above the other wall's line.  Walls that
     turn back on each other are measured: a piece may be as near to the other side of the one as to the other.
     """
-    centre, surface, sign, _, grant = given
-    wall, following, one, other = surface.vector[j], surface.vector[j + 1], centre.vector[i], centre.vector[k]
+    center, surface, sign, _, grant = given
+    wall, following, one, other = surface.vector[j], surface.vector[j + 1], center.vector[i], center.vector[k]
     unit, next_unit = wall / surface.length[j], following / surface.length[j + 1]
     rise = sign * (np.conj(unit) * following).imag
     fall = sign * (np.conj(wall) * next_unit).imag
@@ -192,18 +192,18 @@ def _tangent(given: _Given, j: Rows, i: Rows, k: Rows) -> Flags:
     """Walls j and the next that leave their joint Q one way, with own pieces i and k that meet over it in P.
 
     The normal through P and Q parts what is before the joint from what is behind it, since no arc turns by more than
-    half a turn, and holds the centres of all arcs.  Seen from the centre of an arc that begins in Q, a point before
+    half a turn, and holds the centers of all arcs.  Seen from the center of an arc that begins in Q, a point before
     the joint is nearer in angle to Q than to any other point of the arc, or else to the arc's end; so it is no
     nearer to the arc than to Q, or than to that end.  To a line it is nearest in Q.  An own piece is no nearer to
     Q than P is.  What is left to ask is how near the ends of arcs come to the circle or line of the piece across.
     The joint is smooth within a few grants over the radius, by which an arc may be turned about Q.
     """
-    surface, centre, radius = given.surface, given.centre, given.radius
+    surface, center, radius = given.surface, given.center, given.radius
     start, end = surface.start[j], surface.start[j + 1] + surface.vector[j + 1]
     proved = np.ones(len(j), np.bool_)
     for wall, point, piece in ((j, start, k), (j + 1, end, i)):
         give = 1e-3 * radius + 40.0 * given.grant / radius * surface.radius[wall]
-        proved &= (surface.turn[wall] == 0.0) | (_from_whole(centre, piece, point) >= radius + give)
+        proved &= (surface.turn[wall] == 0.0) | (_from_whole(center, piece, point) >= radius + give)
     return proved
 
 
@@ -222,12 +222,12 @@ def _about(given: _Given, j: Rows, rows: Rows) -> Flags:
     All of a corner is ahead of the one wall and behind the other, so that both are nearest to it in their joint: it
     begins over the joint where the one's own piece ends, and ends there where the other's begins.
     """
-    centre, surface, sign, radius, grant = given
-    off = np.abs(centre.start[rows] - centre.arm[rows] - surface.start[j] - surface.vector[j])
-    off += np.abs(centre.radius[rows] - radius)
-    about: Flags = (off <= grant) & (centre.turn[rows] == -sign) & (centre.angle[rows] <= HALF)
-    about &= (centre.slack[rows] == 0.0) & _meeting(centre, rows - 1, rows, grant)
-    about &= _meeting(centre, rows, rows + 1, grant)
+    center, surface, sign, radius, grant = given
+    off = np.abs(center.start[rows] - center.arm[rows] - surface.start[j] - surface.vector[j])
+    off += np.abs(center.radius[rows] - radius)
+    about: Flags = (off <= grant) & (center.turn[rows] == -sign) & (center.angle[rows] <= HALF)
+    about &= (center.slack[rows] == 0.0) & _meeting(center, rows - 1, rows, grant)
+    about &= _meeting(center, rows, rows + 1, grant)
     return about
 
 

@@ -1,6 +1,6 @@
 """Columns: pieces as plain columns of numbers, and the least distance of many pairs of them without trigonometry.
 
-A line needs its start and vector; an arc also its centre, its radius, the direction of its middle and which way and how
+A line needs its start and vector; an arc also its center, its radius, the direction of its middle and which way and how
 far it turns: a direction lies within the arc when it is not on the wrong side of its ends'.
 """
 
@@ -23,8 +23,8 @@ THIN: Final = 1e-6
 STRAIGHT: Final = 5
 """Columns of a line; an arc has all of them."""
 
-CENTRE: Final = slice(5, 7)
-"""Columns of an arc's centre."""
+CENTER: Final = slice(5, 7)
+"""Columns of an arc's center."""
 
 _NONE: Final = np.zeros(0)
 
@@ -32,7 +32,7 @@ _NONE: Final = np.zeros(0)
 class Columns(NamedTuple):
     """n pieces: start, vector and squared length of the chord.
 
-    Of arcs also the centre, the radius, where both ends lie as seen from the centre, negative in a clockwise arc, the
+    Of arcs also the center, the radius, where both ends lie as seen from the center, negative in a clockwise arc, the
     middle's direction, and `size`: 1 where they are more than half a circle, -1 where they are THIN, else 0.
     """
 
@@ -41,8 +41,8 @@ class Columns(NamedTuple):
     along: Floats
     up: Floats
     square: Floats
-    centre_x: Floats = _NONE
-    centre_y: Floats = _NONE
+    center_x: Floats = _NONE
+    center_y: Floats = _NONE
     radius: Floats = _NONE
     begin_x: Floats = _NONE
     begin_y: Floats = _NONE
@@ -60,17 +60,17 @@ def columns(pieces: Measured) -> Floats:
     square[square == 0.0] = 1.0
     if not pieces.turn.any():
         return np.array((x, y, along, up, square))
-    turn, centre_x, centre_y = pieces.turn, x - pieces.arm.real, y - pieces.arm.imag
-    begin_x, begin_y = x - centre_x, y - centre_y
+    turn, center_x, center_y = pieces.turn, x - pieces.arm.real, y - pieces.arm.imag
+    begin_x, begin_y = x - center_x, y - center_y
     ends = begin_x * turn, begin_y * turn, (begin_x + along) * turn, (begin_y + up) * turn
     sizes = np.where(pieces.angle > pi, 1.0, -1.0 * ((pieces.angle < THIN) & (turn != 0.0)))
     return np.array(
-        (x, y, along, up, square, centre_x, centre_y, pieces.radius, *ends, *_middles(pieces, square), sizes)
+        (x, y, along, up, square, center_x, center_y, pieces.radius, *ends, *_middles(pieces, square), sizes)
     )
 
 
 def _middles(pieces: Measured, square: Floats) -> tuple[Floats, Floats]:
-    """The directions of arcs' middles from their centres; `square` is the chords' squared length, or 1."""
+    """The directions of arcs' middles from their centers; `square` is the chords' squared length, or 1."""
     size = np.sqrt(square)
     x, y = pieces.turn * pieces.vector.imag / size, -pieces.turn * pieces.vector.real / size
     # a full circle has no chord at all
@@ -89,7 +89,7 @@ def line_middle(line: Columns) -> tuple[Floats, Floats]:
 
 def arc_middle(arc: Columns) -> tuple[Floats, Floats]:
     """x and y of the middles of arcs."""
-    return arc.centre_x + arc.radius * arc.middle_x, arc.centre_y + arc.radius * arc.middle_y
+    return arc.center_x + arc.radius * arc.middle_x, arc.center_y + arc.radius * arc.middle_y
 
 
 def to_line(x: Floats, y: Floats, line: Columns) -> tuple[Floats, Floats]:
@@ -109,7 +109,7 @@ def to_line(x: Floats, y: Floats, line: Columns) -> tuple[Floats, Floats]:
 
 
 def inside(x: Floats, y: Floats, arc: Columns) -> Flags:
-    """Which directions from the centres lie within the arcs.
+    """Which directions from the centers lie within the arcs.
 
     An arc of no more than half a circle is behind its first end's direction and before its last one's, both times by
     the sign of a cross product, which keeps its digits in arcs however flat; a larger one leaves out what is neither.
@@ -128,7 +128,7 @@ def inside(x: Floats, y: Floats, arc: Columns) -> Flags:
 
 def to_arc(x: Floats, y: Floats, arc: Columns) -> Floats:
     """Distances of points from their arcs."""
-    off_x, off_y = x - arc.centre_x, y - arc.centre_y
+    off_x, off_y = x - arc.center_x, y - arc.center_y
     size, within = np.sqrt(off_x * off_x + off_y * off_y), inside(off_x, off_y, arc)
     x, y = x - arc.x, y - arc.y
     first = x * x + y * y
@@ -151,10 +151,10 @@ def lines_cross(lines: Floats, others: Floats) -> Floats:
 def line_to_arc(lines: Floats, arcs: Floats) -> Floats:
     """Distances of pairs where the line passes the arc between all ends, 0 where they cross.
 
-    Infinite where the foot of the centre is on neither.
+    Infinite where the foot of the center is on neither.
     """
     line, arc = Columns(*lines[:STRAIGHT]), Columns(*arcs)
-    x, y = arc.centre_x - line.x, arc.centre_y - line.y
+    x, y = arc.center_x - line.x, arc.center_y - line.y
     t = (x * line.along + y * line.up) / line.square
     off_x, off_y = t * line.along - x, t * line.up - y
     height = np.sqrt(off_x * off_x + off_y * off_y)
@@ -170,13 +170,13 @@ def line_to_arc(lines: Floats, arcs: Floats) -> Floats:
 
 
 def arc_to_arc(pairs: Floats) -> Floats:
-    """Distances of pairs of arcs (15, 2, m) on the line through their centres, 0 where they cross, infinite where
+    """Distances of pairs of arcs (15, 2, m) on the line through their centers, 0 where they cross, infinite where
     neither is."""
     both = Columns(*pairs)
-    (x, y), (one, other) = pairs[CENTRE, 1] - pairs[CENTRE, 0], both.radius
+    (x, y), (one, other) = pairs[CENTER, 1] - pairs[CENTER, 0], both.radius
     size, between = np.sqrt(x * x + y * y), x + 1j * y
     both_radii, more = one + other, one - other
-    # from both centres, ahead and behind along the line through them, and to both crossings of the circles
+    # from both centers, ahead and behind along the line through them, and to both crossings of the circles
     share = (size * size + more * both_radii) / (2.0 * size * size)
     height = np.sqrt(np.maximum((one / size) ** 2 - share * share, 0.0))
     met, to = share + 1j * height, np.empty((4, 2, len(x)), np.complex128)
@@ -185,7 +185,7 @@ def arc_to_arc(pairs: Floats) -> Floats:
     (ahead, behind, first, second) = inside(to.real, to.imag, both)
     within = np.array((ahead[0] & behind[1], ahead[0] & ahead[1], behind[0] & behind[1]))
     gaps = np.array((size - other - one, size + other - one, size - other + one))
-    # about one centre an end of the one is as near as it gets, or both are nowhere side by side
+    # about one center an end of the one is as near as it gets, or both are nowhere side by side
     apart: Floats = np.where(within & (size > 0.0), np.abs(gaps), np.inf).min(axis=0)
     crossed = (first[0] & first[1]) | (second[0] & second[1])
     apart[crossed & (size > np.abs(more)) & (size < both_radii)] = 0.0

@@ -1,4 +1,4 @@
-"""Contact: which pieces of a centre path keep to the surface, and which of them run against it."""
+"""Contact: which pieces of a center path keep to the surface, and which of them run against it."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ PARALLEL: Final = 1e-6
 
 def loose(pairs: Pairs) -> tuple[int, ...]:
     """Rows of pieces that no single surface piece is a radius or less from at both ends and in the middle."""
-    held = pairs.own.settled(len(pairs.centre))
+    held = pairs.own.settled(len(pairs.center))
     held[pairs.i[pairs.touch.along]] = True
-    return tuple(pairs.centre.rows[~held].tolist())
+    return tuple(pairs.center.rows[~held].tolist())
 
 
 def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
@@ -30,7 +30,7 @@ def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     way = np.zeros(len(pairs.i), np.intp)
     known = wide & ~touch.unsure
     if touch.unsure.any():
-        known[_about_one_centre(pairs, (wide & touch.unsure).nonzero()[0], radius)] = True
+        known[_about_one_center(pairs, (wide & touch.unsure).nonzero()[0], radius)] = True
         # twice what is granted there, since the distance of the middle is measured anew
         held = np.abs(touch.middle - radius) <= 2.0 * (pairs.grant + ON_PATH)
         unsure = (touch.unsure & held & ~known).nonzero()[0]
@@ -38,39 +38,39 @@ def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
             way[unsure] = _way_in_the_middle(pairs, unsure, radius)
     sure = known.nonzero()[0]
     way[sure] = _way(pairs, sure)
-    against = np.zeros(len(pairs.centre), np.bool_)
+    against = np.zeros(len(pairs.center), np.bool_)
     against[pairs.i[way < 0]] = True
     if not against.any():
         return ()
     against[pairs.i[way > 0]] = False
     against[own.piece[(own.last - own.first) * pairs.surface.length[: len(own.piece)] > POINT]] = False
-    return tuple(pairs.centre.rows[against].tolist())
+    return tuple(pairs.center.rows[against].tolist())
 
 
-def _about_one_centre(pairs: Pairs, wide: Rows, radius: float) -> Rows:
-    """Those of these pairs, of more than a point beside each other, that are arcs about one centre, a radius apart:
+def _about_one_center(pairs: Pairs, wide: Rows, radius: float) -> Rows:
+    """Those of these pairs, of more than a point beside each other, that are arcs about one center, a radius apart:
     they run one way or the other wherever they do."""
-    arcs = (pairs.centre.turn[pairs.i[wide]] * pairs.surface.turn[pairs.j[wide]]).nonzero()[0]
+    arcs = (pairs.center.turn[pairs.i[wide]] * pairs.surface.turn[pairs.j[wide]]).nonzero()[0]
     if not len(arcs):
         return arcs
     both = wide[arcs]
-    piece, other = pairs.centre.take(pairs.i[both]), pairs.surface.take(pairs.j[both])
-    off = np.abs(piece.centre - other.centre) + np.abs(np.abs(piece.radius - other.radius) - radius)
+    piece, other = pairs.center.take(pairs.i[both]), pairs.surface.take(pairs.j[both])
+    off = np.abs(piece.center - other.center) + np.abs(np.abs(piece.radius - other.radius) - radius)
     return both[off <= pairs.grant[both]]
 
 
 def _way(pairs: Pairs, chosen: Rows) -> Rows:
-    """+1 where both pieces, parallel or about one centre, run the same way, else -1."""
+    """+1 where both pieces, parallel or about one center, run the same way, else -1."""
     i, j = pairs.i[chosen], pairs.j[chosen]
-    turn = pairs.centre.turn[i] * pairs.surface.turn[j]
-    dot = (pairs.centre.vector[i] * np.conj(pairs.surface.vector[j])).real
+    turn = pairs.center.turn[i] * pairs.surface.turn[j]
+    dot = (pairs.center.vector[i] * np.conj(pairs.surface.vector[j])).real
     way: Rows = np.sign(np.where(turn == 0.0, dot, turn)).astype(np.intp)
     return way
 
 
 def _way_in_the_middle(pairs: Pairs, chosen: Rows, radius: float) -> Rows:
-    """The same where the middle of a centre piece is a radius from its partner and parallel to it there, else 0."""
-    piece, other = pairs.centre.take(pairs.i[chosen]), pairs.surface.take(pairs.j[chosen])
+    """The same where the middle of a center piece is a radius from its partner and parallel to it there, else 0."""
+    piece, other = pairs.center.take(pairs.i[chosen]), pairs.surface.take(pairs.j[chosen])
     half = np.full(len(chosen), 0.5)
     middle = at(piece, half)
     t = foot(other, middle)

@@ -1,9 +1,9 @@
-"""Course: a surface or a centre path as the judge measures it, worked out once."""
+"""Course: a surface or a center path as the judge measures it, worked out once."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -11,7 +11,6 @@ import numpy as np
 from core.geometry.bounds import boxes
 from core.geometry.measured import Floats, Measured, Rows, stacked
 from core.geometry.path import Path
-from core.records import dataclass
 from core.verify.columns import columns as columns_of
 
 FEW: Final = 2_000
@@ -20,7 +19,7 @@ FEW: Final = 2_000
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Course:
-    """n pieces, (n + 1,) lengths travelled at their starts and at the end, (4, n) boxes and the pieces' `columns`.
+    """n pieces, (n + 1,) lengths traveled at their starts and at the end, (4, n) boxes and the pieces' `columns`.
 
     Many pieces have no columns until they are `whole`: of nearly all of them nothing is asked.
     """

@@ -1,7 +1,8 @@
-"""Crossing: where a surface crosses or touches itself, other than its neighbours at their joint."""
+"""Crossing: where a surface crosses or touches itself, other than its neighbors at their joint."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import pi
 from typing import Final
 
@@ -11,7 +12,6 @@ from core.geometry.aligned import aligned_pairs
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import between, distance, foot, nearest_places
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction
-from core.records import dataclass
 from core.tolerance import JOINED
 from core.verify.course import Course
 from core.verify.unproved import clear
@@ -22,7 +22,7 @@ TURN: Final = 1e-6
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Crossings:
-    """m places (m, 2) in length travelled at which a surface meets itself, in order, and the points (m,)."""
+    """m places (m, 2) in length traveled at which a surface meets itself, in order, and the points (m,)."""
 
     places: Floats
     points: Points
@@ -36,7 +36,7 @@ NOWHERE: Final = Crossings(np.zeros((0, 2)), np.zeros(0, np.complex128))
 
 
 def crossings(course: Course, *, closed: bool, free: Course | None = None) -> Crossings:
-    """Where pieces that are not neighbours come within JOINED of each other, and neighbours away from their joint.
+    """Where pieces that are not neighbors come within JOINED of each other, and neighbors away from their joint.
 
     `free` is a course, closed as this one is, that does not meet itself: where nothing meets what is not in it, neither
     does this one.
@@ -84,7 +84,7 @@ def _unclear(course: Course, *, closed: bool, rows: Rows | None = None) -> tuple
 
 
 def _candidates(surface: Measured, bounds: Floats, *, closed: bool, rows: Rows | None) -> tuple[Rows, Rows]:
-    """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbours that come back.
+    """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbors that come back.
 
     Only those of which one is among `rows`, where these are given; both are told twice then.
     """
@@ -105,7 +105,7 @@ def _candidates(surface: Measured, bounds: Floats, *, closed: bool, rows: Rows |
 
 
 def _near(bounds: Floats, rows: Rows) -> tuple[Rows, Rows]:
-    """Pairs i < j of near boxes that are no neighbours, one of which is among `rows`."""
+    """Pairs i < j of near boxes that are no neighbors, one of which is among `rows`."""
     one, other = near_pairs(bounds.take(rows, axis=1), bounds, JOINED)
     one = rows.take(one)
     far = (np.abs(one - other) >= 2).nonzero()[0]
@@ -141,7 +141,7 @@ def at_joints(surface: Measured, rows: Rows, following: Rows) -> Points:
 
 
 def _overlapping(bounds: Floats) -> Flags:
-    """(n - 1,) boxes that share more with the next one than the surroundings of a joint, where neighbours are one."""
+    """(n - 1,) boxes that share more with the next one than the surroundings of a joint, where neighbors are one."""
     shared = np.minimum(bounds[2:, 1:], bounds[2:, :-1]) - np.maximum(bounds[:2, 1:], bounds[:2, :-1])
     wide = shared > 5.0 * JOINED
     either: Flags = wide[0] | wide[1]

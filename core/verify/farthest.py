@@ -9,6 +9,7 @@ nearer there, that is at once.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import inf
 from typing import Final
 
@@ -16,12 +17,11 @@ import numpy as np
 
 from core.geometry.distance import between, distance, farthest_places
 from core.geometry.measured import Floats, Measured, Points, Rows, at, place
-from core.records import dataclass
 from core.tolerance import GOUGE
 from core.verify.reach import Stretches, changes, nearest
 
 FINE: Final = 1e-8
-"""Millimetres between the bounds of a largest distance at which it counts as known."""
+"""Millimeters between the bounds of a largest distance at which it counts as known."""
 
 ROUNDS: Final = 100
 """Divisions after which doubles cannot part a span of any size further."""
@@ -39,7 +39,7 @@ LEAST_SHARE: Final = 1e-3
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Farthest:
-    """(k,) for each stretch the place, in length travelled, that is farthest from the other path, how far it is, and
+    """(k,) for each stretch the place, in length traveled, that is farthest from the other path, how far it is, and
     the first of the other path's pieces that are nearest to it."""
 
     place: Floats

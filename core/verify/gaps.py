@@ -7,6 +7,7 @@ nothing else of the path is nearer to the place where it is met; every other gap
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -14,8 +15,7 @@ import numpy as np
 from core.geometry.aligned import aligned_pairs
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import distance
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place, travelled
-from core.records import dataclass
+from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place, traveled
 from core.tolerance import ON_PATH
 from core.verify.farthest import FINE, farthest
 from core.verify.pairs import Pairs
@@ -27,7 +27,7 @@ WIDE: Final = 4.0
 
 
 ON_EDGE: Final = 1e-7
-"""Millimetres from the cutter's edge at which a gap's end is on it."""
+"""Millimeters from the cutter's edge at which a gap's end is on it."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -111,8 +111,8 @@ def bounds(pairs: Pairs, parts: GapParts, near: Rows, radius: float) -> Bound:
 def _corner(pairs: Pairs, near: Rows, parts: GapParts) -> Points:
     """(k,) of the ends of the pieces at each gap's ends the one nearest to that of these which is farther from it."""
     known = np.where(near < 0, near[::-1], near)
-    start = pairs.centre.start[known]
-    ends = np.concatenate((start, start + pairs.centre.vector[known]))
+    start = pairs.center.start[known]
+    ends = np.concatenate((start, start + pairs.center.vector[known]))
     first, last = parts.points[parts.begins], parts.points[parts.ends]
     apart = np.maximum(np.abs(ends - first), np.abs(ends - last))
     best: Points = ends[apart.argmin(axis=0), np.arange(len(first))]
@@ -120,7 +120,7 @@ def _corner(pairs: Pairs, near: Rows, parts: GapParts) -> Points:
 
 
 class _Bends(NamedTuple):
-    """The parts on arcs, by their rows, these arcs, and the lengths travelled at the arcs' starts."""
+    """The parts on arcs, by their rows, these arcs, and the lengths traveled at the arcs' starts."""
 
     rows: Rows
     arc: Measured
@@ -136,13 +136,13 @@ def _bends(pairs: Pairs, parts: GapParts) -> _Bends | None:
 def _to_arcs(parts: GapParts, bends: _Bends, corner: Points, apart: Floats) -> tuple[Floats, Points]:
     """The parts' first places and points: where a part on an arc has its farthest place within it, that instead."""
     rows, arc = bends.rows, bends.arc
-    away = arc.centre - corner[parts.owner[rows]]
-    s, size = bends.start + travelled(arc, away) * arc.radius, np.abs(away)
-    # about its own centre all of an arc is equally far
+    away = arc.center - corner[parts.owner[rows]]
+    s, size = bends.start + traveled(arc, away) * arc.radius, np.abs(away)
+    # about its own center all of an arc is equally far
     inner = ((s > parts.s[rows]) & (s < parts.s[rows + 1]) & (size > 0.0)).nonzero()[0]
     places, points, chosen = parts.s.copy(), parts.points.copy(), rows[inner]
     places[chosen], apart[chosen] = s[inner], (size + arc.radius)[inner]
-    points[chosen] = (arc.centre + away / size * arc.radius)[inner]
+    points[chosen] = (arc.center + away / size * arc.radius)[inner]
     return places, points
 
 
@@ -178,8 +178,8 @@ def _to_common_ends(pairs: Pairs, parts: GapParts, corner: Points, gaps: Rows, r
     """
     first, last = parts.points[parts.begins[gaps]], parts.points[parts.ends[gaps]]
     spots = np.array((first.real, first.imag, first.real, first.imag))
-    k, i = near_pairs(spots, pairs.centre_boxes, radius + ON_EDGE)
-    ends = np.array((pairs.centre.start[i], pairs.centre.start[i] + pairs.centre.vector[i]))
+    k, i = near_pairs(spots, pairs.center_boxes, radius + ON_EDGE)
+    ends = np.array((pairs.center.start[i], pairs.center.start[i] + pairs.center.vector[i]))
     misses = np.maximum(np.abs(np.abs(ends - first[k]) - radius), np.abs(np.abs(ends - last[k]) - radius))
     # from the last to the first, which is to stand for them all
     end, pair = (misses <= ON_EDGE)[::-1, ::-1].nonzero()
@@ -196,9 +196,9 @@ def thickest(pairs: Pairs, gaps: Stretches, near: Rows, bound: Bound, radius: fl
     if not len(rest):
         return bound.point, bound.apart
     grant = float(pairs.grant.max(initial=0.0))
-    at_ends = np.where(pairs.centre.slack.any() or pairs.surface.slack.any(), -1, near[:, rest])
+    at_ends = np.where(pairs.center.slack.any() or pairs.surface.slack.any(), -1, near[:, rest])
     rest_of = gaps.keep(~proved)
-    far = farthest(pairs.surface, rest_of, pairs.centre, pairs.centre_boxes, near=at_ends, ends=radius + grant)
+    far = farthest(pairs.surface, rest_of, pairs.center, pairs.center_boxes, near=at_ends, ends=radius + grant)
     points, apart = bound.point.copy(), bound.apart.copy()
     index, t = place(pairs.surface, pairs.surface_stations, far.place)
     points[rest], apart[rest] = at(pairs.surface.take(index), t), far.apart
@@ -215,7 +215,7 @@ def _proved(pairs: Pairs, near: Rows, bound: Bound, radius: float) -> Flags:
         pairs, np.array((x - apart, y - apart, x + apart, y + apart)), _at_joints(pairs, near[:, rows], some)
     )
     # of what is no number nothing is proved
-    nearer = ~(distance(pairs.centre.take(i), some.point[k]) >= apart[k] - FINE)
+    nearer = ~(distance(pairs.center.take(i), some.point[k]) >= apart[k] - FINE)
     proved[rows[k[nearer]]] = False
     return proved
 
@@ -226,7 +226,7 @@ def _at_joints(pairs: Pairs, near: Rows, bound: Bound) -> Rows:
     Those pieces run beside their walls up to the corner, whose feet are not beyond the joint: no other place of them
     is nearer to it.  -1 for any other gap.
     """
-    own, surface, centre, index = pairs.own, pairs.surface, pairs.centre, bound.j
+    own, surface, center, index = pairs.own, pairs.surface, pairs.center, bound.j
     if not len(own.piece):
         return np.full(len(index), -1)
     before = np.maximum(index - 1, 0)
@@ -234,26 +234,26 @@ def _at_joints(pairs: Pairs, near: Rows, bound: Bound) -> Rows:
     joint &= (own.piece[before] == near[0]) & (own.piece[index] == near[1])
     joint &= (surface.turn[before] == 0.0) & (surface.turn[index] == 0.0)
     joint &= np.abs(bound.place - pairs.surface_stations[index]) <= ON_PATH
-    joint &= np.abs(centre.start[near[1]] - bound.corner) <= ON_PATH
-    joint &= np.abs(centre.start[near[0]] + centre.vector[near[0]] - bound.corner) <= ON_PATH
+    joint &= np.abs(center.start[near[1]] - bound.corner) <= ON_PATH
+    joint &= np.abs(center.start[near[0]] + center.vector[near[0]] - bound.corner) <= ON_PATH
     return np.where(joint, before, -1)
 
 
 def _moves_about(pairs: Pairs, around: Floats, joint: Rows) -> tuple[Rows, Rows]:
     """Boxes k and pieces i of the path that meet, but for the two that belong to the joints."""
     own, one, rest = pairs.own, (joint >= 0).nonzero()[0], (joint < 0).nonzero()[0]
-    k, i = near_pairs(around[:, rest], pairs.centre_boxes, 0.0)
+    k, i = near_pairs(around[:, rest], pairs.center_boxes, 0.0)
     if not len(one):
         return rest[k], i
-    loose = (~own.settled(len(pairs.centre))).nonzero()[0]
+    loose = (~own.settled(len(pairs.center))).nonzero()[0]
     boxes = around[:, one]
-    other, stray = near_pairs(boxes, pairs.centre_boxes[:, loose], 0.0)
+    other, stray = near_pairs(boxes, pairs.center_boxes[:, loose], 0.0)
     spread = np.full((4, len(own.piece)), np.inf)
     spread[2:] = -np.inf
     spread[:, joint[one]] = boxes
     back = np.zeros(len(own.piece), np.intp)
     back[joint[one]] = one
-    wall, company = aligned_pairs(spread, company_boxes(pairs.centre_boxes, own), 0.0, 1)
+    wall, company = aligned_pairs(spread, company_boxes(pairs.center_boxes, own), 0.0, 1)
     pieces = np.where(company == wall + 1, -1, own.piece[company]), own.corner[company]
     walls, moves = np.concatenate((wall, wall)), np.concatenate(pieces)
     there = moves >= 0

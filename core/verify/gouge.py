@@ -1,15 +1,14 @@
-"""Gouge: the stretches of a centre path nearer to the surface than the radius, each with its deepest point."""
+"""Gouge: the stretches of a center path nearer to the surface than the radius, each with its deepest point."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from core.geometry.distance import foot
 from core.geometry.measured import Floats, Rows, at
 from core.geometry.path import Path
-from core.records import dataclass
 from core.tolerance import JOINED, ON_PATH
 from core.verify.pairs import Approaches, Pairs
 from core.verify.reach import Parts, Stretches, changes, joined, union, within
@@ -18,7 +17,7 @@ from core.verify.verdict import Gouge
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Gouging:
-    """k stretches of the centre path that gouge, and of each the deepest place, its distance and its pair (i, j)."""
+    """k stretches of the center path that gouge, and of each the deepest place, its distance and its pair (i, j)."""
 
     stretches: Stretches
     place: Floats
@@ -28,12 +27,12 @@ class Gouging:
 
 
 def gouging(pairs: Pairs, near: Approaches) -> Gouging:
-    """Where the centre path is nearer to the surface than the limits of `near`."""
+    """Where the center path is nearer to the surface than the limits of `near`."""
     if not len(near.i):
         return Gouging(Stretches(near.limit, near.limit), near.limit, near.limit, near.i, near.j)
-    parts = within(pairs.centre, near.i, pairs.surface, near.j, near.limit)
+    parts = within(pairs.center, near.i, pairs.surface, near.j, near.limit)
     k, pair = (near.apart < near.limit).nonzero()
-    spots = pairs.centre_stations[near.i[pair]] + near.places[k, pair] * pairs.centre.length[near.i[pair]]
+    spots = pairs.center_stations[near.i[pair]] + near.places[k, pair] * pairs.center.length[near.i[pair]]
     every = joined((parts, Parts(spots, spots, spots, near.apart[k, pair], pair)))
     return _deepest(every, near.i, near.j)
 
@@ -53,12 +52,12 @@ def _deepest(parts: Parts, i: Rows, j: Rows) -> Gouging:
 
 
 def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: Floats) -> tuple[Gouge, ...]:
-    """The stretches as `Gouge`s, deepest first; `numbers` are those of the centre path's pieces."""
+    """The stretches as `Gouge`s, deepest first; `numbers` are those of the center path's pieces."""
     if not len(found.i):
         return ()
-    piece, other = pairs.centre.take(found.i), pairs.surface.take(found.j)
+    piece, other = pairs.center.take(found.i), pairs.surface.take(found.j)
     length = np.where(piece.length == 0.0, 1.0, piece.length)
-    t = (found.place - pairs.centre_stations[found.i]) / length
+    t = (found.place - pairs.center_stations[found.i]) / length
     points = at(piece, np.minimum(np.maximum(t, 0.0), 1.0))
     touched = at(other, foot(other, points))
     told = [
@@ -81,7 +80,7 @@ def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: 
 
 def _over_seam(stretches: Stretches, pairs: Pairs) -> bool:
     """The first and the last stretch are one: the path ends where it begins, and gouges there."""
-    meets = bool(abs(pairs.centre.end[-1] - pairs.centre.start[0]) <= JOINED)
+    meets = bool(abs(pairs.center.end[-1] - pairs.center.start[0]) <= JOINED)
     return (
-        meets and bool(stretches.first[0] <= JOINED) and bool(stretches.last[-1] >= pairs.centre_stations[-1] - JOINED)
+        meets and bool(stretches.first[0] <= JOINED) and bool(stretches.last[-1] >= pairs.center_stations[-1] - JOINED)
     )

@@ -1,8 +1,9 @@
-"""The judge: what a centre path, whoever made it, does to a surface."""
+"""The judge: what a center path, whoever made it, does to a surface."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from math import inf, isfinite, isinf, isnan, nan
 from typing import Final
@@ -13,7 +14,6 @@ from core.geometry.boxes import near_pairs
 from core.geometry.measured import Floats, Measured
 from core.geometry.path import Path
 from core.geometry.side import Side
-from core.records import dataclass
 from core.tolerance import CLOSED, GOUGE, LARGEST
 from core.verify.behind import behind, deepened, parted
 from core.verify.beside import NOBODY, Beside, beside
@@ -34,40 +34,40 @@ FEW_PAIRS: Final = 2_000
 """Pairs of a path that is judged when its verdict is read: that takes no longer than a picture."""
 
 
-def judge(surface: Path, side: Side, radius: float, centre: Path) -> Verdict:
-    """What a cutter of this radius does whose centre runs along `centre`, lead moves included, beside `surface`.
+def judge(surface: Path, side: Side, radius: float, center: Path) -> Verdict:
+    """What a cutter of this radius does whose center runs along `center`, lead moves included, beside `surface`.
 
     Every distance is exact, between lines and arcs.  Nearer than the radius by no more than GOUGE, or than what the
     uneven radii of an arc leave open, is rounding and no gouge.  Nothing is raised for any joined paths: coordinates
     or a radius that are not finite, or larger than LARGEST, and arcs whose radii at both ends differ by more than
-    ARC_RADII, or at all with both ends on one ray from the centre, give a verdict that is not `judged` and so never
+    ARC_RADII, or at all with both ends on one ray from the center, give a verdict that is not `judged` and so never
     clean.
     """
-    return judge_together(surface, side, radius, (centre,))
+    return judge_together(surface, side, radius, (center,))
 
 
-def judge_together(surface: Path, side: Side, radius: float, centres: Sequence[Path]) -> Verdict:
-    """The verdict on several centre paths that are all cut, such as the loops of one contour.
+def judge_together(surface: Path, side: Side, radius: float, centers: Sequence[Path]) -> Verdict:
+    """The verdict on several center paths that are all cut, such as the loops of one contour.
 
     A gouge's `path_piece` counts the pieces of all of them, in order.
     """
-    return judge_on_ground(surface, side, radius, centres)[0]
+    return judge_on_ground(surface, side, radius, centers)[0]
 
 
 def judge_on_ground(
-    surface: Path, side: Side, radius: float, centres: Sequence[Path], before: Ground | None = None
+    surface: Path, side: Side, radius: float, centers: Sequence[Path], before: Ground | None = None
 ) -> tuple[Verdict, Ground | None]:
     """The verdict of `judge_together`, and the surface as it is judged, for `rulings`; None where it is not.
 
     `before` is another surface, of which this one may have most pieces.
     """
     with np.errstate(all="ignore"):
-        if not judgeable(radius, surface, *centres):
+        if not judgeable(radius, surface, *centers):
             return _unjudged(radius), None
         if not len(surface):
             return _nothing_to_cut(radius), None
-        walls, moves = courses((surface,), centres)
-        numbers = np.concatenate((np.empty(0), *(centre.numbers for centre in centres)))
+        walls, moves = courses((surface,), centers)
+        numbers = np.concatenate((np.empty(0), *(center.numbers for center in centers)))
         ground = _ground(surface, walls, before)
         measured = _measured(ground, side, radius, numbers, moves)
         verdict = _unjudged(radius) if measured is None else _judged(ground, side, radius, numbers, measured)
@@ -75,39 +75,39 @@ def judge_on_ground(
 
 
 def rulings(
-    surface: Path, side: Side, radius: float, centres: Sequence[Path], ground: Ground | None = None
+    surface: Path, side: Side, radius: float, centers: Sequence[Path], ground: Ground | None = None
 ) -> tuple[Ruling, ...]:
-    """Whether each centre path is clean, with the verdict of `judge` on it.
+    """Whether each center path is clean, with the verdict of `judge` on it.
 
     The surface is looked at once, and equal paths are judged once.  `ground` saves to look at the surface again; one of
     another surface is not used.
     """
-    keys = [_key(centre) for centre in centres] if len(centres) > 1 else [()] * len(centres)
-    paths = dict(zip(keys, centres, strict=True))
+    keys = [_key(center) for center in centers] if len(centers) > 1 else [()] * len(centers)
+    paths = dict(zip(keys, centers, strict=True))
     with np.errstate(all="ignore"):
         found = dict(zip(paths, _each(surface, side, radius, tuple(paths.values()), ground), strict=True))
     return tuple(found[key] for key in keys)
 
 
-def _each(surface: Path, side: Side, radius: float, centres: Sequence[Path], ground: Ground | None) -> Iterator[Ruling]:
+def _each(surface: Path, side: Side, radius: float, centers: Sequence[Path], ground: Ground | None) -> Iterator[Ruling]:
     if not len(surface) or not judgeable(radius, surface):
-        yield from (Ruling.of(judge(surface, side, radius, centre)) for centre in centres)
+        yield from (Ruling.of(judge(surface, side, radius, center)) for center in centers)
         return
     if ground is None or ground.surface is not surface:
-        found = courses((surface,), *((centre,) for centre in centres))
+        found = courses((surface,), *((center,) for center in centers))
         ground = _ground(surface, next(found))
     else:
-        found = courses(*((centre,) for centre in centres))
-    for centre, moves in zip(centres, found, strict=True):
-        if judgeable(radius, centre):
-            yield _ruled(ground, side, radius, centre, moves)
+        found = courses(*((center,) for center in centers))
+    for center, moves in zip(centers, found, strict=True):
+        if judgeable(radius, center):
+            yield _ruled(ground, side, radius, center, moves)
         else:
             yield Ruling.of(_unjudged(radius))
 
 
 def judgeable(radius: float, *paths: Path) -> bool:
     """All coordinates and the radius are lengths a machine could have."""
-    numbers = np.concatenate([array for path in paths for array in (path.points, path.centres)])
+    numbers = np.concatenate([array for path in paths for array in (path.points, path.centers)])
     # what is not a number makes the largest one none, and no comparison holds
     sound = bool(np.abs(numbers, out=numbers).max(initial=0.0) <= LARGEST)
     return sound and isfinite(radius) and 0.0 <= radius <= LARGEST
@@ -115,7 +115,7 @@ def judgeable(radius: float, *paths: Path) -> bool:
 
 def _key(path: Path) -> tuple[bytes, ...]:
     """What two equal paths have in common."""
-    return tuple(array.tobytes() for array in (path.points, path.centres, path.turns, path.numbers))
+    return tuple(array.tobytes() for array in (path.points, path.centers, path.turns, path.numbers))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -143,17 +143,17 @@ def _nothing_to_cut(radius: float) -> Verdict:
     return Verdict(radius, inf, (), NOTHING, 0.0, crosses_itself=False)
 
 
-def _ruled(ground: Ground, side: Side, radius: float, centre: Path, moves: Course) -> Ruling:
+def _ruled(ground: Ground, side: Side, radius: float, center: Path, moves: Course) -> Ruling:
     """Not clean where any pair is too near: a path with few pairs is then judged when its verdict is read."""
     if _cuts_in(moves, ground.walls, radius):
-        return Ruling(partial(_again, ground, side, radius, centre), clean=False)
-    measured = _measured(ground, side, radius, centre.numbers, moves)
+        return Ruling(partial(_again, ground, side, radius, center), clean=False)
+    measured = _measured(ground, side, radius, center.numbers, moves)
     if measured is None:
         return Ruling.of(_unjudged(radius))
     if len(measured.near.i) and len(measured.pairs.i) <= FEW_PAIRS:
         # nothing of what is measured here is kept: a table's twenty paths would hold more than all the rest
-        return Ruling(partial(_again, ground, side, radius, centre), clean=False)
-    return Ruling.of(_judged(ground, side, radius, centre.numbers, measured))
+        return Ruling(partial(_again, ground, side, radius, center), clean=False)
+    return Ruling.of(_judged(ground, side, radius, center.numbers, measured))
 
 
 def _cuts_in(moves: Course, walls: Course, radius: float) -> bool:
@@ -171,10 +171,10 @@ def _cuts_in(moves: Course, walls: Course, radius: float) -> bool:
 
 
 @np.errstate(all="ignore")
-def _again(ground: Ground, side: Side, radius: float, centre: Path) -> Verdict:
-    (moves,) = courses((centre,))
-    measured = _measured(ground, side, radius, centre.numbers, moves)
-    return _unjudged(radius) if measured is None else _judged(ground, side, radius, centre.numbers, measured)
+def _again(ground: Ground, side: Side, radius: float, center: Path) -> Verdict:
+    (moves,) = courses((center,))
+    measured = _measured(ground, side, radius, center.numbers, moves)
+    return _unjudged(radius) if measured is None else _judged(ground, side, radius, center.numbers, measured)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -216,7 +216,7 @@ def _judged(ground: Ground, side: Side, radius: float, numbers: Floats, measured
         uncut=uncut(pairs, radius, surface, closed=ground.closed, side=side),
         surface_length=length,
         crosses_itself=len(ground.crossed) > 0,
-        wrong_side=tuple(pairs.centre.rows[wrong].tolist()),
+        wrong_side=tuple(pairs.center.rows[wrong].tolist()),
         loose=loose(pairs),
         backwards=backwards(pairs, radius),
         crossing_at=_first(ground.crossed),

@@ -1,4 +1,4 @@
-"""Names: what a move of a centre path is, in a machinist's words, by its number and by what it looks like."""
+"""Names: what a move of a center path is, in a machinist's words, by its number and by what it looks like."""
 
 from __future__ import annotations
 

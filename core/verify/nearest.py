@@ -1,8 +1,9 @@
-"""Nearest: where a centre path comes nearest to the surface, for whoever asks after the verdict."""
+"""Nearest: where a center path comes nearest to the surface, for whoever asks after the verdict."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,7 +11,6 @@ from core.geometry.distance import foot
 from core.geometry.measured import at
 from core.geometry.path import Path
 from core.geometry.piece import Point
-from core.records import dataclass
 from core.tolerance import GOUGE, ON_PATH
 from core.verify.course import courses
 from core.verify.judge import judgeable
@@ -19,9 +19,9 @@ from core.verify.pairs import approaches, pairs_of
 
 @dataclass(frozen=True, slots=True)
 class Nearest:
-    """The least distance from path to surface, millimetres, and the first place along the path that is so near.
+    """The least distance from path to surface, millimeters, and the first place along the path that is so near.
 
-    `at` is the centre there, `surface_at` the surface point, `surface_number` the contour's segment.
+    `at` is the center there, `surface_at` the surface point, `surface_number` the contour's segment.
     """
 
     distance: float
@@ -30,15 +30,15 @@ class Nearest:
     surface_number: float
 
 
-def nearest(surface: Path, centres: Sequence[Path], clearance: float) -> Nearest | None:
+def nearest(surface: Path, centers: Sequence[Path], clearance: float) -> Nearest | None:
     """Where these paths, all cut, come as near to the surface as `clearance`, their verdict's; None if nowhere.
 
     Places that differ by no more than GOUGE are as near as each other.
     """
     with np.errstate(all="ignore"):
-        if not (len(surface) and centres and judgeable(clearance, surface, *centres)):
+        if not (len(surface) and centers and judgeable(clearance, surface, *centers)):
             return None
-        wall_course, move_course = courses((surface,), centres)
+        wall_course, move_course = courses((surface,), centers)
         walls, moves = wall_course.pieces, move_course.pieces
         slack = 2.0 * float(walls.slack.max() + moves.slack.max(initial=0.0))
         reach = clearance + slack + 2.0 * GOUGE
@@ -51,6 +51,6 @@ def nearest(surface: Path, centres: Sequence[Path], clearance: float) -> Nearest
         row = pair[first : first + 1]
         place = at(moves.take(near.i[row]), near.places[k[first : first + 1], row])
         wall = walls.take(near.j[row])
-        touched, centre = at(wall, foot(wall, place)).item(), place.item()
+        touched, center = at(wall, foot(wall, place)).item(), place.item()
     number = surface.numbers[wall.rows].item()
-    return Nearest(clearance, (centre.real, centre.imag), (touched.real, touched.imag), number)
+    return Nearest(clearance, (center.real, center.imag), (touched.real, touched.imag), number)

@@ -1,7 +1,8 @@
-"""Pairs: the pieces of a centre path and of a surface that are near enough to matter to each other."""
+"""Pairs: the pieces of a center path and of a surface that are near enough to matter to each other."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import isnan, ulp
 
 import numpy as np
@@ -10,7 +11,6 @@ from core.geometry.boxes import closest_pairs, near_pairs
 from core.geometry.distance import between, nearest_places
 from core.geometry.measured import Floats, Measured, Rows, blocks
 from core.geometry.remembered import remembered
-from core.records import dataclass
 from core.tolerance import UNCUT
 from core.verify.beside import NOBODY, Beside
 from core.verify.course import Course
@@ -20,19 +20,19 @@ from core.verify.unproved import CLEAR, unproved_pairs
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pairs:
-    """Pieces `i` of the centre path and `j` of the surface, in rising order of i, and what is measured of both paths.
+    """Pieces `i` of the center path and `j` of the surface, in rising order of i, and what is measured of both paths.
 
     Every pair whose pieces come within the reach it was made for is there, and no other, but for what `own` proves of
     own pieces, corners and their walls.  `touch` is what is measured of the pairs, `grant` (m,) what rounding and the
-    uneven radii of arcs leave open for each.  `centre_stations` and `surface_stations` are the lengths travelled at
+    uneven radii of arcs leave open for each.  `center_stations` and `surface_stations` are the lengths traveled at
     the pieces' starts and at the end.
     """
 
-    centre: Measured
+    center: Measured
     surface: Measured
-    centre_stations: Floats
+    center_stations: Floats
     surface_stations: Floats
-    centre_boxes: Floats
+    center_boxes: Floats
     surface_boxes: Floats
     i: Rows
     j: Rows
@@ -42,30 +42,30 @@ class Pairs:
 
 
 def pairs_of(
-    centre: Course,
+    center: Course,
     surface: Course,
     radius: float,
     reach: float,
     own: Beside = NOBODY,
 ) -> Pairs:
     """All pairs within `reach`.  Touches are those within `radius`."""
-    moves, walls, exact = centre.pieces, surface.pieces, granted(surface.pieces)
+    moves, walls, exact = center.pieces, surface.pieces, granted(surface.pieces)
     if len(own.piece):
-        i, j = unproved_pairs(moves, centre.boxes, walls, surface.boxes, own, reach, radius + CLEAR * exact)
+        i, j = unproved_pairs(moves, center.boxes, walls, surface.boxes, own, reach, radius + CLEAR * exact)
     else:
-        i, j = near_pairs(centre.boxes, surface.boxes, reach)
+        i, j = near_pairs(center.boxes, surface.boxes, reach)
     grant = np.full(len(i), exact)
     for pieces, rows in ((moves, i), (walls, j)):
         if pieces.slack.any():
             grant += pieces.slack[rows]
     if 2 * len(i) > len(moves) + len(walls):
-        centre, surface = centre.whole(), surface.whole()
-    touch = touches(centre, i, surface, j, radius, grant)
+        center, surface = center.whole(), surface.whole()
+    touch = touches(center, i, surface, j, radius, grant)
     # what is no number is kept, for the judge to see
     near = (~(touch.apart > reach)).nonzero()[0]
     if len(near) < len(i):
         i, j, grant, touch = i[near], j[near], grant[near], touch.take(near)
-    stations, bounds = (centre.stations, surface.stations), (centre.boxes, surface.boxes)
+    stations, bounds = (center.stations, surface.stations), (center.boxes, surface.boxes)
     return Pairs(moves, walls, *stations, *bounds, i, j, grant, touch, own)
 
 
@@ -79,7 +79,7 @@ def granted(surface: Measured) -> float:
 class Approaches:
     """The least distance among all pairs, infinite without any, and the pairs nearer than was asked for.
 
-    Of these: places (8, m) on pieces `i` of the centre path where they may be nearest to pieces `j`, how near they are
+    Of these: places (8, m) on pieces `i` of the center path where they may be nearest to pieces `j`, how near they are
     there, and what each pair was asked for.  The least is no number if any distance is none.
     """
 
@@ -109,7 +109,7 @@ def measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
         return _none(np.inf, i)
     found = [
         _measure_block(pairs, i[block], j[block], limit)
-        for block in blocks(pairs.centre.arcs[i], pairs.surface.arcs[j])
+        for block in blocks(pairs.center.arcs[i], pairs.surface.arcs[j])
     ]
     if len(found) == 1:
         return found[0]
@@ -124,7 +124,7 @@ def _none(least: float, nobody: Rows) -> Approaches:
 
 
 def _measure_block(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
-    piece, other = pairs.centre.take(i), pairs.surface.take(j)
+    piece, other = pairs.center.take(i), pairs.surface.take(j)
     places, apart = _measured(piece, other)
     limits = limit - piece.slack - other.slack
     deep = (apart < limits).any(axis=0)
@@ -140,6 +140,6 @@ def _measured(piece: Measured, other: Measured) -> tuple[Floats, Floats]:
 
 def clearance(pairs: Pairs, near: Approaches, reach: float) -> float:
     """Least distance of the two paths, infinite if one is empty; `near` knows it if it is within `reach`."""
-    if near.least <= reach or not len(pairs.centre) or not len(pairs.surface):
+    if near.least <= reach or not len(pairs.center) or not len(pairs.surface):
         return near.least
-    return measure(pairs, *closest_pairs(pairs.centre_boxes, pairs.surface_boxes), 0.0).least
+    return measure(pairs, *closest_pairs(pairs.center_boxes, pairs.surface_boxes), 0.0).least

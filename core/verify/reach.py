@@ -1,12 +1,13 @@
-"""Reach: which places of one path lie within a radius of another, as exact stretches of length travelled.
+"""Reach: which places of one path lie within a radius of another, as exact stretches of length traveled.
 
-The one question behind gouges (the centre path within the radius of the surface), uncut stretches (the surface not
-within the radius of the centre path) and moves away from the part.
+The one question behind gouges (the center path within the radius of the surface), uncut stretches (the surface not
+within the radius of the center path) and moves away from the part.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -15,7 +16,6 @@ from core.geometry.boxes import nearest_boxes
 from core.geometry.distance import band_places, between, distance
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, blocks
 from core.geometry.remembered import remembered
-from core.records import dataclass
 from core.tolerance import ON_PATH
 
 FEW: Final = 400
@@ -24,7 +24,7 @@ FEW: Final = 400
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Stretches:
-    """k stretches of a path, apart from each other and in order: lengths travelled (k,) at `first` and `last`."""
+    """k stretches of a path, apart from each other and in order: lengths traveled (k,) at `first` and `last`."""
 
     first: Floats
     last: Floats
@@ -43,7 +43,7 @@ class Stretches:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Parts:
-    """m parts of pieces: lengths travelled at both ends and in the middle, the distance there, and whose pair it is."""
+    """m parts of pieces: lengths traveled at both ends and in the middle, the distance there, and whose pair it is."""
 
     first: Floats
     last: Floats

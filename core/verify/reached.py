@@ -1,12 +1,13 @@
-"""Reached: the stretches of a surface that are within the radius of a centre path, and the gaps between them."""
+"""Reached: the stretches of a surface that are within the radius of a center path, and the gaps between them."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
 from core.geometry.distance import band_places, feet
 from core.geometry.measured import Floats, Rows
-from core.records import dataclass
 from core.tolerance import STOCK
 from core.verify.pairs import Pairs
 from core.verify.reach import Parts, Stretches, joined, within
@@ -14,14 +15,14 @@ from core.verify.reach import Parts, Stretches, joined, within
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Reached:
-    """Stretches of surface that are reached, and the pieces of the centre path that reach their two ends."""
+    """Stretches of surface that are reached, and the pieces of the center path that reach their two ends."""
 
     stretches: Stretches
     begin: Rows
     end: Rows
 
     def gaps(self, total: float) -> tuple[Stretches, Rows]:
-        """What is not reached and longer than STOCK, and (2, k) the centre pieces at its ends, -1 at the contour's."""
+        """What is not reached and longer than STOCK, and (2, k) the center pieces at its ends, -1 at the contour's."""
         first, last = np.zeros((2, len(self.stretches) + 1))
         first[1:], last[:-1], last[-1] = self.stretches.last, self.stretches.first, total
         near = np.full((2, len(first)), -1)
@@ -31,7 +32,7 @@ class Reached:
 
 
 def covered(pairs: Pairs) -> bool:
-    """Every wall is reached from end to end by a single piece of the centre path, for sure."""
+    """Every wall is reached from end to end by a single piece of the center path, for sure."""
     touch, whole = pairs.touch, np.zeros(len(pairs.surface), np.bool_)
     whole[: len(pairs.own.last)] = (pairs.own.first <= 0.0) & (pairs.own.last >= 1.0)
     whole[pairs.j[~touch.unsure & (touch.first <= 0.0) & (touch.last >= 1.0)]] = True
@@ -39,7 +40,7 @@ def covered(pairs: Pairs) -> bool:
 
 
 def reached(pairs: Pairs, radius: float) -> Reached:
-    """The stretches of surface within the radius of the centre path.
+    """The stretches of surface within the radius of the center path.
 
     What is granted for rounding and for uneven arcs decides whether a place is reached; where a stretch ends is then
     settled with the radius alone.
@@ -55,7 +56,7 @@ def reached(pairs: Pairs, radius: float) -> Reached:
         parts = joined((_by_own(pairs, own), parts))
     unsure = touch.unsure.nonzero()[0]
     if len(unsure):
-        more = within(pairs.surface, pairs.j[unsure], pairs.centre, pairs.i[unsure], radius + pairs.grant[unsure])
+        more = within(pairs.surface, pairs.j[unsure], pairs.center, pairs.i[unsure], radius + pairs.grant[unsure])
         parts = joined((parts, Parts(more.first, more.last, more.middle, more.apart, unsure[more.pair])))
     return _settled(pairs, parts, radius)
 
@@ -98,7 +99,7 @@ def _draw_in(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: flo
     move beside the wall; the foot of that end is where it stops when the wall is exactly a radius away.
     """
     i, j, grant = pairs.i[pair], pairs.j[pair], pairs.grant[pair]
-    piece, other = pairs.surface.take(j), pairs.centre.take(i)
+    piece, other = pairs.surface.take(j), pairs.center.take(i)
     places = np.concatenate((band_places(piece, other, np.full(len(pair), radius)), feet(piece, other)))
     moved = (pairs.surface_stations[j] + places * piece.length - ends) * inward
     widest = 2.0 * np.sqrt(2.0 * (radius + grant) * grant)

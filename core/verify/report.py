@@ -15,13 +15,13 @@ from core.verify.stray import Away, Stray
 from core.verify.verdict import Gouge, Uncut, UncutStretches, Verdict
 
 DIGIT: Final = 0.00254
-"""Millimetres: the last digit of a form in inches."""
+"""Millimeters: the last digit of a form in inches."""
 
 SHOWN: Final = DIGIT / 2.0
 """Lengths below this would be told as zeros."""
 
 SHOWN_AREA: Final = 0.033
-"""Square millimetres below which an area would be told as zeros in inches."""
+"""Square millimeters below which an area would be told as zeros in inches."""
 
 Shares = list[tuple[float, float]]
 """Segments by their numbers, and how much of each."""
@@ -49,7 +49,7 @@ def findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple
 
 
 def stray_findings(found: Stray) -> tuple[Finding, ...]:
-    """What an operator should see of a path's stretches away from the part and of pieces travelled backwards."""
+    """What an operator should see of a path's stretches away from the part and of pieces traveled backwards."""
     backwards: tuple[Finding, ...] = ()
     if found.backwards:
         count = len(found.backwards)

@@ -1,7 +1,8 @@
-"""Sides: which pieces of a centre path run on the part's side of the surface."""
+"""Sides: which pieces of a center path run on the part's side of the surface."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -9,7 +10,6 @@ import numpy as np
 from core.geometry.distance import foot
 from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place
 from core.geometry.side import Side
-from core.records import dataclass
 from core.tolerance import ARC_RADII, CLOSED, JOINED, ON_PATH
 from core.verify.crossing import Crossings, at_joints
 from core.verify.gouge import Gouging
@@ -21,7 +21,7 @@ CLEARLY: Final = 1e-6
 
 
 NARROW: Final = 2.0 * (CLOSED + ARC_RADII)
-"""Millimetres within which a path may slip through a closed contour: twice how far its ends, and the ends of uneven
+"""Millimeters within which a path may slip through a closed contour: twice how far its ends, and the ends of uneven
 arcs from the circles taken for them, may be apart."""
 
 
@@ -29,7 +29,7 @@ arcs from the circles taken for them, may be apart."""
 class Sided:
     """A surface that has a side: `side` is the cutter's.
 
-    `first` and `last` are lengths travelled; before and behind them, and at them, the surface has no side unless it
+    `first` and `last` are lengths traveled; before and behind them, and at them, the surface has no side unless it
     is `endless`.  Where it is `crossed` the sides of two of its walls may contradict each other near both.
     """
 
@@ -55,7 +55,7 @@ def sided(side: Side, crossings: Crossings, total: float, *, closed: bool) -> Si
 
 
 def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, parts: Stretches) -> tuple[Flags, Flags]:
-    """(n,) pieces of the centre path of which some point is clearly on the part's side, and which of the `parts` of it,
+    """(n,) pieces of the center path of which some point is clearly on the part's side, and which of the `parts` of it,
     that have one side each, are there.
 
     The parts stand for all pieces that meet the surface.  A piece that does not is on one side of a closed contour.  It
@@ -65,25 +65,25 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, reach: float, parts
     gouge is asked at its ends too, in its middle and where it is deepest, and a piece that meets no wall may be on
     another side between these places.
     """
-    wrong = np.zeros(len(pairs.centre), np.bool_)
-    if not len(pairs.surface) or not len(pairs.centre):
+    wrong = np.zeros(len(pairs.center), np.bool_)
+    if not len(pairs.surface) or not len(pairs.center):
         return wrong, np.zeros(len(parts), np.bool_)
     rows, near = _contact(pairs, reach, ON_PATH)
-    count, settled = len(rows), pairs.own.settled(len(pairs.centre))
+    count, settled = len(rows), pairs.own.settled(len(pairs.center))
     settled[rows] = True if surface.endless else _kept(pairs, found)[rows] | settled[rows]
     asked, gouged = (~settled).nonzero()[0], _gouged(found, surface)
     alike = count > 0 and len(asked) > 0 and _on_one_side(pairs, surface, reach)
     index, t = _samples(rows, asked[:0] if alike else asked)
     places = np.concatenate((gouged, (parts.first + parts.last) / 2.0))
     if len(places):
-        owners, shares = place(pairs.centre, pairs.centre_stations, places)
+        owners, shares = place(pairs.center, pairs.center_stations, places)
         index, t = np.concatenate((index, owners)), np.concatenate((t, shares))
-    points = at(pairs.centre.take(index), t)
+    points = at(pairs.center.take(index), t)
     if len(index) > count:
         near = near.followed(nearest(points[count:], pairs.surface, pairs.surface_boxes, tie=ON_PATH), count)
     told = on_part_side(pairs, points, near, surface)
     if surface.crossed:
-        s = pairs.centre_stations[index] + t * pairs.centre.length[index]
+        s = pairs.center_stations[index] + t * pairs.center.length[index]
         s[len(s) - len(places) :] = places
         told &= ~_inside(found, s)
     moves, behind = told[: len(told) - len(parts)], told[len(told) - len(parts) :]
@@ -102,7 +102,7 @@ def _on_one_side(pairs: Pairs, surface: Sided, reach: float) -> bool:
         return False
     if min(pairs.touch.apart.min(initial=np.inf), pairs.own.apart.min(initial=np.inf)) <= NARROW:
         return False
-    start, vector = pairs.centre.start, pairs.centre.vector
+    start, vector = pairs.center.start, pairs.center.vector
     return bool(np.abs(start[:-1] + vector[:-1] - start[1:]).max(initial=0.0) <= JOINED)
 
 
@@ -112,8 +112,8 @@ def _kept(pairs: Pairs, found: Gouging) -> Flags:
     From the one side to the other they could only go about the wall's end, where the next wall would be met; beyond
     the first and the last one there is none.
     """
-    touch, stations, gouge = pairs.touch, pairs.centre_stations, found.stretches
-    kept = np.zeros(len(pairs.centre), np.bool_)
+    touch, stations, gouge = pairs.touch, pairs.center_stations, found.stretches
+    kept = np.zeros(len(pairs.center), np.bool_)
     kept[pairs.i[touch.along & (pairs.j > 0) & (pairs.j < len(pairs.surface) - 1)]] = True
     if len(gouge):
         owner = np.searchsorted(gouge.first, stations[1:]) - 1
@@ -148,10 +148,10 @@ def _as_near_as_own(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Rows,
     piece = np.concatenate((own.piece[walls], own.corner[bent], own.corner[bent]))
     wall = np.concatenate((walls, bent, bent + 1))
     apart = np.concatenate((own.apart[walls], own.apart[bent], own.apart[bent]))
-    nearest = np.full(len(pairs.centre), np.inf)
+    nearest = np.full(len(pairs.center), np.inf)
     nearest[piece] = apart
     close = close[middle[close] <= nearest[pairs.i[close]] + tie]
-    asked = np.zeros(len(pairs.centre), np.bool_)
+    asked = np.zeros(len(pairs.center), np.bool_)
     asked[pairs.i[close]] = True
     chosen = asked[piece].nonzero()[0]
     i, j = np.concatenate((pairs.i[close], piece[chosen])), np.concatenate((pairs.j[close], wall[chosen]))
@@ -160,7 +160,7 @@ def _as_near_as_own(pairs: Pairs, reach: float, tie: float) -> tuple[Rows, Rows,
 
 
 def _gouged(found: Gouging, surface: Sided) -> Floats:
-    """Places along the centre path that stand for the gouges: of a closed contour that does not cross itself none."""
+    """Places along the center path that stand for the gouges: of a closed contour that does not cross itself none."""
     if not len(found.i) or (surface.endless and not surface.crossed):
         return found.place[:0]
     first, last = found.stretches.first, found.stretches.last

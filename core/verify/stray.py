@@ -1,18 +1,18 @@
-"""Stray: where a centre path is off the surface by more than the radius, and where it runs against the contour.
+"""Stray: where a center path is off the surface by more than the radius, and where it runs against the contour.
 
 Neither is a gouge.  Lead moves are always away; in a path read from elsewhere a stretch away that is no lead move, or a
-piece travelled backwards, is a mistake worth seeing.
+piece traveled backwards, is a mistake worth seeing.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import isinf
 
 import numpy as np
 
 from core.geometry.path import Path
 from core.geometry.piece import Point
-from core.records import dataclass
 from core.tolerance import GOUGE
 from core.verify.contact import backwards
 from core.verify.course import courses
@@ -45,26 +45,26 @@ class Stray:
     backwards: tuple[int, ...]
 
 
-def stray(surface: Path, radius: float, centre: Path) -> Stray:
-    """Where `centre` leaves the surface by more than the radius (millimetres), and where it runs backwards.
+def stray(surface: Path, radius: float, center: Path) -> Stray:
+    """Where `center` leaves the surface by more than the radius (millimeters), and where it runs backwards.
 
     Nothing is told of a path that cannot be judged.
     """
-    if not (len(surface) and len(centre) and judgeable(radius, surface, centre)):
+    if not (len(surface) and len(center) and judgeable(radius, surface, center)):
         return Stray((), ())
     with np.errstate(all="ignore"):
-        walls, moves = courses((surface,), (centre,))
+        walls, moves = courses((surface,), (center,))
         slack = float(walls.pieces.slack.max() + moves.pieces.slack.max())
         if isinf(slack):
             return Stray((), ())
         reach = radius + 10.0 * GOUGE + slack
         pairs, turned = pairs_of(moves, walls, radius, reach), pairs_of(walls, moves, radius, reach)
-        return Stray(_away(turned, radius, centre), backwards(pairs, radius))
+        return Stray(_away(turned, radius, center), backwards(pairs, radius))
 
 
-def _away(pairs: Pairs, radius: float, centre: Path) -> tuple[Away, ...]:
+def _away(pairs: Pairs, radius: float, center: Path) -> tuple[Away, ...]:
     """The path is to the surface what the surface is to the path: what it does not reach it is away from."""
-    told = uncut(pairs, radius, centre, closed=False)
+    told = uncut(pairs, radius, center, closed=False)
     return tuple(
         Away(one.first_number, one.last_number, one.start, one.end, one.length, one.thickness, one.thickest)
         for one in told

@@ -7,6 +7,7 @@ all; both are seen from their ends.  The few others are told, and are left to `r
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from math import tau
 from typing import Final, NamedTuple
 
@@ -14,10 +15,9 @@ import numpy as np
 
 from core.geometry.distance import foot
 from core.geometry.measured import Flags, Floats, Measured, Rows
-from core.records import dataclass
 from core.tolerance import ON_PATH, STOCK
 from core.verify.columns import (
-    CENTRE,
+    CENTER,
     STRAIGHT,
     Columns,
     arc_middle,
@@ -34,7 +34,7 @@ BLOCK: Final = 4_000
 """Pairs worked out at a time: few enough to stay in a processor's cache."""
 
 POINT: Final = 1e-6
-"""Millimetres of surface that count as one point."""
+"""Millimeters of surface that count as one point."""
 
 NONE: Final = 2.0
 """A fraction that lies on no piece."""
@@ -42,9 +42,9 @@ NONE: Final = 2.0
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Touches:
-    """(m,) least distance of each pair, and what of its surface piece is within the limit of its centre piece.
+    """(m,) least distance of each pair, and what of its surface piece is within the limit of its center piece.
 
-    `middle` is the distance of the centre piece's middle, `along` whether that and its ends are within STOCK.
+    `middle` is the distance of the center piece's middle, `along` whether that and its ends are within STOCK.
 
     The part from `first` to `last`, fractions, is within for sure, none where `first` > `last`; it is all there is
     unless the pair is `unsure`.
@@ -67,7 +67,7 @@ class _Group(NamedTuple):
     """The lines of a block's pairs, or the arcs: their columns (5 or 15, n), and x and y of their starts, ends and
     middles, `spots` (2, 3, n).
 
-    First stand the `mixed` of the centre path whose partners are of the other kind; then the `alike` whose partners are
+    First stand the `mixed` of the center path whose partners are of the other kind; then the `alike` whose partners are
     of this kind, then these partners, in the same order; and last the partners of the other kind's first ones.
     """
 
@@ -87,7 +87,7 @@ class _Group(NamedTuple):
 class _Block(NamedTuple):
     """m pairs worked out at once: first those of a line and an arc, then of two lines, an arc and a line, two arcs.
 
-    `bent` (2, m) are the pieces, of the centre path and of the surface, that are arcs.
+    `bent` (2, m) are the pieces, of the center path and of the surface, that are arcs.
     """
 
     i: Rows
@@ -97,18 +97,18 @@ class _Block(NamedTuple):
     arcs: _Group
 
 
-def touches(centre: Course, i: Rows, surface: Course, j: Rows, radius: float, grant: Floats) -> Touches:
-    """The pairs of pieces `i` of the centre path and `j` of the surface, measured, and their touch.
+def touches(center: Course, i: Rows, surface: Course, j: Rows, radius: float, grant: Floats) -> Touches:
+    """The pairs of pieces `i` of the center path and `j` of the surface, measured, and their touch.
 
     What is within the radius and `grant` (m,) touches; a pair nearer than the radius less its grant is unsure.
     """
     limit = radius + grant
     found = _blank(len(i))
-    for rows, block in _blocks(centre, i, surface, j):
+    for rows, block in _blocks(center, i, surface, j):
         within, places = _measure(found, rows, block, limit[rows])
-        first, last = _hull(within, places, block, centre.pieces, surface.pieces)
+        first, last = _hull(within, places, block, center.pieces, surface.pieces)
         found.first[rows], found.last[rows] = first, last
-        found.unsure[rows] = _unsure(last - first, block, centre.pieces, surface.pieces)
+        found.unsure[rows] = _unsure(last - first, block, center.pieces, surface.pieces)
     np.logical_or(found.unsure, found.apart < radius - grant, out=found.unsure)
     return found
 
@@ -119,10 +119,10 @@ def _blank(count: int) -> Touches:
     return Touches(apart, first, last, flags[0], middle, flags[1])
 
 
-def _blocks(centre: Course, i: Rows, surface: Course, j: Rows) -> Iterator[tuple[Rows, _Block]]:
+def _blocks(center: Course, i: Rows, surface: Course, j: Rows) -> Iterator[tuple[Rows, _Block]]:
     """Indices of pairs, in the order of their kinds, at most BLOCK at a time: each formula is asked for its own pieces
     alone, and what it yields is put together from slices."""
-    bent = np.array((centre.pieces.arcs.take(i), surface.pieces.arcs.take(j)))
+    bent = np.array((center.pieces.arcs.take(i), surface.pieces.arcs.take(j)))
     other = bent[1].view(np.int8)
     kinds = np.where(bent[0], 2 + other, 1 - other)
     order = kinds.argsort(kind="stable")
@@ -130,16 +130,16 @@ def _blocks(centre: Course, i: Rows, surface: Course, j: Rows) -> Iterator[tuple
         rows = order[start : start + BLOCK]
         some_i, some_j = i.take(rows), j.take(rows)
         counts = np.bincount(kinds.take(rows), minlength=4).tolist()
-        yield rows, _Block(some_i, some_j, bent.take(rows, axis=1), *_groups(centre, some_i, surface, some_j, *counts))
+        yield rows, _Block(some_i, some_j, bent.take(rows, axis=1), *_groups(center, some_i, surface, some_j, *counts))
 
 
 def _groups(
-    centre: Course, i: Rows, surface: Course, j: Rows, line_arc: int, lines: int, arc_line: int, arcs: int
+    center: Course, i: Rows, surface: Course, j: Rows, line_arc: int, lines: int, arc_line: int, arcs: int
 ) -> tuple[_Group, _Group]:
     """The lines and the arcs of a block's pairs, of which there are so many of each kind."""
     bent, both = line_arc + lines, line_arc + lines + arc_line
-    straight = _columns(centre, i[:bent], surface, j[line_arc:both], STRAIGHT)
-    curved = _columns(centre, i[bent:], surface, np.concatenate((j[both:], j[:line_arc])), len(Columns._fields))
+    straight = _columns(center, i[:bent], surface, j[line_arc:both], STRAIGHT)
+    curved = _columns(center, i[bent:], surface, np.concatenate((j[both:], j[:line_arc])), len(Columns._fields))
     line, arc = Columns(*straight), Columns(*curved)
     return (
         _Group(straight, _spots(line, *line_middle(line)), line_arc, lines),
@@ -147,11 +147,11 @@ def _groups(
     )
 
 
-def _columns(centre: Course, i: Rows, surface: Course, j: Rows, count: int) -> Floats:
-    """So many columns of pieces `i` of the centre path and then of `j` of the surface; without arcs a path has few."""
+def _columns(center: Course, i: Rows, surface: Course, j: Rows, count: int) -> Floats:
+    """So many columns of pieces `i` of the center path and then of `j` of the surface; without arcs a path has few."""
     found = np.empty((count, len(i) + len(j)))
     if len(i):
-        found[:, : len(i)] = centre.columns_at(i, count)
+        found[:, : len(i)] = center.columns_at(i, count)
     if len(j):
         found[:, len(i) :] = surface.columns_at(j, count)
     return found
@@ -163,7 +163,7 @@ def _spots(pieces: Columns, x: Floats, y: Floats) -> Floats:
 
 
 def _measure(found: Touches, rows: Rows, block: _Block, limit: Floats) -> tuple[Flags, Floats]:
-    """Distances of the pairs; (4, m) whether the surface pieces' ends and the centre pieces' ends, start and end of
+    """Distances of the pairs; (4, m) whether the surface pieces' ends and the center pieces' ends, start and end of
     each, are within the limit of the other piece; and (4, m) fractions of surface lines nearest to these."""
     mine, theirs, nearest = _to_ends(block)
     ends, places = np.concatenate((theirs[:2], mine[:2])), np.zeros((4, len(limit)))
@@ -176,8 +176,8 @@ def _measure(found: Touches, rows: Rows, block: _Block, limit: Floats) -> tuple[
 
 
 def _to_ends(block: _Block) -> tuple[Floats, Floats, Floats]:
-    """(3, m) distances of the centre pieces' starts, ends and middles from the surface pieces, and the same the other
-    way round; and (2, k) fractions of the k surface lines nearest to the centre pieces' starts and ends."""
+    """(3, m) distances of the center pieces' starts, ends and middles from the surface pieces, and the same the other
+    way round; and (2, k) fractions of the k surface lines nearest to the center pieces' starts and ends."""
     lines, arcs = block.lines, block.arcs
     square, t = to_line(*_partners(lines, arcs), Columns(*lines.columns))
     apart, own = np.sqrt(square, out=square), lines.mixed + lines.alike
@@ -220,7 +220,7 @@ def _between_ends(block: _Block) -> Floats:
     return apart
 
 
-def _hull(within: Flags, places: Floats, block: _Block, centre: Measured, surface: Measured) -> tuple[Floats, Floats]:
+def _hull(within: Flags, places: Floats, block: _Block, center: Measured, surface: Measured) -> tuple[Floats, Floats]:
     """First and last fraction of a surface piece that is one of the ends within the limit.
 
     The distance from a line is convex along another: what lies between is within too.  On arcs the feet are looked for
@@ -231,15 +231,15 @@ def _hull(within: Flags, places: Floats, block: _Block, centre: Measured, surfac
         end, row = (within[2:] & block.bent[1]).nonzero()
         if len(row):
             i, j = block.i[row], block.j[row]
-            places[end + 2, row] = foot(surface.take(j), centre.start.take(i) + end * centre.vector.take(i))
+            places[end + 2, row] = foot(surface.take(j), center.start.take(i) + end * center.vector.take(i))
     first: Floats = np.where(within, places, NONE).min(axis=0)
     last: Floats = np.where(within, places, -NONE).max(axis=0)
     return first, last
 
 
-def _unsure(share: Floats, block: _Block, centre: Measured, surface: Measured) -> Flags:
+def _unsure(share: Floats, block: _Block, center: Measured, surface: Measured) -> Flags:
     """Touches with arcs that are more than a point, such a `share` of the surface piece, unless both arcs are about one
-    centre and overlap but once."""
+    center and overlap but once."""
     unsure: Flags = block.bent[0] | block.bent[1]
     if not unsure.any():
         return unsure
@@ -248,14 +248,14 @@ def _unsure(share: Floats, block: _Block, centre: Measured, surface: Measured) -
     one, other, begin = block.arcs.columns[:, mine], block.arcs.columns[:, theirs], len(unsure) - block.arcs.alike
     both = unsure[begin:].nonzero()[0]
     if len(both):
-        both = both[np.hypot(*(one[CENTRE].take(both, axis=1) - other[CENTRE].take(both, axis=1))) <= ON_PATH]
-        angles = centre.angle[block.i[begin + both]] + surface.angle[block.j[begin + both]]
+        both = both[np.hypot(*(one[CENTER].take(both, axis=1) - other[CENTER].take(both, axis=1))) <= ON_PATH]
+        angles = center.angle[block.i[begin + both]] + surface.angle[block.j[begin + both]]
         unsure[begin + both] = _meet_twice(one.take(both, axis=1), other.take(both, axis=1), angles)
     return unsure
 
 
 def _meet_twice(arcs: Floats, others: Floats, angles: Floats) -> Flags:
-    """Pairs of arcs about one centre, of so many radians together, that may overlap at both ends: the directions of
+    """Pairs of arcs about one center, of so many radians together, that may overlap at both ends: the directions of
     their middles are no farther apart than half a turn."""
     twice: Flags = angles >= tau - 2.0 * POINT
     some = twice.nonzero()[0]

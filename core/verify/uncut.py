@@ -1,4 +1,4 @@
-"""Uncut: the stretches of surface that no point of the centre path reaches, and how thick they stay."""
+"""Uncut: the stretches of surface that no point of the center path reaches, and how thick they stay."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool, side: Sid
     if not len(gaps):
         return NOTHING
     parts = parts_of(pairs, gaps)
-    if not len(pairs.centre):
+    if not len(pairs.center):
         every, far, unknown = np.ones(len(gaps), np.bool_), np.full(len(gaps), inf), np.full(len(gaps), nan)
         return _told(pairs, surface, parts, every, parts.points[parts.begins], far, unknown)
     over = closed and bool(gaps.first[0] == 0.0 and gaps.last[-1] == total)

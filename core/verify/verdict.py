@@ -1,8 +1,9 @@
-"""The verdict's words: what a centre path does to a surface.  Millimetres throughout."""
+"""The verdict's words: what a center path does to a surface.  Millimeters throughout."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from math import isnan
 from typing import Any, Final, overload
 
@@ -11,22 +12,21 @@ from numpy.typing import NDArray
 
 from core.geometry.piece import Point
 from core.geometry.stretch import Ends
-from core.records import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Gouge:
-    """One stretch of the centre path nearer to the surface than the radius, told by its deepest point.
+    """One stretch of the center path nearer to the surface than the radius, told by its deepest point.
 
-    `depth` is how far the cutter reaches behind the surface there: the radius less the centre's distance from it, and
-    where the centre itself is on the part's side the radius and that distance.  The stretch ends where the centre is
+    `depth` is how far the cutter reaches behind the surface there: the radius less the center's distance from it, and
+    where the center itself is on the part's side the radius and that distance.  The stretch ends where the center is
     the radius away again; where that is behind the surface, all of the cutter is, and it is told twice the radius
     deep however far the path goes on: `wrong_side` tells the moves.  Beside an open contour nothing is behind where
     one of its ends is nearest, and where its arms contradict each other a move's side is asked for at 63 places
     between any two at which it meets a wall.  Where a contour crosses itself the sides of its walls contradict each
     other: distances alone count there, and no depth is larger than the radius.
 
-    `at` is the centre there, `surface_at` the surface point it cuts into; `path_piece` is the row of the judged
+    `at` is the center there, `surface_at` the surface point it cuts into; `path_piece` is the row of the judged
     path, `path_number` its number, `surface_number` the contour's segment; `extent` the stretch's length.
     """
 
@@ -44,7 +44,7 @@ class Uncut:
     """One stretch of the surface that no point of the path reaches: segments it begins and ends on, and its ends.
 
     `thickness` is the largest distance from the stretch to the swept area, met at `thickest`.  `area` is what lies
-    between both, square millimetres; None where the stretch ends at the contour's end, or where the cutter moves on
+    between both, square millimeters; None where the stretch ends at the contour's end, or where the cutter moves on
     while it is away from it.
     """
 
@@ -140,7 +140,7 @@ NOTHING: Final = UncutStretches(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Verdict:
-    """What one centre path does to one surface.
+    """What one center path does to one surface.
 
     `clearance` is the least distance from path to surface (infinite for an empty path); gouges are deepest first,
     uncut stretches in the contour's order.  `wrong_side` lists rows of the path that are behind the surface somewhere,

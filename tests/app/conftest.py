@@ -1,4 +1,4 @@
-"""Nothing of the machine may show in a picture: colours, themes and options of the environment are cleared."""
+"""Nothing of the machine may show in a picture: colors, themes and options of the environment are cleared."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The pocket example in a folder of its own, which is the current one."""
     # not before the environment is clear
     from app.files import example
-    from core.program.store import load, save
+    from core.program.file.store import load, save
 
     path = tmp_path / "shop" / "part.toml"
     path.parent.mkdir()

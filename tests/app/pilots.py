@@ -15,8 +15,8 @@ from app.files import empty_program, example
 from app.session import Session
 from app.widgets.painted import Rows
 from app.widgets.rows import text_of
+from core.program.file.store import load
 from core.program.model import Program
-from core.program.store import load
 from tests.app.operator import FROZEN
 
 

@@ -22,8 +22,8 @@ from core.pipeline import needs as remedies
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.needs import Needs
 from core.program.edit import Where
+from core.program.file.store import load
 from core.program.model import Program
-from core.program.store import load
 from tests.app.pilots import app_on, at_rest, lines, loaded, until
 from tests.reports.reference import Reference
 

@@ -18,8 +18,8 @@ from app.widgets.rows import text_of
 from app.widgets.strip import strip
 from core.pipeline.derive import derive
 from core.pipeline.table import look_ahead_table
+from core.program.file.store import load
 from core.program.model import Entry
-from core.program.store import load
 from tests.app.operator import Operator
 
 

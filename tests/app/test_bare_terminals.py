@@ -1,4 +1,4 @@
-"""Terminals without colours, or older than UTF-8, through a real pseudo-terminal."""
+"""Terminals without colors, or older than UTF-8, through a real pseudo-terminal."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ PROGRAM = [sys.executable, "-m", "app"]
 PENS = re.compile(rb"\x1b\[([0-9;]*)m")
 
 
-def coloured(data: bytes) -> set[bytes]:
-    """Sequences that ask for a colour, the terminal's own ink and paper (39, 49) among them."""
+def colored(data: bytes) -> set[bytes]:
+    """Sequences that ask for a color, the terminal's own ink and paper (39, 49) among them."""
     return {one for one in PENS.findall(data) if re.search(rb"(?:^|;)(?:[34][0-9]|9[0-7]|10[0-7])(?:;|$)", one)}
 
 
 @pytest.mark.parametrize("term", ["vt100", "vt220", "xterm-mono", "xterm", "linux"])
 @pytest.mark.parametrize("more", [{"LANG": "C.UTF-8"}, {"LANG": "C"}], ids=str)
-def test_a_terminal_without_colours_gets_none(tmp_path: Path, term: str, more: dict[str, str]) -> None:
+def test_a_terminal_without_colors_gets_none(tmp_path: Path, term: str, more: dict[str, str]) -> None:
     """In a dialog that has tones for everything, and on the form behind it."""
     part = Path(shutil.copy(example("pocket"), tmp_path / "part.toml"))
     take(part, ELSEWHERE)
@@ -38,7 +38,7 @@ def test_a_terminal_without_colours_gets_none(tmp_path: Path, term: str, more: d
         terminal.until("GOUGE none", longest=30.0)
         terminal.send(b"\t\t\t\t")
         terminal.read(quiet=0.5)
-        assert bool(coloured(bytes(terminal.seen))) == (term in ("xterm", "linux"))
+        assert bool(colored(bytes(terminal.seen))) == (term in ("xterm", "linux"))
         assert any(cell.reverse for row in terminal.screen.buffer.values() for cell in row.values())
         assert terminal.seen.isascii() == (term.startswith("vt") or more["LANG"] == "C")
 
@@ -85,21 +85,21 @@ def test_a_terminal_too_small_says_so_and_goes_on(tmp_path: Path, size: tuple[in
         ({"TERM": "something"}, None, False),
     ],
 )
-def test_which_terminals_have_no_colours(environment: dict[str, str], known: int | None, bare: bool) -> None:
+def test_which_terminals_have_no_colors(environment: dict[str, str], known: int | None, bare: bool) -> None:
     assert monochrome(environment, lambda _: known) is bare
 
 
 @pytest.mark.parametrize(
     "name", ["xterm", "xterm-256color", "screen.xterm", "tmux", "linux", "putty", "vte", "ansi-color"]
 )
-def test_names_that_are_known_to_have_colours_need_no_table(name: str) -> None:
+def test_names_that_are_known_to_have_colors_need_no_table(name: str) -> None:
     def table(name: str) -> int | None:
         raise AssertionError(name)
 
     assert not monochrome({"TERM": name}, table)
 
 
-def test_a_vt100_has_no_utf_8_and_an_xterm_without_colours_has() -> None:
+def test_a_vt100_has_no_utf_8_and_an_xterm_without_colors_has() -> None:
     assert [ascii_only({"TERM": name}) for name in ("vt100", "vt220-8", "xterm-mono", "vte")] == [
         True,
         True,

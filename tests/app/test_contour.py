@@ -116,7 +116,7 @@ def test_arrows_walk_and_the_last_one_offers_a_new_segment() -> None:
     assert operator.session.where.segment == 4
 
 
-def test_deleting_a_segment_joins_its_neighbours() -> None:
+def test_deleting_a_segment_joins_its_neighbors() -> None:
     operator = square().press("2", "enter", "f1")
     assert operator.typed("x_end") == [Entry(2.0), Entry(0.0), Entry(0.0)]
     assert "(X START            2.0000)" in operator.part("body")

@@ -8,8 +8,8 @@ import pytest
 
 from app.screens.contour import Contour
 from app.screens.decide import Decide
+from core.program.file.store import load
 from core.program.model import Entry
-from core.program.store import load
 from tests.app.kept import DEAD, Kept, asked, names, started
 
 

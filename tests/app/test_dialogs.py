@@ -16,8 +16,8 @@ from app.screens.new_segment import NewSegment
 from app.screens.page import UNANSWERED
 from app.screens.post import PostPage
 from app.session import Session
+from core.program.file.store import load
 from core.program.model import Entry
-from core.program.store import load
 from tests.app.operator import Operator
 
 

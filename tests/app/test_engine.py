@@ -22,8 +22,8 @@ from core.pipeline.derived import DerivedBlock, Work
 from core.pipeline.needs import needs
 from core.pipeline.outline import outline
 from core.program.edit import Where, copy_block, type_field
+from core.program.file.store import load
 from core.program.model import Entry, Program
-from core.program.store import load
 from tests.bench.keys import gear
 
 PART = load(example("overrun-square"))
@@ -102,7 +102,7 @@ def plain(found: DerivedBlock) -> tuple[object, ...]:
 def cut(work: Work) -> tuple[object, ...]:
     """The paths and what they do."""
     paths = [work.surface, *(loop.whole for loop in work.loops)]
-    arrays = [array.tolist() for path in paths for array in (path.points, path.centres, path.turns, path.numbers)]
+    arrays = [array.tolist() for path in paths for array in (path.points, path.centers, path.turns, path.numbers)]
     verdict = work.verdict
     return arrays, None if verdict is None else (verdict.clean, verdict.uncut_length, verdict.clearance)
 

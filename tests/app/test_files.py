@@ -14,8 +14,8 @@ from app.screens.program import ProgramPage
 from app.screens.save import SaveAsPage
 from app.session import Session
 from core.output.override import OVERRIDE
+from core.program.file.store import load
 from core.program.model import Entry
-from core.program.store import load
 from tests.app.operator import Operator
 
 

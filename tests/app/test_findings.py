@@ -18,8 +18,8 @@ from app.widgets.verdict import fitted, verdict_rows
 from core.pipeline.derive import derive
 from core.pipeline.outline import outline
 from core.pipeline.table import look_ahead_table
+from core.program.file.store import load
 from core.program.model import Entry, Program
-from core.program.store import load
 from tests.app.operator import Operator
 
 

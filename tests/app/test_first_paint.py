@@ -154,12 +154,3 @@ assert ssl.create_default_context()
 """
     done = subprocess.run([sys.executable, "-c", asked], cwd=ROOT, capture_output=True, text=True, check=False)
     assert (done.stdout, done.stderr) == ("as ever\n", "")
-
-
-def test_no_class_on_the_way_has_its_methods_compiled_at_once(tmp_path: Path, part: str) -> None:
-    modules = [name for name in loaded(tmp_path, part) if name.split(".")[0] in ("app", "core")]
-    paths = [ROOT.joinpath(*name.split(".")) for name in modules]
-    sources = [path for one in paths for path in (one.with_suffix(".py"), one / "__init__.py") if path.exists()]
-    assert len(sources) == len(modules)
-    costly = [str(path.relative_to(ROOT)) for path in sources if COMPILED.search(path.read_text())]
-    assert costly == []

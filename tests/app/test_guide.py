@@ -17,8 +17,8 @@ from core.pipeline.derive import derive
 from core.program.edit import Where, type_field
 from core.program.entries import read
 from core.program.fields import Form, field
+from core.program.file.store import load, save
 from core.program.model import CutterComp, Entry
-from core.program.store import load, save
 from tests.app.operator import Operator
 
 NAMED = {"Enter": "enter", "Down": "down", "Up": "up", "Page Down": "pagedown", "Page Up": "pageup", "L": "l"}

@@ -12,9 +12,9 @@ from app.files import example
 from app.screens.contour import Contour
 from app.screens.decide import Decide
 from app.session import Session
+from core.program.file.store import load, save
 from core.program.lock import lock_path
 from core.program.model import Entry
-from core.program.store import load, save
 from tests.app.kept import DEAD, asked, names, started
 
 

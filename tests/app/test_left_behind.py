@@ -11,10 +11,10 @@ import pytest
 
 from app.screens.contour import Contour
 from app.screens.decide import Decide
+from core.program.file.store import load
 from core.program.journal_file import journal_path
 from core.program.lock import Owner, myself
 from core.program.model import Entry
-from core.program.store import load
 from tests.app.kept import DEAD, ELSEWHERE, asked, names, started
 
 BOB = replace(DEAD, user="bob", pid=DEAD.pid + 1)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from app.files import is_nc
 from app.listing import Listing
-from core.controls.source import lines_of
+from core.controls.iso.source import lines_of
 
 DATA = (
     b"",
@@ -51,7 +51,7 @@ def test_lines_of_utf_16_are_those_the_controls_count() -> None:
     assert listing.changed(1, "M30").data == "\ufeffG1 X1\r\nM30".encode("utf-16-le")
 
 
-def test_a_changed_line_keeps_its_end_and_its_neighbours() -> None:
+def test_a_changed_line_keeps_its_end_and_its_neighbors() -> None:
     listing = Listing.read(b"G1 X1\r\nG1 X2\rG1 X3").changed(1, "G0")
     assert listing.data == b"G1 X1\r\nG0\rG1 X3"
     assert listing.unsaved

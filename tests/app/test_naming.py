@@ -13,7 +13,7 @@ from app.folders import folder_told
 from app.naming import as_program, is_folder, program_named, typed, with_suffix
 from app.screens.browse import listed
 from core.pipeline.derive import derive
-from core.program.store import load
+from core.program.file.store import load
 from tests.app.operator import Operator
 
 LONG = "中" * 100

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from app.files import example
-from core.program.store import load
+from core.program.file.store import load
 from tests.app.operator import Operator
 
 

@@ -10,7 +10,7 @@ from app.desk import Desk
 from app.files import example, opened
 from app.screens.ask import Ask
 from app.session import Session
-from core.program.store import load, save
+from core.program.file.store import load, save
 from tests.app.operator import Operator
 
 

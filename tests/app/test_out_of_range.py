@@ -13,8 +13,8 @@ from core.pipeline.outline import outline
 from core.program.coding import block_of, packed_block
 from core.program.entries import unread
 from core.program.fields import TABLES, Form, check
+from core.program.file.store import dumps, load, loads
 from core.program.model import ArcSegment, BlendSegment, Block, Entry, LineSegment, Program, Unread
-from core.program.store import dumps, load, loads
 from core.units import Kind, Unit
 from tests.app.operator import Operator
 

@@ -10,8 +10,8 @@ from app.widgets.strip import strip
 from core.pipeline.derive import derive
 from core.pipeline.table import look_ahead_table
 from core.program.edit import Refused, Where, type_field
+from core.program.file.store import load
 from core.program.model import Program
-from core.program.store import load
 from tests.app.operator import Operator
 
 

@@ -12,8 +12,8 @@ from app.session import Session
 from core.program.edit import Where
 from core.program.entries import read
 from core.program.fields import TOOL
+from core.program.file.store import load
 from core.program.model import CutterComp, Entry, PathChoice, Tool, Unread
-from core.program.store import load
 from core.units import Unit
 from tests.app.operator import Operator
 

@@ -10,9 +10,9 @@ from app.files import example
 from app.keeping import Keeping
 from app.main import begin
 from app.screens.decide import Decide
+from core.program.file.store import StoreError, load, save
 from core.program.journal_file import journal_path, set_aside
 from core.program.model import Entry
-from core.program.store import StoreError, load, save
 from tests.app.kept import DEAD, TIME, Kept, started
 
 

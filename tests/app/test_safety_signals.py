@@ -12,9 +12,9 @@ import pytest
 
 from app.places import read
 from app.safety import GRACE
+from core.program.file.store import load
 from core.program.journal import Recovered
 from core.program.model import Entry
-from core.program.store import load
 from tests.app.test_safety_terminal import PROGRAM, status
 from tests.terminal import Terminal, running
 

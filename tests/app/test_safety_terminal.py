@@ -1,4 +1,4 @@
-"""Terminals through a real pty: any byte, any locale, no colour, no cursor, none at all."""
+"""Terminals through a real pty: any byte, any locale, no color, no cursor, none at all."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from core.program.file.store import load
 from core.program.model import Entry
-from core.program.store import load
 from tests.terminal import Terminal, running
 
 PROGRAM = [sys.executable, "-m", "app"]
@@ -67,7 +67,7 @@ def test_errors_into_a_file_are_no_terminal(tmp_path: Path) -> None:
 
 
 def test_no_color() -> None:
-    """Cells without a style of their own end the program where colours are filtered out."""
+    """Cells without a style of their own end the program where colors are filtered out."""
     with running([*PROGRAM, "--example"], environment={"NO_COLOR": "1"}) as terminal:
         terminal.until("GOUGE none")
         terminal.send(b"\x1bOS\x1b[18~\t\t9\r\x1b7")

@@ -15,8 +15,8 @@ from app.desk import Desk
 from app.files import opened
 from core.pipeline.derive import derive
 from core.program.fields import TABLES, Form
+from core.program.file.store import loads, save
 from core.program.model import CutterComp
-from core.program.store import loads, save
 from core.units import Kind
 from tests.app.operator import Operator
 from tests.core.program.parts import line, program

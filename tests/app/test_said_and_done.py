@@ -17,8 +17,8 @@ from app.widgets.rows import text_of
 from app.widgets.verdict import verdict_rows
 from core.pipeline.derive import derive
 from core.pipeline.table import look_ahead_table
+from core.program.file.store import dumps, load
 from core.program.model import Entry
-from core.program.store import dumps, load
 from tests.app.kept import DEAD, ELSEWHERE, asked, started
 from tests.app.operator import Operator
 
@@ -66,7 +66,7 @@ def test_what_a_control_takes_is_told_with_its_remarks() -> None:
     assert "nine-series:a goes round corners its own way" in words(operator)
 
 
-def test_the_path_of_the_centre_waits_for_no_control() -> None:
+def test_the_path_of_the_center_waits_for_no_control() -> None:
     operator = worked_out("pocket", *TO_LINUXCNC)
     answered(operator).press("down")
     assert operator.desk.page.question is None

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.settings import MOST, Keeper, Settings, dumps, load, loads
-from core.program.store import save
+from core.program.file.store import save
 from core.units import Unit
 from tests.app.operator import Operator
 

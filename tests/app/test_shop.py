@@ -12,9 +12,9 @@ from app.screens.ask import Ask
 from app.screens.import_tools import FaultsPage
 from app.screens.program import ProgramPage
 from app.screens.tools import ToolsPage
+from core.program.file.store import load, save
 from core.program.lock import Lock, release, take
 from core.program.model import Entry, Tool
-from core.program.store import load, save
 from tests.app.kept import ELSEWHERE
 from tests.app.operator import Operator
 

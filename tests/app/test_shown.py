@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.shown import Line, Picture, Shown, Texts, line_of, neighbours
+from app.shown import Line, Picture, Shown, Texts, line_of, neighbors
 from app.slim import slim
 
 COLUMNS, ROWS = 12, 4
@@ -178,8 +178,8 @@ def test_only_cells_that_differ_are_sent() -> None:
 def test_cells_side_by_side_in_one_style_are_one_text() -> None:
     line = line_of([("ab", "1"), ("cde", "1"), ("f g", "4")])
     bold, under = (cell.style for cell in (line[0], line[7]) if cell is not None)
-    assert list(neighbours(line, [0, 1, 2, 4, 5, 6, 7])) == [(0, "abc", bold), (4, "e", bold), (5, "f g", under)]
-    assert not list(neighbours(line, []))
+    assert list(neighbors(line, [0, 1, 2, 4, 5, 6, 7])) == [(0, "abc", bold), (4, "e", bold), (5, "f g", under)]
+    assert not list(neighbors(line, []))
 
 
 def test_a_short_way_is_written_over() -> None:
@@ -194,7 +194,7 @@ def test_blanks_to_the_end_are_erased() -> None:
     assert watched.write("\x1b[2;1H\x1b[44maa          \x1b[0m\x1b[1;1H") == "\x1b[2;3H\x1b[44m\x1b[K\x1b[H\x1b[0m"
 
 
-def test_where_erasing_leaves_no_colour_blanks_are_written() -> None:
+def test_where_erasing_leaves_no_color_blanks_are_written() -> None:
     watched = Watched(erases=False)
     assert "\x1b[K" not in watched.write(covering("a "))
     watched.write(covering("a"))

@@ -32,7 +32,7 @@ SCREENS = {
     "post": ("overrun-square", ("f8", "f6", "enter")),
     "leave": ("pocket", ("tab", "9", "ctrl+q")),
     "help": ("pocket", ("tab", "tab", "tab", "tab", "?")),
-    "millimetres": ("plate-mm", ("2", "enter")),
+    "millimeters": ("plate-mm", ("2", "enter")),
 }
 
 

@@ -15,8 +15,8 @@ from pathlib import Path
 import pytest
 
 from app.files import example
+from core.program.file.store import load
 from core.program.model import Entry
-from core.program.store import load
 from tests.reports.relay import Line, relayed
 from tests.terminal import Terminal, running
 

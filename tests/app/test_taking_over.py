@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from app.files import example
+from core.program.file.store import dumps, load, save
 from core.program.lock import lock_path
 from core.program.model import Entry
-from core.program.store import dumps, load, save
 from tests.app.kept import DEAD, ELSEWHERE, asked, names, started
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from app.files import example
 from app.screens.tools import ToolsPage
-from core.program.store import load
+from core.program.file.store import load
 from tests.app.operator import Operator
 
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from core.program.file.store import load
 from core.program.model import Entry
-from core.program.store import load
 from tests.app.test_safety_terminal import PROGRAM, status
 from tests.terminal import Terminal, running
 

@@ -17,7 +17,7 @@ from dataclasses import replace
 from pathlib import Path as File
 from typing import Final
 
-from core.comp.best import best_path
+from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate
 from core.pipeline.derive import derive
 from core.pipeline.table import look_ahead_table

@@ -60,8 +60,8 @@ def gear(count: int) -> Work:
     places = np.append(places, places[0])
     points = np.stack((places.real, places.imag), axis=1)
     turns = np.tile((1, 0, 1, 0), teeth)
-    centres = np.where(turns[:, None] == 0, points[:-1], 0.0)
-    return Work(Path.of(points, centres, turns), Side.LEFT, 2.0, True, 0.2)
+    centers = np.where(turns[:, None] == 0, points[:-1], 0.0)
+    return Work(Path.of(points, centers, turns), Side.LEFT, 2.0, True, 0.2)
 
 
 def spline(count: int) -> Work:
@@ -83,7 +83,7 @@ def teeth(count: int) -> Work:
 
 
 def notches(count: int) -> Work:
-    """A line with a notch every few millimetres that the cutter cannot enter."""
+    """A line with a notch every few millimeters that the cutter cannot enter."""
     block = np.array([0.0, 2.0, 2.0 - 0.3j, 2.3 - 0.3j, 2.3])
     places = (4.0 * np.arange(count // 5 + 1)[:, None] + block).ravel()[: count + 1]
     return Work(_polyline(places.astype(np.complex128)), Side.LEFT, 0.25, False, 0.1)

@@ -34,8 +34,8 @@ from math import cos, dist, pi, sin
 from pathlib import Path
 
 from core.program.edit import new_block
+from core.program.file.store import save
 from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, Program, Segment, Tool
-from core.program.store import save
 from tests.bench.pace import EMPTY_SECONDS, Slowness, rs274_slowness
 from tests.bench.work import at_work, worked
 from tests.terminal import Terminal, running

@@ -20,7 +20,7 @@ from tests.bench.families import Work
 from tests.rs274 import WITNESS, process
 
 CHORD: Final = 1e-3
-"""Chords leave their arc by no more than so many millimetres."""
+"""Chords leave their arc by no more than so many millimeters."""
 
 CLIPPER: Final = find_spec("pyclipr") is not None
 """Whether Clipper2 is installed."""
@@ -36,7 +36,7 @@ def chords(path: Path) -> Floats:
     counts = np.maximum(np.ceil(sweeps / angles), 1.0).astype(np.intp)
     piece = np.repeat(np.arange(len(path)), counts)
     share = (np.arange(len(piece)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[piece]
-    radial = (path.starts - path.centres)[piece]
+    radial = (path.starts - path.centers)[piece]
     angle = share * path.sweeps[piece]
     turned = np.stack(
         (
@@ -45,7 +45,7 @@ def chords(path: Path) -> Floats:
         ),
         axis=1,
     )
-    points = np.where(path.turns[piece, None] == 0, path.starts[piece], path.centres[piece] + turned)
+    points = np.where(path.turns[piece, None] == 0, path.starts[piece], path.centers[piece] + turned)
     return np.concatenate((points, path.points[-1:]))
 
 
@@ -67,7 +67,7 @@ def buffer(work: Work, points: Floats) -> Callable[[], object]:
 
 
 def clipper(work: Work, points: Floats) -> Callable[[], object] | None:
-    """Clipper2's offset of the closed polygon or of the open line, in whole units of 0.1 micrometre, if it is there."""
+    """Clipper2's offset of the closed polygon or of the open line, in whole units of 0.1 micrometer, if it is there."""
     if not CLIPPER:
         return None
     pyclipr, scale = import_module("pyclipr"), 1e4
@@ -108,7 +108,7 @@ def _program(work: Work) -> list[str]:
     for piece in work.contour:
         end = f"X{piece.end[0]:.8f} Y{piece.end[1]:.8f}"
         if isinstance(piece, Arc):
-            i, j = piece.centre[0] - piece.start[0], piece.centre[1] - piece.start[1]
+            i, j = piece.center[0] - piece.start[0], piece.center[1] - piece.start[1]
             lines.append(f"{'G3' if piece.turn > 0 else 'G2'} {end} I{i:.8f} J{j:.8f}")
         else:
             lines.append(f"G1 {end}")

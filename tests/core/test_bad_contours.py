@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.comp.best import best_path
+from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate, compensate_all
 from core.finding import Severity
 from core.geometry.path import Path
@@ -40,12 +40,12 @@ radii = st.sampled_from([0.0, -1.0, nan, inf, 1e-300, 1e-9, 1e-7, 0.25, 0.5, 1.0
 
 @st.composite
 def arrays(draw: st.DrawFn, numbers: st.SearchStrategy[float]) -> Path:
-    """Any arrays at all: arcs whose centres have nothing to do with their ends among them."""
+    """Any arrays at all: arcs whose centers have nothing to do with their ends among them."""
     count = draw(st.integers(0, 7))
     points = [[draw(numbers), draw(numbers)] for _ in range(count + 1)]
-    centres = [[draw(numbers), draw(numbers)] for _ in range(count)]
+    centers = [[draw(numbers), draw(numbers)] for _ in range(count)]
     turns = [draw(st.sampled_from((-1, 0, 0, 1))) for _ in range(count)]
-    return Path.of(np.array(points), np.array(centres), np.array(turns, np.int8))
+    return Path.of(np.array(points), np.array(centers), np.array(turns, np.int8))
 
 
 def _everything(contour: Path, side: Side, radius: float, *, closed: bool) -> None:

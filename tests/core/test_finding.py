@@ -87,5 +87,5 @@ def test_it_is_copied_and_goes_to_another_process_and_back() -> None:
 
 
 def test_it_is_frozen() -> None:
-    with pytest.raises(AttributeError, match="frozen"):
+    with pytest.raises(AttributeError):
         late().text = "other"  # type: ignore[misc]

@@ -135,7 +135,7 @@ def test_what_is_shown_reads_back(ten_thousandths, unit):
         assert parse(show(value, Kind.LENGTH, unit), Kind.LENGTH, unit) == value
 
 
-def test_millimetres():
+def test_millimeters():
     assert to_mm(2.0, IN) == 50.8
     assert to_mm(2.0, MM) == 2.0
     assert from_mm(50.8, IN) == 2.0

@@ -1,4 +1,4 @@
-"""Where two centre paths differ: stretches of the one that are not in the other, by the segments they belong to."""
+"""Where two center paths differ: stretches of the one that are not in the other, by the segments they belong to."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece
 
 PRINTED: Final = 2e-4
-"""Points of two paths this near, in millimetres beside a cutter of 200, are one: LinuxCNC prints four decimals."""
+"""Points of two paths this near, in millimeters beside a cutter of 200, are one: LinuxCNC prints four decimals."""
 
 SHORT: Final = 1e-3
 """Pieces shorter than this are left out of both paths: their ends can hardly be told apart in print."""
@@ -52,7 +52,7 @@ def same(one: Piece, two: Piece) -> bool:
     if not near or isinstance(one, Arc) is not isinstance(two, Arc):
         return False
     if isinstance(one, Arc) and isinstance(two, Arc):
-        return one.turn is two.turn and dist(one.centre, two.centre) < PRINTED
+        return one.turn is two.turn and dist(one.center, two.center) < PRINTED
     return True
 
 

@@ -2,7 +2,7 @@
 
 START, OPEN, SAVE AS, LEAVE, OPEN ALREADY, work that was not saved, CHANGED MEANWHILE and NC PROOF.  What stands on each
 terminal is compared, but for times, with what stands on an xterm of UTF-8, and its bytes are looked through as in the
-matrix; on a terminal without colours something has to stand out all the same.
+matrix; on a terminal without colors something has to stand out all the same.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from app.charset import lookalike
 from app.files import example
 from core.program.lock import myself, take
 from tests.app.kept import DEAD, ELSEWHERE, started
-from tests.reports.matrix import ROOT, colours_wrong, stray
-from tests.reports.terminals import Colours, Kind, sampled
+from tests.reports.matrix import ROOT, colors_wrong, stray
+from tests.reports.terminals import Colors, Kind, sampled
 from tests.terminal import Terminal, running
 
 PART: Final = "part.toml"
@@ -35,7 +35,7 @@ TIMES: Final = re.compile(r"\d{4}-\d\d-\d\d-\d{6}|\d{4}-\d\d-\d\d|\d\d:\d\d")
 FOLDERS: Final = re.compile(r"/tmp/[a-z0-9_]+")
 QUIET: Final = 0.3
 PATIENCE: Final = 20.0
-PLAIN: Final = Kind("xterm-256color", Colours.MANY, "UTF-8")
+PLAIN: Final = Kind("xterm-256color", Colors.MANY, "UTF-8")
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ NAMES: Final = tuple(step.name for scene in SCENES for step in scene.steps)
 
 
 def screens(kind: Kind, characters: str = "") -> Iterator[tuple[str, list[str], str]]:
-    """The name of every screen, what stands on it, and what is wrong with its bytes and colours, in words."""
+    """The name of every screen, what stands on it, and what is wrong with its bytes and colors, in words."""
     for scene in SCENES:
         with TemporaryDirectory() as name:
             folder = Path(name)
@@ -121,7 +121,7 @@ def walked(kind: Kind, scene: Scene, folder: Path, terminal: Terminal) -> Iterat
             yield step.name, [], f"it does not come:\n{terminal.text}"
             return
         settle(terminal)
-        wrong = stray(bytes(terminal.seen), kind.characters) or colours_wrong(terminal, kind.shown)
+        wrong = stray(bytes(terminal.seen), kind.characters) or colors_wrong(terminal, kind.shown)
         yield step.name, masked(terminal), wrong or flat(terminal)
 
 

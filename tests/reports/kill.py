@@ -30,9 +30,9 @@ from app.places import read
 from app.session import FIRST, SEGMENT, Session
 from core.program.difference import differences
 from core.program.edit import Where
+from core.program.file.store import load
 from core.program.history import History
 from core.program.journal_file import journal_path
-from core.program.store import load
 from tests.app.operator import Operator
 from tests.reports.kill_keys import keys, sent
 from tests.terminal import Terminal, running

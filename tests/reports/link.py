@@ -24,12 +24,12 @@ from pathlib import Path
 from typing import Final
 
 from app.session import Session
-from core.program.store import load, save
+from core.program.file.store import load, save
 from tests.bench.keys import gear
 from tests.reports.matrix import Lost, Seat, Tally
 from tests.reports.reference import Reference
 from tests.reports.relay import LOCAL, Line, Relayed, relayed
-from tests.reports.terminals import Colours, Kind, sent
+from tests.reports.terminals import Colors, Kind, sent
 from tests.terminal import running
 
 ROOT: Final = Path(__file__).parents[2]
@@ -82,7 +82,7 @@ def begun(line: Line, program: Path, tally: Tally) -> Iterator[tuple[Seat, Cost]
     """The program at the end of a line, and what its first finished screen cost."""
     program = copied(program)
     arguments = [sys.executable, "-m", "app", str(program)]
-    kind = Kind("xterm-256color", Colours.MANY, "UTF-8")
+    kind = Kind("xterm-256color", Colors.MANY, "UTF-8")
     environment = {**kind.environment, "PYTHONPATH": str(ROOT)}
     with running(arguments, environment=environment) as inner, relayed(inner, line) as terminal:
         reference = Reference(Session.of(load(program), program))
@@ -137,7 +137,7 @@ def stopped(program: Path, tally: Tally) -> None:
     """Stopped as by a shell's job control; what others write meanwhile is gone after it goes on."""
     program = copied(program)
     with running([sys.executable, "-m", "app", str(program)], environment={"PYTHONPATH": str(ROOT)}) as terminal:
-        seat = Seat(Kind("xterm-256color", Colours.MANY, "UTF-8"), terminal, fresh(program), SIZE, (), tally)
+        seat = Seat(Kind("xterm-256color", Colors.MANY, "UTF-8"), terminal, fresh(program), SIZE, (), tally)
         seat.compare("the start")
         seat.press("tab")
         os.kill(terminal.pid, signal.SIGTSTP)
@@ -174,7 +174,7 @@ def reattached(program: Path, tally: Tally) -> None:
         reference = fresh(program)
         try:
             with running(start, environment=environment) as terminal:
-                seat = Seat(Kind("xterm-256color", Colours.MANY, "UTF-8"), terminal, reference, SIZE, (), tally)
+                seat = Seat(Kind("xterm-256color", Colors.MANY, "UTF-8"), terminal, reference, SIZE, (), tally)
                 seat.compare("the start in tmux")
                 for key in ("tab", "4"):
                     seat.press(key)
@@ -223,7 +223,7 @@ def report(segments: int, idleness: float) -> Iterator[str]:
     with tempfile.TemporaryDirectory() as folder:
         program = Path(folder) / "gear.toml"
         save(gear(segments), program)
-        yield f"{segments} segments, {SIZE[0]}x{SIZE[1]}, 256 colours"
+        yield f"{segments} segments, {SIZE[0]}x{SIZE[1]}, 256 colors"
         yield f"idle                       {idle(program, idleness, whole)} bytes in {idleness:.0f} s"
         for name, line in LINES.items():
             yield name

@@ -1,4 +1,4 @@
-"""Our centre paths beside LinuxCNC's own, over many contours: `python -m tests.reports.linuxcnc [--count 1000]`.
+"""Our center paths beside LinuxCNC's own, over many contours: `python -m tests.reports.linuxcnc [--count 1000]`.
 
 Every contour is compensated by LinuxCNC's interpreter, by us at look-ahead 1 and at one larger than the contour, and
 by the best path.  A difference is a stretch of path; each is put down to a named rule whose predicate holds there.
@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path as File
 
-from core.comp.best import BestPath, best_path
+from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.compensate import compensate_all
 from core.geometry.path import EMPTY, Path
 from core.verify.judge import judge
@@ -108,7 +108,7 @@ def printed(found: Report) -> Iterator[str]:
 
 def main(arguments: list[str]) -> int:
     """Print the report; 1 if a difference has no name."""
-    parser = argparse.ArgumentParser(description="compare our centre paths with LinuxCNC's")
+    parser = argparse.ArgumentParser(description="compare our center paths with LinuxCNC's")
     parser.add_argument("--count", type=int, default=1000, help="so many accepted contours")
     with tempfile.TemporaryDirectory() as folder:
         found = report(parser.parse_args(arguments).count, File(folder))

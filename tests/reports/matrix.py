@@ -1,8 +1,8 @@
 """The program under every kind of terminal, its screen compared cell by cell: `python -m tests.reports.matrix`.
 
-TERM x colours x locale x drawing characters x size, and the function keys of every mode of PuTTY.  What stands on a
+TERM x colors x locale x drawing characters x size, and the function keys of every mode of PuTTY.  What stands on a
 terminal emulator's screen after every key is compared with what the App draws without a terminal; the bytes are
-looked through for anything a terminal would not take; the cursor has to be seen, without any colour too.
+looked through for anything a terminal would not take; the cursor has to be seen, without any color too.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from app.charset import lookalike
 from app.files import example
 from app.session import Session
 from app.widgets.rows import Look
-from core.program.store import load
+from core.program.file.store import load
 from tests.reports.reference import Reference, keys_of
 from tests.reports.terminals import (
     FUNCTION_KEYS,
     PUTTY,
     SIZES,
     XTERM,
-    Colours,
+    Colors,
     Kind,
     kinds,
     sampled,
@@ -143,9 +143,9 @@ class Seat:
         return ""
 
 
-def stands_out(cell: Any, colours: Colours) -> bool:
-    """Whether a cell of the cursor differs from its surroundings, by an attribute where colours are few."""
-    if colours in (Colours.FEW, Colours.NONE):
+def stands_out(cell: Any, colors: Colors) -> bool:
+    """Whether a cell of the cursor differs from its surroundings, by an attribute where colors are few."""
+    if colors in (Colors.FEW, Colors.NONE):
         return bool(cell.reverse or cell.underscore)
     return bool(cell.reverse) or cell.bg not in ("default", "12171c", "121212", "1c1c1c")
 
@@ -161,17 +161,17 @@ def stray(data: bytes, characters: str) -> str:
     return f"stray characters {odd}" if odd else ""
 
 
-def colours_wrong(terminal: Terminal, colours: Colours) -> str:
-    """A colour that the terminal has not."""
+def colors_wrong(terminal: Terminal, colors: Colors) -> str:
+    """A color that the terminal has not."""
     used = {part for row in terminal.screen.buffer.values() for cell in row.values() for part in (cell.fg, cell.bg)}
-    if colours is Colours.NONE and used - {"default"}:
-        return f"colours where none are wanted: {sorted(used)}"
-    if colours is Colours.FEW and any(HEX.fullmatch(one) for one in used):
-        return f"more than sixteen colours: {sorted(used)}"
-    if colours in (Colours.TRUE, Colours.MANY) and not any(HEX.fullmatch(one) for one in used):
-        return f"colours are not used: {sorted(used)}"
+    if colors is Colors.NONE and used - {"default"}:
+        return f"colors where none are wanted: {sorted(used)}"
+    if colors is Colors.FEW and any(HEX.fullmatch(one) for one in used):
+        return f"more than sixteen colors: {sorted(used)}"
+    if colors in (Colors.TRUE, Colors.MANY) and not any(HEX.fullmatch(one) for one in used):
+        return f"colors are not used: {sorted(used)}"
     direct = re.search(rb"\x1b\[[0-9;]*[34]8;2;", bytes(terminal.seen)) is not None
-    return "" if direct == (colours is Colours.TRUE) else f"direct colours: {direct}"
+    return "" if direct == (colors is Colors.TRUE) else f"direct colors: {direct}"
 
 
 @contextmanager
@@ -193,7 +193,7 @@ def seated(kind: Kind, size: tuple[int, int], sequences: tuple[str, ...], tally:
         tally.runs += 1
         seat.compare("the start")
         yield seat
-        if trouble := stray(bytes(terminal.seen), kind.characters) or colours_wrong(terminal, kind.shown):
+        if trouble := stray(bytes(terminal.seen), kind.characters) or colors_wrong(terminal, kind.shown):
             seat.wrong(trouble)
 
 
@@ -240,7 +240,7 @@ def one_kind(kind: Kind, number: int, sizes: tuple[tuple[int, int], ...] = SIZES
 def one_mode(name: str) -> Tally:
     """The script by the function keys of one of PuTTY's modes."""
     tally = Tally()
-    with seated(Kind("putty", Colours.MANY, "UTF-8"), SIZES[0], PUTTY[name], tally) as seat:
+    with seated(Kind("putty", Colors.MANY, "UTF-8"), SIZES[0], PUTTY[name], tally) as seat:
         for key in SCRIPT:
             seat.press(key)
     tally.wrong = [f"PuTTY's mode {name}: {one}" for one in tally.wrong]
@@ -264,10 +264,10 @@ def report(tallies: dict[str, Tally]) -> Iterator[str]:
 
 
 def gathered(pool: ProcessPoolExecutor, every: tuple[Kind, ...]) -> dict[str, Tally]:
-    """These terminals, summed up by TERM and colours, then PuTTY's modes."""
+    """These terminals, summed up by TERM and colors, then PuTTY's modes."""
     tallies: dict[str, Tally] = {}
     for kind, tally in zip(every, pool.map(one_kind, every, range(len(every))), strict=True):
-        tallies.setdefault(f"{kind.term} {kind.colours}", Tally()).add(tally)
+        tallies.setdefault(f"{kind.term} {kind.colors}", Tally()).add(tally)
         print(kind, len(tally.wrong), file=sys.stderr)
     for name, tally in zip(PUTTY, pool.map(one_mode, PUTTY), strict=True):
         tallies[f"PuTTY keys {name}"] = tally
@@ -278,10 +278,10 @@ def main() -> int:
     """Print the report; exit status 1 when anything was wrong."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--at-once", type=int, default=2)
-    parser.add_argument("--all", action="store_true", help="every terminal with every colour in every locale")
+    parser.add_argument("--all", action="store_true", help="every terminal with every color in every locale")
     options = parser.parse_args()
     every = kinds() if options.all else sampled()
-    print(f"{len(every)} of {len(kinds())} terminals with colours and locale; --all runs them all")
+    print(f"{len(every)} of {len(kinds())} terminals with colors and locale; --all runs them all")
     with ProcessPoolExecutor(options.at_once) as pool:
         tallies = gathered(pool, every)
     print("\n".join(report(tallies)))

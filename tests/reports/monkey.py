@@ -37,8 +37,8 @@ from app.screens.proof_files import read as read_listing
 from app.session import Session
 from app.widgets.rows import Look, Row
 from core.pipeline.outline import outline
+from core.program.file.store import dumps, loads
 from core.program.lock import take
-from core.program.store import dumps, loads
 from tests.app.kept import DEAD, ELSEWHERE, TIME
 from tests.app.pilots import app_on, loaded
 from tests.reports.monkey_keys import Monkey

@@ -116,8 +116,8 @@ def _side_piece(random: Random, start: complex, end: complex, rise: tuple[float,
     if abs(bulge) < 0.01:
         return Line(_at(start), _at(end))
     chord = end - start
-    centre = (start + end) / 2 + 1j * chord * (1 - bulge * bulge) / (4 * bulge)
-    return Arc(_at(start), _at(end), _at(centre), Turn.CCW if bulge > 0 else Turn.CW)
+    center = (start + end) / 2 + 1j * chord * (1 - bulge * bulge) / (4 * bulge)
+    return Arc(_at(start), _at(end), _at(center), Turn.CCW if bulge > 0 else Turn.CW)
 
 
 def _lines_and_arcs(random: Random) -> tuple[int, float]:
@@ -160,9 +160,9 @@ def _piece(random: Random, at: complex, heading: complex, turn: int, size: float
         end = at + size * heading
         return Line(_at(at), _at(end)), end, heading
     swept = rect(1.0, turn * random.choice((0.3, 1.0, pi / 2, pi, 4.0)) * random.uniform(0.9, 1.1))
-    centre = at + turn * 1j * heading * size
-    end = centre + (at - centre) * swept
-    return Arc(_at(at), _at(end), _at(centre), Turn(turn)), end, heading * swept
+    center = at + turn * 1j * heading * size
+    end = center + (at - center) * swept
+    return Arc(_at(at), _at(end), _at(center), Turn(turn)), end, heading * swept
 
 
 def _side(random: Random) -> Side:

@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from core.comp.best import BestPath
+from core.comp.best_path.best_path import BestPath
 from core.comp.crossings import crossings
 from core.comp.offset import Part as ChainPart
 from core.comp.offset import offset
@@ -29,10 +29,10 @@ TANGENT: Final = 0.05
 """LinuxCNC takes corners under so many radians for none."""
 
 NOTICED: Final = 1e-3
-"""A gouge deeper than this, in millimetres beside a cutter of 200, is none of LinuxCNC's printed decimals."""
+"""A gouge deeper than this, in millimeters beside a cutter of 200, is none of LinuxCNC's printed decimals."""
 
 STEP: Final = 0.5
-"""Millimetres between points of a path that is measured by points."""
+"""Millimeters between points of a path that is measured by points."""
 
 
 class Rule(StrEnum):

@@ -1,4 +1,4 @@
-"""Terminals by what they are told to be: TERM, colours, locale; and the bytes their keys send."""
+"""Terminals by what they are told to be: TERM, colors, locale; and the bytes their keys send."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Final
 ESC: Final = "\x1b"
 TERMS: Final = ("xterm", "xterm-256color", "screen", "tmux", "linux", "putty", "vt100", "vt220", "xterm-mono")
 BARE: Final = ("vt100", "vt220", "xterm-mono")
-"""Terminals without colours."""
+"""Terminals without colors."""
 NO_UTF_8: Final = ("vt100", "vt220")
 """Terminals without UTF-8."""
 NAMED_256: Final = ("xterm", "screen", "tmux", "putty")
@@ -24,8 +24,8 @@ SIZES: Final = ((80, 24), (132, 43), (200, 60), (20, 5))
 MODES: Final = ("braille", "block", "ascii")
 
 
-class Colours(StrEnum):
-    """How many colours a terminal is told to have."""
+class Colors(StrEnum):
+    """How many colors a terminal is told to have."""
 
     TRUE = "truecolor"
     MANY = "256"
@@ -35,30 +35,30 @@ class Colours(StrEnum):
 
 @dataclass(frozen=True)
 class Kind:
-    """One terminal: the value of TERM, the colours, the locale's kind, and the drawing its operator asks for."""
+    """One terminal: the value of TERM, the colors, the locale's kind, and the drawing its operator asks for."""
 
     term: str
-    colours: Colours
+    colors: Colors
     locale: str
     asked: str = ""
 
     def __str__(self) -> str:
-        return " ".join(one for one in (self.term, self.colours, self.locale, self.asked) if one)
+        return " ".join(one for one in (self.term, self.colors, self.locale, self.asked) if one)
 
     @property
     def environment(self) -> dict[str, str | None]:
-        """What the program is started with; a name with 256 colours in it says so by itself."""
+        """What the program is started with; a name with 256 colors in it says so by itself."""
         values: dict[str, str | None] = {"TERM": self.term, "LANG": None, self.form: LOCALES[self.locale]}
-        match self.colours:
-            case Colours.TRUE:
+        match self.colors:
+            case Colors.TRUE:
                 values["COLORTERM"] = "truecolor"
-            case Colours.MANY if self.term in NAMED_256:
+            case Colors.MANY if self.term in NAMED_256:
                 values["TERM"] = f"{self.term}-256color"
-            case Colours.MANY:
+            case Colors.MANY:
                 values["TEXTUAL_COLOR_SYSTEM"] = "256"
-            case Colours.FEW if "256" in self.term:
+            case Colors.FEW if "256" in self.term:
                 values["TEXTUAL_COLOR_SYSTEM"] = "standard"
-            case Colours.NONE:
+            case Colors.NONE:
                 values["NO_COLOR"] = "1"
             case _:
                 pass
@@ -67,12 +67,12 @@ class Kind:
     @property
     def form(self) -> str:
         """The variable that names the locale: each of them on some terminals."""
-        return FORMS[(TERMS.index(self.term) + 2 * tuple(Colours).index(self.colours)) % len(FORMS)]
+        return FORMS[(TERMS.index(self.term) + 2 * tuple(Colors).index(self.colors)) % len(FORMS)]
 
     @property
-    def shown(self) -> Colours:
-        """The colours it must get: sixteen are assumed where nothing is said, but not of a terminal without any."""
-        return Colours.NONE if self.colours is Colours.FEW and self.term in BARE else self.colours
+    def shown(self) -> Colors:
+        """The colors it must get: sixteen are assumed where nothing is said, but not of a terminal without any."""
+        return Colors.NONE if self.colors is Colors.FEW and self.term in BARE else self.colors
 
     @property
     def characters(self) -> str:
@@ -103,15 +103,15 @@ class Kind:
 
 
 def kinds() -> tuple[Kind, ...]:
-    """Every terminal, colour and locale, and the same where its operator asks for braille."""
-    plain = tuple(Kind(*one) for one in product(TERMS, Colours, LOCALES))
+    """Every terminal, color and locale, and the same where its operator asks for braille."""
+    plain = tuple(Kind(*one) for one in product(TERMS, Colors, LOCALES))
     return (*plain, *(asked for kind in plain if (asked := kind.by_asking) is not None))
 
 
 def sampled() -> tuple[Kind, ...]:
-    """Some of them: every pair of a terminal, its colours and its locale, and each by asking once."""
-    turns = {one: number for every in (TERMS, Colours, LOCALES) for number, one in enumerate(every)}
-    plain = (kind for kind in kinds() if (turns[kind.term] + turns[kind.colours] - turns[kind.locale]) % 3 == 0)
+    """Some of them: every pair of a terminal, its colors and its locale, and each by asking once."""
+    turns = {one: number for every in (TERMS, Colors, LOCALES) for number, one in enumerate(every)}
+    plain = (kind for kind in kinds() if (turns[kind.term] + turns[kind.colors] - turns[kind.locale]) % 3 == 0)
     chosen = tuple(kind for kind in plain if not kind.asked)
     asked = {kind.term: kind for kind in kinds() if kind.asked}
     return (*chosen, *asked.values())

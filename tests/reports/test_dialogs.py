@@ -6,13 +6,11 @@ import pytest
 
 from tests.reports import dialogs
 from tests.reports.dialogs import NAMES, SCENES, one_kind
-from tests.reports.terminals import Colours, Kind
+from tests.reports.terminals import Colors, Kind
 
 
 @pytest.mark.timeout(240)
-@pytest.mark.parametrize(
-    "kind", [Kind("vt100", Colours.FEW, "UTF-8"), Kind("xterm-mono", Colours.FEW, "UTF-8")], ids=str
-)
+@pytest.mark.parametrize("kind", [Kind("vt100", Colors.FEW, "UTF-8"), Kind("xterm-mono", Colors.FEW, "UTF-8")], ids=str)
 def test_every_dialog_is_what_it_is_on_an_xterm(kind: Kind) -> None:
     assert one_kind(kind) == []
 
@@ -23,12 +21,12 @@ def test_no_screen_is_left_out() -> None:
 
 
 def test_a_screen_that_is_wrong_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Colours where none are wanted, another text, a screen that does not come."""
+    """Colors where none are wanted, another text, a screen that does not come."""
     scene = next(one for one in SCENES if one.steps[0].name == "OPEN ALREADY")
     monkeypatch.setattr(dialogs, "SCENES", (scene,))
     monkeypatch.setattr(dialogs, "expected", lambda _: {"OPEN ALREADY": ["another"]})
-    monkeypatch.setattr(Kind, "shown", Colours.NONE)
-    told = one_kind(Kind("xterm", Colours.FEW, "UTF-8"))
-    assert "colours where none are wanted" in told[0]
+    monkeypatch.setattr(Kind, "shown", Colors.NONE)
+    told = one_kind(Kind("xterm", Colors.FEW, "UTF-8"))
+    assert "colors where none are wanted" in told[0]
     assert "instead of 'another'" in told[1]
     assert "NC PROOF was not reached" in told[-1]

@@ -6,9 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from app.files import empty_program
+from core.program.file.store import save
 from core.program.history import History
 from core.program.model import Entry
-from core.program.store import save
 from tests.reports.kill import Part, Tally, came_back, lives, report
 
 

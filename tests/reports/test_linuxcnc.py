@@ -6,7 +6,7 @@ from math import inf
 
 import pytest
 
-from core.comp.best import best_path
+from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
@@ -31,7 +31,7 @@ def test_forty_contours_differ_by_named_rules_only(tmp_path):
     assert list(printed(found))[-1] == "unexplained: 0"
 
 
-def test_a_refused_contour_stops_none_of_its_neighbours(tmp_path):
+def test_a_refused_contour_stops_none_of_its_neighbors(tmp_path):
     rs274.require()
     slot = lines((0, 0), (500, 0), (500, 50), (0, 50))
     sound = Part("square", SQUARE, Side.LEFT, closed=False)
@@ -88,7 +88,7 @@ def _rounded(radius: float) -> Path:
 REFUSED_THERE = {
     "an arc smaller than the tool": (_rounded(90), Side.LEFT, "Tool radius not less", {"VANISHED", "CORNER_MISSED"}),
     "an arc exactly as small as the tool": (_rounded(100), Side.LEFT, "Tool radius not less", set()),
-    "a tiny arc in millimetres": (_rounded(0.001), Side.RIGHT, "Zero-radius arc", set()),
+    "a tiny arc in millimeters": (_rounded(0.001), Side.RIGHT, "Zero-radius arc", set()),
     "line, line, line": (lines((0, 500), (0, 0), (150, 0), (150, 500)), Side.LEFT, "concave", {"CORNER_MISSED"}),
     "the last corner before G40": (lines((0, 0), (500, 0), (500, 50)), Side.LEFT, "concave", {"CORNER_MISSED"}),
 }

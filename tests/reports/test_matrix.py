@@ -9,14 +9,14 @@ import pytest
 
 from tests.reports import matrix
 from tests.reports.matrix import SCRIPT, Lost, Tally, one_kind, seated, stands_out, stray
-from tests.reports.terminals import FORMS, LOCALES, MODES, PUTTY, SIZES, TERMS, Colours, Kind, kinds, sampled, sent
+from tests.reports.terminals import FORMS, LOCALES, MODES, PUTTY, SIZES, TERMS, Colors, Kind, kinds, sampled, sent
 
 FEW = (
-    (Kind("xterm", Colours.TRUE, "UTF-8"), (SIZES[0], SIZES[3])),
-    (Kind("vt100", Colours.FEW, "C"), (SIZES[0], SIZES[2])),
-    (Kind("vt220", Colours.FEW, "UTF-8"), (SIZES[3],)),
-    (Kind("linux", Colours.NONE, "Latin-1"), (SIZES[0], SIZES[3])),
-    (Kind("screen", Colours.MANY, "C", "braille"), (SIZES[0],)),
+    (Kind("xterm", Colors.TRUE, "UTF-8"), (SIZES[0], SIZES[3])),
+    (Kind("vt100", Colors.FEW, "C"), (SIZES[0], SIZES[2])),
+    (Kind("vt220", Colors.FEW, "UTF-8"), (SIZES[3],)),
+    (Kind("linux", Colors.NONE, "Latin-1"), (SIZES[0], SIZES[3])),
+    (Kind("screen", Colors.MANY, "C", "braille"), (SIZES[0],)),
 )
 
 
@@ -29,16 +29,16 @@ def test_a_terminal_shows_what_it_must(kind: Kind, sizes: tuple[tuple[int, int],
 
 
 def test_every_combination_is_in_the_matrix_once() -> None:
-    every = [(kind.term, kind.colours, kind.locale, mode) for kind in kinds() for mode in kind.only_here]
+    every = [(kind.term, kind.colors, kind.locale, mode) for kind in kinds() for mode in kind.only_here]
     assert len(every) == len(set(every)) == 9 * 4 * 3 * 3
     assert {mode for *_, mode in every} == set(MODES)
 
 
-def test_the_sample_has_every_pair_of_a_terminal_its_colours_and_its_locale() -> None:
+def test_the_sample_has_every_pair_of_a_terminal_its_colors_and_its_locale() -> None:
     few = sampled()
-    assert {(kind.term, kind.colours) for kind in few} == set(product(TERMS, Colours))
+    assert {(kind.term, kind.colors) for kind in few} == set(product(TERMS, Colors))
     assert {(kind.term, kind.locale) for kind in few} == set(product(TERMS, LOCALES))
-    assert {(kind.colours, kind.locale) for kind in few} == set(product(Colours, LOCALES))
+    assert {(kind.colors, kind.locale) for kind in few} == set(product(Colors, LOCALES))
     assert {(kind.form, kind.locale) for kind in few} == set(product(FORMS, LOCALES))
     assert {kind.term for kind in few if kind.asked} == set(TERMS)
 
@@ -71,16 +71,16 @@ def test_stray_bytes_are_found(data: bytes, characters: str, what: str) -> None:
     assert bool(stray(data, characters)) == bool(what)
 
 
-def test_a_cursor_of_colour_alone_is_not_seen_without_colours() -> None:
-    coloured = SimpleNamespace(reverse=False, underscore=False, bg="7fb2e5")
-    assert stands_out(coloured, Colours.TRUE)
-    assert not stands_out(coloured, Colours.NONE)
-    assert stands_out(SimpleNamespace(reverse=True, underscore=False, bg="default"), Colours.NONE)
+def test_a_cursor_of_color_alone_is_not_seen_without_colors() -> None:
+    colored = SimpleNamespace(reverse=False, underscore=False, bg="7fb2e5")
+    assert stands_out(colored, Colors.TRUE)
+    assert not stands_out(colored, Colors.NONE)
+    assert stands_out(SimpleNamespace(reverse=True, underscore=False, bg="default"), Colors.NONE)
 
 
 def test_a_wrong_screen_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     tally = Tally()
-    with seated(Kind("xterm", Colours.FEW, "UTF-8"), SIZES[0], (), tally) as seat:
+    with seated(Kind("xterm", Colors.FEW, "UTF-8"), SIZES[0], (), tally) as seat:
         assert tally.wrong == []
         monkeypatch.setattr(matrix, "PATIENCE", 0.2)
         seat.reference.press("tab")

@@ -16,8 +16,8 @@ from app.memory import Memory
 from app.nc_keeping import Kept, NcKeeping
 from app.screens.save import SaveAsPage
 from app.session import Session
-from core.program import store
-from core.program.store import load
+from core.program.file import store
+from core.program.file.store import load
 from tests.app.operator import Operator
 from tests.reports import monkey
 from tests.reports.monkey import run, through_textual

@@ -52,7 +52,7 @@ def _block(piece: Piece, *, rapid: bool) -> str:
     end = f"X{piece.end[0]:.10f} Y{piece.end[1]:.10f}"
     if isinstance(piece, Line):
         return f"{'G0' if rapid else 'G1'} {end}"
-    i, j = piece.centre[0] - piece.start[0], piece.centre[1] - piece.start[1]
+    i, j = piece.center[0] - piece.start[0], piece.center[1] - piece.start[1]
     return f"{'G3' if piece.turn > 0 else 'G2'} {end} I{i:.10f} J{j:.10f}"
 
 

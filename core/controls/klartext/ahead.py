@@ -1,4 +1,4 @@
-"""M120 LA: the centre path computed some blocks ahead, which leaves out what the tool cannot reach.
+"""M120 LA: the center path computed some blocks ahead, which leaves out what the tool cannot reach.
 
 What is said of M120 is that the control looks for undercuts and for crossings of the path with itself in the blocks
 ahead, and does not machine what lies between.  That is the look-ahead rule of a MILL CONTOUR block, which is used here.
@@ -15,8 +15,8 @@ import numpy as np
 
 from core.comp.compensate import compensate
 from core.comp.result import Compensated
-from core.controls import corners
-from core.controls.corners import Element
+from core.controls.compensation import corners
+from core.controls.compensation.corners import Element
 from core.geometry.path import Path
 from core.geometry.piece import Point
 from core.geometry.side import Side
@@ -24,18 +24,18 @@ from core.tolerance import JOINED
 
 
 class Run(NamedTuple):
-    """A piece of the centre path: the element it belongs to, its end, and as an arc its centre and turn."""
+    """A piece of the center path: the element it belongs to, its end, and as an arc its center and turn."""
 
     row: int
     corner: bool
     end: Point
-    centre: Point
+    center: Point
     turn: int
 
 
 @dataclass(frozen=True, slots=True)
 class Ahead:
-    """The centre path along some elements: where and in which direction it starts, its pieces, what it leaves out."""
+    """The center path along some elements: where and in which direction it starts, its pieces, what it leaves out."""
 
     start: Point
     way: Point
@@ -56,7 +56,7 @@ class Unreached:
 
 
 def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Point | None) -> Ahead | Unreached:
-    """The centre path along elements that join, looked at `depth` blocks ahead, tool radius `offset` to the left.
+    """The center path along elements that join, looked at `depth` blocks ahead, tool radius `offset` to the left.
 
     `begin`: where the path stands already, on the first element's offset; None for square to its start.
     """
@@ -78,7 +78,7 @@ def _contour(elements: Sequence[Element]) -> Path:
     points = np.array([elements[0].start, *(one.end for one in elements)])
     turns = np.array([one.turn for one in elements], np.int8)
     return Path.of(
-        points, np.array([one.centre for one in elements]), turns, np.arange(len(elements), dtype=np.float64)
+        points, np.array([one.center for one in elements]), turns, np.arange(len(elements), dtype=np.float64)
     )
 
 
@@ -95,15 +95,15 @@ def _checked(found: Compensated, elements: Sequence[Element], offset: float, beg
     start, way = _point(path.points[0]), _point(path.start_directions[0])
     if begin is not None and not _near(begin, start):
         if _behind(elements[0], start, begin, runs[0].end):
-            return Unreached(0, "between its neighbours nothing is left of this block for the tool of radius {0}")
+            return Unreached(0, "between its neighbors nothing is left of this block for the tool of radius {0}")
         start = begin
     return Ahead(start, way, runs, tuple(int(one) for one in found.deleted.segments.tolist() if one == int(one)))
 
 
 def _runs(path: Path) -> Iterator[Run]:
     numbers, turns = path.numbers.tolist(), path.turns.tolist()
-    for number, turn, end, centre in zip(numbers, turns, path.ends, path.centres, strict=True):
-        yield Run(int(number), number != int(number), _point(end), _point(centre), turn)
+    for number, turn, end, center in zip(numbers, turns, path.ends, path.centers, strict=True):
+        yield Run(int(number), number != int(number), _point(end), _point(center), turn)
 
 
 def _point(row: np.ndarray[tuple[int], np.dtype[np.float64]]) -> Point:
@@ -120,6 +120,6 @@ def _behind(element: Element, start: Point, begin: Point, end: Point) -> bool:
     if not element.turn:
         (wx, wy), dx, dy = element.leaving, end[0] - begin[0], end[1] - begin[1]
         return dx * wx + dy * wy < -JOINED
-    centre, turn = element.centre, element.turn
-    trimmed = corners.sweep(start, begin, centre, turn)
-    return trimmed > pi or trimmed > corners.sweep(start, end, centre, turn) + corners.WHOLE
+    center, turn = element.center, element.turn
+    trimmed = corners.sweep(start, begin, center, turn)
+    return trimmed > pi or trimmed > corners.sweep(start, end, center, turn) + corners.WHOLE

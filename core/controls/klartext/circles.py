@@ -5,12 +5,12 @@ from __future__ import annotations
 from math import hypot
 from typing import Final
 
-from core.controls.arcs import NoArc, through
-from core.controls.corners import arc_element
+from core.controls.compensation.corners import arc_element
+from core.controls.iso.arcs import NoArc, through
 from core.controls.klartext.blocks import Block
 from core.controls.klartext.functions import functions
 from core.controls.klartext.polar import POLAR, polar_target, pole_of
-from core.controls.klartext.rounding import NoRoom, polar, tangent_centre
+from core.controls.klartext.rounding import NoRoom, polar, tangent_center
 from core.controls.klartext.state import AXES, COMMON, State, Words
 from core.controls.klartext.steps import Role, Step
 from core.controls.moves import solid
@@ -18,7 +18,7 @@ from core.geometry.piece import Point
 from core.tolerance import JOINED
 
 RADII: Final = 0.016
-"""Millimetres by which the radii at the start and the end of an arc about the pole may differ."""
+"""Millimeters by which the radii at the start and the end of an arc about the pole may differ."""
 
 MOST_TURN: Final = 5400.0
 """Degrees a helix may turn."""
@@ -93,7 +93,7 @@ def _tangent_to(state: State, block: Block, words: Words, end: list[float]) -> N
     if state.last is None or state.blend:
         text = "A tangent arc needs a contour element directly before it; write an L or C block first, or use CR."
         state.stop("HE6", text, block)
-    found = tangent_centre(state.flat(state.position)[0], state.flat(end)[0], state.last.arriving)
+    found = tangent_center(state.flat(state.position)[0], state.flat(end)[0], state.last.arriving)
     if isinstance(found, NoRoom):
         state.stop("ARC", found.text, block)
     _arc_to(state, block, words, end, *found)
@@ -153,6 +153,6 @@ def _arc_to(
 
 
 def _refuse_change(state: State, block: Block) -> None:
-    verb = "applied" if state.side else "cancelled"
+    verb = "applied" if state.side else "canceled"
     text = f"Compensation cannot be {verb} in an arc; do it in an L block before or behind, or with APPR and DEP."
     state.stop("HE2", text, block, ("R0", "RL", "RR")[state.side])

@@ -6,13 +6,13 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Final
 
+from core.controls.iso.source import lines_of
 from core.controls.klartext import circles, flow, functions, leading, motion, setup
 from core.controls.klartext.blocks import Block, blocks
-from core.controls.klartext.centre import Centre
+from core.controls.klartext.center import Center
 from core.controls.klartext.record import Record
 from core.controls.klartext.state import State
 from core.controls.report import AlarmError, Log, Run
-from core.controls.source import lines_of
 from core.controls.tools import ToolTable
 from core.finding import Severity
 
@@ -23,7 +23,7 @@ HEADS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
     {
         "L": motion.straight,
         "LP": motion.polar_straight,
-        "CC": motion.centre,
+        "CC": motion.center,
         "RND": motion.corner,
         "CHF": motion.corner,
         "C": circles.circle,
@@ -73,19 +73,19 @@ def programmed(text: bytes, tools: ToolTable) -> Run:
 
 def _ran(text: bytes, tools: ToolTable, share: float) -> Run:
     log = Log()
-    centre = Centre(log, Record(share=share))
+    center = Center(log, Record(share=share))
     read = tuple(blocks(lines_of(text)))
-    state = State(log, centre, tools, read, flow.labels_of(read), share=share)
+    state = State(log, center, tools, read, flow.labels_of(read), share=share)
     stopped = None
     try:
         _run(state)
         state.flush()
-        centre.finish()
+        center.finish()
     except AlarmError as alarm:
         log.add(alarm.finding)
         stopped = alarm.finding.line
-        centre.give_up()
-    record = centre.record
+        center.give_up()
+    record = center.record
     return Run("klartext", state.unit, record.tape.moves(), log.closed(), stopped, tuple(record.stretches))
 
 
@@ -109,7 +109,7 @@ def _close(state: State) -> None:
     """Say what is missing at the end of the program."""
     last = state.blocks[-1] if state.blocks else Block(1, "", "", 1, skip=False)
     if not state.begun:
-        text = "The program has no BEGIN PGM; millimetres are assumed. Write BEGIN PGM PART MM as its first block."
+        text = "The program has no BEGIN PGM; millimeters are assumed. Write BEGIN PGM PART MM as its first block."
         state.log.tell(Severity.WARNING, "PROGRAM", text, 1, 1)
     elif not any(block.head == "END" for block in reversed(state.blocks)):
         state.tell(Severity.WARNING, "PROGRAM", "END PGM is missing; the file may be cut off.", last)

@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 from math import isclose
 from typing import Final, NoReturn
 
+from core.controls.iso.source import shown
 from core.controls.klartext.blocks import Block
 from core.controls.klartext.formula import NoValue, evaluate
 from core.controls.klartext.setup import unknown
 from core.controls.klartext.state import State
-from core.controls.source import shown
 
 DEEPEST: Final = 19
 """Subprograms that may call one another."""

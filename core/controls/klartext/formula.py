@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.source import shown
+from core.controls.iso.source import shown
 
 DEEPEST: Final = 50
 """Brackets and functions within one another that a formula may have."""

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
+from core.controls.iso.source import shown
 from core.controls.klartext.blocks import Block
 from core.controls.klartext.state import AXES, State, Words
 from core.controls.klartext.steps import Corner, Speed
-from core.controls.source import shown
 from core.finding import Severity
 
 FARTHEST: Final = 99
@@ -17,7 +17,7 @@ FARTHEST: Final = 99
 
 AHEAD: Final = "M120 is taken to leave out what lies between two crossings of the path within so many blocks."
 
-_SPEEDS: Final[Mapping[int, Speed]] = MappingProxyType({109: Speed.EDGE, 110: Speed.INSIDE, 111: Speed.CENTRE})
+_SPEEDS: Final[Mapping[int, Speed]] = MappingProxyType({109: Speed.EDGE, 110: Speed.INSIDE, 111: Speed.CENTER})
 _CORNERS: Final[Mapping[int, Corner]] = MappingProxyType({97: Corner.M97, 98: Corner.M98})
 _SILENT: Final = frozenset((0, 1, 3, 4, 5, 6, 7, 8, 9, 13, 14))
 _MOVING: Final = frozenset((89, 91, 92, 99, 114, 128, 130, 140, 144))
@@ -29,7 +29,7 @@ _DIFFERENT: Final[Mapping[int, str]] = MappingProxyType(
         103: "the control lowers the feed of plunging moves",
         112: "the control rounds corners within a tolerance",
         124: "the control leaves out points of short lines",
-        136: "the control takes F in millimetres a revolution",
+        136: "the control takes F in millimeters a revolution",
     }
 )
 

@@ -1,4 +1,4 @@
-"""APPR and DEP blocks: compensation applied and cancelled along a lead."""
+"""APPR and DEP blocks: compensation applied and canceled along a lead."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from math import radians
 from typing import Final
 
-from core.controls.corners import Element, line_element, square
+from core.controls.compensation.corners import Element, line_element, square
 from core.controls.klartext.blocks import Block
 from core.controls.klartext.functions import functions
 from core.controls.klartext.leads import Form, Lead, departure

@@ -1,9 +1,9 @@
-"""APPR and DEP: the path of the tool centre between a free point and the contour.
+"""APPR and DEP: the path of the tool center between a free point and the contour.
 
 LT is a straight line tangent to the contour, LN one square to it, CT an arc tangent to it over an angle, LCT a line
-and an arc tangent to each other and to the contour.  All lengths and radii count on the tool centre: an approach
+and an arc tangent to each other and to the contour.  All lengths and radii count on the tool center: an approach
 ends at PA', the point square to the contour's first point at one tool radius.  PS is where the tool stands, PH
-where the lead itself begins.  Departures are approaches travelled backwards.
+where the lead itself begins.  Departures are approaches traveled backwards.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from enum import StrEnum
 from math import acos, atan2, cos, hypot, sin, tau
 from typing import Final
 
-from core.controls.corners import WHOLE, beyond, square, turned
+from core.controls.compensation.corners import WHOLE, beyond, square, turned
 from core.geometry.piece import Point
 from core.tolerance import JOINED
 
@@ -42,13 +42,13 @@ class Lead:
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """The lead on the tool centre: straight to or from `point` (PH), and between it and the contour a line or an arc.
+    """The lead on the tool center: straight to or from `point` (PH), and between it and the contour a line or an arc.
 
     With `turn` 0 it is a line; an arc whose `point` is the contour's is a full circle.
     """
 
     point: Point
-    centre: Point
+    center: Point
     turn: int
 
 
@@ -56,7 +56,7 @@ def approach(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Cur
     """The approach from PS to PA' where the contour sets off in direction `way`.
 
     `hand` is +1 with the tool on the left of the contour, -1 on the right, 0 without compensation: an LCT then has
-    its circle on the side PS lies on.  Points in millimetres.  None for an LCT that starts inside its own circle.
+    its circle on the side PS lies on.  Points in millimeters.  None for an LCT that starts inside its own circle.
     """
     if lead.form is Form.LT:
         point = beyond(end, way, -lead.length)
@@ -65,25 +65,25 @@ def approach(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Cur
         point = square(end, way, hand * lead.length)
         return Curve(point, point, 0)
     if lead.form is Form.CT:
-        centre = square(end, way, hand * lead.radius)
+        center = square(end, way, hand * lead.radius)
         turn = hand if lead.radius > 0.0 else -hand
         whole = lead.angle >= tau - WHOLE
-        return Curve(end if whole else turned(end, centre, -turn * lead.angle), centre, turn)
+        return Curve(end if whole else turned(end, center, -turn * lead.angle), center, turn)
     return _tangent_arc(lead.radius, start, end, way, hand or _side_of(start, end, way))
 
 
 def _tangent_arc(radius: float, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
-    centre = square(end, way, hand * radius)
-    dx, dy = start[0] - centre[0], start[1] - centre[1]
+    center = square(end, way, hand * radius)
+    dx, dy = start[0] - center[0], start[1] - center[1]
     apart = hypot(dx, dy)
     if apart < radius * (1.0 - LEAST):
         return None
-    # Seen from the centre PS lies behind PH by the angle whose cosine is radius / distance.
+    # Seen from the center PS lies behind PH by the angle whose cosine is radius / distance.
     angle = atan2(dy, dx) + hand * acos(min(1.0, radius / apart))
-    point = (centre[0] + radius * cos(angle), centre[1] + radius * sin(angle))
+    point = (center[0] + radius * cos(angle), center[1] + radius * sin(angle))
     if hypot(point[0] - end[0], point[1] - end[1]) <= JOINED:  # PS lies straight behind PA'
         return Curve(end, end, 0)
-    return Curve(point, centre, hand)
+    return Curve(point, center, hand)
 
 
 def _side_of(at: Point, corner: Point, way: Point) -> int:
@@ -96,4 +96,4 @@ def departure(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Cu
     It is the approach from `end` to PE' run backwards: the contour runs the other way with the tool on its other hand.
     """
     back = approach(lead, end, start, (-way[0], -way[1]), -hand)
-    return None if back is None else Curve(back.point, back.centre, -back.turn)
+    return None if back is None else Curve(back.point, back.center, -back.turn)

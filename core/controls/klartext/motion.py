@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from core.controls.corners import line_element
+from core.controls.compensation.corners import line_element
 from core.controls.klartext.blocks import Block
 from core.controls.klartext.functions import functions, leaves_workpiece
 from core.controls.klartext.polar import POLAR, polar_target
@@ -17,7 +17,7 @@ NOT_YET: Final = "RL, RR or R0 beside the tool axis alone is taken to act in the
 
 _LINE: Final = COMMON | frozenset(AXES)
 _POLAR: Final = COMMON | POLAR
-_CENTRE: Final = frozenset(AXES)
+_CENTER: Final = frozenset(AXES)
 _CORNER: Final = frozenset(("R", "F", "LEN"))
 
 
@@ -72,9 +72,9 @@ def _change(state: State, block: Block, step: Step) -> None:
     state.push(step)
 
 
-def centre(state: State, block: Block) -> None:
-    """CC: the pole and circle centre, by both axes of the plane; without words where the tool stands."""
-    words, known = state.words(block, _CENTRE), set(state.known)
+def center(state: State, block: Block) -> None:
+    """CC: the pole and circle center, by both axes of the plane; without words where the tool stands."""
+    words, known = state.words(block, _CENTER), set(state.known)
     pole, height = state.flat(state.target(block, words))
     state.known = known
     if len(words) not in (0, 2) or height != state.flat(state.position)[1]:

@@ -18,7 +18,7 @@ POLAR: Final = frozenset(("PR", "PA", "IPR", "IPA", *AXES))
 def pole_of(state: State, block: Block) -> Point:
     """The pole, without which there are no polar coordinates and no C."""
     if state.pole is None:
-        state.stop("ARC", "No centre is programmed; write a CC block before this one.", block)
+        state.stop("ARC", "No center is programmed; write a CC block before this one.", block)
     return state.pole
 
 
@@ -39,7 +39,7 @@ def polar_target(state: State, block: Block, words: Words) -> tuple[list[float],
 
 
 def _value(state: State, block: Block, words: Words, name: str, now: float) -> float:
-    """PR in millimetres or PA in degrees: given, given from where the tool stands, or as it is."""
+    """PR in millimeters or PA in degrees: given, given from where the tool stands, or as it is."""
     read = state.length if name == "PR" else state.number
     if name in words and f"I{name}" in words:
         state.stop("TWICE", f"{name} and I{name} stand in one block; keep one.", block, f"I{name}")

@@ -1,4 +1,4 @@
-"""The record of a Klartext run: the centre's moves on a tape, and beside them what is programmed."""
+"""The record of a Klartext run: the center's moves on a tape, and beside them what is programmed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from core.geometry.side import Side
 
 @dataclass(slots=True)
 class Record:
-    """Centre moves on `tape`; `stretches` of them made under compensation, the open one's surface on `programmed`.
+    """Center moves on `tape`; `stretches` of them made under compensation, the open one's surface on `programmed`.
 
     `share` is the share of the tool's radius that is run with.
     """
@@ -28,7 +28,7 @@ class Record:
     share: float = 1.0
 
     def at(self, step: Step) -> Point3:
-        """Where the centre stands, in the coordinates of the step's plane."""
+        """Where the center stands, in the coordinates of the step's plane."""
         return flat(self.tape.last, step.plane)
 
     def line(self, end: Point, height: float, step: Step, *, lead: bool = False) -> None:
@@ -38,9 +38,9 @@ class Record:
         rapid, feed = step.before if lead else (element.rapid, element.feed)
         self.tape.row((x, y, z), (x, y, z), 0, 0, feed, element.line, rapid=rapid)
 
-    def arc(self, end: Point, height: float, centre: Point, turn: int, step: Step, feed: float | None = None) -> None:
+    def arc(self, end: Point, height: float, center: Point, turn: int, step: Step, feed: float | None = None) -> None:
         """An arc in the step's plane, at the step's feed unless given."""
-        stop, middle = solid(*end, height, step.plane), solid(*centre, height, step.plane)
+        stop, middle = solid(*end, height, step.plane), solid(*center, height, step.plane)
         element = step.element
         speed = element.feed if feed is None else feed
         self.tape.row(stop, middle, turn, step.plane, speed, element.line, rapid=element.rapid)
@@ -49,12 +49,12 @@ class Record:
         """The step's element as programmed, but ending at `end`."""
         element = step.element
         if element.turn:
-            self.arc(end, element.high, element.centre, element.turn, step)
+            self.arc(end, element.high, element.center, element.turn, step)
         else:
             self.line(end, element.high, step)
 
     def sink(self, step: Step) -> None:
-        """The tool axis alone, where the centre stands."""
+        """The tool axis alone, where the center stands."""
         x, y, _ = self.at(step)
         self.line((x, y), step.element.high, step)
 
@@ -70,9 +70,9 @@ class Record:
             return
         element, plane = step.element, step.plane if step.element.turn else 0
         stop = solid(*element.end, element.high, step.plane)
-        centre = solid(*element.centre, element.high, step.plane) if element.turn else stop
+        center = solid(*element.center, element.high, step.plane) if element.turn else stop
         rapid, feed, line = element.rapid, element.feed, element.line
-        self.programmed.row(stop, centre, element.turn, plane, feed, line, rapid=rapid)
+        self.programmed.row(stop, center, element.turn, plane, feed, line, rapid=rapid)
         self.leaving = int(step.role in (Role.EXIT, Role.DEPARTURE))
         self.led_out = step.role is Role.DEPARTURE
 

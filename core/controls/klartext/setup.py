@@ -6,10 +6,10 @@ import re
 from math import inf
 from typing import Final
 
+from core.controls.iso.source import shown
 from core.controls.klartext.blocks import LONGEST, TOO_LONG, TOOL_WORD, Block
 from core.controls.klartext.state import State, Words
 from core.controls.moves import Plane
-from core.controls.source import shown
 from core.finding import Severity
 from core.units import Unit, to_mm
 
@@ -164,7 +164,7 @@ def cycle(state: State, block: Block) -> None:
     elif number in _NEUTRAL and _NEUTRAL[number].fullmatch(rest.body):
         text = f"Cycle {number} is passed over: here it turns nothing, mirrors nothing and scales nothing."
         state.tell(Severity.INFO, "IGNORED", text, block)
-    elif number == 247 and len(state.centre.record.tape) == 1 and state.waiting is None:
+    elif number == 247 and len(state.center.record.tape) == 1 and state.waiting is None:
         text = "Cycle 247 chooses the workpiece's datum, from which everything is shown."
         state.tell(Severity.INFO, "IGNORED", text, block)
     elif number in (8, 10, 11, 19, 26, 27, 28, 29, 220, 221, 247) or number >= 400:

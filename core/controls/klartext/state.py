@@ -1,6 +1,6 @@
 """The state of a Klartext program while it is read: what holds on from block to block, and how words are valued.
 
-Everything is millimetres and millimetres a minute whatever the program's unit; positions are programmed ones.
+Everything is millimeters and millimeters a minute whatever the program's unit; positions are programmed ones.
 """
 
 from __future__ import annotations
@@ -11,15 +11,15 @@ from re import Pattern
 from types import MappingProxyType
 from typing import Final, NoReturn
 
-from core.controls.corners import Element
+from core.controls.compensation.corners import Element
+from core.controls.iso.source import shown
 from core.controls.klartext.blocks import WORD, Block, head_place, place, together
-from core.controls.klartext.centre import Centre
+from core.controls.klartext.center import Center
 from core.controls.klartext.formula import NoValue, evaluate
 from core.controls.klartext.rounding import NoRoom, chamfer, rounding
 from core.controls.klartext.steps import Corner, Role, Speed, Step
 from core.controls.moves import Plane
 from core.controls.report import Log
-from core.controls.source import shown
 from core.controls.tools import ToolTable
 from core.finding import Severity
 from core.geometry.piece import Point
@@ -65,7 +65,7 @@ class State:
     """
 
     log: Log
-    centre: Centre
+    center: Center
     tools: ToolTable
     blocks: Sequence[Block] = ()
     labels: Mapping[str, int] = field(default_factory=dict)
@@ -87,7 +87,7 @@ class State:
     defined: dict[str, float] = field(default_factory=dict)
     tool: str = ""
     radius: float | None = None
-    speed: Speed = Speed.CENTRE
+    speed: Speed = Speed.CENTER
     side: int = 0
     applied: int = 0
     offset: float = 0.0
@@ -154,7 +154,7 @@ class State:
         return value
 
     def length(self, block: Block, words: Words, name: str) -> float:
-        """The number of a word that is a length or a feed, in millimetres."""
+        """The number of a word that is a length or a feed, in millimeters."""
         return to_mm(self.number(block, words, name), self.unit)
 
     def flat(self, position: Sequence[float]) -> tuple[Point, float]:
@@ -212,12 +212,12 @@ class State:
             step = step._replace(ahead=self.ahead)
         if step.role is not Role.CONTOUR and step.role is not Role.FREE:
             self.flush()
-            self.centre.push(step)
+            self.center.push(step)
             return
         if self.blend:
             step = self._blended(self.blend, step)
         elif self.waiting:
-            self.centre.push(self.waiting)
+            self.center.push(self.waiting)
         self.waiting = step
 
     def _blended(self, blend: Blend, second: Step) -> Step:
@@ -231,8 +231,8 @@ class State:
             self._no_blend(blend, parts.text)
         line, column = blend.block.line, blend.column
         between = parts[1]._replace(line=line, column=column, rapid=False, feed=blend.feed)
-        self.centre.push(first._replace(element=parts[0], corner=Corner.PLAIN))
-        self.centre.push(first._replace(element=between, corner=Corner.PLAIN))
+        self.center.push(first._replace(element=parts[0], corner=Corner.PLAIN))
+        self.center.push(first._replace(element=between, corner=Corner.PLAIN))
         return second._replace(element=parts[2])
 
     def flush(self) -> None:
@@ -241,7 +241,7 @@ class State:
             self._no_blend(self.blend, NOT_BESIDE)
         if self.waiting:
             waiting, self.waiting = self.waiting, None
-            self.centre.push(waiting)
+            self.center.push(waiting)
 
     def _no_blend(self, blend: Blend, text: str) -> NoReturn:
         self.log.stop("CORNER", text, blend.block.line, blend.column)
@@ -271,7 +271,7 @@ class State:
             text = "The tool radius {0} with its deltas is negative: the tool runs on the other side of the contour."
             self.tell(Severity.WARNING, "TOOL", text, block, "", self.radius)
         elif not self.radius:
-            self.tell(Severity.WARNING, "TOOL", "The tool radius is 0: the centre runs on the contour.", block)
+            self.tell(Severity.WARNING, "TOOL", "The tool radius is 0: the center runs on the contour.", block)
         self.applied, self.offset = self.side, self.side * self.radius * self.share
 
     def release(self) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import NamedTuple
 
-from core.controls.corners import Element
+from core.controls.compensation.corners import Element
 from core.controls.klartext.leads import Lead
 from core.controls.moves import Plane
 
@@ -40,12 +40,12 @@ class Corner(Enum):
 class Speed(Enum):
     """What the programmed feed means on arcs."""
 
-    CENTRE = auto()
-    """M111: the feed of the tool's centre."""
+    CENTER = auto()
+    """M111: the feed of the tool's center."""
     EDGE = auto()
     """M109: the feed of the cutting edge, inside and outside."""
     INSIDE = auto()
-    """M110: the feed of the cutting edge inside, of the centre outside."""
+    """M110: the feed of the cutting edge inside, of the center outside."""
 
 
 class Step(NamedTuple):
@@ -62,7 +62,7 @@ class Step(NamedTuple):
     offset: float
     plane: Plane
     corner: Corner = Corner.PLAIN
-    speed: Speed = Speed.CENTRE
+    speed: Speed = Speed.CENTER
     lead: Lead | None = None
     hand: int = 0
     before: tuple[bool, float] = (False, 0.0)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import hypot, pi, tau
 
-from core.controls import corners
-from core.controls.corners import Element
+from core.controls.compensation import corners
+from core.controls.compensation.corners import Element
 from core.geometry.piece import Point
 
 
@@ -22,16 +22,16 @@ def ending(element: Element) -> Element:
 
 
 def advance(element: Element, start: Point, end: Point) -> float:
-    """Millimetres along an element from one point of its offset to another, negative backwards, at most half an arc."""
+    """Millimeters along an element from one point of its offset to another, negative backwards, at most half an arc."""
     if not element.turn:
         way = element.leaving
         return (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1]
-    angle = corners.sweep(start, end, element.centre, element.turn)
-    return (angle - tau if angle > pi else angle) * hypot(start[0] - element.centre[0], start[1] - element.centre[1])
+    angle = corners.sweep(start, end, element.center, element.turn)
+    return (angle - tau if angle > pi else angle) * hypot(start[0] - element.center[0], start[1] - element.center[1])
 
 
 def remaining(element: Element, begin: Point, end: Point, offset: float) -> float:
-    """Millimetres left of an element's offset between the points its corners trim it to; negative if they cross."""
+    """Millimeters left of an element's offset between the points its corners trim it to; negative if they cross."""
     if not element.turn:
         return advance(element, begin, end)
     whole = corners.element_sweep(element) * corners.offset_radius(element, offset)

@@ -1,4 +1,4 @@
-"""The centres of many arcs out of I, J, K or R words, and which of them are arcs without fault; see `controls.arcs`."""
+"""The centers of many arcs out of I, J, K or R words, and which of them are arcs without fault; see `controls.arcs`."""
 
 from __future__ import annotations
 
@@ -7,31 +7,31 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from core.controls.arcs import IN_PLANE, SHORTEST, THOUSANDTH, WHOLE_CHORD
+from core.controls.iso.arcs import IN_PLANE, SHORTEST, THOUSANDTH, WHOLE_CHORD
 from core.controls.moves import Floats, flat
 from core.controls.series.elements import Elements, Points, hypots
 from core.controls.series.words import Flags, Words
 
 if TYPE_CHECKING:
-    from core.controls.machine import Machine
+    from core.controls.iso.machine import Machine
 
 Indices = NDArray[np.int64]
 
 
-def centres(machine: Machine, words: Words, chords: Elements, rows: Indices, turn: Floats) -> tuple[Points, Flags]:
-    """The centres of arcs with these chords, which stand in some rows of the words, and which arcs are sound."""
-    by_radius, by_centre = words.has("R")[rows], words.has("IJK")[rows]
+def centers(machine: Machine, words: Words, chords: Elements, rows: Indices, turn: Floats) -> tuple[Points, Flags]:
+    """The centers of arcs with these chords, which stand in some rows of the words, and which arcs are sound."""
+    by_radius, by_center = words.has("R")[rows], words.has("IJK")[rows]
     x, y = np.zeros(len(rows)), np.zeros(len(rows))
-    sound = by_radius ^ by_centre
+    sound = by_radius ^ by_center
     some = np.flatnonzero(sound & by_radius)
     (x[some], y[some]), sound[some] = _through(chords.of(some), _numbers(words, "R", rows[some], machine), turn[some])
-    some = np.flatnonzero(sound & by_centre)
+    some = np.flatnonzero(sound & by_center)
     (x[some], y[some]), sound[some] = _given(machine, words, chords.of(some), rows[some])
     return (x, y), sound
 
 
 def _numbers(words: Words, letter: str, rows: Indices, machine: Machine) -> Floats:
-    """What a letter says in some rows in millimetres, 0 without it."""
+    """What a letter says in some rows in millimeters, 0 without it."""
     return words.values[letter][rows] * machine.scale if letter in words.values else np.zeros(len(rows))
 
 
@@ -48,22 +48,22 @@ def _through(chords: Elements, radius: Floats, turn: Floats) -> tuple[Points, Fl
 
 
 def _given(machine: Machine, words: Words, chords: Elements, rows: Indices) -> tuple[Points, Flags]:
-    """By I, J, K: see `given_centre` and `about`."""
+    """By I, J, K: see `given_center` and `about`."""
     first, second, standing = IN_PLANE[machine.plane]
     away = _numbers(words, first, rows, machine), _numbers(words, second, rows, machine)
     named = words.has(first)[rows], words.has(second)[rows]
-    if machine.centres_from_origin:
+    if machine.centers_from_origin:
         x, y, _ = flat(machine.shift, machine.plane)
-        centre, sound = (x + away[0], y + away[1]), named[0] & named[1]
+        center, sound = (x + away[0], y + away[1]), named[0] & named[1]
     else:
-        centre, sound = (chords.start_x + away[0], chords.start_y + away[1]), named[0] | named[1]
-    return centre, sound & ~words.has(standing)[rows] & _alike(machine, chords, centre)
+        center, sound = (chords.start_x + away[0], chords.start_y + away[1]), named[0] | named[1]
+    return center, sound & ~words.has(standing)[rows] & _alike(machine, chords, center)
 
 
-def _alike(machine: Machine, chords: Elements, centre: Points) -> Flags:
+def _alike(machine: Machine, chords: Elements, center: Points) -> Flags:
     """Arcs that have a radius, and the same at both ends as far as the control asks for it."""
-    first = hypots(chords.start_x - centre[0], chords.start_y - centre[1])
-    last = hypots(chords.end_x - centre[0], chords.end_y - centre[1])
+    first = hypots(chords.start_x - center[0], chords.start_y - center[1])
+    last = hypots(chords.end_x - center[0], chords.end_y - center[1])
     allowed = machine.dialect.arcs.allowed(machine.unit)
     apart = np.abs(first - last)
     unlike = (apart > allowed) & (apart > THOUSANDTH * np.maximum(first, last))

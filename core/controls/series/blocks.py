@@ -1,6 +1,6 @@
 """Plain blocks in a row through the modal machine: what `Machine.step` makes of each of them, for all at once.
 
-A plain block has positions, an arc's centre, F, and one of G0 to G3 at most.  Of all that is in force it changes the
+A plain block has positions, an arc's center, F, and one of G0 to G3 at most.  Of all that is in force it changes the
 motion, the feed and the position, and it ends in one element.  A block is left out, and with it all behind it, as soon
 as the machine would say anything of it: words that have no place, no feed, no arc.
 """
@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 
+from core.controls.iso.rates import PER_MINUTE
 from core.controls.moves import Floats
-from core.controls.rates import PER_MINUTE
 from core.controls.series import arcs
 from core.controls.series.elements import Elements, Points, hypots, tangents
 from core.controls.series.words import Flags, Words, leading
 from core.tolerance import ON_PATH
 
 if TYPE_CHECKING:
-    from core.controls.machine import Machine
+    from core.controls.iso.machine import Machine
 
 _CODES: Final = (0, 10, 20, 30)
 _NONE: Final = -1.0
@@ -54,8 +54,8 @@ def course(machine: Machine, words: Words, line: int) -> Course:
     """The leading blocks of these words, the first of them on `line`, of which the machine says nothing."""
     modes = words.forward("G", 1.0, 0.0, _CODES.index(machine.mode) if machine.mode in _CODES else _NONE)
     feeds = words.forward("F", machine.scale, 0.0, machine.feed)
-    centres, turning = words.has("IJKR"), modes >= _CLOCKWISE
-    fine = np.where(turning, centres, words.has("XYZ") & ~centres) & (modes >= 0.0) & ((modes == 0.0) | (feeds != 0.0))
+    centers, turning = words.has("IJKR"), modes >= _CLOCKWISE
+    fine = np.where(turning, centers, words.has("XYZ") & ~centers) & (modes >= 0.0) & ((modes == 0.0) | (feeds != 0.0))
     words = words.first(leading(fine))
     modes, feeds, points = modes[: words.count], feeds[: words.count], _points(machine, words)
     elements = _lines(machine, points, modes, feeds, line)
@@ -100,8 +100,8 @@ def _bend(elements: Elements, rows: arcs.Indices, turn: Floats, machine: Machine
     apart = hypots(chords.start_x - chords.end_x, chords.start_y - chords.end_y)
     whole = (apart < ON_PATH) & ~words.has("R")[rows]
     end: Points = np.where(whole, chords.start_x, chords.end_x), np.where(whole, chords.start_y, chords.end_y)
-    centre, sound = arcs.centres(machine, words, chords._replace(end_x=end[0], end_y=end[1]), rows, turn)
-    leaving, arriving = tangents(chords.start, centre, turn), tangents(end, centre, turn)
+    center, sound = arcs.centers(machine, words, chords._replace(end_x=end[0], end_y=end[1]), rows, turn)
+    leaving, arriving = tangents(chords.start, center, turn), tangents(end, center, turn)
     heights, rest = (chords.low, chords.high), (chords.rapid, chords.feed, chords.line)
-    elements.put(rows, Elements(*chords.start, *end, *centre, turn, *leaving, *arriving, *heights, *rest))
+    elements.put(rows, Elements(*chords.start, *end, *center, turn, *leaving, *arriving, *heights, *rest))
     return sound

@@ -6,7 +6,7 @@ from math import tau
 
 import numpy as np
 
-from core.controls.corners import WHOLE
+from core.controls.compensation.corners import WHOLE
 from core.controls.moves import Floats
 from core.controls.series.elements import Elements, Points, angles, hypots, squares
 from core.controls.series.words import Flags
@@ -20,7 +20,7 @@ def radii(elements: Elements) -> Floats:
     """Radii of arcs at their starts, 0 for lines."""
     found, arcs = np.zeros(elements.size), np.flatnonzero(elements.turn)
     some = elements.of(arcs)
-    found[arcs] = hypots(some.start_x - some.centre_x, some.start_y - some.centre_y)
+    found[arcs] = hypots(some.start_x - some.center_x, some.start_y - some.center_y)
     return found
 
 
@@ -54,11 +54,11 @@ def meetings(first: Elements, second: Elements, offset: float) -> Meetings:
         if not bent and not curved:
             made = _line_line(square_ends(a, offset), a.arriving, square_starts(b, offset), b.leaving)
         elif not bent:
-            made = _line_circle(square_ends(a, offset), a.arriving, b.centre, other[at])
+            made = _line_circle(square_ends(a, offset), a.arriving, b.center, other[at])
         elif not curved:
-            made = _line_circle(square_starts(b, offset), b.leaving, a.centre, radius[at])
+            made = _line_circle(square_starts(b, offset), b.leaving, a.center, radius[at])
         else:
-            made = _circle_circle(a.centre, radius[at], b.centre, other[at])
+            made = _circle_circle(a.center, radius[at], b.center, other[at])
         (one[0][at], one[1][at]), (two[0][at], two[1][at]), found[at] = made
     return one, two, found
 
@@ -75,8 +75,8 @@ def _line_line(at: Points, way: Points, other: Points, heading: Points) -> Meeti
     return point, point, met
 
 
-def _line_circle(at: Points, way: Points, centre: Points, radius: Floats) -> Meetings:
-    dx, dy = centre[0] - at[0], centre[1] - at[1]
+def _line_circle(at: Points, way: Points, center: Points, radius: Floats) -> Meetings:
+    dx, dy = center[0] - at[0], center[1] - at[1]
     along, aside = dx * way[0] + dy * way[1], dy * way[0] - dx * way[1]
     half = radius * radius - aside * aside
     met = ~(half < 0.0)
@@ -104,9 +104,9 @@ def after(started: Point | None, starts: Points) -> Points:
     return np.concatenate(((x,), starts[0][:-1])), np.concatenate(((y,), starts[1][:-1]))
 
 
-def sweeps(start: Points, end: Points, centre: Points, turn: Floats) -> Floats:
-    """The angles travelled; equal ends are 0: `sweep`."""
-    first = angles(start[1] - centre[1], start[0] - centre[0])
-    last = angles(end[1] - centre[1], end[0] - centre[0])
+def sweeps(start: Points, end: Points, center: Points, turn: Floats) -> Floats:
+    """The angles traveled; equal ends are 0: `sweep`."""
+    first = angles(start[1] - center[1], start[0] - center[0])
+    last = angles(end[1] - center[1], end[0] - center[0])
     angle = (turn * (last - first)) % tau
     return np.where(angle > tau - WHOLE, 0.0, angle)

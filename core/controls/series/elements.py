@@ -14,7 +14,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.controls.corners import Element
+from core.controls.compensation.corners import Element
 from core.controls.moves import WIDTH, Floats, Plane
 from core.controls.series.words import Flags
 
@@ -33,8 +33,8 @@ class Elements(NamedTuple):
     start_y: Floats
     end_x: Floats
     end_y: Floats
-    centre_x: Floats
-    centre_y: Floats
+    center_x: Floats
+    center_y: Floats
     turn: Floats
     leaving_x: Floats
     leaving_y: Floats
@@ -62,9 +62,9 @@ class Elements(NamedTuple):
         return self.end_x, self.end_y
 
     @property
-    def centre(self) -> Points:
-        """The centres of arcs."""
-        return self.centre_x, self.centre_y
+    def center(self) -> Points:
+        """The centers of arcs."""
+        return self.center_x, self.center_y
 
     @property
     def leaving(self) -> Points:
@@ -112,7 +112,7 @@ class Elements(NamedTuple):
 
 
 def _flat(one: Element) -> tuple[float, ...]:
-    ends = (*one.start, *one.end, *one.centre, one.turn, *one.leaving, *one.arriving)
+    ends = (*one.start, *one.end, *one.center, one.turn, *one.leaving, *one.arriving)
     return (*ends, one.low, one.high, one.rapid, one.feed, one.line)
 
 
@@ -126,9 +126,9 @@ def angles(y: Floats, x: Floats) -> Floats:
     return np.fromiter(map(atan2, y.tolist(), x.tolist()), np.float64, len(x))
 
 
-def tangents(at: Points, centre: Points, turn: Floats) -> Points:
+def tangents(at: Points, center: Points, turn: Floats) -> Points:
     """Unit directions of travel at points of arcs."""
-    dx, dy = at[0] - centre[0], at[1] - centre[1]
+    dx, dy = at[0] - center[0], at[1] - center[1]
     size = hypots(dx, dy)
     size = np.where(size == 0.0, 1.0, size)
     return -turn * dy / size, turn * dx / size
@@ -140,15 +140,15 @@ def squares(at: Points, way: Points, offset: float | Floats) -> Points:
 
 
 def rows(
-    end: Points, height: Floats, centre: Points, elements: Elements, plane: Plane, *, turn: Floats | None = None
+    end: Points, height: Floats, center: Points, elements: Elements, plane: Plane, *, turn: Floats | None = None
 ) -> Floats:  # fmt: skip
-    """Rows (n, `WIDTH`) of a tape: elements run to other ends and centres; without a turn of their own as they turn."""
+    """Rows (n, `WIDTH`) of a tape: elements run to other ends and centers; without a turn of their own as they turn."""
     table = np.empty((elements.size, WIDTH))
     first, second, third = plane.axes
     turns = elements.turn if turn is None else turn
     arcs = turns != 0.0
     table[:, first], table[:, second], table[:, third] = end[0], end[1], height
-    table[:, 3 + first], table[:, 3 + second] = np.where(arcs, centre[0], end[0]), np.where(arcs, centre[1], end[1])
+    table[:, 3 + first], table[:, 3 + second] = np.where(arcs, center[0], end[0]), np.where(arcs, center[1], end[1])
     table[:, 3 + third] = height
     table[:, 6], table[:, 7] = turns, np.where(arcs, float(plane), 0.0)
     table[:, 8] = np.where(arcs, 0.0, elements.rapid)

@@ -7,9 +7,9 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from core.controls.chain import SAME
-from core.controls.corners import WHOLE
-from core.controls.generated import RIGHT_ANGLE, STRAIGHT, Corners
+from core.controls.compensation.corners import WHOLE
+from core.controls.compensation.generated import RIGHT_ANGLE, STRAIGHT, Corners
+from core.controls.compensation.offset_chain import SAME
 from core.controls.moves import WIDTH, Floats, Plane
 from core.controls.series.corners import Meetings, meetings, square_ends, square_starts, turnings
 from core.controls.series.elements import Elements, Points, hypots, rows
@@ -107,7 +107,7 @@ def chained(first: Elements, second: Elements, made: Joints, plane: Plane, offse
     bends = np.where(made.bends, -1.0 if offset > 0.0 else 1.0, 0.0)
     here = _either(made.comes, made.coming, _either(made.leaves, made.leaving, made.ends))
     apart = (np.abs(here[0] - made.starts[0]) > SAME) | (np.abs(here[1] - made.starts[1]) > SAME)
-    table[0::_MOST] = rows(made.ends, first.high, first.centre, first, plane)
+    table[0::_MOST] = rows(made.ends, first.high, first.center, first, plane)
     ways = ((made.leaving, straight), (made.coming, straight), (made.starts, bends))
     for index, (points, turn) in enumerate(ways, 1):
         table[index::_MOST] = rows(points, second.low, second.start, second, plane, turn=turn)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.controls.corners import Element
+from core.controls.compensation.corners import Element
 from core.controls.moves import WIDTH, Floats, Plane
 from core.controls.series.corners import after, meetings, radii, square_ends, square_starts, sweeps, turnings
 from core.controls.series.elements import Elements, Points, rows
@@ -81,8 +81,8 @@ def _backwards(elements: Elements, start: Points, end: Points, slack: float) -> 
     found = (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1] < 0.0
     at = np.flatnonzero(elements.turn)
     arcs, begin, stop = elements.of(at), (start[0][at], start[1][at]), (end[0][at], end[1][at])
-    swept = sweeps(arcs.start, arcs.end, arcs.centre, arcs.turn)
-    now = sweeps(begin, stop, arcs.centre, arcs.turn)
+    swept = sweeps(arcs.start, arcs.end, arcs.center, arcs.turn)
+    now = sweeps(begin, stop, arcs.center, arcs.turn)
     found[at] = np.where(now == 0.0, tau, now) > np.where(swept == 0.0, tau, swept) + slack
     return found & ~np.isnan(start[0])
 
@@ -92,7 +92,7 @@ def joined(front: Element, elements: Elements, made: Corners, plane: Plane, offs
     count = elements.size
     table = np.empty((2 * count, WIDTH))
     run = elements.behind(front).part(0, count)
-    table[0::2] = rows(made.ends, run.high, run.centre, run, plane)
+    table[0::2] = rows(made.ends, run.high, run.center, run, plane)
     turn = np.where(elements.rapid == 1.0, 0.0, -1.0 if offset > 0.0 else 1.0)
     table[1::2] = rows(made.starts, elements.low, elements.start, elements, plane, turn=turn)
     kept = np.ones(2 * count, np.bool_)

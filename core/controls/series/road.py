@@ -15,8 +15,8 @@ from core.controls.series import blocks
 from core.controls.series.words import plain_words
 
 if TYPE_CHECKING:
-    from core.controls.flow import Flow
-    from core.controls.machine import Machine
+    from core.controls.iso.flow import Flow
+    from core.controls.iso.machine import Machine
 
 LEAST: Final = 24
 """Lines from which on arrays are faster than one line after the other."""

@@ -15,8 +15,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from core.controls.iso.words import NUMBER
 from core.controls.moves import Floats
-from core.controls.words import NUMBER
 from core.tolerance import LARGEST
 
 Flags = NDArray[np.bool_]

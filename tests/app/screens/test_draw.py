@@ -14,7 +14,7 @@ from core.draw.scene import Scene, Style
 from core.geometry.piece import Point
 from core.pipeline.derive import derive
 from core.pipeline.plot import block_scene
-from core.program.store import load
+from core.program.file.store import load
 from tests.app.operator import Operator
 
 SIZE = (59, 18)
@@ -42,7 +42,7 @@ def cell(scene: Scene, sketch: Sketch, at: Point) -> tuple[float, float]:
 def cutter(operator: Operator) -> tuple[float, float]:
     scene = scene_of(operator)
     (circle,) = scene.circles
-    return cell(scene, operator.sketch, circle.centre)
+    return cell(scene, operator.sketch, circle.center)
 
 
 def seen(place: tuple[float, float]) -> bool:
@@ -77,7 +77,7 @@ def test_behind_an_arrow_the_middle_of_the_window_stays() -> None:
     view = view_of(scene, operator.sketch, *SIZE)
     assert view is not None
     operator.press("+", "+", "-", "+", "+")
-    assert cell(scene, operator.sketch, view.centre) == pytest.approx((0.5, 0.5))
+    assert cell(scene, operator.sketch, view.center) == pytest.approx((0.5, 0.5))
     assert operator.said.startswith("+ - zoom on the middle")
     assert operator.press("0").said.startswith("+ - zoom on the cutter")
 
@@ -102,4 +102,4 @@ def test_without_a_cutter_it_is_the_segment_then_start_then_the_middle_that_stay
     view, whole = view_of(bare, near, *SIZE), view_of(bare, Sketch(), *SIZE)
     assert view is not None
     assert whole is not None
-    assert view.centre == whole.centre
+    assert view.center == whole.center

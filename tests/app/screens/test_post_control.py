@@ -11,7 +11,7 @@ from app.desk import Desk
 from app.files import example
 from app.screens.post import PostPage
 from app.session import Session
-from core.program.store import load
+from core.program.file.store import load
 from tests.app.operator import Operator
 
 

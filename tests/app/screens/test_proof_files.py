@@ -14,7 +14,7 @@ from app.screens.program import ProgramPage
 from app.screens.proof import ProofPage
 from app.screens.proof_files import ProofBrowse, browsing, opening
 from app.session import Session
-from core.program.store import save
+from core.program.file.store import save
 from tests.app.prover import SQUARE, Prover, square
 
 

@@ -12,7 +12,7 @@ from app.files import example
 from app.screens.frame import picture
 from app.session import Session
 from app.widgets.rows import text_of
-from core.program.store import load
+from core.program.file.store import load
 from tests.app.operator import FROZEN, Operator
 
 SCREENS = {

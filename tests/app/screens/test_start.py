@@ -17,7 +17,7 @@ from app.session import Session
 from app.settings import Settings, taken_up
 from app.starting import begun, first_folder
 from app.survey import Facts, facts_of
-from core.program.store import load, save
+from core.program.file.store import load, save
 from core.units import Unit
 from tests.app.kept import ELSEWHERE, started
 from tests.app.operator import Operator

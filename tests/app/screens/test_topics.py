@@ -29,7 +29,7 @@ from app.screens.tools import ToolsPage
 from app.screens.topics import TOPICS, topic_of
 from app.session import Session
 from core.program.fields import TABLES, Form, field
-from core.program.store import load
+from core.program.file.store import load
 from tests.app.operator import Operator
 
 SESSION = Session.of(load(example("pocket")))

@@ -22,7 +22,7 @@ def test_labels_left_numbers_right_tags_beside_them() -> None:
     assert line(X, LENGTH) == " X END               2.0000  XY LENGTH     CAL     3.0000"
 
 
-def test_calculated_and_typed_differ_without_colour() -> None:
+def test_calculated_and_typed_differ_without_color() -> None:
     typed = Cell("length", "XY LENGTH", "3.0000", 1, 0)
     assert line(X, typed) != line(X, LENGTH)
 

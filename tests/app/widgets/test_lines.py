@@ -35,7 +35,7 @@ def test_any_height_is_possible() -> None:
         assert len(softkey_rows({1: Softkey("DELETE SEGMENT")}, height)) == height
 
 
-def test_an_error_is_marked_without_colour() -> None:
+def test_an_error_is_marked_without_color() -> None:
     assert text_of(prompt_rows(Said("It is wrong.", Tone.ERROR), 80)[0]) == " !! It is wrong."
 
 

@@ -13,8 +13,8 @@ from core.finding import Finding, Severity
 from core.pipeline.derive import derive
 from core.pipeline.outline import outline
 from core.pipeline.table import look_ahead_table
+from core.program.file.store import load
 from core.program.model import Entry
-from core.program.store import load
 from core.units import Unit
 from tests.app.squares import square
 

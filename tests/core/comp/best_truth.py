@@ -8,7 +8,7 @@ from math import acos, ceil, pi, tau
 import numpy as np
 import shapely
 
-from core.comp.best import BestPath, best_path
+from core.comp.best_path.best_path import BestPath, best_path
 from core.geometry.path import Floats, Path
 from core.geometry.piece import Arc, Line, Piece
 from core.geometry.side import Side
@@ -27,9 +27,9 @@ def at(piece: Piece, shares: Floats) -> Floats:
     """Points (k, 2) at shares of a piece."""
     if isinstance(piece, Line):
         return piece.start + shares[:, None] * np.subtract(piece.end, piece.start)
-    dx, dy = np.subtract(piece.start, piece.centre)
+    dx, dy = np.subtract(piece.start, piece.center)
     angle = np.arctan2(dy, dx) + shares * piece.sweep
-    return piece.centre + piece.radius * np.stack((np.cos(angle), np.sin(angle)), axis=1)
+    return piece.center + piece.radius * np.stack((np.cos(angle), np.sin(angle)), axis=1)
 
 
 def headings(piece: Piece, shares: Floats) -> Floats:
@@ -37,7 +37,7 @@ def headings(piece: Piece, shares: Floats) -> Floats:
     if isinstance(piece, Line):
         along = np.subtract(piece.end, piece.start) / piece.length
         return np.repeat(along[None], len(shares), axis=0)
-    radial = (at(piece, shares) - piece.centre) / piece.radius
+    radial = (at(piece, shares) - piece.center) / piece.radius
     return np.stack((-radial[:, 1], radial[:, 0]), axis=1) * int(piece.turn)
 
 
@@ -48,7 +48,7 @@ def away(piece: Piece, points: Floats) -> Floats:
         span = np.subtract(piece.end, piece.start)
         share = np.clip((points - piece.start) @ span / max(span @ span, 1e-300), 0.0, 1.0)
         return np.asarray(np.hypot(*(points - piece.start - share[:, None] * span).T))
-    towards, first = points - piece.centre, np.subtract(piece.start, piece.centre)
+    towards, first = points - piece.center, np.subtract(piece.start, piece.center)
     angle = np.arctan2(towards[:, 1], towards[:, 0]) - np.arctan2(first[1], first[0])
     inside = np.mod(angle * int(piece.turn), tau) <= abs(piece.sweep)
     return np.asarray(np.where(inside, np.abs(np.hypot(*towards.T) - piece.radius), ends))
@@ -70,7 +70,7 @@ def from_loops(best: BestPath, points: Floats) -> Floats:
 
 
 def candidates(contour: Path, side: Side, radius: float, *, closed: bool) -> Floats:
-    """Places of the centre at the radius from points of each segment on its side, and about each outside corner."""
+    """Places of the center at the radius from points of each segment on its side, and about each outside corner."""
     places = [np.empty((0, 2))]
     pieces = [piece for piece in contour if piece.length > 1e-7]
     for piece in pieces:
@@ -131,7 +131,7 @@ def area(path: Path) -> float:
 
 
 def reached(contour: Path, side: Side, radius: float) -> shapely.Geometry:
-    """Inside, the region the centre may be in; outside, the one it may not: of a simple closed contour.
+    """Inside, the region the center may be in; outside, the one it may not: of a simple closed contour.
 
     Each chord is widened by itself: one buffer of thousands of short chords drops some of them.
     """
@@ -144,7 +144,7 @@ def reached(contour: Path, side: Side, radius: float) -> shapely.Geometry:
 
 
 CHORD = 2e-5
-"""Millimetres that the reference's chords leave arcs by."""
+"""Millimeters that the reference's chords leave arcs by."""
 
 QUADRANT = 48
 """Chords to a quarter of the reference's cutter: they leave it by the radius times 1 - cos(pi / 4 / 48) = 1.34e-4 r."""

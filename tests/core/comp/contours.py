@@ -33,10 +33,10 @@ class Step:
         if not self.turn:
             end = at + self.size * heading
             return Line((at.real, at.imag), (end.real, end.imag)), end, heading
-        centre = at + self.turn * 1j * heading * self.size
+        center = at + self.turn * 1j * heading * self.size
         turned = rect(1.0, self.turn * self.sweep) if self.sweep < tau else 1 + 0j
-        end = centre + (at - centre) * turned if self.sweep < tau else at
-        points = [(place.real, place.imag) for place in (at, end, centre)]
+        end = center + (at - center) * turned if self.sweep < tau else at
+        points = [(place.real, place.imag) for place in (at, end, center)]
         return Arc(points[0], points[1], points[2], Turn(self.turn)), end, heading * turned
 
 

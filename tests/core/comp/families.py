@@ -28,8 +28,8 @@ def joined(places: Sequence[complex], bulges: Sequence[float] | None = None) -> 
         if not bulge:
             pieces.append(Line(_point(start), _point(end)))
             continue
-        centre = (start + end) / 2.0 + 0.5j * (end - start) * (1.0 - bulge**2) / (2.0 * bulge)
-        pieces.append(Arc(_point(start), _point(end), _point(centre), Turn.CCW if bulge > 0.0 else Turn.CW))
+        center = (start + end) / 2.0 + 0.5j * (end - start) * (1.0 - bulge**2) / (2.0 * bulge)
+        pieces.append(Arc(_point(start), _point(end), _point(center), Turn.CCW if bulge > 0.0 else Turn.CW))
     return Path.from_pieces(pieces)
 
 
@@ -146,8 +146,8 @@ def doubled(draw: st.DrawFn) -> Path:
     end = turned + rect(on, -hair)
     pieces: list[Piece] = [Line((0.0, 0.0), _point(tip)), Line(_point(tip), _point(turned))]
     if draw(st.booleans()):
-        centre = turned + 1j * draw(st.sampled_from([-1.0, 1.0])) * draw(st.floats(0.2, 1.5))
-        pieces.append(Arc(_point(turned), _point(turned), _point(centre), draw(st.sampled_from([Turn.CW, Turn.CCW]))))
+        center = turned + 1j * draw(st.sampled_from([-1.0, 1.0])) * draw(st.floats(0.2, 1.5))
+        pieces.append(Arc(_point(turned), _point(turned), _point(center), draw(st.sampled_from([Turn.CW, Turn.CCW]))))
     return Path.from_pieces([*pieces, Line(_point(turned), _point(end)), Line(_point(end), _point(end + 1j))])
 
 
@@ -159,9 +159,9 @@ strips = spirals() | splines() | stairs() | doubled()
 
 
 def placed(path: Path, unit: float, by: complex) -> Path:
-    """The contour in a unit (millimetres to it), moved."""
+    """The contour in a unit (millimeters to it), moved."""
     move = np.array((by.real, by.imag))
-    return Path.of(path.points * unit + move, path.centres * unit + move, path.turns, path.numbers)
+    return Path.of(path.points * unit + move, path.centers * unit + move, path.turns, path.numbers)
 
 
 units = st.sampled_from([1.0, IN])

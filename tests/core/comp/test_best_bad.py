@@ -7,7 +7,7 @@ from math import hypot, nan, pi
 import numpy as np
 import pytest
 
-from core.comp.best import best_path
+from core.comp.best_path.best_path import best_path
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Turn
 from core.geometry.side import Side
@@ -38,7 +38,7 @@ def test_an_arc_of_uneven_radii_is_followed_on_its_mean():
     best = best_path(Path.from_pieces([straight[0], uneven, *straight[1:]]), Side.LEFT, 0.3, closed=True)
     assert (len(best.loops), best.findings) == (1, ())
     arc = best.loops[0].numbers.tolist().index(2)
-    ends = best.loops[0].points[arc : arc + 2] - best.loops[0].centres[arc]
+    ends = best.loops[0].points[arc : arc + 2] - best.loops[0].centers[arc]
     assert hypot(*ends[0]) == pytest.approx(hypot(*ends[1]), abs=1e-9)
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.comp.best import best_path
+from core.comp.best_path.best_path import best_path
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
 from core.geometry.side import Side
@@ -16,7 +16,7 @@ from tests.core.comp.contours import lines
 
 
 def test_a_cutter_hundreds_of_segments_wide_goes_over_teeth_and_steps():
-    """Each tip's circle crosses hundreds of others: only the arcs between neighbouring tips are left, and no loop is
+    """Each tip's circle crosses hundreds of others: only the arcs between neighboring tips are left, and no loop is
     refused as tangled."""
     step = np.arange(2001)
     tips = [(0.1 * x, 0.3 * (x % 2)) for x in step.tolist()]
@@ -28,8 +28,8 @@ def test_a_cutter_hundreds_of_segments_wide_goes_over_teeth_and_steps():
 
 def hook(sweep: float) -> Path:
     """A line, an arc of radius 2 to the left and a line back by which the open contour's end comes inside."""
-    centre = 2j
-    end = centre - 2j * np.exp(1j * sweep)
+    center = 2j
+    end = center - 2j * np.exp(1j * sweep)
     away = end + 1.2 * np.exp(1j * (sweep + 1.2))
     points = [(-4.0, 0.0), (0.0, 0.0), (end.real, end.imag), (away.real, away.imag)]
     return Path.from_pieces(
@@ -46,7 +46,7 @@ def test_an_open_contour_whose_end_turns_into_itself_is_cut_by_its_other_side_to
 
 @pytest.mark.parametrize("inch", [False, True])
 @pytest.mark.parametrize("size", [1e5, 1e6, 3e6, 9e6])
-def test_arcs_of_kilometres_have_a_path_on_both_sides(size: float, inch: bool):
+def test_arcs_of_kilometers_have_a_path_on_both_sides(size: float, inch: bool):
     """A joint of the surface is exactly the radius away from all of the offset that its own arc has there."""
     rng = np.random.default_rng(int(size))
     for _ in range(12):

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.comp.best import BestPath, best_path
+from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.compensate import compensate
 from core.geometry.path import Floats, Path
 from core.geometry.side import Side
@@ -32,7 +32,7 @@ def assert_same(one: BestPath, two: BestPath, moved: Callable[[Floats], Floats],
 
 
 def mapped(contour: Path, moved: Callable[[Floats], Floats], *, turn: int) -> Path:
-    return Path.of(moved(contour.points), moved(contour.centres), turn * contour.turns, contour.numbers)
+    return Path.of(moved(contour.points), moved(contour.centers), turn * contour.turns, contour.numbers)
 
 
 @settings(max_examples=150, deadline=None, derandomize=True)
@@ -62,7 +62,7 @@ def test_rotated_it_is_rotated(contour, side, radius, closed, angle):
 
 @settings(max_examples=100, deadline=None, derandomize=True)
 @given(loose, sides, radii, st.booleans())
-def test_ten_metres_away_it_is_moved(contour, side, radius, closed):
+def test_ten_meters_away_it_is_moved(contour, side, radius, closed):
     contour = shut(contour) if closed else contour
     far = best_path(mapped(contour, lambda points: points + 1e4, turn=1), side, radius, closed=closed)
     assert_same(best_path(contour, side, radius, closed=closed), far, lambda points: points + 1e4, 1e-6)
@@ -74,7 +74,7 @@ def test_started_elsewhere_it_is_the_same(contour, side, radius, first):
     first %= len(contour)
     points = np.concatenate((contour.points[first:], contour.points[1 : first + 1]))
     order = np.roll(np.arange(len(contour)), -first)
-    other = Path.of(points, contour.centres[order], contour.turns[order])
+    other = Path.of(points, contour.centers[order], contour.turns[order])
     one, two = (best_path(path, side, radius, closed=True) for path in (contour, other))
     assert_same(one, two, lambda points: points, 1e-7)
 

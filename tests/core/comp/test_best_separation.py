@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.comp.best import BestPath, best_path, separation
+from core.comp.best_path.best_path import BestPath, best_path, separation
 from core.comp.compensate import compensate
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Turn
@@ -103,11 +103,11 @@ def _off(loop: Path, control: Path, parts: int = 400) -> float:
         piece = loop.part(row, row + 1)
         shares = (np.arange(parts) + 0.5) / parts
         angles = piece.sweeps[0] * shares
-        arm = piece.points[0] - piece.centres[0]
+        arm = piece.points[0] - piece.centers[0]
         turned = np.stack(
             (arm[0] * np.cos(angles) - arm[1] * np.sin(angles), arm[0] * np.sin(angles) + arm[1] * np.cos(angles)), 1
         )
         line = piece.points[0] + shares[:, None] * (piece.points[1] - piece.points[0])
-        points = piece.centres[0] + turned if piece.turns[0] else line
+        points = piece.centers[0] + turned if piece.turns[0] else line
         length += piece.lengths[0] * float(np.mean(distance(control, points) > 1e-6))
     return length

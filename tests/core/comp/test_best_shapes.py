@@ -7,7 +7,7 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from core.comp.best import best_path
+from core.comp.best_path.best_path import best_path
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
 from core.geometry.side import Side
@@ -93,7 +93,7 @@ def test_a_big_cutter_around_a_star_runs_on_corner_arcs_alone():
 
 
 def gear(teeth: int) -> Path:
-    """Root arcs and tip arcs about the centre with radial flanks."""
+    """Root arcs and tip arcs about the center with radial flanks."""
     pieces: list[Arc | Line] = []
     for tooth in range(teeth):
         angles = [2 * pi * (tooth + part) / teeth for part in (0.0, 0.5, 1.0)]

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.comp.best_clear import distances
-from core.comp.best_raw import lengths
-from core.comp.best_tree import near, near_selves, piece_boxes, tree
+from core.comp.best_path.clear import distances
+from core.comp.best_path.raw_offset import lengths
+from core.comp.best_path.tree import near, near_selves, piece_boxes, tree
 from core.geometry.intersect import planes
 from core.geometry.path import Floats, Path
 from tests.core.comp.best_truth import distance, sampled
@@ -60,8 +60,8 @@ def test_no_boxes_are_near_nothing():
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(mixed)
 def test_a_box_holds_its_piece_and_is_no_larger_than_its_circle(contour):
-    points, centres = planes(contour.points), planes(contour.centres)
-    found = piece_boxes(points[:-1], points[1:], centres, contour.turns, 0.0)
+    points, centers = planes(contour.points), planes(contour.centers)
+    found = piece_boxes(points[:-1], points[1:], centers, contour.turns, 0.0)
     for row in range(len(contour)):
         spots = sampled(contour.part(row, row + 1)).T
         low, high = found[:2, row, None], found[2:, row, None]
@@ -79,7 +79,7 @@ def test_distances_and_lengths_of_pieces(contour, seed):
     exact = [distance(contour.part(row, row + 1), spots[row : row + 1])[0] for row in range(len(contour))]
     assert found == pytest.approx(np.array(exact), abs=1e-12)
     points = planes(contour.points)
-    measured = lengths(points[:-1], points[1:], planes(contour.centres), contour.turns)
+    measured = lengths(points[:-1], points[1:], planes(contour.centers), contour.turns)
     assert measured == pytest.approx(contour.lengths, abs=1e-12)
 
 
@@ -88,5 +88,5 @@ def test_a_full_circle_has_the_box_of_its_circle_whatever_rounding_makes_of_its_
     for x, y in zip(np.cos(angles), np.sin(angles), strict=True):
         circle = Path.of(np.array([(x, y), (x, y)]), np.zeros((1, 2)), np.ones(1, np.int8))
         points = planes(circle.points)
-        box = piece_boxes(points[:-1], points[1:], planes(circle.centres), circle.turns, 0.0)
+        box = piece_boxes(points[:-1], points[1:], planes(circle.centers), circle.turns, 0.0)
         assert box[:, 0] == pytest.approx((-1, -1, 1, 1), abs=1e-12)

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.comp import best_trim
-from core.comp.best_raw import Raw, untrimmed
-from core.comp.best_surface import crosses_itself, surface_of
-from core.comp.best_trim import trimmed
+from core.comp.best_path import trim
+from core.comp.best_path.raw_offset import Raw, untrimmed
+from core.comp.best_path.surface import crosses_itself, surface_of
+from core.comp.best_path.trim import trimmed
 from core.geometry.path import Path
 from core.geometry.side import Side
 from tests.core.comp.families import rings, strips
@@ -24,7 +24,7 @@ def cut(contour: Path, side: Side, radius: float, few: int) -> Raw:
     surface = surface_of(contour, radius, closed=closed)
     crossing = crosses_itself(surface, closed=closed) is not None
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(best_trim, "FEW", few)
+        patch.setattr(trim, "FEW", few)
         chain = untrimmed(surface.path, side, radius, closed=closed, crossing=crossing)
         return trimmed(chain, side.sign, radius)
 

@@ -11,7 +11,7 @@ import shapely.ops
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from core.comp.best import BestPath
+from core.comp.best_path.best_path import BestPath
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.geometry.side import Side
@@ -40,8 +40,8 @@ def bulged(start: Point, end: Point, bulge: float) -> Piece:
         return Line(start, end)
     sweep = 4.0 * np.arctan(bulge)
     middle = (complex(*start) + complex(*end)) / 2.0
-    centre = middle + 0.5j * (complex(*end) - complex(*start)) / tan(sweep / 2.0)
-    return Arc(start, end, (centre.real, centre.imag), Turn.CCW if bulge > 0.0 else Turn.CW)
+    center = middle + 0.5j * (complex(*end) - complex(*start)) / tan(sweep / 2.0)
+    return Arc(start, end, (center.real, center.imag), Turn.CCW if bulge > 0.0 else Turn.CW)
 
 
 @st.composite

@@ -32,7 +32,7 @@ def test_blends_of_a_line(side, up):
     assert arc == Arc((4, 0), (4.5, 0.5 * up), (4, 0.5 * up), Turn(up))
 
 
-def test_blends_carry_the_numbers_of_their_neighbours():
+def test_blends_carry_the_numbers_of_their_neighbors():
     path = Path.from_pieces([*ALONG_X, Line((4, 0), (4, 1))], [2, 7])
     assert blend_in(path, Side.LEFT, 1).numbers.tolist() == [2]
     assert blend_out(path, Side.LEFT, 1, 0, closed=False).numbers.tolist() == [7]

@@ -1,4 +1,4 @@
-"""Laws of the centre path: its distance from the contour, its wholeness, and its symmetries."""
+"""Laws of the center path: its distance from the contour, its wholeness, and its symmetries."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ OTHER = {Side.LEFT: Side.RIGHT, Side.RIGHT: Side.LEFT}
 def _off(piece: Piece, points: Floats) -> Floats:
     """Distance of points from the whole line or circle of a piece."""
     if isinstance(piece, Arc):
-        return np.asarray(np.abs(np.hypot(*(points - piece.centre).T) - piece.radius))
+        return np.asarray(np.abs(np.hypot(*(points - piece.center).T) - piece.radius))
     along = np.subtract(piece.end, piece.start) / piece.length
     dx, dy = (points - piece.start).T
     return np.asarray(np.abs(along[0] * dy - along[1] * dx))
@@ -40,9 +40,9 @@ def _sampled(piece: Piece) -> Floats:
     shares = np.linspace(0.0, 1.0, 7)
     if isinstance(piece, Line):
         return piece.start + shares[:, None] * np.subtract(piece.end, piece.start)
-    dx, dy = np.subtract(piece.start, piece.centre)
+    dx, dy = np.subtract(piece.start, piece.center)
     angle = np.arctan2(dy, dx) + shares * piece.sweep
-    return piece.centre + piece.radius * np.stack((np.cos(angle), np.sin(angle)), axis=1)
+    return piece.center + piece.radius * np.stack((np.cos(angle), np.sin(angle)), axis=1)
 
 
 @settings(max_examples=200, deadline=None, derandomize=True)
@@ -73,7 +73,7 @@ def test_path_is_whole(contour, side, radius, lookahead, closed):
     assert (np.diff(path.numbers) > 0).all()
     assert not set(done.deleted.segments.tolist()) & set(path.numbers.tolist())
     arcs = path.turns != 0
-    last = np.hypot(*(path.ends - path.centres).T)
+    last = np.hypot(*(path.ends - path.centers).T)
     assert np.abs(last - path.radii)[arcs].max(initial=0.0) < 2 * JOINED
 
 
@@ -112,7 +112,7 @@ def test_lookaheads_without_a_difference_share_their_path():
 
 def _moved(path: Path, move: Callable[[Floats], Floats], *, mirrored: bool = False) -> Path:
     turns = -path.turns if mirrored else path.turns
-    return Path.of(move(path.points), move(path.centres), turns, path.numbers)
+    return Path.of(move(path.points), move(path.centers), turns, path.numbers)
 
 
 def _same(one: Compensated, two: Compensated, move: Callable[[Floats], Floats], near: float) -> None:
@@ -188,7 +188,7 @@ def _one_way(contour: Path, side: Side, radius: float) -> bool:
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(loose, sides, radii)
-def test_contour_travelled_backwards_gives_the_same_path_backwards(contour, side, radius):
+def test_contour_traveled_backwards_gives_the_same_path_backwards(contour, side, radius):
     one = compensate(contour, side, radius, 1, closed=False)
     two = compensate(contour.reversed(), OTHER[side], radius, 1, closed=False)
     assume(_one_way(contour, side, radius))
@@ -231,7 +231,7 @@ def test_closed_contour_of_two_segments_takes_the_latest_point_at_its_first_corn
 
 
 def test_three_offsets_that_meet_in_one_point_leave_no_sliver():
-    """The short side's offset shrinks to the very point where its neighbours' offsets meet."""
+    """The short side's offset shrinks to the very point where its neighbors' offsets meet."""
     slot = lines((0, 2), (0, 0), (0.5, 0), (0.5, 2))
     done = compensate(slot, Side.LEFT, 0.25, 3, closed=False)
     assert done.path.numbers.tolist() == [1, 3]
@@ -247,7 +247,7 @@ def test_out_and_back_along_one_line(side):
     assert done.path.lengths.tolist() == pytest.approx([4, pi / 2, 4])
 
 
-def test_inches_and_millimetres_give_one_path():
+def test_inches_and_millimeters_give_one_path():
     pocket = lines((1, 0), (2, 0), (2, 2), (0, 2), (0, 0.1), (0.1, 0), (1, 0))
     inch = compensate(pocket, Side.LEFT, 0.25, 5, closed=True)
     metric = compensate(_moved(pocket, lambda points: points * 25.4), Side.LEFT, 6.35, 5, closed=True)

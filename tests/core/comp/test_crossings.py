@@ -17,7 +17,7 @@ from tests.core.comp.contours import lines, mixed, polygons
 
 
 def _all_pairs(chain: Chain, lookahead: int, *, closed: bool) -> list[tuple[int, int]]:
-    """Pairs of partners that are not path neighbours and within reach, in order of b, then a."""
+    """Pairs of partners that are not path neighbors and within reach, in order of b, then a."""
     partners = [row for row, part in enumerate(chain.parts.tolist()) if part <= Part.CORNER]
     pairs = [
         (a, b)

@@ -34,7 +34,7 @@ uneven = radii.map(lambda radius: 1.00137 * radius)
 """Radii at which no slot is as wide as the cutter: there the cutter goes in and out on one line that has no area."""
 
 CHORD = 1e-5
-"""Millimetres to a contour of some inches or millimetres: the chords of the reference leave its arcs by no more."""
+"""Millimeters to a contour of some inches or millimeters: the chords of the reference leave its arcs by no more."""
 
 QUADRANT = 128
 """Chords to a quarter of the reference's cutter: they leave it by 1.9e-5 of the radius."""
@@ -65,7 +65,7 @@ def test_the_best_path_of_closed_families_is_the_true_boundary(contour, side, ra
 
 
 def _true_offset(contour: Path, radius: float) -> shapely.Polygon:
-    """The region that the centre may not enter outside a closed contour, by chords; checked to have no hole."""
+    """The region that the center may not enter outside a closed contour, by chords; checked to have no hole."""
     grown = shapely.Polygon(chords(contour, CHORD)).buffer(radius, quad_segs=QUADRANT)
     assume(isinstance(grown, shapely.Polygon) and not grown.interiors)
     return grown

@@ -89,7 +89,7 @@ def test_arcs_of_the_path_are_about_the_corners(golden):
         ]
         assert all(number % 1 == 0.5 for _, number in arcs)
         for piece, number in arcs:
-            assert _near(piece.centre, golden.contour.points[int(number)])
+            assert _near(piece.center, golden.contour.points[int(number)])
             assert piece.turn == (Turn.CW if golden.side is Side.LEFT else Turn.CCW)
             assert abs(piece.radius - RADIUS) <= NEAR
 

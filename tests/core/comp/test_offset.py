@@ -123,7 +123,7 @@ def test_whole_pieces_keep_the_radius_from_their_own_segment(contour, side, radi
             assert piece.length == pytest.approx(_grown(before, side, radius), abs=1e-6)
         if part == CORNER:
             assert isinstance(piece, Arc)
-            assert piece.centre == contour[place // 2].end
+            assert piece.center == contour[place // 2].end
             assert piece.radius == pytest.approx(radius)
 
 

@@ -33,7 +33,7 @@ def _same_piece(piece, cut: Cut) -> None:
     assert isinstance(piece, Arc) == (cut.turn != 0)
     if isinstance(piece, Arc):
         assert piece.turn == cut.turn
-        assert abs(complex(*piece.centre) - cut.centre) <= NEAR
+        assert abs(complex(*piece.center) - cut.center) <= NEAR
         assert abs(piece.length - (cut.high - cut.low)) <= NEAR
 
 

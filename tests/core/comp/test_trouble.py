@@ -54,7 +54,7 @@ def test_point_that_is_no_number(bad):
 
 
 @pytest.mark.parametrize("bad", BAD)
-def test_centre_that_is_no_number(bad):
+def test_center_that_is_no_number(bad):
     contour = Path.from_pieces([Line((0, 0), (1, 0)), Arc((1, 0), (2, 0), (bad, 0), Turn.CW)])
     assert _refused(compensate(contour, Side.LEFT, 0.25, 2, closed=False), "NOT_FINITE").segment == 2
 
@@ -106,9 +106,9 @@ def test_arcs_that_are_points_are_passed_over():
 @pytest.mark.parametrize("turn", list(Turn))
 @pytest.mark.parametrize("far", [(0.0, 6e-8), (-6e-8, 0.0), (4e-8, -4e-8)])
 def test_arcs_about_an_end_of_their_own_no_farther_off_than_a_point_are_passed_over(turn, far):
-    """Their length is that of an arc through any angle at all: there is no direction from the centre to that end."""
-    for start, end, centre in (((0, 0), far, far), (far, (0, 0), (0, 0)), (far, (0, 0), far)):
-        first, last = Arc(start, end, centre, turn), Line(end, (10, 0))
+    """Their length is that of an arc through any angle at all: there is no direction from the center to that end."""
+    for start, end, center in (((0, 0), far, far), (far, (0, 0), (0, 0)), (far, (0, 0), far)):
+        first, last = Arc(start, end, center, turn), Line(end, (10, 0))
         round_: list[Piece] = [first, last, Line((10, 0), (0, 10)), Line((0, 10), start)]
         for pieces, closed in ((round_[1:] + round_[:1], True), (round_, True), (round_[3:] + round_[:2], False)):
             done = compensate(Path.from_pieces(pieces), Side.RIGHT, 1.0, 3, closed=closed, blend=1.0)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.comp.best import best_path
+from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate
 from core.geometry.intersect import Planes, coordinates, planes
 from core.geometry.path import Path
@@ -30,17 +30,17 @@ def arc_between_lines(along: float, off: float, turn: int) -> Path:
     """A line to (0, 0), an arc about (0, -10) to a point `along` its circle and `off` outside it, and a line away."""
     end = (ROUND + off) * 1j * np.exp(1j * turn * along / ROUND) - 1j * ROUND
     points = np.array([FROM, 0.0, end, BACK])
-    centres = np.array([FROM, -1j * ROUND, end])
-    return Path.of(coordinates(points), coordinates(centres), np.array([0, turn, 0]))
+    centers = np.array([FROM, -1j * ROUND, end])
+    return Path.of(coordinates(points), coordinates(centers), np.array([0, turn, 0]))
 
 
 def along_path(path: Path) -> Planes:
     """Points all along a path."""
     parts = np.linspace(0.0, 1.0, 257)
     start, end = planes(path.starts)[:, None], planes(path.ends)[:, None]
-    centre, sweep = planes(path.centres)[:, None], path.sweeps[:, None]
+    center, sweep = planes(path.centers)[:, None], path.sweeps[:, None]
     line = start + (end - start) * parts
-    arc = centre + (start - centre) * np.exp(1j * sweep * parts)
+    arc = center + (start - center) * np.exp(1j * sweep * parts)
     every: Planes = np.where(path.turns[:, None] == 0, line, arc).ravel()
     return every
 
@@ -93,7 +93,7 @@ def test_the_best_path_of_a_nearly_full_arc_goes_round_it(along, off, out, turn,
 @pytest.mark.parametrize("along", [0.0, 2e-8, -2e-8])
 @pytest.mark.parametrize("turn", [-1, 1])
 def test_an_arc_that_is_a_full_turn_or_none_is_refused(off, along, turn):
-    """Its ends are on one ray from its centre, and not one point: nobody knows which of the two is meant."""
+    """Its ends are on one ray from its center, and not one point: nobody knows which of the two is meant."""
     contour = arc_between_lines(along, off, turn)
     assert abs(along) < JOINED
     best, control = (

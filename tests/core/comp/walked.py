@@ -26,13 +26,13 @@ class Cut:
     whole_end: complex
     low: float
     high: float
-    centre: complex = 0j
+    center: complex = 0j
     turn: int = 0
     partner: bool = True
 
     @property
     def radius(self) -> float:
-        return abs(self.whole_start - self.centre)
+        return abs(self.whole_start - self.center)
 
     @property
     def start(self) -> complex:
@@ -45,7 +45,7 @@ class Cut:
     def at(self, along: float) -> complex:
         """The point at a distance from the whole piece's start."""
         if self.turn:
-            return self.centre + (self.whole_start - self.centre) * rect(1.0, self.turn * along / self.radius)
+            return self.center + (self.whole_start - self.center) * rect(1.0, self.turn * along / self.radius)
         length = abs(self.whole_end - self.whole_start)
         return self.whole_start + (self.whole_end - self.whole_start) * (along / length if length else 0.0)
 
@@ -54,7 +54,7 @@ class Cut:
         if not self.turn:
             unit = (self.whole_end - self.whole_start) / abs(self.whole_end - self.whole_start)
             return ((point - self.whole_start) * unit.conjugate()).real
-        angle = self.turn * phase((point - self.centre) / (self.whole_start - self.centre)) % tau
+        angle = self.turn * phase((point - self.center) / (self.whole_start - self.center)) % tau
         laps = [(angle + lap) * self.radius for lap in (-tau, 0.0)]
         return min(laps, key=lambda along: max(self.low - along, along - self.high, 0.0))
 
@@ -85,8 +85,8 @@ def _line_line(a: Cut, b: Cut) -> list[complex]:
 
 def _line_circle(line: Cut, arc: Cut) -> tuple[list[complex], bool]:
     unit = (line.whole_end - line.whole_start) / abs(line.whole_end - line.whole_start)
-    across = ((arc.centre - line.whole_start) * unit.conjugate()).imag
-    foot = arc.centre - 1j * across * unit
+    across = ((arc.center - line.whole_start) * unit.conjugate()).imag
+    foot = arc.center - 1j * across * unit
     room = arc.radius - abs(across)
     if room < -ON_PATH:
         return [], False
@@ -95,16 +95,16 @@ def _line_circle(line: Cut, arc: Cut) -> tuple[list[complex], bool]:
 
 
 def _circles(a: Cut, b: Cut) -> tuple[list[complex], bool]:
-    apart = abs(b.centre - a.centre)
+    apart = abs(b.center - a.center)
     if apart <= ON_PATH:
         return [], False
     room = min(a.radius + b.radius - apart, apart - abs(a.radius - b.radius))
     if room < -ON_PATH:
         return [], False
-    unit = (b.centre - a.centre) / apart
+    unit = (b.center - a.center) / apart
     foot = (apart**2 + a.radius**2 - b.radius**2) / (2 * apart)
     half = sqrt(max(a.radius**2 - foot**2, 0.0))
-    return _pair(a.centre + foot * unit, half, 1j * unit), abs(room) <= ON_PATH
+    return _pair(a.center + foot * unit, half, 1j * unit), abs(room) <= ON_PATH
 
 
 def _pair(foot: complex, half: float, unit: complex) -> list[complex]:
@@ -145,7 +145,7 @@ def _offset(piece: Piece, label: int, shift: float) -> Cut:
     radius = piece.radius - piece.turn * shift
     if radius <= JOINED:
         return Cut(label, start, end, 0.0, abs(end - start), partner=False)
-    return Cut(label, start, end, 0.0, radius * abs(piece.sweep), complex(*piece.centre), int(piece.turn))
+    return Cut(label, start, end, 0.0, radius * abs(piece.sweep), complex(*piece.center), int(piece.turn))
 
 
 def _normal(piece: Piece, at: complex) -> complex:
@@ -153,7 +153,7 @@ def _normal(piece: Piece, at: complex) -> complex:
     if isinstance(piece, Line):
         along = complex(*piece.end) - complex(*piece.start)
     else:
-        along = 1j * piece.turn * (at - complex(*piece.centre))
+        along = 1j * piece.turn * (at - complex(*piece.center))
     return 1j * along / abs(along)
 
 

@@ -44,11 +44,11 @@ def lines_and_ends(done: Run, line: int | None = None) -> list[tuple[float, floa
 
 
 def shape(done: Run, start: int = 1) -> list[tuple[object, ...]]:
-    """Every move from a row on: its turn as letter, its end and an arc's centre in X, Y, program units."""
+    """Every move from a row on: its turn as letter, its end and an arc's center in X, Y, program units."""
     letters = {0: "line", 1: "ccw", -1: "cw"}
     out: list[tuple[object, ...]] = []
     for move in list(done.moves)[start:]:
-        values = [*move.point[:2], *(move.centre[:2] if move.turn else ())]
+        values = [*move.point[:2], *(move.center[:2] if move.turn else ())]
         name = "rapid" if move.rapid else letters[move.turn]
         out.append((name, *(from_mm(value, done.unit) for value in values)))
     return out

@@ -15,7 +15,7 @@ MODAL: dict[str, str] = {
     "a local shift replaces the last one": "G20 F9\nG52 X5\nG1 X1\nG52 X-5 Y1\nG1 X1 Y1\nG52 X0 Y0\nG1 X1\nM2\n",
     "a preset origin": "G20 F9\nG1 X1 Y1\nG92 X0 Y5\nG1 X2 Y2\nG92.1\nG1 X0 Y0\nM2\n",
     "arcs by radius": "G20 F9\nG1 X1\nG2 X3 R1\nG3 X3 Y2 R-1.5\nG2 X2 Y3 R1\nM2\n",
-    "arcs with absolute centres": "G20 F9\nG90.1\nG1 X1\nG2 X3 Y0 I2 J0\nG3 X3 Y0 I4 J0\nM2\n",
+    "arcs with absolute centers": "G20 F9\nG90.1\nG1 X1\nG2 X3 Y0 I2 J0\nG3 X3 Y0 I4 J0\nM2\n",
     "planes": "G20 F9\nG18\nG2 X2 Z0 I1 K0\nG19\nG3 Y1 Z1 J0 K1\nG17\nG2 X4 Y1 I1\nM2\n",
     "a helix": "G20 F9\nG2 X2 Y0 Z-1 I1\nG3 X2 Y0 Z-2 J1\nM2\n",
     "incremental moves under compensation": "G20 F9\nG42 D1\nG1 X2\nG91\nX2\nY-2\nG2 X1 Y-1 I1\nG40\nG1 G90 X0\nM2\n",
@@ -26,7 +26,7 @@ MODAL: dict[str, str] = {
     "a rapid corner": "G20 F9\nG42 D1\nG0 X2\nG0 X4\nG0 Y3\nG1 X0\nG40\nX-2\nM2\n",
     "comments and spaces": "g20 (inch) f 9\ng1 x1 (y2) y 3 ; z4\nm2\n",
     "blanks inside words": "G 2 0 F 9\nG1 X1 .5 Y- 2\nG4 P. 1\nM 2\n",
-    "a preset cancelled in a block of motion": "G20 F9\nG1 X1\nG92 X0\nG92.1 G1 X5\nM2\n",
+    "a preset canceled in a block of motion": "G20 F9\nG1 X1\nG92 X0\nG92.1 G1 X5\nM2\n",
     "a work offset set by the program": "G20 F9\nG55\nG1 X1\nG54\nG1 X1\nM2\n",
 }
 """Programs in inches for the modal machine, tool 1 of diameter .5 and tool 2 of .25, by what they are about."""
@@ -163,12 +163,12 @@ def long_klartext(count: int) -> str:
 
 
 def long_threeblock(count: int) -> str:
-    """As long for `threeblock`, with absolute centres, and each other block an arc: it refuses lines on one line."""
+    """As long for `threeblock`, with absolute centers, and each other block an arc: it refuses lines on one line."""
     lines, x, y = ["G71G17G90F500.", "T1M6", "G0X-10.Y-10.", "G1G41X-5.Y-5.", "X0Y0"], 0.0, 0.0
     for index, (end_x, end_y) in enumerate(_round(count), 1):
         dx, dy = end_x - x, end_y - y
         away = sqrt(400.0**2 / (dx * dx + dy * dy) - 0.25)
-        centre = f"I{(x + end_x) / 2 - away * dy:.4f}J{(y + end_y) / 2 + away * dx:.4f}"
-        lines.append(f"G1X{end_x:.4f}Y{end_y:.4f}" if index % 2 else f"G3X{end_x:.4f}Y{end_y:.4f}{centre}")
+        center = f"I{(x + end_x) / 2 - away * dy:.4f}J{(y + end_y) / 2 + away * dx:.4f}"
+        lines.append(f"G1X{end_x:.4f}Y{end_y:.4f}" if index % 2 else f"G3X{end_x:.4f}Y{end_y:.4f}{center}")
         x, y = end_x, end_y
     return "\n".join((*lines, "G40", "G1X0Y-20.", "M2", ""))

@@ -19,14 +19,14 @@ _CALL = re.compile(r"^\s*\d+\s+\S+\s+(\w+)\(([^)]*)\)")
 
 @dataclass(frozen=True)
 class Printed:
-    """One move as printed: line or arc, its end (x, y, z), of an arc centre and turn; the feed; millimetres.
+    """One move as printed: line or arc, its end (x, y, z), of an arc center and turn; the feed; millimeters.
 
     `digit` is how far the printed decimals may be off.
     """
 
     end: tuple[float, float, float]
     rapid: bool
-    centre: tuple[float, float] | None = None
+    center: tuple[float, float] | None = None
     turn: int = 0
     feed: float = 0.0
     digit: float = 0.0
@@ -64,7 +64,7 @@ def run_witness(text: Path, table: Path) -> Witnessed:
 
 @dataclass
 class _Feeds:
-    """What the interpreter has said of feeds: the rate in millimetres, whether it is one a turn, the turns a minute."""
+    """What the interpreter has said of feeds: the rate in millimeters, whether it is one a turn, the turns a minute."""
 
     scale: float = 1.0
     rate: float = 0.0
@@ -127,14 +127,14 @@ def printed(run: Run) -> tuple[Printed, ...]:
 def _printed(moves: Moves):
     for move in moves.part(1, len(moves)) if len(moves) > 1 else ():
         first, second, _ = move.plane.axes
-        centre = (move.centre[first], move.centre[second]) if move.turn else None
-        yield Printed(move.point, move.rapid, centre, move.turn, 0.0 if move.rapid else move.feed)
+        center = (move.center[first], move.center[second]) if move.turn else None
+        yield Printed(move.point, move.rapid, center, move.turn, 0.0 if move.rapid else move.feed)
 
 
 def difference(ours: tuple[Printed, ...], theirs: tuple[Printed, ...]) -> str:
     """The first difference between two lists of moves, empty if they are the same to the printed decimals."""
     for index, (one, other) in enumerate(zip(ours, theirs, strict=False)):
-        pairs = [*zip(one.end, other.end, strict=True), *zip(one.centre or (), other.centre or (), strict=False)]
+        pairs = [*zip(one.end, other.end, strict=True), *zip(one.center or (), other.center or (), strict=False)]
         apart = max(abs(first - second) for first, second in pairs)
         same_kind = one.turn == other.turn and one.rapid == other.rapid
         fed_alike = abs(one.feed - other.feed) <= 2e-3 + 1e-3 * abs(other.feed)

@@ -100,7 +100,7 @@ NINE_SERIES = (
         (("-AMP", 4),)),
     Row("the least feed inside arcs is told as taken for 0", "nine-series:a",
         f"{_N}G41 D1 X1\nX4\nG3 X5 Y1 J1\nG1 Y3\n", _HALF, None, (("MFR", 4),)),
-    Row("outside arcs keep the centre's feed", "nine-series:a", f"{_N}G41 D1 X1\nX4\nG2 X5 Y-1 J-1\nG1 Y-3\n", _HALF,
+    Row("outside arcs keep the center's feed", "nine-series:a", f"{_N}G41 D1 X1\nX4\nG2 X5 Y-1 J-1\nG1 Y-3\n", _HALF,
         (("line", 1, 0.25), ("line", 4, 0.25), ("cw", 5.25, -1, 4, -1), ("line", 5.25, -3)), (("-MFR", 4),)),
     Row("an arc that reverses the direction", "nine-series:a", f"{_N}G41 D1 X1\nX4\nG3 X4.2 Y.2 J.2\n", _HALF, None,
         (("R9", 4),), 4),

@@ -50,9 +50,9 @@ def test_a_line_forth_and_back_is_no_contour_of_its_own() -> None:
 
 def test_a_full_circle_beside_a_longer_contour_is_a_contour() -> None:
     points = np.array([*OTHER, (14, 0), (14, 0)], np.float64)
-    centres, turns = points[:-1].copy(), np.zeros(6, np.int8)
-    turns[5], centres[5] = 1, (15, 0)
-    assert chains(Path.of(points, centres, turns, np.arange(1.0, 7.0))) == ((0, 4), (5, 6))
+    centers, turns = points[:-1].copy(), np.zeros(6, np.int8)
+    turns[5], centers[5] = 1, (15, 0)
+    assert chains(Path.of(points, centers, turns, np.arange(1.0, 7.0))) == ((0, 4), (5, 6))
 
 
 def test_among_very_many_contours_no_leads_are_told() -> None:

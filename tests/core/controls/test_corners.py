@@ -6,7 +6,7 @@ from math import pi, sqrt
 
 import pytest
 
-from core.controls.corners import (
+from core.controls.compensation.corners import (
     Element,
     arc_element,
     element_sweep,

@@ -37,7 +37,7 @@ M99
 """
 LAP = "G1 Y0\nY30\nX40\nY0\nG2 X20 Y0 I-10 J0\nG1 X0"
 SHARES = 7
-"""Places that are looked at on each piece of a centre path."""
+"""Places that are looked at on each piece of a center path."""
 
 STEPS = ((0.0, 30.0), (40.1, 0.0), (0.0, -30.0), (-40.1, 0.0))
 
@@ -47,13 +47,13 @@ def _ring(calls: str, lap: str = LAP, control: str = "linuxcnc") -> Run:
 
 
 def _chain(corners: Sequence[tuple[float, float]], turns: Sequence[int] | None = None) -> Path:
-    """Pieces from corner to corner; those that turn are half circles, or full ones about a centre 2 to the right."""
+    """Pieces from corner to corner; those that turn are half circles, or full ones about a center 2 to the right."""
     points = np.array(corners, np.float64)
     way = np.zeros(len(points) - 1, np.int8) if turns is None else np.array(turns, np.int8)
-    centres = np.where(way[:, None] == 0, points[:-1], (points[:-1] + points[1:]) / 2.0)
+    centers = np.where(way[:, None] == 0, points[:-1], (points[:-1] + points[1:]) / 2.0)
     full = (way != 0) & (points[:-1] == points[1:]).all(axis=1)
-    centres[full] += (2.0, 0.0)
-    return Path.of(points, centres, way)
+    centers[full] += (2.0, 0.0)
+    return Path.of(points, centers, way)
 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "rosettacnc:normal"])
@@ -61,7 +61,7 @@ def test_forty_laps_are_judged_as_one_with_the_same_findings(control: str) -> No
     (one,), (forty,) = judged(_ring("M98 P7", control=control)), judged(_ring("M98 P7 L40", control=control))
     assert len(forty.surface) == len(one.surface) == 5
     # the first lap comes in from the lead, so that a second one differs from it
-    assert len(forty.centre) <= 2 * len(one.centre)
+    assert len(forty.center) <= 2 * len(one.center)
     assert findings((forty,)) == findings((one,))
     assert {finding.code for finding in findings((one,))} == {"GOUGE", "LEADS", "LEAD-GOUGE", "UNCUT"}
 
@@ -69,7 +69,7 @@ def test_forty_laps_are_judged_as_one_with_the_same_findings(control: str) -> No
 def test_the_pieces_judged_are_as_many_for_any_number_of_laps_and_controls() -> None:
     for control in ("linuxcnc", "nine-series:a", "nine-series:b"):
         few, many = ((judged(_ring(f"M98 P7 L{laps}", control=control))) for laps in (3, 200))
-        assert [len(one.centre) for one in few] == [len(one.centre) for one in many]
+        assert [len(one.center) for one in few] == [len(one.center) for one in many]
         assert findings(few) == findings(many)
 
 
@@ -116,13 +116,13 @@ def test_what_goes_back_and_forth_or_on_is_no_lap() -> None:
     assert whole.points.tolist() == [[0.0, 0.0], [9.0, 0.0], [0.0, 0.0], [0.0, 5.0]]
 
 
-def test_the_other_turn_and_the_other_centre_are_other_pieces() -> None:
+def test_the_other_turn_and_the_other_center_are_other_pieces() -> None:
     both_ways = _chain([(0.0, 0.0)] * 3, [1, -1])
     assert unlapped(both_ways) is both_ways
     circles = _chain([(0.0, 0.0)] * 5, [1] * 4)
     assert unlapped(circles).numbers.tolist() == [1.0]
-    centres = circles.centres + np.arange(4.0)[:, None] * (1.0, 0.0)
-    beside = Path.of(circles.points, centres, circles.turns)
+    centers = circles.centers + np.arange(4.0)[:, None] * (1.0, 0.0)
+    beside = Path.of(circles.points, centers, circles.turns)
     assert unlapped(beside) is beside
 
 
@@ -139,8 +139,8 @@ def test_sums_that_differ_in_the_last_digit_are_one_lap_with_the_first_ones_numb
     found = unlapped(_chain([tuple(point) for point in points.tolist()]))
     assert found.numbers.tolist() == [1.0, 2.0, 3.0, 4.0, 201.0]
     assert np.array_equal(found.points[:5], points[:5])
-    # a line has its own start for a centre
-    assert np.array_equal(found.centres, found.points[:-1])
+    # a line has its own start for a center
+    assert np.array_equal(found.centers, found.points[:-1])
 
 
 def test_a_full_circle_is_never_bent_by_a_start_that_rounding_moved() -> None:
@@ -155,8 +155,8 @@ def test_a_full_circle_is_never_bent_by_a_start_that_rounding_moved() -> None:
 
 def test_an_arc_of_no_length_is_no_full_circle() -> None:
     points = [(0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (ON_PATH / 10.0, 0.0), (ON_PATH / 10.0, 0.0)]
-    centres = np.full((4, 2), (2.0, 0.0))
-    path = Path.of(np.array(points), centres, np.full(4, -1, np.int8))
+    centers = np.full((4, 2), (2.0, 0.0))
+    path = Path.of(np.array(points), centers, np.full(4, -1, np.int8))
     assert np.abs(unlapped(path).sweeps).min() < 1e-6
 
 
@@ -191,14 +191,14 @@ def _told(verdict: Verdict) -> tuple[object, ...]:
     return verdict.judged, round(verdict.clearance, 9), thickest
 
 
-def _gouging(surface: Path, radius: float, centre: Path) -> set[tuple[float, float]]:
-    """Places of the centre path within its gouges: of one that runs over several laps the verdict tells one alone."""
+def _gouging(surface: Path, radius: float, center: Path) -> set[tuple[float, float]]:
+    """Places of the center path within its gouges: of one that runs over several laps the verdict tells one alone."""
     with np.errstate(all="ignore"):
-        walls, moves = courses((surface,), (centre,))
+        walls, moves = courses((surface,), (center,))
         pairs = pairs_of(moves, walls, radius, radius + 1e-5)
         stretches = gouging(pairs, approaches(pairs, radius - GOUGE)).stretches
     piece, t = np.divmod(np.arange(SHARES * len(moves.pieces)), SHARES)
-    s = pairs.centre_stations[piece] + (t + 0.5) / SHARES * moves.pieces.length[piece]
+    s = pairs.center_stations[piece] + (t + 0.5) / SHARES * moves.pieces.length[piece]
     inside = (s[:, None] > stretches.first + 1e-5) & (s[:, None] < stretches.last - 1e-5)
     points = at(moves.pieces.take(piece), (t + 0.5) / SHARES)[inside.any(axis=1)]
     return set(zip((points.real.round(6) + 0.0).tolist(), (points.imag.round(6) + 0.0).tolist(), strict=True))
@@ -208,11 +208,11 @@ def _gouging(surface: Path, radius: float, centre: Path) -> set[tuple[float, flo
 @given(lapped(), lapped(), st.sampled_from((Side.LEFT, Side.RIGHT)), st.sampled_from((1.0, 2.0, 3.0)))
 def test_the_verdict_is_that_on_all_the_laps(surface: Path, shape: Path, side: Side, radius: float) -> None:
     moved = shape.points * 1.1 - 3.0
-    centre = Path.of(moved, shape.centres * 1.1 - 3.0, shape.turns)
-    whole = judge(surface, side, radius, centre)
-    once = judge(unlapped(surface), side, radius, unlapped(centre))
+    center = Path.of(moved, shape.centers * 1.1 - 3.0, shape.turns)
+    whole = judge(surface, side, radius, center)
+    once = judge(unlapped(surface), side, radius, unlapped(center))
     assert _told(once) == _told(whole)
-    assert _gouging(unlapped(surface), radius, unlapped(centre)) == _gouging(surface, radius, centre)
+    assert _gouging(unlapped(surface), radius, unlapped(center)) == _gouging(surface, radius, center)
     assert once.depth >= whole.depth - 1e-9
     assert once.depth <= whole.depth + 1e-9 or once.crosses_itself < whole.crosses_itself
     # of a surface that crosses itself laps decide how much of it is an over-run, which has no side

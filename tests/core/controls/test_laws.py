@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from core.controls.lookahead import NO_FIT
+from core.controls.compensation.one_move_queue import NO_FIT
 from core.controls.moves import Moves, Plane
 from core.controls.report import Run
 from core.controls.verdicts import judged
@@ -46,16 +46,16 @@ def agree(one: Moves, other: Moves, *, turns: int = 1) -> bool:
     """Whether two lists of moves are the same but for rounding, arcs turned alike or (-1) the other way."""
     if len(one) != len(other):
         return False
-    near = np.allclose(one.points, other.points, atol=1e-5) and np.allclose(one.centres, other.centres, atol=1e-5)
+    near = np.allclose(one.points, other.points, atol=1e-5) and np.allclose(one.centers, other.centers, atol=1e-5)
     kinds = bool(np.all(one.turns == turns * other.turns) and np.all(one.rapid == other.rapid))
     return near and kinds and bool(np.all(one.lines == other.lines))
 
 
 def changed(moves: Moves, scale: tuple[float, float, float], shift: tuple[float, float, float] = (0, 0, 0)) -> Moves:
     """Moves with every axis scaled and shifted; the start point stays."""
-    points, centres = moves.points * scale + shift, moves.centres * scale + shift
-    points[0], centres[0] = moves.points[0], moves.centres[0]
-    return Moves(points, centres, moves.turns.copy(), moves.planes.copy(), moves.rapid, moves.feeds, moves.lines)
+    points, centers = moves.points * scale + shift, moves.centers * scale + shift
+    points[0], centers[0] = moves.points[0], moves.centers[0]
+    return Moves(points, centers, moves.turns.copy(), moves.planes.copy(), moves.rapid, moves.feeds, moves.lines)
 
 
 @pytest.mark.parametrize("control", CONTROLS)
@@ -76,7 +76,7 @@ def test_a_shifted_origin_shifts_the_moves(control: str) -> None:
 
 
 def by_its_unit(done: Run) -> bool:
-    """Whether LinuxCNC's rule stops the run that lets an arc grow further in millimetres than in inches."""
+    """Whether LinuxCNC's rule stops the run that lets an arc grow further in millimeters than in inches."""
     return done.findings[-1].text == NO_FIT
 
 
@@ -110,7 +110,7 @@ def test_radius_0_runs_as_programmed(control: str) -> None:
 
 @pytest.mark.parametrize("control", ["rosettacnc:normal", "linuxcnc"])
 def test_what_runs_with_look_ahead_touches_the_contour_or_is_told(control: str) -> None:
-    """The judge, which knows no control, finds every centre path of whole length at the radius somewhere."""
+    """The judge, which knows no control, finds every center path of whole length at the radius somewhere."""
     found = 0
     for seed in SEEDS:
         done = run(text(seed), control)

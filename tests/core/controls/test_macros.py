@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.controls import flow
-from core.controls.expressions import Reader
-from core.controls.owords import found_in
-from core.controls.parameters import FaultError, Kept, Parameters
+from core.controls.iso import flow
+from core.controls.iso.expressions import Reader
+from core.controls.iso.owords import found_in
+from core.controls.iso.parameters import FaultError, Kept, Parameters
 from core.finding import Severity
 from core.units import Unit
 from tests.core.controls.compare_rs274 import outcome

@@ -29,7 +29,7 @@ def test_moves_read_back_as_recorded() -> None:
     assert tape().last == (3.0, 0.0, -1.0)
     arc = moves[3]
     assert (arc.turn, arc.plane, arc.feed, arc.line) == (-1, Plane.XY, 200.0, 3)
-    assert arc.centre == (2.0, 0.0, -1.0)
+    assert arc.center == (2.0, 0.0, -1.0)
 
 
 def test_a_tape_goes_on_after_its_moves_were_asked_for() -> None:

@@ -31,7 +31,7 @@ def slowest(sample: Path, count: int, controls: list[str]) -> float:
         done = ran(program, control, t1=0.5, t3=10.0)
         most = max(most, perf_counter() - before)
         assert np.isfinite(done.moves.points).all(), (control, program)
-        assert np.isfinite(done.moves.centres).all(), (control, program)
+        assert np.isfinite(done.moves.centers).all(), (control, program)
         for finding in done.findings:
             assert finding.text.isprintable(), (control, program)
             assert finding.line is None or finding.line >= 1

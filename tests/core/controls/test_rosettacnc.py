@@ -113,7 +113,7 @@ def test_a_negative_radius_changes_the_side_and_is_told() -> None:
 
 
 def test_lower_case_and_comments_of_both_kinds_are_read() -> None:
-    done = ran("g21 (millimetres) f100 ; feed\n\tg1x10y-.5 ; there\n\n", "rosettacnc")
+    done = ran("g21 (millimeters) f100 ; feed\n\tg1x10y-.5 ; there\n\n", "rosettacnc")
     assert same(shape(done), [("line", 10, -0.5)])
 
 

@@ -70,7 +70,7 @@ def test_depth_in_the_contour_breaks_h5() -> None:
     assert broken(*APPLY, "L X+40", "L Z-6", "L Y-60 Z-7", "L X-20", *CANCEL) == [("H5", 8), ("H5", 9)]
 
 
-def test_depth_while_cancelling_breaks_h5() -> None:
+def test_depth_while_canceling_breaks_h5() -> None:
     assert broken(*APPLY, *CONTOUR, "L Y-90 Z+50 R0") == [("H5", 10)]
 
 
@@ -78,7 +78,7 @@ def test_a_finish_within_a_diameter_of_the_component_breaks_h6() -> None:
     assert broken(*APPLY, "L X+40", "L Y-60", "L X+31", "L Y-90 R0") == [("H6", 9)]
 
 
-def test_cancelling_along_the_last_move_breaks_h7() -> None:
+def test_canceling_along_the_last_move_breaks_h7() -> None:
     assert broken(*APPLY, *CONTOUR, "L X-60 R0") == [("H7", 10)]
 
 
@@ -86,7 +86,7 @@ def test_a_last_move_of_two_axes_breaks_h7() -> None:
     assert broken(*APPLY, "L X+40", "L Y-60", "L X-20 Y-70", "L Y-90 R0") == [("H7", 9)]
 
 
-def test_cancelling_in_two_axes_breaks_h8() -> None:
+def test_canceling_in_two_axes_breaks_h8() -> None:
     assert broken(*APPLY, *CONTOUR, "L X-30 Y-90 R0") == [("H7", 10), ("H8", 10)]
 
 

@@ -13,13 +13,13 @@ from core.controls.moves import Move
 from core.controls.registry import UnknownControl, run
 from core.controls.report import Run
 from core.controls.tools import ToolTable
-from core.controls.traced import Untold
 from core.controls.translate import run_by_contour, translated
+from core.controls.write.traced import Untold
 from core.finding import Severity
 from core.geometry.side import Side
 from core.units import Unit, from_mm
 from tests.core.controls.klartext.program import HEAD
-from tests.core.controls.klartext.test_centre_laws import LEGS, pieces_of, programmed
+from tests.core.controls.klartext.test_center_laws import LEGS, pieces_of, programmed
 
 NEAR = pytest.approx
 HOOK = ("L X-30 Y-30 R0 FMAX", "L Z-5", "L X+0 Y+0 RL F200", "L Y+50", "L X+40", "L X-30 R0")
@@ -50,7 +50,7 @@ def by_contour(source: Run, control: str) -> Run:
 
 
 def flat(move: Move) -> tuple[float, ...]:
-    return (*move.point[:2], *move.centre[:2], move.turn) if move.turn else move.point[:2]
+    return (*move.point[:2], *move.center[:2], move.turn) if move.turn else move.point[:2]
 
 
 @pytest.mark.parametrize(

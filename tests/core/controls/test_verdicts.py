@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.controls import flow
 from core.controls.compare import Compared, OtherLanguage, compare, parting
+from core.controls.iso import flow
 from core.controls.registry import compared, names, reads, resolve
 from core.controls.tools import ToolTable
 from core.controls.verdicts import depth, findings, judged
@@ -76,18 +76,18 @@ def test_a_path_that_leaves_the_surface_or_turns_back_is_told_by_line() -> None:
     done = ran("G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n", "rosettacnc:easy", t1=0.5)
     (result,) = judged(done)
     assert not {"AWAY", "BACKWARDS"} & {finding.code for finding in findings((result,))}
-    way = result.centre.points.tolist()
-    row = int(np.argmax(result.centre.lengths * np.isin(result.centre.numbers, result.surface.numbers)))
+    way = result.center.points.tolist()
+    row = int(np.argmax(result.center.lengths * np.isin(result.center.numbers, result.surface.numbers)))
     (x0, y0), (x1, y1) = way[row], way[row + 1]
     along, off = np.array((x1 - x0, y1 - y0)), np.array((y0 - y1, x1 - x0)) * 0.2
     corners = [np.array((x0, y0)) + t * along + (t == 0.6) * off for t in (0.5, 0.6, 0.7, 0.4)]
     points = np.array([*way[: row + 1], *(corner.tolist() for corner in corners), *way[row + 1 :]])
-    kept = np.insert(np.arange(len(result.centre)), row, [row] * 4)
-    path = result.centre
-    bent = Path.of(points, path.centres[kept], path.turns[kept], path.numbers[kept])
+    kept = np.insert(np.arange(len(result.center)), row, [row] * 4)
+    path = result.center
+    bent = Path.of(points, path.centers[kept], path.turns[kept], path.numbers[kept])
     verdict = judge(result.surface, result.stretch.side, result.stretch.radius, bent)
     told = [
-        one for one in findings((replace(result, centre=bent, verdict=verdict),)) if one.code in ("AWAY", "BACKWARDS")
+        one for one in findings((replace(result, center=bent, verdict=verdict),)) if one.code in ("AWAY", "BACKWARDS")
     ]
     assert [one.code for one in told] == ["BACKWARDS", "AWAY"]
     assert {one.line for one in told} == {int(path.numbers[row])}

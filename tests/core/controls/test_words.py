@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core.controls.iso.source import lines_of, shown
+from core.controls.iso.words import PLAIN, Block, Semicolon, Slash, Syntax, ToolData, read_line, tenths, whole
 from core.controls.plain_move import plain_move
 from core.controls.report import AlarmError, Log
-from core.controls.source import lines_of, shown
-from core.controls.words import PLAIN, Block, Semicolon, Slash, Syntax, ToolData, read_line, tenths, whole
 from core.finding import Finding
 
 

@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
 from core.comp.result import Compensated
-from core.controls.contouring import Cut
 from core.controls.klartext.control import run
-from core.controls.read_back import LEAST
 from core.controls.tools import ToolTable
-from core.controls.write_iso import Frame
-from core.controls.write_own import NotWritten, Own, write_own
+from core.controls.write.contouring import Cut
+from core.controls.write.iso import Frame
+from core.controls.write.program import NotWritten, Own, write_own
+from core.controls.write.read_back import LEAST
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.geometry.side import Side
@@ -125,7 +125,7 @@ def test_arcs_and_a_full_circle_read_back() -> None:
 
 
 def test_inches_read_back() -> None:
-    inch = Path.of(SQUARE.points * 0.8467, SQUARE.centres * 0.8467, SQUARE.turns)
+    inch = Path.of(SQUARE.points * 0.8467, SQUARE.centers * 0.8467, SQUARE.turns)
     compensated = compensate(inch, Side.RIGHT, 6.35, 4, closed=True, blend=3.175)
     text = written([cut(compensated, -6.35, {number: 254.0 for number in range(1, 7)}, tool=2)], Unit.IN)
     assert isinstance(text, str)
@@ -137,7 +137,7 @@ def test_inches_read_back() -> None:
     assert float(np.abs(path.points - compensated.whole.points).max()) < LEAST
 
 
-def test_deleted_segments_are_left_out_where_their_neighbours_meet() -> None:
+def test_deleted_segments_are_left_out_where_their_neighbors_meet() -> None:
     points = [(0.0, 0.0), (2.0, 0.0), (2.05, 0.05), (2.05, 2.0), (0.0, 2.0)]
     chamfer = outline(*((x * 25.4, y * 25.4) for x, y in points))
     compensated = compensate(chamfer, Side.LEFT, 6.35, 2, closed=False)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from core.comp.compensate import compensate
-from core.controls.contouring import begin, finish, programmed
-from core.controls.write_own import Own
+from core.controls.write.contouring import begin, finish, programmed
+from core.controls.write.program import Own
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Turn
@@ -26,7 +26,7 @@ from tests.core.controls.own_programs import (
 )
 
 
-def test_threeblock_turns_on_in_the_plunge_and_centres_are_absolute() -> None:
+def test_threeblock_turns_on_in_the_plunge_and_centers_are_absolute() -> None:
     assert text_of("threeblock", cut(squared(Side.LEFT))).split() == [
         "G17G70G40G90",
         "T1//0.5",

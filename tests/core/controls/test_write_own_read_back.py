@@ -11,19 +11,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
-from core.controls import read_back as reading
-from core.controls.contouring import Cut, Line, Travel
-from core.controls.iso_style import STYLES
-from core.controls.read_back import Meant, Told, _compared, _other_move, farthest, read_back, same
 from core.controls.registry import names
-from core.controls.write_iso import Frame, tools_of
-from core.controls.write_own import NotWritten, Own, write_own
+from core.controls.write import read_back as reading
+from core.controls.write.contouring import Cut, Line, Travel
+from core.controls.write.iso import Frame, tools_of
+from core.controls.write.iso_style import STYLES
+from core.controls.write.program import NotWritten, Own, write_own
+from core.controls.write.read_back import Meant, Told, _compared, _other_move, farthest, read_back, same
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Turn
 from core.geometry.piece import Line as Straight
 from core.geometry.side import Side
 from core.units import Unit
-from tests.core.controls.klartext.test_centre_laws import LEGS, pieces_of
+from tests.core.controls.klartext.test_center_laws import LEGS, pieces_of
 from tests.core.controls.own_programs import (
     EVERY,
     INCH,
@@ -149,7 +149,7 @@ def test_what_is_no_number_is_never_near(row: int, end: int) -> None:
     """A maximum that is taken by comparisons passes it over."""
     points = SQUARE.points.copy()
     points[row, end] = nan
-    bad = Path.of(points, SQUARE.centres, SQUARE.turns)
+    bad = Path.of(points, SQUARE.centers, SQUARE.turns)
     assert not same(bad, SQUARE, 1e-3)
     assert not farthest(bad, SQUARE)[0] <= 1e-3
     assert not farthest(SQUARE, bad)[0] <= 1e-3
@@ -184,7 +184,7 @@ UNCOMPENSATED = (
 @pytest.mark.parametrize("bad", [nan, 0.5])
 @pytest.mark.parametrize(
     ("array", "line", "axis"),
-    [*(("points", line, axis) for line in (2, 3, 4) for axis in range(3)), ("centres", 4, 0), ("centres", 4, 1)],
+    [*(("points", line, axis) for line in (2, 3, 4) for axis in range(3)), ("centers", 4, 0), ("centers", 4, 1)],
 )
 def test_a_move_that_ends_at_no_number_is_another_one(array: str, line: int, axis: int, bad: float) -> None:
     plain = replace(meant(), lines=UNCOMPENSATED)

@@ -128,13 +128,13 @@ def test_an_earlier_layers_dots_stay_lit_under_a_later_one():
         (Mode.BLOCK, ["........", "▀▀▀▀▀▀▀▀"]),
     ],
 )
-def test_a_centre_path_differs_from_the_surface_without_colours(mode, expected):
+def test_a_center_path_differs_from_the_surface_without_colors(mode, expected):
     surface, path = Layer(lines((-4, -0.5), (4, -0.5)), Style.SURFACE), Layer(lines((-4, 0.5), (4, 0.5)), Style.PATH)
     assert rows(Scene((surface, path), axes=False), VIEW, 8, 2, mode) == expected
 
 
 @pytest.mark.parametrize(("mode", "surface"), [(Mode.ASCII, "-"), (Mode.BLOCK, "▀")])
-def test_the_surface_shows_where_a_centre_path_runs_in_its_cells(mode, surface):
+def test_the_surface_shows_where_a_center_path_runs_in_its_cells(mode, surface):
     along = lines((-4, 1.5), (4, 1.5))
     both = draw(Scene((Layer(along, Style.SURFACE), Layer(along, Style.PATH)), axes=False), VIEW, 8, 2, mode)
     assert both.rows[0] == surface * 8
@@ -221,7 +221,7 @@ def test_parts_of_a_layer_look_like_layers_of_their_own(mode, zoom):
 
 
 def test_a_huge_arc_near_the_window_is_exact():
-    """Ten kilometres of radius: within the window it is the straight line that touches it."""
+    """Ten kilometers of radius: within the window it is the straight line that touches it."""
     radius = 1e7
     wide = only(Path.from_pieces([Arc((0.0, -0.25), (0.0, -0.25), (0.0, radius - 0.25), Turn.CCW)]))
     straight = only(lines((-100, -0.25), (100, -0.25)))
@@ -245,7 +245,7 @@ def test_a_line_through_the_window_has_no_gaps(mode):
 
 
 def dots(scene: Scene, view: View, columns: int, height: int) -> list[Point]:
-    """The middles of all lit braille dots, in millimetres."""
+    """The middles of all lit braille dots, in millimeters."""
     places = {0: (0, 0), 1: (0, 1), 2: (0, 2), 3: (1, 0), 4: (1, 1), 5: (1, 2), 6: (0, 3), 7: (1, 3)}
     found = []
     for row, text in enumerate(rows(scene, view, columns, height, Mode.BRAILLE)):
@@ -266,7 +266,7 @@ def dots(scene: Scene, view: View, columns: int, height: int) -> list[Point]:
 )
 @settings(derandomize=True, max_examples=150, deadline=None)
 def test_every_dot_of_an_arc_lies_on_it_and_none_is_missing(radius, begin, sweep, turn, at):
-    """Dots are half a millimetre wide here; the window looks at one place of the arc."""
+    """Dots are half a millimeter wide here; the window looks at one place of the arc."""
 
     def place(angle: float) -> Point:
         return radius * cos(angle), radius * sin(angle)

@@ -18,7 +18,7 @@ def test_a_bar_in_inches():
     assert scale_bar(25.4 / 20, 40, Unit.IN, "|-|") == "|---------| 0.5 IN"
 
 
-def test_a_bar_in_millimetres():
+def test_a_bar_in_millimeters():
     assert scale_bar(2.0, 40, Unit.MM, "├─┤") == "├─────────┤ 20 MM"
 
 

@@ -11,7 +11,7 @@ from core.geometry.piece import Arc, Line, Turn
 
 def test_a_wide_part_is_fitted_by_its_width():
     view = View.fit((0.0, 0.0, 92.0, 10.0), 100, 50)
-    assert view.centre == (46.0, 5.0)
+    assert view.center == (46.0, 5.0)
     assert view.scale == pytest.approx(1.0)
 
 
@@ -29,10 +29,10 @@ def test_any_bounds_fit_any_window(bounds, size):
 
 def test_pan_moves_by_parts_of_the_window():
     view = View((0.0, 0.0), 2.0).pan(0.5, -0.25, 40, 10)
-    assert view.centre == (40.0, -10.0)
+    assert view.center == (40.0, -10.0)
 
 
-def test_zoom_keeps_the_centre_and_stays_within_limits():
+def test_zoom_keeps_the_center_and_stays_within_limits():
     view = View((3.0, 4.0), 2.0)
     assert view.zoom(4.0) == View((3.0, 4.0), 0.5)
     assert view.zoom(1e300).scale > 0.0
@@ -46,7 +46,7 @@ def test_zoom_about_a_point_leaves_it_where_it_is(x, y, factor):
     assert view.zoom(factor, (x, y)).cell((x, y), 80, 24) == pytest.approx(at, abs=1e-4)
 
 
-def test_the_middle_of_the_window_is_the_centre():
+def test_the_middle_of_the_window_is_the_center():
     assert View((3.0, 4.0), 2.0).at(20, 5, 40, 10) == (3.0, 4.0)
     assert View((3.0, 4.0), 2.0).at(21, 4, 40, 10) == (5.0, 8.0)
 

@@ -63,33 +63,33 @@ def test_on_circle_takes_a_coordinate_rounded_outwards():
     ("turn", "first", "second"),
     [(Turn.CCW, (0.0, 3.0), (0.0, -3.0)), (Turn.CW, (0.0, -3.0), (0.0, 3.0))],
 )
-def test_centres_of_the_shorter_arc_first(turn, first, second):
-    found = construct.centres((-4.0, 0.0), (4.0, 0.0), 5.0, turn)
+def test_centers_of_the_shorter_arc_first(turn, first, second):
+    found = construct.centers((-4.0, 0.0), (4.0, 0.0), 5.0, turn)
     assert isinstance(found, Two)
     assert near(found.first, first)
     assert near(found.second, second)
 
 
-def test_centres_of_half_circles_and_of_none():
-    assert construct.centres((-4.0, 0.0), (4.0, 0.0), 4.0, Turn.CW) == One((0.0, 0.0))
-    assert construct.centres((-4.0, 0.0), (4.0, 0.0), 4.0 - ARC_RADII, Turn.CW) == One((0.0, 0.0))
-    assert construct.centres((-4.0, 0.0), (4.0, 0.0), 3.9, Turn.CW) == Apart(4.0)
-    assert construct.centres((1.0, 1.0), (1.0, 1.0), 3.9, Turn.CW) == Beside()
+def test_centers_of_half_circles_and_of_none():
+    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 4.0, Turn.CW) == One((0.0, 0.0))
+    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 4.0 - ARC_RADII, Turn.CW) == One((0.0, 0.0))
+    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 3.9, Turn.CW) == Apart(4.0)
+    assert construct.centers((1.0, 1.0), (1.0, 1.0), 3.9, Turn.CW) == Beside()
 
 
 @laws
 @given(points, points, st.floats(0.1, 500), turns)
-def test_centres_are_as_far_as_the_radius_and_short_comes_first(start, end, radius, turn):
+def test_centers_are_as_far_as_the_radius_and_short_comes_first(start, end, radius, turn):
     assume(dist(start, end) > 0.01)
-    match construct.centres(start, end, radius, turn):
+    match construct.centers(start, end, radius, turn):
         case Two(first, second):
-            for centre in (first, second):
-                assert dist(centre, start) == pytest.approx(radius, abs=1e-7)
-                assert dist(centre, end) == pytest.approx(radius, abs=1e-7)
+            for center in (first, second):
+                assert dist(center, start) == pytest.approx(radius, abs=1e-7)
+                assert dist(center, end) == pytest.approx(radius, abs=1e-7)
             assert abs(Arc(start, end, first, turn).sweep) <= pi + 1e-6
             assert abs(Arc(start, end, second, turn).sweep) >= pi - 1e-6
-        case One(centre):
-            assert dist(centre, start) == pytest.approx(dist(start, end) / 2)
+        case One(center):
+            assert dist(center, start) == pytest.approx(dist(start, end) / 2)
         case Apart(least):
             assert least == dist(start, end) / 2
             assert least > radius
@@ -97,46 +97,46 @@ def test_centres_are_as_far_as_the_radius_and_short_comes_first(start, end, radi
             pytest.fail(f"unexpected {other}")
 
 
-def test_centre_by_sweep():
-    found = construct.centre_by_sweep((1.0, 0.0), (0.0, 1.0), pi / 2, Turn.CCW)
+def test_center_by_sweep():
+    found = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), pi / 2, Turn.CCW)
     assert isinstance(found, One)
     assert near(found.point, (0.0, 0.0))
-    found = construct.centre_by_sweep((1.0, 0.0), (0.0, 1.0), 3 * pi / 2, Turn.CCW)
+    found = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), 3 * pi / 2, Turn.CCW)
     assert isinstance(found, One)
     assert near(found.point, (1.0, 1.0))
-    found = construct.centre_by_sweep((1.0, 0.0), (0.0, 1.0), pi / 2, Turn.CW)
+    found = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), pi / 2, Turn.CW)
     assert isinstance(found, One)
     assert near(found.point, (1.0, 1.0))
-    assert construct.centre_by_sweep((1.0, 0.0), (1.0, 0.0), pi, Turn.CW) == Beside()
-    assert construct.centre_by_sweep((1.0, 0.0), (0.0, 1.0), tau, Turn.CW) == Beside()
+    assert construct.center_by_sweep((1.0, 0.0), (1.0, 0.0), pi, Turn.CW) == Beside()
+    assert construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), tau, Turn.CW) == Beside()
 
 
 @laws
 @given(points, st.floats(0.5, 100), angles, st.floats(0.05, tau - 0.05), turns)
-def test_an_arc_is_found_again_from_its_sweep(centre, radius, angle, sweep, turn):
-    start = (centre[0] + radius * cos(angle), centre[1] + radius * sin(angle))
-    end = construct.rotated(start, centre, turn * sweep)
-    assert construct.swept(start, end, centre, turn) == pytest.approx(sweep, abs=1e-9)
-    found = construct.centre_by_sweep(start, end, sweep, turn)
+def test_an_arc_is_found_again_from_its_sweep(center, radius, angle, sweep, turn):
+    start = (center[0] + radius * cos(angle), center[1] + radius * sin(angle))
+    end = construct.rotated(start, center, turn * sweep)
+    assert construct.swept(start, end, center, turn) == pytest.approx(sweep, abs=1e-9)
+    found = construct.center_by_sweep(start, end, sweep, turn)
     assert isinstance(found, One)
-    assert near(found.point, centre, 1e-7)
+    assert near(found.point, center, 1e-7)
 
 
 @laws
 @given(points, st.floats(0.5, 100), angles, st.floats(0.5, tau - 0.5), st.sampled_from((0, 1)))
-def test_an_arc_is_found_again_from_one_coordinate_of_its_centre(centre, radius, angle, sweep, axis):
-    start = (centre[0] + radius * cos(angle), centre[1] + radius * sin(angle))
-    end = construct.rotated(start, centre, sweep)
+def test_an_arc_is_found_again_from_one_coordinate_of_its_center(center, radius, angle, sweep, axis):
+    start = (center[0] + radius * cos(angle), center[1] + radius * sin(angle))
+    end = construct.rotated(start, center, sweep)
     assume(abs(end[1 - axis] - start[1 - axis]) > 0.01 * dist(start, end))
-    found = construct.centre_by_coordinate(start, end, axis, centre[axis])
+    found = construct.center_by_coordinate(start, end, axis, center[axis])
     assert isinstance(found, One)
-    assert near(found.point, centre, 1e-6)
+    assert near(found.point, center, 1e-6)
 
 
 def test_a_coordinate_along_the_bisector_says_nothing():
-    assert construct.centre_by_coordinate((0.0, 0.0), (4.0, 0.0), 0, 2.0) == Beside()
-    assert construct.centre_by_coordinate((0.0, 0.0), (0.0, 0.0), 0, 2.0) == Beside()
-    assert construct.centre_by_coordinate((0.0, 0.0), (4.0, 0.0), 1, 7.0) == One((2.0, 7.0))
+    assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 0, 2.0) == Beside()
+    assert construct.center_by_coordinate((0.0, 0.0), (0.0, 0.0), 0, 2.0) == Beside()
+    assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 1, 7.0) == One((2.0, 7.0))
 
 
 def test_equal_ends_are_swept_as_a_full_turn():
@@ -144,15 +144,15 @@ def test_equal_ends_are_swept_as_a_full_turn():
     assert construct.swept((1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CW) == pytest.approx(3 * pi / 2)
 
 
-def test_settled_keeps_a_centre_that_fits():
+def test_settled_keeps_a_center_that_fits():
     assert construct.settled((1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW) == Arc(
         (1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW
     )
 
 
-def test_settled_moves_the_centre_onto_the_bisector():
+def test_settled_moves_the_center_onto_the_bisector():
     arc = construct.settled((0.0, 0.0), (2.0, 0.0), (1.001, 0.5), Turn.CW)
-    assert near(arc.centre, (1.0, 0.5))
+    assert near(arc.center, (1.0, 0.5))
     assert (arc.start, arc.end) == ((0.0, 0.0), (2.0, 0.0))
 
 
@@ -167,11 +167,11 @@ def test_settled_closes_a_circle_that_ends_at_its_start():
 def test_settled_closes_a_circle_that_ends_on_the_ray_of_its_start(off, turn):
     """The end moved onto the circle by rounding behind the start or before it: the circle was there or vanished."""
     for x in (0.1, 0.3, -0.7):
-        centre = (x, -10.0)
-        size = dist((0.0, 0.0), centre)
+        center = (x, -10.0)
+        size = dist((0.0, 0.0), center)
         end = (x - x * (size + off) / size, -10.0 + 10.0 * (size + off) / size)
-        arc = construct.settled((0.0, 0.0), end, centre, turn)
-        assert arc == Arc((0.0, 0.0), (0.0, 0.0), centre, turn)
+        arc = construct.settled((0.0, 0.0), end, center, turn)
+        assert arc == Arc((0.0, 0.0), (0.0, 0.0), center, turn)
 
 
 def test_settled_leaves_a_tiny_arc_tiny():
@@ -180,25 +180,25 @@ def test_settled_leaves_a_tiny_arc_tiny():
     assert arc.sweep == pytest.approx(0.002, abs=1e-5)
 
 
-def test_settled_moves_the_end_where_the_centre_would_go_far():
-    """On a chord of 0.1 a radius of 50 that differs by 0.002 would push the centre by a whole millimetre."""
+def test_settled_moves_the_end_where_the_center_would_go_far():
+    """On a chord of 0.1 a radius of 50 that differs by 0.002 would push the center by a whole millimeter."""
     end = (50.002 * cos(0.002), 50.002 * sin(0.002))
     arc = construct.settled((50.0, 0.0), end, (0.0, 0.0), Turn.CCW)
-    assert arc.centre == (0.0, 0.0)
-    assert dist(arc.end, arc.centre) == pytest.approx(50.0)
+    assert arc.center == (0.0, 0.0)
+    assert dist(arc.end, arc.center) == pytest.approx(50.0)
     assert near(arc.end, end, ARC_RADII)
 
 
 @laws
 @given(points, st.floats(0.1, 200), angles, angles, st.floats(-ARC_RADII, ARC_RADII), turns)
-def test_settled_is_exact_and_moves_nothing_by_more_than_the_tolerance(centre, radius, first, last, off, turn):
-    start = (centre[0] + radius * cos(first), centre[1] + radius * sin(first))
-    end = (centre[0] + (radius + off) * cos(last), centre[1] + (radius + off) * sin(last))
-    arc = construct.settled(start, end, centre, turn)
+def test_settled_is_exact_and_moves_nothing_by_more_than_the_tolerance(center, radius, first, last, off, turn):
+    start = (center[0] + radius * cos(first), center[1] + radius * sin(first))
+    end = (center[0] + (radius + off) * cos(last), center[1] + (radius + off) * sin(last))
+    arc = construct.settled(start, end, center, turn)
     assert arc.start == start
-    assert dist(arc.start, arc.centre) == pytest.approx(dist(arc.end, arc.centre), abs=2e-9)
+    assert dist(arc.start, arc.center) == pytest.approx(dist(arc.end, arc.center), abs=2e-9)
     assert near(arc.end, end, ARC_RADII + NEAR)
-    assert near(arc.centre, centre, ARC_RADII + NEAR)
+    assert near(arc.center, center, ARC_RADII + NEAR)
 
 
 def test_chord_factor():

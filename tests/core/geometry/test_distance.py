@@ -80,8 +80,8 @@ def test_a_meeting_near_a_touch_on_a_huge_arc_keeps_its_digits() -> None:
     """A circle about a point r off the arc that reaches d beyond a touch meets the arc sqrt(2 r d) on."""
     size, r, beyond = 1.0e5, 0.3, 1e-9
     arc = one(Arc((size, 0.0), (0.0, size), (0.0, 0.0), Turn.CCW))
-    centre = (size - r) * np.exp(0.5j)
-    met = on_circle(arc, np.array((centre,)), np.array((r + beyond,)))[:, 0] * arc.length
+    center = (size - r) * np.exp(0.5j)
+    met = on_circle(arc, np.array((center,)), np.array((r + beyond,)))[:, 0] * arc.length
     assert met - 0.5 * size == pytest.approx([-sqrt(2 * r * beyond), sqrt(2 * r * beyond)], rel=0.1)
 
 

@@ -32,14 +32,14 @@ def largest_of(before: Piece, behind: Piece) -> float | None:
 def test_a_square_corner():
     found = blended(Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, 10.0)), 2.0)
     assert found.before == Line((0.0, 0.0), (8.0, 0.0))
-    assert near(found.arc.centre, (8.0, 2.0))
+    assert near(found.arc.center, (8.0, 2.0))
     assert found.arc.turn is Turn.CCW
     assert found.behind == Line((10.0, 2.0), (10.0, 10.0))
 
 
 def test_a_corner_to_the_right():
     found = blended(Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, -10.0)), 2.0)
-    assert near(found.arc.centre, (8.0, -2.0))
+    assert near(found.arc.center, (8.0, -2.0))
     assert found.arc.turn is Turn.CW
 
 
@@ -72,7 +72,7 @@ def test_line_and_arc_by_hand():
     behind = Arc((0.0, 0.0), (5.0, 5.0), (5.0, 0.0), Turn.CW)
     found = blended(before, behind, 1.0)
     assert found.arc.turn is Turn.CCW
-    assert near(found.arc.centre, (5.0 - sqrt(35.0), 1.0))
+    assert near(found.arc.center, (5.0 - sqrt(35.0), 1.0))
     assert near(found.arc.start, (5.0 - sqrt(35.0), 0.0))
     assert dist(found.arc.end, (5.0, 0.0)) == pytest.approx(5.0)
 
@@ -82,7 +82,7 @@ def test_two_arcs_by_hand():
     before = Arc((-6.0, 0.0), (0.0, 0.0), (-3.0, 0.0), Turn.CW)
     behind = Arc((0.0, 0.0), (6.0, 0.0), (3.0, 0.0), Turn.CW)
     found = blended(before, behind, 1.0)
-    assert near(found.arc.centre, (0.0, sqrt(7.0)))
+    assert near(found.arc.center, (0.0, sqrt(7.0)))
     assert found.arc.turn is Turn.CCW
     assert near(found.arc.start, (-0.75, sqrt(7.0) * 0.75))
 
@@ -98,15 +98,15 @@ def piece_from(corner: Point, heading: float, length: float, bend: float) -> Pie
     if abs(bend) < 0.1:
         return Line(corner, (corner[0] + length * cos(heading), corner[1] + length * sin(heading)))
     radius, turn = length / abs(bend), Turn.CCW if bend > 0 else Turn.CW
-    centre = (corner[0] - turn * radius * sin(heading), corner[1] + turn * radius * cos(heading))
+    center = (corner[0] - turn * radius * sin(heading), corner[1] + turn * radius * cos(heading))
     out = heading + bend
-    return Arc(corner, (centre[0] + turn * radius * sin(out), centre[1] - turn * radius * cos(out)), centre, turn)
+    return Arc(corner, (center[0] + turn * radius * sin(out), center[1] - turn * radius * cos(out)), center, turn)
 
 
 def back(piece: Piece) -> Piece:
     if isinstance(piece, Line):
         return Line(piece.end, piece.start)
-    return Arc(piece.end, piece.start, piece.centre, Turn(-piece.turn))
+    return Arc(piece.end, piece.start, piece.center, Turn(-piece.turn))
 
 
 pieces = st.tuples(st.floats(0, tau), st.floats(2, 30), st.floats(-3.0, 3.0))
@@ -121,7 +121,7 @@ def test_a_blend_is_tangent_to_both_and_lies_within_both(first, second, radius):
     assert isinstance(found, Fillet)
     arc = found.arc
     assert arc.radius == pytest.approx(radius, abs=1e-7)
-    assert dist(arc.end, arc.centre) == pytest.approx(radius, abs=1e-7)
+    assert dist(arc.end, arc.center) == pytest.approx(radius, abs=1e-7)
     for piece, point, left in ((before, arc.start, found.before), (behind, arc.end, found.behind)):
         assert near(direction(piece, point), direction(arc, point), 1e-6)
         assert (left.length if left else 0.0) <= piece.length + 1e-7
@@ -133,12 +133,12 @@ def test_a_blend_is_tangent_to_both_and_lies_within_both(first, second, radius):
 
 @settings(derandomize=True, max_examples=200)
 @given(pieces, pieces, st.floats(0.05, 3.0))
-def test_a_blend_is_the_same_travelled_back(first, second, radius):
+def test_a_blend_is_the_same_traveled_back(first, second, radius):
     before, behind = back(piece_from((0.0, 0.0), *first)), piece_from((0.0, 0.0), *second)
     one, other = fillet(before, behind, radius), fillet(back(behind), back(before), radius)
     assert type(one) is type(other)
     if isinstance(one, Fillet) and isinstance(other, Fillet):
-        assert near(one.arc.centre, other.arc.centre, 1e-6)
+        assert near(one.arc.center, other.arc.center, 1e-6)
         assert one.arc.turn == -other.arc.turn
 
 

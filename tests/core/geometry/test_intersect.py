@@ -110,7 +110,7 @@ def test_distances_along_and_rests():
     assert met.rest_b.tolist() == [pytest.approx(2)]
 
 
-def test_clockwise_arcs_are_measured_as_travelled():
+def test_clockwise_arcs_are_measured_as_traveled():
     met = _meet(Arc((-1, 0), (1, 0), (0, 0), Turn.CW), Line((-2, 0.5), (2, 0.5)))
     assert met.along_a.tolist() == [pytest.approx(pi / 6), pytest.approx(5 * pi / 6)]
 
@@ -147,10 +147,10 @@ def _line(start: complex, end: complex) -> Line:
     return Line((start.real, start.imag), (end.real, end.imag))
 
 
-def _arc(centre: complex, radius: float, begin: float, sweep: float) -> Arc:
-    one, two = centre + rect(radius, begin), centre + rect(radius, begin + sweep)
+def _arc(center: complex, radius: float, begin: float, sweep: float) -> Arc:
+    one, two = center + rect(radius, begin), center + rect(radius, begin + sweep)
     turn = Turn.CCW if sweep > 0 else Turn.CW
-    return Arc((one.real, one.imag), (two.real, two.imag), (centre.real, centre.imag), turn)
+    return Arc((one.real, one.imag), (two.real, two.imag), (center.real, center.imag), turn)
 
 
 sweeps = st.floats(0.05, 6.2) | st.floats(-6.2, -0.05)
@@ -162,7 +162,7 @@ any_piece = any_line | any_arc
 def _distance(piece: Piece, point: complex) -> float:
     """How far a point is from the whole line or circle of a piece."""
     if isinstance(piece, Arc):
-        return abs(abs(point - complex(*piece.centre)) - piece.radius)
+        return abs(abs(point - complex(*piece.center)) - piece.radius)
     along = complex(*piece.end) - complex(*piece.start)
     return abs((along.conjugate() * (point - complex(*piece.start))).imag) / abs(along)
 
@@ -208,7 +208,7 @@ def test_moving_and_turning_moves_the_points(a, b, angle, shift):
     def carried(piece: Piece) -> Piece:
         if isinstance(piece, Line):
             return Line(moved(piece.start), moved(piece.end))
-        return Arc(moved(piece.start), moved(piece.end), moved(piece.centre), piece.turn)
+        return Arc(moved(piece.start), moved(piece.end), moved(piece.center), piece.turn)
 
     other = _meet(carried(a), carried(b))
     assume(len(other.points) == len(met.points) or _steep(a, b, met))
@@ -225,14 +225,14 @@ def _steep(a: Piece, b: Piece, met: Meetings) -> bool:
     if isinstance(a, Line):
         on = path.starts + shares[:, None] * (path.ends - path.starts)
     else:
-        angle = np.arctan2(*(path.starts - path.centres)[0][::-1]) + shares * path.sweeps[0]
-        on = path.centres + a.radius * np.stack((np.cos(angle), np.sin(angle)), axis=1)
+        angle = np.arctan2(*(path.starts - path.centers)[0][::-1]) + shares * path.sweeps[0]
+        on = path.centers + a.radius * np.stack((np.cos(angle), np.sin(angle)), axis=1)
     return min(_distance(b, complex(x, y)) for x, y in on.tolist()) > 0.1
 
 
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(any_piece, any_piece)
-def test_travelled_backwards_pieces_meet_at_the_same_points(a, b):
+def test_traveled_backwards_pieces_meet_at_the_same_points(a, b):
     met = _meet(a, b)
     back = meet(Path.from_pieces([a]).reversed(), ONLY, Path.from_pieces([b]), ONLY)
     assume(_clear(met))

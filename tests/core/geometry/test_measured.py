@@ -79,7 +79,7 @@ def test_boxes_hold_all_points_and_are_no_larger(path: Path) -> None:
 def test_an_uneven_arc_is_nowhere_farther_from_its_circle_than_its_radii_are_apart(
     power: float, differ: float, out: int, way: int
 ) -> None:
-    """The chord decides nothing: a short one once took the centre of a nearly full arc millimetres away."""
+    """The chord decides nothing: a short one once took the center of a nearly full arc millimeters away."""
     chord, off = 10.0**power, 10.0**differ
     last = (10.0 + out * off) * np.exp(1j * way * chord / 10.0)
     arc = measured(Path.from_pieces([Arc((10.0, 0.0), (last.real, last.imag), (0.0, 0.0), Turn.CCW)]))

@@ -92,7 +92,7 @@ def test_other_pieces_in_some_rows_are_as_a_path_of_all(path, data):
     others = [(row, numbers[row], pieces[row]) for row in sorted(rows)]
     altered, anew = path.altered(others), Path.from_pieces(pieces)
     assert np.array_equal(altered.points, anew.points)
-    assert np.array_equal(altered.centres, anew.centres)
+    assert np.array_equal(altered.centers, anew.centers)
     assert np.array_equal(altered.turns, anew.turns)
     assert altered.numbers.tolist() == [2 * row if row in rows else row + 1 for row in range(len(path))]
 
@@ -117,7 +117,7 @@ def test_arrays_agree_with_the_pieces(path):
 def test_backwards_twice_is_the_same_path(path):
     twice = path.reversed().reversed()
     assert np.array_equal(twice.points, path.points)
-    assert np.array_equal(twice.centres, path.centres)
+    assert np.array_equal(twice.centers, path.centers)
     assert np.array_equal(twice.turns, path.turns)
     assert np.allclose(path.reversed().lengths, path.lengths[::-1], atol=1e-9)
 
@@ -126,8 +126,8 @@ def test_backwards_twice_is_the_same_path(path):
 @given(mixed, st.floats(0, 1))
 def test_boxes_hold_every_point_of_their_piece(path, share):
     turned = np.exp(1j * path.sweeps * share)
-    radial = (path.starts - path.centres) @ np.array([1, 1j])
-    arcs = path.centres @ np.array([1, 1j]) + radial * turned
+    radial = (path.starts - path.centers) @ np.array([1, 1j])
+    arcs = path.centers @ np.array([1, 1j]) + radial * turned
     straight = (path.starts + share * (path.ends - path.starts)) @ np.array([1, 1j])
     on = np.where(path.turns == 0, straight, arcs)
     boxes = path.boxes

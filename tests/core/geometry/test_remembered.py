@@ -11,7 +11,7 @@ from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
 from core.geometry.remembered import FEW, remembered
 
-BENT = Arc((4.0, 0.0), (6.0, 2.0), centre=(4.0, 2.0), turn=Turn.CCW)
+BENT = Arc((4.0, 0.0), (6.0, 2.0), center=(4.0, 2.0), turn=Turn.CCW)
 PIECES = measured(Path.from_pieces([Line((0.0, 0.0), (4.0, 0.0)), BENT]))
 
 

@@ -45,7 +45,7 @@ def test_a_stretch_all_round_back_to_its_own_segment():
     assert found == [[3, 0], [4, 0], [4, 4], [0, 4], [0, 0], [1, 0]]
 
 
-def test_a_stretch_of_an_arc_keeps_its_centre():
+def test_a_stretch_of_an_arc_keeps_its_center():
     half = Path.from_pieces([Arc((2, 0), (-2, 0), (0, 0), Turn.CCW)])
     found = stretch(half, 1, (0, 2), 1, (-2, 0))
     assert found[0] == Arc((0, 2), (-2, 0), (0, 0), Turn.CCW)
@@ -79,7 +79,7 @@ def test_a_stretch_of_unknown_segments_is_empty():
 
 
 def test_a_stretch_begins_on_the_first_and_ends_on_the_last_piece_of_its_segments_whatever_their_order():
-    outline = Path.of(SQUARE.points, SQUARE.centres, SQUARE.turns, np.array([5.0, 5.0, 2.0, 2.0]))
+    outline = Path.of(SQUARE.points, SQUARE.centers, SQUARE.turns, np.array([5.0, 5.0, 2.0, 2.0]))
     assert points(stretch(outline, 5, (1, 0), 2, (0, 1))) == [[1, 0], [4, 0], [4, 4], [0, 4], [0, 1]]
     assert points(stretch(outline, 2, (2, 4), 5, (4, 3))) == [[2, 4], [0, 4], [0, 0], [4, 0], [4, 3]]
 
@@ -91,7 +91,7 @@ def test_stretches_are_one_path_with_lines_between_them_that_are_not_theirs():
     assert [points(one) for one in found.paths] == [[[1, 0], [4, 0], [4, 1]], [[3, 4], [1, 4]]]
 
 
-def test_single_pieces_are_parts_of_their_own_though_they_be_neighbours():
+def test_single_pieces_are_parts_of_their_own_though_they_be_neighbors():
     half = Arc((4, 0), (4, 4), (4, 2), Turn.CCW)
     outline = Path.from_pieces([Line((0, 0), (4, 0)), half, Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
     found = pieces_joined(outline, np.array([1, 2]))
@@ -100,9 +100,9 @@ def test_single_pieces_are_parts_of_their_own_though_they_be_neighbours():
     assert pieces_joined(outline, np.array([], np.intp)).paths == []
 
 
-def test_the_first_line_of_a_stretch_begins_in_its_own_centre():
+def test_the_first_line_of_a_stretch_begins_in_its_own_center():
     found = stretch(SQUARE, 4, (0, 1), 1, (3, 0))
-    assert found.centres.tolist() == found.starts.tolist()
+    assert found.centers.tolist() == found.starts.tolist()
 
 
 @given(st.integers(0, 3), st.integers(0, 3), st.floats(0.1, 0.9), st.floats(0.1, 0.9))

@@ -32,8 +32,8 @@ def polyline(*points: Point) -> Path:
     return Path.from_pieces([Line(a, b) for a, b in pairwise(known)])
 
 
-def arc(start: Point, end: Point, centre: Point, turn: Turn) -> Arc:
-    first, last, middle = inches(start, end, centre)
+def arc(start: Point, end: Point, center: Point, turn: Turn) -> Arc:
+    first, last, middle = inches(start, end, center)
     return Arc(first, last, middle, turn)
 
 

@@ -26,7 +26,7 @@ IN = Grid(Unit.IN)
         (10000000.0, "10000000.0"),
     ],
 )
-def test_millimetres_have_five_decimals_at_most_and_one_at_least(value, text):
+def test_millimeters_have_five_decimals_at_most_and_one_at_least(value, text):
     assert MM.text(MM.steps(value)) == text
 
 
@@ -35,17 +35,17 @@ def test_inches_have_six():
     assert IN.text(IN.steps(-2.54)) == "-0.1"
 
 
-def arc(radius: float, begin: float, sweep: float, centre: tuple[float, float] = (0.0, 0.0)) -> Arc:
+def arc(radius: float, begin: float, sweep: float, center: tuple[float, float] = (0.0, 0.0)) -> Arc:
     def at(angle: float) -> tuple[float, float]:
-        return centre[0] + radius * cos(angle), centre[1] + radius * sin(angle)
+        return center[0] + radius * cos(angle), center[1] + radius * sin(angle)
 
-    return Arc(at(begin), at(begin + sweep), centre, Turn.CCW if sweep > 0 else Turn.CW)
+    return Arc(at(begin), at(begin + sweep), center, Turn.CCW if sweep > 0 else Turn.CW)
 
 
-def test_an_ordinary_arc_is_one_bow_about_its_centre():
+def test_an_ordinary_arc_is_one_bow_about_its_center():
     (bow,) = written(arc(10.0, 0.0, pi / 2), MM)
     assert isinstance(bow, Bow)
-    assert bow.centre == (-10000000, 0)
+    assert bow.center == (-10000000, 0)
 
 
 def test_a_full_circle_is_one_bow():
@@ -67,11 +67,11 @@ def test_nearly_a_full_circle_is_cut_in_two():
 
 
 def test_a_short_arc_that_rounding_turns_back_is_written_as_a_chord():
-    """At its very top the start as written lies before the centre as written, and the move straight down turns back."""
+    """At its very top the start as written lies before the center as written, and the move straight down turns back."""
     top = 0.000005 + 1e-10
-    centre = (0.000003, top - 0.001)
-    start, end = ((x, centre[1] + (0.000001 - (x - centre[0]) ** 2) ** 0.5) for x in (0.0000031, 0.0000049))
-    short = Arc(start, end, centre, Turn.CW)
+    center = (0.000003, top - 0.001)
+    start, end = ((x, center[1] + (0.000001 - (x - center[0]) ** 2) ** 0.5) for x in (0.0000031, 0.0000049))
+    short = Arc(start, end, center, Turn.CW)
     as_written = Arc((0.0, 0.00001), (0.0, 0.0), (0.000003, -0.000995), Turn.CW)
     assert MM.point(start) == (0, 1)
     assert MM.point(end) == (0, 0)
@@ -128,11 +128,11 @@ def measured(meant: Arc, grid: Grid, digit: float) -> tuple[float, float, int]:
         piece: Arc | Line = Line(place, end)
         middle = ((place[0] + end[0]) / 2, (place[1] + end[1]) / 2)
         if isinstance(part, Bow):
-            i, j = part.centre[0] * digit / 10, part.centre[1] * digit / 10
+            i, j = part.center[0] * digit / 10, part.center[1] * digit / 10
             piece = Arc(place, end, (place[0] + i, place[1] + j), meant.turn)
             worst = max(worst, abs(piece.radius - meant.radius))
             middle = end
-        away = hypot(middle[0] - meant.centre[0], middle[1] - meant.centre[1])
+        away = hypot(middle[0] - meant.center[0], middle[1] - meant.center[1])
         worst = max(worst, abs(away - meant.radius))
         length, place, count = length + piece.length, end, count + 1
     return length, worst, count

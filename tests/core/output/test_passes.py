@@ -206,10 +206,10 @@ def test_a_helix_is_cut_where_its_floor_meets_the_level():
 
 
 def test_a_piece_shortened_at_a_corner_has_the_height_the_drawing_gives_there():
-    """The line of 2 in climbs 0.2; its centre path stops 0.5 before the corner, then the tool lifts straight up."""
+    """The line of 2 in climbs 0.2; its center path stops 0.5 before the corner, then the tool lifts straight up."""
     surface = polyline((0, 0), (2, 0), (2, 2))
-    centre = polyline((0, 0.5), (1.5, 0.5), (1.5, 2))
-    one = ramp(surface, -0.05, -0.05, finish=(Run(centre),), peck_depth=0.0)
+    center = polyline((0, 0.5), (1.5, 0.5), (1.5, 2))
+    one = ramp(surface, -0.05, -0.05, finish=(Run(center),), peck_depth=0.0)
     assert all_shown(one)[2:-1] == [
         ("G1", 0, 0.5, -0.25),
         ("G1", 1.5, 0.5, -0.1),
@@ -222,8 +222,8 @@ def test_a_corner_arc_keeps_its_corners_height():
     surface = polyline((0, 0), (1, 0), (1, 1))
     corner = arc((1, -0.5), (1.5, 0), (1, 0), Turn.CCW)
     first, last = polyline((0, -0.5), (1, -0.5))[0], polyline((1.5, 0), (1.5, 1))[0]
-    centre = Path.from_pieces((first, corner, last), (1.0, 1.5, 2.0))
-    one = ramp(surface, -0.15, -0.05, finish=(Run(centre),), peck_depth=0.0)
+    center = Path.from_pieces((first, corner, last), (1.0, 1.5, 2.0))
+    one = ramp(surface, -0.15, -0.05, finish=(Run(center),), peck_depth=0.0)
     assert [motion[3] for motion in all_shown(one)[2:-1]] == [-0.25, -0.15, -0.15, -0.05]
 
 

@@ -32,7 +32,7 @@ def test_a_whole_program_in_inches():
     one = job(SLOT, peck_depth=0.0, comp="LEFT", lookahead="USR 4", notes=("A NOTE",))
     assert text(one).splitlines() == [
         "(PROGRAM SLOT)",
-        "(WRITTEN BY CUTCOMP.  THE PATH IS THAT OF THE TOOL CENTRE: NO G41 OR G42)",
+        "(WRITTEN BY CUTCOMP.  THE PATH IS THAT OF THE TOOL CENTER: NO G41 OR G42)",
         "(UNITS INCH)",
         "(TOOL 1 END MILL DIAMETER 0.5000)",
         "(BLOCK 1 MILL CONTOUR CUTTER COMP. LEFT LOOKAHEAD USR 4 Z 0.0000 TO)",
@@ -67,7 +67,7 @@ def test_the_part_name_stands_at_the_head():
     assert head("HOUSING 7")[:3] == [
         "(PROGRAM SLOT)",
         "(PART HOUSING 7)",
-        "(WRITTEN BY CUTCOMP.  THE PATH IS THAT OF THE TOOL CENTRE: NO G41 OR G42)",
+        "(WRITTEN BY CUTCOMP.  THE PATH IS THAT OF THE TOOL CENTER: NO G41 OR G42)",
     ]
     assert head("   ") == head("")
     assert not any(line.startswith("(PART") for line in head(""))
@@ -96,7 +96,7 @@ def test_no_part_name_comes_to_life(part):
         assert not re.match(r"\(\s*[A-Za-z_]+\s*,", line)
 
 
-def test_the_same_in_millimetres():
+def test_the_same_in_millimeters():
     found = text(job(SLOT, peck_depth=0.0, work_offset=56), Unit.MM).splitlines()
     assert "G17 G21 G40 G49 G56 G80 G90 G91.1 G94" in found
     assert "G3 X38.1 Y12.7 I0.0 J12.7" in found
@@ -155,7 +155,7 @@ def test_posted_coordinates_are_right_to_half_the_last_digit():
 
 
 def positions(nc: str, scale: float) -> list[tuple[float, float, float]]:
-    """Places after each line that moves, once X, Y and Z are known, in millimetres."""
+    """Places after each line that moves, once X, Y and Z are known, in millimeters."""
     place: dict[str, float] = {}
     found = []
     for line in nc.splitlines():

@@ -31,14 +31,14 @@ def posted(one: Job, unit: Unit, name: str = "PART") -> str:
 
 
 def expected(one: Job, unit: Unit) -> list[tuple[float, ...]]:
-    """x, y, z, centre and turn of every motion that moves, in program units; an arc's turn is 1 or -1."""
+    """x, y, z, center and turn of every motion that moves, in program units; an arc's turn is 1 or -1."""
     found = [_row(motion, SCALE[unit]) for each in passes(one) for motion in each.motions]
     return found[:1] + [row for before, row in pairwise(found) if row[:3] != before[:3] or row[5]]
 
 
 def _row(motion: Motion, scale: float) -> tuple[float, ...]:
-    centre = motion.centre if motion.turn is not Turn.NONE else (0.0, 0.0)
-    return (*(value / scale for value in (motion.x, motion.y, motion.z, *centre)), float(motion.turn))
+    center = motion.center if motion.turn is not Turn.NONE else (0.0, 0.0)
+    return (*(value / scale for value in (motion.x, motion.y, motion.z, *center)), float(motion.turn))
 
 
 def ran(text: str, folder: File) -> rs274.Ran:
@@ -110,7 +110,7 @@ def test_a_ramp_and_a_helix(tmp_path):
 @pytest.mark.parametrize("radius", [1e-5, 1e-4, 3e-4, 1e-3, 0.005, 0.01, 0.03, 0.1])
 @pytest.mark.parametrize("sweep", [1e-6, 1e-3, 0.1, 2.0, 4.0, 2 * pi - 1e-6])
 def test_tiny_arcs_are_accepted_and_never_become_circles(radius, sweep, unit, tmp_path):
-    """Radius in millimetres.  Read as written, the path is as long as meant, to a few last digits for each line."""
+    """Radius in millimeters.  Read as written, the path is as long as meant, to a few last digits for each line."""
     pieces = [_swept((1.0, 1.0), 0.1, radius, sweep), _swept((1.0, 1.0), 2.0, radius, -sweep)]
     for piece in pieces:
         text = posted(job(path_of(piece), peck_depth=0.0), unit)
@@ -127,8 +127,8 @@ def measured(text: str) -> tuple[float, int]:
         words = dict(re.findall(r"([XYIJ])(-?[\d.]+)", line)) if re.match(r"G[0-3] ", line) else {}
         end = (float(words.get("X", place[0])), float(words.get("Y", place[1])))
         if "I" in words:
-            centre = (place[0] + float(words["I"]), place[1] + float(words["J"]))
-            total += Arc(place, end, centre, Turn.CW if line.startswith("G2") else Turn.CCW).length
+            center = (place[0] + float(words["I"]), place[1] + float(words["J"]))
+            total += Arc(place, end, center, Turn.CW if line.startswith("G2") else Turn.CCW).length
         elif words and not line.startswith("G0"):
             total += hypot(end[0] - place[0], end[1] - place[1])
         count += bool(words) and not line.startswith("G0")
@@ -137,9 +137,9 @@ def measured(text: str) -> tuple[float, int]:
 
 
 def _swept(start: Point, angle: float, radius: float, sweep: float) -> Arc:
-    centre = (start[0] - radius * cos(angle), start[1] - radius * sin(angle))
-    end = (centre[0] + radius * cos(angle + sweep), centre[1] + radius * sin(angle + sweep))
-    return Arc(start, end, centre, Turn.CCW if sweep > 0 else Turn.CW)
+    center = (start[0] - radius * cos(angle), start[1] - radius * sin(angle))
+    end = (center[0] + radius * cos(angle + sweep), center[1] + radius * sin(angle + sweep))
+    return Arc(start, end, center, Turn.CCW if sweep > 0 else Turn.CW)
 
 
 def test_hostile_names_are_harmless(tmp_path):
@@ -174,7 +174,7 @@ def test_any_joined_path_is_run_as_it_is(moves, unit, tmp_path):
 
 
 def joined_pieces(moves: list[tuple[float, float, float | None]]) -> list[Piece]:
-    """Lines of a length and direction, arcs of a radius, first direction from the centre, and sweep."""
+    """Lines of a length and direction, arcs of a radius, first direction from the center, and sweep."""
     place: Point = (10.0, -20.0)
     found: list[Piece] = []
     for size, angle, sweep in moves:

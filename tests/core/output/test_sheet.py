@@ -85,7 +85,7 @@ def test_a_finish_tool_has_its_own_line_and_its_own_pass():
     assert {row[5] for row in rows if row[2] == "PASS"} == {"0.0100"}
 
 
-def test_millimetres():
+def test_millimeters():
     one = of(SLOT, unit=Unit.MM)
     assert pairs(one)["Z START, Z BOTTOM"] == "0.000  -6.350"
     assert one.tools.table[1][2] == "12.700"

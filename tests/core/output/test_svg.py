@@ -51,7 +51,7 @@ def test_dashed_layers_say_so():
 def test_the_legend_names_what_is_drawn_and_nothing_else():
     scene = contour_scene(CORNER, path=CORNER, cutter=((1, 1), 0.5), unit=Unit.MM)
     words = [element.text for element in drawing(scene).iter(f"{SPACE}text")]
-    assert words == ["PART", "part surface", "centre path", "blend moves", "cutter", "start, direction", "1 MM"]
+    assert words == ["PART", "part surface", "center path", "blend moves", "cutter", "start, direction", "1 MM"]
 
 
 def test_the_cutter_is_a_circle():

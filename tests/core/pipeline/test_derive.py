@@ -35,7 +35,7 @@ def test_the_over_run_square_gouges_at_cal_and_is_mended_by_four():
     (found,) = derive(mended).blocks
     assert (found.lookahead.value, found.lookahead.tag, found.lookahead.calculated) == (4, Tag.USR, 2)
     assert found.postable
-    np.testing.assert_allclose(found.work.centre.points / IN, [(-1, -0.25), (-0.25, -0.25), (-0.25, -1)], atol=1e-9)
+    np.testing.assert_allclose(found.work.center.points / IN, [(-1, -0.25), (-0.25, -0.25), (-0.25, -1)], atol=1e-9)
     assert found.work.verdict.uncut_length / IN == pytest.approx(8.5, abs=1e-5)
     assert found.work.verdict.surface_length / IN == pytest.approx(10.0, abs=1e-12)
     assert "USR_LOOKAHEAD" in codes(found)
@@ -53,7 +53,7 @@ def test_on_runs_on_the_contour_and_is_not_judged():
     assert found.side is None
     assert found.work.compensated is None
     assert found.work.verdict is None
-    np.testing.assert_allclose(found.work.centre.points / IN, NOTCH, atol=1e-12)
+    np.testing.assert_allclose(found.work.center.points / IN, NOTCH, atol=1e-12)
 
 
 def test_blocks_that_did_not_change_are_not_derived_again():
@@ -118,7 +118,7 @@ def test_profile_comes_in_from_the_largest_offset_and_a_finish_tool_leaves_its_s
     assert found.radius / IN == pytest.approx(0.125)
     lowest = [float(one.loops[0].path.points[:, 1].min()) / IN for one in found.work.rough]
     assert lowest == pytest.approx([-1.25, -0.85, -0.45, -0.27])
-    assert float(found.work.centre.points[:, 1].min()) / IN == pytest.approx(-0.125)
+    assert float(found.work.center.points[:, 1].min()) / IN == pytest.approx(-0.125)
     assert stocks(found, derive(program(typed, parameters=parameters)).program) == tuple(
         one.stock for one in found.work.rough
     )
@@ -248,7 +248,7 @@ def test_where_the_control_path_is_clean_and_complete_the_best_path_is_the_same(
     control = derive(part).blocks[0]
     assert better(control) == ()
     found = best(MID_SIDE_SQUARE, CutterComp.LEFT)
-    np.testing.assert_allclose(found.work.centre.points, control.work.centre.points, atol=1e-9)
+    np.testing.assert_allclose(found.work.center.points, control.work.center.points, atol=1e-9)
 
 
 def test_the_cutter_that_fits_nowhere_has_no_best_path_and_nothing_is_posted():
@@ -262,7 +262,7 @@ def test_the_cutter_that_fits_nowhere_has_no_best_path_and_nothing_is_posted():
 def test_the_same_part_is_cut_in_the_other_unit():
     part = replace(program(block(NOTCH, CutterComp.LEFT)), parameters=Parameters())
     inch, metric = derive(part).blocks[0], derive(set_unit(part, Unit.MM)).blocks[0]
-    np.testing.assert_allclose(metric.work.centre.points, inch.work.centre.points, atol=1e-9)
+    np.testing.assert_allclose(metric.work.center.points, inch.work.center.points, atol=1e-9)
 
 
 @pytest.mark.parametrize(("height", "limit"), [(0.1, "Z START"), (-0.3, "Z BOTTOM")])

@@ -62,7 +62,7 @@ def alike(found: DerivedBlock, fresh: DerivedBlock) -> bool:
         paths.append((made.raw, anew.raw))
         if list(made.deleted) != list(anew.deleted) or made.findings != anew.findings:
             return False
-    names = ("points", "centres", "turns", "numbers")
+    names = ("points", "centers", "turns", "numbers")
     return all(np.array_equal(getattr(a, name), getattr(b, name)) for a, b in paths for name in names)
 
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core.controls.contouring import Travel
 from core.controls.registry import NO_TOOLS, names, run
 from core.controls.report import Run
 from core.controls.tools import ToolTable
+from core.controls.write.contouring import Travel
 from core.geometry.distance import distance
 from core.geometry.measured import at, measured
 from core.geometry.path import Path as Line
@@ -23,6 +23,7 @@ from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
 from core.pipeline.jobs import jobs
 from core.pipeline.own import post_for
+from core.program.file.store import load
 from core.program.model import (
     ArcSegment,
     Block,
@@ -35,7 +36,6 @@ from core.program.model import (
     Program,
     changed,
 )
-from core.program.store import load
 from core.units import Unit, from_mm
 from tests import rs274
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, block, program
@@ -144,9 +144,9 @@ def climbing() -> Block:
     return replace(plain, segments=(changed(plain.segments[0], {"z_end": Entry(-0.1)}), *plain.segments[1:]))
 
 
-def arc(way: Direction, end: tuple[float, float], height: float, centre: tuple[float, float]) -> ArcSegment:
+def arc(way: Direction, end: tuple[float, float], height: float, center: tuple[float, float]) -> ArcSegment:
     """An arc that climbs or falls to a height."""
-    (x, y), (cx, cy) = map(Entry, end), map(Entry, centre)
+    (x, y), (cx, cy) = map(Entry, end), map(Entry, center)
     return ArcSegment(way, x_end=x, y_end=y, z_end=Entry(height), x_center=cx, y_center=cy)
 
 
@@ -246,7 +246,7 @@ def test_an_arc_that_a_control_runs_as_a_full_circle_is_not_handed_out(
 ) -> None:
     """Whoever writes it: what is read back is measured."""
     monkeypatch.setattr(
-        own, "_travels", lambda motions: [Travel(m.x, m.y, m.z, m.feed, int(m.turn), m.centre) for m in motions]
+        own, "_travels", lambda motions: [Travel(m.x, m.y, m.z, m.feed, int(m.turn), m.center) for m in motions]
     )
     found = derive(circling(0.001, unit, CutterComp.ON, Direction.CW))
     result = post_for(found, name="PART", control=control)

@@ -8,8 +8,8 @@ import pytest
 from app.files import example
 from core.pipeline.derive import derive
 from core.pipeline.plot import block_scene, cutter_at, svg_of
+from core.program.file.store import load
 from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, PathChoice
-from core.program.store import load
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
 
@@ -25,10 +25,10 @@ def test_on_a_deleted_segment_the_cutter_stands_where_the_path_passes_it(lookahe
     found = derived(part)
     (circle,) = block_scene(found, 9, Unit.IN).circles
     place = cutter_at(found, 9)
-    assert circle.centre == place.at
+    assert circle.center == place.at
     assert place.by == (8.0, 10.0)
     (meeting,) = [one.at for one in found.work.compensated.deleted if one.segment == 9]
-    assert circle.centre == pytest.approx(meeting)
+    assert circle.center == pytest.approx(meeting)
 
 
 def test_a_deletion_within_a_later_one_leads_to_where_the_path_passes():
@@ -74,7 +74,7 @@ def test_the_best_path_has_its_cutter_in_every_loop_and_none_where_it_does_not_r
 
 def test_start_has_the_cutter_where_it_goes_down():
     found = derived(program(block(MID_SIDE_SQUARE, CutterComp.LEFT)))
-    assert cutter_at(found, 0).at == tuple(found.work.centre.points[0].tolist())
+    assert cutter_at(found, 0).at == tuple(found.work.center.points[0].tolist())
 
 
 def test_the_legend_does_not_call_the_controls_path_behind_the_best_one_a_roughing_pass_alone():

@@ -58,7 +58,7 @@ def test_the_cutter_has_the_radius_of_its_stretch() -> None:
     assert scene.unit is Unit.IN
 
 
-def test_surface_centre_path_rapids_and_the_cursors_moves_are_drawn() -> None:
+def test_surface_center_path_rapids_and_the_cursors_moves_are_drawn() -> None:
     found = proof()
     ground = ground_of(found)
     assert {Style.SURFACE, Style.PATH, Style.RAPID} <= styles(ground)

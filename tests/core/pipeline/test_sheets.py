@@ -6,8 +6,8 @@ from core.pipeline.derive import derive
 from core.pipeline.outline import outline
 from core.pipeline.sheets import sheet_page, sheet_text
 from core.program.edit import new_block
+from core.program.file.store import load
 from core.program.model import Program
-from core.program.store import load
 from tests.core.program.test_examples import EXAMPLES
 
 

@@ -10,8 +10,8 @@ from core.pipeline.derive import derive
 from core.pipeline.derived import Derived, Work
 from core.pipeline.outline import outline
 from core.program.edit import Refused, Where, delete_segment, set_unit, type_field
+from core.program.file.store import load
 from core.program.model import BlendSegment, Entry, Program, Tool
-from core.program.store import load
 from core.units import Unit
 
 PARTS = [load(example(name)) for name in ("pocket", "flange", "plate-mm")]

@@ -70,7 +70,7 @@ def test_it_is_a_warning_beside_the_path_that_names_the_place_and_what_to_do() -
     assert {told.code for told in warnings[1:]} == {"PLUNGE_FED", "CROSSES_ITSELF"}
 
 
-def test_where_the_centre_runs_on_the_contour_it_may() -> None:
+def test_where_the_center_runs_on_the_contour_it_may() -> None:
     (found,) = derive(program(block(((0, 0), (2, 0), (0, 0)), CutterComp.ON))).blocks
     assert all(one.code != "TURNS_BACK" for one in found.findings)
 

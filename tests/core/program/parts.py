@@ -25,7 +25,7 @@ from core.program.model import (
     Unread,
     changed,
 )
-from core.program.solved import Solved, SolvedBlock, SolvedSegment
+from core.program.solve.solved import Solved, SolvedBlock, SolvedSegment
 from core.units import Kind, Unit, Unreadable, parse
 
 BLOCK = Block(

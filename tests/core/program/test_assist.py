@@ -12,9 +12,9 @@ import pytest
 from hypothesis import given, settings
 
 from core.geometry.piece import Arc, Line
-from core.program.assist import solve_block
 from core.program.model import ArcSegment, BlendSegment, Entry, LineSegment, Program, Unread
-from core.program.solved import Solved, SolvedBlock
+from core.program.solve.solve import solve_block
+from core.program.solve.solved import Solved, SolvedBlock
 from core.units import Unit, sentence, to_mm
 from tests.core.program.parts import arc, blend, line, number, program, programs, tags
 
@@ -54,7 +54,7 @@ def test_a_pocket():
     assert [number_ for number_, _ in block.pieces] == list(range(1, 12))
     third, corner, fifth = block.segments[2:5]
     assert isinstance(corner.piece, Arc)
-    assert dist(corner.piece.centre, (to_mm(4.25, Unit.IN), to_mm(3.0, Unit.IN))) < 1e-9
+    assert dist(corner.piece.center, (to_mm(4.25, Unit.IN), to_mm(3.0, Unit.IN))) < 1e-9
     assert third.piece == Line(block.segments[1].end or (0, 0), corner.piece.start)
     assert fifth.piece == Line(corner.piece.end, fifth.end or (0, 0))
 
@@ -65,7 +65,7 @@ def test_pieces_join_end_to_start():
         assert before.end == behind.start
 
 
-def test_neighbours_of_a_blend_show_what_was_programmed():
+def test_neighbors_of_a_blend_show_what_was_programmed():
     third = solved(POCKET).segments[2]
     assert number(third, "y_end") == 3.5
     assert number(third, "length") == pytest.approx(2.5)
@@ -90,7 +90,7 @@ def test_feeds_and_z_are_carried_over():
     assert (third.values["feed"], third.values["z_end"]) == (Solved(7.0), Solved(-0.5))
 
 
-def test_inch_values_are_millimetres_inside_and_inches_on_the_form():
+def test_inch_values_are_millimeters_inside_and_inches_on_the_form():
     block = solved(program(line(length=1.0, angle=0.0), unit=Unit.IN, x=-1.0))
     assert block.segments[0].piece == Line((-25.4, 0.0), (0.0, 0.0))
     assert number(block.segments[0], "x_end") == 0.0
@@ -223,7 +223,7 @@ def test_blocks_do_not_share_tools():
 
 def test_no_numpy_is_loaded():
     """The first screen is painted before the heavy packages are there."""
-    names = ("assist", "convert", "edit", "fields", "history", "model", "solved", "store", "tools")
+    names = ("convert", "edit", "fields", "history", "model", "tools", "solve.solve", "file.store")
     imports = ", ".join(f"core.program.{name}" for name in names)
     script = f"import {imports}, core.units, core.geometry.fillet, sys; print('numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)

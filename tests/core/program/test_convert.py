@@ -6,6 +6,7 @@ import pytest
 
 from core.program.convert import converted
 from core.program.fields import PARAMETERS, SETUP, START, TABLES, Form
+from core.program.file.store import dumps, loads
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -20,7 +21,6 @@ from core.program.model import (
     Unread,
     changed,
 )
-from core.program.store import dumps, loads
 from core.units import Kind, Unit
 
 SEGMENTS: dict[Form, Segment] = {Form.LINE: LineSegment(), Form.ARC: ArcSegment(), Form.BLEND: BlendSegment()}

@@ -67,7 +67,7 @@ def test_segments_in_and_out() -> None:
     "values",
     [
         None,
-        {"colour": 3},
+        {"color": 3},
         {"unit": "FEET"},
         {"tools": [0, 0, [{"number": "1"}]]},
         {"tools": [0, 0, [{"number": 1, "type": "END\x1b[2JMILL"}]]},

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from core.program.assist import solve_block
+from core.program.file.store import load
 from core.program.model import CutterComp, Entry, Program
-from core.program.solved import SolvedBlock
-from core.program.store import load
+from core.program.solve.solve import solve_block
+from core.program.solve.solved import SolvedBlock
 from core.units import Unit
 
 EXAMPLES = Path(__file__).parents[3] / "app" / "examples"

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from core.program.file.store import StoreError, dumps, load, loads, save
 from core.program.model import Program
-from core.program.store import StoreError, dumps, load, loads, save
 from tests.core.program.stored import PART, TEXT
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "app" / "examples").glob("*.toml"))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from core.program.file_lines import key_lines, line_of
+from core.program.file.lines import key_lines, line_of
 
 TEXT = """\
 format = 1

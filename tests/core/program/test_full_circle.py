@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from core.finding import Severity
 from core.geometry.piece import Arc
-from core.program.assist import solve_block
 from core.program.model import ArcSegment
-from core.program.solved import SolvedBlock, SolvedSegment
+from core.program.solve.solve import solve_block
+from core.program.solve.solved import SolvedBlock, SolvedSegment
 from core.units import Kind, Unit, sentence, show
 from tests.core.program.parts import arc, line, number, program
 

@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.program.edit import Where, type_field
+from core.program.file.stamp import Stamp
 from core.program.history import History
 from core.program.journal import (
     Cursor,
@@ -27,7 +28,6 @@ from core.program.journal import (
 from core.program.journal_file import LARGEST_KEPT, JournalFile, journal_path, set_aside
 from core.program.lock import Owner
 from core.program.model import Entry, Program
-from core.program.stamp import Stamp
 from tests.core.program.parts import line, program, programs
 
 PART = program(line(x_end=1.0), line(y_end=1.0), line(x_end=0.0))

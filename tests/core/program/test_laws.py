@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 
 from core.geometry.piece import Arc, Piece, Point
 from core.program import edit
-from core.program.assist import solve_block
 from core.program.edit import Where
 from core.program.fields import check, field, form_of
 from core.program.model import ArcSegment, BlendSegment, Direction, Entry, Program, Segment
-from core.program.solved import Solved, SolvedBlock
+from core.program.solve.solve import solve_block
+from core.program.solve.solved import Solved, SolvedBlock
 from core.units import Unit
 from tests.core.program.parts import arc, blend, line, program
 
@@ -67,7 +67,7 @@ def solved(given_program: Program) -> SolvedBlock:
 
 
 def places(piece: Piece) -> list[Point]:
-    return [piece.start, piece.end, *([piece.centre] if isinstance(piece, Arc) else [])]
+    return [piece.start, piece.end, *([piece.center] if isinstance(piece, Arc) else [])]
 
 
 def turns(block: SolvedBlock) -> list[int]:
@@ -215,7 +215,7 @@ def test_pieces_join_and_arcs_are_exact(part):
         assert before.end == behind.start
     for piece in pieces:
         if isinstance(piece, Arc):
-            (x, y), (cx, cy) = piece.end, piece.centre
+            (x, y), (cx, cy) = piece.end, piece.center
             assert hypot(x - cx, y - cy) == pytest.approx(piece.radius, abs=1e-8)
 
 
@@ -229,7 +229,7 @@ def test_deleting_what_was_inserted_changes_nothing(part, at):
 
 @laws
 @given(st.lists(st.tuples(coordinates, coordinates), min_size=3, max_size=8, unique=True), st.integers(0, 6))
-def test_deleting_a_segment_joins_its_neighbours(points, index):
+def test_deleting_a_segment_joins_its_neighbors(points, index):
     assume(index + 1 < len(points))
     part = program(*(line(x_end=x, y_end=y) for x, y in points), x=1000.0)
     shorter = solved(program_of(edit.delete_segment(part, Where(1, index + 1))))

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from core.program.file.stamp import stamp_of
 from core.program.lock import (
     UNKNOWN,
     Held,
@@ -29,7 +30,6 @@ from core.program.lock import (
     take_over,
     taken_by,
 )
-from core.program.stamp import stamp_of
 
 ME = myself("2025-03-04T06:00:00+01:00")
 ELSEWHERE = Owner("bob", "another-host", 1, "", "2025-03-04T05:00:00+01:00")

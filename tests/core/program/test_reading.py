@@ -1,4 +1,4 @@
-"""Typed fields as millimetres and radians."""
+"""Typed fields as millimeters and radians."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from core.program.model import (
     Unread,
     changed,
 )
-from core.program.reading import carry, fill, fill_angle, read
-from core.program.solved import Solved, Value
+from core.program.solve.reading import carry, fill, fill_angle, read
+from core.program.solve.solved import Solved, Value
 from core.units import Kind, Unit
 from tests.core.program.parts import line
 

@@ -9,9 +9,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from core.geometry.piece import Arc, Turn
-from core.program.assist import solve_block
 from core.program.model import ArcSegment
-from core.program.solved import SolvedSegment
+from core.program.solve.solve import solve_block
+from core.program.solve.solved import SolvedSegment
 from core.units import Unit, sentence
 from tests.core.program.parts import arc, number, program, tags
 
@@ -57,7 +57,7 @@ def test_solves(typed):
     assert found.findings == ()
     assert isinstance(found.piece, Arc)
     assert dist(found.piece.end, QUARTER.end) < 1e-9
-    assert dist(found.piece.centre, QUARTER.centre) < 1e-9
+    assert dist(found.piece.center, QUARTER.center) < 1e-9
     assert found.piece.turn is Turn.CCW
     assert number(found, "radius") == pytest.approx(5.0)
     assert number(found, "sweep") == pytest.approx(90.0)
@@ -92,8 +92,8 @@ def test_a_typed_sweep_picks():
     long = solved(arc("CW", x_end=0.0, y_end=5.0, radius=5.0, sweep=270.0), 5.0, 0.0)
     assert isinstance(short.piece, Arc)
     assert isinstance(long.piece, Arc)
-    assert dist(short.piece.centre, (5.0, 5.0)) < 1e-9
-    assert dist(long.piece.centre, (0.0, 0.0)) < 1e-9
+    assert dist(short.piece.center, (5.0, 5.0)) < 1e-9
+    assert dist(long.piece.center, (0.0, 0.0)) < 1e-9
 
 
 def test_a_half_circle_needs_no_picking():
@@ -137,7 +137,7 @@ def test_radii_that_differ_by_rounding_give_an_exact_arc():
     found = solved(arc("CCW", x_end=0.0, y_end=5.0025, x_center=0.0, y_center=0.0), 5.0, 0.0)
     assert found.findings == ()
     assert isinstance(found.piece, Arc)
-    assert dist(found.piece.centre, found.piece.start) == pytest.approx(dist(found.piece.centre, found.piece.end))
+    assert dist(found.piece.center, found.piece.start) == pytest.approx(dist(found.piece.center, found.piece.end))
     assert number(found, "x_center") == 0.0
 
 
@@ -248,6 +248,6 @@ def test_calculated_fields_give_the_arc_again(start, center, sweep, direction):
         assert any(
             isinstance(one, Arc)
             and dist(one.end, whole.piece.end) < 1e-4
-            and dist(one.centre, whole.piece.centre) < 1e-4
+            and dist(one.center, whole.piece.center) < 1e-4
             for one in candidates
         )

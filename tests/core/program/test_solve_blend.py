@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from core.geometry.piece import Arc, Line
-from core.program.assist import solve_block
 from core.program.model import BlendSegment, LineSegment, Segment, Unread
-from core.program.solved import Solved, SolvedBlock
+from core.program.solve.solve import solve_block
+from core.program.solve.solved import Solved, SolvedBlock
 from core.units import Unit, sentence
 from tests.core.program.parts import arc, blend, line, program
 
@@ -49,13 +49,13 @@ def test_nothing_left_to_blend():
     assert block.segments[2].end == (10.0, 10.0)
 
 
-def test_blends_of_arcs_keep_their_centres():
+def test_blends_of_arcs_keep_their_centers():
     half = arc("CW", x_end=20.0, y_end=0.0, x_center=15.0, y_center=0.0)
     block = solved(RIGHT, blend(1.0), half)
     assert texts(block) == []
     piece = block.segments[2].piece
     assert isinstance(piece, Arc)
-    assert piece.centre == (15.0, 0.0)
+    assert piece.center == (15.0, 0.0)
     assert piece.end == (20.0, 0.0)
     assert block.segments[2].values["radius"] == Solved(5.0)
 
@@ -95,7 +95,7 @@ def test_too_large_for_an_arc():
     assert texts(block) == [f"BLEND_RADIUS 2 radius: {words}"]
 
 
-def test_a_blend_waits_for_its_neighbours():
+def test_a_blend_waits_for_its_neighbors():
     block = solved(RIGHT, blend(1.0), LineSegment(), UP)
     assert [one.segment for one in block.every_finding] == [3]
     assert block.determined == 1

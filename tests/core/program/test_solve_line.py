@@ -9,9 +9,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from core.geometry.piece import Line
-from core.program.assist import solve_block
 from core.program.model import LineSegment
-from core.program.solved import SolvedSegment
+from core.program.solve.solve import solve_block
+from core.program.solve.solved import SolvedSegment
 from core.units import Unit, sentence
 from tests.core.program.parts import line, number, program, tags
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from core.finding import Severity
-from core.program.assist import solve_block
 from core.program.model import CutterComp, Entry, Tool, Unread
-from core.program.solve_start import NEEDED
-from core.program.solved import Solved
+from core.program.solve.solve import solve_block
+from core.program.solve.solved import Solved
+from core.program.solve.start import NEEDED
 from core.units import Unit, sentence
 from tests.core.program.parts import line, program
 

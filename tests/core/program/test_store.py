@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.program.edit import set_unit
+from core.program.file.store import StoreError, dumps, load, loads, save, write_output
 from core.program.model import Entry, Program, Unread
-from core.program.store import StoreError, dumps, load, loads, save, write_output
 from core.units import Unit
 from tests.core.program.parts import program, programs
 from tests.core.program.stored import PART, TEXT

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from core.program import store
+from core.program.file import store
+from core.program.file.store import StoreError, dumps, load, save
 from core.program.model import Program
-from core.program.store import StoreError, dumps, load, save
 from tests.core.program.stored import PART, TEXT
 
 
@@ -186,7 +186,7 @@ def test_a_file_size_limit_stands_for_a_really_full_disk(tmp_path):
     path = tmp_path / "part.toml"
     save(PART, path)
     script = (
-        "import resource, signal, sys; from core.program.store import StoreError, load, save\n"
+        "import resource, signal, sys; from core.program.file.store import StoreError, load, save\n"
         "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
         "part = load(sys.argv[1])\n"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))\n"

@@ -8,9 +8,9 @@ from dataclasses import replace
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.program.assist import solve_block
 from core.program.model import Entry, Program, Segment
-from core.program.solved import SolvedBlock
+from core.program.solve.solve import solve_block
+from core.program.solve.solved import SolvedBlock
 from tests.core.program.parts import arc, blend, line, program
 
 Edit = tuple[str, int, Segment]
@@ -67,7 +67,7 @@ def test_step_by_step_is_as_at_once(segments: list[Segment], steps: Sequence[Edi
         assert found == solved(part)
 
 
-def test_the_last_blend_taken_out_leaves_its_neighbours_whole():
+def test_the_last_blend_taken_out_leaves_its_neighbors_whole():
     part = program(SIDES[0], blend(0.5), *SIDES[1:])
     before = solved(part)
     after = solved(edited(part, ("take out", 1, SIDES[0])), before)
@@ -90,7 +90,7 @@ def test_start_is_taken_over_only_from_the_same():
         assert after == solved(other)
 
 
-def test_a_blend_that_does_not_fit_is_told_anew_where_its_neighbour_is_another():
+def test_a_blend_that_does_not_fit_is_told_anew_where_its_neighbor_is_another():
     part = program(SIDES[0], blend(9.0), *SIDES[1:])
     before = solved(part)
     other = edited(part, ("change", 2, line(x_end=4.0, y_end=1.0)))

@@ -1,6 +1,6 @@
 """A slow judge: exact distances between all pieces of both paths by plain formulas, and what dense points show.
 
-It shares nothing with the code under test.  Arcs are held by their centre, radius, middle direction and half angle.
+It shares nothing with the code under test.  Arcs are held by their center, radius, middle direction and half angle.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ def point_to(piece: Piece, x: float, y: float) -> float:
         size = hypot(x1 - x0, y1 - y0)
         share = ((x - x0) * (x1 - x0) + (y - y0) * (y1 - y0)) / size**2 if size else 0.0
         return abs((x - x0) * (y1 - y0) - (y - y0) * (x1 - x0)) / size if 0.0 < share < 1.0 else ends
-    cx, cy = piece.centre
+    cx, cy = piece.center
     return abs(hypot(x - cx, y - cy) - hypot(x0 - cx, y0 - cy)) if _on(piece, x - cx, y - cy) else ends
 
 
 def _on(arc: Arc, x: float, y: float) -> bool:
-    """Whether a direction from the centre meets the arc."""
+    """Whether a direction from the center meets the arc."""
     half = oracle.swept(arc) / 2.0
-    middle = atan2(arc.start[1] - arc.centre[1], arc.start[0] - arc.centre[0]) + int(arc.turn) * half
+    middle = atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0]) + int(arc.turn) * half
     return abs(atan2(x * sin(middle) - y * cos(middle), x * cos(middle) + y * sin(middle))) <= half + 1e-12
 
 
@@ -51,7 +51,7 @@ def _spots(one: Piece, other: Piece) -> list[Point]:
         size2 = (x1 - x0) ** 2 + (y1 - y0) ** 2
         shares = []
         if isinstance(other, Arc):
-            cx, cy = other.centre
+            cx, cy = other.center
             foot = ((cx - x0) * (x1 - x0) + (cy - y0) * (y1 - y0)) / size2
             height = abs((cx - x0) * (y1 - y0) - (cy - y0) * (x1 - x0)) / sqrt(size2)
             radius = hypot(other.start[0] - cx, other.start[1] - cy)
@@ -65,7 +65,7 @@ def _spots(one: Piece, other: Piece) -> list[Point]:
             if turn:
                 shares.append(((other.start[0] - x0) * vy - (other.start[1] - y0) * vx) / turn)
         return [(x0 + t * (x1 - x0), y0 + t * (y1 - y0)) for t in shares if 0.0 <= t <= 1.0]
-    cx, cy = one.centre
+    cx, cy = one.center
     radius = hypot(one.start[0] - cx, one.start[1] - cy)
     for x, y in _ways(other, cx, cy, radius):
         size = hypot(x, y)
@@ -75,7 +75,7 @@ def _spots(one: Piece, other: Piece) -> list[Point]:
 
 
 def _ways(other: Piece, cx: float, cy: float, radius: float) -> list[Point]:
-    """Directions from a circle's centre in which it may be nearest to another piece or meet it."""
+    """Directions from a circle's center in which it may be nearest to another piece or meet it."""
     if isinstance(other, Line):
         vx, vy = other.end[0] - other.start[0], other.end[1] - other.start[1]
         off = ((other.start[0] - cx) * -vy + (other.start[1] - cy) * vx) / hypot(vx, vy)
@@ -85,9 +85,9 @@ def _ways(other: Piece, cx: float, cy: float, radius: float) -> list[Point]:
             size = hypot(vx, vy)
             ways += [((-vy * off + s * vx * along) / size, (vx * off + s * vy * along) / size) for s in (-1.0, 1.0)]
         return ways
-    dx, dy = other.centre[0] - cx, other.centre[1] - cy
+    dx, dy = other.center[0] - cx, other.center[1] - cy
     ways, size = [(dx, dy), (-dx, -dy)], hypot(dx, dy)
-    theirs = hypot(other.start[0] - other.centre[0], other.start[1] - other.centre[1])
+    theirs = hypot(other.start[0] - other.center[0], other.start[1] - other.center[1])
     if size and abs(radius - theirs) < size < radius + theirs:
         share = (size * size + radius * radius - theirs * theirs) / (2.0 * size)
         rise = sqrt(max(radius * radius - share * share, 0.0))
@@ -107,12 +107,12 @@ class Slow:
     step: float
 
 
-def slow(surface: Path, radius: float, centre: Path, stock: float) -> Slow:
+def slow(surface: Path, radius: float, center: Path, stock: float) -> Slow:
     """The slow judge's findings; lengths are right to a few `step`s for each stretch."""
-    clearance = min((apart(a, b) for a, b in product(centre, surface)), default=inf)
-    step = float(max(surface.lengths.sum(), centre.lengths.sum())) / 600.0
-    points, weights = oracle.samples(centre, step)
+    clearance = min((apart(a, b) for a, b in product(center, surface)), default=inf)
+    step = float(max(surface.lengths.sum(), center.lengths.sum())) / 600.0
+    points, weights = oracle.samples(center, step)
     gouging = float(weights[oracle.apart(points, surface) < radius - 1e-6].sum())
     points, weights = oracle.samples(surface, step)
-    left = float(weights[oracle.apart(points, centre) > radius + stock].sum())
-    return Slow(clearance, gouging, left, oracle.extreme(surface, centre, step, 1.0), step)
+    left = float(weights[oracle.apart(points, center) > radius + stock].sum())
+    return Slow(clearance, gouging, left, oracle.extreme(surface, center, step, 1.0), step)

@@ -1,4 +1,4 @@
-"""Correct centre paths to spoil: outlines of lines and arcs, compensated, and kept when dense points find no fault."""
+"""Correct center paths to spoil: outlines of lines and arcs, compensated, and kept when dense points find no fault."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from core.tolerance import CLOSED, GOUGE
 from tests.core.verify import oracle
 
 MATTERS = 1e-4
-"""Millimetres of gouge or stock from which a mutant must be caught."""
+"""Millimeters of gouge or stock from which a mutant must be caught."""
 
 STEP = 0.02
 
@@ -56,13 +56,13 @@ def _piece(a: Point, b: Point, bulge: float) -> Piece:
         return Line(a, b)
     (x0, y0), (x1, y1) = a, b
     rise = (1.0 - bulge * bulge) / (4.0 * bulge)
-    centre = ((x0 + x1) / 2.0 - rise * (y1 - y0), (y0 + y1) / 2.0 + rise * (x1 - x0))
-    return Arc(a, b, centre, Turn.CCW if bulge > 0.0 else Turn.CW)
+    center = ((x0 + x1) / 2.0 - rise * (y1 - y0), (y0 + y1) / 2.0 + rise * (x1 - x0))
+    return Arc(a, b, center, Turn.CCW if bulge > 0.0 else Turn.CW)
 
 
 @dataclass(frozen=True)
 class Case:
-    """A contour and its correct centre path; `other` is the path at another radius or on the other side."""
+    """A contour and its correct center path; `other` is the path at another radius or on the other side."""
 
     surface: Path
     side: Side
@@ -120,7 +120,7 @@ def corpus(seed: int, count: int) -> Iterator[Case]:
 
 
 def _simple(surface: Path) -> bool:
-    """Points of each piece keep off all others but its neighbours."""
+    """Points of each piece keep off all others but its neighbors."""
     shares = np.linspace(0.0, 1.0, 60)
     count = len(surface)
     for k in range(count):

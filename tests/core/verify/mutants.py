@@ -1,4 +1,4 @@
-"""Mutants: correct centre paths spoiled in small ways, and whether the judge notices.
+"""Mutants: correct center paths spoiled in small ways, and whether the judge notices.
 
 `python -m tests.core.verify.mutants [contours]` prints a table for each road the judge may take.  Whether a mutant
 truly gouges or leaves stock is decided by dense points (`oracle`), not by the judge.

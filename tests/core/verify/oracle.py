@@ -16,11 +16,11 @@ Points = NDArray[np.float64]
 
 
 def swept(arc: Arc) -> float:
-    """Unsigned angle travelled."""
+    """Unsigned angle traveled."""
     if arc.start == arc.end:
         return tau
-    first = atan2(arc.start[1] - arc.centre[1], arc.start[0] - arc.centre[0])
-    last = atan2(arc.end[1] - arc.centre[1], arc.end[0] - arc.centre[0])
+    first = atan2(arc.start[1] - arc.center[1], arc.start[0] - arc.center[0])
+    last = atan2(arc.end[1] - arc.center[1], arc.end[0] - arc.center[0])
     angle = ((last - first) * int(arc.turn)) % tau
     return 0.0 if angle > tau - 1e-9 else angle
 
@@ -28,7 +28,7 @@ def swept(arc: Arc) -> float:
 def length(piece: Piece) -> float:
     if isinstance(piece, Line):
         return hypot(piece.end[0] - piece.start[0], piece.end[1] - piece.start[1])
-    return hypot(piece.start[0] - piece.centre[0], piece.start[1] - piece.centre[1]) * swept(piece)
+    return hypot(piece.start[0] - piece.center[0], piece.start[1] - piece.center[1]) * swept(piece)
 
 
 def along(piece: Piece, shares: Points) -> Points:
@@ -36,10 +36,10 @@ def along(piece: Piece, shares: Points) -> Points:
     if isinstance(piece, Line):
         start, end = np.array(piece.start), np.array(piece.end)
         return np.asarray(start + shares[:, None] * (end - start))
-    first = atan2(piece.start[1] - piece.centre[1], piece.start[0] - piece.centre[0])
+    first = atan2(piece.start[1] - piece.center[1], piece.start[0] - piece.center[0])
     angle = first + int(piece.turn) * swept(piece) * shares
-    radius = hypot(piece.start[0] - piece.centre[0], piece.start[1] - piece.centre[1])
-    return np.asarray(np.array(piece.centre) + radius * np.stack((np.cos(angle), np.sin(angle)), axis=1))
+    radius = hypot(piece.start[0] - piece.center[0], piece.start[1] - piece.center[1])
+    return np.asarray(np.array(piece.center) + radius * np.stack((np.cos(angle), np.sin(angle)), axis=1))
 
 
 def apart(points: Points, path: Path) -> Points:
@@ -58,11 +58,11 @@ def _apart(points: Points, piece: Piece) -> Points:
         share = off @ way / size**2
         foot = np.abs(off[:, 0] * way[1] - off[:, 1] * way[0]) / size
         return np.asarray(np.where((share > 0) & (share < 1), foot, to_ends))
-    radius = hypot(piece.start[0] - piece.centre[0], piece.start[1] - piece.centre[1])
+    radius = hypot(piece.start[0] - piece.center[0], piece.start[1] - piece.center[1])
     half = swept(piece) / 2
-    first = atan2(piece.start[1] - piece.centre[1], piece.start[0] - piece.centre[0]) + int(piece.turn) * half
+    first = atan2(piece.start[1] - piece.center[1], piece.start[0] - piece.center[0]) + int(piece.turn) * half
     middle = np.array((cos(first), sin(first)))
-    radial = points - np.array(piece.centre)
+    radial = points - np.array(piece.center)
     opposite = np.arctan2(np.abs(radial[:, 0] * middle[1] - radial[:, 1] * middle[0]), radial @ middle)
     return np.asarray(np.where(opposite <= half, np.abs(np.hypot(*radial.T) - radius), to_ends))
 
@@ -136,7 +136,7 @@ def encloses(outline: Path, points: Points) -> NDArray[np.bool_]:
         cross = first[:, 0] * last[:, 1] - first[:, 1] * last[:, 0]
         turned += np.arctan2(cross, (first * last).sum(axis=1)) * (piece.start != piece.end)
         if isinstance(piece, Arc):
-            near = np.hypot(*(points - np.array(piece.centre)).T) < hypot(*np.subtract(piece.start, piece.centre))
+            near = np.hypot(*(points - np.array(piece.center)).T) < hypot(*np.subtract(piece.start, piece.center))
             beyond = (cross * int(piece.turn) < 0.0) | (piece.start == piece.end)
             turned += tau * int(piece.turn) * (near & beyond)
     return np.asarray(np.abs(turned) > 3.0)
@@ -156,7 +156,7 @@ def inside(path: Path, outline: Path, step: float) -> bool:
 
 
 CHORD = 1e-5
-"""Millimetres between an arc and its chords."""
+"""Millimeters between an arc and its chords."""
 
 
 def chords(path: Path) -> LineString:

@@ -92,9 +92,9 @@ def hinted(surface: Path, path: Path) -> Path:
     apart = np.array([oracle.apart(middles, surface.part(k, k + 1)) for k in range(len(surface))])
     numbers = surface.numbers[apart.argmin(axis=0)]
     for row in np.flatnonzero(path.turns):
-        if np.hypot(*(surface.points - path.centres[row]).T).min() < 1e-9:
+        if np.hypot(*(surface.points - path.centers[row]).T).min() < 1e-9:
             numbers[row] += 0.5
-    return Path.of(path.points, path.centres, path.turns, numbers)
+    return Path.of(path.points, path.centers, path.turns, numbers)
 
 
 def in_parts(path: Path, shares: list[NDArray[np.float64]]) -> Path:
@@ -103,7 +103,7 @@ def in_parts(path: Path, shares: list[NDArray[np.float64]]) -> Path:
     for piece, cuts in zip(path, shares, strict=True):
         spots = [piece.start, *map(_point, oracle.along(piece, cuts).tolist()), piece.end]
         for a, b in pairwise(spots):
-            pieces.append(Line(a, b) if isinstance(piece, Line) else Arc(a, b, piece.centre, piece.turn))
+            pieces.append(Line(a, b) if isinstance(piece, Line) else Arc(a, b, piece.center, piece.turn))
     return Path.from_pieces(pieces)
 
 
@@ -119,7 +119,7 @@ def _feet(piece: Piece, surface: Path, finer: Path, number: float, parts: int) -
         way = np.subtract(piece.end, piece.start)
         shares = (joints - piece.start) @ way / max(float(way @ way), 1e-300)
     else:
-        first, towards = np.subtract(piece.start, piece.centre), joints - piece.centre
+        first, towards = np.subtract(piece.start, piece.center), joints - piece.center
         angle = np.arctan2(towards @ (-first[1], first[0]), towards @ first) * int(piece.turn)
         shares = np.mod(angle, 2.0 * np.pi) / oracle.swept(piece)
     kept = np.sort(shares[(shares > 1e-6) & (shares < 1.0 - 1e-6)])

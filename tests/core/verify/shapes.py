@@ -1,4 +1,4 @@
-"""Contours and centre paths for the judge's tests, built by hand and by Hypothesis."""
+"""Contours and center paths for the judge's tests, built by hand and by Hypothesis."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ def lines(*points: Point) -> Path:
 
 
 def square(size: float = 2.0, *, x: float = 0.0, y: float = 0.0) -> Path:
-    """A square travelled counter-clockwise from its lower left corner."""
+    """A square traveled counter-clockwise from its lower left corner."""
     return lines((x, y), (x + size, y), (x + size, y + size), (x, y + size), (x, y))
 
 
-def circle(centre: Point, radius: float, turn: Turn = Turn.CCW) -> Path:
+def circle(center: Point, radius: float, turn: Turn = Turn.CCW) -> Path:
     """A full circle from its rightmost point."""
-    start = (centre[0] + radius, centre[1])
-    return Path.from_pieces([Arc(start, start, centre, turn)])
+    start = (center[0] + radius, center[1])
+    return Path.from_pieces([Arc(start, start, center, turn)])
 
 
 def around(corners: list[Point], radius: float) -> Path:
-    """The path of a cutter outside a convex outline travelled counter-clockwise: lines, and arcs about its corners."""
+    """The path of a cutter outside a convex outline traveled counter-clockwise: lines, and arcs about its corners."""
     pieces: list[Piece] = []
     for before, corner, after in zip(corners[-2:-1] + corners[:-2], corners[:-1], corners[1:], strict=True):
         first, second = _beside(before, corner, radius)[1], _beside(corner, after, radius)[0]
@@ -48,13 +48,13 @@ def _beside(a: Point, b: Point, offset: float) -> tuple[Point, Point]:
 def moved(path: Path, angle: float, shift: Point, scale: float = 1.0) -> Path:
     """The path turned by `angle` radians about the origin, scaled, then shifted."""
     turn = scale * np.array(((cos(angle), sin(angle)), (-sin(angle), cos(angle))))
-    return Path.of(path.points @ turn + shift, path.centres @ turn + shift, path.turns, path.numbers)
+    return Path.of(path.points @ turn + shift, path.centers @ turn + shift, path.turns, path.numbers)
 
 
 def mirrored(path: Path) -> Path:
     """The path with x negated: arcs turn the other way, left becomes right."""
     flip = np.array((-1.0, 1.0))
-    return Path.of(path.points * flip, path.centres * flip, -path.turns, path.numbers)
+    return Path.of(path.points * flip, path.centers * flip, -path.turns, path.numbers)
 
 
 COORDINATES = st.one_of(st.integers(-5, 5).map(float), st.floats(-5.0, 5.0).map(lambda value: round(value, 3)))

@@ -1,4 +1,4 @@
-"""How deep a gouge is where the centre itself is behind the surface, and which moves are told to be there."""
+"""How deep a gouge is where the center itself is behind the surface, and which moves are told to be there."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ PLATE = square(40.0)
 
 @pytest.mark.parametrize(("end", "inside"), [((50, 1), 0.29357798), ((44, 0.6), 0.30353430), ((60, 4), 1.68888889)])
 def test_a_move_through_a_corner_of_a_plate(end: tuple[float, float], inside: float) -> None:
-    """Its ends and its middle are beside the plate, its centre is inside by less than the radius."""
+    """Its ends and its middle are beside the plate, its center is inside by less than the radius."""
     for verdict in on_all_roads(PLATE, Side.RIGHT, 3.0, lines((-1, -2.5), end)):
         assert verdict.wrong_side == (0,)
         assert verdict.depth == pytest.approx(3.0 + inside, abs=1e-6)
@@ -59,7 +59,7 @@ def test_a_path_wholly_inside_a_part_gouges_no_wall_and_is_on_the_wrong_side() -
 
 
 def test_a_cutter_of_no_radius_is_told_where_it_is_behind_the_surface() -> None:
-    """Without a radius nothing gouges, and the centre may run on the surface itself."""
+    """Without a radius nothing gouges, and the center may run on the surface itself."""
     clean = judge(PLATE, Side.RIGHT, 0.0, PLATE)
     assert clean.clean
     for radius in (0.0, 1e-6, 1e-5):

@@ -51,10 +51,10 @@ def smooth(random: Random) -> Path:
             pieces.append(Line(place, end))
         else:
             angle = random.choice((0.01, 0.5, pi / 2.0, 2.5, pi, 3.3))
-            centre = _ahead(place, heading + turn * pi / 2.0, radius)
+            center = _ahead(place, heading + turn * pi / 2.0, radius)
             heading += turn * angle
-            end = _ahead(centre, heading - turn * pi / 2.0, radius)
-            pieces.append(Arc(place, end, centre, turn))
+            end = _ahead(center, heading - turn * pi / 2.0, radius)
+            pieces.append(Arc(place, end, center, turn))
         place = end
     return Path.from_pieces(pieces)
 
@@ -107,7 +107,7 @@ def test_what_is_proved_is_no_nearer_than_the_radius(seed: int) -> None:
 
 
 def test_an_own_piece_that_begins_and_ends_within_what_is_granted_reaches_its_whole_wall() -> None:
-    """Where it reaches all but a nanometre, the end of the reach would be another piece's, and settled by that."""
+    """Where it reaches all but a nanometer, the end of the reach would be another piece's, and settled by that."""
     surface = Path.from_pieces([Line((0.0, 0.0), (4.0, 0.0)), Arc((4.0, 0.0), (8.0, 4.0), (4.0, 4.0), Turn.CCW)])
     late, early = 5e-10, 4.0 - 5e-10
     up, along = 3.0 * sin(late / 4.0), 3.0 * cos(late / 4.0)
@@ -196,9 +196,9 @@ def test_a_verdict_is_that_of_measuring_every_pair(seed: int, monkeypatch: pytes
         shaken = path.points + Random(seed).choice((1e-9, 1e-8, 1e-6, 1e-3)) * np.random.default_rng(seed).normal(
             size=path.points.shape
         )
-        both_ways(monkeypatch, surface, side, radius, Path.of(shaken, path.centres, path.turns, path.numbers))
+        both_ways(monkeypatch, surface, side, radius, Path.of(shaken, path.centers, path.turns, path.numbers))
         wrong = np.random.default_rng(seed).permutation(path.numbers)
-        both_ways(monkeypatch, surface, side, radius, Path.of(path.points, path.centres, path.turns, wrong))
+        both_ways(monkeypatch, surface, side, radius, Path.of(path.points, path.centers, path.turns, wrong))
         both_ways(monkeypatch, surface, side, radius, path.reversed())
 
 
@@ -209,7 +209,7 @@ def test_spoiled_paths_are_judged_alike_with_the_numbers_they_had(monkeypatch: p
         for mutation in MUTATIONS:
             path = mutation(random, case).path()
             if len(path) == len(right):
-                path = Path.of(path.points, path.centres, path.turns, right.numbers)
+                path = Path.of(path.points, path.centers, path.turns, right.numbers)
                 both_ways(monkeypatch, case.surface, case.side, case.radius, path)
 
 

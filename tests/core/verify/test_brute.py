@@ -13,7 +13,7 @@ from random import Random
 import numpy as np
 import pytest
 
-from core.comp.best import best_path
+from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Turn
@@ -78,7 +78,7 @@ def waves(random: Random) -> Path:
 
 
 def rounds(random: Random) -> Path:
-    """A full circle, or big arcs about one centre that follow each other, in and out."""
+    """A full circle, or big arcs about one center that follow each other, in and out."""
     if random.random() < 0.4:
         return circle((random.uniform(-2, 2), 1.0), random.choice((0.4, 0.5, 2.0)), random.choice((Turn.CW, Turn.CCW)))
     pieces, radius, angle = [], 2.0, 0.0
@@ -93,7 +93,7 @@ def rounds(random: Random) -> Path:
 FAMILIES: tuple[Callable[[Random], Path], ...] = (wander, convex, walls, spiral, waves, rounds)
 
 
-def centres(random: Random, surface: Path) -> Iterator[tuple[Side, float, Path]]:
+def centers(random: Random, surface: Path) -> Iterator[tuple[Side, float, Path]]:
     """Paths beside a surface: the control's, the best one's loops, of another radius, spoiled a little or much."""
     side, radius = random.choice(list(Side)), random.choice((0.1, 0.5, 0.5, 1.3))
     closed = bool(np.hypot(*(surface.points[0] - surface.points[-1])) < 1e-6)
@@ -123,7 +123,7 @@ def compared(family: Callable[[Random], Path], seed: int, contours: int) -> int:
     random, count = Random(f"{family.__name__} {seed}"), 0
     for _ in range(contours):
         surface = family(random)
-        for side, radius, path in centres(random, surface):
+        for side, radius, path in centers(random, surface):
             if len(path):
                 agree(surface, side, radius, path)
                 count += 1

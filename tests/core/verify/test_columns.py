@@ -1,4 +1,4 @@
-"""Distances to arcs are right however large they are: a tiny cutter at the end of a short arc of kilometres' radius."""
+"""Distances to arcs are right however large they are: a tiny cutter at the end of a short arc of kilometers' radius."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def test_the_depth_beside_the_end_of_a_flat_arc(radius: float, half: float, shor
     for side, around in ((Side.LEFT, 0.0), (Side.LEFT, pi / 3.0)):
         turned = [moved(piece, around, (0.0, 0.0)) for piece in (surface, path)]
         told = judge(turned[0], side, 2e-3, turned[1])
-        # the last digit of the centre's coordinates is what doubles allow
+        # the last digit of the center's coordinates is what doubles allow
         assert told.clearance == pytest.approx(apart, abs=1e-8)
         assert told.depth == pytest.approx(2e-3 - apart, abs=1e-8)
 
@@ -50,7 +50,7 @@ def test_a_short_arc_is_not_met_on_the_other_side_of_its_circle(sweep: float) ->
 @pytest.mark.parametrize("turn", [Turn.CCW, Turn.CW])
 @pytest.mark.parametrize("start", [0.0, 1.0, -pi / 2.0])
 def test_a_full_circle_keeps_to_the_wall_around_it(turn: Turn, start: float) -> None:
-    """Its middle is opposite its start, not in its centre, where nothing touches."""
+    """Its middle is opposite its start, not in its center, where nothing touches."""
     ring, path = (
         Path.from_pieces([Arc(point, point, (0.0, 0.0), turn)])
         for point in ((cos(start), sin(start)), (0.75 * cos(start), 0.75 * sin(start)))
@@ -61,7 +61,7 @@ def test_a_full_circle_keeps_to_the_wall_around_it(turn: Turn, start: float) -> 
 
 @pytest.mark.parametrize("first", [Turn.CCW, Turn.CW])
 @pytest.mark.parametrize("last", [Turn.CCW, Turn.CW])
-def test_arcs_about_one_centre_are_near_only_where_they_are_side_by_side(first: Turn, last: Turn) -> None:
+def test_arcs_about_one_center_are_near_only_where_they_are_side_by_side(first: Turn, last: Turn) -> None:
     outer = _arc(12.0, pi, 1.5 * pi, last)
     for begin, apart in ((0.0, hypot(10.0, 12.0)), (0.9 * pi, 2.0), (1.1 * pi, 2.0)):
         surface = _arc(10.0, begin, begin + 0.5 * pi, first)
@@ -81,7 +81,7 @@ def _arc(radius: float, begin: float, end: float, turn: Turn) -> Path:
     st.sampled_from(list(Turn)[::2]),
     st.floats(0.0, 1e5),
 )
-def test_what_is_inside_an_arc_is_ahead_of_its_centre(
+def test_what_is_inside_an_arc_is_ahead_of_its_center(
     sweep: float, begin: float, radius: float, turn: Turn, far: float
 ) -> None:
     """The look at the middle, which is left out but for THIN arcs, would leave out no direction of any other arc."""

@@ -73,7 +73,7 @@ def test_a_curve_of_many_small_arcs_does_not_cross_itself() -> None:
 
 
 def _about(a: Point, b: Point) -> Point:
-    """A centre two chords to the left of the chord's middle."""
+    """A center two chords to the left of the chord's middle."""
     return (a[0] + b[0]) / 2 - 2 * (b[1] - a[1]), (a[1] + b[1]) / 2 + 2 * (b[0] - a[0])
 
 

@@ -39,8 +39,8 @@ def inside(surface: Path) -> Path:
     return compensate(surface, Side.LEFT, RADIUS, 1, closed=True).path
 
 
-def uncut(surface: Path, centre: Path, radius: float = RADIUS) -> UncutStretches:
-    return judge(surface, Side.LEFT, radius, centre).uncut
+def uncut(surface: Path, center: Path, radius: float = RADIUS) -> UncutStretches:
+    return judge(surface, Side.LEFT, radius, center).uncut
 
 
 def thickness(count: int) -> float:
@@ -97,11 +97,11 @@ def odd_outlines() -> list[tuple[Path, Path]]:
     ]
 
 
-@pytest.mark.parametrize(("surface", "centre"), odd_outlines())
-def test_the_bound_proves_what_the_search_finds(surface: Path, centre: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    short = uncut(surface, centre)
+@pytest.mark.parametrize(("surface", "center"), odd_outlines())
+def test_the_bound_proves_what_the_search_finds(surface: Path, center: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    short = uncut(surface, center)
     monkeypatch.setattr(gaps, "_proved", lambda _pairs, _near, bound, _radius: np.zeros(len(bound.apart), np.bool_))
-    searched = uncut(surface, centre)
+    searched = uncut(surface, center)
     assert len(short) == len(searched) > 0
     for one, other in zip(short, searched, strict=True):
         assert one.thickness == pytest.approx(other.thickness, abs=2e-8)
@@ -195,7 +195,7 @@ def test_nothing_is_told_thicker_than_it_is_where_rounded_coordinates_make_arcs_
             path = compensate(surface, Side.LEFT, 1.5, 20, closed=False).path
             if not len(path):
                 continue
-            rounded = Path.of(np.round(path.points, 3), np.round(path.centres, 3), path.turns, path.numbers)
+            rounded = Path.of(np.round(path.points, 3), np.round(path.centers, 3), path.turns, path.numbers)
             for stretch in uncut(surface, rounded, 1.5):
                 told += 1
                 apart = oracle.apart(np.array([stretch.thickest]), rounded)[0]

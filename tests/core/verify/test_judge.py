@@ -179,12 +179,12 @@ def test_without_a_surface_there_is_nothing_to_judge() -> None:
 
 @pytest.mark.parametrize("bad", [nan, inf, -inf, 1e300, 1e8])
 def test_what_is_no_length_is_never_clean(bad: float) -> None:
-    for surface, radius, centre in (
+    for surface, radius, center in (
         (lines((0, 0), (bad, 0)), R, MID_SIDE_PATH),
         (square(), R, lines((1, 1), (1, bad))),
         (square(), bad, MID_SIDE_PATH),
     ):
-        verdict = judge(surface, Side.LEFT, radius, centre)
+        verdict = judge(surface, Side.LEFT, radius, center)
         assert not verdict.judged
         assert not verdict.clean
         assert isnan(verdict.clearance)
@@ -228,10 +228,10 @@ def test_far_from_the_origin_rounding_is_still_rounding() -> None:
 
 
 def test_many_paths_over_one_surface_are_judged_as_each_alone() -> None:
-    centres = (MID_SIDE_PATH, EMPTY, lines((0, 0), (1, nan)), MID_SIDE_PATH, lines((1, 0.1), (1.5, 0.1)))
-    together = rulings(MID_SIDE, Side.LEFT, R, centres)
-    for ruling, centre in zip(together, centres, strict=True):
-        alone, verdict = judge(MID_SIDE, Side.LEFT, R, centre), ruling.verdict
+    centers = (MID_SIDE_PATH, EMPTY, lines((0, 0), (1, nan)), MID_SIDE_PATH, lines((1, 0.1), (1.5, 0.1)))
+    together = rulings(MID_SIDE, Side.LEFT, R, centers)
+    for ruling, center in zip(together, centers, strict=True):
+        alone, verdict = judge(MID_SIDE, Side.LEFT, R, center), ruling.verdict
         assert ruling.clean == alone.clean == verdict.clean
         assert (verdict.gouges, verdict.uncut, verdict.judged) == (alone.gouges, alone.uncut, alone.judged)
     assert together[0] is together[3]

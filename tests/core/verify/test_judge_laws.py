@@ -25,16 +25,16 @@ def nasty_paths(draw: st.DrawFn) -> Path:
     count = draw(st.integers(0, 5))
     points = np.array([draw(st.tuples(NASTY, NASTY)) for _ in range(count + 1)])
     turns = np.array([draw(st.sampled_from((0, 0, 1, -1))) for _ in range(count)], np.int8)
-    centres = [
+    centers = [
         points[k] if not turns[k] or draw(st.booleans()) else (points[k] + points[k + 1]) / 2 for k in range(count)
     ]
-    return Path.of(points, np.array(centres).reshape(-1, 2), turns)
+    return Path.of(points, np.array(centers).reshape(-1, 2), turns)
 
 
 @settings(deadline=None, max_examples=200, derandomize=True)
 @given(nasty_paths(), nasty_paths(), st.sampled_from((0.0, 1e-7, 0.5, 1.0, 1e3, 1e7)), st.sampled_from(Side))
-def test_nothing_is_raised_whatever_the_paths(surface: Path, centre: Path, radius: float, side: Side) -> None:
-    verdict = judge(surface, side, radius, centre)
+def test_nothing_is_raised_whatever_the_paths(surface: Path, center: Path, radius: float, side: Side) -> None:
+    verdict = judge(surface, side, radius, center)
     assert verdict.judged != isnan(verdict.clearance)
     assert all(np.isfinite((gouge.depth, gouge.extent, *gouge.at, *gouge.surface_at)).all() for gouge in verdict.gouges)
     assert all(np.isfinite((stretch.length, *stretch.start, *stretch.end)).all() for stretch in verdict.uncut)
@@ -56,53 +56,53 @@ STEP = 4e-3
 
 @settings(deadline=None, max_examples=60, derandomize=True)
 @given(paths(), paths(), st.sampled_from((0.1, 0.5, 1.0, 2.5)))
-def test_dense_points_say_the_same(surface: Path, centre: Path, radius: float) -> None:
-    verdict = judge(surface, Side.LEFT, radius, centre)
-    least = oracle.least(centre, surface, STEP)
+def test_dense_points_say_the_same(surface: Path, center: Path, radius: float) -> None:
+    verdict = judge(surface, Side.LEFT, radius, center)
+    least = oracle.least(center, surface, STEP)
     assert least - STEP / 2 - 1e-9 < verdict.clearance < least + 1e-9
-    steps = 4.0 * STEP * len(centre) * len(surface)
+    steps = 4.0 * STEP * len(center) * len(surface)
     gouged = sum(gouge.extent for gouge in verdict.gouges)
-    least, most = (oracle.length_near(centre, surface, radius - GOUGE + hair, STEP) for hair in (-1e-8, 1e-8))
+    least, most = (oracle.length_near(center, surface, radius - GOUGE + hair, STEP) for hair in (-1e-8, 1e-8))
     assert least - steps <= gouged <= most + steps
     cut = verdict.surface_length - verdict.uncut_length
-    least, most = (oracle.length_near(surface, centre, radius + hair, STEP) for hair in (-1e-8, 1e-8))
+    least, most = (oracle.length_near(surface, center, radius + hair, STEP) for hair in (-1e-8, 1e-8))
     assert least - steps <= cut <= most + steps
     points, _ = oracle.samples(surface, STEP)
-    thickest = max(0.0, float(oracle.apart(points, centre).max()) - radius)
+    thickest = max(0.0, float(oracle.apart(points, center).max()) - radius)
     told = max((stretch.thickness for stretch in verdict.uncut), default=0.0)
     assert thickest - 1e-6 < told < thickest + STEP
 
 
 @settings(deadline=None, max_examples=60, derandomize=True)
 @given(paths(), paths(), st.sampled_from((0.1, 0.5, 1.0, 2.5)))
-def test_every_place_told_is_as_far_as_told(surface: Path, centre: Path, radius: float) -> None:
-    verdict = judge(surface, Side.LEFT, radius, centre)
+def test_every_place_told_is_as_far_as_told(surface: Path, center: Path, radius: float) -> None:
+    verdict = judge(surface, Side.LEFT, radius, center)
     for gouge in verdict.gouges:
         (apart,) = oracle.apart(np.array([gouge.at]), surface)
         # where all of the cutter is behind the surface, the gouge ends short of the radius by what is no gouge
         behind = gouge.depth > radius
         assert abs(radius - gouge.depth) == pytest.approx(apart, abs=2e-6 if behind else 1e-9)
         assert np.hypot(*np.subtract(gouge.at, gouge.surface_at)) == pytest.approx(apart, abs=1e-9)
-        (on_piece,) = oracle.apart(np.array([gouge.at]), centre.part(gouge.path_piece, gouge.path_piece + 1))
+        (on_piece,) = oracle.apart(np.array([gouge.at]), center.part(gouge.path_piece, gouge.path_piece + 1))
         assert on_piece < 1e-9
     for stretch in verdict.uncut:
-        (apart,) = oracle.apart(np.array([stretch.thickest]), centre)
+        (apart,) = oracle.apart(np.array([stretch.thickest]), center)
         assert radius + stretch.thickness == pytest.approx(apart, abs=1e-7)
 
 
 @settings(deadline=None, max_examples=60, derandomize=True)
 @given(paths(), paths(), st.sampled_from((0.1, 1.0)), st.floats(-3.0, 3.0), st.sampled_from((0.5, 25.4)))
-def test_motion_changes_nothing(surface: Path, centre: Path, radius: float, angle: float, scale: float) -> None:
-    verdict = judge(surface, Side.LEFT, radius, centre)
-    there = [moved(path, angle, (30.0, -7.0), scale) for path in (surface, centre)]
+def test_motion_changes_nothing(surface: Path, center: Path, radius: float, angle: float, scale: float) -> None:
+    verdict = judge(surface, Side.LEFT, radius, center)
+    there = [moved(path, angle, (30.0, -7.0), scale) for path in (surface, center)]
     other = judge(there[0], Side.LEFT, radius * scale, there[1])
     assert other.clearance == pytest.approx(verdict.clearance * scale, abs=1e-6)
     assert other.depth == pytest.approx(verdict.depth * scale, abs=1e-5)
     assert other.uncut_length == pytest.approx(verdict.uncut_length * scale, abs=1e-2)
-    flipped = judge(mirrored(surface), Side.RIGHT, radius, mirrored(centre))
+    flipped = judge(mirrored(surface), Side.RIGHT, radius, mirrored(center))
     assert flipped.clean == verdict.clean
     assert flipped.wrong_side == verdict.wrong_side
-    back = judge(surface.reversed(), Side.RIGHT, radius, centre)
+    back = judge(surface.reversed(), Side.RIGHT, radius, center)
     assert back.depth == pytest.approx(verdict.depth, abs=1e-7)
     assert back.uncut_length == pytest.approx(verdict.uncut_length, abs=1e-4)
     assert back.wrong_side == verdict.wrong_side

@@ -1,4 +1,4 @@
-"""Where a centre path comes nearest to the surface."""
+"""Where a center path comes nearest to the surface."""
 
 from math import inf, nan
 
@@ -13,8 +13,8 @@ from core.verify.nearest import nearest
 WALLS = Path.from_pieces([Line((0, 0), (10, 0)), Line((10, 0), (10, 10))])
 
 
-def asked(surface, centres, radius=1.0):
-    return nearest(surface, centres, judge_together(surface, Side.LEFT, radius, centres).clearance)
+def asked(surface, centers, radius=1.0):
+    return nearest(surface, centers, judge_together(surface, Side.LEFT, radius, centers).clearance)
 
 
 def test_a_path_beside_a_corner_is_nearest_where_it_begins():

@@ -60,7 +60,7 @@ ODD = (1e7, -1e7, 9.9e6, 1e6, 1e-7, 1e-9, 1e-10, 1e-160, 5e-324, 0.0)
 
 
 def _odd_path(random: np.random.Generator) -> Path:
-    """Pieces of any size at all: points upon points, arcs about their own ends or from kilometres away."""
+    """Pieces of any size at all: points upon points, arcs about their own ends or from kilometers away."""
     count, size = int(random.integers(1, 8)), 10.0 ** float(random.integers(-9, 7))
     points = random.integers(-4, 5, (count + 1, 2)) * (size if random.random() < 0.5 else 10.0)
     odd = np.flatnonzero(random.random(points.size) < 0.05)
@@ -70,15 +70,15 @@ def _odd_path(random: np.random.Generator) -> Path:
     turns = random.choice((0, 0, 1, -1), count)
     span = points[1:] - points[:-1]
     aside = np.stack((-span[:, 1], span[:, 0]), axis=1) * 10.0 ** random.integers(-9, 6, (count, 1))
-    centres = (points[:-1] + points[1:]) / 2.0 + aside * random.choice((-1.0, 0.0, 1.0), (count, 1))
+    centers = (points[:-1] + points[1:]) / 2.0 + aside * random.choice((-1.0, 0.0, 1.0), (count, 1))
     own = random.random(count) < 0.1
-    centres[own] = points[1:][own]
-    return Path.of(points, np.where(turns[:, None] == 0, points[:-1], centres), turns.astype(np.int8))
+    centers[own] = points[1:][own]
+    return Path.of(points, np.where(turns[:, None] == 0, points[:-1], centers), turns.astype(np.int8))
 
 
 def _places(path: Path) -> NDArray[np.float64]:
     """(17 n, 2) points on pieces; of an arc whose radii differ they are between both."""
-    share, radial = np.linspace(0.0, 1.0, 17)[:, None, None], path.starts - path.centres
+    share, radial = np.linspace(0.0, 1.0, 17)[:, None, None], path.starts - path.centers
     angle = share[..., 0] * path.sweeps
     turned = np.stack(
         (
@@ -88,27 +88,27 @@ def _places(path: Path) -> NDArray[np.float64]:
         axis=2,
     )
     straight = path.starts + share * (path.ends - path.starts)
-    return np.where(path.turns[:, None] == 0, straight, path.centres + turned).reshape(-1, 2)
+    return np.where(path.turns[:, None] == 0, straight, path.centers + turned).reshape(-1, 2)
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_of_any_path_at_all_no_finding_goes_by_a_number_that_is_none(seed: int) -> None:
     random, judged, gouged = np.random.default_rng(seed), 0, 0
     for _ in range(120):
-        surface, centre = _odd_path(random), _odd_path(random)
+        surface, center = _odd_path(random), _odd_path(random)
         radius = float(10.0 ** random.uniform(-6.0, 6.0))
-        verdict = judge(surface, Side.LEFT, radius, centre)
-        assert rulings(surface, Side.LEFT, radius, [centre])[0].clean == verdict.clean
-        stray(surface, radius, centre)
+        verdict = judge(surface, Side.LEFT, radius, center)
+        assert rulings(surface, Side.LEFT, radius, [center])[0].clean == verdict.clean
+        stray(surface, radius, center)
         if not verdict.judged:
             continue
         judged += 1
         told = [number for one in verdict.gouges for number in (one.depth, *one.at, *one.surface_at, one.extent)]
         told += [number for one in verdict.uncut for number in (one.length, one.thickness, *one.thickest)]
         assert np.isfinite([verdict.clearance, verdict.surface_length, *told]).all()
-        one, other = _places(surface), _places(centre)
+        one, other = _places(surface), _places(center)
         least = np.hypot(*(one[:, None] - other).transpose(2, 0, 1)).min()
-        # an uneven arc's radii, and the last digits of ten kilometres
+        # an uneven arc's radii, and the last digits of ten kilometers
         assert verdict.clearance <= least + 0.006
         gouged += least < radius - 0.01
         assert verdict.depth >= radius - least - 0.01
@@ -117,13 +117,13 @@ def test_of_any_path_at_all_no_finding_goes_by_a_number_that_is_none(seed: int) 
 
 
 @pytest.mark.parametrize("bad", [nan, np.inf, -np.inf, 1e300, 1.1e7])
-@pytest.mark.parametrize("where", ["points", "centres"])
+@pytest.mark.parametrize("where", ["points", "centers"])
 def test_no_number_is_let_in_anywhere(bad: float, where: str) -> None:
     for row in range(2):
         for axis in range(2):
-            arrays = {"points": DEEP.points.copy(), "centres": DEEP.centres.copy()}
+            arrays = {"points": DEEP.points.copy(), "centers": DEEP.centers.copy()}
             arrays[where][row, axis] = bad
-            path = Path.of(arrays["points"], arrays["centres"], DEEP.turns)
+            path = Path.of(arrays["points"], arrays["centers"], DEEP.turns)
             assert not judgeable(1.0, WALL, path)
             assert not judge(WALL, Side.LEFT, 1.0, path).judged
             assert not judging.judge_together(path, Side.LEFT, 1.0, [WALL, DEEP]).judged

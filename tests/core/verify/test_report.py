@@ -69,7 +69,7 @@ def test_a_move_is_named_by_what_it_is() -> None:
 
 def test_without_the_path_a_half_number_is_a_corner_s() -> None:
     path = lines((0, 1), (5, 0.5), (10, 1))
-    half = type(path).of(path.points, path.centres, path.turns, path.numbers + 0.5)
+    half = type(path).of(path.points, path.centers, path.turns, path.numbers + 0.5)
     (gouge,) = findings(judge(WALL, Side.LEFT, 1.0, half), WALL)
     assert gouge.text.startswith("The path at the corner after segment 1 gouges segment 1")
 

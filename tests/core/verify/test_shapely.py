@@ -15,7 +15,7 @@ from tests.core.verify.mutants import MUTATIONS
 from tests.core.verify.roads import ROADS
 
 CLEAR = 1e-3
-"""Millimetres of gouge or stock from which buffers can be trusted to show it."""
+"""Millimeters of gouge or stock from which buffers can be trusted to show it."""
 
 
 def material(case: Case) -> BaseGeometry | None:

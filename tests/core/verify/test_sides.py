@@ -61,11 +61,11 @@ def test_moves_away_from_a_closed_outline_are_on_the_side_of_the_path_they_belon
             continue
         far = [(x + random.gauss(0.0, 2.0), y + random.gauss(0.0, 2.0)) for x, y in path.points[[0, -1]].tolist()]
         moves = [*lines(far[0], tuple(path.points[0])), *path, *lines(tuple(path.points[-1]), far[1])]
-        centre = Path.from_pieces(moves)
+        center = Path.from_pieces(moves)
         for told in Side:
             with patch.object(module, "NARROW", np.inf):
-                asked = judge(outline, told, radius, centre).wrong_side
-            assert judge(outline, told, radius, centre).wrong_side == asked
+                asked = judge(outline, told, radius, center).wrong_side
+            assert judge(outline, told, radius, center).wrong_side == asked
 
 
 HOOK = Path.from_pieces([Line((0, 0), (10, 0)), Arc((10, 0), (10, 4), (10, 2), Turn.CCW), Line((10, 4), (3, 4))])

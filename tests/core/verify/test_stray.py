@@ -1,4 +1,4 @@
-"""Stretches away from the part and pieces travelled backwards, on paths small enough to check by hand."""
+"""Stretches away from the part and pieces traveled backwards, on paths small enough to check by hand."""
 
 from __future__ import annotations
 

@@ -17,10 +17,10 @@ FAR = (-30.0, 40.0)
 QUARTER = radians(90)
 
 
-def near(curve: Curve | None, point: Point, centre: Point, turn: int) -> bool:
+def near(curve: Curve | None, point: Point, center: Point, turn: int) -> bool:
     assert curve is not None
-    told = (*curve.point, *curve.centre, curve.turn)
-    return told == pytest.approx((*point, *centre, turn), abs=1e-9)
+    told = (*curve.point, *curve.center, curve.turn)
+    return told == pytest.approx((*point, *center, turn), abs=1e-9)
 
 
 @pytest.mark.parametrize("hand", [1, -1])
@@ -36,7 +36,7 @@ def test_ln_begins_beside_the_contour_on_the_tools_side(hand: int, y: float) -> 
 
 
 @pytest.mark.parametrize(
-    ("hand", "radius", "point", "centre", "turn"),
+    ("hand", "radius", "point", "center", "turn"),
     [
         (1, 8, (-8, 8), (0, 8), 1),
         (1, -8, (-8, -8), (0, -8), -1),
@@ -44,10 +44,10 @@ def test_ln_begins_beside_the_contour_on_the_tools_side(hand: int, y: float) -> 
         (-1, -8, (-8, 8), (0, 8), 1),
     ],
 )
-def test_ct_by_side_and_sign_of_r(hand: int, radius: float, point: Point, centre: Point, turn: int) -> None:
+def test_ct_by_side_and_sign_of_r(hand: int, radius: float, point: Point, center: Point, turn: int) -> None:
     lead = Lead(Form.CT, radius=radius, angle=QUARTER)
-    assert near(approach(lead, FAR, HERE, EAST, hand), point, centre, turn)
-    assert near(departure(lead, HERE, FAR, EAST, hand), (-point[0], point[1]), centre, turn)
+    assert near(approach(lead, FAR, HERE, EAST, hand), point, center, turn)
+    assert near(departure(lead, HERE, FAR, EAST, hand), (-point[0], point[1]), center, turn)
 
 
 def test_ct_over_a_full_turn_begins_exactly_where_it_ends() -> None:
@@ -59,7 +59,7 @@ def test_ct_over_a_full_turn_begins_exactly_where_it_ends() -> None:
 
 @pytest.mark.parametrize(("hand", "y"), [(1, 10), (-1, -10)])
 def test_lct_from_straight_behind_its_circle(hand: int, y: float) -> None:
-    # Seen from the centre (0, y) the start lies 10 sqrt 2 away at 180 degrees, so that PH is 45 degrees on.
+    # Seen from the center (0, y) the start lies 10 sqrt 2 away at 180 degrees, so that PH is 45 degrees on.
     start = (-10 * sqrt(2), y)
     point = (-10 * cos(pi / 4), y - hand * 10 * sin(pi / 4))
     assert near(approach(Lead(Form.LCT, radius=10), start, HERE, EAST, hand), point, (0, y), hand)
@@ -99,7 +99,7 @@ def test_an_lct_is_smooth_wherever_it_starts(x: float, y: float, heading: float,
     assume(curve is not None)
     assert curve is not None
     assume(curve.turn)
-    (px, py), (cx, cy) = curve.point, curve.centre
+    (px, py), (cx, cy) = curve.point, curve.center
     assert hypot(px - cx, py - cy) == pytest.approx(7.0)
     assert hypot(cx, cy) == pytest.approx(7.0)
     line, tangent = (px - x, py - y), (-curve.turn * (py - cy), curve.turn * (px - cx))

@@ -45,7 +45,7 @@ def mutated(text: bytes, random: Random) -> bytes:
 
 def sound(made: Run) -> bool:
     """Moves that are numbers, and findings that say where."""
-    finite = bool((abs(made.moves.points) < 1e9).all() and (abs(made.moves.centres) < 1e12).all())
+    finite = bool((abs(made.moves.points) < 1e9).all() and (abs(made.moves.centers) < 1e12).all())
     return finite and all(finding.line is not None for finding in made.findings)
 
 

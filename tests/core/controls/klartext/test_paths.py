@@ -117,7 +117,7 @@ def test_rounding_between_lines(second: str, want: list[tuple[float, ...]]) -> N
 
 
 def test_rounding_between_a_line_and_an_arc() -> None:
-    # A circle of radius 3 on the line y = 0 and inside the circle of radius 10 about (20, 0) has its centre 7 from it.
+    # A circle of radius 3 on the line y = 0 and inside the circle of radius 10 about (20, 0) has its center 7 from it.
     moves = told("L X+30", "RND R3", "CC X+20 Y+0", "C X+10 Y+0 DR+")
     foot = 20 + sqrt(40)
     touch = (20 + 10 * (foot - 20) / 7, 30 / 7)

@@ -6,14 +6,14 @@ from random import Random
 
 import pytest
 
-from core.controls import flow
+from core.controls.iso import flow
+from core.controls.iso.words import read_line
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, names, run
 from core.controls.report import Log, Run
 from core.controls.series import road
 from core.controls.series.words import plain_words
 from core.controls.tools import ToolTable
-from core.controls.words import read_line
 from core.units import Unit
 from tests.core.controls.klartext.test_mutations import mutated
 from tests.core.controls.programs import RADIUS, long, program
@@ -38,7 +38,7 @@ class Counted(road.Road):
 @pytest.fixture
 def counted(monkeypatch: pytest.MonkeyPatch) -> type[Counted]:
     """The lines that are run at once, counted from here on."""
-    monkeypatch.setattr("core.controls.runner.Road", Counted)
+    monkeypatch.setattr("core.controls.iso.runner.Road", Counted)
     Counted.at_once = 0
     return Counted
 
@@ -64,7 +64,7 @@ def done(text: bytes, control: str, tools: ToolTable) -> Run:
 
 
 def columns(moves: Moves) -> tuple[list[float], ...]:
-    every = (moves.points, moves.centres, moves.turns, moves.planes, moves.rapid, moves.feeds, moves.lines)
+    every = (moves.points, moves.centers, moves.turns, moves.planes, moves.rapid, moves.feeds, moves.lines)
     return tuple(column.tolist() for column in every)
 
 

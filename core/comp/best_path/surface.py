@@ -1,0 +1,209 @@
+"""The surface as the best path takes it: segments that have a length, arcs of one radius, closed, centerd."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import tau
+from typing import Final
+
+import numpy as np
+
+from core.comp import trouble
+from core.comp.best_path.tree import Tree, near_selves, piece_boxes, tree
+from core.finding import Finding
+from core.geometry.intersect import Indices, Masks, Meeting, Planes, coordinates, meet, planes
+from core.geometry.path import EMPTY, Floats, Path
+from core.geometry.planes import onward
+from core.tolerance import JOINED, ON_PATH
+
+_UNDER_HALF: Final = 3.1
+"""Radians, safely under half a turn."""
+
+_NOT_WHOLE: Final = 6.0
+"""Radians; an arc that turns through less ends well away from its start."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Surface:
+    """`path` is the surface moved by -`origin` (2,) so that it lies about (0, 0); empty when it is refused.
+
+    `walls` is the tree over its segments' boxes.
+    """
+
+    path: Path
+    walls: Tree
+    origin: Floats
+    findings: tuple[Finding, ...]
+
+
+def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
+    """The contour made fit to be offset, or why it cannot be.
+
+    Zero-length segments are dropped.  An arc whose radii differ (by less than ARC_RADII) is made one of one radius.
+    A closed contour's gap is bridged by a line of its last segment's number.
+    """
+    refused = trouble.refusal(contour, radius, ())
+    if refused:
+        return Surface(EMPTY, _walls(EMPTY), np.zeros(2), refused)
+    points = planes(contour.points)
+    kept = np.abs(points[1:] - points[:-1]) > JOINED
+    if not kept.all():
+        kept |= contour.lengths > JOINED
+    findings = tuple(trouble.zero_length(contour, (~kept).nonzero()[0]))
+    if not kept.all():
+        contour = _without(contour, kept)
+    if not len(contour):
+        return Surface(EMPTY, _walls(EMPTY), np.zeros(2), (*findings, *trouble.refusal(contour, radius, ())))
+    origin = (contour.points.min(axis=0) + contour.points.max(axis=0)) / 2.0
+    path = _even(Path.of(contour.points - origin, contour.centers - origin, contour.turns, contour.numbers))
+    path = _closed(path) if closed else path
+    return Surface(path, _walls(path), origin, findings)
+
+
+def _walls(path: Path) -> Tree:
+    points = planes(path.points)
+    return tree(piece_boxes(points[:-1], points[1:], planes(path.centers), path.turns, ON_PATH))
+
+
+def _without(contour: Path, kept: Masks) -> Path:
+    """The contour's kept segments: each starts where the one kept before it ends, full circles stay full."""
+    ends = contour.points[1:][kept]
+    whole = (contour.points[1:] == contour.points[:-1]).all(axis=1)[kept].nonzero()[0]
+    points = np.concatenate((contour.points[:1], ends))
+    for row in whole[::-1].tolist():
+        points[row] = points[row + 1]
+    return Path.of(points, contour.centers[kept], contour.turns[kept], contour.numbers[kept])
+
+
+def _even(path: Path) -> Path:
+    """The path with arcs of one radius each, nowhere farther from the given ones than their two radii are apart.
+
+    The center moves onto the chord's bisector.  Where it would move by more than that, which is where the chord is
+    shorter than the radius, an arc of more than half a turn is parted in its middle first, half way between its radii;
+    one of less keeps its ends and gets the radius between its two.
+    """
+    points, centers = planes(path.points), planes(path.centers)
+    start, end = points[:-1], points[1:]
+    off = np.abs(np.abs(start - centers) - np.abs(end - centers))
+    rows = ((path.turns != 0) & (off > ON_PATH)).nonzero()[0]
+    if not len(rows):
+        return path
+    start, end, center, turns = start[rows], end[rows], centers[rows], path.turns[rows]
+    chord = end - start
+    moved = -(chord.conj() * (center - (start + end) / 2.0)).real * chord / np.abs(chord) ** 2
+    far = np.abs(moved) > off[rows]
+    angle = np.mod(np.angle((end - center) * (start - center).conj()) * turns, tau)
+    large = far & (angle > tau / 2.0)
+    if large.any():
+        return _even(_parted_at(path, rows[large], angle[large]))
+    centers = centers.copy()
+    size = (np.abs(start - center) + np.abs(end - center)) / 2.0
+    bow = np.sqrt(np.maximum(size**2 - np.abs(chord / 2.0) ** 2, 0.0))
+    between = (start + end) / 2.0 + 1j * turns * bow * chord / np.abs(chord)
+    centers[rows] = np.where(far, between, center + moved)
+    return Path(path.points, coordinates(centers), path.turns, path.numbers)
+
+
+def _parted_at(path: Path, rows: Indices, angles: Floats) -> Path:
+    """The path with arcs `rows`, which turn through `angles`, in two halves that meet between their radii."""
+    points, center = planes(path.points), planes(path.centers)[rows]
+    arm, last = points[rows] - center, points[rows + 1] - center
+    size = (np.abs(arm) + np.abs(last)) / 2.0
+    middle = center + arm / np.abs(arm) * size * np.exp(0.5j * angles * path.turns[rows])
+    twice = np.sort(np.concatenate((np.arange(len(path)), rows)))
+    points = np.insert(points, rows + 1, middle)
+    return Path.of(coordinates(points), path.centers[twice], path.turns[twice], path.numbers[twice])
+
+
+def _closed(path: Path) -> Path:
+    """The path that ends exactly at its start."""
+    gap = float(np.abs(planes(path.points)[-1] - planes(path.points)[0]))
+    if gap <= JOINED:
+        points = path.points.copy()
+        points[-1] = points[0]
+        return Path(points, path.centers, path.turns, path.numbers)
+    return Path.of(
+        np.concatenate((path.points, path.points[:1])),
+        np.concatenate((path.centers, path.points[-1:])),
+        np.append(path.turns, 0).astype(np.int8),
+        np.append(path.numbers, path.numbers[-1]),
+    )
+
+
+def crosses_itself(surface: Surface, *, closed: bool) -> tuple[float, float] | None:
+    """The numbers of two segments that cross, touch or run along each other elsewhere than at their joint; or None.
+
+    A full circle among other segments touches its neighbors with both ends.
+    """
+    path = surface.path
+    circles = ((path.turns != 0) & (path.points[1:] == path.points[:-1]).all(axis=1)).nonzero()[0]
+    if len(circles) and len(path) > 1:
+        row = int(circles[0])
+        return float(path.numbers[row]), float(path.numbers[row - 1 if row else 1])
+    parted = _parted(path)
+    for i, j in near_selves(surface.walls, parted):
+        if closed and parted[-1]:
+            keep = j - i < len(path) - 1
+            i, j = i[keep], j[keep]
+        if not len(i):
+            continue
+        met = meet(path, i, path, j)
+        hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], planes(met.points))]
+        hit = np.concatenate((hit, (met.kinds == Meeting.OVERLAP).nonzero()[0]))
+        if len(hit):
+            return float(path.numbers[i[hit[0]]]), float(path.numbers[j[hit[0]]])
+    return None
+
+
+def _parted(path: Path) -> Masks:
+    """(n,) which pieces meet the next one, the last one the first, nowhere but at their joint.
+
+    It is so where the two together turn through less than half a turn.
+    """
+    first, last = tangents(path)
+    turned = np.abs(np.angle(last.conj() * onward(first)))
+    arcs = path.turns.nonzero()[0]
+    if len(arcs):
+        own = np.zeros(len(path))
+        own[arcs] = np.mod(np.angle(first[arcs].conj() * last[arcs]) * path.turns[arcs], tau)
+        own[arcs[first[arcs] == last[arcs]]] = tau
+        tangent = _tangent(path, own, turned)
+        turned += own + onward(own)
+        turned[tangent] = 0.0
+    parted: Masks = turned <= _UNDER_HALF
+    return parted
+
+
+def _tangent(path: Path, own: Floats, joint: Floats) -> Masks:
+    """Which arcs go on so smoothly in one of the other turn that their circles meet nowhere but at the joint.
+
+    The chord between the two points where circles meet is no longer than the smaller diameter times the angle there.
+    """
+    radii = np.abs(planes(path.points)[:-1] - planes(path.centers))
+    joined: Masks = 2.0 * np.minimum(radii, onward(radii)) * joint <= JOINED
+    joined &= path.turns * onward(path.turns) < 0
+    joined &= np.maximum(own, onward(own)) < _NOT_WHOLE
+    return joined
+
+
+def tangents(path: Path) -> tuple[Planes, Planes]:
+    """(n,) directions of travel at the starts and at the ends of all pieces, not of unit length."""
+    points, centers = planes(path.points), planes(path.centers)
+    chord = points[1:] - points[:-1]
+    arcs = path.turns.nonzero()[0]
+    if not len(arcs):
+        return chord, chord
+    first, last = chord.copy(), chord
+    across = 1j * path.turns[arcs]
+    first[arcs] = across * (points[arcs] - centers[arcs])
+    last[arcs] = across * (points[arcs + 1] - centers[arcs])
+    return first, last
+
+
+def _at_joint(path: Path, i: Indices, j: Indices, at: Planes) -> Masks:
+    """Which points are the joint of neighbors i and j, or of the last and the first of a closed path."""
+    points = planes(path.points)
+    near = (j - i == 1) & (np.abs(at - points[j]) <= JOINED)
+    around = (i == 0) & (j == len(path) - 1) & (np.abs(at - points[0]) <= JOINED) & (points[0] == points[-1])
+    joint: Masks = near | around
+    return joint

@@ -1,0 +1,209 @@
+"""Where two compensated elements meet: the corner points every control builds its own rules from.
+
+All of it lies in one plane.  An element's tool radius comes signed: positive with the tool on the left.  P is the
+programmed corner, E1 the point square to P on the tool's side at the end of the first element, E2 the same at the
+start of the second.  A corner is outside where the path turns away from the tool, inside where it turns to it.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from math import atan2, cos, hypot, pi, sin, sqrt, tan, tau
+from typing import Final, NamedTuple
+
+from core.geometry.piece import Point
+
+WHOLE: Final = 1e-9
+"""Radians below which two directions are one, and by which rounding may carry an arc past its end."""
+
+
+class Element(NamedTuple):
+    """A programmed line or arc in its plane, with what its control needs later.
+
+    Start, end and center (of a line its start), `turn` 0, +1 or -1, unit directions at start and end ((0, 0) for a
+    line without length); standing coordinates at both ends; feed in millimeters a minute, source line and column.
+    """
+
+    start: Point
+    end: Point
+    center: Point
+    turn: int
+    leaving: Point
+    arriving: Point
+    low: float
+    high: float
+    rapid: bool
+    feed: float
+    line: int
+    column: int
+
+    @property
+    def radius(self) -> float:
+        """Radius of an arc, at its start."""
+        return hypot(self.start[0] - self.center[0], self.start[1] - self.center[1])
+
+    @property
+    def moves(self) -> bool:
+        """Whether anything moves in the plane."""
+        return self.turn != 0 or self.start != self.end
+
+
+_element: Final = partial(tuple.__new__, Element)
+"""An element of twelve values at once: naming them takes longer than working them out."""
+
+
+def line_element(
+    start: Point, end: Point, low: float, high: float, rapid: bool, feed: float, line: int, column: int = 1
+) -> Element:  # fmt: skip
+    """A straight element."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    size = hypot(dx, dy)
+    way = (dx / size, dy / size) if size else (0.0, 0.0)
+    return _element((start, end, start, 0, way, way, low, high, rapid, feed, line, column))
+
+
+def arc_element(
+    start: Point, end: Point, center: Point, turn: int, low: float, high: float, feed: float, line: int, column: int = 1
+) -> Element:  # fmt: skip
+    """A circular element; equal ends are the full circle."""
+    leaving, arriving = tangent(start, center, turn), tangent(end, center, turn)
+    return _element((start, end, center, turn, leaving, arriving, low, high, False, feed, line, column))
+
+
+def tangent(at: Point, center: Point, turn: int) -> Point:
+    """Unit direction of travel at a point of an arc."""
+    dx, dy = at[0] - center[0], at[1] - center[1]
+    size = hypot(dx, dy) or 1.0
+    return -turn * dy / size, turn * dx / size
+
+
+def square(at: Point, way: Point, offset: float) -> Point:
+    """The point beside `at`, `offset` to the left of a direction."""
+    return at[0] - offset * way[1], at[1] + offset * way[0]
+
+
+def square_start(element: Element, offset: float) -> Point:
+    """E2: beside an element's start."""
+    return square(element.start, element.leaving, offset)
+
+
+def square_end(element: Element, offset: float) -> Point:
+    """E1: beside an element's end."""
+    return square(element.end, element.arriving, offset)
+
+
+def turning(first: Element, second: Element) -> float:
+    """The angle from the end of one element to the start of the next, radians, positive to the left."""
+    (ax, ay), (bx, by) = first.arriving, second.leaving
+    return atan2(ax * by - ay * bx, ax * bx + ay * by)
+
+
+def mitre(corner: Point, way: Point, angle: float, offset: float) -> Point:
+    """M: where the offsets of two straight directions meet outside the corner; `angle` as by `turning`."""
+    x, y = square(corner, way, offset)
+    reach = abs(offset) * tan(abs(angle) / 2)
+    return x + reach * way[0], y + reach * way[1]
+
+
+def beyond(at: Point, way: Point, distance: float) -> Point:
+    """The point `distance` further along a direction."""
+    return at[0] + distance * way[0], at[1] + distance * way[1]
+
+
+def offset_radius(element: Element, offset: float) -> float:
+    """Radius of an arc's offset; 0 or less where the tool is too large to run inside it."""
+    return element.radius - element.turn * offset
+
+
+def meeting(first: Element, second: Element, offset: float, other: float | None = None) -> Point | None:
+    """The inside corner: where the offsets of two elements meet, the meeting nearest to P; None if nowhere.
+
+    Lines count beyond their ends and arcs as whole circles: whether the point lies on what is left of the elements
+    is for the control to say.  `other` is the second element's offset where it is not the first one's.
+    """
+    points = meetings(first, second, offset, offset if other is None else other)
+    corner = first.end
+    return min(points, key=lambda at: hypot(at[0] - corner[0], at[1] - corner[1]), default=None)
+
+
+def meetings(first: Element, second: Element, offset: float, other: float) -> tuple[Point, ...]:
+    """Every meeting of the offsets of two elements, none where an inside arc has no offset."""
+    if not fits(first, offset) or not fits(second, other):
+        return ()
+    if not first.turn and not second.turn:
+        return _line_line(square_end(first, offset), first.arriving, square_start(second, other), second.leaving)
+    if not first.turn:
+        at = square_end(first, offset)
+        return _line_circle(at, first.arriving, second.center, offset_radius(second, other))
+    if not second.turn:
+        at = square_start(second, other)
+        return _line_circle(at, second.leaving, first.center, offset_radius(first, offset))
+    return _circle_circle(first.center, offset_radius(first, offset), second.center, offset_radius(second, other))
+
+
+def fits(element: Element, offset: float) -> bool:
+    """Whether the tool can run along an element at all: not inside an arc that is no larger than it."""
+    return not element.turn or offset_radius(element, offset) > 0.0
+
+
+def _line_line(at: Point, way: Point, other: Point, heading: Point) -> tuple[Point, ...]:
+    cross = way[0] * heading[1] - way[1] * heading[0]
+    if abs(cross) < WHOLE:
+        return ()
+    reach = ((other[0] - at[0]) * heading[1] - (other[1] - at[1]) * heading[0]) / cross
+    return (beyond(at, way, reach),)
+
+
+def _line_circle(at: Point, way: Point, center: Point, radius: float) -> tuple[Point, ...]:
+    dx, dy = center[0] - at[0], center[1] - at[1]
+    along, aside = dx * way[0] + dy * way[1], dy * way[0] - dx * way[1]
+    half = radius * radius - aside * aside
+    if half < 0.0:
+        return ()
+    return beyond(at, way, along - sqrt(half)), beyond(at, way, along + sqrt(half))
+
+
+def _circle_circle(first: Point, radius: float, second: Point, other: float) -> tuple[Point, ...]:
+    dx, dy = second[0] - first[0], second[1] - first[1]
+    apart = hypot(dx, dy)
+    if apart < WHOLE:
+        return ()
+    way = (dx / apart, dy / apart)
+    along = (apart * apart + radius * radius - other * other) / (2 * apart)
+    half = radius * radius - along * along
+    if half < 0.0:
+        return ()
+    foot = beyond(first, way, along)
+    return square(foot, way, sqrt(half)), square(foot, way, -sqrt(half))
+
+
+def sweep(start: Point, end: Point, center: Point, turn: int) -> float:
+    """The angle traveled from start to end, 0 <= sweep < a full turn; equal ends are 0."""
+    first = atan2(start[1] - center[1], start[0] - center[0])
+    last = atan2(end[1] - center[1], end[0] - center[0])
+    angle = (turn * (last - first)) % tau
+    return 0.0 if angle > tau - WHOLE else angle
+
+
+def element_sweep(element: Element) -> float:
+    """The angle an arc travels, a full turn for a full circle."""
+    return sweep(element.start, element.end, element.center, element.turn) or tau
+
+
+def runs_back(element: Element, start: Point, end: Point) -> bool:
+    """Does a compensated element from `start` to `end` run against the programmed one?
+
+    A line does when it points the other way; an arc when its trims have crossed, so that it would have to go nearly
+    all the way round: its sweep grows by more than half a turn.
+    """
+    if element.turn:
+        traveled = sweep(start, end, element.center, element.turn)
+        return traveled - element_sweep(element) > pi
+    way = element.leaving
+    return (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1] < -WHOLE
+
+
+def turned(at: Point, center: Point, angle: float) -> Point:
+    """A point turned about a center, counter-clockwise positive."""
+    dx, dy = at[0] - center[0], at[1] - center[1]
+    return center[0] + dx * cos(angle) - dy * sin(angle), center[1] + dx * sin(angle) + dy * cos(angle)

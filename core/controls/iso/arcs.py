@@ -1,0 +1,84 @@
+"""Arc centers out of I, J, K or R words, and what makes an arc impossible."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import hypot, sqrt
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.iso.dialect import Arcs
+from core.controls.moves import Plane, Point3
+from core.geometry.piece import Point
+from core.units import Unit
+
+THOUSANDTH: Final = 0.001
+"""Share of the radius up to which an arc's radii may differ whatever they are."""
+
+WHOLE_CHORD: Final = 1 - 1e-12
+"""Share of the diameter from which on a chord is one: rounding must not put the center beside it."""
+
+SHORTEST: Final = 0.00127
+"""Millimeters (0.00005 in): an arc's radius under it is none, and so far a radius R may fall short of its chord."""
+
+
+@dataclass(frozen=True, slots=True)
+class NoArc:
+    """Why there is no such arc; `{0}` and `{1}` in the text are `lengths` in millimeters."""
+
+    text: str
+    lengths: tuple[float, ...] = ()
+
+
+def about(start: Point, end: Point, center: Point, arcs: Arcs, unit: Unit) -> NoArc | None:
+    """What forbids an arc about a center, if anything: no radius, or two that differ."""
+    first = hypot(start[0] - center[0], start[1] - center[1])
+    last = hypot(end[0] - center[0], end[1] - center[1])
+    if min(first, last) < SHORTEST:
+        return NoArc("The arc has no radius: its center is its start or its end; correct the center.")
+    apart = abs(first - last)
+    allowed = arcs.allowed(unit)
+    if apart > allowed * arcs.worst or (apart > allowed and apart > THOUSANDTH * max(first, last)):
+        text = "The arc's radius is {0} at its start and {1} at its end; correct the center or the end point."
+        return NoArc(text, (first, last))
+    return None
+
+
+def through(start: Point, end: Point, radius: float, turn: int) -> Point | NoArc:
+    """The center of an arc of a radius, up to half a turn; beyond it where the radius is negative."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    chord, size = hypot(dx, dy), abs(radius)
+    if chord == 0.0:
+        return NoArc("An arc with R cannot end where it starts; write the full circle with its center.")
+    if chord / 2 - size > SHORTEST or size == 0.0:
+        return NoArc("The radius {0} does not reach the end point {1} away; correct R.", (size, chord))
+    away = sqrt(max(size * size - chord * chord / 4, 0.0)) * turn * (1 if radius > 0 else -1)
+    if chord / 2 / size > WHOLE_CHORD:
+        away = 0.0
+    return (start[0] + end[0]) / 2 - away * dy / chord, (start[1] + end[1]) / 2 + away * dx / chord
+
+
+IN_PLANE: Final[Mapping[Plane, tuple[str, str, str]]] = MappingProxyType(
+    {Plane.XY: ("I", "J", "K"), Plane.ZX: ("K", "I", "J"), Plane.YZ: ("J", "K", "I")}
+)
+"""The letters of a center's first, second and standing coordinate."""
+
+
+def given_center(
+    words: Mapping[str, float], plane: Plane, start: Point, scale: float, origin: Point3 | None
+) -> Point | NoArc:  # fmt: skip
+    """The center out of I, J, K: from the arc's start, or from an origin (in plane coordinates) where there is one."""
+    first, second, standing = IN_PLANE[plane]
+    if "R" in words:
+        return NoArc("The arc has R beside its center; keep one of them.")
+    if standing in words:
+        return NoArc(f"{standing} does not lie in the arc's plane; write {first} and {second}.")
+    if first not in words and second not in words:
+        return NoArc(f"The arc has neither center nor radius; write {first} and {second}, or R.")
+    if origin is None:
+        return start[0] + words.get(first, 0.0) * scale, start[1] + words.get(second, 0.0) * scale
+    for letter in (first, second):
+        if letter not in words:
+            return NoArc(f"{letter} is missing; an absolute center needs {first} and {second}.")
+    return origin[0] + words[first] * scale, origin[1] + words[second] * scale

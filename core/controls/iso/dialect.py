@@ -1,0 +1,143 @@
+"""Dialects: what the G and M codes of a word-address control are, as frozen data.
+
+Codes are in tenths (G41.1 is 411).  A group holds the codes of which a block takes one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import Enum, auto
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.iso.parameters import Kept
+from core.controls.iso.words import PLAIN, Syntax
+from core.units import Unit
+
+
+class Do(Enum):
+    """What a G code makes the machine do."""
+
+    MOTION = auto()
+    CYCLE = auto()
+    PLANE = auto()
+    UNITS = auto()
+    SIDE = auto()
+    DISTANCE = auto()
+    CENTERS = auto()
+    SYSTEM = auto()
+    SHIFT = auto()
+    PRESET = auto()
+    UNSHIFT = auto()
+    HOME = auto()
+    MACHINE = auto()
+    DWELL = auto()
+    RATE = auto()
+    SPINDLE = auto()
+    RETRACT = auto()
+    MODE = auto()
+    DATA = auto()
+    BEYOND = auto()
+    """A code that the control has and that is not followed here: the run stops."""
+    OWN = auto()
+    """Something of this control alone; its follower looks at the block."""
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """A G code: its modal group, what it does, and its value for that."""
+
+    group: str
+    do: Do
+    value: int = 0
+
+
+def _group(group: str, do: Do, *codes: int) -> dict[int, Code]:
+    return {code: Code(group, do, code) for code in codes}
+
+
+COMMON: Final[Mapping[int, Code]] = MappingProxyType(
+    {
+        **_group("motion", Do.MOTION, 0, 10, 20, 30, 800),
+        **_group("motion", Do.CYCLE, *range(810, 900, 10)),
+        **_group("plane", Do.PLANE, 170, 180, 190),
+        **_group("units", Do.UNITS, 200, 210),
+        **_group("compensation", Do.SIDE, 400, 410, 420),
+        **_group("length", Do.MODE, 430, 490),
+        **_group("system", Do.SYSTEM, 540, 550, 560, 570, 580, 590),
+        **_group("distance", Do.DISTANCE, 900, 910),
+        **_group("feed", Do.RATE, 930, 940, 950),
+        **_group("once", Do.DWELL, 40),
+        **_group("once", Do.HOME, 280, 300),
+        **_group("once", Do.PRESET, 920),
+    }
+)
+"""What G codes are on every control here."""
+
+
+def codes(*groups: tuple[str, Do, tuple[int, ...]]) -> Mapping[int, Code]:
+    """The common codes with a control's own over them."""
+    own = {code: entry for group, do, numbers in groups for code, entry in _group(group, do, *numbers).items()}
+    return MappingProxyType({**COMMON, **own})
+
+
+@dataclass(frozen=True, slots=True)
+class Arcs:
+    """How a control takes I, J, K of an arc, and how far its radii at start and end may differ.
+
+    `absolute`: from the origin while positions are (G90), otherwise always from the arc's start.  The difference is
+    refused beyond `inch` or `mm` when it is also more than a thousandth, and always beyond `worst` times that.
+    """
+
+    absolute: bool = False
+    inch: float = 0.0005
+    mm: float = 0.0127
+    worst: float = 1e9
+
+    def allowed(self, unit: Unit) -> float:
+        """Millimeters by which the radii may differ."""
+        return self.inch * 25.4 if unit is Unit.IN else self.mm
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """A control's way of reading: everything that is data rather than a rule of compensation.
+
+    `mode` is the motion in force at the start, None where the control refuses axis words without one.
+    `moves_alone`: G0 or G1 without any axis is a move of no length.  `feed_needed`: an error without a feed.
+    `loads_at_t`: the T word itself puts the tool in force; otherwise M6 does.  `table_needed`: a tool that is not in
+    the table cannot be selected.  `unit_first`: the F of a block counts in the unit the block sets.
+    `percent_ends`: a second line of % ends the program.  `end_needed`: M2, M30 or that line must stand at the end.
+    `group_rule`: the rule's id for two G codes of one group.  `parameters`: how it keeps those of a program, None where
+    nothing is known of them.  `cycles`: its drilling cycles are known; `cycle_rule` the rule that keeps them from
+    compensation; `returns_to_r`: G99 is in force at the start.  `d_anywhere`: D may stand in any block.
+    `dwell_takes_axes`: X with G4 is a time, or may be.  `tells_unused`: words that nothing takes are told.
+    """
+
+    name: str
+    codes: Mapping[int, Code]
+    unit: Unit
+    mode: int | None = 0
+    arcs: Arcs = Arcs()
+    syntax: Syntax = PLAIN
+    moves_alone: bool = False
+    feed_needed: bool = False
+    loads_at_t: bool = False
+    subprograms: bool = True
+    table_needed: bool = False
+    unit_first: bool = True
+    percent_ends: bool = False
+    end_needed: bool = False
+    group_rule: str = "GROUP"
+    parameters: Kept | None = None
+    cycles: bool = True
+    cycle_rule: str = "CYCLE"
+    returns_to_r: bool = False
+    d_anywhere: bool = False
+    dwell_takes_axes: bool = True
+    tells_unused: bool = True
+
+    def starting(self, unit: Unit | None) -> Dialect:
+        """The same in a machine that starts in another unit, the control's usual one for None."""
+        return self if unit is None else replace(self, unit=unit)

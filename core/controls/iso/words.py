@@ -1,0 +1,294 @@
+"""Words: one line of a word-address program into letters and numbers, each with its column.
+
+G and M codes are counted in tenths, so that G41.1 is 411 and M6 is 60.  A line that holds nothing but words is read
+by two expressions; only a line with comments or with something wrong in it is looked at closer.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from enum import Enum, auto
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.iso.macro import GAP, Squeezed, worked_out
+from core.controls.iso.parameters import Parameters
+from core.controls.iso.source import shown
+from core.controls.report import Log
+from core.finding import Severity
+from core.tolerance import LARGEST
+
+NUMBER: Final = r"[-+]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)"
+"""A number as a word has it."""
+
+_CLEAN: Final = re.compile(rf"(?:[ \t]*+[A-Z][ \t]*+{NUMBER})*[ \t]*+")
+_PAIR: Final = re.compile(rf"([A-Z])[ \t]*+({NUMBER})")
+_DATA: Final = re.compile(rf"T[ \t]*+([0-9]++)[ \t]*+/[ \t]*+({NUMBER})?[ \t]*+/[ \t]*+({NUMBER})?")
+
+_CODES: Final[Mapping[str, int]] = MappingProxyType(
+    {f"{code:{width}}": 10 * code for code in range(100) for width in ("", "02")}
+)
+"""Codes in tenths as they are mostly written."""
+
+_BRANCH: Final = re.compile(
+    r"[ \t]*+(?:N[ \t]*+[0-9]++)?[ \t]*+(IF|WHILE|GOTO|DO|END(?:IF|WHILE)?|THEN|ELSE)(?=[ \t]*+(?:[\[0-9#]|$))"
+)
+_EXPRESSION: Final = re.compile(r"[#\[]|[-+][ \t]*+[-+]")
+_NESTED: Final = re.compile(r"^[^;(]*+\([^()]*+\(")
+_MOTIONS: Final = frozenset((0, 10, 20, 30))
+_PLACES: Final = frozenset("NXYZIJKR")
+
+WHOLE: Final = 1e-4
+"""How far a code or a tool number may be from a whole number (a code: of tenths) and still be one."""
+
+
+SWITCHES: Final = frozenset((410, 420, 411, 421))
+"""The codes that turn compensation on."""
+
+
+class Semicolon(Enum):
+    """What a semicolon is to a control: the beginning of a comment, or the end of a block."""
+
+    COMMENT = auto()
+    END = auto()
+
+
+class Slash(Enum):
+    """What a slash is to a control: a block that a switch can skip, or tool data as in T4/.75/.2."""
+
+    SKIP = auto()
+    DATA = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class Syntax:
+    """How a control writes blocks; `blanks`: whether a blank parts words, rather than being nothing anywhere."""
+
+    semicolon: Semicolon = Semicolon.COMMENT
+    slash: Slash = Slash.SKIP
+    blanks: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class ToolData:
+    """Tool data in the text: T number / length / diameter; what is left out stays as it is."""
+
+    number: int
+    length: float | None
+    diameter: float | None
+
+
+class Block:
+    """One block: the values of its words by letter, its G and M codes in tenths, as written.
+
+    `start` is the column, less one, at which the block begins on its line.  `moves_only`: there is nothing but
+    positions, an arc's center, and one of G0 to G3 at most.
+    """
+
+    __slots__ = ("columns", "data", "g", "line", "m", "moves_only", "start", "text", "words")
+
+    def __init__(self, line: int, text: str, start: int = 0) -> None:
+        self.line = line
+        self.text = text
+        self.start = start
+        self.words: dict[str, float] = {}
+        self.g: list[int] = []
+        self.m: list[int] = []
+        self.data: ToolData | None = None
+        self.moves_only = False
+        self.columns: tuple[int, ...] = ()
+
+    def column(self, letters: str, code: int | None = None) -> int:
+        """Where the first word of one of these letters stands, from 1; of codes the one of `code` tenths."""
+        for letter, number, at in self._placed():
+            if letter in letters and (code is None or tenths(float(number)) == code):
+                return at
+        return self.start + 1
+
+    def side_column(self) -> int:
+        """Where the code that turns compensation on stands."""
+        return self.column("G", next((code for code in self.g if code in SWITCHES), None))
+
+    def second(self, letter: str) -> int:
+        """Where the second word of a letter stands."""
+        places = [at for one, _, at in self._placed() if one == letter]
+        return places[1] if len(places) > 1 else self.start + 1
+
+    def written(self, letter: str) -> str:
+        """The number of a letter as it is written, empty without one."""
+        return next((number for one, number, _ in self._placed() if one == letter), "")
+
+    def _placed(self) -> Iterator[tuple[str, str, int]]:
+        if self.columns:
+            pairs = _PAIR.findall(self.text)
+            yield from ((letter, number, at) for (letter, number), at in zip(pairs, self.columns, strict=True))
+            return
+        for found in _PAIR.finditer(_bare(_capitals(self.text))):
+            yield found[1], found[2], self.start + found.start() + 1
+
+
+def _capitals(text: str) -> str:
+    """A line in capitals, sign for sign: only the plain letters, lest another sign turns into one of them."""
+    if text.isascii():
+        return text.upper()
+    return "".join(one.upper() if one.isascii() else one for one in text)
+
+
+def tenths(value: float) -> int | None:
+    """A code in tenths, None for a number that is no code."""
+    if not 0.0 <= value < 1e5:
+        return None
+    code = round(value * 10)
+    return code if abs(code - value * 10) < WHOLE else None
+
+
+def whole(value: float) -> int | None:
+    """A whole number, None for one that is not."""
+    number = round(value)
+    return number if abs(number - value) < WHOLE else None
+
+
+PLAIN: Final = Syntax()
+
+
+def read_line(
+    text: str, line: int, log: Log, syntax: Syntax = PLAIN, values: Parameters | None = None
+) -> list[Block]:  # fmt: skip
+    """The blocks of one line, none of an empty one; what cannot be read stops the run with its column.
+
+    With `values` parameters and expressions are worked out and set.
+    """
+    upper = _capitals(text)
+    if _CLEAN.fullmatch(upper):
+        return [_filled(Block(line, text), upper, log)] if upper and not upper.isspace() else []
+    if syntax.semicolon is Semicolon.END and ";" in upper:
+        return list(_pieces(text, line, log, syntax))
+    return _closer(Block(line, text), _bare(upper), log, syntax, values)
+
+
+def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
+    """The blocks between semicolons; behind the last, what is no block is told and left out."""
+    start, parts = 0, text.split(";")
+    for index, part in enumerate(parts):
+        bare = _bare(_capitals(part))
+        plain = _CLEAN.fullmatch(bare) is not None
+        if plain or index < len(parts) - 1:
+            yield from _closer(Block(line, part, start), bare, log, syntax)
+        else:
+            column = start + 1 + len(part) - len(part.lstrip())
+            words = f"Behind the end of the block {shown(part)} is not read."
+            log.tell(Severity.INFO, "TEXT", words, line, column)
+        start += len(part) + 1
+
+
+def _closer(
+    block: Block, bare: str, log: Log, syntax: Syntax, values: Parameters | None = None
+) -> list[Block]:  # fmt: skip
+    """The block of a line that has signs besides words: tool data, block skip, the percent sign."""
+    if syntax.slash is Slash.DATA and (data := _DATA.search(bare)):
+        block.data = _tool_data(data)
+        bare = bare[: data.start()] + " " * len(data[0]) + bare[data.end() :]
+    if not syntax.blanks and block.text.count("(") > 1:
+        _squeezed(block, log)
+    if bare.lstrip().startswith("/"):
+        log.tell(Severity.INFO, "SKIP", "The block is run: block skip is taken as switched off.", block.line, 1)
+        bare = bare.replace("/", " ", 1)
+    if not bare.strip() or bare.strip() == "%":
+        return [block] if block.data else []
+    _no_branch(block, bare, log)
+    if values is not None and _EXPRESSION.search(bare):
+        return _worked_out(block, log, values)
+    if _CLEAN.fullmatch(bare) is None:
+        squeezed = "" if syntax.blanks else _squeezed(block, log)
+        if not squeezed or _CLEAN.fullmatch(squeezed) is None:
+            _fault(block, bare, log)
+        block.text = bare = squeezed
+    return [_filled(block, bare, log)]
+
+
+def _no_branch(block: Block, bare: str, log: Log) -> None:
+    found = _BRANCH.match(bare)
+    if found:
+        text = f"{found[1]} is a branch or a loop, which is not followed here; write the blocks out as they run."
+        log.stop("BRANCH", text, block.line, block.start + found.start(1) + 1)
+
+
+def _worked_out(block: Block, log: Log, values: Parameters) -> list[Block]:
+    """The block of a line with parameters or expressions; none of one that only sets them."""
+    marked = _bare(_capitals(block.text), GAP)
+    skip = len(marked) - len(marked.lstrip()) + 1 if marked.lstrip().startswith("/") else 0
+    done = worked_out(Squeezed.of(marked[skip:], block.start + skip), block.line, values, log)
+    if not done.columns:
+        return []
+    block.text, block.columns = done
+    return [_filled(block, block.text, log)]
+
+
+def _squeezed(block: Block, log: Log) -> str:
+    """The block without its blanks; only a comment still parts words."""
+    nested = _NESTED.search(block.text)
+    if nested:
+        text = "A comment begins inside a comment; close the first one."
+        log.stop("COMMENT", text, block.line, block.start + nested.end())
+    return "".join(_bare(_capitals(block.text), GAP).split()).replace(GAP, " ")
+
+
+def _tool_data(found: re.Match[str]) -> ToolData:
+    length, diameter = (None if part is None else float(part) for part in (found[2], found[3]))
+    return ToolData(int(found[1][:9]), length, diameter)
+
+
+def _filled(block: Block, upper: str, log: Log) -> Block:
+    words = block.words
+    for letter, number in _PAIR.findall(upper):
+        if letter == "G" or letter == "M":
+            code = _CODES.get(number) or tenths(float(number))
+            if code is None:
+                column = block.column(letter)
+                log.stop("CODE", f"{letter}{shown(number)} is no code of any control.", block.line, column)
+            (block.g if letter == "G" else block.m).append(code)
+            continue
+        if letter in words:
+            log.stop("TWICE", f"{letter} is written twice in this block; keep one.", block.line, block.second(letter))
+        words[letter] = value = float(number)
+        if not -LARGEST < value < LARGEST:
+            words_too = f"The number of {letter} is too large for any machine."
+            log.stop("NUMBER", words_too, block.line, block.column(letter))
+    codes = block.g
+    plain = not codes or (len(codes) == 1 and codes[0] in _MOTIONS)
+    block.moves_only = plain and not block.m and not block.data and _PLACES.issuperset(words)
+    return block
+
+
+def _fault(block: Block, bare: str, log: Log) -> None:
+    """Stops the run at the first sign that belongs to no word."""
+    found = _CLEAN.match(bare)
+    at = found.end() if found else 0
+    at += len(bare[at:]) - len(bare[at:].lstrip())
+    rest, column = block.text[at:], block.start + at + 1
+    if rest.startswith("("):
+        log.stop("COMMENT", "The comment is not closed; write the closing bracket.", block.line, column)
+    if any(sign in rest[:80] for sign in "#[<="):
+        text = f"{shown(rest)} is an expression, which is not worked out here; write the number itself."
+        log.stop("MACRO", text, block.line, column)
+    log.stop("WORD", f"{shown(rest)} is not understood; a word is a letter and a number.", block.line, column)
+
+
+def _bare(upper: str, fill: str = " ") -> str:
+    """A line with its comments blanked out and every other sign where it was."""
+    if "(" not in upper and ";" not in upper:
+        return upper
+    out, at = [], 0
+    while at < len(upper):
+        opened, ended = upper.find("(", at), upper.find(";", at)
+        if ended >= 0 and (opened < 0 or ended < opened):
+            out.append(upper[at:ended].ljust(len(upper) - at, fill))
+            return "".join(out)
+        closed = upper.find(")", opened) if opened >= 0 else -1
+        if closed < 0:
+            break
+        out.append(upper[at:opened].ljust(closed + 1 - at, fill))
+        at = closed + 1
+    return "".join((*out, upper[at:]))

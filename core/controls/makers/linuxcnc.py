@@ -1,0 +1,239 @@
+"""LinuxCNC 2.9: compensation with one move of look-ahead.
+
+The first move ends square to itself.  After that one move in the plane is held back until the next one is known; Z
+moves may stand behind it in the queue.  An outside corner gets an arc, an inside corner moves the ends of what is held,
+and anything under 0.05 radians is taken as tangent.  G40 lets the held move end square; the next move goes straight
+from there to its own point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.compensation.one_move_queue import LookAhead
+from core.controls.compensation.radius_zero import nothing_compensated
+from core.controls.iso.dialect import Arcs, Dialect, Do, codes
+from core.controls.iso.parameters import Kept
+from core.controls.iso.runner import execute
+from core.controls.iso.words import SWITCHES, Block, Syntax, whole
+from core.controls.moves import Plane
+from core.controls.report import Log, Run
+from core.controls.tools import ToolTable, not_there
+from core.finding import Severity
+from core.geometry.side import Side
+from core.units import Unit
+
+_ARCS: Final = Arcs(inch=0.002828427, mm=0.02828427, worst=100.0)
+
+DIALECT: Final = Dialect(
+    "linuxcnc",
+    codes(
+        ("motion", Do.CYCLE, (382, 383, 384, 385, 730, 740)),
+        ("motion", Do.BEYOND, (50, 51, 52, 60, 61, 62, 330, 331, 700, 710, 711, 712, 720, 721, 722, 760)),
+        ("once", Do.BEYOND, (53, 281, 301, 923)),
+        ("lathe", Do.BEYOND, (70,)),
+        ("compensation", Do.SIDE, (411, 421)),
+        ("centers", Do.CENTERS, (901, 911)),
+        ("system", Do.SYSTEM, (591, 592, 593)),
+        ("length", Do.MODE, (431, 432)),
+        ("path", Do.MODE, (610, 611, 640)),
+        ("spindle", Do.SPINDLE, (960, 970)),
+        ("retract", Do.RETRACT, (980, 990)),
+        ("lathe", Do.MODE, (80,)),
+        ("once", Do.SHIFT, (520,)),
+        ("once", Do.MACHINE, (530,)),
+        ("once", Do.DATA, (100,)),
+        ("once", Do.UNSHIFT, (921, 922)),
+    ),
+    Unit.MM,
+    mode=None,
+    syntax=Syntax(blanks=False),
+    arcs=_ARCS,
+    moves_alone=True,
+    feed_needed=True,
+    table_needed=True,
+    unit_first=False,
+    percent_ends=True,
+    end_needed=True,
+    group_rule="N-TWOG",
+    parameters=Kept.NGC,
+    cycle_rule="N-CYCLE",
+    returns_to_r=True,
+    dwell_takes_axes=False,
+    tells_unused=False,
+)
+
+REFUSED: Final = {
+    **dict.fromkeys((520, 920, 921, 922, 100), ("N-OFFSETS", "changes the origin")),
+    **dict.fromkeys((540, 550, 560, 570, 580, 590, 591, 592, 593), ("N-OFFSETS", "changes the work offset")),
+    **dict.fromkeys((280, 300), ("N-HOME", "goes to the reference point")),
+    530: ("N-G53", "moves in machine coordinates"),
+    **dict.fromkeys((610, 611, 640), ("N-MODE", "changes the path mode")),
+    **dict.fromkeys((980, 990), ("N-MODE", "changes the retract mode")),
+    **dict.fromkeys((730, 740, *range(810, 900, 10)), ("N-CYCLE", "is a drilling cycle")),
+}
+"""What G codes are refused while compensation is on: rule and reason."""
+
+
+def _lacks(tools: ToolTable, value: float) -> bool:
+    """Whether an H word names a tool that is not there; 0 is none."""
+    number = whole(value)
+    return number is None or (number != 0 and tools.get(number) is None)
+
+
+class LinuxCnc(LookAhead):
+    """What turns LinuxCNC's compensation on, and what it refuses meanwhile."""
+
+    always = True
+
+    def watch(self, block: Block) -> None:
+        """Words without a code that takes them, and codes that compensation does not allow."""
+        words = block.words
+        if "D" in words and SWITCHES.isdisjoint(block.g) and 960 not in block.g:
+            text = "D needs G41, G42, G41.1 or G42.1 in its block."
+            self.log.stop("N-DALONE", text, block.line, block.column("D"))
+        if not _OTHERS.isdisjoint(words) or block.m or len(block.g) > 1 or 40 in block.g:
+            self._other_words(block)
+        if not _CENTERS.isdisjoint(words):
+            self._arc_words(block)
+        for code in () if block.moves_only else block.g:
+            if code // 10 == 38 and code != 380:
+                text = "Where a probe stops is not known before it runs."
+                self.log.stop("N-PROBE", text, block.line, block.column("G", code))
+            if self.active:
+                self._refused(code, block)
+
+    def _other_words(self, block: Block) -> None:
+        """M codes that exist; words that need a code beside them; the tool of an H."""
+        self._alone(block)
+        for code in block.m:
+            if code not in _KNOWN_M:
+                text = f"M{code / 10:g} is no M code of this control; leave it out."
+                self.log.stop("CODE", text, block.line, block.column("M", code))
+        beside = {f"G{code}" for code in block.g} | {f"M{code}" for code in block.m}
+        mode = self._motion(block)
+        if mode is not None:
+            beside.add(f"G{mode}")
+        for letter, codes_for in NEEDED.items():
+            if letter in block.words and beside.isdisjoint(codes_for):
+                text = f"{letter} has no code in this block that takes it; leave it out."
+                self.log.stop("N-WORDALONE", text, block.line, block.column(letter))
+        if 40 in block.g and "P" not in block.words:
+            text = "G4 needs P and the seconds to wait."
+            self.log.stop("N-WORDALONE", text, block.line, block.column("G", 40))
+        if "H" in block.words and _lacks(self.machine.tools, block.words["H"]):
+            self.log.stop("TOOL", not_there(whole(block.words["H"])), block.line, block.column("H"))
+
+    def _alone(self, block: Block) -> None:
+        """What has to stand alone: calls and numbers of subprograms, one code that takes the axis words."""
+        if 980 in block.m or "O" in block.words:
+            if block.g or len(block.m) > 1 or not _CALL.issuperset(block.words):
+                text = "A call or a number of a subprogram stands alone in its block; write the rest in another."
+                self.log.stop("SUBPROGRAM", text, block.line, block.column("OM"))
+        elif not _TAKES_AXES.isdisjoint(block.g) and any(code <= 30 and code != 40 for code in block.g):
+            text = "Two G codes of this block take its axis words; write them in two blocks."
+            self.log.stop("N-TWOG", text, block.line, block.column("G"))
+
+    def _motion(self, block: Block) -> int | None:
+        """The motion that a block's words belong to."""
+        given = (code for code in block.g if code in DIALECT.codes and DIALECT.codes[code].group == "motion")
+        return next(given, self.machine.mode)
+
+    def _arc_words(self, block: Block) -> None:
+        """I, J, K and R go with arcs, and with codes that take no part in compensation."""
+        if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g):
+            column = block.column("IJKR")
+            text = "I, J, K and R go with G2 and G3 only; leave them out."
+            self.log.stop("N-WORDALONE", text, block.line, column)
+
+    def _refused(self, code: int, block: Block) -> None:
+        if code in REFUSED:
+            rule, what = REFUSED[code]
+            text = f"G{code / 10:g} {what}, which is not allowed under compensation; write G40 before it."
+            self.log.stop(rule, text, block.line, block.column("G", code))
+        if code in (170, 180, 190) and _PLANES[code] is not self.machine.plane:
+            text = "The plane cannot be changed under compensation; write G40 before it."
+            self.log.stop("N-PLANE", text, block.line, block.column("G", code))
+
+    def begin(self, side: Side, block: Block) -> None:
+        """G41, G42, G41.1 and G42.1."""
+        if self.machine.plane is Plane.YZ:
+            text = "Compensation works in the planes G17 and G18 only; write one of them before it."
+            self.log.stop("N-XZYZ", text, block.line, block.side_column())
+        if self.active:
+            text = "Compensation is on already; write G40 before it is turned on again."
+            self.log.stop("N-ONWHENON", text, block.line, block.side_column())
+        radius, orientation = self.radius(block)
+        if radius < 0.0:
+            text = "The diameter is negative: the tool runs on the other side."
+            self.log.tell(Severity.INFO, "NEGATIVE", text, block.line, block.side_column())
+        elif radius == 0.0:
+            nothing_compensated(self.machine, "The radius is 0.", block.line, block.side_column())
+        self.turn_on(radius * side.sign, orientation)
+
+    def radius(self, block: Block) -> tuple[float, int]:
+        """The radius asked for, millimeters, negative flips the side; and a lathe tool's orientation."""
+        if not {411, 421}.isdisjoint(block.g):
+            if "D" not in block.words:
+                text = "G41.1 and G42.1 need D and the cutter's diameter."
+                self.log.stop("N-DMISSING", text, block.line, block.side_column())
+            return block.words["D"] * self.machine.scale / 2, self._orientation(block)
+        number = self.machine.tool
+        if "D" in block.words:
+            number = self._tool_number(block)
+        tool = self.machine.tools.get(number)
+        if tool is None:
+            if number == 0 or "D" not in block.words:
+                text = "No tool is loaded, so the radius is 0."
+                nothing_compensated(self.machine, text, block.line, block.side_column())
+                return 0.0, 0
+            self.log.stop("N-DBIG", not_there(number), block.line, block.column("D"))
+        if tool.orientation not in (0, 9) and self.machine.plane is not Plane.ZX:
+            text = "The tool is a lathe tool and needs the plane G18."
+            self.log.stop("N-ORIENTATION", text, block.line, block.side_column())
+        return tool.diameter_mm(self.machine.unit) / 2, tool.orientation
+
+    def _tool_number(self, block: Block) -> int:
+        number = whole(block.words["D"])
+        if number is None or number < 0:
+            text = "D is a tool number: a whole number, not below 0; a diameter goes with G41.1."
+            self.log.stop("N-DNEGATIVE", text, block.line, block.column("D"))
+        return number
+
+    def _orientation(self, block: Block) -> int:
+        if "L" in block.words and self.machine.plane is not Plane.ZX:
+            text = "L, the orientation of a lathe tool, goes with G18 only; leave it out."
+            self.log.stop("N-ORIENTATION", text, block.line, block.column("L"))
+        return int(block.words.get("L", 0.0))
+
+
+_USER_M: Final = tuple(f"M{code}" for code in range(1000, 2000, 10))
+_SWITCHED: Final = tuple(f"M{code}" for code in (500, 510, 520, 530, 620, 630, 640, 650, 660))
+_CYCLES: Final = tuple(f"G{code}" for code in (730, *range(810, 900, 10)))
+
+NEEDED: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
+    {
+        "L": frozenset(("G100", "G410", "G411", "G420", "G421", "M660", "M980", *_CYCLES)),
+        "P": frozenset(("G20", "G30", "G40", "G100", "G640", "M190", "M980", "G740", *_CYCLES, *_SWITCHED, *_USER_M)),
+        "Q": frozenset(("G100", "G640", "M190", "M610", "M660", "M670", "M680", *_CYCLES, *_USER_M)),
+        "H": frozenset(("G430", "G432", "G760")),
+        "E": frozenset(("G700", "G760", "M660", "M670", "M680")),
+    }
+)
+"""Words that a block takes only beside one of these codes."""
+
+_OTHERS: Final = frozenset((*NEEDED, "O"))
+_CALL: Final = frozenset("OPLN")
+_TAKES_AXES: Final = frozenset((100, 280, 300, 520, 920))
+_KNOWN_M: Final = frozenset(
+    10 * code for code in (*range(10), 19, 30, *range(48, 54), *range(60, 69), *range(70, 74), 98, 99, *range(100, 200))
+)
+_CENTERS: Final = frozenset("IJKR")
+_PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
+
+
+def run(text: bytes, _: str, tools: ToolTable, unit: Unit | None = None) -> Run:
+    """A program as LinuxCNC runs it; there are no variants."""
+    return execute(text, "linuxcnc", DIALECT.starting(unit), tools, Log(), LinuxCnc)

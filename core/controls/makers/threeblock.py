@@ -1,0 +1,210 @@
+"""The older US mill control that reads two blocks ahead: `threeblock`, named after what it does.
+
+The block with G41 or G42 runs without compensation to the turn-on point.  The next one, the approach, is straight and
+ends square to the first compensated element.  Inside corners are where the offsets meet, outside corners arcs about the
+corner, and nothing further ahead is looked at: what does not fit is gouged without an alarm.  The block with G40 goes
+straight from the square end of the last element to its point.
+"""
+
+from __future__ import annotations
+
+from math import hypot, radians
+from typing import Final, NoReturn
+
+from core.controls.compensation.corners import (
+    Element,
+    element_sweep,
+    fits,
+    meeting,
+    offset_radius,
+    square_end,
+    square_start,
+    turning,
+)
+from core.controls.compensation.offset_chain import Joint
+from core.controls.iso.dialect import Arcs, Dialect, Do, codes
+from core.controls.iso.runner import execute
+from core.controls.iso.words import Block, Semicolon, Slash, Syntax
+from core.controls.makers.threeblock_words import ThreeBlockWords
+from core.controls.report import Log, Run
+from core.controls.tools import ToolTable
+from core.finding import Severity
+from core.geometry.piece import Point
+from core.geometry.side import Side
+from core.units import Unit
+
+DIALECT: Final = Dialect(
+    "threeblock",
+    codes(
+        ("units", Do.UNITS, (700, 710)),
+        ("ratio", Do.OWN, (440, 450)),
+        ("deceleration", Do.OWN, (990,)),
+    ),
+    Unit.IN,
+    arcs=Arcs(absolute=True),
+    syntax=Syntax(Semicolon.END, Slash.DATA),
+    loads_at_t=True,
+    subprograms=False,
+    cycles=False,
+)
+
+TANGENT: Final = radians(0.05)
+"""Corners under this angle are tangent; the control's own limit is not known."""
+
+QUICK: Final = 0.25
+"""Seconds: a block that takes less makes the control dwell."""
+
+
+class ThreeBlock(ThreeBlockWords):
+    """Compensation with the next element only, and the rules on the blocks under it."""
+
+    def __init__(self, log: Log) -> None:
+        super().__init__(log)
+        self.narrow = False
+        self.inserted = False
+
+    def idle(self, block: Block) -> None:
+        """A block that moves nothing."""
+        if not self.opening:
+            text = "Under compensation every block has to move the tool; take this one out."
+            self.log.stop("B10-NOMOVE", text, block.line, block.start + 1)
+
+    def travel(self, element: Element) -> None:
+        """The turn-on block and moves without compensation as programmed, all others on the offset."""
+        if not self.active or self.opening:
+            if self._leaving and element.turn:
+                self._arc_exit(element.line, 1)
+            super().travel(element)
+            return
+        if not element.moves and element.low == element.high:
+            text = "Under compensation every block has to move the tool; take this one out."
+            self.log.stop("B10-NOMOVE", text, element.line, 1)
+        self._height(element)
+        self._approach(element)
+        self._collinear(element)
+        if element.turn and not fits(element, self.offset):
+            text = "The arc's radius {0} is not larger than the cutter's {1}: it will be gouged without an alarm."
+            lengths = (element.radius, abs(self.offset))
+            self.log.tell(Severity.WARNING, "B16-NARROW", text, element.line, 1, lengths=lengths)
+        self.hold(element)
+
+    def _height(self, element: Element) -> None:
+        """The rules on Z: not at the beginning, not with an arc, not twice without two moves between."""
+        rises = element.low != element.high
+        self.blocks.append((element.line, rises, element.moves))
+        if rises and len(self.blocks) <= 3:
+            text = "No Z in the first three compensated blocks; move Z in the block with G41 or after them."
+            self.log.stop("B12-ZENDS", text, element.line, 1)
+        if rises and element.turn:
+            text = "Z goes with straight moves only under compensation; an arc with Z is an interpretation."
+            self.log.tell(Severity.WARNING, "B12z-ZARC", text, element.line, 1)
+        if not element.moves and any(moved and not flat for _, moved, flat in self.blocks[-3:-1]):
+            text = "Between two blocks of Z alone there have to be two blocks with X or Y."
+            self.log.stop("B13-ZSEP", text, element.line, 1)
+
+    def _approach(self, element: Element) -> None:
+        if self.held is not None or not element.moves:
+            return
+        if self.elements == 0:
+            if element.turn:
+                text = "The block behind G41 or G42 has to be straight: it is the approach."
+                self.log.stop("B6-APPR", text, element.line, 1)
+            self.open_span(Side.LEFT if self.offset > 0.0 else Side.RIGHT, self.offset, element)
+
+    def _collinear(self, element: Element) -> None:
+        held = self.held
+        if held is None or self.elements < 2 or held.turn or element.turn or not element.moves:
+            return
+        (ax, ay), (bx, by) = held.arriving, element.leaving
+        if abs(ax * by - ay * bx) < TANGENT:
+            text = "Two straight moves on one line cannot follow each other; make one move of them."
+            self.log.stop("B11-COLLINEAR", text, element.line, 1)
+
+    def joint(self, first: Element, second: Element) -> Joint:
+        """The approach ends square to the next; then offsets meet inside, an arc goes round outside."""
+        start = square_start(second, self.offset)
+        if self.elements == 1:
+            return Joint(start, start)
+        end = square_end(first, self.offset)
+        angle = turning(first, second) * (1 if self.offset > 0.0 else -1)
+        if abs(angle) < TANGENT:
+            self._override(second)
+            return Joint(end, end)
+        if angle < 0.0 or angle > radians(179.95):
+            return Joint(end, start, center=second.start)
+        point = meeting(first, second, self.offset)
+        return Joint(end, start) if point is None else Joint(point, point)
+
+    def _override(self, element: Element) -> None:
+        if not self.inserted:
+            text = "Between tangent moves, first here, the control puts its own G99: it does not slow down."
+            self.log.tell(Severity.INFO, "G99", text, element.line, 1)
+        self.inserted = True
+
+    def backwards(self, element: Element) -> None:
+        """The element is too short for the cutter; the control does not notice."""
+        narrow = self.narrow
+        rule = "B16-NARROW" if narrow else "B17-STEP"
+        what = "The feature is narrower than the cutter" if narrow else "The step is smaller than the cutter's radius"
+        text = f"{what}: this block runs backwards and gouges without an alarm; use a smaller cutter."
+        self.log.tell(Severity.WARNING, rule, text, element.line, 1)
+
+    def release(self, end: Point) -> None:
+        """Runs the held element; whether its two ends were trimmed tells a narrow feature from a step."""
+        held = self.held
+        if held is not None and self.start is not None:
+            square = square_start(held, self.offset), square_end(held, self.offset)
+            self.narrow = self.start != square[0] and end != square[1]
+            self._quick(held, self.start, end)
+        super().release(end)
+
+    def _quick(self, element: Element, start: Point, end: Point) -> None:
+        feed = self.feed_of(element)
+        length = hypot(end[0] - start[0], end[1] - start[1])
+        if element.turn:
+            length = element_sweep(element) * abs(offset_radius(element, self.offset))
+        if feed and not element.rapid and length / feed * 60 < QUICK:
+            text = "This block takes less than a quarter of a second: the control dwells."
+            self.log.tell(Severity.INFO, "B18-SHORT", text, element.line, 1)
+
+    def feed_of(self, element: Element) -> float:
+        """With G45 the feed of an arc goes with the radius of the tool's path."""
+        if not self.ratio or not element.turn or not self.active:
+            return element.feed
+        return element.feed * abs(offset_radius(element, self.offset)) / element.radius
+
+    def finish(self, block: Block) -> None:
+        """G40: the last element ends square; the block's own move follows without compensation."""
+        if not self.active:
+            return
+        column = block.column("G", 400)
+        moves = not {"X", "Y"}.isdisjoint(block.words)
+        if moves and self.machine.mode not in (0, 10):
+            self._arc_exit(block.line, column)
+        if len(self.blocks) < 3:
+            text = "Between G41 or G42 and G40 there have to be three compensated blocks at least."
+            self.log.stop("B7-MIN5", text, block.line, column)
+        for line, rises, _ in self.blocks[-3:]:
+            if rises:
+                text = "No Z in the last three compensated blocks; move Z before them or after G40."
+                self.log.stop("B12-ZENDS", text, line, 1, stops_at=block.line)
+        self.release_square()
+        self.leave(entry=1, exits=0)
+        self.active = False
+
+    def _arc_exit(self, line: int, column: int) -> NoReturn:
+        text = "The move that leaves compensation has to be straight; write G0 or G1. That is inferred."
+        self.log.stop("B20-G40ARC", text, line, column)
+
+    def close(self) -> None:
+        """The program ends; with compensation still on that is told."""
+        if self.active:
+            text = "The program ends with compensation on; write a block with G40. That is an interpretation."
+            line = self.blocks[-1][0] if self.blocks else self.turned_on
+            self.log.tell(Severity.ERROR, "B21-NOG40", text, line, 1)
+        self.release_square()
+
+
+def run(text: bytes, _: str, tools: ToolTable, unit: Unit | None = None) -> Run:
+    """A program as this control runs it; there are no variants."""
+    return execute(text, "threeblock", DIALECT.starting(unit), tools, Log(), ThreeBlock)

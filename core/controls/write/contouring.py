@@ -1,0 +1,234 @@
+"""A compensated contour as what a control's own compensation runs along: programmed elements with leads for them.
+
+Words: E is the first point of the tool's path, t its direction there, n the direction away from the part; G is where
+the blend-in begins.  A blend arc of radius B on the tool's path is programmed as an arc of radius B + r about the same
+center: the tool inside of it runs the blend.  A is where that programmed arc begins.  What the look-ahead deleted is
+left out, and its neighbors meet where their own lines and arcs do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import hypot, pi
+from typing import Final, NamedTuple
+
+from core.comp.result import Compensated
+from core.controls.compensation import corners
+from core.controls.compensation.corners import Element, arc_element, line_element
+from core.finding import Finding, Severity
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Piece, Point
+from core.tolerance import CLOSED
+from core.units import Unit, from_mm
+
+APART: Final = 0.001
+"""Millimeters from which on two programmed elements do not join."""
+
+
+class Travel(NamedTuple):
+    """A move of the tool's center as it is to be made: its end, its feed (None at rapid), as an arc turn and center."""
+
+    x: float
+    y: float
+    z: float
+    feed: float | None
+    turn: int
+    center: Point
+
+
+class Line(NamedTuple):
+    """A line of a program being written, the segment it cuts, and whether it only leads to that or away from it.
+
+    `travel` is the move that the line has to make where nothing is compensated.
+    """
+
+    text: str
+    segment: float | None = None
+    lead: bool = False
+    travel: Travel | None = None
+
+
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class Terms:
+    """How a run along a contour at one depth is made: millimeters, millimeters a minute, revolutions a minute.
+
+    The run is compensated for the tool's `diameter` and the `stock` it leaves.  `feeds` are those of the segments by
+    number.  The way there is at the height `travel`, rapid ends at `near`, feed goes on to `depth`, and up to `leave`.
+    """
+
+    tool: int
+    diameter: float
+    stock: float
+    speed: float
+    feeds: Mapping[int, float]
+    plunge_feed: float
+    travel: float
+    near: float
+    depth: float
+    leave: float
+
+
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class Cut(Terms):
+    """A run and the compensated contour it goes along."""
+
+    compensated: Compensated
+
+
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class Plain(Terms):
+    """A run without compensation, move by move; the first one is a rapid in the plane at the height `travel`."""
+
+    travels: tuple[Travel, ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Programmed:
+    """The elements of a contour in order, and the segment each belongs to."""
+
+    elements: tuple[Element, ...]
+    segments: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """One end of the tool's path: `at` on it (G, or E without a blend), `way` along it and `off` away from the part.
+
+    `corner` is the programmed point beside `at`.  With a blend the path is entered and left along `off`.
+    """
+
+    at: Point
+    corner: Point
+    way: Point
+    off: Point
+    blend: float
+
+
+def refusal(text: str, segment: float | None = None, *, lengths: tuple[float, ...] = ()) -> Finding:
+    """Why a control's own program is not written."""
+    return Finding("NOTWRITTEN", Severity.ERROR, text, segment=segment, lengths=lengths)
+
+
+def programmed(compensated: Compensated) -> Programmed | Finding:
+    """The elements that survive, the overlap's once more, cut to what is run of them; or why there are none."""
+    if not len(compensated.path):
+        return refusal("There is no path to write.")
+    if bool(compensated.bridged.any()):
+        number = float(compensated.path.numbers[compensated.bridged][0])
+        return refusal("Part of the path is a bridge the tool cannot run; the control would stop there.", number)
+    rows = _rows(compensated)
+    offset = compensated.side.sign * compensated.radius
+    elements = [_element(compensated.contour[row]) for row in rows]
+    numbers = compensated.contour.numbers[rows].tolist()
+    for index in range(len(rows) - 1):
+        first, second = elements[index], elements[index + 1]
+        if hypot(first.end[0] - second.start[0], first.end[1] - second.start[1]) <= APART:
+            continue
+        corner = corners.meeting(first, second, 0.0)
+        if corner is None:
+            text = "The look-ahead deletes what follows; no control does that by itself. Post the center path instead."
+            return refusal(text, numbers[index])
+        elements[index], elements[index + 1] = first._replace(end=corner), second._replace(start=corner)
+    first_run, last_run = _run_of(compensated)
+    elements[0] = _held(elements[0], elements[0]._replace(start=_surface(elements[0], first_run, offset)))
+    elements[-1] = _held(elements[-1], elements[-1]._replace(end=_surface(elements[-1], last_run, offset)))
+    return Programmed(tuple(map(_again, elements)), tuple(numbers))
+
+
+def _rows(compensated: Compensated) -> list[int]:
+    """Rows of the contour that the path and its overlap run along."""
+    numbers = [*compensated.path.numbers.tolist(), *overlap(compensated).numbers.tolist()]
+    row_of = {number: row for row, number in enumerate(compensated.contour.numbers.tolist())}
+    return [row_of[number] for number in numbers if number in row_of]
+
+
+def overlap(compensated: Compensated) -> Path:
+    """What is run of the path once more before it is left."""
+    out = compensated.lead_out
+    return out.part(0, len(out) - 1) if blend_of(compensated) else out
+
+
+def blend_of(compensated: Compensated) -> float:
+    """Radius of the blend moves, 0 for none."""
+    lead = compensated.lead_in
+    return float(lead.radii[0]) if len(lead) else 0.0
+
+
+def _run_of(compensated: Compensated) -> tuple[Point, Point]:
+    """The first and the last point the tool runs of the contour's offset."""
+    again = overlap(compensated)
+    last = again if len(again) else compensated.path
+    (bx, by), (ex, ey) = compensated.path.points[0].tolist(), last.points[-1].tolist()
+    return (bx, by), (ex, ey)
+
+
+def _element(piece: Piece) -> Element:
+    if isinstance(piece, Arc):
+        return arc_element(piece.start, piece.end, piece.center, int(piece.turn), 0.0, 0.0, 0.0, 0)
+    return line_element(piece.start, piece.end, 0.0, 0.0, rapid=False, feed=0.0, line=0)
+
+
+def _held(whole: Element, cut: Element) -> Element:
+    """A full circle stays one where rounding has moved an end."""
+    apart = hypot(cut.start[0] - cut.end[0], cut.start[1] - cut.end[1])
+    return cut._replace(start=cut.end) if whole.turn and whole.start == whole.end and apart < APART / 1000 else cut
+
+
+def _again(element: Element) -> Element:
+    """The element with the directions its ends have now; a line for an arc that ends beside its start.
+
+    The digits of most controls cannot tell such an end from the start, and some take the arc for the full circle.
+    """
+    (x, y), (ex, ey) = element.start, element.end
+    beside = (x, y) != (ex, ey) and max(abs(ex - x), abs(ey - y)) <= CLOSED
+    if element.turn and not (beside and corners.element_sweep(element) < pi):
+        return arc_element(element.start, element.end, element.center, element.turn, 0.0, 0.0, 0.0, 0)
+    return line_element(element.start, element.end, 0.0, 0.0, rapid=False, feed=0.0, line=0)
+
+
+def _surface(element: Element, point: Point, offset: float) -> Point:
+    """The point of an element that a point of its offset lies beside."""
+    if not element.turn:
+        return corners.square(point, element.leaving, -offset)
+    share = element.radius / corners.offset_radius(element, offset)
+    (x, y), (cx, cy) = point, element.center
+    return cx + (x - cx) * share, cy + (y - cy) * share
+
+
+def begin(compensated: Compensated) -> End:
+    """Where and how the tool's path begins."""
+    return _end(compensated, compensated.whole, compensated.lead_in, 1)
+
+
+def finish(compensated: Compensated) -> End:
+    """Where and how the tool's path ends; `way` is still the direction of travel."""
+    return _end(compensated, compensated.whole.reversed(), compensated.lead_out.reversed(), -1)
+
+
+def _end(compensated: Compensated, whole: Path, lead: Path, sense: int) -> End:
+    """The end a path begins with; `sense` -1 for a reversed one."""
+    at, blend = _point(whole, 0), blend_of(compensated)
+    if blend:
+        (cx, cy), (ex, ey) = lead.centers[0].tolist(), lead.points[1].tolist()
+        way = (sense * (cx - at[0]) / blend, sense * (cy - at[1]) / blend)
+        off = ((cx - ex) / blend, (cy - ey) / blend)
+        side = (-sense * way[0], -sense * way[1])
+    else:
+        dx, dy = whole.start_directions[0].tolist()
+        way = (sense * dx, sense * dy)
+        off = side = corners.square((0.0, 0.0), way, compensated.side.sign)
+        side = (-side[0], -side[1])
+    corner = corners.beyond(at, side, compensated.radius)
+    return End(at, corner, way, off, blend)
+
+
+def _point(path: Path, index: int) -> Point:
+    x, y = path.points[index].tolist()
+    return x, y
+
+
+def number_text(value: float, unit: Unit, decimals: int) -> str:
+    """A length in millimeters as a number of program units, without needless zeros and never -0; `2.` for 2."""
+    text = f"{from_mm(value, unit):.{decimals}f}".rstrip("0")
+    return "0." if text in ("0.", "-0.") else text

@@ -1,0 +1,225 @@
+"""Compensated contours written as a word-address control's own program with G41 or G42.
+
+The contour is written as typed, the control offsets it.  The tool goes down away from the part, is led in along a
+straight line onto the blend, and leaves the same way; where there is no blend the line itself ends on the path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from core.controls.compensation.corners import Element
+from core.controls.tools import CutterTool, ToolTable
+from core.controls.write.contouring import Line, Plain, Terms, Travel, number_text
+from core.controls.write.iso_leads import Ready
+from core.controls.write.iso_style import IsoStyle, Radius
+from core.geometry.piece import Point
+from core.geometry.side import Side
+from core.units import Unit, from_mm
+
+SPARE: Final = 51
+"""Offsets from this number on hold the radii of runs that leave stock."""
+
+ROUNDING: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
+"""How far the machine may leave the path at a corner, in program units."""
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """What holds for the whole program: unit, work offset (54 to 59), the corners of a 9/Series (G39 or G39.1)."""
+
+    unit: Unit
+    work_offset: int = 54
+    corners: str = ""
+
+
+def offsets(cuts: Sequence[Terms], style: IsoStyle) -> dict[tuple[int, float], int]:
+    """The number under which a control finds the radius of a tool that leaves a stock."""
+    found: dict[tuple[int, float], int] = {}
+    spare = SPARE
+    for cut in cuts:
+        key = (cut.tool, cut.stock)
+        if key not in found:
+            own = cut.stock == 0.0 or style.radius is not Radius.OFFSET
+            found[key] = cut.tool if own else spare
+            spare += 0 if own else 1
+    return found
+
+
+def tools_of(cuts: Sequence[Terms], style: IsoStyle) -> ToolTable:
+    """The tool or offset table the program counts on, in millimeters; of a control that is told, nothing."""
+    if style.radius is Radius.DATA:
+        return ToolTable()
+    numbers = offsets(cuts, style)
+    stock = style.radius is Radius.OFFSET
+    return ToolTable.of(
+        *(
+            CutterTool(numbers[cut.tool, cut.stock], cut.diameter + (2 * cut.stock if stock else 0.0), unit=Unit.MM)
+            for cut in cuts
+        )
+    )
+
+
+def write(
+    cuts: Sequence[Ready | Plain], style: IsoStyle, frame: Frame, remarks: Sequence[str] = ()
+) -> tuple[Line, ...]:
+    """The lines of the program; `remarks` are ready comment lines and stand first."""
+    return tuple(_Writer(style, frame).program(cuts, remarks))
+
+
+class _Writer:
+    """Writes words in one style; `feed`, `height` and `at` are what stands, as text."""
+
+    def __init__(self, style: IsoStyle, frame: Frame) -> None:
+        self.style = style
+        self.frame = frame
+        self.feed = ""
+        self.height = ""
+        self.at: tuple[str, str] = ("", "")
+
+    def program(self, cuts: Sequence[Ready | Plain], remarks: Sequence[str]) -> Iterator[Line]:
+        """Everything from the first line to the end."""
+        yield from (Line(remark) for remark in remarks if self.style.comments)
+        unit = self.style.inch if self.frame.unit is Unit.IN else self.style.metric
+        offset = f"G{self.frame.work_offset}"
+        for safe in self.style.safe:
+            yield Line(safe.format(unit=unit, offset=offset, rounding=ROUNDING[self.frame.unit]))
+        if self.frame.corners:
+            yield Line(self.frame.corners)
+        before: Terms | None = None
+        for one in cuts:
+            terms = one if isinstance(one, Plain) else one.cut
+            yield from self.tool(terms, before)
+            yield from self.plain(one) if isinstance(one, Plain) else self.cut(one)
+            before = terms
+        yield Line("M5")
+        yield Line("M30")
+
+    def tool(self, cut: Terms, before: Terms | None) -> Iterator[Line]:
+        """The change of tool, of its data, of the speed."""
+        speed = f"S{from_speed(cut.speed)}"
+        same = before is not None and before.tool == cut.tool
+        stands = same and before is not None and before.stock == cut.stock
+        if not same and before is not None:
+            yield Line("M5")
+        if self.style.radius is Radius.DATA and not stands:
+            yield Line(f"T{cut.tool}//{self.length(cut.diameter + 2 * cut.stock)}")
+        if not same:
+            self.height = ""
+            yield self.words(f"T{cut.tool}", "M6")
+            if self.style.length:
+                yield self.words("G43", f"H{cut.tool}")
+            yield self.words(speed, "M3")
+        elif before is not None and before.speed != cut.speed:
+            yield Line(speed)
+
+    def cut(self, one: Ready) -> Iterator[Line]:
+        """One run: down beside the part, in, along, out, up."""
+        cut, shape = one.cut, one.shape
+        own_block = self.style.radius is Radius.DATA
+        down = ("G1", *((self.code(one),) if own_block else ()))
+        yield from self.rapid(cut.travel)
+        yield self.words("G0", *self.place(one.start))
+        yield from self.rapid(cut.near)
+        yield self.words(*down, f"Z{self.length(cut.depth)}", *self.feed_word(cut.plunge_feed))
+        feeds = [cut.feeds[int(number)] for number in shape.segments]
+        words = ("G1",) if own_block else (*self.switch(one), "G1")
+        into = self.words(*words, *self.place(one.to), *self.feed_word(feeds[0]), segment=shape.segments[0])
+        yield into._replace(lead=True)
+        for element, feed, segment in zip(shape.elements, feeds, shape.segments, strict=True):
+            yield from self.element(element, feed, segment)
+        yield self.words("G40", "G1", *self.place(one.out), segment=shape.segments[-1])._replace(lead=True)
+        self.height = ""
+        yield from self.rapid(cut.leave)
+
+    def plain(self, one: Plain) -> Iterator[Line]:
+        """One run without compensation, as its moves are."""
+        yield from self.rapid(one.travel)
+        first, *rest = one.travels
+        yield self.words("G0", *self.place((first.x, first.y)))._replace(travel=first)
+        for travel in rest:
+            yield from self.traveled(travel)
+
+    def traveled(self, travel: Travel) -> Iterator[Line]:
+        """A move with the axes that move in it; none where nothing does as written."""
+        start, height = self.at, self.height
+        self.height, place = f"Z{self.length(travel.z)}", self.place((travel.x, travel.y))
+        up = (self.height,) if self.height != height else ()
+        if travel.turn:
+            words = ("G2" if travel.turn < 0 else "G3", *place, *up, *self.center(travel.center, start))
+        elif place != start or up:
+            words = ("G0" if travel.feed is None else "G1", *(place if place != start else ()), *up)
+        else:
+            return
+        yield self.words(*words, *(() if travel.feed is None else self.feed_word(travel.feed)))._replace(travel=travel)
+
+    def rapid(self, height: float) -> Iterator[Line]:
+        """To a height, where the tool is not there yet."""
+        text = f"Z{self.length(height)}"
+        if text != self.height:
+            self.height = text
+            yield self.words("G0", text)
+
+    def code(self, one: Ready) -> str:
+        """G41 with the tool on the left."""
+        return "G41" if one.side is Side.LEFT else "G42"
+
+    def switch(self, one: Ready) -> tuple[str, ...]:
+        """What turns compensation on in the block of the entry."""
+        code, cut = self.code(one), one.cut
+        if cut.stock and self.style.radius is Radius.DIAMETER:
+            return f"{code}.1", f"D{self.length(cut.diameter + 2 * cut.stock)}"
+        if cut.stock and self.style.radius is Radius.REDUCED:
+            return code, f"D{one.offset}", f"I{self.length(-cut.stock)}"
+        return code, f"D{one.offset}"
+
+    def element(self, element: Element, feed: float, segment: float) -> Iterator[Line]:
+        """One element; what is no move as written is left out."""
+        start, end = self.at, self.place(element.end)
+        whole = element.turn != 0 and element.start == element.end
+        if start == end and not whole:
+            return
+        code = "G1" if not element.turn else "G2" if element.turn < 0 else "G3"
+        center = self.center(element.center, start) if element.turn else ()
+        yield self.words(code, *end, *center, *self.feed_word(feed), segment=segment)
+
+    def center(self, center: Point, start: tuple[str, str]) -> tuple[str, str]:
+        """I and J: from the origin, or from the start as it is written."""
+        unit = self.frame.unit
+        x, y = (from_mm(value, unit) for value in center)
+        if not self.style.absolute:
+            x, y = x - float(start[0][1:]), y - float(start[1][1:])
+        digits = self.style.digits(unit)
+        return f"I{_digits(x, digits)}", f"J{_digits(y, digits)}"
+
+    def place(self, point: Point) -> tuple[str, str]:
+        """X and Y."""
+        self.at = f"X{self.length(point[0])}", f"Y{self.length(point[1])}"
+        return self.at
+
+    def length(self, value: float) -> str:
+        """A length in millimeters, with its decimal point."""
+        return number_text(value, self.frame.unit, self.style.digits(self.frame.unit))
+
+    def feed_word(self, feed: float) -> tuple[str, ...]:
+        """F where it changes."""
+        text = f"F{number_text(feed, self.frame.unit, 3)}"
+        if text == self.feed:
+            return ()
+        self.feed = text
+        return (text,)
+
+    def words(self, *words: str, segment: float | None = None) -> Line:
+        """Words as a line."""
+        return Line((" " if self.style.spaced else "").join(words), segment)
+
+
+def from_speed(speed: float) -> str:
+    """A spindle speed without a needless decimal."""
+    return f"{speed:.1f}".removesuffix(".0")
+
+
+def _digits(value: float, digits: int) -> str:
+    return number_text(value, Unit.MM, digits)

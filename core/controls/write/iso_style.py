@@ -1,0 +1,100 @@
+"""How each word-address control wants its own G41 and G42 programs written: frozen data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum, auto
+from types import MappingProxyType
+from typing import Final
+
+from core.units import Unit
+
+
+class Entry(Enum):
+    """Where the first compensated move ends, which decides where it has to start from."""
+
+    NEXT = auto()
+    """Square to the start of the next element: it may come from anywhere."""
+    TANGENT = auto()
+    """On the tangent to the tool where it stands: it has to come along the tool's path."""
+    OWN = auto()
+    """Square to itself: it has to run as the next element does."""
+
+
+class Radius(Enum):
+    """How a program says the radius."""
+
+    DATA = auto()
+    """`T1//.5` in the text."""
+    DIAMETER = auto()
+    """`D` and the tool's number; `G41.1 D` and a diameter where the run leaves stock."""
+    REDUCED = auto()
+    """`D` and the tool's number, with `I` less where the run leaves stock."""
+    OFFSET = auto()
+    """`D` and the number of an offset."""
+
+
+@dataclass(frozen=True, slots=True)
+class IsoStyle:
+    """A control's way of being written to.
+
+    `inch` and `metric` are its codes for the units, `safe` the codes that stand before anything moves; `{offset}` in
+    them is the work offset.  `decimals` of inches and of millimeters.  `absolute`: I and J count from the origin.
+    `merged`: lines on one line are written as one.  `comments`: the text may hold remarks.  `length`: G43 H names the
+    tool's length.  `spaced`: words stand apart.
+    """
+
+    inch: str
+    metric: str
+    safe: tuple[str, ...]
+    decimals: tuple[int, int]
+    entry: Entry
+    radius: Radius
+    absolute: bool = False
+    merged: bool = False
+    comments: bool = True
+    length: bool = True
+    spaced: bool = True
+
+    def digits(self, unit: Unit) -> int:
+        """Decimals of a length."""
+        return self.decimals[0 if unit is Unit.IN else 1]
+
+
+_NIST: Final = ("G17 {unit} G40 G49 {offset} G50 G69 G90",)
+_NINE: Final = ("G17 {unit} G40 G49 {offset} G80 G90 G94",)
+
+_ROSETTA: Final = IsoStyle("G20", "G21", _NIST, (6, 5), Entry.NEXT, Radius.REDUCED)
+_NINE_SERIES: Final = IsoStyle("G20", "G21", _NINE, (4, 3), Entry.NEXT, Radius.OFFSET)
+
+STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
+    {
+        "threeblock": IsoStyle(
+            "G70",
+            "G71",
+            ("G17{unit}G40G90",),
+            (4, 3),
+            Entry.NEXT,
+            Radius.DATA,
+            absolute=True,
+            merged=True,
+            comments=False,
+            length=False,
+            spaced=False,
+        ),
+        "rosettacnc:nist": IsoStyle("G20", "G21", _NIST, (6, 5), Entry.TANGENT, Radius.REDUCED),
+        "rosettacnc:easy": _ROSETTA,
+        "rosettacnc:normal": IsoStyle("G20", "G21", _NIST, (6, 5), Entry.OWN, Radius.REDUCED),
+        **{f"nine-series:{kind}{corners}": _NINE_SERIES for kind in ("a", "b") for corners in ("", "-g39", "-g39.1")},
+        "linuxcnc": IsoStyle(
+            "G20",
+            "G21",
+            ("G17 {unit} G40 G49 {offset} G80 G90 G91.1 G94", "G64 P{rounding}"),
+            (6, 5),
+            Entry.OWN,
+            Radius.DIAMETER,
+        ),
+    }
+)
+"""By a control's full name."""

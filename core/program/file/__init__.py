@@ -1,0 +1,1 @@
+"""Program files: TOML text read strictly, and written so that there is always one whole file."""

@@ -1,0 +1,292 @@
+"""The text of a program file as a Program, strictly: an unknown key or a wrong type is refused by line and key.
+
+Numbers out of a field's range are kept, for the form to show and to refuse posting; a look-ahead out of its
+range is refused, since the form never holds one.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from functools import cache, partial
+from typing import Any, Final, TypeVar
+
+from core.program.entries import unread_reason
+from core.program.fields import TABLES, Field, Form, check
+from core.program.file.end import cut_off, syntax_fault
+from core.program.file.lines import KeyPath, key_lines, line_of
+from core.program.model import (
+    ArcSegment,
+    BlendSegment,
+    Block,
+    CutterComp,
+    Direction,
+    Entry,
+    LineSegment,
+    Parameters,
+    PartSetup,
+    PathChoice,
+    Program,
+    Segment,
+    Tool,
+    Typed,
+    Unread,
+)
+from core.tolerance import LARGEST
+from core.units import Kind, Unit, printable, to_mm
+
+FORMAT: Final = 1
+"""The format of program files that is read and written."""
+
+KIND: Final = "MILL CONTOUR"
+"""The kind of every block."""
+
+_BARE: Final = re.compile(r"[+-]?\d+(\.\d+)?")
+"""A number that a file can hold without quotes."""
+
+UNREAD: Final = "unread"
+"""The table of texts that were typed and could not be read."""
+
+
+class StoreError(Exception):
+    """A program file that cannot be read or written; `text` says which, where, and what to do."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self.text = text
+
+
+@dataclass(frozen=True, slots=True)
+class _Table:
+    """One table of the file with the way to it."""
+
+    file: str
+    lines: Callable[[], Mapping[KeyPath, int]]
+    """Made for the first fault: a file without one needs no lines."""
+    path: KeyPath
+    data: Mapping[str, Any]
+    unit: Unit
+
+    def fault(self, key: str | None, text: str) -> StoreError:
+        """An error at a key, or at the table itself."""
+        line = line_of(self.lines(), self.path if key is None else (*self.path, key))
+        return StoreError(f"{self.file}, line {line}: {text}")
+
+    def only(self, allowed: tuple[str, ...]) -> None:
+        """Refuse keys that mean nothing here."""
+        if self.data.keys() <= set(allowed):
+            return
+        from difflib import get_close_matches
+
+        for key in self.data:
+            if key not in allowed:
+                near = get_close_matches(key, allowed, 1)
+                hint = f"did you mean {near[0]}?" if near else "remove it."
+                raise self.fault(key, f"{printable(key)} is not a key of {self.title()}: {hint}")
+
+    def title(self) -> str:
+        """What this table is, for a message."""
+        names = [part for part in self.path if isinstance(part, str)]
+        return f"[{'.'.join(names)}]" if names else "the program"
+
+    def text(self, key: str) -> str:
+        """A text; an error if it is absent or something else."""
+        value = self.data.get(key)
+        if isinstance(value, str) and value.isprintable():
+            return value
+        what = "is missing" if value is None else "must be a text in quotes on one line"
+        raise self.fault(key, f"{key} {what}.")
+
+    def chosen(self, key: str, choices: type[Choice]) -> Choice:
+        """One of the words of an Enum."""
+        words = [choice.value for choice in choices]
+        value = self.data.get(key)
+        if not isinstance(value, str) or value not in words:
+            what = "is missing" if value is None else f"cannot be {_written(value)}"
+            raise self.fault(key, f"{key} {what}: write one of {', '.join(words)}, in quotes.")
+        return choices(value)
+
+    def number(self, key: str, one: Field) -> float:
+        """A number a field can hold."""
+        value = self.data[key]
+        if isinstance(value, str):
+            mended = ": take the quotes away" if _BARE.fullmatch(value) else ""
+            raise self.fault(key, f"{key} must be a number, and {printable(value)} is text in quotes{mended}.")
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise self.fault(key, f"{key} must be a number, not {_written(value)}.")
+        if _beyond(value, one, self.unit):
+            raise self.fault(key, f"{key} is {_written(value)}: no machine has such a number, correct it.")
+        if one.kind is Kind.COUNT and value != int(value):
+            raise self.fault(key, f"{key} must be a whole number, not {_written(value)}.")
+        return float(value)
+
+    def table(self, key: str) -> _Table:
+        """A table in this one, empty if it is absent."""
+        value = self.data.get(key, {})
+        if not isinstance(value, dict):
+            raise self.fault(key, f"{key} must be a table, [{key}].")
+        return _Table(self.file, self.lines, (*self.path, key), value, self.unit)
+
+    def array(self, key: str) -> Iterator[_Table]:
+        """The tables of an array in this one, none if it is absent."""
+        value = self.data.get(key, [])
+        if not isinstance(value, list) or not all(isinstance(one, dict) for one in value):
+            raise self.fault(key, f"{key} must be tables, each headed [[{key}]].")
+        for index, one in enumerate(value):
+            yield _Table(self.file, self.lines, (*self.path, key, index), one, self.unit)
+
+
+def _written(value: object) -> str:
+    """A value as a file has it."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, list):
+        return f"[{', '.join(map(_written, value))}]"
+    return printable(str(value))
+
+
+def _beyond(value: float, one: Field, unit: Unit) -> bool:
+    """Whether a number is none a machine could have, in either unit."""
+    if not abs(value) <= LARGEST:
+        return True
+    return one.kind in (Kind.LENGTH, Kind.FEED) and round(to_mm(abs(value), unit), 3) > LARGEST
+
+
+Choice = TypeVar("Choice", bound=StrEnum)
+
+
+def read_program(text: str, file: str) -> Program:
+    """The program of a file's text; StoreError names `file`, line and key."""
+    top = _Table(file, partial(key_lines, text), (), _parsed(text, file), Unit.IN)
+    if "format" not in top.data:
+        raise top.fault(
+            "format", f"format is missing, so this is no cutcomp program: those begin with format = {FORMAT}."
+        )
+    top.only(("format", "units", "parameters", "setup", "tool", "block"))
+    version = top.data.get("format")
+    if isinstance(version, bool) or version != FORMAT:
+        raise top.fault("format", f"format cannot be {_written(version)}: this program reads format = {FORMAT}.")
+    top = _Table(file, top.lines, (), top.data, top.chosen("units", Unit))
+    return Program(
+        top.unit,
+        _parameters(top.table("parameters")),
+        _setup(top.table("setup")),
+        _tools(top),
+        tuple(_block(block) for block in top.array("block")),
+    )
+
+
+def _parsed(text: str, file: str) -> dict[str, Any]:
+    if (lost := cut_off(text)) is not None:
+        raise StoreError(f"{file}, {lost}")
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise StoreError(f"{file}: brackets are nested too deep for a program file.") from None
+    except ValueError as error:
+        raise StoreError(f"{file}, {syntax_fault(str(error), text)}") from error
+
+
+def _numbers(table: _Table, form: Form) -> dict[str, Typed]:
+    """The typed numbers of a form by name: entries out of the table, texts out of its `unread` table."""
+    fields = _number_fields(form)
+    typed: dict[str, Typed] = {one.name: Entry(table.number(one.name, one)) for one in fields if one.name in table.data}
+    return typed | _unread_numbers(table, fields) if UNREAD in table.data else typed
+
+
+def _unread_numbers(table: _Table, fields: tuple[Field, ...]) -> dict[str, Typed]:
+    unread = table.table(UNREAD)
+    unread.only(tuple(one.name for one in fields))
+    for key in unread.data:
+        if key in table.data:
+            raise unread.fault(key, f"{key} stands twice, as a number and as unread text: remove one.")
+    return {one.name: _unread(unread, one) for one in fields if one.name in unread.data}
+
+
+@cache
+def _number_fields(form: Form) -> tuple[Field, ...]:
+    return tuple(one for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT))
+
+
+def _unread(table: _Table, one: Field) -> Unread:
+    """Text as it was typed, with the reason found again; text that could be read now waits to be typed again."""
+    text = table.data[one.name]
+    if not isinstance(text, str) or not text.strip():
+        raise table.fault(one.name, f"{one.name} must be the text that was typed, in quotes.")
+    return Unread(text, unread_reason(text, one, table.unit))
+
+
+@cache
+def _keys(form: Form, *others: str) -> tuple[str, ...]:
+    return (*others, *(one.name for one in TABLES[form]), UNREAD)
+
+
+def _parameters(table: _Table) -> Parameters:
+    table.only(_keys(Form.PARAMETERS))
+    path = table.chosen("path", PathChoice) if "path" in table.data else PathChoice.CONTROL
+    return Parameters(**_numbers(table, Form.PARAMETERS), path=path)
+
+
+def _setup(table: _Table) -> PartSetup:
+    table.only(_keys(Form.SETUP))
+    return PartSetup(table.text("name") if "name" in table.data else "", **_numbers(table, Form.SETUP))
+
+
+def _tools(top: _Table) -> tuple[Tool, ...]:
+    tools: dict[int, Tool] = {}
+    for table in top.array("tool"):
+        tool = _tool(table)
+        if tool.number in tools:
+            raise table.fault("number", f"tool {tool.number} stands twice in the tool table: remove one.")
+        tools[tool.number] = tool
+    return tuple(tools[number] for number in sorted(tools))
+
+
+def _tool(table: _Table) -> Tool:
+    table.only(_keys(Form.TOOL))
+    typed = _numbers(table, Form.TOOL)
+    number = typed.get("number")
+    one = TABLES[Form.TOOL][0]
+    if not isinstance(number, Entry) or check(one, number.value, table.unit):
+        raise table.fault(
+            "number", f"number {'is missing' if number is None else 'is no tool number'}: write 1 to 9999."
+        )
+    return Tool(int(number.value), table.text("type") if "type" in table.data else Tool(1).type, typed.get("diameter"))
+
+
+def _block(table: _Table) -> Block:
+    table.only(_keys(Form.START, "kind", "segment"))
+    if table.text("kind") != KIND:
+        raise table.fault("kind", f'kind must be "{KIND}".')
+    typed = _numbers(table, Form.START)
+    lookahead = typed.get("lookahead")
+    if isinstance(lookahead, Entry) and (trouble := check(TABLES[Form.START][-1], lookahead.value, table.unit)):
+        raise table.fault("lookahead", f"lookahead is {lookahead.value:g}: {trouble}")
+    segments = tuple(_segment(segment) for segment in table.array("segment"))
+    return Block(**typed, cutter_comp=table.chosen("cutter_comp", CutterComp), segments=segments)
+
+
+def _segment(table: _Table) -> Segment:
+    match table.text("kind"):
+        case "LINE":
+            table.only(_keys(Form.LINE, "kind", "choice"))
+            return LineSegment(**_numbers(table, Form.LINE), choice=_choice(table))
+        case "ARC":
+            table.only(_keys(Form.ARC, "kind", "choice"))
+            direction = table.chosen("direction", Direction)
+            return ArcSegment(direction, **_numbers(table, Form.ARC), choice=_choice(table))
+        case "BLEND ARC":
+            table.only(_keys(Form.BLEND, "kind"))
+            return BlendSegment(**_numbers(table, Form.BLEND))
+        case other:
+            raise table.fault("kind", f"kind cannot be {printable(other)}: write LINE, ARC or BLEND ARC, in quotes.")
+
+
+def _choice(table: _Table) -> int | None:
+    value = table.data.get("choice")
+    if value is None or (value in (0, 1) and type(value) is int):
+        return value
+    raise table.fault("choice", f"choice cannot be {_written(value)}: write 0 or 1.")

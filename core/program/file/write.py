@@ -1,0 +1,72 @@
+"""A Program as the text of its file: what was typed and nothing calculated, in the order of the screens."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+
+from core.program.fields import TABLES, Form, form_of
+from core.program.file.end import END, PROMISE
+from core.program.file.read import FORMAT, KIND, UNREAD
+from core.program.model import Block, Entry, Parameters, PartSetup, Program, Segment, Tool, Unread
+from core.units import Kind
+
+
+def written(program: Program) -> str:
+    """The text of a program's file."""
+    lines = [f"format = {FORMAT}  {PROMISE}", f'units = "{program.unit}"  # every length and feed below is in it']
+    lines += _table("[parameters]", "parameters", Form.PARAMETERS, program.parameters)
+    lines += _table("[setup]", "setup", Form.SETUP, program.setup)
+    for tool in program.tools:
+        lines += _table("[[tool]]", "tool", Form.TOOL, tool)
+    for block in program.blocks:
+        lines += _table("[[block]]", "block", Form.START, block, KIND)
+        for segment in block.segments:
+            form = form_of(segment)
+            lines += _table("[[block.segment]]", "block.segment", form, segment, form.value)
+    return "\n".join((*lines, "", END)) + "\n"
+
+
+Typable = Parameters | PartSetup | Tool | Block | Segment
+
+
+def _table(header: str, name: str, form: Form, part: Typable, kind: str | None = None) -> list[str]:
+    """A table with its header and, behind it, the table of its unread texts."""
+    keys = [] if kind is None else [f'kind = "{kind}"']
+    keys += _keys(form, part)
+    unread = [f"{key} = {_quoted(text)}" for key, text in _unread(form, part)]
+    if unread:
+        unread = ["", f"[{name}.{UNREAD}]", *unread]
+    bare = header.startswith("[[") or keys or unread
+    return ["", header, *keys, *unread] if bare else []
+
+
+def _keys(form: Form, part: Typable) -> Iterator[str]:
+    for one in TABLES[form]:
+        value = getattr(part, one.name)
+        if isinstance(value, Entry):
+            yield f"{one.name} = {_number(value.value, one.kind)}"
+        elif isinstance(value, int | str) and (one.name, value) != ("name", ""):
+            yield f"{one.name} = {_quoted(value) if isinstance(value, str) else value}"
+    choice = getattr(part, "choice", None)
+    if choice is not None:
+        yield f"choice = {choice}"
+
+
+def _unread(form: Form, part: Typable) -> Iterator[tuple[str, str]]:
+    for one in TABLES[form]:
+        value = getattr(part, one.name)
+        if isinstance(value, Unread):
+            yield one.name, value.text
+
+
+def _number(value: float, kind: Kind) -> str:
+    """The shortest text that reads back as the same number."""
+    whole = kind is Kind.COUNT and value == int(value)
+    return str(int(value)) if whole else repr(float(value) + 0.0)
+
+
+def _quoted(text: str) -> str:
+    """A basic string; half characters, which no file can hold, become question marks."""
+    whole = str(text).encode("utf-8", "replace").decode("utf-8")
+    return json.dumps(whole, ensure_ascii=False).replace("\x7f", "\\u007f")

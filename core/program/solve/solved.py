@@ -1,0 +1,101 @@
+"""A block with its blanks calculated: what `core.program.solve.solve` yields.
+
+`Solved` is a calculated number and never an `Entry`: the form shows it with the tag CAL and no edit turns
+it into something typed.  Needs no numpy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import chain
+from operator import attrgetter
+from typing import TYPE_CHECKING, Final
+
+from core.finding import Finding, Severity
+from core.geometry.piece import Piece, Point
+from core.program.model import Entry, Unread
+
+if TYPE_CHECKING:
+    from core.program.solve.solve import Making
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """A calculated number, in program units (degrees for an angle)."""
+
+    value: float
+
+
+Value = Entry | Solved | Unread | None
+
+_findings: Final = attrgetter("findings")
+
+
+@dataclass(frozen=True, slots=True)
+class SolvedSegment:
+    """Segment `number` with every field's value by name.
+
+    `piece` is its part of the surface in millimeters, None while it is not determined or has no length;
+    neighbors of a BLEND ARC are already shortened.  `missing` names the fields of which one more is needed.
+    `choices` are the pieces between which the operator picks, in assist's order.  `z_start`, `z_end` are
+    millimeters, `feed` millimeters a minute.
+    """
+
+    number: int
+    values: Mapping[str, Value]
+    piece: Piece | None
+    missing: tuple[str, ...] = ()
+    choices: tuple[Piece, ...] = ()
+    start: Point | None = None
+    """Where it begins, as far as known, before any blending."""
+    end: Point | None = None
+    """Where it ends before any blending, None while it is not determined."""
+    sketch: Piece | None = None
+    """What to draw dashed while it is not determined."""
+    z_start: float = 0.0
+    z_end: float = 0.0
+    feed: float | None = None
+    findings: tuple[Finding, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class SolvedBlock:
+    """A whole block: START's values and its segments.  Lengths in millimeters, feeds in millimeters a minute.
+
+    `determined` is how many segments from the first on are determined; the surface known so far is theirs.
+    """
+
+    values: Mapping[str, Value]
+    segments: tuple[SolvedSegment, ...]
+    closed: bool
+    determined: int
+    tool_diameter: float | None
+    tool_type: str
+    finish_diameter: float | None
+    z_start: float | None
+    z_bottom: float | None
+    plunge_feed: float | None
+    speed: float | None
+    peck_depth: float
+    findings: tuple[Finding, ...]
+    making: Making = field(compare=False)
+    """What it was made of, for the block that an edit makes of this one."""
+    pieces: tuple[tuple[int, Piece], ...] = ()
+    """(segment number, piece) of the determined surface from START on; segments without length are passed over."""
+
+    @property
+    def every_finding(self) -> tuple[Finding, ...]:
+        """Findings of START and of all segments."""
+        return (*self.findings, *chain.from_iterable(map(_findings, self.segments)))
+
+    @property
+    def whole(self) -> bool:
+        """Every segment is determined: what is known of the surface is all of it."""
+        return self.determined == len(self.segments)
+
+    @property
+    def postable(self) -> bool:
+        """Everything is read and determined."""
+        sound = all(finding.severity is not Severity.ERROR for finding in self.every_finding)
+        return self.whole and bool(self.pieces) and sound
