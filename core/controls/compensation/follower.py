@@ -6,18 +6,13 @@ writes moves to the tape and keeps, for the verdict, what was programmed under c
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from core.controls.compensation.corners import Element
 from core.controls.iso.words import Block
 from core.controls.moves import Plane, Point3, Tape, flat, solid
 from core.controls.report import Change, Log, Stretch
-from core.controls.series.elements import Elements, rows
-from core.controls.series.words import Words
 from core.geometry.piece import Point
 from core.geometry.side import Side
 
@@ -86,34 +81,6 @@ class Follower:
             self.straight(element, element.end)
         if self._leaving and element.moves:
             self._left()
-
-    def passes(self, words: Words, lines: Sequence[str]) -> bool:  # noqa: ARG002 - for the followers that need it
-        """Whether `watch` would find nothing in these lines of plain words, the first ones of `lines`."""
-        return True
-
-    def travel_all(self, elements: Elements) -> int:
-        """As many of these elements as can be taken, one by one or at once, with the same outcome; how many."""
-        if not self.active and not self._leaving:
-            self.unchanged(elements)
-            return elements.size
-        for taken, element in enumerate(elements.each()):
-            if self.steady:
-                return taken + self.at_once(elements.part(taken, elements.size))
-            self.travel(element)
-        return elements.size
-
-    @property
-    def steady(self) -> bool:
-        """Whether the elements from here on can be taken at once."""
-        return False
-
-    def at_once(self, _: Elements) -> int:
-        """As many of these elements as can be taken at once, while `steady`; how many."""
-        return 0
-
-    def unchanged(self, elements: Elements) -> None:
-        """Elements without compensation."""
-        self.tape.extend(rows(elements.end, elements.high, elements.center, elements, self.plane))
 
     def straight(self, element: Element, end: Point, *, low: bool = False) -> None:
         """A straight move of an element's to a point of its plane, at its end's height or still at its start's."""
@@ -184,13 +151,6 @@ class Follower:
             tape.arc(target, middle, element.turn, plane, element.feed, element.line)
         else:
             tape.straight(*target, element.feed, element.line)
-
-    def note_all(self, elements: Elements) -> None:
-        """Elements programmed under compensation."""
-        if self._span is not None:
-            programmed = elements._replace(rapid=np.zeros(elements.size))
-            table = rows(elements.end, elements.high, elements.center, programmed, self.plane)
-            self._span.programmed.extend(table)
 
     def leave(self, *, entry: int, exits: int) -> None:
         """Compensation is canceled: the next motion in the plane still belongs to the stretch."""

@@ -26,8 +26,6 @@ from core.controls.compensation.follower import Follower
 from core.controls.iso.words import Block
 from core.controls.moves import Plane, Point3, flat, solid
 from core.controls.report import Log
-from core.controls.series.elements import Elements
-from core.controls.series.lookahead import Terms, corners, joined
 from core.geometry.piece import Point
 from core.geometry.side import Side
 from core.units import Unit
@@ -141,24 +139,6 @@ class LookAhead(Follower):
         else:
             self.note(element)
             self.queue.append(Held(element, square_end(self._front, self.offset)))
-
-    @property
-    def steady(self) -> bool:
-        """Whether the next corner hangs on the held move and the next one alone."""
-        return len(self.queue) == 1 and not (self.first or self.no_arc or self.lathe or self._leaving)
-
-    def at_once(self, elements: Elements) -> int:
-        """All the leading elements whose corners stop nothing."""
-        made = corners(self._front, self.started, elements, Terms(self.offset, TANGENT, self._slack))
-        count = len(made.bends)
-        if count:
-            elements = elements.part(0, count)
-            self.tape.extend(joined(self._front, elements, made, self.plane, self.offset))
-            self.note_all(elements)
-            last = elements.one(count - 1)
-            self.queue = [Held(last, square_end(last, self.offset))]
-            self.started = made.starts[0].item(-1), made.starts[1].item(-1)
-        return count
 
     @property
     def _front(self) -> Element:

@@ -9,9 +9,8 @@ from typing import Final
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.owords import OWords, found_in
 from core.controls.iso.parameters import Kept, Parameters
-from core.controls.iso.words import Block, whole
+from core.controls.iso.words import Block, is_plain, whole
 from core.controls.report import Log
-from core.controls.series.words import is_plain
 from core.finding import Severity
 
 MOST_BLOCKS: Final = 400_000
@@ -158,13 +157,6 @@ class Flow:
         if self.budget < 0:
             text = f"Subprograms or loops run more than {MOST_BLOCKS} blocks again, long ones counted several times"
             self.log.stop("LIMIT", f"{text}. {GIVEN_UP}", line, 1)
-
-    def passed(self, count: int) -> None:
-        """Counts so many plain lines that have run from here on, at most as many as `budget`, and goes behind them."""
-        rows = slice(self.at, self.at + count)
-        self.budget -= self.ran[rows].count(True)
-        self.ran[rows] = b"\1" * count
-        self.at += count
 
     def ended(self) -> None:
         """The file is at its end; what is not closed by then is told."""

@@ -10,9 +10,7 @@ from core.controls.iso.flow import Flow
 from core.controls.iso.machine import Machine
 from core.controls.iso.source import lines_of
 from core.controls.iso.words import Block, read_line
-from core.controls.plain_move import plain_move
 from core.controls.report import AlarmError, Log, Run
-from core.controls.series.road import Road
 from core.controls.tools import ToolTable
 
 
@@ -43,15 +41,10 @@ def _run(flow: Flow, machine: Machine) -> None:
     lines, dialect, log, values = flow.lines, flow.dialect, flow.log, flow.values
     if values is not None:
         values.machine = machine
-    road = Road()
-    while road.ahead(flow, machine):
+    while flow.at < len(lines):
         line = flow.at = flow.at + 1
         text = lines[line - 1]
         flow.next_line(line)
-        move = plain_move(text, line)
-        if move is not None:
-            machine.step(move)
-            continue
         if flow.owords is not None and flow.follow(line - 1):
             continue
         for block in read_line(text, line, log, dialect.syntax, values):

@@ -27,6 +27,8 @@ _CLEAN: Final = re.compile(rf"(?:[ \t]*+[A-Z][ \t]*+{NUMBER})*[ \t]*+")
 _PAIR: Final = re.compile(rf"([A-Z])[ \t]*+({NUMBER})")
 _DATA: Final = re.compile(rf"T[ \t]*+([0-9]++)[ \t]*+/[ \t]*+({NUMBER})?[ \t]*+/[ \t]*+({NUMBER})?")
 
+_MOVE_WORDS: Final = re.compile(rf"[ \t]*+(?:[GNXYZIJKRF][ \t]*+{NUMBER}[ \t]*+)+", re.IGNORECASE | re.ASCII)
+
 _CODES: Final[Mapping[str, int]] = MappingProxyType(
     {f"{code:{width}}": 10 * code for code in range(100) for width in ("", "02")}
 )
@@ -148,6 +150,11 @@ def whole(value: float) -> int | None:
     """A whole number, None for one that is not."""
     number = round(value)
     return number if abs(number - value) < WHOLE else None
+
+
+def is_plain(line: str) -> bool:
+    """Whether a line holds nothing but the words of moves."""
+    return _MOVE_WORDS.fullmatch(line) is not None
 
 
 PLAIN: Final = Syntax()

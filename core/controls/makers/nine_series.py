@@ -8,6 +8,7 @@ the least length that the machine builder can set is taken as 0, and so is the l
 
 from __future__ import annotations
 
+from math import radians
 from typing import Final, NamedTuple
 
 from core.controls.compensation import generated
@@ -18,7 +19,7 @@ from core.controls.compensation.radius_zero import nothing_compensated
 from core.controls.iso.dialect import Dialect, Do, codes
 from core.controls.iso.runner import execute
 from core.controls.iso.words import Block, Semicolon, Syntax
-from core.controls.makers.nine_many import TANGENT, NineMany
+from core.controls.makers.nine_words import NineWords
 from core.controls.report import Log, Run
 from core.controls.tools import ToolTable
 from core.finding import Severity
@@ -44,6 +45,9 @@ DIALECT: Final = Dialect(
     d_anywhere=True,
 )
 
+TANGENT: Final = radians(0.05)
+"""Inside corners under this angle whose offsets miss each other are tangent; the control's own limit is not known."""
+
 NON_MOTION: Final = 10
 """Blocks without motion in the plane that compensation looks across; the machine builder sets it, this is assumed."""
 
@@ -57,13 +61,14 @@ class Before(NamedTuple):
     standing: tuple[Element, ...]
 
 
-class NineSeries(NineMany):
+class NineSeries(NineWords):
     """The compensation itself."""
 
     short = True
 
     def __init__(self, log: Log) -> None:
         super().__init__(log)
+        self.entering = False
         self.quiet = 0
         self.before = Before(0, None, None, ())
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from typing import Final, NoReturn
 
 from core.controls.compensation.offset_chain import Chain
@@ -11,7 +10,6 @@ from core.controls.compensation.radius_zero import nothing_compensated
 from core.controls.iso.words import Block
 from core.controls.moves import Plane
 from core.controls.report import Log
-from core.controls.series.words import Words
 from core.finding import Severity
 from core.geometry.side import Side
 
@@ -57,13 +55,6 @@ class ThreeBlockWords(Chain):
         if 990 in block.g:
             text = "G99 is taken out under compensation; the control puts its own between tangent moves."
             self.log.tell(Severity.INFO, "B15-G99", text, block.line, block.column("G", 990))
-
-    def passes(self, words: Words, lines: Sequence[str]) -> bool:
-        """Whether nothing is to be told of centers under G91, of R and of numbers without a point; `opening` ends."""
-        self.opening = False
-        if words.has("R").any() or (self.machine.incremental and words.has("IJ").any()):
-            return False
-        return _POINTLESS.search("\n".join(lines[: words.count])) is None
 
     def wrong_plane(self, block: Block) -> NoReturn:
         """Stops the run: compensation in another plane than XY."""

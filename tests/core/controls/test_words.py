@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 
 from core.controls.iso.source import lines_of, shown
 from core.controls.iso.words import PLAIN, Block, Semicolon, Slash, Syntax, ToolData, read_line, tenths, whole
-from core.controls.plain_move import plain_move
 from core.controls.report import AlarmError, Log
 from core.finding import Finding
 
@@ -155,39 +154,3 @@ def test_any_text_is_read_or_faulted(text: str) -> None:
     said = alarm(text)
     assert said is None or said.text.isprintable()
     assert said is None or (said.column or 0) >= 1
-
-
-def made(block: Block) -> tuple[object, ...]:
-    """Everything of a block, the order of its words too."""
-    placed = [(letter, block.column(letter)) for letter in block.words]
-    values = list(block.words.items())
-    where = (block.line, block.text, block.start, block.columns)
-    return *where, values, block.g, block.m, block.data, block.moves_only, placed
-
-
-@given(st.from_regex(r"(G0?[0-9]|G4[01])?([ \t]?[NFXYZIJKR][-+]?[0-9]{0,12}\.?[0-9]{0,3}){0,5}[ \t]?", fullmatch=True))
-@settings(max_examples=500)
-def test_a_plain_move_is_what_reading_its_line_makes(text: str) -> None:
-    move = plain_move(text, 7)
-    if move is not None:
-        (read,) = read_line(text, 7, Log())
-        assert made(move) == made(read)
-
-
-@pytest.mark.parametrize("text", ["G1 X1 Y2", "G02X1.Y-2I.5J+3 ", "\tX1", "Z-4.25", "G3", "G0 X0 Y0 Z0", "G2 X1 R-5"])
-def test_usual_moves_are_read_the_short_way(text: str) -> None:
-    move = plain_move(text, 7)
-    assert move is not None
-    (read,) = read_line(text, 7, Log())
-    assert made(move) == made(read)
-
-
-@pytest.mark.parametrize(
-    "text", ["", " ", "%", "G1 X1 X2", "G10 X1", "G1.5", "G4", "X1 F5", "x1", "X", "X1;", "X#1", "/X1", "X1e5", "X٣"]
-)
-def test_other_lines_are_left_to_the_longer_way(text: str) -> None:
-    assert plain_move(text, 7) is None
-
-
-def test_a_number_beyond_any_machine_is_left_to_the_longer_way() -> None:
-    assert plain_move("G1 X" + "9" * 30, 7) is None
