@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from core.controls.iso.source import shown
+from core.controls.program_text import quoted
 from core.controls.registry import UnknownControl, resolve
 from core.controls.tools import CutterTool, ToolTable, read_table
 from core.program.tool_table import faults
@@ -35,7 +35,7 @@ def control_of(text: str) -> str:
     """The full name of a control; Unusable where there is none of that name."""
     found = resolve(text)
     if isinstance(found, UnknownControl):
-        raise Unusable(f"--control {shown(text)}: {found.text}")
+        raise Unusable(f"--control {quoted(text)}: {found.text}")
     return found
 
 
@@ -62,9 +62,9 @@ def _tool(text: str) -> CutterTool:
     try:
         tool = CutterTool(int(number), float(digits), unit=unit)
     except ValueError:
-        raise Unusable(f"--tool {shown(text)}: write a number and a diameter, as in 1=.5 or 2=6mm.") from None
+        raise Unusable(f"--tool {quoted(text)}: write a number and a diameter, as in 1=.5 or 2=6mm.") from None
     if not abs(tool.diameter) < 1e6 or tool.number < 0:
-        raise Unusable(f"--tool {shown(text)}: that is no diameter of a tool.")
+        raise Unusable(f"--tool {quoted(text)}: that is no diameter of a tool.")
     return tool
 
 

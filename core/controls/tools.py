@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from core.controls.iso.source import lines_of
+from core.controls.program_text import lines_of
 from core.finding import Finding
 from core.program.tool_table import Listed, listed
 from core.units import Unit, to_mm

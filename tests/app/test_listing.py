@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from app.files import is_nc
 from app.listing import Listing
-from core.controls.iso.source import lines_of
+from core.controls.program_text import lines_of
 
 DATA = (
     b"",

@@ -11,7 +11,7 @@ from math import acos, asin, atan2, ceil, cos, degrees, exp, floor, fmod, isfini
 from typing import Final
 
 from core.controls.iso.parameters import FaultError, Kept, Parameters
-from core.controls.iso.source import shown
+from core.controls.program_text import quoted
 
 EQUAL: Final = 1e-4
 """How far two values may be apart and still be equal."""
@@ -203,5 +203,5 @@ class Reader:
         return float(self.values.exists(name))
 
     def _before(self) -> str:
-        rest = shown(self.text[self.at :])
+        rest = quoted(self.text[self.at :])
         return f" before {rest}" if rest else " at the end"

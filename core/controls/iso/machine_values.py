@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
-from core.controls.iso.source import shown
 from core.controls.moves import Plane, Point3
+from core.controls.program_text import quoted
 from core.units import Unit, from_mm
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ def named(machine: Machine, name: str) -> float | str:
     }
     if name in values:
         return values[name]
-    return f"#<{shown(name.lower())}> is not known before the control runs; write the number itself."
+    return f"#<{quoted(name.lower())}> is not known before the control runs; write the number itself."
 
 
 def _read(machine: Machine, at: Point3, axis: int) -> float:

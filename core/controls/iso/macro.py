@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 
 from core.controls.iso.expressions import Reader
 from core.controls.iso.parameters import FaultError, Parameters
-from core.controls.iso.source import shown
+from core.controls.program_text import quoted
 from core.controls.report import Log
 from core.finding import Severity
 
@@ -74,7 +74,7 @@ def _item(
         words.append(f"{sign}{plain(reader.value())}")
         columns.append(line.columns[begin] + 1)
     else:
-        raise FaultError("WORD", f"{shown(text[begin:])} is not understood; a word is a letter and a value.", begin)
+        raise FaultError("WORD", f"{quoted(text[begin:])} is not understood; a word is a letter and a value.", begin)
 
 
 def _setting(reader: Reader) -> tuple[int | str, float]:

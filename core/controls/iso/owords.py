@@ -14,7 +14,7 @@ from typing import Final, NamedTuple, NoReturn
 from core.controls.iso.expressions import Reader
 from core.controls.iso.macro import Squeezed, tell_unset
 from core.controls.iso.parameters import FaultError, Parameters
-from core.controls.iso.source import shown
+from core.controls.program_text import quoted
 from core.controls.report import Log
 
 DEEPEST: Final = 9
@@ -139,7 +139,7 @@ class OWords:
             while reader.at < len(text) and len(found) < most:
                 found.append(reader.brackets())
             if reader.at < len(text):
-                rest = f"{shown(text[reader.at :])} has no place behind {word.word.lower()} here."
+                rest = f"{quoted(text[reader.at :])} has no place behind {word.word.lower()} here."
                 raise FaultError("OWORD", rest, reader.at)
         except FaultError as fault:
             self._fault(word, fault)
@@ -185,7 +185,7 @@ class OWords:
         begun = next((other for other in self.by_label.get(label, ()) if other.word == "SUB"), None)
         if begun is None:
             name = f"O{label}" if label.isdigit() else f"O<{label.lower()}>"
-            self._stop(word, f"There is no subprogram {shown(name)} in this file; other files are not read.")
+            self._stop(word, f"There is no subprogram {quoted(name)} in this file; other files are not read.")
         if len(self.frames) >= DEEPEST:
             self._stop(word, f"More than {DEEPEST} subprograms run inside each other; the control stops here.")
         self.values.enter(self._values(word, _MOST_ARGUMENTS))

@@ -11,7 +11,7 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, Final
 
 from core.controls.iso import machine_values
-from core.controls.iso.source import shown
+from core.controls.program_text import quoted
 
 if TYPE_CHECKING:
     from core.controls.iso.machine import Machine
@@ -80,9 +80,9 @@ class Parameters:
             raise FaultError("PARAMETER", text, at)
         return value
 
-    def _system(self, shown: str, look: machine_values.Look, key: int | str, at: int) -> float:
+    def _system(self, name: str, look: machine_values.Look, key: int | str, at: int) -> float:
         if self.machine is None:
-            raise FaultError("BEYOND", f"{shown} is not known here.", at)
+            raise FaultError("BEYOND", f"{name} is not known here.", at)
         found = look(self.machine, key)
         if isinstance(found, str):
             raise FaultError("BEYOND", found, at)
@@ -95,10 +95,10 @@ class Parameters:
                 return self._result(name)
             if name == "_CALL_LEVEL":
                 return float(len(self._outer))
-            return self._system(f"#<{shown(name.lower())}>", machine_values.named, name, at)
+            return self._system(f"#<{quoted(name.lower())}>", machine_values.named, name, at)
         value = self._scope(name).get(name)
         if value is None:
-            text = f"#<{shown(name.lower())}> is given no value before this; set it first."
+            text = f"#<{quoted(name.lower())}> is given no value before this; set it first."
             raise FaultError("PARAMETER", text, at)
         return value
 
@@ -118,7 +118,7 @@ class Parameters:
         """Refuses what a program cannot set."""
         if isinstance(key, str):
             if key in machine_values.NAMES or key.startswith(("_HAL[", "_INI[")):
-                raise FaultError("PARAMETER", f"#<{shown(key.lower())}> can only be read; choose another name.", at)
+                raise FaultError("PARAMETER", f"#<{quoted(key.lower())}> can only be read; choose another name.", at)
         elif self.kept is Kept.MACRO_B:
             if not 1 <= key < _MACRO_SYSTEM:
                 raise FaultError("PARAMETER", f"#{key} can only be read; a program sets #1 to #4999.", at)

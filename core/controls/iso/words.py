@@ -15,7 +15,7 @@ from typing import Final
 
 from core.controls.iso.macro import GAP, Squeezed, worked_out
 from core.controls.iso.parameters import Parameters
-from core.controls.iso.source import shown
+from core.controls.program_text import capitals, quoted
 from core.controls.report import Log
 from core.finding import Severity
 from core.tolerance import LARGEST
@@ -127,15 +127,8 @@ class Block:
             pairs = _PAIR.findall(self.text)
             yield from ((letter, number, at) for (letter, number), at in zip(pairs, self.columns, strict=True))
             return
-        for found in _PAIR.finditer(_bare(_capitals(self.text))):
+        for found in _PAIR.finditer(_bare(capitals(self.text))):
             yield found[1], found[2], self.start + found.start() + 1
-
-
-def _capitals(text: str) -> str:
-    """A line in capitals, sign for sign: only the plain letters, lest another sign turns into one of them."""
-    if text.isascii():
-        return text.upper()
-    return "".join(one.upper() if one.isascii() else one for one in text)
 
 
 def tenths(value: float) -> int | None:
@@ -167,7 +160,7 @@ def read_line(
 
     With `values` parameters and expressions are worked out and set.
     """
-    upper = _capitals(text)
+    upper = capitals(text)
     if _CLEAN.fullmatch(upper):
         return [_filled(Block(line, text), upper, log)] if upper and not upper.isspace() else []
     if syntax.semicolon is Semicolon.END and ";" in upper:
@@ -179,13 +172,13 @@ def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
     """The blocks between semicolons; behind the last, what is no block is told and left out."""
     start, parts = 0, text.split(";")
     for index, part in enumerate(parts):
-        bare = _bare(_capitals(part))
+        bare = _bare(capitals(part))
         plain = _CLEAN.fullmatch(bare) is not None
         if plain or index < len(parts) - 1:
             yield from _closer(Block(line, part, start), bare, log, syntax)
         else:
             column = start + 1 + len(part) - len(part.lstrip())
-            words = f"Behind the end of the block {shown(part)} is not read."
+            words = f"Behind the end of the block {quoted(part)} is not read."
             log.tell(Severity.INFO, "TEXT", words, line, column)
         start += len(part) + 1
 
@@ -224,7 +217,7 @@ def _no_branch(block: Block, bare: str, log: Log) -> None:
 
 def _worked_out(block: Block, log: Log, values: Parameters) -> list[Block]:
     """The block of a line with parameters or expressions; none of one that only sets them."""
-    marked = _bare(_capitals(block.text), GAP)
+    marked = _bare(capitals(block.text), GAP)
     skip = len(marked) - len(marked.lstrip()) + 1 if marked.lstrip().startswith("/") else 0
     done = worked_out(Squeezed.of(marked[skip:], block.start + skip), block.line, values, log)
     if not done.columns:
@@ -239,7 +232,7 @@ def _squeezed(block: Block, log: Log) -> str:
     if nested:
         text = "A comment begins inside a comment; close the first one."
         log.stop("COMMENT", text, block.line, block.start + nested.end())
-    return "".join(_bare(_capitals(block.text), GAP).split()).replace(GAP, " ")
+    return "".join(_bare(capitals(block.text), GAP).split()).replace(GAP, " ")
 
 
 def _tool_data(found: re.Match[str]) -> ToolData:
@@ -254,7 +247,7 @@ def _filled(block: Block, upper: str, log: Log) -> Block:
             code = _CODES.get(number) or tenths(float(number))
             if code is None:
                 column = block.column(letter)
-                log.stop("CODE", f"{letter}{shown(number)} is no code of any control.", block.line, column)
+                log.stop("CODE", f"{letter}{quoted(number)} is no code of any control.", block.line, column)
             (block.g if letter == "G" else block.m).append(code)
             continue
         if letter in words:
@@ -278,9 +271,9 @@ def _fault(block: Block, bare: str, log: Log) -> None:
     if rest.startswith("("):
         log.stop("COMMENT", "The comment is not closed; write the closing bracket.", block.line, column)
     if any(sign in rest[:80] for sign in "#[<="):
-        text = f"{shown(rest)} is an expression, which is not worked out here; write the number itself."
+        text = f"{quoted(rest)} is an expression, which is not worked out here; write the number itself."
         log.stop("MACRO", text, block.line, column)
-    log.stop("WORD", f"{shown(rest)} is not understood; a word is a letter and a number.", block.line, column)
+    log.stop("WORD", f"{quoted(rest)} is not understood; a word is a letter and a number.", block.line, column)
 
 
 def _bare(upper: str, fill: str = " ") -> str:

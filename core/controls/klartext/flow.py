@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 from math import isclose
 from typing import Final, NoReturn
 
-from core.controls.iso.source import shown
 from core.controls.klartext.blocks import Block
 from core.controls.klartext.formula import NoValue, evaluate
 from core.controls.klartext.setup import unknown
 from core.controls.klartext.state import State
+from core.controls.program_text import quoted
 
 DEEPEST: Final = 19
 """Subprograms that may call one another."""
@@ -56,7 +56,7 @@ def call(state: State, block: Block) -> None:
             _jump(state, block, found[1])
         return
     if len(state.calls) >= DEEPEST or any(name == found[1] for name, _ in state.calls):
-        text = f"LBL {shown(found[1])} calls itself, or subprograms are more than {DEEPEST} deep; end them with LBL 0."
+        text = f"LBL {quoted(found[1])} calls itself, or subprograms are more than {DEEPEST} deep; end them with LBL 0."
         state.stop("LABEL", text, block)
     state.calls.append((found[1], state.next))
     _jump(state, block, found[1])
@@ -64,7 +64,7 @@ def call(state: State, block: Block) -> None:
 
 def _jump(state: State, block: Block, name: str) -> None:
     if name not in state.labels:
-        state.stop("LABEL", f"There is no LBL {shown(name)} in this program.", block)
+        state.stop("LABEL", f"There is no LBL {quoted(name)} in this program.", block)
     state.next = state.labels[name]
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.iso.source import shown
+from core.controls.program_text import quoted
 
 DEEPEST: Final = 50
 """Brackets and functions within one another that a formula may have."""
@@ -68,7 +68,7 @@ def evaluate(text: str, parameters: Mapping[str, float]) -> float | NoValue:
     try:
         value = reader.sum()
         if reader.at < len(tokens):
-            return NoValue(f"{shown(tokens[reader.at])} is not understood in a formula.")
+            return NoValue(f"{quoted(tokens[reader.at])} is not understood in a formula.")
     except _FaultError as fault:
         return NoValue(str(fault))
     except (ArithmeticError, ValueError):
@@ -139,5 +139,5 @@ class _Reader:
                 raise _FaultError(f"{token} has no value yet; set it before it is used.")
             return self.parameters[token]
         if not token or not (token[0].isdigit() or token[0] in ".,"):
-            raise _FaultError(f"{shown(token) or 'The end'} stands where a formula needs a number.")
+            raise _FaultError(f"{quoted(token) or 'The end'} stands where a formula needs a number.")
         return float(token.replace(",", "."))

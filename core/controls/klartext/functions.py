@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.iso.source import shown
 from core.controls.klartext.blocks import Block
 from core.controls.klartext.state import AXES, State, Words
 from core.controls.klartext.steps import Corner, Speed
+from core.controls.program_text import quoted
 from core.finding import Severity
 
 FARTHEST: Final = 99
@@ -59,12 +59,12 @@ def _function(state: State, block: Block, name: str, corner: Corner) -> Corner:
     elif code in _CORNERS:
         return _CORNERS[code]
     elif code in _MOVING:
-        text = f"{shown(name)} moves the axes in a way that is not worked out here."
+        text = f"{quoted(name)} moves the axes in a way that is not worked out here."
         state.stop("WORD", text, block, name)
     elif code in _DIFFERENT:
         state.tell(Severity.WARNING, "M", f"{name} is not worked out here: {_DIFFERENT[code]}.", block, name)
     elif code not in _SILENT:
-        state.tell(Severity.INFO, "M", f"{shown(name)} is taken to move nothing.", block, name)
+        state.tell(Severity.INFO, "M", f"{quoted(name)} is taken to move nothing.", block, name)
     return corner
 
 

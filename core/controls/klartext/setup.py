@@ -6,10 +6,10 @@ import re
 from math import inf
 from typing import Final
 
-from core.controls.iso.source import shown
 from core.controls.klartext.blocks import LONGEST, TOO_LONG, TOOL_WORD, Block
 from core.controls.klartext.state import State, Words
 from core.controls.moves import Plane
+from core.controls.program_text import quoted
 from core.finding import Severity
 from core.units import Unit, to_mm
 
@@ -63,7 +63,7 @@ def end(state: State, block: Block) -> None:
 
 def ignored(state: State, block: Block) -> None:
     """BLK FORM and the like: nothing that moves."""
-    state.tell(Severity.INFO, "IGNORED", f"{shown(block.head)} moves nothing and is passed over.", block)
+    state.tell(Severity.INFO, "IGNORED", f"{quoted(block.head)} moves nothing and is passed over.", block)
 
 
 def structure(state: State, block: Block) -> None:
@@ -84,7 +84,7 @@ def unknown(state: State, block: Block) -> None:
     whole = block.head + block.body
     why = next((why for pattern, why in _BEYOND if pattern.match(whole)), "")
     text = "is not understood here; write L, C, CR, CT, APPR or DEP."
-    state.stop("WORD", f"{shown(whole)} {why or text}", block)
+    state.stop("WORD", f"{quoted(whole)} {why or text}", block)
 
 
 def tool(state: State, block: Block) -> None:
@@ -165,7 +165,7 @@ def cycle(state: State, block: Block) -> None:
         text = f"Cycle {number} is passed over: here it turns nothing, mirrors nothing and scales nothing."
         state.tell(Severity.INFO, "IGNORED", text, block)
     elif number == 247 and len(state.center.record.tape) == 1 and state.waiting is None:
-        text = "Cycle 247 chooses the workpiece's datum, from which everything is shown."
+        text = "Cycle 247 chooses the workpiece's datum, from which everything is quoted."
         state.tell(Severity.INFO, "IGNORED", text, block)
     elif number in (8, 10, 11, 19, 26, 27, 28, 29, 220, 221, 247) or number >= 400:
         text = f"Cycle {number} changes where things are; it is not worked out here."

@@ -12,13 +12,13 @@ from types import MappingProxyType
 from typing import Final, NoReturn
 
 from core.controls.compensation.corners import Element
-from core.controls.iso.source import shown
 from core.controls.klartext.blocks import WORD, Block, head_place, place, together
 from core.controls.klartext.center import Center
 from core.controls.klartext.formula import NoValue, evaluate
 from core.controls.klartext.rounding import NoRoom, chamfer, rounding
 from core.controls.klartext.steps import Corner, Role, Speed, Step
 from core.controls.moves import Plane
+from core.controls.program_text import quoted
 from core.controls.report import Log
 from core.controls.tools import ToolTable
 from core.finding import Severity
@@ -131,7 +131,7 @@ class State:
         else:
             at = place(block, name)
             written = block.body[at.column - block.column :].split(maxsplit=1)[0]
-            text = f"{shown(written)} is not understood in a block {shown(block.head)}."
+            text = f"{quoted(written)} is not understood in a block {quoted(block.head)}."
         self.stop("WORD", text, block, name)
 
     def number(self, block: Block, words: Words, name: str) -> float:

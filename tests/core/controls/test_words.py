@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.controls.iso.source import lines_of, shown
 from core.controls.iso.words import PLAIN, Block, Semicolon, Slash, Syntax, ToolData, read_line, tenths, whole
+from core.controls.program_text import lines_of, quoted
 from core.controls.report import AlarmError, Log
 from core.finding import Finding
 
@@ -136,8 +136,8 @@ def test_letters_that_only_look_plain_are_not_words() -> None:
 
 
 def test_what_is_shown_has_no_signs_a_terminal_obeys() -> None:
-    assert shown("\x1b[2J\x07{x}") == "?[2J??x?"
-    assert shown("A" * 100) == "A" * 24 + "..."
+    assert quoted("\x1b[2J\x07{x}") == "?[2J??x?"
+    assert quoted("A" * 100) == "A" * 24 + "..."
 
 
 @pytest.mark.timeout(60)

@@ -1,11 +1,11 @@
-"""Program text: bytes of any encoding into lines, and pieces of it made fit to be shown."""
+"""Program text: bytes of any encoding into lines, and pieces of it made fit to be quoted."""
 
 from __future__ import annotations
 
 import re
 from typing import Final
 
-SHOWN: Final = 24
+MAX_QUOTED: Final = 24
 """Characters of a program that a message quotes at most."""
 
 _BREAK: Final = re.compile(r"\r\n|\n|\r")
@@ -31,7 +31,14 @@ def _decoded(text: bytes) -> str:
         return text.decode("latin-1")
 
 
-def shown(text: str) -> str:
+def capitals(text: str) -> str:
+    """A line in capitals, sign for sign: only the plain letters, lest another sign turns into one of them."""
+    if text.isascii():
+        return text.upper()
+    return "".join(sign.upper() if sign.isascii() else sign for sign in text)
+
+
+def quoted(text: str) -> str:
     """A piece of a program as a message may quote it: short, and with nothing a terminal would obey."""
-    safe = "".join(one if one.isprintable() and one not in "{}" else "?" for one in text[: SHOWN + 1].strip())
-    return f"{safe[:SHOWN]}..." if len(text.strip()) > SHOWN else safe
+    safe = "".join(sign if sign.isprintable() and sign not in "{}" else "?" for sign in text[: MAX_QUOTED + 1].strip())
+    return f"{safe[:MAX_QUOTED]}..." if len(text.strip()) > MAX_QUOTED else safe
