@@ -7,15 +7,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Final
 
-from core.controls import shoprules
-from core.controls.compare import Compared, OtherLanguage, compare
+from core.controls import shop_rules
+from core.controls.compared_contours import ContourPair, Parting, contours
+from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.compensation.radius_zero import RADIUS_ZERO
-from core.controls.contours import ContourPair, Parting, contours
+from core.controls.control_run import Run
+from core.controls.control_tools import ToolTable
+from core.controls.judged_runs import Judged, depth, findings, judged
 from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
-from core.controls.report import Run
-from core.controls.tools import ToolTable
-from core.controls.verdicts import Judged, depth, findings, judged
 from core.finding import Finding, Severity
 from core.units import Kind, Unit, from_mm, sentence, show
 
@@ -137,7 +137,7 @@ def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
 
 
 def _answer(done: Run, results: tuple[Judged, ...], before: tuple[Finding, ...], parts: str, *, shop: bool) -> Answer:
-    told = (*before, *done.findings, *findings(results), *(shoprules.check(done) if shop else ()))
+    told = (*before, *done.findings, *findings(results), *(shop_rules.check(done) if shop else ()))
     why = None if done.stopped_at is None else _last_error(done.findings)
     row = Answer(done.control, done.unit, done.moves, _by_line(told), done.stopped_at, _outcome(done, results, why))
     return replace(row, stretches=len(done.stretches), parts=parts, why=why)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from core.controls.control_tools import CutterTool, ToolTable, read_table
 from core.controls.program_text import quoted
 from core.controls.registry import UnknownControl, resolve
-from core.controls.tools import CutterTool, ToolTable, read_table
 from core.program.tool_table import faults
 from core.units import Unit
 

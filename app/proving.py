@@ -13,7 +13,7 @@ from app.listing import Listing
 
 if TYPE_CHECKING:
     from app.checking import Answer
-    from core.controls.tools import ToolTable
+    from core.controls.control_tools import ToolTable
     from core.draw.scene import Scene
     from core.finding import Finding
     from core.pipeline.proof import Proof

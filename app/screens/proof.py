@@ -13,7 +13,7 @@ from app.screens.ask import Ask
 from app.screens.page import WHOLE, Answer, Layout, Page, Sketch, Softkeys, Surface, View
 from app.session import Session, Tone
 from app.widgets.field import Editing, press
-from core.controls.tools import ToolTable
+from core.controls.control_tools import ToolTable
 from core.finding import Finding
 from core.program.lock import Lock
 

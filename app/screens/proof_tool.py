@@ -13,7 +13,7 @@ from app.screens.page import Answer, Layout, Softkey, Softkeys, Surface, View
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.rows import Look, Row, plain
-from core.controls.tools import CutterTool, ToolTable
+from core.controls.control_tools import CutterTool, ToolTable
 from core.units import Kind, Unit, Unreadable, parse, show
 
 if TYPE_CHECKING:

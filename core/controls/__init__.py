@@ -1,11 +1,11 @@
 """NC programs as each control reads and compensates them.
 
-`registry` runs a program on any control by name; `verdicts` judges the path against the contour it was programmed
-from; `compare` holds all controls side by side and `contours` two programs of any language.
+`registry` runs a program on any control by name; `judged_runs` judges its path against the programmed contour;
+`compared_controls` compares all controls on one program, `compared_contours` two programs of any language.
 
-Word-address controls share `words` (lines into blocks), `machine` (the modal machine, by a `dialect`), `runner`
-(subprograms) and a `follower` that makes moves: `lookahead` for LinuxCNC's rules, `chain` for those that join offset
-elements in their own way.  `klartext` reads its own language.  All give the moves, findings and stretches of `report`.
+Word-address controls share the reader, the modal machine and the macros of `iso` and the joints of `compensation`;
+`makers` holds what each control does differently.  `klartext` reads its own language.  All give the moves, findings
+and stretches of `control_run`.  `write` writes a compensated contour as a control's own program.
 
 Where a maker's papers are silent, a choice is made and told in a finding as an interpretation, or stands here:
 

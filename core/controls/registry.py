@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final
 
+from core.controls.control_run import Run
+from core.controls.control_tools import ToolTable
 from core.controls.klartext import control as klartext
 from core.controls.makers import linuxcnc, nine_series, rosettacnc, threeblock
 from core.controls.program_text import lines_of
-from core.controls.report import Run
-from core.controls.tools import ToolTable
 from core.finding import Finding, Severity
 from core.units import Unit
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from core.controls.write.contouring import Cut, Plain
-from core.controls.write.iso import Frame, offsets
+from core.controls.write.iso_program import Frame, offsets
 from core.controls.write.iso_style import STYLES, Radius
-from core.controls.write.program import NotWritten, write_own
+from core.controls.write.own_program import NotWritten, write_own
+from core.controls.write.programmed_contour import Cut, Plain
 from core.finding import Finding, Severity
 from core.output.comment import comments
 from core.output.grid import Grid

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import pi
 
 from core.comp.result import Compensated
-from core.controls.write.contouring import Cut, Plain, Travel
+from core.controls.write.programmed_contour import Cut, Plain, Travel
 from core.finding import Finding, Severity
 from core.geometry.construct import rotated
 from core.geometry.piece import Arc

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from core.controls.control_run import Run, Stretch
+from core.controls.control_tools import ToolTable
+from core.controls.judged_runs import Judged, judged
 from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run
-from core.controls.report import Run, Stretch
-from core.controls.tools import ToolTable
-from core.controls.verdicts import Judged, judged
 from core.draw.build import contour_scene
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, joined_scenes
 from core.geometry.path import Path

@@ -10,7 +10,7 @@ from app.files import empty_program
 from app.listing import Listing
 from app.screens.proof import ProofPage
 from app.session import Session
-from core.controls.tools import ToolTable
+from core.controls.control_tools import ToolTable
 from tests.app.operator import Operator
 
 DATA = Path(__file__).parents[1] / "data" / "nc"

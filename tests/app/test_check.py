@@ -13,7 +13,7 @@ import pytest
 
 from app.check import check
 from app.checking import Asked, answer_all
-from core.controls.tools import ToolTable
+from core.controls.control_tools import ToolTable
 
 NC = Path(__file__).parents[1] / "data" / "nc"
 

@@ -13,7 +13,7 @@ from textual.pilot import Pilot
 from app.application import CutcompApp
 from app.listing import Listing
 from app.screens.proof import ProofPage
-from core.controls.tools import ToolTable
+from core.controls.control_tools import ToolTable
 from tests.app.pilots import app_on, loaded, rested
 
 DATA = Path(__file__).parents[1] / "data"

@@ -10,9 +10,9 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from core.controls.compensation.corners import Element
+from core.controls.control_run import Change, Log, Stretch
 from core.controls.iso.words import Block
 from core.controls.moves import Plane, Point3, Tape, flat, solid
-from core.controls.report import Change, Log, Stretch
 from core.geometry.piece import Point
 from core.geometry.side import Side
 

@@ -10,7 +10,7 @@ from typing import Final
 
 from core.controls.compensation.corners import Element, runs_back, square_end
 from core.controls.compensation.follower import Follower
-from core.controls.report import Log
+from core.controls.control_run import Log
 from core.geometry.piece import Point
 
 SAME: Final = 1e-9

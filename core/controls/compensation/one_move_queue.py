@@ -23,9 +23,9 @@ from core.controls.compensation.corners import (
     turning,
 )
 from core.controls.compensation.follower import Follower
+from core.controls.control_run import Log
 from core.controls.iso.words import Block
 from core.controls.moves import Plane, Point3, flat, solid
-from core.controls.report import Log
 from core.geometry.piece import Point
 from core.geometry.side import Side
 from core.units import Unit

@@ -6,11 +6,11 @@ import re
 from dataclasses import dataclass
 from typing import Final
 
+from core.controls.control_run import Log
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.owords import OWords, found_in
 from core.controls.iso.parameters import Kept, Parameters
 from core.controls.iso.words import Block, is_plain, whole
-from core.controls.report import Log
 from core.finding import Severity
 
 MOST_BLOCKS: Final = 400_000

@@ -10,14 +10,14 @@ from typing import Final
 
 from core.controls.compensation.corners import arc_element, element_sweep, line_element
 from core.controls.compensation.follower import Follower
+from core.controls.control_run import Log
+from core.controls.control_tools import ToolTable
 from core.controls.iso import cycles, origin, tooling, unused
 from core.controls.iso.arcs import NoArc, about, given_center, through
 from core.controls.iso.dialect import Code, Dialect, Do
 from core.controls.iso.rates import PER_MINUTE, Rates
 from core.controls.iso.words import Block, whole
 from core.controls.moves import Plane, Point3, flat
-from core.controls.report import Log
-from core.controls.tools import ToolTable
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.geometry.side import Side

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Final, NamedTuple
 
+from core.controls.control_run import Log
 from core.controls.iso.expressions import Reader
 from core.controls.iso.parameters import FaultError, Parameters
 from core.controls.program_text import quoted
-from core.controls.report import Log
 from core.finding import Severity
 
 _DIGITS: Final = frozenset("0123456789")

@@ -11,11 +11,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple, NoReturn
 
+from core.controls.control_run import Log
 from core.controls.iso.expressions import Reader
 from core.controls.iso.macro import Squeezed, tell_unset
 from core.controls.iso.parameters import FaultError, Parameters
 from core.controls.program_text import quoted
-from core.controls.report import Log
 
 DEEPEST: Final = 9
 """Subprograms that may run inside each other."""

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from core.controls.compensation.follower import Follower
+from core.controls.control_run import AlarmError, Log, Run
+from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.flow import Flow
 from core.controls.iso.machine import Machine
 from core.controls.iso.words import Block, read_line
 from core.controls.program_text import lines_of
-from core.controls.report import AlarmError, Log, Run
-from core.controls.tools import ToolTable
 
 
 def execute(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from core.controls.control_tools import CutterTool, ToolTable, not_there
 from core.controls.iso.words import Block, ToolData
-from core.controls.tools import CutterTool, ToolTable, not_there
 from core.finding import Severity
 
 if TYPE_CHECKING:

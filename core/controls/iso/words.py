@@ -13,10 +13,10 @@ from enum import Enum, auto
 from types import MappingProxyType
 from typing import Final
 
+from core.controls.control_run import Log
 from core.controls.iso.macro import GAP, Squeezed, worked_out
 from core.controls.iso.parameters import Parameters
 from core.controls.program_text import capitals, quoted
-from core.controls.report import Log
 from core.finding import Severity
 from core.tolerance import LARGEST
 

@@ -12,13 +12,13 @@ from typing import Final, NoReturn
 
 from core.controls.compensation import corners
 from core.controls.compensation.corners import Element
+from core.controls.control_run import Log
 from core.controls.klartext import leads
 from core.controls.klartext.ahead import Ahead, Run, Unreached, path_ahead
 from core.controls.klartext.leads import Form
 from core.controls.klartext.record import Record
 from core.controls.klartext.steps import Corner, Role, Speed, Step
 from core.controls.klartext.trims import advance, ending, is_inside, remaining
-from core.controls.report import Log
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.tolerance import JOINED

@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Final
 
+from core.controls.control_run import AlarmError, Log, Run
+from core.controls.control_tools import ToolTable
 from core.controls.klartext import circles, flow, functions, leading, motion, setup
 from core.controls.klartext.blocks import Block, blocks
 from core.controls.klartext.center import Center
 from core.controls.klartext.record import Record
 from core.controls.klartext.state import State
 from core.controls.program_text import lines_of
-from core.controls.report import AlarmError, Log, Run
-from core.controls.tools import ToolTable
 from core.finding import Severity
 
 JUMPED: Final = 50_000

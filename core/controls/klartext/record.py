@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from core.controls.control_run import Stretch
 from core.controls.klartext.steps import Role, Step
 from core.controls.moves import Point3, Tape, flat, solid
-from core.controls.report import Stretch
 from core.geometry.piece import Point
 from core.geometry.side import Side
 

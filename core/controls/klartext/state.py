@@ -12,6 +12,8 @@ from types import MappingProxyType
 from typing import Final, NoReturn
 
 from core.controls.compensation.corners import Element
+from core.controls.control_run import Log
+from core.controls.control_tools import ToolTable
 from core.controls.klartext.blocks import WORD, Block, head_place, place, together
 from core.controls.klartext.center import Center
 from core.controls.klartext.formula import NoValue, evaluate
@@ -19,8 +21,6 @@ from core.controls.klartext.rounding import NoRoom, chamfer, rounding
 from core.controls.klartext.steps import Corner, Role, Speed, Step
 from core.controls.moves import Plane
 from core.controls.program_text import quoted
-from core.controls.report import Log
-from core.controls.tools import ToolTable
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.tolerance import LARGEST

@@ -14,13 +14,13 @@ from typing import Final
 
 from core.controls.compensation.one_move_queue import LookAhead
 from core.controls.compensation.radius_zero import nothing_compensated
+from core.controls.control_run import Log, Run
+from core.controls.control_tools import ToolTable, not_there
 from core.controls.iso.dialect import Arcs, Dialect, Do, codes
 from core.controls.iso.parameters import Kept
 from core.controls.iso.runner import execute
 from core.controls.iso.words import SWITCHES, Block, Syntax, whole
 from core.controls.moves import Plane
-from core.controls.report import Log, Run
-from core.controls.tools import ToolTable, not_there
 from core.finding import Severity
 from core.geometry.side import Side
 from core.units import Unit

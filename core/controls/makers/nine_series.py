@@ -16,12 +16,12 @@ from core.controls.compensation.corners import Element, fits, meeting, offset_ra
 from core.controls.compensation.generated import Corners
 from core.controls.compensation.offset_chain import Joint
 from core.controls.compensation.radius_zero import nothing_compensated
+from core.controls.control_run import Log, Run
+from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect, Do, codes
 from core.controls.iso.runner import execute
 from core.controls.iso.words import Block, Semicolon, Syntax
 from core.controls.makers.nine_words import NineWords
-from core.controls.report import Log, Run
-from core.controls.tools import ToolTable
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.geometry.side import Side

@@ -6,8 +6,8 @@ from typing import Final
 
 from core.controls.compensation.generated import Corners
 from core.controls.compensation.offset_chain import Chain, Joint
+from core.controls.control_run import Log
 from core.controls.iso.words import SWITCHES, Block, whole
-from core.controls.report import Log
 from core.finding import Severity
 from core.geometry.side import Side
 

@@ -14,13 +14,13 @@ from typing import Final, NoReturn
 from core.controls.compensation.corners import Element, fits, square_end, square_start, turning
 from core.controls.compensation.follower import Follower
 from core.controls.compensation.one_move_queue import LookAhead, Rules
+from core.controls.control_run import Log, Run
+from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect, Do, codes
 from core.controls.iso.parameters import Kept
 from core.controls.iso.runner import execute
 from core.controls.iso.words import Block
 from core.controls.makers.rosettacnc_words import Switch
-from core.controls.report import Log, Run
-from core.controls.tools import ToolTable
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.geometry.side import Side

@@ -6,9 +6,9 @@ from typing import Final
 
 from core.controls.compensation.follower import Follower
 from core.controls.compensation.radius_zero import nothing_compensated
+from core.controls.control_tools import not_there
 from core.controls.iso.words import SWITCHES, Block, whole
 from core.controls.moves import Plane
-from core.controls.tools import not_there
 from core.finding import Severity
 from core.geometry.side import Side
 

@@ -22,12 +22,12 @@ from core.controls.compensation.corners import (
     turning,
 )
 from core.controls.compensation.offset_chain import Joint
+from core.controls.control_run import Log, Run
+from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Arcs, Dialect, Do, codes
 from core.controls.iso.runner import execute
 from core.controls.iso.words import Block, Semicolon, Slash, Syntax
 from core.controls.makers.threeblock_words import ThreeBlockWords
-from core.controls.report import Log, Run
-from core.controls.tools import ToolTable
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.geometry.side import Side

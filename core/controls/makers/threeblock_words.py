@@ -7,9 +7,9 @@ from typing import Final, NoReturn
 
 from core.controls.compensation.offset_chain import Chain
 from core.controls.compensation.radius_zero import nothing_compensated
+from core.controls.control_run import Log
 from core.controls.iso.words import Block
 from core.controls.moves import Plane
-from core.controls.report import Log
 from core.finding import Severity
 from core.geometry.side import Side
 

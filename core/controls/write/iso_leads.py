@@ -7,8 +7,8 @@ from math import hypot
 from typing import Final
 
 from core.controls.compensation.corners import Element, arc_element, beyond, line_element
-from core.controls.write.contouring import Cut, End, Programmed, Terms, begin, finish, programmed
 from core.controls.write.iso_style import Entry, IsoStyle
+from core.controls.write.programmed_contour import Cut, End, Programmed, Terms, begin, finish, programmed
 from core.finding import Finding
 from core.geometry.piece import Point
 from core.geometry.side import Side

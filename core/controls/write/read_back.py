@@ -14,11 +14,11 @@ from typing import Final
 import numpy as np
 
 from core.controls.compensation.corners import sweep
+from core.controls.control_run import Run, Stretch
+from core.controls.control_tools import ToolTable
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, run
-from core.controls.report import Run, Stretch
-from core.controls.tools import ToolTable
-from core.controls.write.contouring import Cut, Line, Plain, Travel, refusal
+from core.controls.write.programmed_contour import Cut, Line, Plain, Travel, refusal
 from core.finding import Finding, Severity
 from core.geometry.distance import distance
 from core.geometry.measured import at, measured

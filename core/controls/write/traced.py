@@ -12,13 +12,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.controls.chains import contour_of
 from core.controls.compensation.corners import Element, arc_element, beyond, line_element, square
+from core.controls.contours_and_leads import contour_of
+from core.controls.control_run import Run, Stretch
 from core.controls.moves import Moves, Plane
-from core.controls.report import Run, Stretch
-from core.controls.write.contouring import End, Programmed, Terms
 from core.controls.write.iso_leads import Ready, merged, out_of, start_of
 from core.controls.write.iso_style import Entry, IsoStyle
+from core.controls.write.programmed_contour import End, Programmed, Terms
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Point, Turn
 from core.geometry.piece import Line as Straight

@@ -14,7 +14,7 @@ from app.screens.proof_compare import ComparePage
 from app.screens.proof_tool import read_tool
 from app.session import Session
 from app.widgets.rows import Look
-from core.controls.tools import CutterTool
+from core.controls.control_tools import CutterTool
 from core.finding import Finding, Severity
 from core.program.edit import insert_block
 from core.units import Unit, sentence

@@ -18,9 +18,9 @@ from resource import RUSAGE_CHILDREN, RUSAGE_SELF, getrusage
 from statistics import median
 from subprocess import DEVNULL
 
+from core.controls.control_run import Run
+from core.controls.control_tools import ToolTable
 from core.controls.registry import UnknownControl, run
-from core.controls.report import Run
-from core.controls.tools import ToolTable
 from core.units import Unit
 from tests.core.controls.cycle_programs import drilled, timed
 from tests.core.controls.distribution import COMPENSATED, LIBRARY, SAMPLES, TOOLS, called, sample

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from core.controls import registry
+from core.controls.control_run import Run
+from core.controls.control_tools import ToolTable
 from core.controls.registry import UnknownControl
-from core.controls.report import Run
-from core.controls.tools import ToolTable
 from core.finding import Finding
 from core.units import from_mm
 

@@ -6,12 +6,12 @@ from itertools import pairwise
 
 from core.comp.compensate import compensate
 from core.comp.result import Compensated
+from core.controls.control_run import Run
 from core.controls.registry import names, run
-from core.controls.report import Run
-from core.controls.write.contouring import Cut
-from core.controls.write.iso import Frame, tools_of
+from core.controls.write.iso_program import Frame, tools_of
 from core.controls.write.iso_style import STYLES
-from core.controls.write.program import NotWritten, Own, write_own
+from core.controls.write.own_program import NotWritten, Own, write_own
+from core.controls.write.programmed_contour import Cut
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Line as Straight

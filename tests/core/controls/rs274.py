@@ -6,8 +6,8 @@ import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from core.controls.control_run import Run
 from core.controls.moves import Moves, Plane
-from core.controls.report import Run
 from core.units import Unit
 from tests.rs274 import process
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from core.controls.report import Run
+from core.controls.control_run import Run
 from core.finding import Severity
 from core.units import Unit, from_mm
 from tests.core.controls.compare_rs274 import outcome

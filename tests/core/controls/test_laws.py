@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from core.controls.compensation.one_move_queue import NO_FIT
+from core.controls.control_run import Run
+from core.controls.judged_runs import judged
 from core.controls.moves import Moves, Plane
-from core.controls.report import Run
-from core.controls.verdicts import judged
 from tests.core.controls.hand import ran
 from tests.core.controls.programs import RADIUS, program, turned_to_zx
 

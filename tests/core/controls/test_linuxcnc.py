@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from core.controls import registry
+from core.controls.control_tools import read_table
 from core.controls.moves import Plane
-from core.controls.tools import read_table
 from core.units import Unit, from_mm
 from tests.core.controls.compare_rs274 import outcome, programs, sample_outcome
 from tests.core.controls.distribution import COMPENSATED, LIBRARY, SAMPLES, called, sample

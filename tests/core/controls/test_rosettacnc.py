@@ -6,8 +6,8 @@ from math import acos, cos, radians, sin, sqrt
 
 import pytest
 
-from core.controls.report import Run
-from core.controls.verdicts import judged
+from core.controls.control_run import Run
+from core.controls.judged_runs import judged
 from tests.core.controls.hand import lines_and_ends, ran, same, sample, shape, told
 
 BEHIND_ENTRY = [

@@ -6,7 +6,7 @@ from math import pi, sqrt
 
 import pytest
 
-from core.controls.verdicts import depth, judged
+from core.controls.judged_runs import depth, judged
 from core.finding import Severity
 from core.units import from_mm
 from tests.core.controls.hand import ran, same, sample, shape, told

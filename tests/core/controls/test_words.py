@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core.controls.control_run import AlarmError, Log
 from core.controls.iso.words import PLAIN, Block, Semicolon, Slash, Syntax, ToolData, read_line, tenths, whole
 from core.controls.program_text import lines_of, quoted
-from core.controls.report import AlarmError, Log
 from core.finding import Finding
 
 

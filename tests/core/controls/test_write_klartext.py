@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
 from core.comp.result import Compensated
+from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run
-from core.controls.tools import ToolTable
-from core.controls.write.contouring import Cut
-from core.controls.write.iso import Frame
-from core.controls.write.program import NotWritten, Own, write_own
+from core.controls.write.iso_program import Frame
+from core.controls.write.own_program import NotWritten, Own, write_own
+from core.controls.write.programmed_contour import Cut
 from core.controls.write.read_back import LEAST
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from core.comp.compensate import compensate
-from core.controls.write.contouring import begin, finish, programmed
-from core.controls.write.program import Own
+from core.controls.write.own_program import Own
+from core.controls.write.programmed_contour import begin, finish, programmed
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Turn

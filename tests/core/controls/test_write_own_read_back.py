@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 from core.comp.compensate import compensate
 from core.controls.registry import names
 from core.controls.write import read_back as reading
-from core.controls.write.contouring import Cut, Line, Travel
-from core.controls.write.iso import Frame, tools_of
+from core.controls.write.iso_program import Frame, tools_of
 from core.controls.write.iso_style import STYLES
-from core.controls.write.program import NotWritten, Own, write_own
+from core.controls.write.own_program import NotWritten, Own, write_own
+from core.controls.write.programmed_contour import Cut, Line, Travel
 from core.controls.write.read_back import Meant, Told, _compared, _other_move, farthest, read_back, same
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Turn

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from core.controls.control_run import Run
+from core.controls.control_tools import ToolTable
 from core.controls.registry import NO_TOOLS, names, run
-from core.controls.report import Run
-from core.controls.tools import ToolTable
-from core.controls.write.contouring import Travel
+from core.controls.write.programmed_contour import Travel
 from core.geometry.distance import distance
 from core.geometry.measured import at, measured
 from core.geometry.path import Path as Line

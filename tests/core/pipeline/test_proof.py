@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 
+from core.controls.control_tools import ToolTable
 from core.controls.moves import Plane
 from core.controls.registry import NO_TOOLS, UnknownControl
-from core.controls.tools import ToolTable
 from core.draw.scene import Scene, Style
 from core.pipeline.proof import Proof, ground_of, place_of, prove, scene_of
 from core.units import Unit

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.controls.tools import read_table
+from core.controls.control_tools import read_table
 from core.finding import Finding, Severity
 from core.program.model import Entry, Tool
 from core.program.tool_table import MOST_LINES, Imported, decoded, read_tool_table

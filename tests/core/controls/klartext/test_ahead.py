@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.controls.report import Run
-from core.controls.verdicts import findings, judged
+from core.controls.control_run import Run
+from core.controls.judged_runs import findings, judged
 from core.finding import Severity
-from tests.core.controls.klartext.program import codes, flat, runs
+from tests.core.controls.klartext.klartext_runs import codes, flat, runs
 
 NEAR = pytest.approx
 START = "L X-30 Y-30 R0 FMAX"

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run
-from core.controls.tools import ToolTable
 from core.finding import Severity
-from tests.core.controls.klartext.program import DATA
+from tests.core.controls.klartext.klartext_runs import DATA
 
 FILES = sorted((DATA / "bad" / "klartext").glob("*.h"))
 WANTED = re.compile(r"; (\w+) at line (\d+) column (\d+)")

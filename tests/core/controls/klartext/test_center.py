@@ -8,7 +8,7 @@ import pytest
 
 from core.controls.compensation.corners import arc_element
 from core.controls.klartext.trims import remaining
-from tests.core.controls.klartext.program import clean, codes, flat, points, runs
+from tests.core.controls.klartext.klartext_runs import clean, codes, flat, points, runs
 
 NEAR = pytest.approx
 START = "L X-20 Y+0 R0 FMAX"

@@ -9,12 +9,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
-from core.controls.report import Run
+from core.controls.control_run import Run
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.geometry.side import Side
 from core.verify.judge import judge
-from tests.core.controls.klartext.program import runs
+from tests.core.controls.klartext.klartext_runs import runs
 
 LEG = st.tuples(st.floats(-1.8, 1.8), st.floats(12, 60), st.sampled_from([0, 1, -1]), st.floats(0.3, 2.0))
 LEGS = st.lists(LEG, min_size=1, max_size=4)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.core.controls.klartext.program import clean, codes, flat, runs
+from tests.core.controls.klartext.klartext_runs import clean, codes, flat, runs
 
 START = "L X+0 Y+0 Z+1 R0 F100"
 

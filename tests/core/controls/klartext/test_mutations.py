@@ -11,10 +11,10 @@ from time import perf_counter
 
 import pytest
 
+from core.controls.control_run import Run
+from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run
-from core.controls.report import Run
-from core.controls.tools import ToolTable
-from tests.core.controls.klartext.program import DATA
+from tests.core.controls.klartext.klartext_runs import DATA
 
 SAMPLES = sorted((DATA / "klartext").glob("*.h"))
 JUNK = (b"\x00", b"\xff\xfe", b"\x1b[2J", b"\r", b"\n", b"Q", b"9" * 400, b"(", b"~", b"/", b";", b"REP 9999", b"-")

@@ -7,7 +7,7 @@ from math import cos, radians, sin, sqrt
 import pytest
 
 from core.controls.moves import Plane
-from tests.core.controls.klartext.program import clean, codes, flat, points, runs
+from tests.core.controls.klartext.klartext_runs import clean, codes, flat, points, runs
 
 NEAR = pytest.approx
 START = "L X+0 Y+0 Z+0 R0 F100"

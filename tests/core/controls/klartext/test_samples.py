@@ -11,11 +11,11 @@ from math import hypot, sqrt
 
 import pytest
 
+from core.controls.control_run import Run
+from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run
-from core.controls.report import Run
-from core.controls.tools import ToolTable
 from core.verify.judge import judge
-from tests.core.controls.klartext.program import DATA, flat
+from tests.core.controls.klartext.klartext_runs import DATA, flat
 
 WAY = (2 / sqrt(13), 3 / sqrt(13))
 RIGHT = (3 / sqrt(13), -2 / sqrt(13))

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from core.controls.control_tools import CutterTool, ToolTable
 from core.controls.klartext.control import run
-from core.controls.tools import CutterTool, ToolTable
 from core.finding import Severity
 from core.units import Unit
-from tests.core.controls.klartext.program import clean, codes, flat, points, runs
+from tests.core.controls.klartext.klartext_runs import clean, codes, flat, points, runs
 
 NEAR = pytest.approx
 CONTOUR = ("L X-20 Y+0 R0 FMAX", "L X+0 Y+0 RL F9", "L X+30", "L X+60 R0")

@@ -12,8 +12,8 @@ from typing import Final
 
 import numpy as np
 
+from core.controls.control_run import Run, Stretch
 from core.controls.moves import Moves
-from core.controls.report import Run, Stretch
 from core.finding import Finding, Severity
 from core.geometry.distance import distance
 from core.geometry.measured import measured

@@ -8,9 +8,9 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.controls.chains import contour_of
-from core.controls.report import Run, Stretch
-from core.controls.verdicts import surface_of
+from core.controls.contours_and_leads import contour_of
+from core.controls.control_run import Run, Stretch
+from core.controls.judged_runs import surface_of
 from core.geometry.distance import distance
 from core.geometry.measured import measured
 from core.geometry.path import Path

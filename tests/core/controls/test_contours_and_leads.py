@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.controls.chains import chains, contour_of, ways
-from core.controls.compare import compare
-from core.controls.verdicts import findings, judged
+from core.controls.compared_controls import compare
+from core.controls.contours_and_leads import chains, contour_of, ways
+from core.controls.judged_runs import findings, judged
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.units import Unit
@@ -151,7 +151,7 @@ def test_of_contours_that_are_closed_or_alone_none_is_a_way() -> None:
 
 
 def test_the_comparison_tells_it_too() -> None:
-    from core.controls.tools import ToolTable
+    from core.controls.control_tools import ToolTable
 
     tools = ToolTable.diameters({1: 6.0})
     rows = {row.control: row for row in compare(ring_and_key(3).encode(), tools, Unit.MM)}

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.controls.compare import Compared, OtherLanguage, compare, parting
+from core.controls.compared_controls import Compared, OtherLanguage, compare, parting
+from core.controls.control_tools import ToolTable
 from core.controls.iso import flow
+from core.controls.judged_runs import depth, findings, judged
 from core.controls.registry import compared, names, reads, resolve
-from core.controls.tools import ToolTable
-from core.controls.verdicts import depth, findings, judged
 from core.finding import Severity
 from core.geometry.path import Path
 from core.units import Unit, from_mm, sentence

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from typing import Final
 
 from core.controls.compensation.corners import Element
-from core.controls.tools import CutterTool, ToolTable
-from core.controls.write.contouring import Line, Plain, Terms, Travel, number_text
+from core.controls.control_tools import CutterTool, ToolTable
 from core.controls.write.iso_leads import Ready
 from core.controls.write.iso_style import IsoStyle, Radius
+from core.controls.write.programmed_contour import Line, Plain, Terms, Travel, number_text
 from core.geometry.piece import Point
 from core.geometry.side import Side
 from core.units import Unit, from_mm

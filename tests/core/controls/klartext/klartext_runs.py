@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from core.controls.control_run import Run
+from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run
 from core.controls.moves import Move
-from core.controls.report import Run
-from core.controls.tools import ToolTable
 
 DATA = Path(__file__).parents[3] / "data"
 HEAD = "BEGIN PGM P MM\nTOOL DEF 1 L+0 R+{radius}\nTOOL CALL 1 Z S1000\n"

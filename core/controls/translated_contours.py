@@ -12,14 +12,14 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from core.controls.control_run import Run, Stretch
+from core.controls.control_tools import ToolTable
 from core.controls.registry import UnknownControl, run
-from core.controls.report import Run, Stretch
-from core.controls.tools import ToolTable
-from core.controls.write.contouring import Line
-from core.controls.write.iso import Frame, tools_of, write
 from core.controls.write.iso_leads import Ready
+from core.controls.write.iso_program import Frame, tools_of, write
 from core.controls.write.iso_style import STYLES
-from core.controls.write.klartext import DECIMALS, write_led
+from core.controls.write.klartext_program import DECIMALS, write_led
+from core.controls.write.programmed_contour import Line
 from core.controls.write.traced import Traced, Untold, led, traced
 from core.units import to_mm
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core.controls.tools import CutterTool, ToolTable, read_table
+from core.controls.control_tools import CutterTool, ToolTable, read_table
 from core.units import Unit
 
 

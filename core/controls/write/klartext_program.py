@@ -12,8 +12,8 @@ from math import degrees, hypot, tau
 from typing import Final
 
 from core.controls.compensation.corners import Element, sweep
-from core.controls.write.contouring import Cut, Line, Plain, Programmed, Terms, Travel, blend_of, programmed
 from core.controls.write.iso_leads import Ready
+from core.controls.write.programmed_contour import Cut, Line, Plain, Programmed, Terms, Travel, blend_of, programmed
 from core.finding import Finding
 from core.geometry.piece import Point
 from core.geometry.side import Side

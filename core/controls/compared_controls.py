@@ -7,13 +7,13 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.contours import Parting, apart
+from core.controls.compared_contours import Parting, apart
+from core.controls.control_run import Run, Stretch
+from core.controls.control_tools import ToolTable
+from core.controls.judged_runs import Judged, depth, judged
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, compared, programmed, reads, run
-from core.controls.report import Run, Stretch
-from core.controls.tools import ToolTable
-from core.controls.translate import run_by_contour
-from core.controls.verdicts import Judged, depth, judged
+from core.controls.translated_contours import run_by_contour
 from core.controls.write.traced import Untold
 from core.geometry.path import EMPTY, Path
 from core.units import Unit

@@ -9,9 +9,9 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.chains import MOST_LEAD, Rows, chains, ways
-from core.controls.laps import unlapped
-from core.controls.report import Run, Stretch
+from core.controls.contours_and_leads import MOST_LEAD, Rows, chains, ways
+from core.controls.control_run import Run, Stretch
+from core.controls.repeated_passes import unlapped
 from core.finding import Finding, Severity
 from core.geometry.path import Path, joined
 from core.tolerance import GOUGE

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.controls.laps import unlapped
-from core.controls.report import Run
-from core.controls.verdicts import depth, findings, judged
+from core.controls.control_run import Run
+from core.controls.judged_runs import depth, findings, judged
+from core.controls.repeated_passes import unlapped
 from core.geometry.measured import at
 from core.geometry.path import Path
 from core.geometry.side import Side

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from core.controls.control_run import Run
+from core.controls.control_tools import ToolTable
 from core.controls.registry import run
-from core.controls.report import Run
-from core.controls.shoprules import check
-from core.controls.tools import ToolTable
+from core.controls.shop_rules import check
 from core.finding import Severity
 
 HEAD = "BEGIN PGM P MM\nTOOL DEF 1 L+0 R+5\nTOOL CALL 1 Z F100\n"

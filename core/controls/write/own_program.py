@@ -6,12 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
-from core.controls.tools import ToolTable
-from core.controls.write import iso, klartext
-from core.controls.write.contouring import Cut, Line, Plain, begin, finish, refusal
-from core.controls.write.iso import Frame, offsets, tools_of
+from core.controls.control_tools import ToolTable
+from core.controls.write import iso_program, klartext_program
 from core.controls.write.iso_leads import Ready, out_of, ready, start_of
+from core.controls.write.iso_program import Frame, offsets, tools_of
 from core.controls.write.iso_style import STYLES, Entry, IsoStyle
+from core.controls.write.programmed_contour import Cut, Line, Plain, begin, finish, refusal
 from core.controls.write.read_back import Meant, read_back
 from core.finding import Finding
 from core.geometry.path import Path
@@ -53,10 +53,10 @@ def write_own(cuts: Sequence[Cut | Plain], control: str, frame: Frame, name: str
 
 
 def _klartext(cuts: Sequence[Cut | Plain], frame: Frame, name: str, remarks: Remarks) -> Own | NotWritten:
-    decimals = klartext.DECIMALS[frame.unit]
+    decimals = klartext_program.DECIMALS[frame.unit]
 
     def meant(notes: Sequence[Finding]) -> Meant | Finding:
-        lines = klartext.write(cuts, name, frame.unit, remarks(notes))
+        lines = klartext_program.write(cuts, name, frame.unit, remarks(notes))
         return lines if isinstance(lines, Finding) else _meant(lines, "klartext", cuts, ToolTable(), frame, decimals)
 
     return _confirmed(meant)
@@ -74,7 +74,7 @@ def _iso(cuts: Sequence[Cut | Plain], control: str, frame: Frame, remarks: Remar
     frame = replace(frame, corners=_corners(control))
 
     def meant(notes: Sequence[Finding]) -> Meant:
-        lines = iso.write(every, style, frame, remarks(notes))
+        lines = iso_program.write(every, style, frame, remarks(notes))
         return _meant(lines, control, cuts, tools_of(cuts, style), frame, style.digits(frame.unit))
 
     return _confirmed(meant)

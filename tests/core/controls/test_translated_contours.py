@@ -8,17 +8,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.controls.compare import Compared, OtherLanguage, compare
+from core.controls.compared_controls import Compared, OtherLanguage, compare
+from core.controls.control_run import Run
+from core.controls.control_tools import ToolTable
 from core.controls.moves import Move
 from core.controls.registry import UnknownControl, run
-from core.controls.report import Run
-from core.controls.tools import ToolTable
-from core.controls.translate import run_by_contour, translated
+from core.controls.translated_contours import run_by_contour, translated
 from core.controls.write.traced import Untold
 from core.finding import Severity
 from core.geometry.side import Side
 from core.units import Unit, from_mm
-from tests.core.controls.klartext.program import HEAD
+from tests.core.controls.klartext.klartext_runs import HEAD
 from tests.core.controls.klartext.test_center_laws import LEGS, pieces_of, programmed
 
 NEAR = pytest.approx

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core.controls.report import MOST, AlarmError, Log
+from core.controls.control_run import MOST, AlarmError, Log
 from core.finding import Severity
 
 
