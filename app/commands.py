@@ -10,10 +10,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from app.documents.files import load, load_from
 from app.shell import CLEAN, FINDINGS, UNUSABLE, say
 from app.widgets.words import segment
 from core.comp.lookahead import HIGHEST, LOWEST
-from core.program.file.store import StoreError, load, load_from
+from core.program.file.read import StoreError
 from core.program.model import Entry, Program
 from core.units import sentence
 
@@ -195,7 +196,7 @@ def plot(options: argparse.Namespace) -> int:
 
 
 def _deliver(text: str, output: Path | None) -> None:
-    from core.program.file.store import write_output
+    from app.documents.files import write_output
 
     if output is None or str(output) == DASH:
         try:

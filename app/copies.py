@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app import places, times
+from app.documents.journal_file import SUFFIX, journal_path, place_of, why_aside
 from app.messages import Load, Message, Say
 from app.session import Tone
 from app.widgets.header import printable
-from core.program.journal_file import SUFFIX, journal_path, place_of, why_aside
 
 if TYPE_CHECKING:
     from app.desk import Desk

@@ -173,7 +173,7 @@ class Desk:
     def _touching_files(self, message: Do | Save | Browse | Load | Post | Leave) -> Desk:
         """What may touch files; a name or a disk that does not oblige becomes a sentence."""
         from app import filing
-        from core.program.disk import why
+        from app.documents.files import why
 
         try:
             return message.work(self) if isinstance(message, Do) else filing.carry_out(self, message)

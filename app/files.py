@@ -7,10 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
+from app.documents.files import load, stamp_of
 from app.session import Session
 from core.program.edit import new_block
-from core.program.file.stamp import stamp_of
-from core.program.file.store import load
 from core.program.model import Entry, Program, Tool
 from core.units import Unit
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, assert_never
 
+from app.documents.files import refuse_program, stamp_of_data, write_output, write_text
 from app.files import empty_program, examples, is_nc, opened
 from app.folders import asking, chosen, outside, told_path, written_at
 from app.guard import THE_WAY
@@ -20,8 +21,8 @@ from app.session import Session, Tone
 from app.widgets.words import in_spite, placed
 from core.finding import Severity
 from core.program.entries import unread
-from core.program.file.stamp import stamp_of_data
-from core.program.file.store import StoreError, dumps, refuse_program, write_output, write_text
+from core.program.file.read import StoreError
+from core.program.file.write import dumps
 from core.program.model import Program
 from core.units import Unit
 

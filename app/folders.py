@@ -8,10 +8,10 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from app.documents.lock import held_by
 from app.messages import Close, Message
 from app.naming import is_folder
 from app.screens.ask import Ask
-from core.program.lock import held_by
 from core.units import printable
 
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from core.program.file.stamp import Stamp
-from core.program.lock import Lock
+from app.documents.files import Stamp
+from app.documents.lock import Lock
 
 THE_WAY: Final = "SAVE AS: F8 until PROGRAM, then F7, F3."
 """How to come to SAVE AS from every screen: no key does it at once."""

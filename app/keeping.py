@@ -13,18 +13,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app import places, times
+from app.documents.files import why
+from app.documents.journal_file import JournalFile
+from app.documents.lock import Held, Owner, myself, release, take, taken_by
 from app.messages import Open, Say
 from app.session import Session, Tone
 from app.widgets.header import printable as whole
-from core.program.disk import why
-from core.program.file.store import StoreError
-from core.program.journal_file import JournalFile
-from core.program.lock import Held, Owner, myself, release, take, taken_by
+from core.program.file.read import StoreError
 from core.units import printable
 
 if TYPE_CHECKING:
     from app.desk import Desk
-    from core.program.journal import Cursor, Head, Record
+    from app.documents.journal import Cursor, Head
+    from app.documents.journal_file import Record
 
 LONGEST: Final = 8_000_000
 """Bytes of a journal that is not saved for very long; then it is begun anew with the last `STEPS` edits."""
@@ -118,13 +119,13 @@ class Keeping:
 
     def head(self, session: Session) -> Head:
         """Whose work it is, and on which file."""
-        from core.program.journal import Head
+        from app.documents.journal import Head
 
         return Head(self.me, None if session.file is None else str(session.file), session.guard.stamp)
 
     def cursor(self, session: Session) -> Cursor:
         """Where the operator is."""
-        from core.program.journal import Cursor
+        from app.documents.journal import Cursor
 
         return Cursor(session.where, session.field, self.clock())
 
@@ -184,7 +185,7 @@ class Keeping:
 
     def _elsewhere(self, session: Session) -> bool:
         """Put all of the work into this person's own folder; only when it is there its place beside is given up."""
-        from core.program.journal import history_records
+        from app.documents.journal import history_records
 
         if session.file is None or (self.journal is not None and self.journal.path.parent == self.own):
             return False
@@ -199,7 +200,7 @@ class Keeping:
         return True
 
     def _in_place(self, session: Session, known: Session) -> None:
-        from core.program.journal import edit_records, history_records
+        from app.documents.journal import edit_records, history_records
 
         cursor = self.cursor(session)
         records = edit_records(known.history, session.history, cursor)
@@ -217,7 +218,7 @@ class Keeping:
         return places.place(session.file, self.me, self.own)
 
     def _move(self, session: Session, cursor: Cursor) -> tuple[Record, ...]:
-        from core.program.journal import moved_record
+        from app.documents.journal import moved_record
 
         return (moved_record(self.head(session), cursor),) if self.moved else ()
 

@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app.beforehand import prepare
+from app.documents.files import load
 from app.naming import program_named
 from app.shell import UNUSABLE, say
-from core.program.file.store import StoreError, load
+from core.program.file.read import StoreError
 
 if TYPE_CHECKING:
     from app.application import CutcompApp

@@ -14,9 +14,9 @@ from dataclasses import asdict, dataclass, replace
 from difflib import SequenceMatcher
 from typing import Any, Final
 
+from app.documents.journal_file import whole_lines
+from app.documents.lock import Owner, owner_of
 from app.listing import LARGEST, Change, Listing
-from core.program.journal import whole_lines
-from core.program.lock import Owner, owner_of
 from core.units import printable
 
 FORMAT: Final = 1

@@ -12,14 +12,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app import places, times
+from app.documents.files import why
+from app.documents.journal_file import JournalFile
+from app.documents.lock import Held, Lock, Owner, myself, release, take, take_over, taken_by
 from app.keeping import away, holder
 from app.messages import Close, Do, Open, Say
 from app.session import Tone
 from app.widgets.header import printable as whole_name
-from core.program.disk import why
-from core.program.file.store import StoreError
-from core.program.journal_file import JournalFile
-from core.program.lock import Held, Lock, Owner, myself, release, take, take_over, taken_by
+from core.program.file.read import StoreError
 
 if TYPE_CHECKING:
     from app.desk import Desk

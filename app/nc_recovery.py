@@ -10,6 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app import places, times
+from app.documents.files import why
+from app.documents.journal_file import JournalFile, set_aside, why_aside
+from app.documents.lock import alive
 from app.messages import Close, Do, Open, Say
 from app.nc_journal import Found, differences, found_in, mark, whole
 from app.places import Unreadable
@@ -18,10 +21,7 @@ from app.screens.ask import Option
 from app.screens.decide import Decide
 from app.session import Tone
 from app.widgets.header import printable as whole_name
-from core.program.disk import why
-from core.program.file.store import StoreError
-from core.program.journal_file import JournalFile, set_aside, why_aside
-from core.program.lock import alive
+from core.program.file.read import StoreError
 from core.units import printable
 
 if TYPE_CHECKING:

@@ -11,11 +11,11 @@ from stat import S_ISREG
 from typing import TYPE_CHECKING
 
 from app import times
-from core.program.journal_file import SUFFIX, JournalFile, asides, journal_path, why_aside
-from core.program.lock import Owner, alive
+from app.documents.journal_file import SUFFIX, JournalFile, asides, journal_path, why_aside
+from app.documents.lock import Owner, alive
 
 if TYPE_CHECKING:
-    from core.program.journal import Recovered
+    from app.documents.journal import Recovered
 
 
 def own_folder() -> Path:
@@ -154,7 +154,7 @@ def read(path: Path) -> Recovered | None:
         data = path.read_bytes()
     except OSError:
         return None
-    from core.program.journal import recovered
+    from app.documents.journal import recovered
 
     return recovered(data)
 

@@ -10,6 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from app import places, times
+from app.documents.files import why, write_data
+from app.documents.journal import Recovered, history_records, moved_record
+from app.documents.journal_file import JournalFile, set_aside, why_aside
+from app.documents.lock import alive, take_over
 from app.files import opened
 from app.filing import fresh
 from app.messages import Close, Do, Open, Say
@@ -20,17 +24,13 @@ from app.session import Session, Tone
 from app.widgets.header import printable as whole
 from core.pipeline.outline import outline
 from core.program.difference import differences
-from core.program.disk import why
-from core.program.file.store import StoreError, write_data
-from core.program.journal import Recovered, history_records, moved_record
-from core.program.journal_file import JournalFile, set_aside, why_aside
-from core.program.lock import alive, take_over
+from core.program.file.read import StoreError
 from core.units import printable
 
 if TYPE_CHECKING:
     from app.desk import Desk
+    from app.documents.journal_file import Record
     from app.keeping import Keeping
-    from core.program.journal import Record
 
 
 def looking(keeping: Keeping, session: Session) -> Decide:
@@ -216,7 +216,7 @@ def _taken(keeping: Keeping, session: Session, path: Path, found: Recovered) -> 
         if found.damaged:
             aside = path.with_name(f"{path.name}.damaged-{times.stamp(keeping.clock())}")
             write_data(aside, path.read_bytes())
-        journal = JournalFile.resumed(path, found)
+        journal = JournalFile.resumed(path, found.length, found.total)
         journal.add([moved_record(head, cursor)])
         return journal, aside
     records = tuple(history_records(head, session.history, cursor))

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from app import places
+from app.documents.lock import alive, user
 from app.files import empty_program
 from app.session import Session
-from core.program.file.store import StoreError
-from core.program.lock import alive, user
+from core.program.file.read import StoreError
 
 
 def rescued(path: Path, error: StoreError, earlier: Path | None = None) -> Session:

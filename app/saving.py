@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app import times
+from app.documents.files import load, stamp_of, why, write_data
+from app.documents.lock import held_by, taken_by
 from app.folders import asking, outside, told_path
 from app.guard import THE_WAY
 from app.messages import Close, Open, Post, Save, Say
@@ -15,10 +17,7 @@ from app.screens.ask import Ask
 from app.screens.decide import Choose, shortened
 from app.session import Session, Tone
 from core.program.difference import differences
-from core.program.disk import why
-from core.program.file.stamp import stamp_of
-from core.program.file.store import StoreError, load, write_data
-from core.program.lock import held_by, taken_by
+from core.program.file.read import StoreError
 from core.units import printable
 
 if TYPE_CHECKING:

@@ -11,11 +11,11 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Final, NamedTuple
 
+from app.documents.files import Stamp
 from app.guard import THE_WAY, UNGUARDED, Guard
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.outline import outline
 from core.program.edit import Edited, Refused, Where
-from core.program.file.stamp import Stamp
 from core.program.history import History
 from core.program.model import Block, Program, Segment
 

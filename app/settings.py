@@ -11,8 +11,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from app.documents.files import LARGEST_FILE, write_text
 from app.session import Tone
-from core.program.file.store import LARGEST_FILE, StoreError, write_text
+from core.program.file.read import StoreError
 from core.units import Unit
 
 if TYPE_CHECKING:

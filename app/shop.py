@@ -12,11 +12,12 @@ from typing import Final
 
 from app import times
 from app.commands import DASH
+from app.documents.files import load, save, write_output
+from app.documents.lock import Held, myself, release, take
 from app.keeping import holder
 from app.shell import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
 from core.finding import Finding
-from core.program.file.store import StoreError, load, save, write_output
-from core.program.lock import Held, myself, release, take
+from core.program.file.read import StoreError
 from core.program.model import Entry, Program, Tool
 from core.program.tool_table import Imported, decoded, faults, read_tool_table
 from core.units import Kind, Unit, show

@@ -9,16 +9,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app import places
+from app.documents.files import load
+from app.documents.lock import alive, user
 from app.patience import FILE, within
 from app.widgets.header import printable
 from app.widgets.rows import Look
-from core.program.file.store import StoreError, load
-from core.program.lock import alive, user
+from core.program.file.read import StoreError
 from core.program.model import Entry, Program
 
 if TYPE_CHECKING:
+    from app.documents.journal import Recovered
     from core.pipeline.derived import Derived
-    from core.program.journal import Recovered
 
 GRAVEST: Final = (Look.ERROR, Look.WARNING, Look.DIM, Look.GOOD)
 

@@ -17,7 +17,7 @@ from app.widgets.field import Editing
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, plain
 from core.finding import Finding, Severity
-from core.program.file.store import StoreError
+from core.program.file.read import StoreError
 from core.program.model import Program, Tool
 from core.units import Unit
 

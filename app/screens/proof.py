@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Final
 
+from app.documents.lock import Lock
 from app.listing import Listing
 from app.messages import Close, Leave, Message, Open, Say
 from app.proving import Question, Rest, Told, guess, tool_in
@@ -15,7 +16,6 @@ from app.session import Session, Tone
 from app.widgets.field import Editing, press
 from core.controls.control_tools import ToolTable
 from core.finding import Finding
-from core.program.lock import Lock
 
 STEPS: Final = {"up": -1, "down": 1, "pageup": -10, "pagedown": 10}
 ENDS: Final = {"home": 0, "ctrl+home": 0, "end": 10**9, "ctrl+end": 10**9}

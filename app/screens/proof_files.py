@@ -8,6 +8,7 @@ from os.path import realpath
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
+from app.documents.files import refuse_program, why, write_data
 from app.folders import asking, chosen, outside, written_at
 from app.listing import LARGEST, SUFFIXES, Listing
 from app.messages import Close, Do, Leave, Message, Open, Say
@@ -20,8 +21,7 @@ from app.screens.proof_tool import proof_page, put
 from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.rows import Look, plain
-from core.program.disk import why
-from core.program.file.store import StoreError, refuse_program, write_data
+from core.program.file.read import StoreError
 from core.units import printable
 
 if TYPE_CHECKING:

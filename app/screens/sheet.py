@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Final, Self
 
+from app.documents.files import refuse_program, write_output
 from app.messages import Close, Do, Message, Open, Say
 from app.naming import typed, with_suffix
 from app.screens.ask import Ask
@@ -16,7 +17,7 @@ from app.session import Said, Session, Tone
 from app.widgets.field import Editing
 from app.widgets.header import header, printable
 from app.widgets.rows import Look, plain
-from core.program.file.store import StoreError, refuse_program, write_output
+from core.program.file.read import StoreError
 
 if TYPE_CHECKING:
     from app.desk import Desk

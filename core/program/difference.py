@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from enum import StrEnum
+from typing import Generic, TypeVar
 
 from core.program.convert import converted
-from core.program.delta import splice
 from core.program.fields import TABLES, Form, form_of
 from core.program.model import Block, Entry, Parameters, PartSetup, Program, Segment, Tool, Unread
 from core.units import Kind, Unit, printable, show
+
+One = TypeVar("One")
 
 Part = Block | Segment | Tool | Parameters | PartSetup
 
@@ -97,3 +100,26 @@ def _replaced(thing: str, where: str, at: int, old: int, new: int) -> str:
 
 def _run(thing: str, at: int, count: int) -> str:
     return f"{thing} {at + 1}" if count == 1 else f"{thing}s {at + 1} to {at + count}"
+
+
+@dataclass(frozen=True, slots=True)
+class Splice(Generic[One]):
+    """What of one tuple is replaced by what of another, from index `at` (0 is the first)."""
+
+    at: int
+    old: tuple[One, ...]
+    new: tuple[One, ...]
+
+
+def splice(old: tuple[One, ...], new: tuple[One, ...]) -> Splice[One]:
+    """The shortest middle in which two tuples differ."""
+    shorter = min(len(old), len(new))
+    front = next((index for index in range(shorter) if not same(old[index], new[index])), shorter)
+    most = shorter - front
+    back = next((step for step in range(most) if not same(old[-1 - step], new[-1 - step])), most)
+    return Splice(front, old[front : len(old) - back], new[front : len(new) - back])
+
+
+def same(one: object, other: object) -> bool:
+    """Whether two parts are equal, at once where they are the same object."""
+    return one is other or one == other

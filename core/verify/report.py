@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import isinf
 from typing import Final
 
-from core.finding import Finding, Severity, Unworded
+from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.stretch import stretch_lengths
 from core.tolerance import STOCK
@@ -121,15 +121,8 @@ def _crosses_itself(verdict: Verdict) -> tuple[Finding, ...]:
 
 
 def _uncut(uncut: UncutStretches, surface: Path) -> Sequence[Finding]:
-    """A finding for each stretch, put into words when it is read; the shares of all are found for the first of them."""
-    shared: list[tuple[Uncut, Shares]] = []
-
-    def told(row: int) -> Finding:
-        if not shared:
-            shared.extend(zip(uncut, _shares(uncut, surface), strict=True))
-        return _told(*shared[row], surface)
-
-    return Unworded.each(UNCUT, Severity.INFO, uncut.columns[0].tolist(), told)
+    """A finding for each stretch."""
+    return [_told(one, shares, surface) for one, shares in zip(uncut, _shares(uncut, surface), strict=True)]
 
 
 def _told(uncut: Uncut, shares: Shares, surface: Path) -> Finding:

@@ -26,8 +26,8 @@ def own(tmp_path: Path) -> Path:
 def part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The pocket example in a folder of its own, which is the current one."""
     # not before the environment is clear
+    from app.documents.files import load, save
     from app.files import example
-    from core.program.file.store import load, save
 
     path = tmp_path / "shop" / "part.toml"
     path.parent.mkdir()

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from app.desk import Desk
+from app.documents.lock import Owner, myself
 from app.files import empty_program, opened
 from app.keeping import Keeping
 from app.screens.decide import Decide
 from app.session import Session
 from core.pipeline.outline import outline
-from core.program.lock import Owner, myself
 from tests.app.operator import Operator
 
 TIME = "2025-03-04T06:05:00+01:00"

@@ -12,6 +12,7 @@ import pytest
 
 from app.advice import about_of
 from app.application import CutcompApp
+from app.documents.files import load
 from app.files import example
 from app.screens.frame import Frame
 from app.surroundings import Surroundings
@@ -22,7 +23,6 @@ from core.pipeline import needs as remedies
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.needs import Needs
 from core.program.edit import Where
-from core.program.file.store import load
 from core.program.model import Program
 from tests.app.pilots import app_on, at_rest, lines, loaded, until
 from tests.reports.reference import Reference

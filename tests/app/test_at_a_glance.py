@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load
 from app.files import example
 from app.main import begin
 from app.messages import Load
@@ -18,7 +19,6 @@ from app.widgets.rows import text_of
 from app.widgets.strip import strip
 from core.pipeline.derive import derive
 from core.pipeline.table import look_ahead_table
-from core.program.file.store import load
 from core.program.model import Entry
 from tests.app.operator import Operator
 

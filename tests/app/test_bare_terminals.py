@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from app.abilities import ascii_only, monochrome
+from app.documents.lock import take
 from app.driver import characters
 from app.files import example
-from core.program.lock import take
 from tests.app.kept import ELSEWHERE
 from tests.terminal import running
 

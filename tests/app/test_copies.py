@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from app.documents.files import load
 from app.screens.contour import Contour
 from app.screens.decide import Decide
-from core.program.file.store import load
 from core.program.model import Entry
 from tests.app.kept import DEAD, Kept, asked, names, started
 

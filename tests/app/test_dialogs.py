@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load
 from app.files import example
 from app.messages import Close, Open
 from app.screens.decide import Decide
@@ -16,7 +17,6 @@ from app.screens.new_segment import NewSegment
 from app.screens.page import UNANSWERED
 from app.screens.post import PostPage
 from app.session import Session
-from core.program.file.store import load
 from core.program.model import Entry
 from tests.app.operator import Operator
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load
 from app.engine import Engine, Known
 from app.files import example
 from app.screens.contour import Contour
@@ -22,7 +23,6 @@ from core.pipeline.derived import DerivedBlock, Work
 from core.pipeline.needs import needs
 from core.pipeline.outline import outline
 from core.program.edit import Where, copy_block, type_field
-from core.program.file.store import load
 from core.program.model import Entry, Program
 from tests.bench.keys import gear
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load
 from app.files import example
 from app.screens.ask import Ask
 from app.screens.contour import Contour
@@ -14,7 +15,6 @@ from app.screens.program import ProgramPage
 from app.screens.save import SaveAsPage
 from app.session import Session
 from core.output.override import OVERRIDE
-from core.program.file.store import load
 from core.program.model import Entry
 from tests.app.operator import Operator
 

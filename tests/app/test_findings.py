@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load
 from app.files import example
 from app.screens.contour import Contour
 from app.screens.findings import FindingsPage
@@ -18,7 +19,6 @@ from app.widgets.verdict import fitted, verdict_rows
 from core.pipeline.derive import derive
 from core.pipeline.outline import outline
 from core.pipeline.table import look_ahead_table
-from core.program.file.store import load
 from core.program.model import Entry, Program
 from tests.app.operator import Operator
 

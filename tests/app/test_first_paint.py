@@ -71,7 +71,7 @@ LATER = {
     "app.starting",
     "app.commands",
     "argparse",
-    "core.program.journal",
+    "app.documents.journal",
     "core.program.tool_table",
     "hashlib",
     "importlib.resources",

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load, save
 from app.files import empty_program
 from app.guide import STEPS, hint, next_step
 from app.messages import Edit, Move
@@ -17,7 +18,6 @@ from core.pipeline.derive import derive
 from core.program.edit import Where, type_field
 from core.program.entries import read
 from core.program.fields import Form, field
-from core.program.file.store import load, save
 from core.program.model import CutterComp, Entry
 from tests.app.operator import Operator
 

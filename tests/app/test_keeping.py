@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
+from app.documents.files import load, save
+from app.documents.lock import lock_path
 from app.files import example
 from app.screens.contour import Contour
 from app.screens.decide import Decide
 from app.session import Session
-from core.program.file.store import load, save
-from core.program.lock import lock_path
 from core.program.model import Entry
 from tests.app.kept import DEAD, asked, names, started
 

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
+from app.documents.files import load
+from app.documents.journal_file import journal_path
+from app.documents.lock import Owner, myself
 from app.screens.contour import Contour
 from app.screens.decide import Decide
-from core.program.file.store import load
-from core.program.journal_file import journal_path
-from core.program.lock import Owner, myself
 from core.program.model import Entry
 from tests.app.kept import DEAD, ELSEWHERE, asked, names, started
 

@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load
 from app.files import example, opened
 from app.folders import folder_told
 from app.naming import as_program, is_folder, program_named, typed, with_suffix
 from app.screens.browse import listed
 from core.pipeline.derive import derive
-from core.program.file.store import load
 from tests.app.operator import Operator
 
 LONG = "中" * 100

@@ -11,6 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.desk import Desk
+from app.documents.journal_file import journal_path, lines
+from app.documents.lock import Owner, lock_path, myself, take
 from app.files import empty_program
 from app.listing import Listing
 from app.nc_journal import differences, found_in, steps, whole
@@ -19,9 +21,6 @@ from app.screens.decide import Decide
 from app.screens.proof import ProofPage
 from app.screens.proof_files import opening
 from app.session import Session
-from core.program.journal import lines
-from core.program.journal_file import journal_path
-from core.program.lock import Owner, lock_path, myself, take
 from tests.app.kept import DEAD, ELSEWHERE, TIME
 from tests.app.operator import Operator
 

@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 
 from app.desk import Desk
+from app.documents.journal_file import journal_path
 from app.files import empty_program
 from app.screens.decide import Decide
 from app.screens.proof_files import browsing
 from app.session import Session
-from core.program.journal_file import journal_path
 from tests.app.kept import DEAD, TIME
 from tests.app.test_nc_keeping import ME, TEXT, Typist, asked, typist
 

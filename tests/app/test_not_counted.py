@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from app.documents.files import load
 from app.files import example
-from core.program.file.store import load
 from tests.app.operator import Operator
 
 

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load, save
 from app.files import example, opened
 from app.screens.ask import Ask
 from app.session import Session
-from core.program.file.store import load, save
 from tests.app.operator import Operator
 
 

@@ -6,14 +6,16 @@ from pathlib import Path
 
 import pytest
 
+from app.documents.files import load
+from app.documents.journal import block_of, packed_block
 from app.files import example
 from app.screens.forms import FormPage
 from app.screens.tools import ToolsPage
 from core.pipeline.outline import outline
-from core.program.coding import block_of, packed_block
 from core.program.entries import unread
 from core.program.fields import TABLES, Form, check
-from core.program.file.store import dumps, load, loads
+from core.program.file.read import loads
+from core.program.file.write import dumps
 from core.program.model import ArcSegment, BlendSegment, Block, Entry, LineSegment, Program, Unread
 from core.units import Kind, Unit
 from tests.app.operator import Operator

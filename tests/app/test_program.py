@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load
 from app.files import example
 from app.screens.contour import Contour
 from app.screens.program import ProgramPage
@@ -12,7 +13,6 @@ from app.session import Session
 from core.program.edit import Where
 from core.program.entries import read
 from core.program.fields import TOOL
-from core.program.file.store import load
 from core.program.model import CutterComp, Entry, PathChoice, Tool, Unread
 from core.units import Unit
 from tests.app.operator import Operator

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import pytest
 
+from app.documents.files import load, save
+from app.documents.journal_file import journal_path, set_aside
 from app.files import example
 from app.keeping import Keeping
 from app.main import begin
 from app.screens.decide import Decide
-from core.program.file.store import StoreError, load, save
-from core.program.journal_file import journal_path, set_aside
+from core.program.file.read import StoreError
 from core.program.model import Entry
 from tests.app.kept import DEAD, TIME, Kept, started
 

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
+from app.documents.files import load
+from app.documents.journal import Recovered
 from app.places import read
 from app.safety import GRACE
-from core.program.file.store import load
-from core.program.journal import Recovered
 from core.program.model import Entry
 from tests.app.test_safety_terminal import PROGRAM, status
 from tests.terminal import Terminal, running

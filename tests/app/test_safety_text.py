@@ -12,10 +12,11 @@ import pytest
 
 from app.__main__ import main
 from app.desk import Desk
+from app.documents.files import save
 from app.files import opened
 from core.pipeline.derive import derive
 from core.program.fields import TABLES, Form
-from core.program.file.store import loads, save
+from core.program.file.read import loads
 from core.program.model import CutterComp
 from core.units import Kind
 from tests.app.operator import Operator

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load
 from app.files import empty_program, example
 from app.main import begin
 from app.screens.ask import Ask
@@ -17,7 +18,7 @@ from app.widgets.rows import text_of
 from app.widgets.verdict import verdict_rows
 from core.pipeline.derive import derive
 from core.pipeline.table import look_ahead_table
-from core.program.file.store import dumps, load
+from core.program.file.write import dumps
 from core.program.model import Entry
 from tests.app.kept import DEAD, ELSEWHERE, asked, started
 from tests.app.operator import Operator

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.documents.files import save
 from app.settings import MOST, Keeper, Settings, dumps, load, loads
-from core.program.file.store import save
 from core.units import Unit
 from tests.app.operator import Operator
 

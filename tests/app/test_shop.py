@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
+from app.documents.files import load, save
+from app.documents.lock import Lock, release, take
 from app.files import example
 from app.screens.ask import Ask
 from app.screens.import_tools import FaultsPage
 from app.screens.program import ProgramPage
 from app.screens.tools import ToolsPage
-from core.program.file.store import load, save
-from core.program.lock import Lock, release, take
 from core.program.model import Entry, Tool
 from tests.app.kept import ELSEWHERE
 from tests.app.operator import Operator

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import pytest
 
+from app.documents.files import load
 from app.files import example
-from core.program.file.store import load
 from core.program.model import Entry
 from tests.reports.relay import Line, relayed
 from tests.terminal import Terminal, running

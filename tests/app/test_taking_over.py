@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from app.documents.files import load, save
+from app.documents.lock import lock_path
 from app.files import example
-from core.program.file.store import dumps, load, save
-from core.program.lock import lock_path
+from core.program.file.write import dumps
 from core.program.model import Entry
 from tests.app.kept import DEAD, ELSEWHERE, asked, names, started
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from app.documents.files import load
 from app.files import example
 from app.screens.tools import ToolsPage
-from core.program.file.store import load
 from tests.app.operator import Operator
 
 

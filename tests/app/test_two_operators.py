@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from core.program.file.store import load
+from app.documents.files import load
 from core.program.model import Entry
 from tests.app.test_safety_terminal import PROGRAM, status
 from tests.terminal import Terminal, running

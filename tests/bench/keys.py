@@ -33,8 +33,8 @@ from dataclasses import dataclass, replace
 from math import cos, dist, pi, sin
 from pathlib import Path
 
+from app.documents.files import save
 from core.program.edit import new_block
-from core.program.file.store import save
 from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, Program, Segment, Tool
 from tests.bench.pace import EMPTY_SECONDS, Slowness, rs274_slowness
 from tests.bench.work import at_work, worked

@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 from typing import Final
 
-from core.program.file.store import save
+from app.documents.files import save
 from tests.app.kept import started
 from tests.bench.keys import first_paint, gear
 

@@ -21,8 +21,8 @@ from tempfile import TemporaryDirectory
 from typing import Final
 
 from app.charset import lookalike
+from app.documents.lock import myself, take
 from app.files import example
-from core.program.lock import myself, take
 from tests.app.kept import DEAD, ELSEWHERE, started
 from tests.reports.matrix import ROOT, colors_wrong, stray
 from tests.reports.terminals import Colors, Kind, sampled

@@ -25,14 +25,14 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from app.desk import Desk
+from app.documents.files import load
+from app.documents.journal_file import journal_path
 from app.files import empty_program
 from app.places import read
 from app.session import FIRST, SEGMENT, Session
 from core.program.difference import differences
 from core.program.edit import Where
-from core.program.file.store import load
 from core.program.history import History
-from core.program.journal_file import journal_path
 from tests.app.operator import Operator
 from tests.reports.kill_keys import keys, sent
 from tests.terminal import Terminal, running

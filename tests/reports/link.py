@@ -23,8 +23,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
+from app.documents.files import load, save
 from app.session import Session
-from core.program.file.store import load, save
 from tests.bench.keys import gear
 from tests.reports.matrix import Lost, Seat, Tally
 from tests.reports.reference import Reference

@@ -21,10 +21,10 @@ from tempfile import TemporaryDirectory
 from typing import Any, Final
 
 from app.charset import lookalike
+from app.documents.files import load
 from app.files import example
 from app.session import Session
 from app.widgets.rows import Look
-from core.program.file.store import load
 from tests.reports.reference import Reference, keys_of
 from tests.reports.terminals import (
     FUNCTION_KEYS,

@@ -24,6 +24,7 @@ from typing import Final
 from unittest.mock import patch
 
 from app import files, filing
+from app.documents.lock import take
 from app.engine import Engine
 from app.keeping import Keeping
 from app.listing import Listing
@@ -37,8 +38,8 @@ from app.screens.proof_files import read as read_listing
 from app.session import Session
 from app.widgets.rows import Look, Row
 from core.pipeline.outline import outline
-from core.program.file.store import dumps, loads
-from core.program.lock import take
+from core.program.file.read import loads
+from core.program.file.write import dumps
 from tests.app.kept import DEAD, ELSEWHERE, TIME
 from tests.app.pilots import app_on, loaded
 from tests.reports.monkey_keys import Monkey

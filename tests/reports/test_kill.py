@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from app.documents.files import save
 from app.files import empty_program
-from core.program.file.store import save
 from core.program.history import History
 from core.program.model import Entry
 from tests.reports.kill import Part, Tally, came_back, lives, report

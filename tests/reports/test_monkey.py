@@ -10,14 +10,14 @@ from weakref import ref
 
 import pytest
 
+from app.documents import files
+from app.documents.files import load
 from app.files import empty_program, example
 from app.listing import Listing
 from app.memory import Memory
 from app.nc_keeping import Kept, NcKeeping
 from app.screens.save import SaveAsPage
 from app.session import Session
-from core.program.file import store
-from core.program.file.store import load
 from tests.app.operator import Operator
 from tests.reports import monkey
 from tests.reports.monkey import run, through_textual
@@ -59,8 +59,8 @@ def test_a_screen_that_remembers_too_much_is_found(monkeypatch: pytest.MonkeyPat
 
 
 def test_a_program_that_does_not_come_back_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(monkey, "dumps", lambda program: store.dumps(program).replace("speed", "x_speed"))
-    with pytest.raises(store.StoreError):
+    monkeypatch.setattr(monkey, "dumps", lambda program: files.dumps(program).replace("speed", "x_speed"))
+    with pytest.raises(files.StoreError):
         run(200, seed=1)
 
 

@@ -1,1 +1,1 @@
-"""Program files: TOML text read strictly, and written so that there is always one whole file."""
+"""Program files: TOML text read strictly, line and key named, and written."""

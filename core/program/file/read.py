@@ -16,8 +16,8 @@ from typing import Any, Final, TypeVar
 
 from core.program.entries import unread_reason
 from core.program.fields import TABLES, Field, Form, check
-from core.program.file.end import cut_off, syntax_fault
-from core.program.file.lines import KeyPath, key_lines, line_of
+from core.program.file.faults import KeyPath, cut_off, key_lines, line_of, syntax_fault
+from core.program.file.write import FORMAT, KIND, UNREAD
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -38,17 +38,8 @@ from core.program.model import (
 from core.tolerance import LARGEST
 from core.units import Kind, Unit, printable, to_mm
 
-FORMAT: Final = 1
-"""The format of program files that is read and written."""
-
-KIND: Final = "MILL CONTOUR"
-"""The kind of every block."""
-
 _BARE: Final = re.compile(r"[+-]?\d+(\.\d+)?")
 """A number that a file can hold without quotes."""
-
-UNREAD: Final = "unread"
-"""The table of texts that were typed and could not be read."""
 
 
 class StoreError(Exception):
@@ -158,7 +149,7 @@ def _beyond(value: float, one: Field, unit: Unit) -> bool:
 Choice = TypeVar("Choice", bound=StrEnum)
 
 
-def read_program(text: str, file: str) -> Program:
+def loads(text: str, file: str) -> Program:
     """The program of a file's text; StoreError names `file`, line and key."""
     top = _Table(file, partial(key_lines, text), (), _parsed(text, file), Unit.IN)
     if "format" not in top.data:
@@ -177,6 +168,19 @@ def read_program(text: str, file: str) -> Program:
         _tools(top),
         tuple(_block(block) for block in top.array("block")),
     )
+
+
+def loads_bytes(data: bytes, file: str) -> Program:
+    """The program of a file's bytes; StoreError names `file`, line and key."""
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        whole = data[: error.start].decode("utf-8-sig")
+        if error.end == len(data) and (lost := cut_off(whole)) is not None:
+            raise StoreError(f"{file}, {lost}") from error
+        line = data.count(b"\n", 0, error.start) + 1
+        raise StoreError(f"{file}, line {line}: this is not UTF-8 text. Save it as UTF-8, or open a copy.") from error
+    return loads(text, file)
 
 
 def _parsed(text: str, file: str) -> dict[str, Any]:

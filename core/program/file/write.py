@@ -4,15 +4,29 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from typing import Final
 
 from core.program.fields import TABLES, Form, form_of
-from core.program.file.end import END, PROMISE
-from core.program.file.read import FORMAT, KIND, UNREAD
 from core.program.model import Block, Entry, Parameters, PartSetup, Program, Segment, Tool, Unread
 from core.units import Kind
 
+FORMAT: Final = 1
+"""The format of program files that is read and written."""
 
-def written(program: Program) -> str:
+KIND: Final = "MILL CONTOUR"
+"""The kind of every block."""
+
+UNREAD: Final = "unread"
+"""The table of texts that were typed and could not be read."""
+
+END: Final = "# end of program"
+"""The last line of a program file."""
+
+PROMISE: Final = f'# its last line is "{END}"'
+"""What the first line says, so that a file whose rest was lost is recognized."""
+
+
+def dumps(program: Program) -> str:
     """The text of a program's file."""
     lines = [f"format = {FORMAT}  {PROMISE}", f'units = "{program.unit}"  # every length and feed below is in it']
     lines += _table("[parameters]", "parameters", Form.PARAMETERS, program.parameters)

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from app.documents.files import load
 from app.files import example
 from app.screens.page import Sketch
 from app.session import Session
@@ -14,7 +15,6 @@ from core.draw.scene import Scene, Style
 from core.geometry.piece import Point
 from core.pipeline.derive import derive
 from core.pipeline.plot import block_scene
-from core.program.file.store import load
 from tests.app.operator import Operator
 
 SIZE = (59, 18)

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from app.documents.journal_file import SUFFIX, journal_path
 from app.keeping import Keeping
 from app.survey import facts_of
-from core.program.journal_file import SUFFIX, journal_path
 from tests.app.kept import DEAD, ELSEWHERE, TIME, Kept, asked, started
 from tests.app.screens.test_start import at_start, folder, lines, looked, page
 

@@ -8,10 +8,10 @@ import pytest
 
 from app.__main__ import main
 from app.desk import Desk
+from app.documents.files import load
 from app.files import example
 from app.screens.post import PostPage
 from app.session import Session
-from core.program.file.store import load
 from tests.app.operator import Operator
 
 

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from app.desk import Desk
+from app.documents.files import save
 from app.files import empty_program
 from app.messages import Load
 from app.screens.program import ProgramPage
 from app.screens.proof import ProofPage
 from app.screens.proof_files import ProofBrowse, browsing, opening
 from app.session import Session
-from core.program.file.store import save
 from tests.app.prover import SQUARE, Prover, square
 
 

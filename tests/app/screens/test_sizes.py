@@ -7,12 +7,12 @@ from itertools import product
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load
 from app.engine import Engine
 from app.files import example
 from app.screens.frame import picture
 from app.session import Session
 from app.widgets.rows import text_of
-from core.program.file.store import load
 from tests.app.operator import FROZEN, Operator
 
 SCREENS = {

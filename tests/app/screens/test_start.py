@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load, save
 from app.files import empty_program, example
 from app.screens.browse import listed
 from app.screens.contour import Contour
@@ -17,7 +18,6 @@ from app.session import Session
 from app.settings import Settings, taken_up
 from app.starting import begun, first_folder
 from app.survey import Facts, facts_of
-from core.program.file.store import load, save
 from core.units import Unit
 from tests.app.kept import ELSEWHERE, started
 from tests.app.operator import Operator

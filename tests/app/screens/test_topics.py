@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from app.desk import Desk
+from app.documents.files import load
 from app.files import empty_program, example
 from app.screens.ask import Ask
 from app.screens.browse import BrowsePage
@@ -29,7 +30,6 @@ from app.screens.tools import ToolsPage
 from app.screens.topics import TOPICS, topic_of
 from app.session import Session
 from core.program.fields import TABLES, Form, field
-from core.program.file.store import load
 from tests.app.operator import Operator
 
 SESSION = Session.of(load(example("pocket")))

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from app.documents.files import load
 from app.files import example
 from app.widgets.rows import text_of
 from app.widgets.verdict import verdict_rows
@@ -13,7 +14,6 @@ from core.finding import Finding, Severity
 from core.pipeline.derive import derive
 from core.pipeline.outline import outline
 from core.pipeline.table import look_ahead_table
-from core.program.file.store import load
 from core.program.model import Entry
 from core.units import Unit
 from tests.app.squares import square

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.documents.files import load
 from core.controls.control_run import Run
 from core.controls.control_tools import ToolTable
 from core.controls.registry import NO_TOOLS, names, run
@@ -23,7 +24,6 @@ from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
 from core.pipeline.jobs import jobs
 from core.pipeline.own import post_for
-from core.program.file.store import load
 from core.program.model import (
     ArcSegment,
     Block,

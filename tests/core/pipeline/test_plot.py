@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.documents.files import load
 from app.files import example
 from core.pipeline.derive import derive
 from core.pipeline.plot import block_scene, cutter_at, svg_of
-from core.program.file.store import load
 from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, PathChoice
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program

@@ -5,12 +5,12 @@ from dataclasses import replace
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.documents.files import load
 from app.files import example
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived, Work
 from core.pipeline.outline import outline
 from core.program.edit import Refused, Where, delete_segment, set_unit, type_field
-from core.program.file.store import load
 from core.program.model import BlendSegment, Entry, Program, Tool
 from core.units import Unit
 

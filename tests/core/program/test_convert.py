@@ -6,7 +6,8 @@ import pytest
 
 from core.program.convert import converted
 from core.program.fields import PARAMETERS, SETUP, START, TABLES, Form
-from core.program.file.store import dumps, loads
+from core.program.file.read import loads
+from core.program.file.write import dumps
 from core.program.model import (
     ArcSegment,
     BlendSegment,

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from core.program.file.store import load
+from core.program.file.read import loads
 from core.program.model import CutterComp, Entry, Program
 from core.program.solve.solve import solve_block
 from core.program.solve.solved import SolvedBlock
@@ -17,7 +17,7 @@ NAMES = ("overrun-square", "pocket", "notch", "plate-mm", "flange")
 
 
 def example(name: str) -> tuple[Program, list[SolvedBlock]]:
-    part = load(EXAMPLES / f"{name}.toml")
+    part = loads((EXAMPLES / f"{name}.toml").read_text(), name)
     return part, [solve_block(block, part) for block in part.blocks]
 
 

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from app.documents.journal import head_record, history_records
+from app.documents.journal_file import JournalFile, asides, journal_path, place_of, set_aside, why_aside
 from core.program.history import History
-from core.program.journal import head_record, history_records
-from core.program.journal_file import JournalFile, asides, journal_path, place_of, set_aside, why_aside
-from tests.core.program.test_journal import CURSOR, HEAD, PART, add, begun, read, typed
+from tests.app.documents.test_journal import CURSOR, HEAD, PART, add, begun, read, typed
 
 
 def test_a_shorter_journal_never_takes_the_place_of_another_ones(tmp_path: Path) -> None:
@@ -62,7 +62,7 @@ def test_a_journal_that_begins_with_all_of_the_one_before_is_there_whole_or_not_
         os.write(handle, data[: len(data) // 2])
         raise Killed
 
-    monkeypatch.setattr("core.program.journal_file.write_all", half)
+    monkeypatch.setattr("app.documents.journal_file.write_all", half)
     with pytest.raises(Killed):
         add(file, history, typed(3.0))
     assert list(tmp_path.iterdir()) == []
@@ -73,7 +73,7 @@ def test_where_files_have_their_name_first_it_is_the_same_journal(
     nameless: int | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if nameless is not None:
-        monkeypatch.setattr("core.program.journal_file.NAMELESS", nameless)
+        monkeypatch.setattr("app.documents.journal_file.NAMELESS", nameless)
     file = begun(tmp_path / "j")
     history = add(file, History(PART), typed(2.0))
     assert read((tmp_path / "j").read_bytes()).history == history
@@ -88,7 +88,7 @@ def test_a_full_disk_leaves_no_half_journal(tmp_path: Path, monkeypatch: pytest.
 
     file = JournalFile(tmp_path / "j")
     with monkeypatch.context() as patch:
-        patch.setattr("core.program.journal_file.write_all", full)
+        patch.setattr("app.documents.journal_file.write_all", full)
         with pytest.raises(OSError, match="No space"):
             file.add([head_record(HEAD, PART, CURSOR)])
     assert list(tmp_path.iterdir()) == []

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import pytest
 
-from core.program.file.stamp import stamp_of
-from core.program.lock import (
+from app.documents.files import stamp_of
+from app.documents.lock import (
     UNKNOWN,
     Held,
     Lock,
@@ -151,7 +151,7 @@ def test_a_lock_that_says_nothing_is_nobodys(part: Path, text: str) -> None:
 def test_a_lock_that_is_being_written_is_waited_for(part: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     lock_path(part).write_text('{"user"')
     written = json.dumps(vars_of(ELSEWHERE))
-    monkeypatch.setattr("core.program.lock.sleep", lambda _: lock_path(part).write_text(written))
+    monkeypatch.setattr("app.documents.lock.sleep", lambda _: lock_path(part).write_text(written))
     assert take(part, ME) == Held(ELSEWHERE)
 
 

@@ -8,8 +8,7 @@ from dataclasses import replace
 import pytest
 from hypothesis import given, settings
 
-from core.program.coding import Damaged
-from core.program.delta import applied, delta, splice
+from app.documents.journal import Damaged, applied, delta, splice
 from core.program.edit import Where, delete_segment, insert_segment, type_field
 from core.program.model import Entry, LineSegment, Program, Unread
 from tests.core.program.parts import line, program, programs

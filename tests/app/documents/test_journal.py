@@ -11,22 +11,21 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.program.edit import Where, type_field
-from core.program.file.stamp import Stamp
-from core.program.history import History
-from core.program.journal import (
+from app.documents.files import Stamp
+from app.documents.journal import (
     Cursor,
     Head,
     Recovered,
     edit_records,
     head_record,
     history_records,
-    lines,
     moved_record,
     recovered,
 )
-from core.program.journal_file import LARGEST_KEPT, JournalFile, journal_path, set_aside
-from core.program.lock import Owner
+from app.documents.journal_file import LARGEST_KEPT, JournalFile, journal_path, lines, set_aside
+from app.documents.lock import Owner
+from core.program.edit import Where, type_field
+from core.program.history import History
 from core.program.model import Entry, Program
 from tests.core.program.parts import line, program, programs
 
@@ -200,7 +199,8 @@ def test_a_journal_goes_on_behind_a_torn_line(tmp_path: Path) -> None:
     history = add(file, History(PART), typed(2.0))
     file.close()
     path.write_bytes(path.read_bytes() + b"0000")
-    resumed = JournalFile.resumed(path, read(path.read_bytes()))
+    held = read(path.read_bytes())
+    resumed = JournalFile.resumed(path, held.length, held.total)
     history = add(resumed, history, typed(5.0))
     assert read(path.read_bytes()).history == history
 

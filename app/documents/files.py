@@ -1,4 +1,4 @@
-"""Program files: read whole and strictly, written so that there is always one whole file.
+"""Files: programs and what is made of them, read whole, and written so that there is always one whole file.
 
 A file is written beside its place, forced to the disk and renamed over the old one: whatever happens, the old
 file or the new one is there, and nothing else is left behind.
@@ -10,29 +10,49 @@ import errno
 import os
 import stat
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO, Final
+from zlib import adler32, crc32
 
-from core.program.disk import sync_folder, why, write_all
-from core.program.file.end import cut_off
-from core.program.file.read import StoreError, read_program
-from core.program.file.write import written
+from core.program.file.read import StoreError, loads_bytes
+from core.program.file.write import dumps
 from core.program.model import Program
-
-__all__ = ["LARGEST_FILE", "StoreError", "dumps", "load", "load_from", "loads", "save", "write_output", "write_text"]
 
 LARGEST_FILE: Final = 4_000_000
 """Bytes of the largest program file: about twenty thousand segments."""
 
 
-def loads(text: str, name: str) -> Program:
-    """The program of a file's text; StoreError names `name`, line and key."""
-    return read_program(text, name)
+@dataclass(frozen=True, slots=True)
+class Stamp:
+    """What a file was when it was read: enough to notice that somebody has written it since.
+
+    Size in bytes, time of the last change in nanoseconds since 1970, and a sum over the content.
+    """
+
+    size: int
+    changed: int
+    digest: str
+
+    def same_content(self, other: Stamp) -> bool:
+        """Whether both are of the same content; the time does not count, since a copy changes it."""
+        return (self.size, self.digest) == (other.size, other.digest)
 
 
-def dumps(program: Program) -> str:
-    """A program as the text of its file."""
-    return written(program)
+def stamp_of_data(data: bytes, changed: int = 0) -> Stamp:
+    """The stamp of a file with this content."""
+    # against mistakes, not against forgers: hashlib would load OpenSSL at every start
+    return Stamp(len(data), changed, f"{crc32(data):08x}{adler32(data):08x}")
+
+
+def stamp_of(path: Path) -> Stamp | None:
+    """The file's stamp as it is now, None where there is no file that can be read."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(LARGEST_FILE + 1)
+            return stamp_of_data(data, os.fstat(file.fileno()).st_mtime_ns)
+    except (OSError, ValueError):
+        return None
 
 
 def load(path: str | Path) -> Program:
@@ -42,7 +62,7 @@ def load(path: str | Path) -> Program:
         data = _content(path)
     except (OSError, ValueError) as error:
         raise StoreError(f"{path} cannot be read: {why(error)}") from error
-    return _decoded(data, str(path))
+    return loads_bytes(data, str(path))
 
 
 def load_from(stream: BinaryIO, name: str) -> Program:
@@ -51,19 +71,7 @@ def load_from(stream: BinaryIO, name: str) -> Program:
         data = _whole(stream)
     except (OSError, ValueError) as error:
         raise StoreError(f"{name} cannot be read: {why(error)}") from error
-    return _decoded(data, name)
-
-
-def _decoded(data: bytes, name: str) -> Program:
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        whole = data[: error.start].decode("utf-8-sig")
-        if error.end == len(data) and (lost := cut_off(whole)) is not None:
-            raise StoreError(f"{name}, {lost}") from error
-        line = data.count(b"\n", 0, error.start) + 1
-        raise StoreError(f"{name}, line {line}: this is not UTF-8 text. Save it as UTF-8, or open a copy.") from error
-    return read_program(text, name)
+    return loads_bytes(data, name)
 
 
 def _content(path: Path) -> bytes:
@@ -82,7 +90,7 @@ def _whole(file: BinaryIO) -> bytes:
 
 def save(program: Program, path: str | Path) -> None:
     """Write a program's file in one step; see `write_text`."""
-    write_text(path, written(program))
+    write_text(path, dumps(program))
 
 
 def write_text(path: str | Path, text: str) -> None:
@@ -162,3 +170,52 @@ def _status(target: Path) -> os.stat_result | None:
     if not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, "write protected")
     return old
+
+
+def write_all(handle: int, data: bytes) -> None:
+    """Write every byte; OSError leaves some of them written."""
+    rest = memoryview(data)
+    while rest:
+        rest = rest[os.write(handle, rest) :]
+
+
+def sync_folder(folder: Path) -> None:
+    """Force a new name in a folder to the disk; some file systems cannot, and then each file is whole all the same."""
+    with suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+
+
+def why(error: OSError | ValueError) -> str:
+    """The reason why a file cannot be read or written, and the remedy."""
+    match error.errno if isinstance(error, OSError) else None:
+        case errno.ENOSPC | errno.EDQUOT:
+            return "the disk is full. Make room or save elsewhere."
+        case errno.EISDIR | errno.ENOTDIR:
+            return "this is not a file. Choose the name of a file."
+        case errno.ENOENT:
+            return "there is no such file or folder. Check the name."
+        case errno.EACCES | errno.EPERM:
+            what = "it" if _there(error) else "its folder"
+            return f"{what} is protected. Ask for permission, or choose another place."
+        case errno.EROFS:
+            return "the disk is write protected. Choose another place."
+        case errno.EFBIG:
+            return "it is too large for a program file. Choose another file."
+        case errno.ENAMETOOLONG:
+            return "the name is too long. Choose a shorter one."
+        case None:
+            return "this is no file name. Choose another."
+        case _:
+            return (
+                f"{error.strerror or error}. Try again or choose another place." if isinstance(error, OSError) else ""
+            )
+
+
+def _there(error: OSError | ValueError) -> bool:
+    """Whether an error is about a file that there is: what cannot be made, or found, is kept out by its folder."""
+    name = error.filename if isinstance(error, OSError) else None
+    return not isinstance(name, str | Path) or os.path.lexists(name)

@@ -1,21 +1,26 @@
-"""The journal's file: what is added to it is on the disk before `add` returns."""
+"""The journal's file: lines that are on the disk before `add` returns, and where it lies.
+
+A line is a sum over itself and everything before it, a blank, and a JSON object.  A line that was torn by a power
+cut, or that is not what was written, ends what can be read.
+"""
 
 from __future__ import annotations
 
+import json
 import os
 import stat
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, Self
+from typing import Any, Final, Self
+from zlib import crc32
 
-from core.program.disk import sync_folder, write_all
-from core.program.file.store import write_text
+from app.documents.files import sync_folder, write_all, write_text
 
-if TYPE_CHECKING:
-    from core.program.journal import Record, Recovered
+Record = Mapping[str, Any]
+"""One line of the journal."""
 
 SUFFIX: Final = ".cutcomp-journal"
 
@@ -44,20 +49,18 @@ class JournalFile:
     aside: Path | None = None
 
     @classmethod
-    def resumed(cls, path: Path, found: Recovered) -> Self:
+    def resumed(cls, path: Path, length: int, total: int) -> Self:
         """The journal of a program that died, cut behind its last whole line; OSError if that cannot be done."""
         handle = os.open(path, os.O_RDWR | os.O_APPEND | os.O_CLOEXEC)
         try:
-            os.ftruncate(handle, found.length)
+            os.ftruncate(handle, length)
         except OSError:
             os.close(handle)
             raise
-        return cls(path, total=found.total, length=found.length, handle=handle)
+        return cls(path, total=total, length=length, handle=handle)
 
     def add(self, records: Iterable[Record]) -> None:
         """Put lines on the disk, with those that could not be written before; OSError keeps them for the next time."""
-        from core.program.journal import lines
-
         data, self.total = lines(records, self.total)
         self.unwritten += data
         if self.handle is None:
@@ -125,8 +128,6 @@ class JournalFile:
 
     def replace(self, records: Iterable[Record]) -> None:
         """Put a shorter journal in the place of this one, in one step; StoreError leaves the long one."""
-        from core.program.journal import lines
-
         data, total = lines(records)
         if self.handle is not None and self.standing() != self.path:
             # somebody has taken over: what stands in the place is not ours
@@ -173,6 +174,27 @@ class JournalFile:
         if self.handle is not None:
             os.close(self.handle)
         self.handle, self.length = None, 0
+
+
+def lines(records: Iterable[Record], total: int = 0) -> tuple[bytes, int]:
+    """The records as lines that go on from the sum `total`, and the sum at their end."""
+    written = []
+    for record in records:
+        data = json.dumps(record, separators=(",", ":"), allow_nan=False).encode()
+        total = crc32(data, total)
+        written.append(b"%08x %s\n" % (total, data))
+    return b"".join(written), total
+
+
+def whole_lines(data: bytes) -> Iterator[tuple[bytes, int, int]]:
+    """The JSON of each line up to the first that is not what was written, with the length and the sum up to its end."""
+    length, total = 0, 0
+    for line in data.splitlines(keepends=True):
+        total = crc32(line[9:-1], total)
+        if not line.endswith(b"\n") or line[:9] != b"%08x " % total:
+            return
+        length += len(line)
+        yield line[9:], length, total
 
 
 def journal_path(path: Path) -> Path:

@@ -17,7 +17,7 @@ from socket import gethostname
 from time import sleep
 from typing import Final
 
-from core.program.disk import write_all
+from app.documents.files import write_all
 
 SUFFIX: Final = ".cutcomp-lock"
 

@@ -12,8 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from core.program.file import store
-from core.program.file.store import StoreError, dumps, load, save
+from app.documents import files
+from app.documents.files import load, save, write_output
+from core.program.file.read import StoreError
+from core.program.file.write import dumps
 from core.program.model import Program
 from tests.core.program.stored import PART, TEXT
 
@@ -77,7 +79,7 @@ def test_loading_what_is_no_text(tmp_path):
     path = tmp_path / "part.toml"
     path.write_bytes(b'format = 1\nunits = "\xb0"\n')
     assert "line 2: this is not UTF-8 text" in refusal(lambda: load(path))
-    path.write_bytes(b"#" * (store.LARGEST_FILE + 1))
+    path.write_bytes(b"#" * (files.LARGEST_FILE + 1))
     assert "too large for a program file" in refusal(lambda: load(path))
 
 
@@ -186,7 +188,7 @@ def test_a_file_size_limit_stands_for_a_really_full_disk(tmp_path):
     path = tmp_path / "part.toml"
     save(PART, path)
     script = (
-        "import resource, signal, sys; from core.program.file.store import StoreError, load, save\n"
+        "import resource, signal, sys; from app.documents.files import StoreError, load, save\n"
         "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
         "part = load(sys.argv[1])\n"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))\n"
@@ -197,3 +199,22 @@ def test_a_file_size_limit_stands_for_a_really_full_disk(tmp_path):
     assert done.stdout.strip().startswith(f"{path} is not saved: it is too large")
     assert dumps(load(path)) == TEXT
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_output_is_never_written_over_a_program(tmp_path):
+    part, other, fresh = tmp_path / "part.toml", tmp_path / "renamed", tmp_path / "part.nc"
+    save(Program(), part)
+    other.write_bytes(part.read_bytes())
+    for target in (part, other, tmp_path / "new.toml"):
+        with pytest.raises(StoreError, match="Name another file"):
+            write_output(target, "M2")
+    assert part.read_bytes() == other.read_bytes()
+    assert load(part) == Program()
+    write_output(fresh, "M2")
+    assert fresh.read_text() == "M2"
+
+
+def test_output_does_not_wait_for_a_pipe(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(StoreError, match="this is not a file"):
+        write_output(tmp_path / "pipe", "M2")
