@@ -10,7 +10,6 @@ from weakref import ref
 
 import pytest
 
-from app.documents import files
 from app.documents.files import load
 from app.files import empty_program, example
 from app.listing import Listing
@@ -18,6 +17,8 @@ from app.memory import Memory
 from app.nc_keeping import Kept, NcKeeping
 from app.screens.save import SaveAsPage
 from app.session import Session
+from core.program.file.read import StoreError
+from core.program.file.write import dumps
 from tests.app.operator import Operator
 from tests.reports import monkey
 from tests.reports.monkey import run, through_textual
@@ -59,8 +60,8 @@ def test_a_screen_that_remembers_too_much_is_found(monkeypatch: pytest.MonkeyPat
 
 
 def test_a_program_that_does_not_come_back_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(monkey, "dumps", lambda program: files.dumps(program).replace("speed", "x_speed"))
-    with pytest.raises(files.StoreError):
+    monkeypatch.setattr(monkey, "dumps", lambda program: dumps(program).replace("speed", "x_speed"))
+    with pytest.raises(StoreError):
         run(200, seed=1)
 
 

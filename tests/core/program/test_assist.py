@@ -223,7 +223,7 @@ def test_blocks_do_not_share_tools():
 
 def test_no_numpy_is_loaded():
     """The first screen is painted before the heavy packages are there."""
-    names = ("convert", "edit", "fields", "history", "model", "tools", "solve.solve", "file.store")
+    names = ("convert", "edit", "fields", "history", "model", "tools", "solve.solve", "file.read", "file.write")
     imports = ", ".join(f"core.program.{name}" for name in names)
     script = f"import {imports}, core.units, core.geometry.fillet, sys; print('numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
 from hypothesis import given, settings
 
-from core.program.difference import differences
+from core.program.difference import differences, splice
 from core.program.edit import (
     Where,
     copy_block,
@@ -72,3 +73,19 @@ def test_told_if_and_only_if_there_is_a_difference(old: Program, new: Program) -
     assert differences(old, old) == ()
     assert bool(differences(old, new)) is (old != new)
     assert all(sentence.isprintable() for sentence in differences(old, new))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "at", "gone", "come"),
+    [
+        ("abc", "abc", 3, "", ""),
+        ("abc", "axc", 1, "b", "x"),
+        ("abc", "abbc", 2, "", "b"),
+        ("aaa", "aa", 2, "a", ""),
+        ("", "xy", 0, "", "xy"),
+        ("xy", "", 0, "xy", ""),
+    ],
+)
+def test_the_shortest_middle(old: str, new: str, at: int, gone: str, come: str) -> None:
+    found = splice(tuple(old), tuple(new))
+    assert (found.at, "".join(found.old), "".join(found.new)) == (at, gone, come)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import nan, pi
-from typing import Any
 
 import pytest
 
@@ -11,9 +10,7 @@ from core.finding import Severity
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Turn
 from core.geometry.side import Side
-from core.geometry.stretch import stretch_lengths
 from core.units import Unit, sentence
-from core.verify import report
 from core.verify.judge import judge
 from core.verify.names import move_name
 from core.verify.report import findings, stray_findings
@@ -149,17 +146,3 @@ def test_strays_are_told() -> None:
     assert sentence(found[1], Unit.MM) == (
         "2.828 of path does not touch the part: at X 5.000 Y 2.000 the cutter is 1.000 off it."
     )
-
-
-def test_what_stays_uncut_is_put_into_words_where_it_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
-    verdict, asked = judge(MID_SIDE, Side.LEFT, R, MID_SIDE_PATH), []
-
-    def shares(*of: Any) -> Any:
-        asked.append(of)
-        return stretch_lengths(*of)
-
-    monkeypatch.setattr(report, "stretch_lengths", shares)
-    found = findings(verdict, MID_SIDE)
-    assert not asked
-    assert [one.value for one in found] == [one.length for one in verdict.uncut]
-    assert len(asked) == 1
