@@ -1,0 +1,157 @@
+"""The searches for what is near find what comparing every pair finds, and never miss a pair."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from core.geometry.bounds import boxes
+from core.geometry.distance import between, distance, nearest_places
+from core.geometry.measured import Measured, measured
+from core.geometry.nearby import (
+    chords_of,
+    closest_pieces,
+    gathered,
+    near_pairs,
+    near_pairs_within,
+    nearer_than,
+    nearest_pieces,
+    runs_of,
+)
+from core.geometry.path import Path
+
+Floats = NDArray[np.float64]
+Rows = NDArray[np.signedinteger[Any]]
+
+SIZES = [(1, 1), (3, 40), (57, 5), (130, 131), (300, 700)]
+
+
+def walk(seed: int, count: int, *, arcs: bool = True) -> Measured:
+    """A random walk of lines and arcs of all angles, which meets itself often."""
+    random = np.random.default_rng(seed)
+    points = np.cumsum(random.normal(size=(count + 1, 2)), axis=0)
+    turns = (random.integers(-1, 2, count) * arcs).astype(np.int8)
+    chord = np.diff(points, axis=0)
+    normal = np.stack((-chord[:, 1], chord[:, 0]), axis=1)
+    centers = (points[1:] + points[:-1]) / 2.0 + normal * random.normal(size=(count, 1))
+    return measured(Path.of(points, np.where(turns[:, None] == 0, points[:-1], centers), turns))
+
+
+def boxes_apart(a: Floats, b: Floats) -> Floats:
+    """(n, m) distances of boxes."""
+    x = np.maximum(a[0][:, None] - b[2], b[0] - a[2][:, None])
+    y = np.maximum(a[1][:, None] - b[3], b[1] - a[3][:, None])
+    return np.asarray(np.hypot(np.maximum(x, 0.0), np.maximum(y, 0.0)))
+
+
+def pieces_apart(one: Measured, other: Measured) -> Floats:
+    """(n, m) distances of pieces."""
+    i, j = np.divmod(np.arange(len(one) * len(other)), len(other))
+    first, second = one.take(i), other.take(j)
+    with np.errstate(all="ignore"):
+        apart: Floats = between(first, second, nearest_places(first, second)).min(axis=0)
+    return np.asarray(apart.reshape(len(one), len(other)))
+
+
+def pairs(found: tuple[Rows, ...]) -> set[tuple[int, int]]:
+    return set(zip(found[0].tolist(), found[1].tolist(), strict=True))
+
+
+@pytest.mark.parametrize(("n", "m"), SIZES)
+@pytest.mark.parametrize("reach", [0.0, 0.7])
+def test_near_boxes_are_those_no_farther_apart_than_the_reach(n: int, m: int, reach: float) -> None:
+    a, b = boxes(walk(1, n)), boxes(walk(2, m))
+    batches = list(near_pairs(a, b, reach))
+    assert pairs(gathered(batches)) == pairs(np.nonzero(boxes_apart(a, b) <= reach))
+    assert np.all(np.diff(np.concatenate([i for i, _ in batches])) >= 0)
+
+
+@pytest.mark.parametrize("n", [1, 2, 40, 700])
+def test_near_boxes_of_one_set_come_once_each(n: int) -> None:
+    a = boxes(walk(3, n))
+    i, j = gathered(near_pairs_within(a, 0.2))
+    assert len(i) == len(pairs((i, j)))
+    assert pairs((i, j)) == pairs(np.nonzero(np.triu(boxes_apart(a, a) <= 0.2, 1)))
+
+
+def test_no_boxes_are_near_none() -> None:
+    none, some = np.zeros((4, 0)), boxes(walk(1, 5))
+    assert not list(near_pairs(none, some, 1.0))
+    assert not list(near_pairs(some, none, 1.0))
+    assert len(gathered(near_pairs(none, none, 1.0))[0]) == 0
+
+
+def test_boxes_on_top_of_each_other_come_in_batches() -> None:
+    a = np.tile([[0.0], [0.0], [1.0], [1.0]], (1, 3000))
+    sizes = [len(i) for i, _ in near_pairs(a, a, 0.0)]
+    assert sum(sizes) == 9_000_000
+    assert max(sizes) < 500_000
+
+
+@pytest.mark.parametrize("bound", range(4))
+def test_a_box_with_a_bound_that_is_no_number_is_near_all_and_hides_none(bound: int) -> None:
+    a, b = boxes(walk(1, 130)), boxes(walk(2, 131))
+    wanted = pairs(np.nonzero(boxes_apart(a, b) <= 0.7))
+    a[bound, ::7] = np.nan
+    for found in (gathered(near_pairs(a, b, 0.7)), gathered(near_pairs(b, a, 0.7))[::-1]):
+        assert pairs(found) >= wanted
+
+
+@pytest.mark.parametrize("arcs", [False, True])
+@pytest.mark.parametrize(("n", "m"), SIZES)
+@pytest.mark.parametrize("limit", [0.01, 1.5])
+def test_no_pair_of_pieces_nearer_than_the_limit_is_missed(n: int, m: int, limit: float, arcs: bool) -> None:
+    one, other = walk(4, n, arcs=arcs), walk(5, m, arcs=arcs)
+    i, j = gathered(nearer_than(runs_of(chords_of(one)), runs_of(chords_of(other)), limit))
+    assert len(i) == len(pairs((i, j)))
+    assert pairs((i, j)) >= pairs(np.nonzero(pieces_apart(one, other) < limit))
+
+
+def test_a_piece_that_is_no_number_is_never_left_out() -> None:
+    one, other = walk(4, 300), walk(5, 300)
+    other.start[77] = np.nan
+    i, j = gathered(nearer_than(runs_of(chords_of(one)), runs_of(chords_of(other)), 0.1))
+    assert len(np.unique(i[j == 77])) == 300
+
+
+def waves(count: int, radius: float) -> Measured:
+    angle = np.linspace(0.0, 2.0 * np.pi, count + 1)
+    size = radius + 0.01 * np.sin(40.0 * angle)
+    points = np.stack((size * np.cos(angle), size * np.sin(angle)), axis=1)
+    return measured(Path.of(points, points[:-1], np.zeros(count, np.int8)))
+
+
+@pytest.mark.parametrize("limit", [5.95, 6.0, 6.01])
+def test_of_short_chords_within_one_radius_hardly_any_but_the_nearest_come(limit: float) -> None:
+    """All of the wall's chords lie within the limit's box about any move."""
+    wall, move = waves(600, 1.0), waves(600, 7.0)
+    i, j = gathered(nearer_than(runs_of(chords_of(move)), runs_of(chords_of(wall)), limit))
+    apart = pieces_apart(move, wall)
+    assert pairs((i, j)) >= pairs(np.nonzero(apart < limit - 1e-9))
+    assert len(i) <= 1.05 * np.count_nonzero(apart < limit + 1e-9)
+
+
+@pytest.mark.parametrize("arcs", [False, True])
+@pytest.mark.parametrize("m", [1, 5, 64, 700])
+@pytest.mark.parametrize("tie", [0.0, 0.3])
+def test_nearest_pieces_are_the_nearest_and_ties(m: int, arcs: bool, tie: float) -> None:
+    pieces = walk(6, m, arcs=arcs)
+    spots = np.random.default_rng(7).normal(size=(1500, 2)) * 10.0
+    points = np.concatenate((spots[:, 0] + 1j * spots[:, 1], pieces.start[:20]))
+    apart = distance(pieces, np.repeat(points[:, None], m, axis=1))
+    k, j, near = nearest_pieces(points, pieces, tie)
+    short, wide = (np.nonzero(apart <= apart.min(axis=1)[:, None] + tie + give) for give in (-1e-9, 1e-9))
+    assert pairs(short) <= pairs((k, j)) <= pairs(wide)
+    assert set(k.tolist()) == set(range(len(points)))
+    assert list(zip(k, j, strict=True)) == sorted(zip(k, j, strict=True))
+    np.testing.assert_allclose(near, apart[k, j], atol=1e-12)
+
+
+@pytest.mark.parametrize(("n", "m"), SIZES)
+def test_closest_pieces_hold_the_least_distance(n: int, m: int) -> None:
+    one, other = walk(8, n), walk(9, m)
+    apart = pieces_apart(one, other)
+    assert pairs(closest_pieces(one, other)) >= pairs(np.nonzero(apart == apart.min()))
