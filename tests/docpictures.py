@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -88,6 +89,7 @@ def drawn() -> Iterator[tuple[str, str]]:
 
 def main() -> None:
     """Write every picture."""
+    argparse.ArgumentParser("tests.docpictures", description=__doc__).parse_args()
     FOLDER.mkdir(exist_ok=True)
     for name, text in drawn():
         (FOLDER / name).write_text(text, encoding="utf-8")

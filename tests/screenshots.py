@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -61,8 +62,11 @@ def take(shot: Shot) -> None:
 
 def main() -> None:
     """Take every picture, or those named on the command line."""
+    parser = argparse.ArgumentParser("tests.screenshots", description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(shot.name for shot in SHOTS))
+    names = parser.parse_args().names
     for shot in SHOTS:
-        if not sys.argv[1:] or shot.name in sys.argv[1:]:
+        if not names or shot.name in names:
             take(shot)
             print(shot.name)
 

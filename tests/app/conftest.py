@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
@@ -14,6 +16,13 @@ for name in list(os.environ):
     if (name.startswith("TEXTUAL_") and not name.startswith(KEPT)) or name in ("NO_COLOR", "FORCE_COLOR"):
         del os.environ[name]
 os.environ["COLUMNS"], os.environ["LINES"] = "80", "24"
+
+
+@pytest.fixture
+def tmp_path() -> Iterator[Path]:
+    """A folder whose path is equally long on every machine: a line of the screen shows only part of a long one."""
+    with TemporaryDirectory(prefix="cutcomp-", dir="/tmp", ignore_cleanup_errors=True) as folder:
+        yield Path(folder)
 
 
 @pytest.fixture

@@ -9,7 +9,6 @@ from tests.reports.dialogs import NAMES, SCENES, one_kind
 from tests.reports.terminals import Colors, Kind
 
 
-@pytest.mark.timeout(240)
 @pytest.mark.parametrize("kind", [Kind("vt100", Colors.FEW, "UTF-8"), Kind("xterm-mono", Colors.FEW, "UTF-8")], ids=str)
 def test_every_dialog_is_what_it_is_on_an_xterm(kind: Kind) -> None:
     assert one_kind(kind) == []

@@ -13,7 +13,6 @@ from tests.reports.web import report
 
 @pytest.mark.skipif(chromium() is None, reason="no Chromium here: apt-get install chromium")
 @pytest.mark.skipif(find_spec("textual_serve") is None, reason="the extra web is not installed")
-@pytest.mark.timeout(120)
 def test_from_the_start_screen_to_a_posted_file_in_a_browser(tmp_path: Path) -> None:
     told = report(tmp_path / "seen.png")
     assert told[0].endswith("refused (403)")

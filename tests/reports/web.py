@@ -5,6 +5,7 @@ It needs Chromium (`apt-get install chromium`) and the extra `web`.
 
 from __future__ import annotations
 
+import argparse
 import asyncio
 import os
 import socket
@@ -111,4 +112,6 @@ def report(picture: Path | None = None) -> list[str]:
 
 
 if __name__ == "__main__":
-    print("\n".join(report(Path(sys.argv[1]) if sys.argv[1:] else None)))
+    parser = argparse.ArgumentParser("tests.reports.web", description=__doc__)
+    parser.add_argument("picture", type=Path, nargs="?", help="a PNG file to write")
+    print("\n".join(report(parser.parse_args().picture)))

@@ -7,6 +7,7 @@ memory for 100,000 blocks.
 
 from __future__ import annotations
 
+import argparse
 import sys
 import tempfile
 import tracemalloc
@@ -181,13 +182,16 @@ def _cases(count: int) -> Iterable[tuple[str, str, dict[int, float], Unit]]:
 
 def main(arguments: list[str]) -> int:
     """Prints the table, and each program that fares differently."""
-    what = arguments.pop(0) if arguments and not arguments[0].isdecimal() else ""
-    if what:
-        return {"broken": compare_broken, "speed": compare_speed}[what](int(arguments[0]) if arguments else 5)
+    parser = argparse.ArgumentParser("tests.core.controls.compare_rs274", description=__doc__)
+    parser.add_argument("what", nargs="?", choices=("alike", "broken", "speed"), default="alike")
+    parser.add_argument("count", type=int, nargs="?", help="contours (1000), programs with slips (5), or runs (5)")
+    options = parser.parse_args(["alike", *arguments] if arguments and arguments[0].isdecimal() else arguments)
+    if options.what != "alike":
+        return {"broken": compare_broken, "speed": compare_speed}[options.what](options.count or 5)
     counts: Counter[str] = Counter()
     left = 0
     with tempfile.TemporaryDirectory() as folder:
-        for name, text, tools, unit in _cases(int(arguments[0]) if arguments else 1000):
+        for name, text, tools, unit in _cases(options.count or 1000):
             fared, apart = outcome(text, Path(folder), tools, unit)
             counts[fared] += 1
             if apart:

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import argparse
 from pathlib import Path
 from random import Random
 from time import perf_counter
@@ -38,13 +39,11 @@ def slowest(sample: Path, count: int, controls: list[str]) -> float:
     return most
 
 
-@pytest.mark.timeout(60)
 @pytest.mark.parametrize("sample", SAMPLES, ids=lambda sample: sample.stem)
 def test_mutations_of_a_sample(sample: Path) -> None:
     slowest(sample, 60, ISO)
 
 
-@pytest.mark.timeout(60)
 def test_mutations_of_programs_with_parameters_loops_and_cycles(tmp_path: Path) -> None:
     texts = [*map(whole, SAME.values()), *map(generated, range(4)), *map(drilled, range(4)), *map(timed, range(4))]
     for index, text in enumerate(texts):
@@ -55,6 +54,7 @@ def test_mutations_of_programs_with_parameters_loops_and_cycles(tmp_path: Path) 
 
 def main() -> None:
     """The full thing."""
+    argparse.ArgumentParser("tests.core.controls.test_mutations", description=__doc__).parse_args()
     for sample in SAMPLES:
         for control in ISO:
             print(f"{sample.name:32}{control:24}{slowest(sample, 1000, [control]):8.3f} s")

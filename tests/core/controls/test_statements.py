@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import argparse
 from collections import Counter
 
 import pytest
@@ -36,6 +37,7 @@ def test_the_statement_holds(row: Row) -> None:
 
 def main() -> None:
     """Prints each row and how many hold."""
+    argparse.ArgumentParser("tests.core.controls.test_statements", description=__doc__).parse_args()
     held: Counter[str] = Counter()
     for row in ROWS:
         what = wrong(row)

@@ -6,7 +6,7 @@ truly gouges or leaves stock is decided by dense points (`oracle`), not by the j
 
 from __future__ import annotations
 
-import sys
+import argparse
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import hypot, tau
@@ -236,7 +236,9 @@ def tables(seed: int, contours: int) -> dict[str, Table]:
 
 
 def main() -> None:
-    told = tables(1, int(sys.argv[1]) if len(sys.argv) > 1 else 100)
+    parser = argparse.ArgumentParser("tests.core.verify.mutants", description=__doc__)
+    parser.add_argument("contours", type=int, nargs="?", default=100, help="contours whose paths are spoiled")
+    told = tables(1, parser.parse_args().contours)
     for road in ROADS:
         print(f"{road.name}: {road.words}")
         _print(told[road.name])

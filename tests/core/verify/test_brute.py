@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-import sys
+import argparse
 from collections.abc import Callable, Iterator
 from math import cos, inf, pi, sin, tau
 from random import Random
@@ -175,5 +175,7 @@ def _agree(told: Verdict, truth: Slow, surface: Path, radius: float, path: Path)
 
 
 if __name__ == "__main__":
-    seeds = range(int(sys.argv[1]) if len(sys.argv) > 1 else 10)
+    parser = argparse.ArgumentParser("tests.core.verify.test_brute", description=__doc__)
+    parser.add_argument("seeds", type=int, nargs="?", default=10, help="seeds for each family of contours")
+    seeds = range(parser.parse_args().seeds)
     print(sum(compared(family, seed, 5) for family in FAMILIES for seed in seeds), "paths are judged alike")

@@ -61,7 +61,6 @@ def broken(file: Path, count: int) -> float:
     return slowest
 
 
-@pytest.mark.timeout(60)
 @pytest.mark.parametrize("file", SAMPLES, ids=lambda file: file.stem)
 def test_a_hundred_mutations_of_each_sample(file: Path) -> None:
     broken(file, 100)
