@@ -13,8 +13,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.path import EMPTY, Floats, Path, joined
-from core.geometry.piece import Arc, Line, Piece, Point
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Point, Side
 from core.tolerance import CLOSED, JOINED
 
 _AT_ITS_START: Final = 2.0 * CLOSED

@@ -18,10 +18,8 @@ from core.comp.offset import Chain, offset
 from core.comp.prune import Pruned, prune
 from core.comp.result import Compensated, Deletions
 from core.finding import Finding
-from core.geometry.intersect import Indices, planes
-from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Arc, Piece
-from core.geometry.side import Side
+from core.geometry.path import EMPTY, Indices, Path, planes
+from core.geometry.piece import Arc, Piece, Side
 from core.tolerance import JOINED
 
 

@@ -15,8 +15,7 @@ import numpy as np
 
 from core.comp.offset import BRIDGE, CORNER, Chain, stacked
 from core.geometry.intersect import Meeting, Meetings, meet_pieces
-from core.geometry.path import Floats
-from core.geometry.planes import Indices, Masks, Pieces, Planes, coordinates, pieces_of, planes, taken
+from core.geometry.path import Floats, Indices, Masks, Pieces, Planes, coordinates, pieces_of, planes, taken
 from core.tolerance import ON_PATH
 
 _STRETCH: Final = 8192

@@ -17,9 +17,8 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.intersect import Indices, Masks, Planes, coordinates, planes
-from core.geometry.path import Floats, Path, Turns
-from core.geometry.side import Side
+from core.geometry.path import Floats, Indices, Masks, Path, Planes, Turns, coordinates, planes
+from core.geometry.piece import Side
 from core.tolerance import JOINED
 
 _STRETCH: Final = 16384

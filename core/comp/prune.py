@@ -17,8 +17,7 @@ from core.comp.crossings import Crossings
 from core.comp.offset import BRIDGE, Chain
 from core.comp.result import Deletions
 from core.comp.walk import Left, Walk
-from core.geometry.intersect import Indices, Masks, coordinates, planes
-from core.geometry.path import EMPTY, Path
+from core.geometry.path import EMPTY, Indices, Masks, Path, coordinates, planes
 from core.tolerance import JOINED, ON_PATH
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from core.finding import Finding
 from core.geometry.path import Floats, Path, joined
-from core.geometry.side import Side
+from core.geometry.piece import Side
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,9 +13,8 @@ from core.comp.blend import direction
 from core.comp.offset import Chain, Part
 from core.comp.prune import Pruned
 from core.finding import Finding, Severity
-from core.geometry.intersect import Indices, Masks, planes
-from core.geometry.path import Floats, Path
-from core.geometry.side import Side
+from core.geometry.path import Floats, Indices, Masks, Path, planes
+from core.geometry.piece import Side
 from core.tolerance import ARC_RADII, GOUGE, JOINED, LARGEST
 
 NAMED_AT_MOST: Final = 100

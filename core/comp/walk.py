@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 
 from core.comp.crossings import Crossings
 from core.comp.offset import Chain
-from core.geometry.intersect import Indices, planes
-from core.geometry.path import Floats
+from core.geometry.path import Floats, Indices, planes
 from core.tolerance import ON_PATH
 
 _GONE: Final = b"\1"

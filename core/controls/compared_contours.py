@@ -12,8 +12,8 @@ from core.controls.contours_and_leads import contour_of
 from core.controls.control_run import Run, Stretch
 from core.controls.judged_runs import surface_of
 from core.geometry.distance import distance
-from core.geometry.measured import measured
 from core.geometry.path import Path
+from core.geometry.piece_arrays import measured
 
 APART: Final = 0.0005
 """Millimeters from which on two contours are told to part."""

@@ -7,7 +7,7 @@ from typing import Final, NoReturn
 
 from core.controls.moves import Moves, Plane
 from core.finding import Finding, Severity
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.units import Unit
 
 MOST: Final = 100

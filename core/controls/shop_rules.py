@@ -16,10 +16,9 @@ from core.controls.control_run import Run, Stretch
 from core.controls.moves import Moves
 from core.finding import Finding, Severity
 from core.geometry.distance import distance
-from core.geometry.measured import measured
 from core.geometry.path import Path
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
+from core.geometry.piece_arrays import measured
 from core.tolerance import JOINED
 
 SQUARE: Final = 1e-6

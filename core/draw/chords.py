@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from core.draw.scene import BEYOND, Arcs, Gathered, Pieces
 from core.draw.view import TALL, View
-from core.geometry.path import Floats, Turns
-from core.geometry.planes import coordinates
+from core.geometry.path import Floats, Turns, coordinates
 
 SAG: Final = 0.1
 """How far a chord may stray from its arc, in cells' widths: less than half a dot of the finest mode."""

@@ -15,9 +15,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Floats, Path, Turns, swept
+from core.geometry.path import Floats, Path, Planes, Turns, coordinates, planes, swept
 from core.geometry.piece import Point
-from core.geometry.planes import Planes, coordinates, planes
 from core.geometry.stretch import Parts
 from core.tolerance import LARGEST
 from core.units import Unit

@@ -12,7 +12,7 @@ from math import tau
 
 import numpy as np
 
-from core.geometry.measured import Floats, Measured, Points, at, by_kind, traveled
+from core.geometry.piece_arrays import Floats, Measured, Points, at, by_kind, traveled
 
 
 def foot(pieces: Measured, points: Points) -> Floats:

@@ -16,15 +16,9 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Floats, Path
+from core.geometry.path import Floats, Indices, Masks, Path, Pieces, Planes, coordinates, pieces_of, taken
 from core.geometry.piece import SLIVER
-from core.geometry.planes import Indices, Masks, Pieces, Planes, coordinates, pieces_of, planes, taken
 from core.tolerance import JOINED, ON_PATH
-
-__all__ = [
-    "Indices", "Masks", "Meeting", "Meetings", "Pieces", "Planes", "coordinates", "meet", "meet_pieces", "planes",
-]  # fmt: skip
-"""The words of `planes` too, in which whoever meets pieces calculates."""
 
 _ROOM: Final = 1e-6
 """How much too large a sector is taken, times the radius: the exact test comes after it."""

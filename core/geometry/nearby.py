@@ -21,7 +21,7 @@ import numpy as np
 import shapely
 
 from core.geometry.distance import distance
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows
+from core.geometry.piece_arrays import Flags, Floats, Measured, Points, Rows
 
 FAN: Final = 4
 """Consecutive chords, or runs of them, in one run."""

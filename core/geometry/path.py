@@ -2,6 +2,9 @@
 
 The one representation of geometry for ten pieces and for a hundred thousand.  A path of n pieces has
 n + 1 points, so that it is joined by construction.  Millimeters and radians, right-handed XY.
+
+What is calculated with many pieces at once takes points as complex numbers x + iy (`planes`) and pieces that need not
+join (`Pieces`): conj(u) v has the dot product of u and v as its real and the cross product as its imaginary part.
 """
 
 from __future__ import annotations
@@ -9,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import tau
-from typing import Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -210,3 +213,44 @@ def joined(parts: Sequence[Path]) -> Path:
 
 EMPTY = Path(np.empty((0, 2)), np.empty((0, 2)), np.empty(0, np.int8), np.empty(0))
 """The path without pieces."""
+
+
+Indices = NDArray[np.intp]
+Planes = NDArray[np.complex128]
+Masks = NDArray[np.bool_]
+
+
+class Pieces(NamedTuple):
+    """k pieces that need not join: ends and centers as complex numbers, turns as in `Path`."""
+
+    start: Planes
+    end: Planes
+    center: Planes
+    turn: Turns
+
+
+def planes(pairs: Floats) -> Planes:
+    """(n, 2) coordinates as (n,) complex numbers, without a copy where they lie together in memory."""
+    flat: Planes = np.ascontiguousarray(pairs).view(np.complex128)[:, 0]
+    return flat
+
+
+def coordinates(points: Planes) -> Floats:
+    """(n,) complex numbers as (n, 2) coordinates, without a copy where they lie together in memory."""
+    return np.ascontiguousarray(points).view(np.float64).reshape(-1, 2)
+
+
+def onward(values: NDArray[Any]) -> NDArray[Any]:
+    """The next one of each value round a ring: that of the last is the first.  `np.roll` takes five times as long."""
+    return np.concatenate((values[1:], values[:1]))
+
+
+def pieces_of(path: Path) -> Pieces:
+    """The pieces of a path, without a copy."""
+    points = planes(path.points)
+    return Pieces(points[:-1], points[1:], planes(path.centers), path.turns)
+
+
+def taken(pieces: Pieces, rows: Indices) -> Pieces:
+    """Some of the pieces."""
+    return Pieces(pieces.start[rows], pieces.end[rows], pieces.center[rows], pieces.turn[rows])

@@ -7,7 +7,7 @@ be solved and painted before it is loaded; whole paths are `core.geometry.path.P
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import IntEnum, StrEnum
 from math import atan2, hypot, tau
 from typing import Final
 
@@ -69,3 +69,15 @@ class Arc:
 
 
 Piece = Line | Arc
+
+
+class Side(StrEnum):
+    """LEFT or RIGHT of the contour, seen along the travel."""
+
+    LEFT = "LEFT"
+    RIGHT = "RIGHT"
+
+    @property
+    def sign(self) -> int:
+        """+1 for LEFT: the left normal of a direction (dx, dy) is (-dy, dx)."""
+        return 1 if self is Side.LEFT else -1

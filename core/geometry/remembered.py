@@ -12,7 +12,7 @@ from typing import Any, Final
 
 from numpy.typing import NDArray
 
-from core.geometry.measured import Given, Measured
+from core.geometry.piece_arrays import Given, Measured
 
 FEW: Final = 50
 """Pieces of which the answer is kept: more of them are seldom all as they were, and take more room."""

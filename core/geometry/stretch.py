@@ -7,9 +7,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import EMPTY, Floats, Path
+from core.geometry.path import EMPTY, Floats, Indices, Path, Planes, coordinates, planes
 from core.geometry.piece import Arc, Line, Piece, Point
-from core.geometry.planes import Indices, Planes, coordinates, planes
 
 
 class Ends(NamedTuple):

@@ -16,12 +16,11 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from core.comp.blend import direction
-from core.geometry.bounds import boxes
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import between, distance, nearest_places
-from core.geometry.measured import Flags, Floats, Measured, Points, measured
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point
+from core.geometry.piece_arrays import Flags, Floats, Measured, Points, boxes, measured
 from core.pipeline.table import Trial
 from core.tolerance import CLOSED, GOUGE, JOINED
 

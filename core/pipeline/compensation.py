@@ -11,7 +11,7 @@ from core.comp.compensate import Crossed, compensate, crossed
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.comp.result import Compensated
 from core.geometry.path import Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.pipeline.derived import Loop
 from core.program.fields import default
 from core.program.model import Entry, PathChoice, Program

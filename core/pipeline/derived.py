@@ -7,7 +7,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from core.finding import Finding, Severity
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.program.model import Block, Program
 from core.program.solve.solved import SolvedBlock
 

@@ -8,7 +8,7 @@ from typing import Final
 
 from core.comp.lookahead import HIGHEST, LOWEST, calculated
 from core.finding import Finding, Severity
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.pipeline.derived import Derived, DerivedBlock, LookAhead, Tag
 from core.pipeline.safe_height import safe_height_findings
 from core.pipeline.unsaid import unsaid_findings

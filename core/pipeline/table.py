@@ -14,7 +14,7 @@ from core.comp.lookahead import HIGHEST, LOWEST
 from core.comp.result import Compensated
 from core.finding import Finding
 from core.geometry.path import Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.pipeline.compensation import parameter
 from core.pipeline.derive import stocks
 from core.pipeline.derived import DerivedBlock

@@ -9,8 +9,7 @@ from typing import Final
 from core.comp.best_path.best_path import BestPath, Separation
 from core.comp.result import Compensated
 from core.finding import Finding, Severity
-from core.geometry.path import Path
-from core.geometry.planes import planes
+from core.geometry.path import Path, planes
 from core.pipeline.derived import DerivedBlock, Loop, RoughPass, Work
 from core.tolerance import GOUGE
 from core.verify.names import Names, move_name

@@ -8,8 +8,7 @@ from typing import Final
 import numpy as np
 
 from core.finding import Finding, Severity
-from core.geometry.path import Path
-from core.geometry.planes import onward, planes
+from core.geometry.path import Path, onward, planes
 
 STRAIGHT_BACK: Final = cos(radians(1.0))
 """Cosine of the angle between two segments below which they lie on each other: an end typed to the last digit of a

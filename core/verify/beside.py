@@ -18,7 +18,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from core.geometry.aligned import Runs
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows
+from core.geometry.piece_arrays import Flags, Floats, Measured, Points, Rows
 from core.tolerance import GOUGE
 
 HALF: Final = pi * (1.0 + 1e-12)

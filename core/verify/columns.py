@@ -11,7 +11,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from core.geometry.measured import Flags, Floats, Measured
+from core.geometry.piece_arrays import Flags, Floats, Measured
 
 SHORT: Final = 1e-3
 """Chords shorter than this part of the radius do not say where an arc's middle is to the last digit."""

@@ -8,9 +8,8 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.bounds import boxes
-from core.geometry.measured import Floats, Measured, Rows, stacked
 from core.geometry.path import Path
+from core.geometry.piece_arrays import Floats, Measured, Rows, boxes, stacked
 from core.verify.columns import columns as columns_of
 
 FEW: Final = 2_000

@@ -11,7 +11,7 @@ import numpy as np
 from core.geometry.aligned import aligned_pairs
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import between, distance, foot, nearest_places
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, direction
+from core.geometry.piece_arrays import Flags, Floats, Measured, Points, Rows, at, direction
 from core.tolerance import JOINED
 from core.verify.course import Course
 from core.verify.unproved import clear

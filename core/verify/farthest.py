@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import between, distance, farthest_places
-from core.geometry.measured import Floats, Measured, Points, Rows, at, place
+from core.geometry.piece_arrays import Floats, Measured, Points, Rows, at, place
 from core.tolerance import GOUGE
 from core.verify.reach import Stretches, changes, nearest
 

@@ -15,7 +15,7 @@ import numpy as np
 from core.geometry.aligned import aligned_pairs
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import distance
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place, traveled
+from core.geometry.piece_arrays import Flags, Floats, Measured, Points, Rows, at, place, traveled
 from core.tolerance import ON_PATH
 from core.verify.farthest import FINE, farthest
 from core.verify.pairs import Pairs

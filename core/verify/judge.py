@@ -11,9 +11,9 @@ from typing import Final
 import numpy as np
 
 from core.geometry.boxes import near_pairs
-from core.geometry.measured import Floats, Measured
 from core.geometry.path import Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
+from core.geometry.piece_arrays import Floats, Measured
 from core.tolerance import CLOSED, GOUGE, LARGEST
 from core.verify.behind import behind, deepened, parted
 from core.verify.beside import NOBODY, Beside, beside

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.measured import at
 from core.geometry.path import Path
 from core.geometry.piece import Point
+from core.geometry.piece_arrays import at
 from core.tolerance import GOUGE, ON_PATH
 from core.verify.course import courses
 from core.verify.judge import judgeable

@@ -9,7 +9,7 @@ import numpy as np
 
 from core.geometry.boxes import closest_pairs, near_pairs
 from core.geometry.distance import between, nearest_places
-from core.geometry.measured import Floats, Measured, Rows, blocks
+from core.geometry.piece_arrays import Floats, Measured, Rows, blocks
 from core.geometry.remembered import remembered
 from core.tolerance import UNCUT
 from core.verify.beside import NOBODY, Beside

@@ -14,7 +14,7 @@ import numpy as np
 
 from core.geometry.boxes import nearest_boxes
 from core.geometry.distance import band_places, between, distance
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows, blocks
+from core.geometry.piece_arrays import Flags, Floats, Measured, Points, Rows, blocks
 from core.geometry.remembered import remembered
 from core.tolerance import ON_PATH
 

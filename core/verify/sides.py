@@ -8,8 +8,8 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.measured import Flags, Floats, Measured, Points, Rows, at, place
-from core.geometry.side import Side
+from core.geometry.piece import Side
+from core.geometry.piece_arrays import Flags, Floats, Measured, Points, Rows, at, place
 from core.tolerance import ARC_RADII, CLOSED, JOINED, ON_PATH
 from core.verify.crossing import Crossings, at_joints
 from core.verify.gouge import Gouging

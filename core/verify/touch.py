@@ -14,7 +14,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.measured import Flags, Floats, Measured, Rows
+from core.geometry.piece_arrays import Flags, Floats, Measured, Rows
 from core.tolerance import ON_PATH, STOCK
 from core.verify.columns import (
     CENTER,

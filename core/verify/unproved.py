@@ -12,7 +12,7 @@ import numpy as np
 
 from core.geometry.aligned import aligned_pairs
 from core.geometry.boxes import near_pairs, reaching
-from core.geometry.measured import Flags, Floats, Measured, Rows
+from core.geometry.piece_arrays import Flags, Floats, Measured, Rows
 from core.verify.beside import Beside
 
 CLEAR: Final = 3.0

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.path import Floats, Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,8 +14,7 @@ import numpy as np
 import shapely
 
 from core.geometry.path import Floats, Path
-from core.geometry.piece import Arc
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Side
 from tests.bench.families import Work
 from tests.rs274 import WITNESS, process
 

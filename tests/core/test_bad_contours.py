@@ -15,8 +15,7 @@ from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate, compensate_all
 from core.finding import Severity
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.pipeline.needs import needs_of
 from core.pipeline.table import Trial, table_of
 from core.verify.judge import judge

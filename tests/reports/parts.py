@@ -13,8 +13,7 @@ from random import Random
 from typing import Final
 
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Side, Turn
 
 RADIUS: Final = 100.0
 

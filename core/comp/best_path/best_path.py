@@ -26,7 +26,7 @@ from core.comp.best_path.surface import Surface, crosses_itself, surface_of
 from core.comp.best_path.trim import trimmed
 from core.finding import Finding, Severity
 from core.geometry.path import Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.tolerance import GOUGE
 
 __all__ = ["BestPath", "Separation", "best_path", "separation"]

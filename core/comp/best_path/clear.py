@@ -6,8 +6,7 @@ import numpy as np
 
 from core.comp.best_path.surface import Surface
 from core.comp.best_path.tree import near, tree
-from core.geometry.intersect import Indices, Masks, Planes, planes
-from core.geometry.path import Floats, Path, Turns
+from core.geometry.path import Floats, Indices, Masks, Path, Planes, Turns, planes
 from core.tolerance import CLEAR
 
 

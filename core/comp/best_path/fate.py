@@ -15,7 +15,7 @@ from core.comp.best_path.clear import clear
 from core.comp.best_path.raw_offset import Raw
 from core.comp.best_path.slices import Slices, merged, middles
 from core.comp.best_path.surface import Surface
-from core.geometry.intersect import Indices, Masks
+from core.geometry.path import Indices, Masks
 
 EVERY: Final = 64
 """Of a company's slices in their order the first and then one of so many are measured, and all that are long."""

@@ -6,8 +6,7 @@ import numpy as np
 
 from core.comp.best_path.raw_offset import Raw
 from core.comp.best_path.slices import Slices
-from core.geometry.intersect import Indices, coordinates
-from core.geometry.path import Floats, Path
+from core.geometry.path import Floats, Indices, Path, coordinates
 
 
 def loop_of(raw: Raw, cut: Slices, rows: Indices, origin: Floats) -> Path:

@@ -15,8 +15,8 @@ import numpy as np
 
 from core.comp.best_path.raw_offset import Raw
 from core.comp.best_path.tree import near, near_selves, piece_boxes, tree
-from core.geometry.intersect import Indices, Masks, Meeting, Meetings, Planes, meet_pieces, planes
-from core.geometry.path import Floats
+from core.geometry.intersect import Meeting, Meetings, meet_pieces
+from core.geometry.path import Floats, Indices, Masks, Planes, planes
 from core.tolerance import JOINED, ON_PATH
 
 MOST_PAIRS: Final = 8_000_000

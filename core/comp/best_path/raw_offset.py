@@ -14,10 +14,8 @@ import numpy as np
 
 from core.comp.best_path.winding import winds
 from core.comp.offset import Chain, Part, offset
-from core.geometry.intersect import Indices, Masks, Pieces, Planes, planes
-from core.geometry.path import Floats, Path, Turns, joined
-from core.geometry.piece import SLIVER
-from core.geometry.side import Side
+from core.geometry.path import Floats, Indices, Masks, Path, Pieces, Planes, Turns, joined, planes
+from core.geometry.piece import SLIVER, Side
 from core.tolerance import JOINED
 
 

@@ -17,8 +17,7 @@ from core.comp.best_path.clear import distances
 from core.comp.best_path.raw_offset import lengths
 from core.comp.best_path.result import BestPath
 from core.comp.best_path.tree import Tree, near, piece_boxes, tree
-from core.geometry.intersect import Indices, Masks, Planes, coordinates, planes
-from core.geometry.path import Floats, Path
+from core.geometry.path import Floats, Indices, Masks, Path, Planes, coordinates, planes
 from core.tolerance import GOUGE
 
 

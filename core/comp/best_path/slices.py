@@ -15,9 +15,7 @@ import numpy as np
 
 from core.comp.best_path.meetings import Events, places
 from core.comp.best_path.raw_offset import Raw
-from core.geometry.intersect import Indices, Masks, Planes
-from core.geometry.path import Floats
-from core.geometry.planes import onward
+from core.geometry.path import Floats, Indices, Masks, Planes, onward
 from core.tolerance import CROWDED, JOINED
 
 

@@ -13,8 +13,7 @@ import numpy as np
 from core.comp.best_path.meetings import directions
 from core.comp.best_path.raw_offset import Raw
 from core.comp.best_path.slices import Slices, middles
-from core.geometry.intersect import Indices, Masks
-from core.geometry.planes import onward
+from core.geometry.path import Indices, Masks, onward
 from core.tolerance import GOUGE, WHISKER
 
 _ROUNDS = 32

@@ -11,9 +11,8 @@ import numpy as np
 from core.comp import trouble
 from core.comp.best_path.tree import Tree, near_selves, piece_boxes, tree
 from core.finding import Finding
-from core.geometry.intersect import Indices, Masks, Meeting, Planes, coordinates, meet, planes
-from core.geometry.path import EMPTY, Floats, Path
-from core.geometry.planes import onward
+from core.geometry.intersect import Meeting, meet
+from core.geometry.path import EMPTY, Floats, Indices, Masks, Path, Planes, coordinates, onward, planes
 from core.tolerance import JOINED, ON_PATH
 
 _UNDER_HALF: Final = 3.1

@@ -15,8 +15,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.intersect import Indices, Masks, Planes
-from core.geometry.path import Floats, Turns
+from core.geometry.path import Floats, Indices, Masks, Planes, Turns
 
 FAN: Final = 4
 """Boxes in a group."""

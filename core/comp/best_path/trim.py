@@ -14,8 +14,7 @@ import numpy as np
 
 from core.comp.best_path.meetings import places
 from core.comp.best_path.raw_offset import Raw, Untrimmed
-from core.geometry.intersect import Indices, Masks, Planes
-from core.geometry.path import Floats
+from core.geometry.path import Floats, Indices, Masks, Planes
 from core.tolerance import CROWDED, JOINED
 
 PROBES: Final = 4096

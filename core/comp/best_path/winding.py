@@ -15,8 +15,7 @@ import numpy as np
 
 from core.comp.best_path.surface import tangents
 from core.comp.best_path.tree import near, piece_boxes, tree
-from core.geometry.intersect import planes
-from core.geometry.path import Floats, Path
+from core.geometry.path import Floats, Path, planes
 from core.geometry.piece import SLIVER
 from core.tolerance import ON_PATH
 

@@ -13,8 +13,7 @@ from core.controls.compensation.corners import Element
 from core.controls.control_run import Change, Log, Stretch
 from core.controls.iso.words import Block
 from core.controls.moves import Plane, Point3, Tape, flat, solid
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
 
 if TYPE_CHECKING:
     from core.controls.iso.machine import Machine

@@ -26,8 +26,7 @@ from core.controls.compensation.follower import Follower
 from core.controls.control_run import Log
 from core.controls.iso.words import Block
 from core.controls.moves import Plane, Point3, flat, solid
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
 from core.units import Unit
 
 TANGENT: Final = 0.05

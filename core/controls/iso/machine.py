@@ -19,8 +19,7 @@ from core.controls.iso.rates import PER_MINUTE, Rates
 from core.controls.iso.words import Block, whole
 from core.controls.moves import Plane, Point3, flat
 from core.finding import Severity
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
 from core.tolerance import ON_PATH
 from core.units import Unit
 

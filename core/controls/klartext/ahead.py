@@ -18,8 +18,7 @@ from core.comp.result import Compensated
 from core.controls.compensation import corners
 from core.controls.compensation.corners import Element
 from core.geometry.path import Path
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
 from core.tolerance import JOINED
 
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from core.controls.control_run import Stretch
 from core.controls.klartext.steps import Role, Step
 from core.controls.moves import Point3, Tape, flat, solid
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
 
 
 @dataclass(slots=True)

@@ -22,7 +22,7 @@ from core.controls.iso.runner import execute
 from core.controls.iso.words import SWITCHES, Block, Syntax, whole
 from core.controls.moves import Plane
 from core.finding import Severity
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.units import Unit
 
 _ARCS: Final = Arcs(inch=0.002828427, mm=0.02828427, worst=100.0)

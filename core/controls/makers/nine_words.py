@@ -9,7 +9,7 @@ from core.controls.compensation.offset_chain import Chain, Joint
 from core.controls.control_run import Log
 from core.controls.iso.words import SWITCHES, Block, whole
 from core.finding import Severity
-from core.geometry.side import Side
+from core.geometry.piece import Side
 
 _MACHINE: Final = frozenset((280, 300, 530))
 _CHANGES: Final = frozenset((520, 920, 921, 540, 550, 560, 570, 580, 590))

@@ -22,8 +22,7 @@ from core.controls.iso.runner import execute
 from core.controls.iso.words import Block
 from core.controls.makers.rosettacnc_words import Switch
 from core.finding import Severity
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
 from core.units import Unit
 
 DIALECT: Final = Dialect(

@@ -10,7 +10,7 @@ from core.controls.control_tools import not_there
 from core.controls.iso.words import SWITCHES, Block, whole
 from core.controls.moves import Plane
 from core.finding import Severity
-from core.geometry.side import Side
+from core.geometry.piece import Side
 
 _NOT_NOW: Final = frozenset((170, 180, 190, 280, 300, 520, 530, 920, 540, 550, 560, 570, 580, 590, 591, 592, 593))
 _PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}

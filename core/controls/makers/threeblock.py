@@ -29,8 +29,7 @@ from core.controls.iso.runner import execute
 from core.controls.iso.words import Block, Semicolon, Slash, Syntax
 from core.controls.makers.threeblock_words import ThreeBlockWords
 from core.finding import Severity
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
 from core.units import Unit
 
 DIALECT: Final = Dialect(

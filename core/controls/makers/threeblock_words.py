@@ -11,7 +11,7 @@ from core.controls.control_run import Log
 from core.controls.iso.words import Block
 from core.controls.moves import Plane
 from core.finding import Severity
-from core.geometry.side import Side
+from core.geometry.piece import Side
 
 LARGEST_DIAMETER: Final = 83.23072
 """Millimeters (3.2768 in); the 83.321 mm printed beside it has two digits swapped."""

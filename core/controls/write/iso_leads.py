@@ -10,8 +10,7 @@ from core.controls.compensation.corners import Element, arc_element, beyond, lin
 from core.controls.write.iso_style import Entry, IsoStyle
 from core.controls.write.programmed_contour import Cut, End, Programmed, Terms, begin, finish, programmed
 from core.finding import Finding
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
 
 ON_LINE: Final = 1e-6
 """Millimeters by which the joint of two lines may lie beside the line they are merged to."""

@@ -15,8 +15,7 @@ from core.controls.control_tools import CutterTool, ToolTable
 from core.controls.write.iso_leads import Ready
 from core.controls.write.iso_style import IsoStyle, Radius
 from core.controls.write.programmed_contour import Line, Plain, Terms, Travel, number_text
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
 from core.units import Unit, from_mm
 
 SPARE: Final = 51

@@ -15,8 +15,7 @@ from core.controls.compensation.corners import Element, sweep
 from core.controls.write.iso_leads import Ready
 from core.controls.write.programmed_contour import Cut, Line, Plain, Programmed, Terms, Travel, blend_of, programmed
 from core.finding import Finding
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
 from core.units import Unit, from_mm, to_mm
 
 DECIMALS: Final = {Unit.IN: 5, Unit.MM: 4}

@@ -21,9 +21,9 @@ from core.controls.registry import UnknownControl, run
 from core.controls.write.programmed_contour import Cut, Line, Plain, Travel, refusal
 from core.finding import Finding, Severity
 from core.geometry.distance import distance
-from core.geometry.measured import at, measured
 from core.geometry.path import Path
 from core.geometry.piece import Point
+from core.geometry.piece_arrays import at, measured
 from core.units import Unit
 from core.verify.judge import judge
 from core.verify.verdict import Verdict

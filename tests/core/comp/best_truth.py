@@ -10,8 +10,7 @@ import shapely
 
 from core.comp.best_path.best_path import BestPath, best_path
 from core.geometry.path import Floats, Path
-from core.geometry.piece import Arc, Line, Piece
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Side
 
 SHARES = np.array([0.0, 0.0731, 0.2683, 0.5, 0.6117, 0.8429, 1.0])
 """Where loops are looked at: both ends, the middle, and between."""

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 from core.geometry.path import Path
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
 
 RADIUS = 0.25
 HALF = RADIUS * sqrt(0.5)

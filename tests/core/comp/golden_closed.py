@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from tests.core.comp.contours import lines
 from tests.core.comp.golden import HALF, LONG, MISSED, SEAM, Expected, Golden
 

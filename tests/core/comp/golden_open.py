@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from tests.core.comp.contours import lines
 from tests.core.comp.golden import HALF, MISSED, Expected, Golden
 

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
 from tests.core.comp.best_truth import CLOSE, only
 from tests.core.comp.contours import lines
 

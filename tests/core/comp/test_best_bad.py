@@ -9,8 +9,7 @@ import pytest
 
 from core.comp.best_path.best_path import best_path
 from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
 from tests.core.comp.best_truth import CLOSE, assert_true, only
 from tests.core.comp.contours import lines
 

@@ -8,8 +8,7 @@ import pytest
 
 from core.comp.best_path.best_path import best_path
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
 from core.verify.judge import judge_together
 from tests.core.comp.best_truth import assert_true, distance
 from tests.core.comp.contours import lines

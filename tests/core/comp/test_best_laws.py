@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.compensate import compensate
 from core.geometry.path import Floats, Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from tests.core.comp.best_truth import distance, from_loops, sampled
 from tests.core.comp.contours import lines, loose, shut
 

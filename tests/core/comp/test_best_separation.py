@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from core.comp.best_path.best_path import BestPath, best_path, separation
 from core.comp.compensate import compensate
 from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
 from tests.core.comp.best_truth import distance, sampled
 from tests.core.comp.contours import lines, loose
 

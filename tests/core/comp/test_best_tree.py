@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from core.comp.best_path.clear import distances
 from core.comp.best_path.raw_offset import lengths
 from core.comp.best_path.tree import near, near_selves, piece_boxes, tree
-from core.geometry.intersect import planes
-from core.geometry.path import Floats, Path
+from core.geometry.path import Floats, Path, planes
 from tests.core.comp.best_truth import distance, sampled
 from tests.core.comp.contours import mixed
 

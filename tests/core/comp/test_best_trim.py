@@ -12,7 +12,7 @@ from core.comp.best_path.raw_offset import Raw, untrimmed
 from core.comp.best_path.surface import crosses_itself, surface_of
 from core.comp.best_path.trim import trimmed
 from core.geometry.path import Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from tests.core.comp.families import rings, strips
 
 CONTOURS = strips | rings

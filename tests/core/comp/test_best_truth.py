@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 
 from core.comp.best_path.best_path import BestPath
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from tests.core.comp.best_truth import CHORD, area, assert_true, chords, reached
 from tests.core.comp.contours import loose, mixed, polygons, shut
 

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from core.comp.blend import blend_in, blend_out, past_start
 from core.comp.compensate import compensate
 from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
 from tests.core.comp.contours import lines, loose
 
 ALONG_X = lines((0, 0), (4, 0))

@@ -15,8 +15,7 @@ from core.comp.crossings import crossings
 from core.comp.offset import offset
 from core.comp.result import Compensated
 from core.geometry.path import Floats, Path
-from core.geometry.piece import Arc, Line, Piece, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.tolerance import JOINED
 from tests.core.comp.contours import lines, loose, mixed, polygons, shut
 

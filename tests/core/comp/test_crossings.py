@@ -12,7 +12,7 @@ from core.comp.crossings import crossings
 from core.comp.offset import Chain, Part, offset
 from core.geometry.intersect import Meeting, meet
 from core.geometry.path import Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from tests.core.comp.contours import lines, mixed, polygons
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
 from core.geometry.path import Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.tolerance import JOINED
 from tests.core.comp.best_truth import area, assert_true, chords, distance, sampled
 from tests.core.comp.families import (

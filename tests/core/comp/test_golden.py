@@ -10,8 +10,7 @@ from core.comp.compensate import compensate, compensate_all
 from core.comp.lookahead import HIGHEST, LOWEST, calculated
 from core.comp.result import Compensated
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
 from tests.core.comp.golden import HALF, MISSED, RADIUS, Expected
 from tests.core.comp.golden_closed import (
     CHAMFER_AT_THE_SEAM,

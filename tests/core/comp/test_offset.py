@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 from core.comp.offset import Chain, Part, offset
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from tests.core.comp.contours import lines, mixed
 
 SEGMENT, CORNER, BRIDGE, VANISHED = Part

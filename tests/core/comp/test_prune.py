@@ -8,8 +8,7 @@ from hypothesis import strategies as st
 from core.comp.compensate import compensate
 from core.comp.result import Compensated
 from core.geometry.path import Path
-from core.geometry.piece import Arc
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Side
 from tests.core.comp.contours import lines, mixed, polygons, shut
 from tests.core.comp.walked import Cut, Walk, walk
 

@@ -13,8 +13,7 @@ from core.comp.result import Compensated
 from core.comp.trouble import NAMED_AT_MOST, spoken
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from tests.core.comp.contours import lines
 
 L = lines((0, 0), (2, 0), (2, 2))

@@ -11,9 +11,8 @@ from hypothesis import strategies as st
 
 from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate
-from core.geometry.intersect import Planes, coordinates, planes
-from core.geometry.path import Path
-from core.geometry.side import Side
+from core.geometry.path import Path, Planes, coordinates, planes
+from core.geometry.piece import Side
 from core.tolerance import ARC_RADII, JOINED
 
 ROUND = 10.0

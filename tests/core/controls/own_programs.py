@@ -15,8 +15,7 @@ from core.controls.write.programmed_contour import Cut
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Line as Straight
-from core.geometry.piece import Point
-from core.geometry.side import Side
+from core.geometry.piece import Point, Side
 from core.units import Unit
 
 INCH = 25.4

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from core.controls.control_run import Run
 from core.controls.judged_runs import depth, findings, judged
 from core.controls.repeated_passes import unlapped
-from core.geometry.measured import at
 from core.geometry.path import Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
+from core.geometry.piece_arrays import at
 from core.tolerance import GOUGE, ON_PATH
 from core.verify.course import courses
 from core.verify.gouge import gouging

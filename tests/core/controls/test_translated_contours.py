@@ -16,7 +16,7 @@ from core.controls.registry import UnknownControl, run
 from core.controls.translated_contours import run_by_contour, translated
 from core.controls.write.traced import Untold
 from core.finding import Severity
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.units import Unit, from_mm
 from tests.core.controls.klartext.klartext_runs import HEAD
 from tests.core.controls.klartext.test_center_laws import LEGS, pieces_of, programmed

@@ -19,8 +19,7 @@ from core.controls.write.own_program import NotWritten, Own, write_own
 from core.controls.write.programmed_contour import Cut
 from core.controls.write.read_back import LEAST
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.units import Unit
 
 

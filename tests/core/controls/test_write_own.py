@@ -10,9 +10,8 @@ from core.controls.write.own_program import Own
 from core.controls.write.programmed_contour import begin, finish, programmed
 from core.finding import Finding
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Turn
+from core.geometry.piece import Arc, Side, Turn
 from core.geometry.piece import Line as Straight
-from core.geometry.side import Side
 from tests.core.controls.own_programs import (
     EVERY,
     INCH,

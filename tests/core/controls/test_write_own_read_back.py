@@ -19,9 +19,8 @@ from core.controls.write.own_program import NotWritten, Own, write_own
 from core.controls.write.programmed_contour import Cut, Line, Travel
 from core.controls.write.read_back import Meant, Told, _compared, _other_move, farthest, read_back, same
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Piece, Turn
+from core.geometry.piece import Arc, Piece, Side, Turn
 from core.geometry.piece import Line as Straight
-from core.geometry.side import Side
 from core.units import Unit
 from tests.core.controls.klartext.test_center_laws import LEGS, pieces_of
 from tests.core.controls.own_programs import (

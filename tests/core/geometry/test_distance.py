@@ -19,9 +19,9 @@ from core.geometry.distance import (
     on_circle,
     on_line,
 )
-from core.geometry.measured import Floats, Measured, at, measured
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Turn
+from core.geometry.piece_arrays import Floats, Measured, at, measured
 from tests.core.verify import oracle
 from tests.core.verify.shapes import circle, lines, paths
 

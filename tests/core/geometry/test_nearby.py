@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from core.geometry.bounds import boxes
 from core.geometry.distance import between, distance, nearest_places
-from core.geometry.measured import Measured, measured
 from core.geometry.nearby import (
     chords_of,
     closest_pieces,
@@ -22,6 +20,7 @@ from core.geometry.nearby import (
     runs_of,
 )
 from core.geometry.path import Path
+from core.geometry.piece_arrays import Measured, boxes, measured
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.signedinteger[Any]]

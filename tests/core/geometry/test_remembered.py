@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.geometry.measured import Floats, Measured, measured
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
+from core.geometry.piece_arrays import Floats, Measured, measured
 from core.geometry.remembered import FEW, remembered
 
 BENT = Arc((4.0, 0.0), (6.0, 2.0), center=(4.0, 2.0), turn=Turn.CCW)

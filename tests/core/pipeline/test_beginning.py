@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.comp.compensate import compensate_all
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.pipeline.beginning import Walls, gouge_at_once, gouging
 from core.pipeline.derive import derive
 from core.pipeline.remedies import started

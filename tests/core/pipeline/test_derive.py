@@ -6,7 +6,7 @@ import pytest
 from core.comp.blend import blend_in, blend_out
 from core.finding import Severity
 from core.geometry.path import Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.pipeline.derive import better, compared, derive, stocks
 from core.pipeline.derived import Loop, Tag
 from core.pipeline.outline import outline

@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from core.comp.lookahead import calculated
 from core.finding import Severity
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
 from core.pipeline.derive import derive
 from core.pipeline.needs import NAMED_AT_MOST, Needs, needs, needs_of
 from core.pipeline.remedies import STEP, largest_tool, started

@@ -15,8 +15,8 @@ from core.controls.control_tools import ToolTable
 from core.controls.registry import NO_TOOLS, names, run
 from core.controls.write.programmed_contour import Travel
 from core.geometry.distance import distance
-from core.geometry.measured import at, measured
 from core.geometry.path import Path as Line
+from core.geometry.piece_arrays import at, measured
 from core.output.passes import passes
 from core.output.post import Posted, Refusal
 from core.pipeline import own

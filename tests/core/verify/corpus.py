@@ -13,8 +13,7 @@ from shapely import LinearRing
 
 from core.comp.compensate import compensate
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.tolerance import CLOSED, GOUGE
 from tests.core.verify import oracle
 

@@ -15,7 +15,7 @@ from random import Random
 import numpy as np
 
 from core.geometry.path import Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.tolerance import GOUGE
 from core.verify.verdict import Verdict
 from tests.core.verify import oracle

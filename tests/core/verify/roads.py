@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from core.geometry import aligned
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Point
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Point, Side
 from core.verify import judge as module
 from core.verify.beside import Beside, beside
 from core.verify.judge import judge

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Point, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Point, Side, Turn
 from core.verify.judge import judge
 
 R, CUTTER, SWEEP = 10.0, 3.0, 1.1 * pi

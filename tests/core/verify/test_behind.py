@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 from shapely.geometry import Polygon
 
-from core.geometry.measured import Flags
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
+from core.geometry.piece_arrays import Flags
 from core.verify import behind
 from core.verify.judge import judge
 from core.verify.pairs import Pairs

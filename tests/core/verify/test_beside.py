@@ -11,10 +11,9 @@ import pytest
 
 from core.comp.compensate import compensate
 from core.geometry import aligned
-from core.geometry.measured import measured, stacked
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
+from core.geometry.piece_arrays import measured, stacked
 from core.tolerance import GOUGE
 from core.verify import judge as module
 from core.verify.beside import Beside, beside

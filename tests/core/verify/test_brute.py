@@ -16,8 +16,7 @@ import pytest
 from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Side, Turn
 from core.tolerance import STOCK
 from core.verify.verdict import Verdict
 from tests.core.verify import oracle

@@ -9,10 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.geometry.measured import measured
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
+from core.geometry.piece_arrays import measured
 from core.verify.columns import Columns, columns, inside
 from core.verify.judge import judge
 from tests.core.verify.shapes import moved

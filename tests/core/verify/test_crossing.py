@@ -10,10 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.geometry.measured import direction, measured
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Point, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Point, Side, Turn
+from core.geometry.piece_arrays import direction, measured
 from core.verify import crossing as module
 from core.verify.course import courses
 from core.verify.crossing import at_joints, crossings

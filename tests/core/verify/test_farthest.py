@@ -7,10 +7,9 @@ from math import asin
 import numpy as np
 import pytest
 
-from core.geometry.bounds import boxes
-from core.geometry.measured import measured
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Turn
+from core.geometry.piece_arrays import boxes, measured
 from core.verify import farthest as module
 from core.verify.farthest import farthest
 from core.verify.reach import Stretches

@@ -11,8 +11,7 @@ from shapely.geometry import Point, Polygon
 
 from core.comp.compensate import compensate
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
 from core.tolerance import STOCK
 from core.verify import gaps
 from core.verify.judge import judge

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from core.geometry.path import EMPTY
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.verify.judge import Ground, judge, judge_on_ground, rulings
 from tests.core.verify.shapes import lines, square
 

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Arc, Line, Piece, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.tolerance import GOUGE
 from core.verify.judge import judge, judge_together, rulings
 from tests.core.verify.shapes import around, circle, lines, moved, square

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.verify.judge import judge
 from tests.core.verify.corpus import corpus
 from tests.core.verify.mutants import MUTATIONS, Table, tables

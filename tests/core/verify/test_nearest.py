@@ -5,8 +5,7 @@ from math import inf, nan
 import pytest
 
 from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
 from core.verify.judge import judge, judge_together
 from core.verify.nearest import nearest
 

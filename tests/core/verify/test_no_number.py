@@ -13,7 +13,7 @@ import pytest
 from numpy.typing import NDArray
 
 from core.geometry.path import Path
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.verify import judge as judging
 from core.verify import pairs as pairing
 from core.verify.judge import judge, judgeable, rulings

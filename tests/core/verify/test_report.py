@@ -8,8 +8,7 @@ import pytest
 
 from core.finding import Severity
 from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Arc, Line, Piece, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.units import Unit, sentence
 from core.verify.judge import judge
 from core.verify.names import move_name

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.verify import judge as judging
 from core.verify.judge import judge, rulings
 from core.verify.ruling import Ruling

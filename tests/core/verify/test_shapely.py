@@ -8,7 +8,7 @@ import pytest
 from shapely import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from tests.core.verify import oracle
 from tests.core.verify.corpus import Case, corpus
 from tests.core.verify.mutants import MUTATIONS

@@ -10,8 +10,7 @@ import pytest
 
 from core.comp.compensate import compensate
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
 from core.verify import sides as module
 from core.verify.judge import judge
 from tests.core.verify import oracle

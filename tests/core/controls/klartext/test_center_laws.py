@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from core.comp.compensate import compensate
 from core.controls.control_run import Run
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.verify.judge import judge
 from tests.core.controls.klartext.klartext_runs import runs
 

@@ -9,11 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.geometry.bounds import boxes
-from core.geometry.measured import at, direction, measured, place
 from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Arc, Line, Turn
-from core.geometry.side import Side
+from core.geometry.piece import Arc, Line, Side, Turn
+from core.geometry.piece_arrays import at, boxes, direction, measured, place
 from core.verify.judge import judge
 from tests.core.verify import oracle
 from tests.core.verify.shapes import lines, paths
