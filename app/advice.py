@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from asyncio import TimerHandle
 
     from app.application import CutcompApp
-    from core.pipeline.derived import DerivedBlock, Work
+    from core.advice.work import Work
+    from core.pipeline.derived import DerivedBlock
     from core.program.model import Program
 
 QUIET: Final = 0.05
@@ -117,7 +118,7 @@ class Advice:
         """The table, and small notes with it where they are told: a picture for each of the two takes longer."""
         engine = self.app.engine
         engine.keep_table(found, program)
-        if told and engine.small("notes", SMALL) and engine.fast("rows", "notes", part=SMALL):
+        if told and engine.small("notes", SMALL) and engine.fast("notes", part=SMALL):
             engine.keep_notes(found)
 
     def _note(self) -> None:
@@ -125,7 +126,7 @@ class Advice:
         engine, found = self.app.engine, self.app.shown.found
         if not engine.lacks_notes(found):
             return
-        if engine.fast("derive", "table", "rows", "notes", part=SMALL):
+        if engine.fast("derive", "table", "notes", part=SMALL):
             engine.keep_notes(found)
         elif found.work not in (self.noting.doing, self.tabling.doing):
             self.noting.ask(lambda: engine.keep_notes(found), found.work)

@@ -245,7 +245,7 @@ class CutcompApp(App[int], inherit_bindings=False, inherit_css=False):
             self.desk = self.desk.knowing(self.engine.derive(program, before))
             return
         if session.stale:
-            self.desk = self.desk.knowing(outline(program, before))
+            self.desk = self.desk.knowing(outline(program))
         # what is on its way already, of the program or of the number just accepted, is not begun again
         if self.engine.ready and program not in (self._deriving.doing, self._trying.doing):
             self._deriving.ask(lambda: self.engine.derive(program, before), program)

@@ -10,7 +10,7 @@ from core.program.model import Entry, Program
 
 if TYPE_CHECKING:
     from app.session import Session
-    from core.pipeline.derived import Derived, DerivedBlock
+    from core.pipeline.derived import DerivedBlock
 
 SMALL: Final = 200
 """Segments up to which the answer may be fast enough to be waited for."""
@@ -45,8 +45,7 @@ class AtValue:
         """The block; needs the numeric library, and may take long: for a thread."""
         from core.pipeline.derive import derive
 
-        before: Derived = self.session.derived
-        found = derive(self.program, before).block(self.number)
+        found = derive(self.program).block(self.number)
         return FoundAt(self, replace(found, findings=tuple(one for one in found.findings if one.code != TYPED)))
 
 

@@ -21,9 +21,9 @@ from core.units import sentence
 if TYPE_CHECKING:
     import argparse
 
-    from core.output.post import Refusal
+    from core.advice.trials import Table
+    from core.output.nc import Refusal
     from core.pipeline.derived import Derived, DerivedBlock
-    from core.pipeline.table import Table
 
 DASH: Final = "-"
 """In place of a file: standard input, or standard output."""
@@ -39,13 +39,13 @@ class Unusable(Exception):
 
 
 def _derived(path: Path, block: int | None = None, lookahead: str | None = None) -> Derived:
-    from core.pipeline.derive import compared, derive
+    from core.pipeline.derive import derive, with_better_paths
 
     program = _program(path)
     if block is not None and not 1 <= block <= len(program.blocks):
         has = f"blocks 1 to {len(program.blocks)}" if len(program.blocks) > 1 else "1 block"
         raise Unusable(f"--block {block}: {path} has {has}.")
-    return compared(derive(program if lookahead is None else _with_lookahead(program, lookahead)))
+    return with_better_paths(derive(program if lookahead is None else _with_lookahead(program, lookahead)))
 
 
 def _program(path: Path) -> Program:
@@ -98,8 +98,7 @@ def _report(derived: Derived, number: int | None) -> None:
 
 def path(options: argparse.Namespace) -> int:
     """`cutcomp path`: the center path of every block."""
-    from core.pipeline.document import path_document
-    from core.pipeline.listing import path_listing
+    from core.pipeline.document import path_document, path_listing
 
     derived = _derived(options.file, options.block, options.lookahead)
     if options.json:
@@ -112,9 +111,8 @@ def path(options: argparse.Namespace) -> int:
 
 def lookahead(options: argparse.Namespace) -> int:
     """`cutcomp lookahead`: what becomes of the path at every value, and what the contour needs."""
-    from core.pipeline.document import table_document
-    from core.pipeline.listing import table_listing
-    from core.pipeline.table import look_ahead_table
+    from core.pipeline.document import table_document, table_listing
+    from core.pipeline.lookahead_table import look_ahead_table
 
     derived = _derived(options.file, options.block)
     unit = derived.program.unit
@@ -133,7 +131,7 @@ def lookahead(options: argparse.Namespace) -> int:
 
 def _advised(found: DerivedBlock, table: Table | None, program: Program) -> Table | None:
     """The table with what the contour needs as its notes."""
-    from core.pipeline.needs import needs
+    from core.pipeline.lookahead_table import needs
 
     told = None if table is None else needs(found, program, table)
     return table if table is None or told is None else replace(table, notes=told.sentences)
@@ -142,7 +140,7 @@ def _advised(found: DerivedBlock, table: Table | None, program: Program) -> Tabl
 def post(options: argparse.Namespace) -> int:
     """`cutcomp post`: NC text, or the reasons why there is none."""
     from app.posting import nc_text
-    from core.output.post import Posted
+    from core.output.nc import Posted
 
     control = _control(options)
     derived = _derived(options.file)
@@ -161,7 +159,7 @@ def post(options: argparse.Namespace) -> int:
 
 def _words(result: Refusal, options: argparse.Namespace) -> str:
     """The words that would have it posted all the same, where words can."""
-    from core.output.override import OVERRIDABLE, OVERRIDE
+    from core.output.objections import OVERRIDABLE, OVERRIDE
 
     if options.control is not None or not all(one.code in OVERRIDABLE for one in result.findings):
         return ""

@@ -49,7 +49,7 @@ EVERYWHERE: Final = frozenset(
     {"ctrl+z", "ctrl+y", "ctrl+s", "ctrl+o", "ctrl+q", "ctrl+c", "ctrl+k", "ctrl+g", "ctrl+f"}
 )
 MODES: Final = ("braille", "block", "ascii")
-"""The sets of characters of the drawing, as `core.draw.mode.Mode` names them."""
+"""The sets of characters of the drawing, as `core.draw.characters.Mode` names them."""
 LONGEST_NAME: Final = 40
 """Characters of a name in a sentence that has to say more."""
 ONE_MODE: Final = (

@@ -18,7 +18,8 @@ from app.memory import Memory
 from app.screens.page import Drawn, Sketch
 from app.widgets.rows import Row
 from app.widgets.verdict import fitted, verdict_rows
-from core.pipeline.derived import Derived, DerivedBlock, Work
+from core.advice.work import Work
+from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.outline import outline
 from core.program.model import Program
 
@@ -26,10 +27,10 @@ if TYPE_CHECKING:
     from app.desk import Desk
     from app.screens.page import Page, Surface, View
     from app.session import Session
+    from core.advice.trials import Table
     from core.finding import Finding
-    from core.pipeline.table import Table
 
-NUMERIC: Final = ("core.pipeline.derive", "core.pipeline.table", "app.widgets.drawing")
+NUMERIC: Final = ("core.pipeline.derive", "core.pipeline.lookahead_table", "app.widgets.drawing")
 """Modules that need the numeric library."""
 FAST: Final = 0.033
 """Seconds of work, two pictures of sixty a second: what took no longer lately is done before the next picture.
@@ -153,9 +154,7 @@ class Engine:
 
     def derive(self, program: Program, before: Derived) -> Derived:
         """Everything that follows from a program."""
-        from core.pipeline.derive import derive
-
-        result = self.timed("derive", lambda: derive(program, before))
+        result = self.timed("derive", lambda: derived_again(program, before))
         self.derived = (result, *self.derived)[:KEPT]
         return result
 
@@ -166,7 +165,7 @@ class Engine:
 
     def keep_table(self, found: DerivedBlock, program: Program) -> None:
         """Make and keep the look-ahead table of a block."""
-        from core.pipeline.table import look_ahead_table
+        from core.pipeline.lookahead_table import look_ahead_table
 
         if found.work is None or self.tabulated(found):
             return
@@ -182,14 +181,11 @@ class Engine:
         return self._made(found) is not None and self._notes(found) is None
 
     def keep_notes(self, found: DerivedBlock) -> None:
-        """Find out what a better path would cut, and all there is to say of the table's paths."""
-        from core.pipeline.derive import better
+        """Find out what a better path would cut."""
+        from core.pipeline.derive import better_path
 
         if found.work is not None and self._notes(found) is None:
-            table = self._made(found)
-            if table is not None:
-                self.timed("rows", table.work_out)
-            notes = self.timed("notes", lambda: better(found))
+            notes = self.timed("notes", lambda: better_path(found))
             self.notes = ((found.work, notes), *self.notes)[:KEPT]
 
     def lacks_needs(self, found: DerivedBlock) -> bool:
@@ -204,7 +200,7 @@ class Engine:
 
         `wanted` is asked between two of them: where nobody wants them any more, nothing is kept.
         """
-        from core.pipeline.needs import needs
+        from core.pipeline.lookahead_table import needs
 
         if found.work is None or self._needing(found) is not None:
             return
@@ -243,6 +239,37 @@ class Engine:
         """What a block needs, where that was found out lately."""
         calculated = found.lookahead.calculated
         return next((one for one in self.needs if one.work is found.work and one.calculated == calculated), None)
+
+
+def derived_again(program: Program, before: Derived) -> Derived:
+    """Everything that follows from a program; a block for which nothing has changed is that of `before`.
+
+    Paths on which the change has no bearing, such as one of depths and feeds, are those of `before` too, and with them
+    their look-ahead table.
+    """
+    from core.pipeline.derive import derive_block
+
+    then = before.program
+    shared = (program.tools, program.setup, program.parameters, program.unit)
+    alike = shared == (then.tools, then.setup, then.parameters, then.unit)
+    blocks = []
+    for number, block in enumerate(program.blocks, 1):
+        old = before.block(number) if number <= len(before.blocks) else None
+        if alike and old is not None and old.known and old.block == block:
+            blocks.append(old)
+            continue
+        found = derive_block(program, number)
+        if old is not None and old.work is not None and _paths_of(found, program) == _paths_of(old, then):
+            found = replace(found, work=old.work)
+        blocks.append(found)
+    return Derived(program, tuple(blocks))
+
+
+def _paths_of(found: DerivedBlock, program: Program) -> tuple[object, ...]:
+    """All that a block's paths depend on."""
+    solved = found.solved
+    shape = (solved.pieces, solved.closed, found.side, found.profile, found.lookahead.value)
+    return (*shape, found.radius, solved.tool_diameter, solved.finish_diameter, program.parameters, program.unit)
 
 
 def bearing(derived: Derived, program: Program) -> Derived:

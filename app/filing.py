@@ -28,7 +28,7 @@ from core.units import Unit
 
 if TYPE_CHECKING:
     from app.desk import Desk
-    from core.output.post import Posted
+    from core.output.nc import Posted
 
 
 def carry_out(desk: Desk, message: Save | Browse | Load | Post | Leave) -> Desk:
@@ -147,7 +147,7 @@ def fresh(desk: Desk, session: Session) -> Desk:
 
 def _post(desk: Desk, message: Post) -> Desk:
     from app.posting import posted_anew
-    from core.output.post import Refusal
+    from core.output.nc import Refusal
 
     path, unit = with_suffix(chosen(message.path, desk.session.file), ".nc"), desk.session.program.unit
     try:

@@ -5,16 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from core.finding import Finding
-from core.pipeline.derived import Derived
 from core.program.model import Program
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class OwnPost:
-    """A program for a control, by the control's full name; `before` is what is derived of the program already."""
+    """A program for a control, by the control's full name."""
 
     program: Program
-    before: Derived
     control: str
 
     @property
@@ -25,11 +23,11 @@ class OwnPost:
     def answer(self) -> OwnPosted:
         """What posting would meet; needs the numeric library, and may take long: for a thread."""
         from app.posting import nc_text
-        from core.output.post import Refusal
+        from core.output.nc import Refusal
         from core.pipeline.derive import derive
 
         # no rule asks for the file's name
-        result = nc_text(derive(self.program, self.before), "part", None, self.control)
+        result = nc_text(derive(self.program), "part", None, self.control)
         if isinstance(result, Refusal):
             return OwnPosted(self, against=result.findings)
         return OwnPosted(self, notes=result.notes)

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from app.session import Session
-from core.output.post import Posted, Refusal, post
+from core.output.nc import Posted, Refusal
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
-from core.pipeline.jobs import jobs
-from core.pipeline.own import post_for
+from core.pipeline.post import post_center_path, post_control_program
 
 
 def nc_text(derived: Derived, name: str, override: str | None, control: str | None) -> Posted | Refusal:
     """The path of the tool's center, or the program of a control that compensates by itself, by its full name."""
     if control is not None:
-        return post_for(derived, name=name, control=control)
-    program = derived.program
-    return post(jobs(derived), program.unit, name=name, part=program.setup.name, override=override)
+        return post_control_program(derived, name=name, control=control)
+    return post_center_path(derived, name=name, override=override)
 
 
 def posted_anew(session: Session, name: str, override: str | None, control: str | None = None) -> Posted | Refusal:

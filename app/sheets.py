@@ -6,7 +6,7 @@ from datetime import datetime
 from pathlib import Path
 
 from core.pipeline.derive import derive
-from core.pipeline.sheets import sheet_page, sheet_text
+from core.pipeline.setup_sheet import sheet_page, sheet_text
 from core.program.model import Program
 
 

@@ -59,7 +59,7 @@ def _port(text: str) -> int:
 def sheet(options: argparse.Namespace) -> int:
     """`cutcomp sheet`: the setup sheet; status 1 while it says DO NOT RUN."""
     from app.sheets import sheet_for
-    from core.output.sheet_text import NOT_READY
+    from core.output.sheet import NOT_READY
 
     program = load(options.file)
     text = sheet_for(program, options.output or Path("-"), name=options.file.stem)

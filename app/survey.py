@@ -101,9 +101,8 @@ def _left(facts: Facts) -> Facts:
 
 def _judged(facts: Facts, program: Program) -> Facts:
     from core.pipeline.derive import derive
-    from core.pipeline.outline import outline
 
-    word, look = worst(derive(program, outline(program)))
+    word, look = worst(derive(program))
     return replace(facts, blocks=str(len(program.blocks)), tools=_tools(program), word=word, look=look)
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from core.advice.work import Work
 from core.pipeline.derive import derive
-from core.pipeline.derived import Work
 from tests.docpictures import FOLDER, PICTURES, drawn, program
 
 PAGE = FOLDER.parent / "LOOKAHEAD.md"

@@ -17,8 +17,8 @@ from core.program.model import Entry
 from core.units import Unit
 
 if TYPE_CHECKING:
-    from core.pipeline.table import Row as Fate
-    from core.pipeline.table import Table
+    from core.advice.trials import Row as Fate
+    from core.advice.trials import Table
 
 HALF: Final = (HIGHEST - LOWEST + 1) // 2
 """The table stands in two columns of ten values."""

@@ -21,7 +21,7 @@ from app.widgets.rows import Look, Row, Span, plain
 from app.widgets.verdict import UNKNOWN
 from app.widgets.words import length, numbers, placed, segment
 from core.finding import Finding, Severity
-from core.output.override import OVERRIDABLE, OVERRIDE
+from core.output.objections import OVERRIDABLE, OVERRIDE
 from core.units import sentence
 
 
@@ -84,7 +84,7 @@ class PostPage(EntryPage):
 
         choices = (None, *names())
         control = choices[(choices.index(self.control) + step) % len(choices)]
-        asked = None if control is None else OwnPost(session.program, session.derived, control)
+        asked = None if control is None else OwnPost(session.program, control)
         return (Swap(replace(self, asked=asked, told=None)),)
 
     def _posted(self, session: Session) -> Answer:

@@ -12,7 +12,7 @@ from typing import Final
 
 from app.screens.page import Sketch
 from app.widgets.rows import Look, Row, Span
-from core.draw.mode import Mode
+from core.draw.characters import Mode
 from core.draw.raster import Picture, draw
 from core.draw.scene import Box, Gathered, Scene, Style, Symbol
 from core.draw.view import View

@@ -20,8 +20,8 @@ from core.pipeline.derived import DerivedBlock
 from core.units import Unit, sentence
 
 if TYPE_CHECKING:
+    from core.advice.trials import Table
     from core.comp.result import Compensated, Deletions
-    from core.pipeline.table import Table
     from core.verify.verdict import Verdict
 
 
@@ -157,9 +157,9 @@ def nearest_place(found: DerivedBlock, unit: Unit) -> list[Row]:
     """The least distance in full, with its place; nothing before the block is worked out."""
     if not found.known or found.work is None:
         return []
-    from core.pipeline.trouble import nearest_finding
+    from core.advice.path_findings import nearest_finding
 
-    one = nearest_finding(found)
+    one = nearest_finding(found.work, found.radius)
     if one is None:
         return []
     look = Look.ERROR if found.work.verdict is not None and found.work.verdict.gouges else Look.TYPED

@@ -54,7 +54,7 @@ def placed(finding: Finding, unit: Unit) -> str:
 
 
 def in_spite(overridden: Iterable[Finding]) -> str:
-    """In spite of what a path was posted, in the words of `core.output.override.OVERRIDABLE`."""
+    """In spite of what a path was posted, in the words of `core.output.objections.OVERRIDABLE`."""
     wrong_side_alone = all(finding.code == "WRONG_SIDE" for finding in overridden)
     return f"in spite of {'a cut on the wrong side' if wrong_side_alone else 'a gouge'}"
 

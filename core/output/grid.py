@@ -14,9 +14,10 @@ from typing import Final
 
 from core.geometry.piece import Arc, Point, Turn
 from core.tolerance import CLOSED
-from core.units import Unit, from_mm
+from core.units import Kind, Unit, from_mm, show
 
 DECIMALS: Final = {Unit.IN: 6, Unit.MM: 5}
+FEED_DECIMALS: Final = 3
 FINER: Final = 1
 """Further decimals of I and J, which keep the two radii of an arc equal."""
 ASTRAY: Final = 4.0
@@ -139,3 +140,14 @@ def _rise(radius: float, sweep: float) -> float:
 def turn_word(turn: Turn) -> str:
     """G2 for clockwise, G3 for counter-clockwise."""
     return "G3" if turn is Turn.CCW else "G2"
+
+
+def feed_text(feed: float, grid: Grid) -> str:
+    """A feed in program units a minute, without needless zeros."""
+    whole, _, decimal = f"{from_mm(feed, grid.unit):.{FEED_DECIMALS}f}".partition(".")
+    return f"{whole}.{decimal.rstrip('0') or '0'}"
+
+
+def length_text(value: float, unit: Unit) -> str:
+    """Millimeters in program units, with the decimals of the form."""
+    return show(from_mm(value, unit), Kind.LENGTH, unit)

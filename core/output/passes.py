@@ -1,4 +1,7 @@
-"""The sequence of passes that cuts one block.
+"""Passes: one MILL CONTOUR block as a job, and the motions that cut it, in millimeters, mm a minute and radians.
+
+Words: a *run* is one center path with its blend moves, cut in one go at one depth; the *plunge point* is where it
+begins; a segment's *floor* is the height its Z START and Z END give it.
 
 Roughing comes first, with TOOL: at each depth all its runs from outside in, then one peck deeper, so that no run is
 ever deeper than one peck beside stock another run should have taken.  Without a finish tool the run at full size is
@@ -7,20 +10,267 @@ because it then cuts corners that are still solid.
 
 PECK, for every run: feed down to the depth, mill the contour, rapid up to the retract clearance over Z START, rapid
 back to the plunge point, rapid down to the last depth there plus the peck clearance, feed one peck deeper.
+
+A segment's floor rises evenly with the part of the programmed line or arc that has been traveled.  A piece of a run
+lies over the part of its segment that stands square to it, so a piece shortened at an inside corner begins and ends
+at the height the drawing gives there; where two such heights differ, the tool moves straight up or down between them.
+A corner arc keeps the height of its corner.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import atan2, ceil, cos, sin
+from math import atan2, ceil, cos, sin, tau
+from typing import Final, Protocol
 
-from core.geometry.path import Floats
-from core.geometry.piece import Line, Piece, Point
-from core.output.heights import heights
-from core.output.job import Cutter, Job, Run
-from core.output.motion import Motion, Pass
-from core.tolerance import JOINED, LAST_PASS
+import numpy as np
+
+from core.advice.path_findings import ZStep
+from core.finding import Finding, Severity
+from core.geometry.path import EMPTY, Floats, Path, joined
+from core.geometry.piece import Line, Piece, Point, Turn
+from core.tolerance import CLOSED, JOINED, LAST_PASS
+
+WRAPPED: Final = 1e-6
+"""Radians by which rounding may put an arc's first point before its segment's first point."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cutter:
+    """A tool as the table has it: `diameter` in millimeters."""
+
+    number: int
+    diameter: float
+    type: str = ""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Run:
+    """One center path with its blend moves, joined end to start; `offset` is the stock it leaves on the side (mm)."""
+
+    path: Path
+    lead_in: Path = EMPTY
+    lead_out: Path = EMPTY
+    offset: float = 0.0
+
+    @property
+    def whole(self) -> Path:
+        """Blend-in, path and blend-out as one path."""
+        return joined((self.lead_in, self.path, self.lead_out))
+
+    @property
+    def plunge_point(self) -> Point | None:
+        """Where the tool goes down; None for a run without pieces."""
+        whole = self.whole
+        return (float(whole.points[0, 0]), float(whole.points[0, 1])) if len(whole) else None
+
+
+class Floor(Protocol):
+    """What a job asks of a segment."""
+
+    @property
+    def number(self) -> int:
+        """Its number, from 1."""
+
+    @property
+    def z_start(self) -> float:
+        """Its height at its start (mm)."""
+
+    @property
+    def z_end(self) -> float:
+        """Its height at its end (mm)."""
+
+    @property
+    def feed(self) -> float | None:
+        """Its feed (mm a minute), None if not known."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Job:
+    """One block, ready for passes.
+
+    `surface` is the programmed contour; piece numbers of it and of every run are those of `floors`, k + 1/2 for the
+    corner arc behind k.  `cutter` is the block's TOOL, `finisher` its FINISH TOOL; either is None when the block
+    names none or the table has none, and then a finding says so.
+
+    `finish` are the runs at full size, in order: one, or one for each loop of the best path.  `rough` are the runs
+    before them, outermost first, cut by `cutter`: PROFILE's passes, and with a finish tool also the run that leaves
+    FINISH XY.  Without a finish tool `cutter` cuts `finish` too.
+
+    `finish_z` is the stock roughing leaves on the floor when a finish tool follows.  `peck_depth` 0 is full depth in
+    one pass.  `lookahead` is text such as "CAL 8", empty for ON.  `findings` are all of the block's; any error among
+    them blocks posting.  `notes` are further sentences for the posted header.
+    """
+
+    block: int
+    comp: str
+    cutter: Cutter | None
+    finisher: Cutter | None
+    surface: Path
+    floors: tuple[Floor, ...]
+    finish: tuple[Run, ...]
+    rough: tuple[Run, ...]
+    z_start: float
+    z_bottom: float
+    peck_depth: float
+    finish_z: float
+    retract_clearance: float
+    peck_clearance: float
+    plunge_feed: float
+    speed: float
+    safe_z: float
+    finish_tool: int = 0
+    work_offset: int = 54
+    lookahead: str = ""
+    findings: tuple[Finding, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def levels(self) -> frozenset[tuple[float, float, float | None]]:
+        """Z START, Z END and feed of the floors, each triple once."""
+        return frozenset((floor.z_start, floor.z_end, floor.feed) for floor in self.floors)
+
+    @property
+    def errors(self) -> tuple[Finding, ...]:
+        """The findings that block posting."""
+        return tuple(finding for finding in self.findings if finding.severity is Severity.ERROR)
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """One move from where the tool is to (x, y, z).
+
+    A rapid has no `feed`.  `turn` NONE is a straight move; else the tool turns about `center`, in the XY plane, and z
+    changes evenly with the angle; an arc that ends where it began in XY is one full turn.
+    """
+
+    x: float
+    y: float
+    z: float
+    feed: float | None = None
+    turn: Turn = Turn.NONE
+    center: Point = (0.0, 0.0)
+
+    @property
+    def rapid(self) -> bool:
+        """No feed: as fast as the machine can."""
+        return self.feed is None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Pass:
+    """One run at one depth, from above its plunge point to above its end.
+
+    `side` of `sides` widths from outside in, of which one may be several runs, and `number` of `count` depths, at
+    `level`; `stock` is what the run leaves on the side; `finishing` says that it is the
+    finish tool's.  The first motion is a rapid in XY at a height that clears everything.
+    """
+
+    block: int
+    cutter: Cutter
+    speed: float
+    level: float
+    side: int
+    sides: int
+    number: int
+    count: int
+    stock: float
+    finishing: bool
+    motions: tuple[Motion, ...]
+
+
+def level_floor(job: Job) -> bool:
+    """No segment rises above Z BOTTOM."""
+    return all(max(low, high) <= job.z_bottom + JOINED for low, high, _ in job.levels)
+
+
+def heights(job: Job, run: Run) -> Floats:
+    """(n, 2) height of the floor under both ends of each piece of `run.whole`.
+
+    The blend-in lies as high as the path's first point, the blend-out as its last; an overlap past the start is lifted
+    where the segment below it is higher.
+    """
+    if level_floor(job):
+        return np.full((len(run.whole), 2), job.z_bottom)
+    path = _along(job, run.path)
+    lead_in = np.full((len(run.lead_in), 2), path[0, 0])
+    lead_out = np.maximum(_along(job, run.lead_out), path[-1, 1])
+    return np.concatenate((lead_in, path, lead_out))
+
+
+def z_steps(job: Job) -> list[ZStep]:
+    """Where the finish paths go straight up or down between two of their pieces.
+
+    A segment that climbs or falls and of which a blend arc, an inside corner or the look-ahead takes the end leaves
+    its neighbors at different heights; so does a Z END on a segment without length.
+    """
+    if level_floor(job):
+        return []
+    steps = []
+    for run in job.finish:
+        first, count = len(run.lead_in), len(run.path)
+        ends = heights(job, run)[first : first + count]
+        rise = ends[1:, 0] - ends[:-1, 1]
+        for row in np.flatnonzero(np.abs(rise) > CLOSED).tolist():
+            x, y = run.path.points[row + 1].tolist()
+            steps.append(ZStep(float(rise[row]), float(run.path.numbers[row + 1]), (x, y)))
+    return steps
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Ground:
+    """The programmed contour: its floors and the row of each segment by number, and the arcs' angles."""
+
+    surface: Path
+    floors: dict[int, Floor]
+    rows: dict[int, int]
+    sweeps: Floats
+
+
+def _along(job: Job, path: Path) -> Floats:
+    rows = {int(number): row for row, number in enumerate(job.surface.numbers.tolist())}
+    ground = _Ground(job.surface, {floor.number: floor for floor in job.floors}, rows, np.abs(job.surface.sweeps))
+    sweeps = np.abs(path.sweeps).tolist()
+    found = [_ends(path, piece, sweep, ground) for piece, sweep in enumerate(sweeps)]
+    return np.array(found).reshape(-1, 2)
+
+
+def _ends(path: Path, piece: int, sweep: float, ground: _Ground) -> tuple[float, float]:
+    """Heights at a piece's two ends; no height at all for a piece of no segment."""
+    number = float(path.numbers[piece])
+    floor, row = ground.floors.get(int(number)), ground.rows.get(int(number))
+    if floor is None:
+        return -np.inf, -np.inf
+    if number != int(number) or row is None:
+        return floor.z_end, floor.z_end
+    first, last = _fractions(path.points[piece : piece + 2], sweep, ground, row)
+    rise = floor.z_end - floor.z_start
+    return floor.z_start + first * rise, floor.z_start + last * rise
+
+
+def _fractions(ends: Floats, sweep: float, ground: _Ground, row: int) -> tuple[float, float]:
+    """Which part of the segment has been traveled at a piece's two ends, 0 to 1; `sweep` is the piece's own angle."""
+    surface = ground.surface
+    if surface.turns[row] == 0:
+        run = surface.ends[row] - surface.starts[row]
+        square = max(float(run @ run), np.finfo(float).tiny)
+        first, last = ((ends - surface.starts[row]) @ run / square).tolist()
+        return _held(first), _held(last)
+    whole, begun = float(ground.sweeps[row]), _turned(surface, row, ends[0])
+    return _held(begun / whole), _held((begun + sweep) / whole)
+
+
+def _turned(surface: Path, row: int, point: Floats) -> float:
+    """Radians from the arc's start to the ray through `point`, in the arc's direction."""
+    center, start = surface.centers[row], surface.starts[row]
+    angles: Floats = np.arctan2(*(np.array((start, point)) - center).T[::-1])
+    turned = float((angles[1] - angles[0]) * surface.turns[row]) % tau
+    return 0.0 if turned > tau - WRAPPED else turned
+
+
+def _held(part: float) -> float:
+    return min(max(part, 0.0), 1.0)
 
 
 def levels(z_start: float, bottom: float, peck: float) -> tuple[float, ...]:

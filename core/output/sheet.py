@@ -1,27 +1,46 @@
-"""The setup sheet: what the operator needs at the machine, from the same jobs the NC text is made of.
+"""Sheet: the setup sheet an operator needs at the machine, as values, as plain text, and as one HTML page.
 
-A sheet is a head and sections of lines, as plain values; `core.output.sheet_text` and `core.output.sheet_page` put
-it on paper.  It never calls a program ready that would be refused by `core.output.post`.
+It is made from the same jobs as the NC text, and never calls a program ready that `core.output.nc` would refuse.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from html import escape
 from itertools import groupby
 from math import hypot, isfinite
+from textwrap import wrap
+from typing import Final
 
 import numpy as np
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Arc, Line, Turn
-from core.output.grid import Grid
-from core.output.job import Cutter, Job
-from core.output.motion import Motion, Pass
-from core.output.override import OVERRIDE
-from core.output.passes import passes, rough_runs
-from core.output.ready import forbidding
+from core.output.grid import Grid, length_text
+from core.output.objections import OVERRIDE, forbidding
+from core.output.passes import Cutter, Job, Motion, Pass, passes, rough_runs
 from core.units import Kind, Unit, from_mm, sentence, show
+
+WIDTH: Final = 78
+"""Columns of the plain text."""
+LABEL: Final = 18
+"""Columns of a label in it."""
+READY: Final = "READY to post."
+NOT_READY: Final = "NOT READY. DO NOT RUN THIS PROGRAM AS IT IS:"
+STYLE: Final = """\
+body { font: 14px/1.4 sans-serif; color: #1b1f23; max-width: 60em; margin: 2em auto; padding: 0 1em }
+h1 { font-size: 1.5em } h2 { font-size: 1.15em; border-bottom: 1px solid; margin-top: 2em }
+table { border-collapse: collapse; margin: .6em 0 }
+th, td { text-align: left; padding: .1em 1em .1em 0; vertical-align: top }
+.passes th, .passes td { text-align: right }
+.bad { border: 3px solid #c4001a; padding: .5em 1em; font-weight: bold }
+.good { border: 1px solid #00856a; padding: .5em 1em }
+.marked { list-style: none; padding-left: 0 }
+figure { margin: 1em 0 } svg { max-width: 100%; max-height: 18em; height: auto }
+@media print { section { break-inside: avoid } body { margin: 0 } }
+"""
+_MARK = {Severity.ERROR: "!!", Severity.WARNING: "!", Severity.INFO: "-"}
 
 Pair = tuple[str, str]
 """A label and what stands beside it."""
@@ -66,23 +85,19 @@ def sheet(jobs: Sequence[Job], unit: Unit, about: About) -> Sheet:
         ("DATE", about.day or "-"),
         ("UNITS", "INCH" if unit is Unit.IN else "MILLIMETRE"),
         ("WORK OFFSET", ", ".join(dict.fromkeys(f"G{job.work_offset}" for job in jobs)) or "-"),
-        ("SAFE Z", ", ".join(dict.fromkeys(_length(job.safe_z, unit) for job in jobs)) or "-"),
+        ("SAFE Z", ", ".join(dict.fromkeys(length_text(job.safe_z, unit) for job in jobs)) or "-"),
     )
-    told = tuple(dict.fromkeys(_told(finding, unit) for finding in against))
+    against_texts = tuple(dict.fromkeys(_finding_text(finding, unit) for finding in against))
     if not jobs:
-        told = ("There is no block.",)
-    return Sheet(about.program, head, told, _tools(jobs, unit), tuple(_block(job, unit) for job in jobs))
-
-
-def _length(value: float, unit: Unit) -> str:
-    return show(from_mm(value, unit), Kind.LENGTH, unit)
+        against_texts = ("There is no block.",)
+    return Sheet(about.program, head, against_texts, _tools(jobs, unit), tuple(_block(job, unit) for job in jobs))
 
 
 def _feed(value: float | None, unit: Unit) -> str:
     return "-" if value is None else show(from_mm(value, unit), Kind.FEED, unit)
 
 
-def _told(finding: Finding, unit: Unit) -> str:
+def _finding_text(finding: Finding, unit: Unit) -> str:
     segment = "" if not finding.segment else f"segment {finding.segment:g}: "
     return f"{segment}{sentence(finding, unit)}"
 
@@ -95,7 +110,13 @@ def _tools(jobs: Sequence[Job], unit: Unit) -> Section:
             if cutter is not None:
                 used.setdefault(cutter, []).append(f"{job.block}{role}")
     rows = [
-        (str(cutter.number), cutter.type or "-", _length(cutter.diameter, unit), f"H{cutter.number}", ", ".join(blocks))
+        (
+            str(cutter.number),
+            cutter.type or "-",
+            length_text(cutter.diameter, unit),
+            f"H{cutter.number}",
+            ", ".join(blocks),
+        )
         for cutter, blocks in sorted(used.items(), key=lambda item: item[0].number)
     ]
     return Section("TOOLS", table=(("TOOL", "TYPE", "DIAMETER", "LENGTH OFFSET", "BLOCKS"), *rows))
@@ -108,11 +129,8 @@ def _block(job: Job, unit: Unit) -> Section:
         f"BLOCK {job.block}  MILL CONTOUR",
         (*_set_up(job, unit), *_cut(job, every, unit)),
         _pass_table(every, unit),
-        tuple(f"{_MARK[finding.severity]} {_told(finding, unit)}" for finding in job.findings),
+        tuple(f"{_MARK[finding.severity]} {_finding_text(finding, unit)}" for finding in job.findings),
     )
-
-
-_MARK = {Severity.ERROR: "!!", Severity.WARNING: "!", Severity.INFO: "-"}
 
 
 def _set_up(job: Job, unit: Unit) -> Iterator[Pair]:
@@ -127,8 +145,8 @@ def _set_up(job: Job, unit: Unit) -> Iterator[Pair]:
         yield "FIRST PLUNGE AT", _place(plunges[0], unit)
     if reach := _reach(job, unit):
         yield "CUTTER REACHES", reach
-    yield "Z START, Z BOTTOM", f"{_length(job.z_start, unit)}  {_length(job.z_bottom, unit)}"
-    yield "PECK DEPTH", _length(job.peck_depth, unit) if job.peck_depth else "none: full depth in one pass"
+    yield "Z START, Z BOTTOM", f"{length_text(job.z_start, unit)}  {length_text(job.z_bottom, unit)}"
+    yield "PECK DEPTH", length_text(job.peck_depth, unit) if job.peck_depth else "none: full depth in one pass"
 
 
 def _cut(job: Job, every: Sequence[Pass], unit: Unit) -> Iterator[Pair]:
@@ -136,7 +154,7 @@ def _cut(job: Job, every: Sequence[Pass], unit: Unit) -> Iterator[Pair]:
     yield "PLUNGE FEED", _feed(job.plunge_feed, unit)
     yield "FEEDS", _feeds(job, unit)
     if every:
-        yield "CUTTING TIME", f"about {_minutes(every)}, rapids not counted"
+        yield "CUTTING TIME", f"about {_cutting_time(every)}, rapids not counted"
 
 
 def _cutter(cutter: Cutter | None) -> str:
@@ -144,7 +162,7 @@ def _cutter(cutter: Cutter | None) -> str:
 
 
 def _place(point: Sequence[float], unit: Unit) -> str:
-    return f"X {_length(point[0], unit)}  Y {_length(point[1], unit)}"
+    return f"X {length_text(point[0], unit)}  Y {length_text(point[1], unit)}"
 
 
 def _reach(job: Job, unit: Unit) -> str:
@@ -160,7 +178,7 @@ def _reach(job: Job, unit: Unit) -> str:
         return ""
     every = np.concatenate(swept)
     (x0, y0), (x1, y1) = every[:, :2].min(axis=0).tolist(), every[:, 2:].max(axis=0).tolist()
-    return f"X {_length(x0, unit)} to {_length(x1, unit)}  Y {_length(y0, unit)} to {_length(y1, unit)}"
+    return f"X {length_text(x0, unit)} to {length_text(x1, unit)}  Y {length_text(y0, unit)} to {length_text(y1, unit)}"
 
 
 def _feeds(job: Job, unit: Unit) -> str:
@@ -180,28 +198,134 @@ def _pass_table(every: Sequence[Pass], unit: Unit) -> tuple[tuple[str, ...], ...
             str(one.cutter.number),
             "FINISH" if one.finishing else "PASS",
             f"{one.number} of {one.count}",
-            _length(one.level, unit),
-            _length(one.stock, unit),
+            length_text(one.level, unit),
+            length_text(one.stock, unit),
         )
         for number, one in enumerate(every, 1)
     ]
     return (("NO.", "TOOL", "KIND", "DEPTH", "Z", "LEAVES ON SIDE"), *rows) if rows else ()
 
 
-def _minutes(every: Sequence[Pass]) -> str:
+def _cutting_time(every: Sequence[Pass]) -> str:
     """Length over feed, all feeds at their programmed value."""
     time = 0.0
     for one in every:
         for before, motion in zip(one.motions, one.motions[1:], strict=False):
             if motion.feed:
-                time += _way(before, motion) / motion.feed
+                time += _travel(before, motion) / motion.feed
     if not isfinite(time):
         return "-"
     return f"{time:.1f} min" if time < 100.0 else f"{time / 60.0:.1f} h"
 
 
-def _way(before: Motion, motion: Motion) -> float:
+def _travel(before: Motion, motion: Motion) -> float:
     ends = (before.x, before.y), (motion.x, motion.y)
     straight = motion.turn is Turn.NONE
     piece = Line(*ends) if straight else Arc(*ends, motion.center, motion.turn)
     return hypot(piece.length, motion.z - before.z)
+
+
+def as_text(sheet: Sheet) -> str:
+    """The sheet, lines ended by a line feed."""
+    lines = ["SETUP SHEET", "=" * WIDTH, *_text_pairs(sheet.head), ""]
+    if sheet.against:
+        lines += [NOT_READY, *(line for text in sheet.against for line in _wrapped(f"!! {text}", "     "))]
+    else:
+        lines.append(READY)
+    for section in (sheet.tools, *sheet.blocks):
+        lines += ["", section.title, "-" * WIDTH, *_text_section(section)]
+    return "\n".join(printable_line(line).rstrip() for line in lines) + "\n"
+
+
+def printable_line(text: str) -> str:
+    """Text on one line, every sign of it one that is seen."""
+    return "".join(sign if sign.isprintable() else "?" for sign in text)
+
+
+def _text_section(section: Section) -> Iterator[str]:
+    yield from _text_pairs(section.pairs)
+    if section.table:
+        yield from ("",) if section.pairs else ()
+        yield from _table(section.table)
+    if section.findings:
+        yield ""
+        yield "FINDINGS"
+        for text in section.findings:
+            yield from _wrapped(text, "     ")
+
+
+def _text_pairs(pairs: Sequence[tuple[str, str]]) -> Iterator[str]:
+    for label, text in pairs:
+        first, *rest = wrap(printable_line(text), WIDTH - LABEL - 1) or [""]
+        yield f"{label:<{LABEL}} {first}"
+        yield from (f"{'':<{LABEL}} {line}" for line in rest)
+
+
+def _table(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Columns as wide as their longest text, numbers under their headings' right end."""
+    widths = [max(len(printable_line(row[column])) for row in rows) for column in range(len(rows[0]))]
+    for row in rows:
+        yield "  ".join(f"{printable_line(text):>{width}}" for text, width in zip(row, widths, strict=True))
+
+
+def _wrapped(text: str, indent: str) -> list[str]:
+    return wrap(printable_line(text), WIDTH - 2, initial_indent="  ", subsequent_indent=indent)
+
+
+def as_page(sheet: Sheet, drawings: Sequence[str]) -> str:
+    """The page; `drawings` are SVG texts of `core.output.svg`, one a block."""
+    title = f"Setup sheet: {_escaped(sheet.title)}"
+    lines = (
+        "<!DOCTYPE html>",
+        f'<html lang="en"><head><meta charset="utf-8"><title>{title}</title>',
+        f"<style>\n{STYLE}</style></head><body>",
+        f"<h1>{title}</h1>",
+        *_page_table(sheet.head),
+        *_page_verdict(sheet),
+        *_page_section(sheet.tools, ""),
+        *(
+            line
+            for block, drawing in zip(sheet.blocks, drawings, strict=True)
+            for line in _page_section(block, drawing)
+        ),
+        "</body></html>",
+    )
+    return "\n".join(lines) + "\n"
+
+
+def _escaped(text: str) -> str:
+    return escape(printable_line(text))
+
+
+def _page_verdict(sheet: Sheet) -> Iterator[str]:
+    if not sheet.against:
+        yield f'<p class="good">{_escaped(READY)}</p>'
+        return
+    yield f'<div class="bad">{_escaped(NOT_READY)}<ul>'
+    yield from (f"<li>{_escaped(text)}</li>" for text in sheet.against)
+    yield "</ul></div>"
+
+
+def _page_section(section: Section, drawing: str) -> Iterator[str]:
+    yield f"<section><h2>{_escaped(section.title)}</h2>"
+    if drawing:
+        yield f"<figure>{drawing}</figure>"
+    yield from _page_table(section.pairs)
+    if section.findings:
+        yield '<h3>FINDINGS</h3><ul class="marked">'
+        yield from (f"<li>{_escaped(text)}</li>" for text in section.findings)
+        yield "</ul>"
+    yield "</section>"
+    if section.table:
+        yield f'<table class="{"passes" if section.pairs else "tools"}">'
+        for number, row in enumerate(section.table):
+            cell = "td" if number else "th"
+            yield f"<tr>{''.join(f'<{cell}>{_escaped(text)}</{cell}>' for text in row)}</tr>"
+        yield "</table>"
+
+
+def _page_table(pairs: Sequence[tuple[str, str]]) -> Iterator[str]:
+    if pairs:
+        yield "<table>"
+        yield from (f"<tr><th>{_escaped(label)}</th><td>{_escaped(text)}</td></tr>" for label, text in pairs)
+        yield "</table>"

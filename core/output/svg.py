@@ -11,8 +11,8 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
+from core.draw.characters import round_length
 from core.draw.scene import Box, Circle, Layer, Mark, Scene, Style, Symbol
-from core.draw.signs import round_length
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.units import from_mm, to_mm

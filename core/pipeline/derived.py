@@ -4,20 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING
 
+from core.advice.work import Work
 from core.finding import Finding, Severity
 from core.geometry.piece import Side
 from core.program.model import Block, Program
 from core.program.solve.solved import SolvedBlock
-
-if TYPE_CHECKING:
-    from core.comp.best_path.best_path import BestPath
-    from core.comp.compensate import Crossed
-    from core.comp.result import Compensated
-    from core.geometry.path import Path
-    from core.verify.judge import Ground
-    from core.verify.verdict import Verdict
 
 
 class Tag(StrEnum):
@@ -34,65 +26,6 @@ class LookAhead:
     value: int
     tag: Tag
     calculated: int
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class RoughPass:
-    """One pass before the finish path: its `loops` leave `stock` millimeters on the surface.
-
-    `compensated` is the control's path, whether posted or not.  `verdict` is that of a cutter larger by the stock: what
-    it gouges deeper than the stock is cut into the part, the rest is stock that is not left.
-    """
-
-    stock: float
-    loops: tuple[Loop, ...]
-    compensated: Compensated
-    verdict: Verdict
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Loop:
-    """One center path with its blend moves, cut in one go."""
-
-    path: Path
-    lead_in: Path
-    lead_out: Path
-
-    @property
-    def whole(self) -> Path:
-        """Blend-in, path and blend-out as one path."""
-        from core.geometry.path import joined
-
-        return joined((self.lead_in, self.path, self.lead_out))
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Work:
-    """What the cutter does in one block, in millimeters.
-
-    `surface` is the determined part of the contour; `loops` the finish path that is posted, one or, for PATH BEST,
-    one for each loop, and `verdict` what it does.  `compensated` is the control's path, whether posted or not.
-    `compensated` and `verdict` are None for CUTTER COMP. ON, where the center runs on the contour itself.
-    `rough` comes before, outermost first.  `best` is the best path where PATH is BEST.  `crossed` is what `compensated`
-    and the paths of all other look-aheads were made of, `ground` the surface as they are judged over it; both are None
-    for a contour so large that they are not kept.
-    """
-
-    surface: Path
-    loops: tuple[Loop, ...]
-    compensated: Compensated | None
-    verdict: Verdict | None
-    rough: tuple[RoughPass, ...] = ()
-    best: BestPath | None = None
-    crossed: Crossed | None = None
-    ground: Ground | None = None
-
-    @property
-    def center(self) -> Path:
-        """The first loop with its blends; the empty path if there is none."""
-        from core.geometry.path import EMPTY
-
-        return self.loops[0].whole if self.loops else EMPTY
 
 
 @dataclass(frozen=True, eq=False, slots=True)

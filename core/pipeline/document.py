@@ -1,4 +1,4 @@
-"""The machine-readable side: a derived program as plain dictionaries, numbers in program units."""
+"""Document: a derived program for the command line, as JSON dictionaries and as lines of text, in program units."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from math import isfinite
 from typing import Any
 
+from core.advice.path_findings import nearest_place
+from core.advice.trials import Row, Table
 from core.finding import Finding
 from core.geometry.path import Path
 from core.pipeline.derived import Derived, DerivedBlock
-from core.pipeline.table import Table
-from core.pipeline.trouble import nearest_of
-from core.units import Unit, from_mm, sentence
+from core.units import Kind, Unit, from_mm, sentence, show
 
 Document = dict[str, Any]
 
@@ -20,45 +20,45 @@ def path_document(derived: Derived, number: int | None = None) -> Document:
     """`cutcomp path --json`: the finish path of every block, or of block `number` alone."""
     unit = derived.program.unit
     chosen = derived.blocks if number is None else (derived.block(number),)
-    return {"units": str(unit), "blocks": [_block(found, unit) for found in chosen]}
+    return {"units": str(unit), "blocks": [_block(block, unit) for block in chosen]}
 
 
-def _block(found: DerivedBlock, unit: Unit) -> Document:
+def _block(block: DerivedBlock, unit: Unit) -> Document:
     return {
-        "block": found.number,
-        "closed": found.solved.closed,
-        "lookahead": {"value": found.lookahead.value, "tag": str(found.lookahead.tag)},
-        "radius": None if found.radius is None else from_mm(found.radius, unit),
-        "comp": str(found.block.cutter_comp),
-        "clearance": _clearance(found, unit),
-        "clearance_at": _clearance_at(found, unit),
-        "moves": list(_block_moves(found, unit)),
-        "deleted": _deleted(found, unit),
-        "findings": [finding_document(finding, unit) for finding in found.findings],
+        "block": block.number,
+        "closed": block.solved.closed,
+        "lookahead": {"value": block.lookahead.value, "tag": str(block.lookahead.tag)},
+        "radius": None if block.radius is None else from_mm(block.radius, unit),
+        "comp": str(block.block.cutter_comp),
+        "clearance": _clearance(block, unit),
+        "clearance_at": _clearance_at(block, unit),
+        "moves": list(_block_moves(block, unit)),
+        "deleted": _deleted(block, unit),
+        "findings": [finding_document(finding, unit) for finding in block.findings],
     }
 
 
-def _clearance(found: DerivedBlock, unit: Unit) -> float | None:
+def _clearance(block: DerivedBlock, unit: Unit) -> float | None:
     """The smallest distance from the center path to the surface, blends included; None where there is none."""
-    verdict = None if found.work is None else found.work.verdict
+    verdict = None if block.work is None else block.work.verdict
     if verdict is None or not isfinite(verdict.clearance):
         return None
     return from_mm(verdict.clearance, unit)
 
 
-def _clearance_at(found: DerivedBlock, unit: Unit) -> Document | None:
+def _clearance_at(block: DerivedBlock, unit: Unit) -> Document | None:
     """The place of the smallest distance: the contour's segment and the point on it."""
-    place = nearest_of(found)
+    place = nearest_place(block.work)
     if place is None:
         return None
     x, y = place.surface_at
     return {"segment": plain(place.surface_number), "x": from_mm(x, unit), "y": from_mm(y, unit)}
 
 
-def _block_moves(found: DerivedBlock, unit: Unit) -> Iterator[Document]:
-    if found.work is None:
+def _block_moves(block: DerivedBlock, unit: Unit) -> Iterator[Document]:
+    if block.work is None:
         return
-    for loop in found.work.loops:
+    for loop in block.work.loops:
         yield from _moves(loop.lead_in, "blend-in", unit)
         yield from _moves(loop.path, "path", unit)
         yield from _moves(loop.lead_out, "blend-out", unit)
@@ -78,8 +78,8 @@ def _moves(path: Path, part: str, unit: Unit) -> Iterator[Document]:
         yield move
 
 
-def _deleted(found: DerivedBlock, unit: Unit) -> list[Document]:
-    if found.work is None or found.work.compensated is None or found.work.best is not None:
+def _deleted(block: DerivedBlock, unit: Unit) -> list[Document]:
+    if block.work is None or block.work.compensated is None or block.work.best is not None:
         return []
     return [
         {
@@ -88,7 +88,7 @@ def _deleted(found: DerivedBlock, unit: Unit) -> list[Document]:
             "x": from_mm(one.at[0], unit),
             "y": from_mm(one.at[1], unit),
         }
-        for one in found.work.compensated.deleted
+        for one in block.work.compensated.deleted
     ]
 
 
@@ -108,12 +108,12 @@ def finding_document(finding: Finding, unit: Unit) -> Document:
     }
 
 
-def table_document(found: DerivedBlock, table: Table | None, unit: Unit) -> Document:
+def table_document(block: DerivedBlock, table: Table | None, unit: Unit) -> Document:
     """`cutcomp lookahead --json` for one block: what becomes of the path at every value, and the table's notes."""
     rows = () if table is None else table.rows
     return {
-        "block": found.number,
-        "lookahead": {"value": found.lookahead.value, "tag": str(found.lookahead.tag)},
+        "block": block.number,
+        "lookahead": {"value": block.lookahead.value, "tag": str(block.lookahead.tag)},
         "values": [
             {
                 "value": row.value,
@@ -126,10 +126,84 @@ def table_document(found: DerivedBlock, table: Table | None, unit: Unit) -> Docu
         ],
         "recommended": None if table is None else table.recommended,
         "needs": [] if table is None else [finding_document(note, unit) for note in table.notes],
-        "findings": [finding_document(finding, unit) for finding in found.findings],
+        "findings": [finding_document(finding, unit) for finding in block.findings],
     }
 
 
 def plain(number: float) -> int | float:
     """A segment's number as an integer where it is one."""
     return int(number) if number == int(number) else number
+
+
+def path_listing(derived: Derived, number: int | None = None) -> Iterator[str]:
+    """Every move of the center path, a line each, under a heading for its block."""
+    unit = derived.program.unit
+    chosen = derived.blocks if number is None else (derived.block(number),)
+    for block, document in zip(chosen, path_document(derived, number)["blocks"], strict=True):
+        kind = "closed" if document["closed"] else "open"
+        value = f"{document['lookahead']['tag']} {document['lookahead']['value']}"
+        yield f"BLOCK {document['block']}  CUTTER COMP. {document['comp']}  {kind}  LOOKAHEAD {value}  {unit}"
+        for move in document["moves"]:
+            yield _move_line(move, unit)
+        for one in document["deleted"]:
+            x, y = _length(one["x"], unit), _length(one["y"], unit)
+            yield f"  DELETED {one['segment']} by {one['by'][0]} and {one['by'][1]} at X {x} Y {y}"
+        yield from verdict_listing(block, unit)
+
+
+def verdict_listing(block: DerivedBlock, unit: Unit) -> Iterator[str]:
+    """What the cutter does to the surface: the least distance and its place, and every stretch that is not reached."""
+    place = nearest_place(block.work)
+    if place is not None and block.radius is not None:
+        x, y = (_length(from_mm(value, unit), unit) for value in place.surface_at)
+        distance, radius = (_length(from_mm(value, unit), unit) for value in (place.distance, block.radius))
+        yield f"  NEAREST {distance}  TOOL RADIUS {radius}  at X {x} Y {y} on segment {place.surface_number:g}"
+    verdict = None if block.work is None else block.work.verdict
+    if verdict is None or not verdict.judged:
+        return
+    left, whole = (_length(from_mm(value, unit), unit) for value in (verdict.uncut_length, verdict.surface_length))
+    yield f"  UNCUT {left} of {whole}"
+    for one in verdict.uncut:
+        (x0, y0), (x1, y1) = ([_length(from_mm(value, unit), unit) for value in at] for at in (one.start, one.end))
+        told = f"from X {x0} Y {y0} on segment {one.first_number:g} to X {x1} Y {y1} on segment {one.last_number:g}"
+        yield f"    {_length(from_mm(one.length, unit), unit)} {told}"
+
+
+def _length(value: float, unit: Unit) -> str:
+    return show(value, Kind.LENGTH, unit)
+
+
+def _move_line(move: dict[str, object], unit: Unit) -> str:
+    def number(key: str) -> str:
+        value = move[key]
+        assert isinstance(value, float)
+        return f"{_length(value, unit):>12}"
+
+    line = f"  {move['segment']!s:>6} {move['part']!s:<9} X {number('x')} Y {number('y')}"
+    if move["type"] == "line":
+        return f"{line}  LINE"
+    return f"{line}  {'CCW' if move['ccw'] else 'CW ':<3} about X {number('cx')} Y {number('cy')}"
+
+
+def table_listing(block: DerivedBlock, table: Table | None, unit: Unit) -> Iterator[str]:
+    """The look-ahead table of one block, a line a value, and its notes."""
+    yield f"BLOCK {block.number}  LOOKAHEAD {block.lookahead.tag} {block.lookahead.value}"
+    if table is None:
+        yield "  There is no contour to compensate yet, or CUTTER COMP. is ON."
+        return
+    yield "  value        gouge        uncut  deleted"
+    for row in table.rows:
+        yield _row_line(row, table, unit)
+    if table.recommended is None:
+        yield "  No value is clean."
+    else:
+        yield f"  Recommended: {table.recommended}"
+    for note in table.notes:
+        yield f"  {sentence(note, unit)}"
+
+
+def _row_line(row: Row, table: Table, unit: Unit) -> str:
+    gouge = "clean" if row.clean else _length(from_mm(row.gouge, unit), unit)
+    deleted = " ".join(str(plain(number)) for number in row.deleted) or "-"
+    mark = "<" if row.value == table.recommended else " "
+    return f"  {row.value:>4} {mark} {gouge:>11} {_length(from_mm(row.uncut, unit), unit):>12}  {deleted}"

@@ -1,14 +1,13 @@
-"""What is posted: each derived block as the job that passes and NC text are made of."""
+"""Jobs: each derived block as passes and NC text are made of it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from core.geometry.path import EMPTY
-from core.output.job import Cutter, Job, Run
-from core.pipeline.compensation import parameter
+from core.output.passes import Cutter, Job, Run
 from core.pipeline.derived import Derived, DerivedBlock
-from core.program.fields import default
+from core.pipeline.parameters import parameter, setup_value
 from core.program.model import Entry, Program, Typed
 from core.program.tools import find
 from core.units import Kind, Unit, from_mm, show, to_mm
@@ -16,25 +15,22 @@ from core.units import Kind, Unit, from_mm, show, to_mm
 
 def jobs(derived: Derived) -> tuple[Job, ...]:
     """One job a block, in the program's order."""
-    return tuple(job(found, derived.program) for found in derived.blocks)
+    return tuple(job(block, derived.program) for block in derived.blocks)
 
 
-def job(found: DerivedBlock, program: Program, *, noted: bool = True) -> Job:
-    """One block's job; what is not known yet is zero there and stands among the findings.
-
-    Only who writes a file needs it `noted`: a hundred deleted segments take longer to name than all the rest.
-    """
-    solved, tag = found.solved, f"{found.lookahead.tag} {found.lookahead.value}"
-    finish_tool = _whole(found.block.finish_tool)
+def job(block: DerivedBlock, program: Program) -> Job:
+    """One block's job; what is not known yet is zero there and stands among the findings."""
+    solved, tag = block.solved, f"{block.lookahead.tag} {block.lookahead.value}"
+    finish_tool = _whole(block.block.finish_tool)
     return Job(
-        block=found.number,
-        comp=str(found.block.cutter_comp),
-        cutter=_cutter(found.block.tool, solved.tool_diameter, program),
-        finisher=_cutter(found.block.finish_tool, solved.finish_diameter, program) if finish_tool else None,
-        surface=found.work.surface if found.work else EMPTY,
+        block=block.number,
+        comp=str(block.block.cutter_comp),
+        cutter=_cutter(block.block.tool, solved.tool_diameter, program),
+        finisher=_cutter(block.block.finish_tool, solved.finish_diameter, program) if finish_tool else None,
+        surface=block.work.surface if block.work else EMPTY,
         floors=solved.segments[: solved.determined],
-        finish=_finish(found),
-        rough=_rough(found),
+        finish=_finish_runs(block),
+        rough=_rough_runs(block),
         z_start=solved.z_start or 0.0,
         z_bottom=solved.z_bottom or 0.0,
         peck_depth=solved.peck_depth,
@@ -43,18 +39,18 @@ def job(found: DerivedBlock, program: Program, *, noted: bool = True) -> Job:
         peck_clearance=parameter(program, "peck_clearance"),
         plunge_feed=solved.plunge_feed or 0.0,
         speed=solved.speed or 0.0,
-        safe_z=to_mm(_setup(program, "safe_z"), program.unit),
+        safe_z=to_mm(setup_value(program, "safe_z"), program.unit),
         finish_tool=finish_tool,
-        work_offset=int(_setup(program, "work_offset")),
-        lookahead="" if found.side is None else tag,
-        findings=found.findings,
-        notes=tuple(_notes(found, program.unit)) if noted else (),
+        work_offset=int(setup_value(program, "work_offset")),
+        lookahead="" if block.side is None else tag,
+        findings=block.findings,
+        notes=tuple(_notes(block, program.unit)),
     )
 
 
-def _notes(found: DerivedBlock, unit: Unit) -> Iterator[str]:
+def _notes(block: DerivedBlock, unit: Unit) -> Iterator[str]:
     """What whoever runs the file should know of the part: segments that are not cut, and surface that stays."""
-    work = found.work
+    work = block.work
     if work is None or work.compensated is None or work.verdict is None:
         return
     if work.best is not None:
@@ -79,18 +75,11 @@ def _cutter(number: Typed, diameter: float | None, program: Program) -> Cutter |
     return Cutter(int(number.value), diameter, "" if tool is None else tool.type)
 
 
-def _setup(program: Program, name: str) -> float:
-    typed = getattr(program.setup, name)
-    value = typed.value if isinstance(typed, Entry) else default(name, program.unit)
-    assert value is not None
-    return value
-
-
-def _finish(found: DerivedBlock) -> tuple[Run, ...]:
-    loops = () if found.work is None else found.work.loops
+def _finish_runs(block: DerivedBlock) -> tuple[Run, ...]:
+    loops = () if block.work is None else block.work.loops
     return tuple(Run(loop.path, loop.lead_in, loop.lead_out) for loop in loops)
 
 
-def _rough(found: DerivedBlock) -> tuple[Run, ...]:
-    rough = () if found.work is None else found.work.rough
-    return tuple(Run(loop.path, loop.lead_in, loop.lead_out, one.stock) for one in rough for loop in one.loops)
+def _rough_runs(block: DerivedBlock) -> tuple[Run, ...]:
+    passes = () if block.work is None else block.work.rough
+    return tuple(Run(loop.path, loop.lead_in, loop.lead_out, rough.stock) for rough in passes for loop in rough.loops)

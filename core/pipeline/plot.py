@@ -8,15 +8,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from core.advice.trials import Row
+from core.advice.work import Loop, Work
 from core.comp.result import Compensated
-from core.draw.build import contour_scene
-from core.draw.scene import Scene, joined_scenes
+from core.draw.scene import Scene, contour_scene, joined_scenes
 from core.geometry.path import EMPTY, Floats, Path
 from core.geometry.piece import Line, Piece, Point
 from core.geometry.stretch import NO_PARTS, Parts, pieces_joined, stretches
 from core.output.svg import svg
-from core.pipeline.derived import Derived, DerivedBlock, Loop, Work
-from core.pipeline.table import Row
+from core.pipeline.derived import Derived, DerivedBlock
 from core.units import Unit
 
 

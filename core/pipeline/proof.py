@@ -13,8 +13,7 @@ from core.controls.control_tools import ToolTable
 from core.controls.judged_runs import Judged, judged
 from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run
-from core.draw.build import contour_scene
-from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, joined_scenes
+from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, contour_scene, joined_scenes
 from core.geometry.path import Path
 from core.geometry.piece import Point
 from core.geometry.stretch import stretches

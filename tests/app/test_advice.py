@@ -17,11 +17,11 @@ from app.files import example
 from app.screens.frame import Frame
 from app.surroundings import Surroundings
 from app.widgets.rows import Row
+from core.advice.why_not_clean import Needs
 from core.finding import Finding, Severity
 from core.pipeline import derive as stages
-from core.pipeline import needs as remedies
+from core.pipeline import lookahead_table as remedies
 from core.pipeline.derived import DerivedBlock
-from core.pipeline.needs import Needs
 from core.program.edit import Where
 from core.program.model import Program
 from tests.app.pilots import app_on, at_rest, lines, loaded, until
@@ -50,7 +50,7 @@ async def test_notes_follow_the_verdict_and_nobody_says_before_that_there_are_no
         await loaded(pilot)
         await at_rest(pilot, app)
         slow_notes(app)
-        monkeypatch.setattr(stages, "better", better)
+        monkeypatch.setattr(stages, "better_path", better)
         await pilot.press(*TO_X_END, "3", ".", "5", "enter")
         assert "UNCUT" in lines(app)
         assert "look-ahead 1" in lines(app)
@@ -83,7 +83,7 @@ async def test_what_has_nothing_to_say_changes_nothing_on_the_screen(monkeypatch
         await loaded(pilot)
         await at_rest(pilot, app)
         slow_notes(app)
-        monkeypatch.setattr(stages, "better", better)
+        monkeypatch.setattr(stages, "better_path", better)
         monkeypatch.setattr(Frame, "show", kept)
         await pilot.press(*TO_X_END, "3")
         await until(pilot, lambda: app.advice.noting.busy)

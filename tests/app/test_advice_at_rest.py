@@ -26,7 +26,7 @@ async def test_what_a_better_path_would_cut_is_found_out_at_rest_and_told_with_e
     async with app.run_test(size=(132, 43)) as pilot:
         await loaded(pilot)
         await at_rest(pilot, app)
-        monkeypatch.setattr(stages, "better", better)
+        monkeypatch.setattr(stages, "better_path", better)
         await pilot.press(*TO_X_END)
         for key in "3.5":
             app.key(key, key)
@@ -120,7 +120,7 @@ async def test_a_half_typed_number_that_leads_to_the_path_in_force_shows_its_not
         await loaded(pilot)
         await at_rest(pilot, app)
         app.engine.limit, app.engine.notes = 1e6, ()
-        monkeypatch.setattr(stages, "better", lambda _: (FURTHER,))
+        monkeypatch.setattr(stages, "better_path", lambda _: (FURTHER,))
         # of another depth the paths are the same
         await pilot.press(*["tab"] * 7, "-", ".", "3")
         assert app.trial is not None

@@ -10,11 +10,10 @@ import pytest
 from textual.events import Key
 
 from app.application import CutcompApp
-from app.engine import Known
+from app.engine import Known, derived_again
 from app.screens.frame import Frame, picture
 from app.widgets.painted import Rows
 from app.widgets.rows import Row, text_of
-from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
 from core.program.model import Entry, Program
 from tests.app.operator import FROZEN
@@ -87,15 +86,15 @@ async def test_what_was_tried_out_while_it_was_typed_is_not_derived_again(
 ) -> None:
     done: list[Program] = []
 
-    def counted(program: Program, before: Derived | None = None) -> Derived:
+    def counted(program: Program, before: Derived) -> Derived:
         done.append(program)
-        return derive(program, before)
+        return derived_again(program, before)
 
     app = app_on("pocket")
     app.engine.limit = limit
     async with app.run_test(size=(80, 24)) as pilot:
         await loaded(pilot)
-        monkeypatch.setattr("core.pipeline.derive.derive", counted)
+        monkeypatch.setattr("app.engine.derived_again", counted)
         await pilot.press(*["tab"] * 11, "1", "enter", "tab")
         await rested(pilot)
         assert len(done) == 1

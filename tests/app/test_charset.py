@@ -9,7 +9,7 @@ import pytest
 
 from app.charset import charset, lookalike, settle
 from app.driver import characters
-from core.draw.mode import Mode, cells
+from core.draw.characters import Mode, cells
 
 BRAILLE_FIRST, BLOCK_FIRST = ("braille", "block", "ascii"), ("block", "ascii")
 

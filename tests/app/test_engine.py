@@ -8,7 +8,7 @@ import pytest
 
 from app.desk import Desk
 from app.documents.files import load
-from app.engine import Engine, Known
+from app.engine import Engine, Known, derived_again
 from app.files import example
 from app.screens.contour import Contour
 from app.screens.draw import DrawPage
@@ -17,10 +17,11 @@ from app.screens.lookahead import LookaheadTable
 from app.screens.page import WHOLE, Surface
 from app.session import Session
 from app.widgets.rows import text_of
+from core.advice.work import Work
 from core.finding import Finding, Severity
 from core.pipeline.derive import derive
-from core.pipeline.derived import DerivedBlock, Work
-from core.pipeline.needs import needs
+from core.pipeline.derived import DerivedBlock
+from core.pipeline.lookahead_table import needs
 from core.pipeline.outline import outline
 from core.program.edit import Where, copy_block, type_field
 from core.program.model import Entry, Program
@@ -42,7 +43,7 @@ def changed(where: Where, field: str, value: float) -> tuple[DerivedBlock, Progr
     """The block after one number was typed."""
     program = type_field(PART, where, field, Entry(value))
     assert isinstance(program, Program)
-    return derive(program, derive(PART)).blocks[0], program
+    return derive(program).blocks[0], program
 
 
 def test_another_path_has_another_table(engine: Engine) -> None:
@@ -60,7 +61,7 @@ def test_another_depth_keeps_the_table_and_what_the_contour_needs() -> None:
     engine.keep_needs(before.blocks[0], PART)
     program = type_field(PART, Where(1, 0), "z_bottom", Entry(-0.5))
     assert isinstance(program, Program)
-    found = derive(program, before).blocks[0]
+    found = derived_again(program, before).blocks[0]
     assert found is not before.blocks[0]
     assert engine.tabulated(found)
     assert not engine.lacks_needs(found)

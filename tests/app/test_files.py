@@ -14,7 +14,7 @@ from app.screens.contour import Contour
 from app.screens.program import ProgramPage
 from app.screens.save import SaveAsPage
 from app.session import Session
-from core.output.override import OVERRIDE
+from core.output.objections import OVERRIDE
 from core.program.model import Entry
 from tests.app.operator import Operator
 
@@ -188,7 +188,7 @@ def test_words_that_override_are_offered_only_where_they_do(
 ) -> None:
     """A gouge beside a text that cannot be read, a blend arc that does not fit: no words help."""
     from app.posting import nc_text
-    from core.output.post import Refusal
+    from core.output.nc import Refusal
     from core.pipeline.derive import derive
 
     operator = opened("pocket").press(*keys).type(text)

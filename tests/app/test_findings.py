@@ -17,8 +17,7 @@ from app.session import Session
 from app.widgets.rows import Span, plain, text_of
 from app.widgets.verdict import fitted, verdict_rows
 from core.pipeline.derive import derive
-from core.pipeline.outline import outline
-from core.pipeline.table import look_ahead_table
+from core.pipeline.lookahead_table import look_ahead_table
 from core.program.model import Entry, Program
 from tests.app.operator import Operator
 
@@ -26,7 +25,7 @@ from tests.app.operator import Operator
 def derived(name: str) -> Operator:
     """An example with everything that follows from it."""
     program = load(example(name))
-    session = Session.of(program).knowing(derive(program, outline(program)))
+    session = Session.of(program).knowing(derive(program))
     return Operator(Desk(session))
 
 
@@ -208,7 +207,7 @@ def test_the_dialog_tells_the_warnings_with_which_it_posts() -> None:
 
 def on_table(program: Program, *keys: str) -> Operator:
     """FINDINGS asked for on the look-ahead table, and what it asks for answered."""
-    operator = Operator(Desk(Session.of(program).knowing(derive(program, outline(program)))))
+    operator = Operator(Desk(Session.of(program).knowing(derive(program))))
     operator.press(*["tab"] * 11, "f4", *keys, "ctrl+f")
     question = operator.desk.page.question
     if question is not None:

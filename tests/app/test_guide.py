@@ -36,7 +36,7 @@ def begun() -> Operator:
 def known(operator: Operator) -> Operator:
     """What the numeric library finds is on the desk."""
     session = operator.session
-    operator.desk = operator.desk.knowing(derive(session.program, session.derived))
+    operator.desk = operator.desk.knowing(derive(session.program))
     return operator
 
 

@@ -9,7 +9,7 @@ from app.files import example
 from app.widgets.rows import text_of
 from app.widgets.strip import strip
 from core.pipeline.derive import derive
-from core.pipeline.table import look_ahead_table
+from core.pipeline.lookahead_table import look_ahead_table
 from core.program.edit import Refused, Where, type_field
 from core.program.model import Program
 from tests.app.operator import Operator

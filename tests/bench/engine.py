@@ -20,7 +20,7 @@ from typing import Final
 from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate
 from core.pipeline.derive import derive
-from core.pipeline.table import look_ahead_table
+from core.pipeline.lookahead_table import look_ahead_table
 from core.verify.judge import judge
 from tests.bench import peers
 from tests.bench.families import FAMILIES, Work, gear

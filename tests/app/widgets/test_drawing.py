@@ -10,7 +10,7 @@ import pytest
 from app.screens.page import Sketch
 from app.widgets.drawing import BY_STYLE, _row, picture_rows
 from app.widgets.rows import Look
-from core.draw.mode import Mode
+from core.draw.characters import Mode
 from core.draw.raster import draw
 from core.draw.scene import Layer, Scene, Style
 from core.draw.view import View

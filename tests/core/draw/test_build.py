@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from core.draw.build import contour_scene
-from core.draw.scene import Circle, Mark, Style, Symbol
+from core.draw.scene import Circle, Mark, Style, Symbol, contour_scene
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Turn
 from core.geometry.stretch import Parts

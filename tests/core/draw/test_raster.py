@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.draw.mode import Mode
+from core.draw.characters import Mode
 from core.draw.raster import _crossing, draw
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol
 from core.draw.view import View

@@ -1,6 +1,6 @@
 import pytest
 
-from core.draw.signs import arrow, round_length, scale_bar
+from core.draw.characters import arrow, round_length, scale_bar
 from core.units import Unit
 
 

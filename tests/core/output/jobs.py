@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.output.job import Cutter, Job, Run
+from core.output.passes import Cutter, Job, Run
 
 INCH = 25.4
 

@@ -2,7 +2,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.output.comment import comments
+from core.output.nc import comments
 
 
 def test_plain_text_stays():

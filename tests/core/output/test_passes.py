@@ -7,10 +7,7 @@ from hypothesis import strategies as st
 
 from core.geometry.path import Path
 from core.geometry.piece import Line, Turn
-from core.output.heights import heights
-from core.output.job import Cutter, Job, Run
-from core.output.motion import Motion, Pass
-from core.output.passes import levels, passes
+from core.output.passes import Cutter, Job, Motion, Pass, Run, heights, levels, passes
 from tests.core.output.jobs import INCH, Floor, arc, job, path_of, polyline
 
 SLOT = polyline((0, 0), (2, 0), (2, 1))

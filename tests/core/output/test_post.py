@@ -5,10 +5,9 @@ import pytest
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
-from core.output.job import Cutter, Job, Run
-from core.output.override import OVERRIDE
-from core.output.passes import passes
-from core.output.post import Posted, Refusal, post
+from core.output.nc import Posted, Refusal, center_path_program
+from core.output.objections import OVERRIDE
+from core.output.passes import Cutter, Job, Run, passes
 from core.units import Unit
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
@@ -17,13 +16,13 @@ GOUGE = Finding("GOUGE", Severity.ERROR, "Gouges by {value} at X {x} Y {y}.", 2,
 
 
 def text(one: Job, unit: Unit = Unit.IN, override: str | None = None, name: str = "SLOT") -> str:
-    found = post([one], unit, name=name, override=override)
+    found = center_path_program([one], unit, name=name, override=override)
     assert isinstance(found, Posted), found
     return found.text
 
 
 def refused(one: Job, override: str | None = None) -> list[str]:
-    found = post([one], Unit.IN, name="SLOT", override=override)
+    found = center_path_program([one], Unit.IN, name="SLOT", override=override)
     assert isinstance(found, Refusal)
     return [finding.code for finding in found.findings]
 
@@ -58,7 +57,7 @@ def test_a_whole_program_in_inches():
 
 
 def head(part: str) -> list[str]:
-    found = post([job(SLOT)], Unit.IN, name="SLOT", part=part)
+    found = center_path_program([job(SLOT)], Unit.IN, name="SLOT", part=part)
     assert isinstance(found, Posted)
     return found.text.splitlines()
 
@@ -126,7 +125,7 @@ def test_the_finish_tool_is_called_after_the_spindle_stops():
 def test_a_second_block_with_the_same_tool_keeps_it_and_clears_both():
     """The second block's Z START is higher than SAFE Z, so every traverse is as high as it needs."""
     high = job(SLOT, block=2, speed=500.0, z_start=2 * INCH, peck_depth=0.0)
-    found = post([job(SLOT, peck_depth=0.0), high], Unit.IN, name="TWO")
+    found = center_path_program([job(SLOT, peck_depth=0.0), high], Unit.IN, name="TWO")
     assert isinstance(found, Posted)
     lines = found.text.splitlines()
     assert lines.count("T1 M6") == 1
@@ -194,7 +193,7 @@ def test_a_gouge_is_refused_unless_said_in_so_many_words(override):
 
 
 def test_an_overridden_gouge_stands_in_the_header():
-    found = post([job(SLOT, findings=(GOUGE,))], Unit.IN, name="SLOT", override=OVERRIDE)
+    found = center_path_program([job(SLOT, findings=(GOUGE,))], Unit.IN, name="SLOT", override=OVERRIDE)
     assert isinstance(found, Posted)
     assert found.overridden == (GOUGE,)
     assert "(OVERRIDDEN GOUGE: Segment 2: Gouges by 0.1000 at X 1.0000 Y 0.0000.)" in found.text
@@ -258,17 +257,17 @@ def test_a_bottom_above_the_top_is_told_once_though_the_contour_runs_at_it():
 
 
 def test_no_block_is_refused():
-    assert isinstance(post([], Unit.IN, name=""), Refusal)
+    assert isinstance(center_path_program([], Unit.IN, name=""), Refusal)
 
 
 def test_a_refusal_says_why_in_program_units():
-    found = post([job(SLOT, findings=(GOUGE,), speed=0.0)], Unit.IN, name="")
+    found = center_path_program([job(SLOT, findings=(GOUGE,), speed=0.0)], Unit.IN, name="")
     assert isinstance(found, Refusal)
     assert found.text == "Segment 2: Gouges by 0.1000 at X 1.0000 Y 0.0000. Block 1: SPEED must be above 0."
 
 
 def test_blocks_with_different_work_offsets_are_refused():
-    found = post([job(SLOT), job(SLOT, work_offset=55)], Unit.IN, name="")
+    found = center_path_program([job(SLOT), job(SLOT, work_offset=55)], Unit.IN, name="")
     assert isinstance(found, Refusal)
     assert [finding.code for finding in found.findings] == ["WORK_OFFSET"]
 

@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-from core.output.job import Cutter, Job, Run
-from core.output.post import Posted, post
+from core.output.nc import Posted, center_path_program
+from core.output.passes import Cutter, Job, Run
 from core.units import Unit
 from tests.core.output.jobs import INCH, job, polyline
 
@@ -11,7 +11,7 @@ SLOT = polyline((0, 0), (2, 0))
 
 
 def pass_titles(one: Job) -> list[str]:
-    found = post([one], Unit.IN, name="SLOT")
+    found = center_path_program([one], Unit.IN, name="SLOT")
     assert isinstance(found, Posted), found
     return [line for line in found.text.splitlines() if line.startswith("(BLOCK 1 ") and "MILL CONTOUR" not in line]
 

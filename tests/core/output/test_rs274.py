@@ -12,10 +12,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.output.job import Cutter, Job, Run
-from core.output.motion import Motion
-from core.output.passes import passes
-from core.output.post import Posted, post
+from core.output.nc import Posted, center_path_program
+from core.output.passes import Cutter, Job, Motion, Run, passes
 from core.units import Unit
 from tests import rs274
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
@@ -25,7 +23,7 @@ TOOLS = {1: 0.5, 2: 0.25}
 
 
 def posted(one: Job, unit: Unit, name: str = "PART") -> str:
-    found = post([one], unit, name=name)
+    found = center_path_program([one], unit, name=name)
     assert isinstance(found, Posted), found
     return found.text
 

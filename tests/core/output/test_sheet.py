@@ -7,10 +7,8 @@ from xml.etree import ElementTree
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
-from core.output.job import Cutter, Job, Run
-from core.output.sheet import About, Sheet, sheet
-from core.output.sheet_page import as_page
-from core.output.sheet_text import NOT_READY, READY, WIDTH, as_text
+from core.output.passes import Cutter, Job, Run
+from core.output.sheet import NOT_READY, READY, WIDTH, About, Sheet, as_page, as_text, sheet
 from core.units import Unit
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 

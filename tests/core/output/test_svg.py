@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.draw.build import contour_scene
-from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol
+from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, contour_scene
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Turn
 from core.output.svg import outline, svg

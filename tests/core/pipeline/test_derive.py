@@ -3,14 +3,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from core.advice.path_findings import move_names, path_findings, size_warning
+from core.advice.work import Loop
 from core.comp.blend import blend_in, blend_out
 from core.finding import Severity
 from core.geometry.path import Path
 from core.geometry.piece import Side
-from core.pipeline.derive import better, compared, derive, stocks
-from core.pipeline.derived import Loop, Tag
+from core.pipeline.derive import better_path, derive, derive_block, with_better_paths
+from core.pipeline.derived import Tag
 from core.pipeline.outline import outline
-from core.pipeline.trouble import move_names, path_findings, size_warning
+from core.pipeline.parameters import stocks
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Entry, LineSegment, Parameters, PathChoice, Unread, changed
 from core.units import Unit, sentence
@@ -56,27 +58,13 @@ def test_on_runs_on_the_contour_and_is_not_judged():
     np.testing.assert_allclose(found.work.center.points / IN, NOTCH, atol=1e-12)
 
 
-def test_blocks_that_did_not_change_are_not_derived_again():
-    part = program(block(NOTCH, CutterComp.LEFT), block(OUTSIDE_SQUARE, CutterComp.RIGHT))
-    before = derive(part)
-    after = derive(replace(part, blocks=(part.blocks[0], replace(part.blocks[1], lookahead=Entry(5)))), before)
-    assert after.blocks[0] is before.blocks[0]
-    assert after.blocks[1] is not before.blocks[1]
-
-
-def test_what_every_block_depends_on_derives_every_block_again():
-    part = program(block(NOTCH, CutterComp.LEFT))
-    before = derive(part)
-    others = (replace(part, tools=part.tools[:1]), replace(part, parameters=replace(part.parameters)))
-    assert all(derive(other, before).blocks[0] is not before.blocks[0] for other in others)
-
-
-def test_a_block_that_moved_to_another_place_has_its_own_number():
+def test_every_block_has_its_place_in_the_program_as_its_number():
     first, second = block(NOTCH, CutterComp.LEFT), block(OUTSIDE_SQUARE, CutterComp.RIGHT)
-    before = derive(program(first, second))
-    after = derive(replace(before.program, blocks=(second, first)), before)
-    assert [found.number for found in after.blocks] == [1, 2]
-    assert after.blocks[0].solved.closed
+    derived = derive(program(second, first))
+    assert [found.number for found in derived.blocks] == [1, 2]
+    assert derived.blocks[0].solved.closed
+    alone, together = derive_block(derived.program, 2), derived.block(2)
+    assert alone.work.center.points.tolist() == together.work.center.points.tolist()
 
 
 def test_an_outline_knows_the_look_ahead_but_no_path():
@@ -152,7 +140,7 @@ def test_a_roughing_pass_that_does_not_leave_its_stock_is_told_by_what_it_leaves
     assert told.severity is Severity.WARNING
     assert told.segment == 4
     assert told.value / IN == pytest.approx(0.03)
-    assert sentence(told, Unit.IN).startswith("The roughing pass that leaves 0.3000 leaves only 0.0300 at X 0.0000")
+    assert sentence(told, Unit.IN).startswith("Roughing that should leave 0.3000 leaves only 0.0300 at X 0.0000")
     assert found.work.verdict.clean
 
 
@@ -238,7 +226,7 @@ def test_the_best_path_of_a_dumbbell_is_two_loops_judged_together():
 
 def test_the_form_says_what_the_best_path_cuts_more():
     """From three on the look-ahead erases most of the over-run square; its true offset runs all round."""
-    (found,) = compared(derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT, lookahead=Entry(4))))).blocks
+    (found,) = with_better_paths(derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT, lookahead=Entry(4))))).blocks
     (more,) = [finding for finding in found.findings if finding.code == "BEST_DIFFERS"]
     assert more.value > 8 * IN
 
@@ -246,7 +234,7 @@ def test_the_form_says_what_the_best_path_cuts_more():
 def test_where_the_control_path_is_clean_and_complete_the_best_path_is_the_same():
     part = program(block(MID_SIDE_SQUARE, CutterComp.LEFT))
     control = derive(part).blocks[0]
-    assert better(control) == ()
+    assert better_path(control) == ()
     found = best(MID_SIDE_SQUARE, CutterComp.LEFT)
     np.testing.assert_allclose(found.work.center.points, control.work.center.points, atol=1e-9)
 

@@ -4,11 +4,10 @@ from itertools import pairwise
 import pytest
 
 from core.pipeline.derive import derive
-from core.pipeline.document import path_document, table_document
-from core.pipeline.jobs import job, jobs
-from core.pipeline.listing import path_listing, table_listing, verdict_listing
+from core.pipeline.document import path_document, path_listing, table_document, table_listing, verdict_listing
+from core.pipeline.jobs import jobs
+from core.pipeline.lookahead_table import look_ahead_table
 from core.pipeline.plot import block_scene, svg_of
-from core.pipeline.table import look_ahead_table
 from core.program.model import CutterComp, Entry, Parameters
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
@@ -127,4 +126,3 @@ def test_the_posted_header_tells_what_is_deleted_and_what_stays():
     (noted,) = jobs(derived)
     assert noted.notes[0] == "DELETED BY THE LOOK-AHEAD: SEGMENTS 2, 3, 4"
     assert noted.notes[1].startswith("UNCUT 0.9")
-    assert job(derived.blocks[0], derived.program, noted=False).notes == ()

@@ -9,14 +9,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core.advice.remedies import STEP, largest_tool, started
+from core.advice.trials import Trial, table_of
+from core.advice.why_not_clean import MAX_NAMED, Needs, needs_of
 from core.comp.lookahead import calculated
 from core.finding import Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from core.pipeline.derive import derive
-from core.pipeline.needs import NAMED_AT_MOST, Needs, needs, needs_of
-from core.pipeline.remedies import STEP, largest_tool, started
-from core.pipeline.table import Trial, table_of
+from core.pipeline.lookahead_table import needs
 from core.program.model import CutterComp
 from core.units import Unit, sentence
 from tests.bench.families import gear
@@ -36,7 +37,9 @@ def trial(contour: Path, side: Side, radius: float = 0.25, *, closed: bool, blen
 
 
 def of(asked: Trial) -> Needs:
-    return needs_of(asked, calculated(len(asked.surface), closed=asked.closed), table_of(asked))
+    found = needs_of(asked, calculated(len(asked.surface), closed=asked.closed), table_of(asked))
+    assert found is not None
+    return found
 
 
 def codes(found: Needs) -> list[str]:
@@ -59,13 +62,13 @@ def test_without_compensation_nothing_is_known():
     assert needs(derive(part).blocks[0], part) is None
 
 
-def test_the_notch_is_told_what_its_look_ahead_has_to_reach():
+def test_the_notch_is_told_the_look_ahead_that_is_clean():
     part = program(block(NOTCH, CutterComp.LEFT))
     found = needs(derive(part).blocks[0], part)
     assert found is not None
     assert codes(found) == ["CAL_NOT_CLEAN"]
-    assert "corner after segment 1 and the corner after segment 4 cross, 3 apart" in said(found)
-    assert "has to reach 3" in said(found)
+    assert said(found) == "CAL 2 gouges. Type look-ahead 3: clean."
+    assert found.sentences[0].at is not None
     assert found.tool is None
     assert found.start is None
 
@@ -74,7 +77,7 @@ def test_an_inside_square_is_to_be_started_mid_side():
     asked = trial(SQUARE, Side.LEFT, closed=True)
     found = of(asked)
     assert codes(found) == ["CAL_NOT_CLEAN", "START_MID_SIDE"]
-    assert "first and last segments are never tested" in said(found)
+    assert "START is in an inside corner, where no look-ahead helps." in said(found)
     assert found.start is not None
     assert (found.start.segment, found.start.at) == (1, (1.0, 0.0))
     assert table_of(replace(asked, surface=started(SQUARE, 0))).row(found.start.value).clean
@@ -121,9 +124,9 @@ def test_an_inside_radius_smaller_than_the_tool_is_named():
         [Line((3, 0), (0.2, 0)), Arc((0.2, 0), (0.2, 0.4), (0.2, 0.2), Turn.CW), Line((0.2, 0.4), (3, 0.4))]
     )
     found = of(trial(groove, Side.RIGHT, closed=False))
-    assert [one.segment for one in found.small] == [2]
-    assert found.small[0].value == pytest.approx(0.2)
-    assert "The inside radius 0.200 of segment 2 is smaller than the tool's 0.250." in said(found)
+    assert [one.segment for one in found.too_small] == [2]
+    assert found.too_small[0].value == pytest.approx(0.2)
+    assert "Inside radius 0.200 of segment 2 is too small for tool radius 0.250." in said(found)
     assert found.tool is not None
     assert found.tool.diameter == pytest.approx(0.4, abs=1.5 * STEP)
 
@@ -151,7 +154,7 @@ def test_a_star_needs_a_smaller_tool_and_another_start():
 def test_blend_moves_that_alone_gouge():
     channel = lines((0, 0), (2, 0), (2, 0.6), (-2, 0.6))
     found = of(trial(channel, Side.LEFT, closed=False, blend=0.5))
-    assert found.blendless == 1
+    assert found.lookahead_without_blends == 1
     assert "BLEND OFFSET 0" in said(found)
 
 
@@ -161,9 +164,9 @@ def test_a_tool_that_only_the_blend_moves_keep_out_is_told_with_them_left_out():
     asked = replace(trial(slot, Side.LEFT, 1.5, closed=True, blend=3.0), overlap=3.0)
     found = of(asked)
     assert codes(found)[-1] == "TOOL_BLENDLESS"
-    assert (found.tool, found.start, found.bare_start) == (None, None, None)
-    assert found.bare_tool is not None
-    assert found.bare_tool.diameter == pytest.approx(2.5)
+    assert (found.tool, found.start, found.start_without_blends) == (None, None, None)
+    assert found.tool_without_blends is not None
+    assert found.tool_without_blends.diameter == pytest.approx(2.5)
     text = "A tool of 2.500 diameter fits without blend moves (BLEND OFFSET 0): look-ahead 1 is then clean."
     assert sentence(found.sentences[-1], Unit.MM) == text
     assert table_of(replace(asked, radius=1.25, blend=0.0)).row(1).clean
@@ -176,13 +179,13 @@ def test_a_tool_with_blend_moves_and_a_larger_one_without_are_both_told():
     found = of(asked)
     assert codes(found)[-2:] == ["TOOL_FITS", "TOOL_BLENDLESS"]
     assert found.tool is not None
-    assert found.bare_tool is not None
+    assert found.tool_without_blends is not None
     assert found.tool.diameter < 45.0
-    assert found.bare_tool.diameter == pytest.approx(50.0, abs=2 * STEP)
+    assert found.tool_without_blends.diameter == pytest.approx(50.0, abs=2 * STEP)
     words = "diameter fits without blend moves (BLEND OFFSET 0) when the contour is started in the middle of segment 1:"
     assert words in said(found)
-    small = replace(asked, surface=started(square, 0), radius=found.bare_tool.diameter / 2)
-    assert table_of(replace(small, blend=0.0)).row(found.bare_tool.value).clean
+    small = replace(asked, surface=started(square, 0), radius=found.tool_without_blends.diameter / 2)
+    assert table_of(replace(small, blend=0.0)).row(found.tool_without_blends.value).clean
     assert table_of(small).recommended is None
 
 
@@ -203,7 +206,7 @@ def test_another_start_without_blend_moves_keeps_the_tool():
 def test_a_tool_hardly_larger_without_blend_moves_is_not_told_of(blend):
     found = of(trial(SLOT, Side.LEFT, closed=False, blend=blend))
     assert codes(found)[-1] == "TOOL_FITS"
-    assert found.bare_tool is None
+    assert found.tool_without_blends is None
 
 
 def test_where_nothing_helps_it_says_so():
@@ -213,21 +216,20 @@ def test_where_nothing_helps_it_says_so():
     (x, y), heading = loop[-1], angles[-1] + pi / 2
     found = of(trial(lines((-3, 0), *loop, (x + cos(heading), y + sin(heading))), Side.LEFT, 0.02, closed=False))
     assert codes(found)[0] == "CAL_NOT_CLEAN"
-    assert "no look-ahead reaches" in said(found)
+    assert "No look-ahead is clean." in said(found)
     assert codes(found)[-1] == "NOTHING_HELPS"
-    assert "No smaller tool was found to help" in said(found)
-    assert "start in the middle" not in said(found)
+    assert "No value or tool helps. Check the contour's numbers." in said(found)
 
 
 def test_a_mistyped_start_of_a_closed_contour_is_told():
     """One number of START is wrong: the first line comes from beyond the last one, and no tool is small enough."""
     found = of(trial(lines((0, 1), (2, 0), (2, 2), (0, 2), (0, 0)), Side.RIGHT, closed=False))
     assert codes(found)[-1] == "START_AT_END"
-    assert found.shut is not None
-    assert found.shut.at == (0.0, 0.0)
+    assert found.start_at_end is not None
+    assert found.start_at_end.at == (0.0, 0.0)
     assert found.sentences[-1].segment == 0
     assert "START may be mistyped: at X 0.000 Y 0.000, where the contour ends, it would be closed" in said(found)
-    assert table_of(trial(SQUARE, Side.RIGHT, closed=True)).row(found.shut.value).clean
+    assert table_of(trial(SQUARE, Side.RIGHT, closed=True)).row(found.start_at_end.value).clean
 
 
 @pytest.mark.parametrize("first", [(0.5, 1), (0, 1)])
@@ -235,7 +237,7 @@ def test_another_start_is_told_only_where_one_number_of_it_is_wrong_and_it_helps
     """Both numbers differ; or the start is an inside corner there as well."""
     side = Side.LEFT if first == (0, 1) else Side.RIGHT
     found = of(trial(lines(first, (2, 0), (2, 2), (0, 2), (0, 0)), side, closed=False))
-    assert found.shut is None
+    assert found.start_at_end is None
     assert "START_AT_END" not in codes(found)
 
 
@@ -259,9 +261,9 @@ def test_many_places_are_counted():
     work = gear(50)
     found = of(trial(work.contour, work.side, 6.0, closed=True))
     named = [one for one in found.sentences if one.code == "TOO_SMALL"]
-    assert len(found.small) > NAMED_AT_MOST
-    assert len(named) == NAMED_AT_MOST + 1
-    assert f"There are {len(found.small)} such places." in named[-1].text
+    assert len(found.too_small) > MAX_NAMED
+    assert len(named) == MAX_NAMED + 1
+    assert f"There are {len(found.too_small)} such places." in named[-1].text
 
 
 @settings(max_examples=40, deadline=None, derandomize=True)
@@ -272,16 +274,16 @@ def test_every_remedy_holds(contour, side, radius, closed, blend):
     )
     found = of(asked)
     assert all(one.severity is not Severity.ERROR for one in found.sentences)
-    for start, how in ((found.start, asked), (found.bare_start, replace(asked, blend=0.0))):
+    for start, how in ((found.start, asked), (found.start_without_blends, replace(asked, blend=0.0))):
         if start is not None:
             row = asked.surface.numbers.tolist().index(start.segment)
             assert table_of(replace(how, surface=started(asked.surface, row))).row(start.value).clean
-    for tool, how in ((found.tool, asked), (found.bare_tool, replace(asked, blend=0.0))):
+    for tool, how in ((found.tool, asked), (found.tool_without_blends, replace(asked, blend=0.0))):
         if tool is not None:
             small = replace(how, radius=tool.diameter / 2)
             moved = [small, *(replace(small, surface=started(small.surface, row)) for row in range(len(small.surface)))]
             assert any(table_of(one).row(tool.value).clean for one in (moved if closed else moved[:1]))
-    if found.blendless is not None:
-        assert table_of(replace(asked, blend=0.0)).row(found.blendless).clean
-    if found.tool is not None and found.bare_tool is not None:
-        assert found.bare_tool.diameter > found.tool.diameter
+    if found.lookahead_without_blends is not None:
+        assert table_of(replace(asked, blend=0.0)).row(found.lookahead_without_blends).clean
+    if found.tool is not None and found.tool_without_blends is not None:
+        assert found.tool_without_blends.diameter > found.tool.diameter

@@ -17,13 +17,13 @@ from core.controls.write.programmed_contour import Travel
 from core.geometry.distance import distance
 from core.geometry.path import Path as Line
 from core.geometry.piece_arrays import at, measured
+from core.output.nc import Posted, Refusal
 from core.output.passes import passes
-from core.output.post import Posted, Refusal
-from core.pipeline import own
+from core.pipeline import post
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
 from core.pipeline.jobs import jobs
-from core.pipeline.own import post_for
+from core.pipeline.post import post_control_program
 from core.program.model import (
     ArcSegment,
     Block,
@@ -50,7 +50,7 @@ def derived(*blocks: Block, parameters: Parameters = BLENDS) -> Derived:
 
 
 def posted(found: Derived, control: str) -> Posted:
-    result = post_for(found, name="PART", control=control)
+    result = post_control_program(found, name="PART", control=control)
     assert isinstance(result, Posted), result
     return result
 
@@ -85,7 +85,7 @@ def runs_of(text: str, control: str, tools: ToolTable, unit: Unit) -> list[Line]
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_every_example_reads_back_or_says_why_not(example: Path, control: str) -> None:
     found = derive(load(example))
-    result = post_for(found, name=example.stem, control=control)
+    result = post_control_program(found, name=example.stem, control=control)
     if isinstance(result, Refusal):
         assert example.stem in ("notch", "overrun-square", "pocket")
         assert all(finding.segment is not None for finding in result.findings)
@@ -101,7 +101,7 @@ def test_every_example_reads_back_or_says_why_not(example: Path, control: str) -
 
 def test_a_refusal_names_the_rule_the_line_and_the_segment() -> None:
     inside = derived(block(MID_SIDE_SQUARE, CutterComp.LEFT))
-    result = post_for(inside, name="PART", control="rosettacnc:nist")
+    result = post_control_program(inside, name="PART", control="rosettacnc:nist")
     assert isinstance(result, Refusal)
     assert result.text.startswith("Segment 2: rosettacnc:nist stops at line")
     assert "rule C6" in result.text
@@ -124,7 +124,7 @@ def test_pecks_are_runs_of_their_own() -> None:
 
 
 def test_nothing_is_posted_against_an_error_whatever_is_said() -> None:
-    result = post_for(derived(block(NOTCH, CutterComp.LEFT)), name="PART", control="threeblock")
+    result = post_control_program(derived(block(NOTCH, CutterComp.LEFT)), name="PART", control="threeblock")
     assert isinstance(result, Refusal)
     assert "GOUGE" in {finding.code for finding in result.findings}
 
@@ -133,7 +133,7 @@ def test_heights_under_compensation_and_best_are_refused() -> None:
     best = derived(SQUARE, parameters=replace(BLENDS, path=PathChoice.BEST))
     climbing = replace(SQUARE, segments=(changed(SQUARE.segments[0], {"z_end": Entry(-0.1)}), *SQUARE.segments[1:]))
     for found, word in ((best, "BEST"), (derived(climbing), "Z END")):
-        result = post_for(found, name="PART", control="linuxcnc")
+        result = post_control_program(found, name="PART", control="linuxcnc")
         assert isinstance(result, Refusal)
         assert any(word in finding.text for finding in result.findings), result
 
@@ -213,7 +213,7 @@ def test_an_arc_that_ends_beside_its_start_is_as_long_for_every_control(
 ) -> None:
     """As a full circle it may be read only where it is one; the read-back measures what the control runs."""
     found = derive(circling(sweep, unit, CutterComp.ON, direction))
-    result = post_for(found, name="PART", control=control)
+    result = post_control_program(found, name="PART", control=control)
     assert isinstance(result, Posted), result
     tools = NO_TOOLS if control in ("klartext", "threeblock") else table(found.program, result.text)
     made = run(result.text.encode(), control, tools, unit)
@@ -234,7 +234,7 @@ def test_no_control_is_told_to_compensate_an_arc_that_ends_beside_its_start(
     sweep: float, side: tuple[CutterComp, Direction], unit: Unit, control: str
 ) -> None:
     """What is left of one is a line, or nothing is written."""
-    result = post_for(derive(circling(sweep, unit, *side)), name="PART", control=control)
+    result = post_control_program(derive(circling(sweep, unit, *side)), name="PART", control=control)
     if isinstance(result, Posted):
         assert re.search(r"G0?[23][XYIJ ]| C [XY]", result.text) is None
 
@@ -246,10 +246,10 @@ def test_an_arc_that_a_control_runs_as_a_full_circle_is_not_handed_out(
 ) -> None:
     """Whoever writes it: what is read back is measured."""
     monkeypatch.setattr(
-        own, "_travels", lambda motions: [Travel(m.x, m.y, m.z, m.feed, int(m.turn), m.center) for m in motions]
+        post, "_travels", lambda motions: [Travel(m.x, m.y, m.z, m.feed, int(m.turn), m.center) for m in motions]
     )
     found = derive(circling(0.001, unit, CutterComp.ON, Direction.CW))
-    result = post_for(found, name="PART", control=control)
+    result = post_control_program(found, name="PART", control=control)
     assert isinstance(result, Refusal)
     assert f"{control} ends line" in result.text
 

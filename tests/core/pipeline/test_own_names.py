@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from core.controls.registry import names
-from core.output.post import Posted
+from core.output.nc import Posted
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
-from core.pipeline.own import post_for
+from core.pipeline.post import post_control_program
 from core.program.model import CutterComp, Entry, Parameters
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, block, program
 
@@ -19,7 +19,7 @@ SQUARE = replace(block(MID_SIDE_SQUARE, CutterComp.RIGHT), peck_depth=Entry(0.1)
 
 
 def posted(found: Derived, control: str) -> Posted:
-    result = post_for(found, name="PART", control=control)
+    result = post_control_program(found, name="PART", control=control)
     assert isinstance(result, Posted), result
     return result
 
@@ -46,7 +46,7 @@ def test_the_part_name_stands_at_the_head_of_every_controls_program(control: str
 
 
 def test_a_name_that_no_control_takes_is_changed() -> None:
-    result = post_for(derive(program(SQUARE, parameters=BLENDS)), name="Teil 7 ;) ö", control="klartext")
+    result = post_control_program(derive(program(SQUARE, parameters=BLENDS)), name="Teil 7 ;) ö", control="klartext")
     assert isinstance(result, Posted)
     assert result.text.startswith("0 BEGIN PGM Teil-7----- INCH\n")
     assert result.text.isascii()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.documents.files import load
 from core.pipeline.derive import derive
 from core.pipeline.outline import outline
-from core.pipeline.sheets import sheet_page, sheet_text
+from core.pipeline.setup_sheet import sheet_page, sheet_text
 from core.program.edit import new_block
 from core.program.model import Program
 from tests.core.program.test_examples import EXAMPLES

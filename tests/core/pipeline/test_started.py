@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core.advice.remedies import middle, started
 from core.geometry.piece import Arc, Turn
-from core.pipeline.remedies import middle, started
 from tests.core.comp.contours import mixed, shut
 
 

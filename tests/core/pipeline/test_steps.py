@@ -76,7 +76,7 @@ def test_a_blend_arc_that_begins_and_ends_beyond_a_wall_is_named(offset):
     told = [sentence(one, Unit.IN) for one in found.findings if one.code == "BLEND_LEAVES"]
     far = [f"{place:.4f}" for place in (1 - offset, 1 + offset, 0.25 + offset)]
     expected = [
-        f"The blend-in arc, which begins at X {far[0]} Y {far[2]}, runs beyond a wall: make BLEND OFFSET smaller.",
-        f"The blend-out arc, which ends at X {far[1]} Y {far[2]}, runs beyond a wall: make BLEND OFFSET smaller.",
+        f"Blend-in crosses a wall, from X {far[0]} Y {far[2]}. Make BLEND OFFSET smaller.",
+        f"Blend-out crosses a wall, to X {far[1]} Y {far[2]}. Make BLEND OFFSET smaller.",
     ]
     assert told == (expected if offset > 1.0 else [])

@@ -6,7 +6,7 @@ from core.comp.advise import recommended
 from core.output.passes import meets_solid
 from core.pipeline.derive import derive
 from core.pipeline.jobs import job
-from core.pipeline.table import look_ahead_table
+from core.pipeline.lookahead_table import look_ahead_table
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Entry, Parameters, PathChoice, Tool
 from core.units import Unit
@@ -59,26 +59,6 @@ def test_every_value_is_judged_by_its_own_path(points, choice):
     rows = look_ahead_table(found, part).rows
     for row in rows:
         assert told(row.verdict) == told(judge(found.work.surface, found.side, found.radius, row.compensated.whole))
-    if choice is PathChoice.CONTROL:
-        assert rows[found.lookahead.value - 1].verdict is found.work.verdict
-
-
-def test_a_large_contour_that_keeps_nothing_for_the_table_gets_the_same_table(monkeypatch):
-    part = program(block(NOTCH, CutterComp.RIGHT))
-    kept = table_and_work(part)
-    monkeypatch.setattr("core.pipeline.compensation.SHARED", 0)
-    found = table_and_work(part)
-    assert kept[1].crossed is not None
-    assert found[1].crossed is None
-    assert found[0].row(found[1].compensated.lookahead).verdict is found[1].verdict
-    for one, other in zip(found[0].rows, kept[0].rows, strict=True):
-        assert told(one.verdict) == told(other.verdict)
-        assert one.compensated.whole.points.tolist() == other.compensated.whole.points.tolist()
-
-
-def table_and_work(part):
-    (found,) = derive(part).blocks
-    return look_ahead_table(found, part), found.work
 
 
 class Fate:
@@ -115,7 +95,7 @@ def test_segments_that_only_roughing_deletes_are_told():
     part = replace(program(typed, parameters=parameters), unit=Unit.MM, tools=tools)
     (found,) = derive(part).blocks
     (told,) = [finding for finding in found.findings if finding.code == "ROUGH_DELETES"]
-    assert told.text.endswith("deletes segments 2, 3, 4: the next one meets solid there.")
+    assert told.text.endswith("skips segments 2, 3, 4. The next pass meets solid there.")
     assert meets_solid(job(found, part)) == {2, 3, 4}
 
 

@@ -6,11 +6,11 @@ from math import cos, radians, sin
 
 import pytest
 
+from core.advice.path_findings import turning_back
 from core.finding import Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Turn
 from core.pipeline.derive import derive
-from core.pipeline.turns import turning_back
 from core.program.model import CutterComp
 from core.units import Unit, sentence
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, OUTSIDE_SQUARE, OVER_RUN_SQUARE, block, program

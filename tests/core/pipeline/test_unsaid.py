@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from core.finding import Severity
-from core.pipeline.derive import stocks
 from core.pipeline.outline import outline
+from core.pipeline.parameters import stocks
 from core.program.model import ArcSegment, CutterComp, Entry, LineSegment, Parameters, Unread, changed
 from core.units import Unit, sentence
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, block, program

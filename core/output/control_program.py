@@ -9,16 +9,14 @@ from core.controls.write.iso_style import STYLES, Radius
 from core.controls.write.own_program import NotWritten, write_own
 from core.controls.write.programmed_contour import Cut, Plain
 from core.finding import Finding, Severity
-from core.output.comment import comments
-from core.output.grid import Grid
-from core.output.heights import level_floor
-from core.output.job import Job
-from core.output.post import Posted, Refusal, titles
-from core.output.ready import forbidding
-from core.units import Kind, Unit, from_mm, printable, sentence, show
+from core.output.grid import Grid, length_text
+from core.output.nc import Posted, Refusal, comments, titles
+from core.output.objections import forbidding
+from core.output.passes import Job, level_floor
+from core.units import Unit, printable, sentence
 
 
-def objections(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ...]:
+def control_program_errors(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ...]:
     """What forbids posting at all, and what a control's own compensation cannot be told.
 
     Nothing can be overridden here: the path that is cut is the control's, and nobody has judged it for that.
@@ -36,14 +34,14 @@ def objections(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ...]:
     return tuple(dict.fromkeys(found))
 
 
-def post_own(
+def control_program(
     jobs: Sequence[Job], cuts: Sequence[Cut | Plain], unit: Unit, *, name: str, control: str, part: str = ""
 ) -> Posted | Refusal:
     """The program of a control by its full name, or why there is none; `cuts` are those of the jobs, in order.
 
     `name` is the program's name, `part` the PART NAME.
     """
-    against = objections(jobs, unit)
+    against = control_program_errors(jobs, unit)
     if against:
         return Refusal(against, unit)
 
@@ -95,7 +93,7 @@ def _told(
     yield from dict.fromkeys(_tool(cut, unit, control) for cut in cuts)
     yield from _radii(cuts, unit, control)
     for job in jobs:
-        depth = f"Z {_length(job.z_start, unit)} TO {_length(job.z_bottom, unit)}"
+        depth = f"Z {length_text(job.z_start, unit)} TO {length_text(job.z_bottom, unit)}"
         yield f"BLOCK {job.block} MILL CONTOUR CUTTER COMP. {job.comp} {depth}"
     for note in (*_beside(jobs, control), *notes):
         where = "" if note.segment is None else f"SEGMENT {note.segment:g}: "
@@ -104,7 +102,7 @@ def _told(
 
 def _tool(cut: Cut | Plain, unit: Unit, control: str) -> str:
     own = "" if control == "klartext" else ": THE CONTROL'S TABLE MUST SAY THE SAME"
-    return f"TOOL {cut.tool} DIAMETER {_length(cut.diameter, unit)}{own}"
+    return f"TOOL {cut.tool} DIAMETER {length_text(cut.diameter, unit)}{own}"
 
 
 def _radii(cuts: Sequence[Cut | Plain], unit: Unit, control: str) -> Iterator[str]:
@@ -115,9 +113,5 @@ def _radii(cuts: Sequence[Cut | Plain], unit: Unit, control: str) -> Iterator[st
     sizes = {(cut.tool, cut.stock): cut.diameter / 2 + cut.stock for cut in cuts if isinstance(cut, Cut)}
     numbers = offsets(cuts, style)
     for key, number in ((key, numbers[key]) for key in sizes):
-        stock = f", LEAVES {_length(key[1], unit)}" if key[1] else ""
-        yield f"OFFSET D{number} RADIUS {_length(sizes[key], unit)} OF TOOL {key[0]}{stock}"
-
-
-def _length(value: float, unit: Unit) -> str:
-    return show(from_mm(value, unit), Kind.LENGTH, unit)
+        stock = f", LEAVES {length_text(key[1], unit)}" if key[1] else ""
+        yield f"OFFSET D{number} RADIUS {length_text(sizes[key], unit)} OF TOOL {key[0]}{stock}"

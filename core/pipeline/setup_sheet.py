@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from core.output.sheet import About, Sheet, sheet
-from core.output.sheet_page import as_page
-from core.output.sheet_text import as_text
+from core.output.sheet import About, Sheet, as_page, as_text, sheet
 from core.output.svg import svg
 from core.pipeline.derived import Derived
 from core.pipeline.jobs import jobs

@@ -1,4 +1,4 @@
-"""What a block leaves blank or says in vain, where what comes of it is not what the operator may expect."""
+"""Field findings: fields left blank, without effect, or at heights where the tool meets the part.  Needs no numpy."""
 
 from __future__ import annotations
 
@@ -7,30 +7,69 @@ from typing import Final
 
 from core.finding import Finding, Severity
 from core.program.fields import Form, check, default, field
-from core.program.model import Block, CutterComp, Entry, Program, Unread
+from core.program.model import Block, CutterComp, Entry, Program, Typed, Unread
 from core.program.solve.solved import SolvedBlock
-from core.tolerance import LAST_PASS, ON_PATH
+from core.tolerance import JOINED, LAST_PASS, ON_PATH
 from core.units import Kind, from_mm, show, to_mm
 
 SHOWN: Final = 0.01
 """A field shows a length above this, in millimeters, as something else than 0 in any unit."""
 
 
-def unsaid_findings(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
-    """A contour of one segment as information, one without any length as an error; the rest are warnings.
-
-    A contour that is milled with PLUNGE FEED, allowances that no finish tool takes, clearances of nothing, and a
-    PROFILE that makes one pass.
-    """
-    yield from _plunge_fed(block, solved, program)
-    yield from _not_left(block, program)
+def field_findings(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
+    """What the operator may not expect of the fields of a block and of the program's parameters and setup."""
+    yield from _z_ends(solved)
+    yield from _safe_z(solved, program)
+    yield from _blank_feeds(block, solved, program)
+    yield from _allowances_without_finish_tool(block, program)
     yield from _no_clearance(solved, program)
     yield from _one_pass(block, solved, program)
     yield from _one_segment(solved)
     yield from _no_length(solved)
 
 
-def _plunge_fed(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
+def typed_lookahead_warning(value: int, calculated: int) -> Finding:
+    """That a typed look-ahead is in force instead of the calculated one."""
+    text = f"USR {value} in force, CAL is {calculated}. F3 goes back to CAL."
+    return Finding("USR_LOOKAHEAD", Severity.WARNING, text, field="lookahead")
+
+
+def _z_ends(solved: SolvedBlock) -> Iterator[Finding]:
+    """Typed Z ENDs that are not between Z START and Z BOTTOM: no pass goes deeper, and rapid moves run above."""
+    if solved.z_start is None or solved.z_bottom is None:
+        return
+    top, bottom = solved.z_start, solved.z_bottom
+    for segment in solved.segments:
+        height = segment.z_end
+        if bottom - JOINED <= height <= top + JOINED or not isinstance(segment.values.get("z_end"), Entry):
+            continue
+        if height > top + JOINED:
+            text = "Z END {value} is above Z START {0}, in the way of rapids. Type {1} to {0}."
+            lengths = (top, bottom)
+        else:
+            text = "Z END {value} is below Z BOTTOM {0}: no pass goes so deep. Type {0} to {1}."
+            lengths = (bottom, top)
+        number = float(segment.number)
+        yield Finding("Z_END", Severity.ERROR, text, number, "z_end", value=height, lengths=lengths)
+
+
+def _safe_z(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
+    """SAFE Z below the clearance over Z START, which posting raises: a warning if typed, else information."""
+    typed = program.setup.safe_z
+    safe = _length(typed, Form.SETUP, "safe_z", program)
+    clearance = _parameter("retract_clearance", program)
+    if safe is None or clearance is None or solved.z_start is None:
+        return
+    clear = solved.z_start + clearance
+    if safe >= clear - JOINED:
+        return
+    text = "SAFE Z {value} is below Z {0}, RETRACT CLEARANCE {1} over Z START {2}: the tool moves at Z {0} instead. "
+    severity = Severity.INFO if typed is None else Severity.WARNING
+    lengths = (clear, clearance, solved.z_start)
+    yield Finding("SAFE_Z", severity, f"{text}Enter SAFE Z on PART SETUP.", field="safe_z", value=safe, lengths=lengths)
+
+
+def _blank_feeds(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
     """The segments from the first on whose FEED is blank; not told before the first one is determined."""
     if not solved.determined or solved.plunge_feed is None:
         return
@@ -44,7 +83,7 @@ def _plunge_fed(block: Block, solved: SolvedBlock, program: Program) -> Iterator
     yield Finding("PLUNGE_FED", Severity.WARNING, text, 1, "feed")
 
 
-def _not_left(block: Block, program: Program) -> Iterator[Finding]:
+def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[Finding]:
     """FINISH XY and FINISH Z while there is no finish tool."""
     tool = block.finish_tool
     if isinstance(tool, Unread) or (tool is not None and tool.value != 0.0):
@@ -57,19 +96,6 @@ def _not_left(block: Block, program: Program) -> Iterator[Finding]:
         text = f"{label} {{value}} is not left: FINISH TOOL is 0. Enter FINISH TOOL on START, or 0 in {label} "
         value = to_mm(typed.value, program.unit)
         yield Finding("NOT_LEFT", Severity.WARNING, text + "on PROGRAM PARAMETERS.", 0, "finish_tool", value=value)
-
-
-def _parameter(name: str, program: Program) -> float | None:
-    """A length of PROGRAM PARAMETERS in millimeters, or its default; None for one that is refused."""
-    typed = getattr(program.parameters, name)
-    if isinstance(typed, Unread):
-        return None
-    if typed is None:
-        usual = default(name, program.unit)
-        return None if usual is None else to_mm(usual, program.unit)
-    if check(field(Form.PARAMETERS, name), typed.value, program.unit):
-        return None
-    return to_mm(typed.value, program.unit)
 
 
 def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
@@ -128,3 +154,18 @@ def _no_length(solved: SolvedBlock) -> Iterator[Finding]:
         return
     text = "No segment has a length: the contour is a point, and there is no path. Correct X END or Y END."
     yield Finding("NO_LENGTH", Severity.ERROR, text, 1, "x_end", solved.segments[0].end)
+
+
+def _parameter(name: str, program: Program) -> float | None:
+    """A length of PROGRAM PARAMETERS or its default in millimeters; None for one that is refused."""
+    return _length(getattr(program.parameters, name), Form.PARAMETERS, name, program)
+
+
+def _length(typed: Typed, form: Form, name: str, program: Program) -> float | None:
+    """A length or its default in millimeters; None for one that is refused."""
+    if typed is None:
+        usual = default(name, program.unit)
+        return None if usual is None else to_mm(usual, program.unit)
+    if not isinstance(typed, Entry) or check(field(form, name), typed.value, program.unit):
+        return None
+    return to_mm(typed.value, program.unit)

@@ -1,4 +1,4 @@
-"""A derived program posted for a control that compensates by itself."""
+"""Post: a derived program as NC text, of the tool's center or for a control that compensates by itself."""
 
 from __future__ import annotations
 
@@ -10,28 +10,33 @@ from core.controls.write.programmed_contour import Cut, Plain, Travel
 from core.finding import Finding, Severity
 from core.geometry.construct import rotated
 from core.geometry.piece import Arc
-from core.output.job import Job
-from core.output.motion import Motion, Pass
-from core.output.own import objections, post_own
-from core.output.passes import passes
-from core.output.post import Posted, Refusal
+from core.output.control_program import control_program, control_program_errors
+from core.output.nc import Posted, Refusal, center_path_program
+from core.output.passes import Job, Motion, Pass, passes
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.jobs import jobs
 from core.program.model import PathChoice
 from core.tolerance import CLOSED
 
 
-def post_for(derived: Derived, *, name: str, control: str) -> Posted | Refusal:
+def post_center_path(derived: Derived, *, name: str, override: str | None = None) -> Posted | Refusal:
+    """The NC text of the tool center's path, or why there is none; `override` as in `center_path_program`."""
+    program = derived.program
+    return center_path_program(jobs(derived), program.unit, name=name, part=program.setup.name, override=override)
+
+
+def post_control_program(derived: Derived, *, name: str, control: str) -> Posted | Refusal:
     """The program of a control by its full name, as the registry has it, or why there is none."""
     unit, every = derived.program.unit, jobs(derived)
-    against = (*objections(every, unit), *(_best(derived) if any(job.comp != "ON" for job in every) else ()))
+    best = _best_path_refused(derived) if any(job.comp != "ON" for job in every) else ()
+    against = (*control_program_errors(every, unit), *best)
     if against:
         return Refusal(against, unit)
-    cuts = [cut for found, job in zip(derived.blocks, every, strict=True) for cut in _cuts(found, job)]
-    return post_own(every, cuts, unit, name=name, control=control, part=derived.program.setup.name)
+    cuts = [cut for block, job in zip(derived.blocks, every, strict=True) for cut in _cuts(block, job)]
+    return control_program(every, cuts, unit, name=name, control=control, part=derived.program.setup.name)
 
 
-def _best(derived: Derived) -> tuple[Finding, ...]:
+def _best_path_refused(derived: Derived) -> tuple[Finding, ...]:
     """The best path is a path of the tool's center: no control makes it of a contour."""
     if derived.program.parameters.path is not PathChoice.BEST:
         return ()
@@ -39,11 +44,11 @@ def _best(derived: Derived) -> tuple[Finding, ...]:
     return (Finding("NOTWRITTEN", Severity.ERROR, text, field="path"),)
 
 
-def _cuts(found: DerivedBlock, job: Job) -> list[Cut | Plain]:
+def _cuts(block: DerivedBlock, job: Job) -> list[Cut | Plain]:
     if job.comp == "ON":
         return [_plain(one, job) for one in passes(job)]
     feeds = {floor.number: floor.feed or 0.0 for floor in job.floors}
-    return [_cut(one, _run_of(found, job, one), feeds, job) for one in passes(job)]
+    return [_cut(one, _compensated(block, job, one), feeds, job) for one in passes(job)]
 
 
 def _plain(one: Pass, job: Job) -> Plain:
@@ -70,22 +75,22 @@ def _travels(motions: Sequence[Motion]) -> Iterator[Travel]:
     The digits of most controls cannot tell such an end from the start.
     """
     before = motions[0]
-    for each in motions:
-        start, end = (before.x, before.y), (each.x, each.y)
-        turn, center, z = int(each.turn), each.center, (before.z + each.z) / 2
+    for motion in motions:
+        start, end = (before.x, before.y), (motion.x, motion.y)
+        turn, center, z = int(motion.turn), motion.center, (before.z + motion.z) / 2
         if turn and start != end and max(abs(end[0] - start[0]), abs(end[1] - start[1])) <= CLOSED:
-            sweep = Arc(start, end, center, each.turn).sweep
+            sweep = Arc(start, end, center, motion.turn).sweep
             if abs(sweep) < pi:
                 turn = 0
             else:
-                yield Travel(*rotated(start, center, sweep / 2), z, each.feed, turn, center)
-        yield Travel(*end, each.z, each.feed, turn, center)
-        before = each
+                yield Travel(*rotated(start, center, sweep / 2), z, motion.feed, turn, center)
+        yield Travel(*end, motion.z, motion.feed, turn, center)
+        before = motion
 
 
-def _run_of(found: DerivedBlock, job: Job, one: Pass) -> Compensated:
+def _compensated(block: DerivedBlock, job: Job, one: Pass) -> Compensated:
     """The compensated run that a pass goes along."""
-    work = found.work
+    work = block.work
     assert work is not None
     assert work.compensated is not None
     if one.finishing or (job.finisher is None and one.stock == 0.0):

@@ -1,4 +1,4 @@
-"""May a job be posted?  The findings that forbid it, and which of them an operator may override in so many words."""
+"""Objections: the findings that forbid posting, and which of them an operator may override in so many words."""
 
 from __future__ import annotations
 
@@ -9,17 +9,20 @@ from typing import Final
 import numpy as np
 
 from core.finding import Finding, Severity
-from core.output.grid import Grid
-from core.output.job import Job, Run
-from core.output.nc import feed_text
-from core.output.override import OVERRIDABLE, OVERRIDE
-from core.output.passes import rough_runs
+from core.output.grid import Grid, feed_text
+from core.output.passes import Job, Run, rough_runs
 from core.tolerance import JOINED, LARGEST
 
-LISTED: Final = 6
+OVERRIDE: Final = "POST WITH GOUGE"
+"""What an operator must say, word for word, to have a path posted that the verdict is against."""
+
+OVERRIDABLE: Final = frozenset({"GOUGE", "BLEND_GOUGES", "ROUGH_GOUGES", "WRONG_SIDE"})
+"""Findings on a path that is whole and known; whatever is unread, missing or undetermined can never be overridden."""
+
+MAX_LISTED: Final = 6
 """Segments named in one sentence."""
 
-MOST_PASSES: Final = 2000
+MAX_PECKS: Final = 2000
 """More depths than this are a slip of the finger in PECK DEPTH."""
 
 
@@ -84,8 +87,8 @@ def _depths(job: Job) -> Iterator[_Check]:
     yield job.retract_clearance <= 0.0, "CLEARANCE", "RETRACT CLEARANCE must be above 0.", "retract_clearance"
     yield job.peck_clearance < 0.0, "CLEARANCE", "PECK CLEARANCE must not be below 0.", "peck_clearance"
     yield job.peck_depth < 0.0, "PECK_DEPTH", "PECK DEPTH must not be below 0.", "peck_depth"
-    many = job.peck_depth > 0.0 and deep > MOST_PASSES * job.peck_depth
-    yield many, "PECK_DEPTH", f"PECK DEPTH makes more than {MOST_PASSES} passes.", "peck_depth"
+    many = job.peck_depth > 0.0 and deep > MAX_PECKS * job.peck_depth
+    yield many, "PECK_DEPTH", f"PECK DEPTH makes more than {MAX_PECKS} passes.", "peck_depth"
 
 
 def _numbers(job: Job) -> Iterator[_Check]:
@@ -117,11 +120,11 @@ def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
         "The roughing tool has no path, so the finish tool would cut solid.",
         "finish_tool",
     )
-    wild = not all(_sane(run) for run in (*job.finish, *job.rough))
+    wild = not all(_reachable(run) for run in (*job.finish, *job.rough))
     yield wild, "COORDINATE", "A point of the path is none a machine could reach.", None
-    yield _still(job.plunge_feed, grid), "PLUNGE_FEED", "PLUNGE FEED must be above 0.", "plunge_feed"
+    yield _stands_still(job.plunge_feed, grid), "PLUNGE_FEED", "PLUNGE FEED must be above 0.", "plunge_feed"
     unfed = sorted(_unfed(job, grid))
-    listed = ", ".join(map(str, unfed[:LISTED])) + (" ..." if len(unfed) > LISTED else "")
+    listed = ", ".join(map(str, unfed[:MAX_LISTED])) + (" ..." if len(unfed) > MAX_LISTED else "")
     yield (
         bool(unfed),
         "FEED",
@@ -130,7 +133,7 @@ def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
     )
 
 
-def _sane(run: Run) -> bool:
+def _reachable(run: Run) -> bool:
     parts = [part for part in (run.lead_in, run.path, run.lead_out) if len(part)]
     if not parts:
         return True
@@ -139,13 +142,15 @@ def _sane(run: Run) -> bool:
     return bool(places.min() >= -LARGEST and places.max() <= LARGEST)
 
 
-def _still(feed: float, grid: Grid) -> bool:
+def _stands_still(feed: float, grid: Grid) -> bool:
     return not isfinite(feed) or feed <= 0.0 or float(feed_text(feed, grid)) == 0.0
 
 
 def _unfed(job: Job, grid: Grid) -> set[int]:
     """Segments that some run cuts without a feed."""
-    moving = {feed for feed in {feed for _, _, feed in job.levels} if feed is not None and not _still(feed, grid)}
+    moving = {
+        feed for feed in {feed for _, _, feed in job.levels} if feed is not None and not _stands_still(feed, grid)
+    }
     fed = {floor.number for floor in job.floors if floor.feed in moving}
     numbers = [run.path.numbers for run in (*job.finish, *job.rough)]
     used = set(np.floor(np.concatenate(numbers)).astype(int).tolist()) if numbers else set()

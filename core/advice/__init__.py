@@ -1,0 +1,1 @@
+"""Advice: what a finding says and what would mend it."""

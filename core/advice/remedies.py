@@ -1,0 +1,195 @@
+"""Remedies for a contour that no look-ahead value cuts clean: each is cut and judged before it is offered.
+
+The number of trials is bounded, so that a remedy that exists may not be found; one that is given is true.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import cos, sin
+from typing import Final
+
+import numpy as np
+
+from core.advice.trials import Trial, table_of
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Piece, Point
+from core.tolerance import CLOSED
+from core.verify.judge import judge
+
+STEP: Final = 0.001
+"""Millimeters to which the largest diameter is found."""
+
+MAX_STARTS: Final = 6
+"""So many of the longest sides are tried as the start."""
+
+MAX_STARTS_WITHOUT_BLENDS: Final = 2
+"""So many of them without blend moves: where the path begins then matters little."""
+
+WORTH: Final = 1.02
+"""A tool that fits without blend moves is offered beside one that fits with them if it is so many times as large."""
+
+FEWEST_CLOSED: Final = 3
+"""Segments with which a contour can come back to where it began."""
+
+USUAL: Final = (8, 3, 1, 20)
+"""Look-aheads tried while a tool is looked for; the one it is then offered with is chosen from all."""
+
+
+@dataclass(frozen=True, slots=True)
+class ToolFits:
+    """A cutter of `diameter` millimeters is clean at look-ahead `value`, one of STEP more is not."""
+
+    diameter: float
+    value: int
+
+
+@dataclass(frozen=True, slots=True)
+class StartMoved:
+    """Started at `at`, the middle of `segment` or its new start, the contour is clean at `value`."""
+
+    segment: float
+    at: Point
+    value: int
+
+
+class Unwanted(Exception):
+    """Nobody waits for the remedies any more."""
+
+
+def always() -> bool:
+    """Somebody waits to the end."""
+    return True
+
+
+def _recommended(trial: Trial, wanted: Callable[[], bool]) -> int | None:
+    """The look-ahead the table recommends for a trial; asks before whether the answer is still wanted."""
+    if not wanted():
+        raise Unwanted
+    return table_of(trial).recommended
+
+
+def without_blends(trial: Trial) -> Trial:
+    """The same with BLEND OFFSET 0; what runs past the start stays."""
+    return replace(trial, blend=0.0)
+
+
+def lookahead_without_blends(trial: Trial, wanted: Callable[[], bool] = always) -> int | None:
+    """The value that is clean when the blend moves are left out."""
+    return _recommended(without_blends(trial), wanted) if trial.blend > 0.0 else None
+
+
+def larger_tool_without_blends(
+    trial: Trial, than: ToolFits | None, hint: float | None = None, wanted: Callable[[], bool] = always
+) -> ToolFits | None:
+    """The largest tool without blend moves, if there are any to leave out and it is worth offering too."""
+    if trial.blend <= 0.0:
+        return None
+    least = 0 if than is None else max(int(_steps(than.diameter) * WORTH), _steps(than.diameter) + 1)
+    return largest_tool(without_blends(trial), hint, wanted, least=least)
+
+
+def largest_tool(
+    trial: Trial, hint: float | None = None, wanted: Callable[[], bool] = always, *, least: int = 0
+) -> ToolFits | None:
+    """The largest clean diameter below the cutter's, a multiple of STEP, rounded down; by halving what is left.
+
+    `hint` is a radius that may be the limit, such as that of the smallest inside arc: it is tried first.  There is none
+    where one of `least` STEPs is not clean.
+    """
+    clean, fails = least, _steps(2.0 * trial.radius)
+    if clean >= fails or (clean and not _clean(trial, clean, wanted)):
+        return None
+    tries = [] if hint is None else [_steps(2.0 * hint), _steps(2.0 * hint) + 1]
+    while fails - clean > 1:
+        size = tries.pop(0) if tries else (clean + fails) // 2
+        if not clean < size < fails:
+            continue
+        if _clean(trial, size, wanted):
+            clean = size
+        else:
+            fails = size
+    value = _recommended(_with_tool(trial, clean), wanted) if clean else None
+    return None if value is None else ToolFits(clean * STEP, value)
+
+
+def _clean(trial: Trial, size: int, wanted: Callable[[], bool]) -> bool:
+    """Whether the finish path of one of the usual look-aheads is clean with a diameter of so many STEPs."""
+    if not wanted():
+        raise Unwanted
+    trial = _with_tool(trial, size)
+    distinct = {id(one.path): one.whole for one in trial.paths(trial.radius, USUAL) if len(one.path)}
+    return any(judge(trial.surface, trial.side, trial.radius, path).clean for path in distinct.values())
+
+
+def _with_tool(trial: Trial, size: int) -> Trial:
+    return replace(trial, radius=size * STEP / 2.0)
+
+
+def _steps(diameter: float) -> int:
+    """Whole steps in a diameter, rounding forgiven."""
+    return int(diameter / STEP + 1e-6)
+
+
+def start_mid_side(
+    trial: Trial, wanted: Callable[[], bool] = always, max_starts: int = MAX_STARTS
+) -> StartMoved | None:
+    """The longest side of a closed contour whose middle is a clean start; `max_starts` of them are tried."""
+    if not trial.closed:
+        return None
+    for row in longest_segments(trial.surface)[:max_starts]:
+        value = _recommended(replace(trial, surface=started(trial.surface, row)), wanted)
+        if value is not None:
+            return StartMoved(float(trial.surface.numbers[row]), middle(trial.surface[row]), value)
+    return None
+
+
+def start_mid_side_without_blends(trial: Trial, wanted: Callable[[], bool] = always) -> StartMoved | None:
+    """The same without blend moves, if there are any to leave out."""
+    if trial.blend <= 0.0:
+        return None
+    return start_mid_side(without_blends(trial), wanted, MAX_STARTS_WITHOUT_BLENDS)
+
+
+def start_at_end(trial: Trial, wanted: Callable[[], bool] = always) -> StartMoved | None:
+    """The end of an open contour, if the contour is clean and closed when START is typed there.
+
+    Only where one number of START is that of the end and the first segment is a line, which is then another one: both
+    may be meant as they are, but one mistyped number is what it takes.
+    """
+    surface = trial.surface
+    gap = np.abs(surface.points[0] - surface.points[-1])
+    if trial.closed or len(surface) < FEWEST_CLOSED or surface.turns[0] or float(gap.min()) > CLOSED:
+        return None
+    points = np.concatenate((surface.points[-1:], surface.points[1:]))
+    centers = np.concatenate((points[:1], surface.centers[1:]))
+    closed = replace(trial, surface=Path.of(points, centers, surface.turns, surface.numbers), closed=True)
+    value = _recommended(closed, wanted)
+    x, y = points[0].tolist()
+    return None if value is None else StartMoved(float(surface.numbers[0]), (x, y), value)
+
+
+def longest_segments(contour: Path) -> list[int]:
+    """The rows of a contour's segments, the longest first."""
+    rows: list[int] = np.argsort(-contour.lengths, kind="stable").tolist()
+    return rows
+
+
+def middle(piece: Piece) -> Point:
+    """The point half way along a piece."""
+    (x0, y0), (x1, y1) = piece.start, piece.end
+    if not isinstance(piece, Arc):
+        return (x0 + x1) / 2.0, (y0 + y1) / 2.0
+    (cx, cy), half = piece.center, piece.sweep / 2.0
+    dx, dy = x0 - cx, y0 - cy
+    return cx + dx * cos(half) - dy * sin(half), cy + dx * sin(half) + dy * cos(half)
+
+
+def started(contour: Path, row: int) -> Path:
+    """A closed contour of n segments started in the middle of segment `row`, from 0: n + 1 segments, numbered anew."""
+    at = np.array([middle(contour[row])])
+    points = np.concatenate((at, contour.points[row + 1 :], contour.points[1 : row + 1], at))
+    turns = np.concatenate((contour.turns[row:], contour.turns[: row + 1]))
+    centers = np.concatenate((contour.centers[row:], contour.centers[: row + 1]))
+    return Path.of(points, np.where(turns[:, None] == 0, points[:-1], centers), turns)

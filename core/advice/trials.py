@@ -1,0 +1,107 @@
+"""Trials: a contour cut at every look-ahead value from 1 to 20, each path judged."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from core.comp.advise import recommended
+from core.comp.compensate import compensate_all
+from core.comp.lookahead import HIGHEST, LOWEST
+from core.comp.result import Compensated
+from core.finding import Finding
+from core.geometry.path import Path
+from core.geometry.piece import Side
+from core.verify.judge import judge
+from core.verify.verdict import Verdict
+
+VALUES = range(LOWEST, HIGHEST + 1)
+"""The look-ahead values an operator may type."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Trial:
+    """A contour and how it is to be cut; lengths in millimeters, `blend` and `overlap` 0 for none.
+
+    `stocks` are what the roughing passes leave, cut by a tool of radius `rougher`, of `radius` without a finish tool.
+    """
+
+    surface: Path
+    side: Side
+    radius: float
+    closed: bool
+    blend: float
+    overlap: float
+    stocks: tuple[float, ...] = ()
+    rougher: float | None = None
+
+    def paths(self, radius: float, lookaheads: tuple[int, ...] | range = VALUES) -> tuple[Compensated, ...]:
+        """The control's path at a radius for each look-ahead; those that are the same share one `path` object."""
+        return compensate_all(
+            self.surface, self.side, radius, lookaheads, closed=self.closed, blend=self.blend, overlap=self.overlap
+        )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Row:
+    """One look-ahead value: the path it makes and what that path does; lengths in millimeters."""
+
+    value: int
+    compensated: Compensated
+    verdict: Verdict
+    rough: tuple[Verdict, ...] = ()
+
+    @property
+    def clean(self) -> bool:
+        """There is a path, and neither it nor a roughing pass gouges anything."""
+        return len(self.compensated.path) > 0 and all(verdict.clean for verdict in (self.verdict, *self.rough))
+
+    @property
+    def gouge(self) -> float:
+        """Depth of the deepest gouge, roughing passes included, 0 for none."""
+        return max(verdict.depth for verdict in (self.verdict, *self.rough))
+
+    @property
+    def uncut(self) -> float:
+        """Length of surface it leaves."""
+        return self.verdict.uncut_length
+
+    @property
+    def deleted(self) -> tuple[float, ...]:
+        """Numbers of the segments it deletes, each once."""
+        return tuple(dict.fromkeys(self.compensated.deleted.segments.tolist()))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Table:
+    """All rows, the value the operator is advised to use if any is clean, and what else is to be said.
+
+    `notes` are left to whoever shows the table: what a better path would cut and what would mend the contour take
+    longer than all rows.  Until `complete` there may be more of them.
+    """
+
+    rows: tuple[Row, ...]
+    recommended: int | None
+    notes: tuple[Finding, ...] = ()
+    complete: bool = False
+
+    def row(self, value: int) -> Row:
+        """The row of a look-ahead value."""
+        return self.rows[value - LOWEST]
+
+
+def table_of(trial: Trial) -> Table:
+    """The table of a contour: a value is judged by its finish path and by the roughing passes before it."""
+    finish = trial.paths(trial.radius)
+    verdicts = _verdicts(trial, trial.radius, finish)
+    rougher = trial.radius if trial.rougher is None else trial.rougher
+    passes = [_verdicts(trial, rougher, trial.paths(rougher + stock)) for stock in trial.stocks]
+    rough = list(zip(*passes, strict=True)) or [()] * len(VALUES)
+    rows = tuple(Row(*row) for row in zip(VALUES, finish, verdicts, rough, strict=True))
+    return Table(rows, recommended(rows))
+
+
+def _verdicts(trial: Trial, cutter: float, paths: tuple[Compensated, ...]) -> list[Verdict]:
+    """What a cutter of this radius does on each path; one that several values share is judged once."""
+    distinct = {id(one.path): one for one in paths}
+    verdicts = {key: judge(trial.surface, trial.side, cutter, one.whole) for key, one in distinct.items()}
+    return [verdicts[id(one.path)] for one in paths]

@@ -1,0 +1,192 @@
+"""Why the calculated look-ahead is not clean, and what would help where no value is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Final, NamedTuple
+
+from core.advice.remedies import (
+    StartMoved,
+    ToolFits,
+    Unwanted,
+    always,
+    larger_tool_without_blends,
+    largest_tool,
+    longest_segments,
+    lookahead_without_blends,
+    start_at_end,
+    start_mid_side,
+    start_mid_side_without_blends,
+    started,
+)
+from core.advice.trials import Row, Table, Trial
+from core.finding import Finding, Severity
+
+MAX_NAMED: Final = 4
+"""So many places that are too small are named in sentences."""
+
+_NO_BLENDS: Final = "without blend moves (BLEND OFFSET 0)"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Needs:
+    """Sentences for the operator, and what they say.
+
+    `why` tells why CAL's value is not clean, empty when it is.  The rest is there only when no value is clean:
+    `too_small` names inside radii and corners the tool does not enter; the others are remedies that have been cut and
+    judged clean, None where none was found.  Where neither another start nor leaving out the blend moves helps,
+    `start_without_blends` is both at once.  A tool is looked for when no other remedy helps, from the middle of a side
+    where the start is an inside corner; another START of an open contour when no tool is found either.
+    """
+
+    why: tuple[Finding, ...]
+    too_small: tuple[Finding, ...] = ()
+    tool: ToolFits | None = None
+    start: StartMoved | None = None
+    lookahead_without_blends: int | None = None
+    start_at_end: StartMoved | None = None
+    start_without_blends: StartMoved | None = None
+    tool_without_blends: ToolFits | None = None
+    sentences: tuple[Finding, ...] = ()
+
+
+def needs_of(trial: Trial, calculated: int, table: Table, wanted: Callable[[], bool] = always) -> Needs | None:
+    """What a contour needs whose look-ahead table is known; nothing where it could not be offset at all.
+
+    `wanted` is asked before each remedy is tried: where it says no, the rest is not tried and the answer is None.
+    """
+    if not len(table.rows[0].compensated.raw):
+        return Needs(())
+    why = why_not_clean(table, calculated)
+    if table.recommended is not None:
+        return Needs(why, sentences=why)
+    try:
+        return _with_remedies(why, trial, table, wanted)
+    except Unwanted:
+        return None
+
+
+def _with_remedies(why: tuple[Finding, ...], trial: Trial, table: Table, wanted: Callable[[], bool]) -> Needs:
+    nearest = min(table.rows, key=lambda row: (row.gouge, row.value))
+    too_small = _too_small(nearest, trial.radius)
+    value, start = lookahead_without_blends(trial, wanted), start_mid_side(trial, wanted)
+    both = start_mid_side_without_blends(trial, wanted) if start is None and value is None else None
+    helpless = start is None and value is None and both is None
+    tools = _tools(trial, nearest, too_small, wanted) if helpless else _Tools(None, None, "")
+    remedies = (
+        *_blends_sentence(value),
+        *_start_sentence(start),
+        *_start_sentence(both, without_blends=True),
+        *_tool_sentences(tools),
+    )
+    at_end = None if remedies else start_at_end(trial, wanted)
+    if not remedies:
+        remedies = (_nothing_helps(closed=trial.closed) if at_end is None else _start_at_end_sentence(at_end),)
+    sentences = (*why, *_first_named(too_small), *remedies)
+    return Needs(why, too_small, tools.tool, start, value, at_end, both, tools.without_blends, sentences)
+
+
+class _Tools(NamedTuple):
+    """The largest tool, a larger one that fits without blend moves, and where the contour is started for them."""
+
+    tool: ToolFits | None
+    without_blends: ToolFits | None
+    where: str
+
+
+def _tools(trial: Trial, nearest: Row, too_small: tuple[Finding, ...], wanted: Callable[[], bool]) -> _Tools:
+    """The largest tools, with another start where the contour's own is an inside corner."""
+    hint, where = min((finding.value for finding in too_small if finding.value is not None), default=None), ""
+    if _starts_at_inside_corner(nearest):
+        row = longest_segments(trial.surface)[0]
+        where = f" when the contour is started in the middle of segment {trial.surface.numbers[row]:g}"
+        trial = replace(trial, surface=started(trial.surface, row))
+    tool = largest_tool(trial, hint, wanted)
+    return _Tools(tool, larger_tool_without_blends(trial, tool, hint, wanted), where)
+
+
+def _starts_at_inside_corner(row: Row) -> bool:
+    return any(finding.code == "START_INSIDE_CORNER" for finding in row.compensated.findings)
+
+
+def _first_named(too_small: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """The first of many places that are too small, and how many there are."""
+    if len(too_small) <= MAX_NAMED:
+        return too_small
+    count = replace(too_small[0], text=f"There are {len(too_small)} such places.", segment=None)
+    return (*too_small[:MAX_NAMED], count)
+
+
+def why_not_clean(table: Table, calculated: int) -> tuple[Finding, ...]:
+    """That CAL's value is not clean, with its deepest gouge, and the value that is."""
+    row = table.row(calculated)
+    if row.clean:
+        return ()
+    if not row.verdict.gouges:
+        return (Finding("CAL_NOT_CLEAN", Severity.WARNING, f"CAL {calculated} makes no path that can be cut."),)
+    gouge = row.verdict.gouges[0]
+    if table.recommended is not None:
+        help_ = f"Type look-ahead {table.recommended}: clean."
+    elif _starts_at_inside_corner(row):
+        help_ = "START is in an inside corner, where no look-ahead helps."
+    else:
+        help_ = "No look-ahead is clean."
+    text, number = f"CAL {calculated} gouges. {help_}", gouge.surface_number
+    return (Finding("CAL_NOT_CLEAN", Severity.WARNING, text, number, at=gouge.surface_at, value=gouge.depth),)
+
+
+def _too_small(row: Row, radius: float) -> tuple[Finding, ...]:
+    """The inside radii and corners the tool does not enter, where the path gouges least."""
+    small = []
+    for finding in row.compensated.findings:
+        if finding.code == "VANISHED" and finding.segment is not None:
+            text = f"Inside radius {{value}} of segment {finding.segment:g} is too small for tool radius {{0}}."
+            small.append(replace(finding, code="TOO_SMALL", text=text, lengths=(radius,)))
+        if finding.code == "CORNER_MISSED" and finding.segment is not None:
+            text = f"The tool does not fit into the inside corner after segment {int(finding.segment)}."
+            small.append(replace(finding, code="TOO_SMALL", text=text))
+    return tuple(small)
+
+
+def _blends_sentence(value: int | None) -> tuple[Finding, ...]:
+    if value is None:
+        return ()
+    return (_remedy("BLENDLESS", f"W{_NO_BLENDS[1:]} look-ahead {value} is clean."),)
+
+
+def _start_sentence(start: StartMoved | None, *, without_blends: bool = False) -> tuple[Finding, ...]:
+    if start is None:
+        return ()
+    code, blends = ("START_BLENDLESS", f", {_NO_BLENDS}") if without_blends else ("START_MID_SIDE", "")
+    text = f"Start in the middle of segment {start.segment:g}, at X {{x}} Y {{y}}{blends}: "
+    remedy = _remedy(code, f"{text}look-ahead {start.value} is then clean.")
+    return (replace(remedy, segment=start.segment, at=start.at),)
+
+
+def _tool_sentences(tools: _Tools) -> Iterator[Finding]:
+    """The larger one, which needs more to be changed, after the other."""
+    fitting = ((tools.tool, "TOOL_FITS", ""), (tools.without_blends, "TOOL_BLENDLESS", f" {_NO_BLENDS}"))
+    for tool, code, blends in fitting:
+        if tool is not None:
+            text = f"A tool of {{value}} diameter fits{blends}{tools.where}: look-ahead {tool.value} is then clean."
+            yield replace(_remedy(code, text), field="tool", value=tool.diameter)
+
+
+def _start_at_end_sentence(start: StartMoved) -> Finding:
+    text = (
+        "START may be mistyped: at X {x} Y {y}, where the contour ends, it would be closed, "
+        f"and look-ahead {start.value} clean."
+    )
+    return replace(_remedy("START_AT_END", text), segment=0.0, at=start.at)
+
+
+def _nothing_helps(*, closed: bool) -> Finding:
+    """What has been tried in vain, and no more: the tries are bounded, and a number may be mistyped."""
+    tried = "No value, start or tool" if closed else "No value or tool"
+    text = f"{tried} helps. Check the contour's numbers."
+    return Finding("NOTHING_HELPS", Severity.WARNING, text)
+
+
+def _remedy(code: str, text: str) -> Finding:
+    return Finding(code, Severity.INFO, text)

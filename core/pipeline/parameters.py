@@ -1,0 +1,49 @@
+"""Parameters: what PROGRAM PARAMETERS and PART SETUP say or leave to their defaults, and what follows for roughing."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from core.pipeline.derived import DerivedBlock
+from core.program.fields import default
+from core.program.model import Entry, Program
+from core.units import to_mm
+
+MAX_SIDE_PASSES: Final = 1000
+"""More passes than this are a slip of the finger in MAX OFFSET or POCKET OVERLAP."""
+
+
+def parameter(program: Program, name: str) -> float:
+    """A program parameter as typed or its default; lengths in millimeters, a percentage as it is."""
+    typed = getattr(program.parameters, name)
+    value = typed.value if isinstance(typed, Entry) else default(name, program.unit)
+    if value is None:
+        return 0.0
+    return value if name == "pocket_overlap" else to_mm(value, program.unit)
+
+
+def setup_value(program: Program, name: str) -> float:
+    """A number of PART SETUP as typed or its default, in program units."""
+    typed = getattr(program.setup, name)
+    value = typed.value if isinstance(typed, Entry) else default(name, program.unit)
+    assert value is not None
+    return value
+
+
+def stocks(block: DerivedBlock, program: Program) -> tuple[float, ...]:
+    """What each pass before the finish path leaves on the surface, in millimeters, outermost first.
+
+    PROFILE comes in from MAX OFFSET, each pass overlapping the one before by POCKET OVERLAP percent of the cutter's
+    diameter; a finish tool has a roughing pass in front of it that leaves FINISH XY.
+    """
+    assert block.solved.tool_diameter is not None
+    finishing = block.solved.finish_diameter is not None
+    least = parameter(program, "finish_xy") if finishing else 0.0
+    widths: list[float] = []
+    if block.profile:
+        stock = parameter(program, "max_offset")
+        step = block.solved.tool_diameter * (1.0 - parameter(program, "pocket_overlap") / 100.0)
+        while stock > least + 1e-9 and step > 0.0 and len(widths) < MAX_SIDE_PASSES:
+            widths.append(stock)
+            stock -= step
+    return (*widths, least) if finishing else tuple(widths)
