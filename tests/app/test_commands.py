@@ -131,7 +131,7 @@ def test_the_look_ahead_table_tells_what_the_contour_needs(
     assert main(["lookahead", "-"]) == 1
     lines = capsys.readouterr().out.splitlines()
     behind = lines[lines.index("  No value is clean.") + 1 :]
-    assert "the contour starts at an inside corner" in behind[0]
+    assert "START is in an inside corner" in behind[0]
     assert behind[1].startswith("  Start in the middle of segment 1, at X 10.000 Y 0.000: look-ahead ")
 
 

@@ -239,7 +239,7 @@ def test_roughing_and_blends_of_a_value_are_told_as_they_are_of_the_one_in_force
     rough = replace(pocket, parameters=replace(pocket.parameters, finish_xy=Entry(0.05)))
     (block,) = rough.blocks
     rough = replace(rough, blocks=(replace(block, finish_tool=Entry(1.0)),))
-    assert "The roughing pass that leaves 0.0500 gouges" in told_of(on_table(rough, "home"))
+    assert "Roughing that leaves 0.0500 gouges" in told_of(on_table(rough, "home"))
     blend = replace(pocket, parameters=replace(pocket.parameters, blend_offset=Entry(1.6)))
     assert "The blend-in arc gouges" in told_of(on_table(blend, "home"))
 
