@@ -12,7 +12,7 @@ from core.advice.work import Loop, RoughPass, Work
 from core.comp.best_path.best_path import BestPath, Separation
 from core.comp.result import Compensated
 from core.finding import Finding, Severity
-from core.geometry.path import Path, onward, planes
+from core.geometry.path import Path, as_complex, next_in_ring
 from core.geometry.piece import Point
 from core.tolerance import GOUGE
 from core.verify.names import Names, move_name
@@ -98,7 +98,7 @@ def move_names(work: Work) -> Names:
 def _lead_out_name(loop: Loop, row: int, surface: Path) -> str:
     lead = loop.lead_out
     # the overlap's arcs are the path's own, the blend's is not
-    again = bool((planes(loop.path.centers) == planes(lead.centers)[row]).any())
+    again = bool((as_complex(loop.path.centers) == as_complex(lead.centers)[row]).any())
     if row == len(lead) - 1 and lead.turns[row] and not again:
         return "The blend-out arc"
     return f"{move_name(lead, row, surface)} past START"
@@ -253,13 +253,13 @@ def turning_back(surface: Path, *, closed: bool) -> tuple[Finding, ...]:
 
     Two arcs do so where scallops meet, and are left alone.
     """
-    points, centers, turns = planes(surface.points), planes(surface.centers), surface.turns
+    points, centers, turns = as_complex(surface.points), as_complex(surface.centers), surface.turns
     # a line has its own start for a center: from there to its end it runs as it is
     leave, arcs = points[1:] - centers, turns.nonzero()[0]
     into, quarter = leave.copy(), 1j * turns[arcs]
     leave[arcs] *= quarter
     into[arcs] = quarter * (points[arcs] - centers[arcs])
-    turned = leave.conj() * onward(into)
+    turned = leave.conj() * next_in_ring(into)
     back = (turned.real < -STRAIGHT_BACK * np.abs(turned)).nonzero()[0].tolist()
     joints = [(row, (row + 1) % len(turns)) for row in back if closed or row + 1 < len(turns)]
     return tuple(_turned(surface, row, following) for row, following in joints if not (turns[row] and turns[following]))

@@ -18,7 +18,7 @@ from core.comp.offset import Chain, offset
 from core.comp.prune import Pruned, prune
 from core.comp.result import Compensated, Deletions
 from core.finding import Finding
-from core.geometry.path import EMPTY, Indices, Path, planes
+from core.geometry.path import EMPTY, Path, Rows, as_complex
 from core.geometry.piece import Arc, Piece, Side
 from core.tolerance import JOINED
 
@@ -176,7 +176,7 @@ def _nothing(asked: _Asked, lookahead: int, findings: tuple[Finding, ...]) -> Co
 
 def _with_length(contour: Path) -> tuple[Path, list[Finding]]:
     """The contour without its zero-length segments, and a finding for each of them."""
-    ends = planes(contour.points)
+    ends = as_complex(contour.points)
     near = (np.abs(ends[1:] - ends[:-1]) <= JOINED).nonzero()[0]
     points = [row for row in near.tolist() if _is_point(contour[row])]
     if not points:
@@ -190,7 +190,7 @@ def _is_point(piece: Piece) -> bool:
     return piece.length <= JOINED or (isinstance(piece, Arc) and piece.center == piece.end)
 
 
-def _without(contour: Path, dropped: Indices) -> Path:
+def _without(contour: Path, dropped: Rows) -> Path:
     """The contour without some segments of no length: the next one starts where the one before ends."""
     kept = np.ones(len(contour), np.bool_)
     kept[dropped] = False

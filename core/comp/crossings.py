@@ -15,7 +15,7 @@ import numpy as np
 
 from core.comp.offset import BRIDGE, CORNER, Chain, stacked
 from core.geometry.intersect import Meeting, Meetings, meet_pieces
-from core.geometry.path import Floats, Indices, Masks, Pieces, Planes, coordinates, pieces_of, planes, taken
+from core.geometry.path import Flags, Floats, Pieces, Points, Rows, as_complex, coordinates, pieces_of
 from core.tolerance import ON_PATH
 
 _STRETCH: Final = 8192
@@ -30,18 +30,18 @@ class Crossings:
     a's raw end, `b_ends` at b's.  `points` are complex numbers.
     """
 
-    a: Indices
-    b: Indices
+    a: Rows
+    b: Rows
     along_a: Floats
     along_b: Floats
-    a_ends: Masks
-    b_ends: Masks
-    points: Planes
+    a_ends: Flags
+    b_ends: Flags
+    points: Points
 
     def __len__(self) -> int:
         return len(self.a)
 
-    def chosen(self, rows: Masks | Indices) -> Crossings:
+    def chosen(self, rows: Flags | Rows) -> Crossings:
         """Those crossings only."""
         return Crossings(*(getattr(self, name)[rows] for name in self.__slots__))
 
@@ -52,7 +52,7 @@ class Candidates:
 
     joints: Crossings
     others: Crossings
-    reach: Indices
+    reach: Rows
 
     def within(self, lookahead: int) -> Crossings:
         """The crossings of pieces that are not neighbors and that this look-ahead tests."""
@@ -99,7 +99,7 @@ def _all(parts: list[Crossings]) -> Crossings:
     return Crossings(*stacked(rows))
 
 
-def _found(met: Meetings, a: Indices, b: Indices, chosen: Masks) -> Crossings:
+def _found(met: Meetings, a: Rows, b: Rows, chosen: Flags) -> Crossings:
     """Some of the points at which pairs of pieces a, b have met."""
     rows = chosen.nonzero()[0]
     pair = met.pair[rows]
@@ -110,13 +110,11 @@ def _found(met: Meetings, a: Indices, b: Indices, chosen: Masks) -> Crossings:
         met.along_b[rows],
         met.rest_a[rows] <= ON_PATH,
         met.rest_b[rows] <= ON_PATH,
-        planes(met.points)[rows],
+        as_complex(met.points)[rows],
     )
 
 
-def _pairs(
-    pieces: Pieces, every_place: Indices, partners: Indices, first: int, last: int, reach: int
-) -> tuple[Indices, Indices]:
+def _pairs(pieces: Pieces, every_place: Rows, partners: Rows, first: int, last: int, reach: int) -> tuple[Rows, Rows]:
     """Pairs a < b of `partners`, not next to each other in the chain, within reach and with boxes that meet.
 
     b are the partners first ... last - 1.  Each row of the comparison is one distance among them, most distant first.
@@ -129,7 +127,7 @@ def _pairs(
     window = int((np.arange(before, len(rows)) - farthest).max(initial=0))
     if not window:
         return np.empty(0, np.intp), np.empty(0, np.intp)
-    lows, highs = _boxes(taken(pieces, rows[max(before - window, 0) :]), max(window - before, 0))
+    lows, highs = _boxes(pieces.take(rows[max(before - window, 0) :]), max(window - before, 0))
     beside = _shifted(lows, window) <= highs[:, None, window:]
     beside &= _shifted(highs, window) >= lows[:, None, window:]
     meeting = beside[0] & beside[1]
@@ -160,7 +158,7 @@ def _boxes(pieces: Pieces, pad: int) -> tuple[Floats, Floats]:
     arcs, beyond = pieces.turn.nonzero()[0], np.zeros(count)
     if len(arcs):
         lift = np.zeros(count, np.complex128)
-        lift[arcs], beyond[arcs] = _lifts(taken(pieces, arcs))
+        lift[arcs], beyond[arcs] = _lifts(pieces.take(arcs))
         up = coordinates(lift).T
         low += np.minimum(up, 0.0)
         high += np.maximum(up, 0.0)
@@ -170,7 +168,7 @@ def _boxes(pieces: Pieces, pad: int) -> tuple[Floats, Floats]:
     return lows, highs
 
 
-def _lifts(arcs: Pieces) -> tuple[Planes, Floats]:
+def _lifts(arcs: Pieces) -> tuple[Points, Floats]:
     """By how much arcs lie beside their chords, as vectors, and by how much a box must grow on all sides besides.
 
     An arc of half a turn or less lies in the rectangle of its chord and its height, on the chord's right if

@@ -17,7 +17,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Floats, Indices, Masks, Path, Planes, Turns, coordinates, planes
+from core.geometry.path import Flags, Floats, Path, Points, Rows, Turns, as_complex, coordinates
 from core.geometry.piece import Side
 from core.tolerance import JOINED
 
@@ -44,7 +44,7 @@ class Chain:
 
     raw: Path
     parts: NDArray[np.uint8]
-    places: Indices
+    places: Rows
 
     def __len__(self) -> int:
         return len(self.parts)
@@ -53,12 +53,12 @@ class Chain:
 class _Stretch(NamedTuple):
     """The chain's pieces of a run of segments, as complex numbers; `points` are starts, and the chain's very end."""
 
-    points: Planes
-    centers: Planes
+    points: Points
+    centers: Points
     turns: Turns
     numbers: Floats
     parts: NDArray[np.uint8]
-    places: Indices
+    places: Rows
 
 
 class _Beside(NamedTuple):
@@ -67,10 +67,10 @@ class _Beside(NamedTuple):
     `arcs` are the rows of arcs that do not vanish, `vanished` those of the arcs that do.
     """
 
-    ends: Planes
-    normals: Planes
-    arcs: Indices
-    vanished: Indices
+    ends: Points
+    normals: Points
+    arcs: Rows
+    vanished: Rows
 
 
 def offset(contour: Path, side: Side, radius: float) -> Chain:
@@ -111,9 +111,9 @@ def _stretch(contour: Path, sign: int, radius: float, first: int, last: int) -> 
     numbers[own] = contour.numbers[reached]
     numbers[1::2] = numbers[own] + 0.5
     centers, arcs = points.copy(), beside.arcs
-    turns[own][arcs], centers[own][arcs] = contour.turns[reached][arcs], planes(contour.centers)[reached][arcs]
+    turns[own][arcs], centers[own][arcs] = contour.turns[reached][arcs], as_complex(contour.centers)[reached][arcs]
     corners = outside.nonzero()[0]
-    turns[between][corners], centers[between][corners] = -sign, planes(contour.points)[1:][reached][corners]
+    turns[between][corners], centers[between][corners] = -sign, as_complex(contour.points)[1:][reached][corners]
     parts[own][beside.vanished], parts[between] = VANISHED, BRIDGE
     parts[between][corners] = CORNER
     slots = taken.nonzero()[0]
@@ -124,12 +124,12 @@ def _stretch(contour: Path, sign: int, radius: float, first: int, last: int) -> 
 
 def _beside(contour: Path, shift: float, rows: slice) -> _Beside:
     """A run of segments moved by `shift` along their left normals."""
-    points, turns = planes(contour.points), contour.turns[rows]
+    points, turns = as_complex(contour.points), contour.turns[rows]
     starts, stops, arcs = points[:-1][rows], points[1:][rows], turns.nonzero()[0]
     ends, normals = np.empty((2, len(turns)), np.complex128), np.empty((2, len(turns)), np.complex128)
     ends[0], ends[1] = starts, stops
     normals[0] = normals[1] = 1j * (stops - starts)
-    centers, around = planes(contour.centers)[rows][arcs], turns[arcs].astype(np.float64)
+    centers, around = as_complex(contour.centers)[rows][arcs], turns[arcs].astype(np.float64)
     normals[0][arcs], normals[1][arcs] = (centers - starts[arcs]) * around, (centers - stops[arcs]) * around
     sizes = np.abs(normals)
     normals /= sizes
@@ -138,7 +138,7 @@ def _beside(contour: Path, shift: float, rows: slice) -> _Beside:
     return _Beside(ends, normals, arcs[~vanish], arcs[vanish])
 
 
-def _joints(normals: Planes, sign: int, radius: float) -> tuple[Masks, Masks]:
+def _joints(normals: Points, sign: int, radius: float) -> tuple[Flags, Flags]:
     """Which joints of segments with each other need a link, and which are outside corners.
 
     The offset ends' distance decides about tangency: the radius times that of the normals.
@@ -150,9 +150,9 @@ def _joints(normals: Planes, sign: int, radius: float) -> tuple[Masks, Masks]:
     return radius * np.abs(behind - before) > JOINED, (sign * bend.imag < 0.0) | reversal
 
 
-def _close_circles(points: Planes, contour: Path, places: Indices) -> None:
+def _close_circles(points: Points, contour: Path, places: Rows) -> None:
     """Keep full circles full where the next piece's start was taken for their end: equal ends are what makes them."""
-    ends = planes(contour.points)
+    ends = as_complex(contour.points)
     circles = (ends[1:] == ends[:-1]).nonzero()[0]
     for row in places.searchsorted(2 * circles)[::-1].tolist() if len(circles) else ():
         points[row] = points[row + 1]

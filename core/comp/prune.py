@@ -17,7 +17,7 @@ from core.comp.crossings import Crossings
 from core.comp.offset import BRIDGE, Chain
 from core.comp.result import Deletions
 from core.comp.walk import Left, Walk
-from core.geometry.path import EMPTY, Indices, Masks, Path, coordinates, planes
+from core.geometry.path import EMPTY, Flags, Path, Rows, as_complex, coordinates
 from core.tolerance import JOINED, ON_PATH
 
 
@@ -29,8 +29,8 @@ class Pruned:
     """
 
     path: Path
-    bridged: Masks
-    bridges: Indices
+    bridged: Flags
+    bridges: Rows
     deleted: Deletions
 
 
@@ -49,13 +49,13 @@ def prune(chain: Chain, joints: Crossings, others: Crossings, *, last_wins: bool
     return Pruned(path, *bridges, _deletions(chain, others, met, gone))
 
 
-def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, Indices]:
+def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, Rows]:
     """Trim every inside corner at its first crossing; also the pieces whose start is trimmed beyond their end."""
     count = len(chain)
     high, standing = np.empty(count), np.empty(count, np.uint8)
     high.fill(np.inf)
     standing.fill(1)
-    left = Left(np.zeros(count), high, planes(chain.raw.points)[:-1].copy(), standing, bytearray(count))
+    left = Left(np.zeros(count), high, as_complex(chain.raw.points)[:-1].copy(), standing, bytearray(count))
     if not len(joints):
         return left, np.empty(0, np.intp)
     again = joints.b[1:] == joints.b[:-1]
@@ -67,10 +67,10 @@ def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, 
     return left, (left.low > left.high + ON_PATH).nonzero()[0] + 2
 
 
-def _what_is_left(chain: Chain, left: Left) -> tuple[Path, tuple[Masks, Indices]]:
+def _what_is_left(chain: Chain, left: Left) -> tuple[Path, tuple[Flags, Rows]]:
     """The path of the pieces that still stand; which of them are bridges, and their rows in the chain."""
     alive = (left.standing > np.frombuffer(left.gone, np.uint8)).nonzero()[0]
-    starts = np.concatenate((left.starts[alive], planes(chain.raw.points)[-1:]))
+    starts = np.concatenate((left.starts[alive], as_complex(chain.raw.points)[-1:]))
     real = _not_slivers(chain, left, alive, starts)
     if not real.all():
         alive, starts = alive[real], starts[np.append(real, True)]
@@ -79,12 +79,12 @@ def _what_is_left(chain: Chain, left: Left) -> tuple[Path, tuple[Masks, Indices]
         return EMPTY, (bridged, alive)
     turns = chain.raw.turns[alive]
     centers, arcs = starts[:-1].copy(), turns.nonzero()[0]
-    centers[arcs] = planes(chain.raw.centers)[alive[arcs]]
+    centers[arcs] = as_complex(chain.raw.centers)[alive[arcs]]
     path = Path(coordinates(starts), coordinates(centers), turns, chain.raw.numbers[alive])
     return path, (bridged, alive[bridged])
 
 
-def _not_slivers(chain: Chain, left: Left, alive: Indices, starts: NDArray[np.complex128]) -> Masks:
+def _not_slivers(chain: Chain, left: Left, alive: Rows, starts: NDArray[np.complex128]) -> Flags:
     """Which pieces still have a length: an arc trimmed to a point must not be taken for a full circle.
 
     One that is left for a whole turn but for rounding is made one: its ends in `starts` become the same numbers.
@@ -104,7 +104,7 @@ def _not_slivers(chain: Chain, left: Left, alive: Indices, starts: NDArray[np.co
     return real
 
 
-def _deletions(chain: Chain, others: Crossings, met: Indices, gone: Masks) -> Deletions:
+def _deletions(chain: Chain, others: Crossings, met: Rows, gone: Flags) -> Deletions:
     """The segments among the pieces that are gone, each by the first event, a row in `met`, that spans it."""
     if not len(met):
         return Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))

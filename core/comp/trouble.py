@@ -13,7 +13,7 @@ from core.comp.blend import direction
 from core.comp.offset import Chain, Part
 from core.comp.prune import Pruned
 from core.finding import Finding, Severity
-from core.geometry.path import Floats, Indices, Masks, Path, planes
+from core.geometry.path import Flags, Floats, Path, Rows, as_complex
 from core.geometry.piece import Side
 from core.tolerance import ARC_RADII, GOUGE, JOINED, LARGEST
 
@@ -44,7 +44,7 @@ def _usable(values: Floats) -> bool:
 
 
 def _not_finite(contour: Path) -> Finding:
-    points: Masks = np.logical_and.reduce(np.abs(contour.points) <= LARGEST, axis=1)
+    points: Flags = np.logical_and.reduce(np.abs(contour.points) <= LARGEST, axis=1)
     bad = ~(points[:-1] & points[1:] & (np.abs(contour.centers) <= LARGEST).all(axis=1))
     text = "A coordinate of this segment is not a number a machine can have; type it again."
     return _error("NOT_FINITE", text, float(contour.numbers[np.argmax(bad)]))
@@ -58,7 +58,7 @@ def _not_arcs(contour: Path) -> tuple[Finding, ...]:
     rows = contour.turns.nonzero()[0]
     if not len(rows):
         return ()
-    points, centers = planes(contour.points), planes(contour.centers)[rows]
+    points, centers = as_complex(contour.points), as_complex(contour.centers)[rows]
     start, end = points[rows], points[rows + 1]
     first, last = np.abs(start - centers), np.abs(end - centers)
     off = np.abs(first - last)
@@ -78,7 +78,7 @@ def _not_arcs(contour: Path) -> tuple[Finding, ...]:
     return (*found, *_arcs_named("ARC_ENDS", text, contour.numbers[rows], beside, first, last))
 
 
-def _arcs_named(code: str, text: str, numbers: Floats, bad: Masks, first: Floats, last: Floats) -> tuple[Finding, ...]:
+def _arcs_named(code: str, text: str, numbers: Floats, bad: Flags, first: Floats, last: Floats) -> tuple[Finding, ...]:
     """An error for each bad arc, with its radii."""
     return tuple(
         Finding(code, Severity.ERROR, text, float(numbers[row]), lengths=(float(first[row]), float(last[row])))
@@ -86,7 +86,7 @@ def _arcs_named(code: str, text: str, numbers: Floats, bad: Masks, first: Floats
     )
 
 
-def zero_length(contour: Path, rows: Indices) -> list[Finding]:
+def zero_length(contour: Path, rows: Rows) -> list[Finding]:
     """Segments dropped because they have no length."""
     text = "This segment has no length and is passed over."
     return _named("ZERO_LENGTH", text, contour.numbers[rows], contour.points[rows])
@@ -112,18 +112,18 @@ def standing(contour: Path, chain: Chain, pruned: Pruned, radius: float) -> list
     return [*_vanished(contour, chain, rows[vanished], radius), *_missed(contour, chain, rows[~vanished], radius)]
 
 
-def _vanished(contour: Path, chain: Chain, rows: Indices, radius: float) -> list[Finding]:
+def _vanished(contour: Path, chain: Chain, rows: Rows, radius: float) -> list[Finding]:
     segments = chain.places[rows] // 2
-    radii = np.abs(planes(contour.points)[segments] - planes(contour.centers)[segments])
+    radii = np.abs(as_complex(contour.points)[segments] - as_complex(contour.centers)[segments])
     small = radii < radius - JOINED
     text = "The inside radius {value} is smaller than the tool's: the path bridges it and can cut into a wall."
     numbers, at = contour.numbers[segments[small]], contour.points[segments[small]]
     return _named("VANISHED", text, numbers, at, radii[small])
 
 
-def _missed(contour: Path, chain: Chain, rows: Indices, radius: float) -> list[Finding]:
+def _missed(contour: Path, chain: Chain, rows: Rows, radius: float) -> list[Finding]:
     """Inside corners bridged where the bridge enters a wall: by the square of its length over the tool's diameter."""
-    points = planes(chain.raw.points)
+    points = as_complex(chain.raw.points)
     rows = rows[np.abs(points[rows + 1] - points[rows]) ** 2 > 2.0 * radius * GOUGE]
     text = "At this inside corner the offsets do not meet: the path bridges it and can cut into a wall."
     at = contour.points[chain.places[rows] // 2 + 1]
@@ -136,7 +136,7 @@ def long_way(contour: Path, pruned: Pruned) -> list[Finding]:
     if not len(deleted):
         return []
     rows = _rows(contour.numbers, deleted)
-    points = planes(contour.points)
+    points = as_complex(contour.points)
     lines = np.abs(points[1:] - points[:-1])
     lines[contour.turns.nonzero()[0]] = 0.0
     if not contour.turns[rows].any() and lines[rows].sum() <= lines.sum() / 2.0:
@@ -150,7 +150,7 @@ def long_way(contour: Path, pruned: Pruned) -> list[Finding]:
     return [Finding("LONG_WAY", Severity.WARNING, text, float(deleted[0]), value=erased)]
 
 
-def _rows(numbers: Floats, some: Floats) -> Indices:
+def _rows(numbers: Floats, some: Floats) -> Rows:
     """The rows of some of the numbers of a contour, by bisection where they rise, as they do but in a NC program."""
     if (numbers[1:] > numbers[:-1]).all():
         return np.searchsorted(numbers, some)

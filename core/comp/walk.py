@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from core.comp.crossings import Crossings
 from core.comp.offset import Chain
-from core.geometry.path import Floats, Indices, planes
+from core.geometry.path import Floats, Rows, as_complex
 from core.tolerance import ON_PATH
 
 _GONE: Final = b"\1"
@@ -51,7 +51,7 @@ class Walk:
         self._bridged: list[int] = []
         self._rejoined: list[int] = []
 
-    def visit(self, unsettled: Indices) -> Indices:
+    def visit(self, unsettled: Rows) -> Rows:
         """Visit in order all crossings, and the joints of the `unsettled` pieces with their predecessors.
 
         Returns the rows of the crossings that deleted something, in order.
@@ -60,7 +60,7 @@ class Walk:
         left, joints, others = self._left, self._joints, self._others
         bridged, rejoined = np.array(self._bridged, np.intp), np.array(self._rejoined, np.intp)
         left.standing[bridged - 1] = 1
-        left.starts[bridged] = planes(self._chain.raw.points)[bridged]
+        left.starts[bridged] = as_complex(self._chain.raw.points)[bridged]
         left.starts[joints.b[rejoined]] = joints.points[rejoined]
         left.starts[others.b[met]] = others.points[met]
         return met

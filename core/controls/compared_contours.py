@@ -13,7 +13,7 @@ from core.controls.control_run import Run, Stretch
 from core.controls.judged_runs import surface_of
 from core.geometry.distance import distance
 from core.geometry.path import Path
-from core.geometry.piece_arrays import measured
+from core.geometry.piece_arrays import piece_arrays
 
 APART: Final = 0.0005
 """Millimeters from which on two contours are told to part."""
@@ -87,7 +87,7 @@ def apart(path: Path, other: Path, tolerance: float) -> Parting | None:
     places, rows = _places(path)
     step = max(1, len(places) * len(other) // MOST_PAIRS)
     places, rows = places[::step], rows[::step]
-    pieces = measured(other)
+    pieces = piece_arrays(other)
     least = np.array([float(np.min(distance(pieces, np.full(len(other), place)))) for place in places])
     first, worst = int(np.argmax(least > tolerance)), int(np.argmax(least))
     if least[worst] <= tolerance:

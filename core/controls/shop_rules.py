@@ -18,7 +18,7 @@ from core.finding import Finding, Severity
 from core.geometry.distance import distance
 from core.geometry.path import Path
 from core.geometry.piece import Point, Side
-from core.geometry.piece_arrays import measured
+from core.geometry.piece_arrays import piece_arrays
 from core.tolerance import JOINED
 
 SQUARE: Final = 1e-6
@@ -137,7 +137,7 @@ def _clear(rule: str, at: Point, component: Path, stretch: Stretch, line: int) -
     """H2 and H6: the tool is a diameter clear of the component before and behind it, if possible."""
     if not len(component):
         return []
-    pieces = measured(component)
+    pieces = piece_arrays(component)
     away = float(np.min(distance(pieces, np.full(len(component), complex(*at)))))
     if away >= 2.0 * stretch.radius - JOINED:
         return []

@@ -17,7 +17,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import EMPTY, Floats, Path, Planes, Turns, coordinates, planes, swept
+from core.geometry.path import EMPTY, Floats, Path, Points, Turns, as_complex, coordinates, swept
 from core.geometry.piece import Line, Piece, Point
 from core.geometry.stretch import NO_PARTS, Parts
 from core.tolerance import LARGEST
@@ -136,7 +136,7 @@ class Arcs:
     """
 
     rows: NDArray[np.intp]
-    centers: Planes
+    centers: Points
     turns: Turns
     radii: Floats
     begin: Floats
@@ -158,9 +158,9 @@ class Pieces:
     `layers[i]`.  `centers` (n,) and `turns` (n,) as a path has them.
     """
 
-    points: Planes
+    points: Points
     rows: NDArray[np.intp]
-    centers: Planes
+    centers: Points
     turns: Turns
     layers: NDArray[np.intp]
 
@@ -244,9 +244,9 @@ def _gathered(layers: Sequence[Layer]) -> Pieces:
     paths, counts = [layer.path for layer in layers], [len(layer.path.turns) for layer in layers]
     owners = np.arange(len(counts)).repeat(counts)
     every = Pieces(
-        planes(np.concatenate([path.points for path in paths])),
+        as_complex(np.concatenate([path.points for path in paths])),
         np.arange(len(owners)) + owners,
-        planes(np.concatenate([path.centers for path in paths])),
+        as_complex(np.concatenate([path.centers for path in paths])),
         np.concatenate([path.turns for path in paths]),
         owners,
     )

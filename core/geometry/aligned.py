@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 
 from core.geometry.boxes import FAN, children, grouped, meeting, near_pairs, reaching
-from core.geometry.piece_arrays import Flags, Floats, Rows
+from core.geometry.path import Flags, Floats, Rows
 
 SHIFTS: Final = 2 * FAN
 """From so many indices apart on, the groups of two boxes are no neighbors."""

@@ -12,7 +12,7 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.piece_arrays import Flags, Floats, Points, Rows
+from core.geometry.path import Flags, Floats, Points, Rows
 
 FAN: Final = 4
 """Boxes in a group."""

@@ -1,7 +1,8 @@
 """Points and centers from what a drawing gives, as plain numbers: every solution, in a documented order.
 
 Millimeters and radians, angles counter-clockwise from +X.  `axis` 0 is X and 1 is Y.  The answers are tagged:
-`One`, `Two`, `Apart` (nothing reaches so far), `Beside` (the givens say nothing about it) and `Behind`.
+`OnePoint`, `TwoPoints`, `OutOfReach` (nothing reaches so far), `NotDetermined` (the givens say nothing about it) and
+`BehindStart`.
 """
 
 from __future__ import annotations
@@ -14,14 +15,14 @@ from core.tolerance import ARC_RADII, JOINED, ON_PATH
 
 
 @dataclass(frozen=True, slots=True)
-class One:
+class OnePoint:
     """The only solution."""
 
     point: Point
 
 
 @dataclass(frozen=True, slots=True)
-class Two:
+class TwoPoints:
     """Two solutions, in the order the construction documents."""
 
     first: Point
@@ -29,19 +30,19 @@ class Two:
 
 
 @dataclass(frozen=True, slots=True)
-class Apart:
+class OutOfReach:
     """No solution: the length or radius would have to be at least `least`."""
 
     least: float
 
 
 @dataclass(frozen=True, slots=True)
-class Beside:
+class NotDetermined:
     """No one solution: what is given runs beside what is asked and says nothing about it."""
 
 
 @dataclass(frozen=True, slots=True)
-class Behind:
+class BehindStart:
     """No solution: it would lie behind the start."""
 
 
@@ -50,50 +51,50 @@ def polar(start: Point, angle: float, length: float) -> Point:
     return start[0] + length * cos(angle), start[1] + length * sin(angle)
 
 
-def reach(start: Point, angle: float, axis: int, value: float) -> One | Beside | Behind:
-    """Where a ray reaches the coordinate `value`; `Beside` if it runs along that coordinate."""
+def reach(start: Point, angle: float, axis: int, value: float) -> OnePoint | NotDetermined | BehindStart:
+    """Where a ray reaches the coordinate `value`; `NotDetermined` if it runs along that coordinate."""
     along = (cos(angle), sin(angle))
     if abs(along[axis]) < SLIVER:
-        return Beside()
+        return NotDetermined()
     travel = (value - start[axis]) / along[axis]
     if travel < 0.0:
-        return Behind()
-    return One(_placed(axis, value, start[1 - axis] + travel * along[1 - axis]))
+        return BehindStart()
+    return OnePoint(_placed(axis, value, start[1 - axis] + travel * along[1 - axis]))
 
 
-def on_circle(center: Point, radius: float, axis: int, value: float) -> One | Two | Apart:
+def on_circle(center: Point, radius: float, axis: int, value: float) -> OnePoint | TwoPoints | OutOfReach:
     """The points of a circle whose coordinate `axis` is `value`: the one with the greater other coordinate first.
 
     A coordinate outside the circle by no more than `ARC_RADII` gives the one point beside it.
     """
     beside = abs(value - center[axis])
     if beside > radius + ARC_RADII:
-        return Apart(beside)
+        return OutOfReach(beside)
     middle = center[1 - axis]
     half = sqrt(max(0.0, (radius - beside) * (radius + beside)))
     if half <= ON_PATH:
-        return One(_placed(axis, value, middle))
-    return Two(_placed(axis, value, middle + half), _placed(axis, value, middle - half))
+        return OnePoint(_placed(axis, value, middle))
+    return TwoPoints(_placed(axis, value, middle + half), _placed(axis, value, middle - half))
 
 
 def _placed(axis: int, value: float, other: float) -> Point:
     return (value, other) if axis == 0 else (other, value)
 
 
-def centers(start: Point, end: Point, radius: float, turn: Turn) -> One | Two | Apart | Beside:
+def centers(start: Point, end: Point, radius: float, turn: Turn) -> OnePoint | TwoPoints | OutOfReach | NotDetermined:
     """The centers of arcs from `start` to `end`: that of the arc under half a turn first, then of the longer one.
 
-    A radius too small by no more than `ARC_RADII` gives the half circle; equal ends give `Beside`.
+    A radius too small by no more than `ARC_RADII` gives the half circle; equal ends give `NotDetermined`.
     """
     chord = hypot(end[0] - start[0], end[1] - start[1])
     if chord <= ON_PATH:
-        return Beside()
+        return NotDetermined()
     if chord / 2 > radius + ARC_RADII:
-        return Apart(chord / 2)
+        return OutOfReach(chord / 2)
     height = sqrt(max(0.0, (radius - chord / 2) * (radius + chord / 2)))
     if height <= ON_PATH:
-        return One(_above(start, end, 0.0))
-    return Two(_above(start, end, turn * height), _above(start, end, -turn * height))
+        return OnePoint(_above(start, end, 0.0))
+    return TwoPoints(_above(start, end, turn * height), _above(start, end, -turn * height))
 
 
 def _above(start: Point, end: Point, height: float) -> Point:
@@ -103,7 +104,7 @@ def _above(start: Point, end: Point, height: float) -> Point:
     return (start[0] + end[0]) / 2 - dy / chord * height, (start[1] + end[1]) / 2 + dx / chord * height
 
 
-def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> One | Beside:
+def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> OnePoint | NotDetermined:
     """The center about which `turn` by `sweep` (0 < sweep < a full turn) takes `start` to `end`.
 
     Height of the center over the chord c: c / 2 / tan(sweep / 2).
@@ -111,17 +112,17 @@ def center_by_sweep(start: Point, end: Point, sweep: float, turn: Turn) -> One |
     chord = hypot(end[0] - start[0], end[1] - start[1])
     half = sin(sweep / 2)
     if chord <= ON_PATH or abs(half) < SLIVER:
-        return Beside()
-    return One(_above(start, end, turn * chord / 2 * cos(sweep / 2) / half))
+        return NotDetermined()
+    return OnePoint(_above(start, end, turn * chord / 2 * cos(sweep / 2) / half))
 
 
-def center_by_coordinate(start: Point, end: Point, axis: int, value: float) -> One | Beside:
+def center_by_coordinate(start: Point, end: Point, axis: int, value: float) -> OnePoint | NotDetermined:
     """The point as far from `start` as from `end` whose coordinate `axis` is `value`."""
     across, along = end[1 - axis] - start[1 - axis], end[axis] - start[axis]
     if abs(across) <= SLIVER * abs(along) or across == 0.0:
-        return Beside()
+        return NotDetermined()
     middle = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
-    return One(_placed(axis, value, middle[1 - axis] - (value - middle[axis]) * along / across))
+    return OnePoint(_placed(axis, value, middle[1 - axis] - (value - middle[axis]) * along / across))
 
 
 def rotated(point: Point, center: Point, angle: float) -> Point:

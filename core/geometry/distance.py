@@ -1,6 +1,6 @@
 """Exact distances between lines and arcs, for arrays of points and arrays of pairs of pieces.
 
-Piece k of one `Measured` is held against piece k of another.  Every extreme of the distance along a piece lies at
+Piece k of one `PieceArrays` is held against piece k of another.  Every extreme of the distance along a piece lies at
 one of a few places that have a formula: its ends, the feet of the other's ends and center, the crossings.  Where a
 formula has no answer the place is replaced by the piece's start, which harms nobody: a place is only a proposal,
 its distance is always measured.
@@ -12,32 +12,33 @@ from math import tau
 
 import numpy as np
 
-from core.geometry.piece_arrays import Floats, Measured, Points, at, by_kind, traveled
+from core.geometry.path import Floats, Points
+from core.geometry.piece_arrays import PieceArrays, at, by_kind, traveled
 
 
-def foot(pieces: Measured, points: Points) -> Floats:
+def foot(pieces: PieceArrays, points: Points) -> Floats:
     """(..., n) fraction at which each piece is nearest to its point of `points` (..., n)."""
     t: Floats = by_kind(pieces.arcs, _line_foot, _arc_foot, pieces, points)
     return t
 
 
-def distance(pieces: Measured, points: Points) -> Floats:
+def distance(pieces: PieceArrays, points: Points) -> Floats:
     """(..., n) least distance of each piece from its point of `points` (..., n), in millimeters."""
     apart: Floats = by_kind(pieces.arcs, _line_distance, _arc_distance, pieces, points)
     return apart
 
 
-def _line_foot(line: Measured, points: Points) -> Floats:
+def _line_foot(line: PieceArrays, points: Points) -> Floats:
     return _line_share(line, points - line.start)
 
 
-def _line_distance(line: Measured, points: Points) -> Floats:
+def _line_distance(line: PieceArrays, points: Points) -> Floats:
     off = points - line.start
     gap: Floats = np.abs(off - _line_share(line, off) * line.vector)
     return gap
 
 
-def _line_share(line: Measured, off: Points) -> Floats:
+def _line_share(line: PieceArrays, off: Points) -> Floats:
     """Fractions at which lines are nearest to points `off` from their starts.
 
     What is so short that its square is 0 is a point.
@@ -46,58 +47,58 @@ def _line_share(line: Measured, off: Points) -> Floats:
     return _clipped((off * np.conj(line.vector)).real / np.where(square == 0.0, 1.0, square))
 
 
-def _arc_foot(arc: Measured, points: Points) -> Floats:
+def _arc_foot(arc: PieceArrays, points: Points) -> Floats:
     towards = traveled(arc, points - arc.center)
     beyond = np.where(tau - towards < towards - arc.angle, 0.0, 1.0)
     t: Floats = np.where(towards <= arc.angle, towards / np.where(arc.angle == 0.0, 1.0, arc.angle), beyond)
     return t
 
 
-def _arc_distance(arc: Measured, points: Points) -> Floats:
+def _arc_distance(arc: PieceArrays, points: Points) -> Floats:
     radial = points - arc.center
     to_ends = np.minimum(np.abs(points - arc.start), np.abs(points - arc.end))
     apart: Floats = np.where(traveled(arc, radial) <= arc.angle, np.abs(np.abs(radial) - arc.radius), to_ends)
     return apart
 
 
-def on_line(pieces: Measured, through: Points, unit: Points) -> Floats:
+def on_line(pieces: PieceArrays, through: Points, unit: Points) -> Floats:
     """(2, ..., n) fractions at which the pieces meet endless lines through points along unit vectors; nan for none."""
     met: Floats = by_kind(pieces.arcs, _line_on_line, _arc_on_line, pieces, through, unit)
     return met
 
 
-def on_circle(pieces: Measured, center: Points, radius: Floats) -> Floats:
+def on_circle(pieces: PieceArrays, center: Points, radius: Floats) -> Floats:
     """(2, ..., n) fractions at which the pieces, lines prolonged, meet whole circles; nan for none."""
     met: Floats = by_kind(pieces.arcs, _line_on_circle, _arc_on_circle, pieces, center, radius)
     return met
 
 
-def _line_on_line(line: Measured, through: Points, unit: Points) -> Floats:
+def _line_on_line(line: PieceArrays, through: Points, unit: Points) -> Floats:
     met = ((through - line.start) * np.conj(unit)).imag / (line.vector * np.conj(unit)).imag
     return np.array((met, met))
 
 
-def _arc_on_line(arc: Measured, through: Points, unit: Points) -> Floats:
+def _arc_on_line(arc: PieceArrays, through: Points, unit: Points) -> Floats:
     normal = 1j * unit
     height = ((through - arc.center) * np.conj(normal)).real
     return _fan(arc, normal, (arc.radius - height) / (2.0 * arc.radius))
 
 
-def _line_on_circle(line: Measured, center: Points, radius: Floats) -> Floats:
+def _line_on_circle(line: PieceArrays, center: Points, radius: Floats) -> Floats:
     unit = line.unit
     seen = (center - line.start) * np.conj(unit)
     half = np.sqrt((radius - seen.imag) * (radius + seen.imag))
     return np.array((seen.real - half, seen.real + half)) / line.length
 
 
-def _arc_on_circle(arc: Measured, center: Points, radius: Floats) -> Floats:
+def _arc_on_circle(arc: PieceArrays, center: Points, radius: Floats) -> Floats:
     between = center - arc.center
     size = np.abs(between)
     over = size - arc.radius
     return _fan(arc, between, (radius - over) * (radius + over) / (4.0 * arc.radius * size))
 
 
-def _fan(arc: Measured, axis: Points, share: Floats) -> Floats:
+def _fan(arc: PieceArrays, axis: Points, share: Floats) -> Floats:
     """Fractions at the two directions from the arc's center at an angle to `axis`, half of which has the sine squared
     `share`: near a touch, where the cosine is all but 1, this keeps the digits."""
     half = 2.0 * np.arcsin(np.sqrt(share))
@@ -106,13 +107,13 @@ def _fan(arc: Measured, axis: Points, share: Floats) -> Floats:
     return np.mod(np.array((towards - half, towards + half)), tau) / arc.angle
 
 
-def nearest_places(pieces: Measured, other: Measured) -> Floats:
+def nearest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
     """(8, n) fractions of each piece among which every local least distance from its partner in `other` is found."""
     places = np.concatenate((_ends(pieces), _crossings(pieces, other), feet(pieces, other)))
     return _inside(places)
 
 
-def farthest_places(pieces: Measured, other: Measured) -> Floats:
+def farthest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
     """(10, n) fractions among which every local greatest distance from the partner in `other` is found, ends left out.
 
     Besides the antipodes of the feet these are the places equally far from an arc's two ends.
@@ -122,7 +123,7 @@ def farthest_places(pieces: Measured, other: Measured) -> Floats:
     return _inside(np.concatenate((feet(pieces, other), opposite, even)))
 
 
-def band_places(pieces: Measured, other: Measured, reach: Floats) -> Floats:
+def band_places(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Floats:
     """(10, n) fractions in rising order that part each piece where its distance from its partner may pass `reach`.
 
     These are its meetings with the outline of all points within `reach` (n,) of the partner: the partner moved
@@ -134,7 +135,7 @@ def band_places(pieces: Measured, other: Measured, reach: Floats) -> Floats:
     return places
 
 
-def _outline(pieces: Measured, other: Measured, reach: Floats) -> Floats:
+def _outline(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Floats:
     """(8, n) meetings with the circles about both ends, and with a line's two sides or an arc's two circles."""
     bent, ends = other.arcs, (other.start, other.end)
     arcs = np.count_nonzero(bent)
@@ -148,13 +149,13 @@ def _outline(pieces: Measured, other: Measured, reach: Floats) -> Floats:
     return met.reshape(8, -1)
 
 
-def _sides(pieces: Measured, line: Measured, reach: Floats) -> Floats:
+def _sides(pieces: PieceArrays, line: PieceArrays, reach: Floats) -> Floats:
     unit = line.unit
     off = 1j * reach * unit
     return on_line(pieces, np.array((line.start + off, line.start - off)), unit)
 
 
-def _ends(pieces: Measured) -> Floats:
+def _ends(pieces: PieceArrays) -> Floats:
     ends = np.zeros((2, len(pieces)))
     ends[1] = 1.0
     return ends
@@ -168,55 +169,55 @@ def _clipped(t: Floats) -> Floats:
     return np.minimum(np.maximum(t, 0.0), 1.0)
 
 
-def _crossings(pieces: Measured, other: Measured) -> Floats:
+def _crossings(pieces: PieceArrays, other: PieceArrays) -> Floats:
     met: Floats = by_kind(other.arcs, _crossing_line, _crossing_arc, pieces, other)
     return met
 
 
-def _crossing_line(pieces: Measured, line: Measured) -> Floats:
+def _crossing_line(pieces: PieceArrays, line: PieceArrays) -> Floats:
     return on_line(pieces, line.start, line.unit)
 
 
-def _crossing_arc(pieces: Measured, arc: Measured) -> Floats:
+def _crossing_arc(pieces: PieceArrays, arc: PieceArrays) -> Floats:
     return on_circle(pieces, arc.center, arc.radius)
 
 
-def feet(pieces: Measured, other: Measured) -> Floats:
+def feet(pieces: PieceArrays, other: PieceArrays) -> Floats:
     """(4, n) fractions at the feet of the other's two ends and, both ways, of its center or along its normal."""
     places: Floats = by_kind(pieces.arcs, _line_feet, _arc_feet, pieces, other)
     return places
 
 
-def _line_feet(line: Measured, other: Measured) -> Floats:
+def _line_feet(line: PieceArrays, other: PieceArrays) -> Floats:
     center = other.center
     return _line_foot(line, np.array((other.start, other.end, center, center)))
 
 
-def _arc_feet(arc: Measured, other: Measured) -> Floats:
+def _arc_feet(arc: PieceArrays, other: PieceArrays) -> Floats:
     normal = np.where(other.arcs, other.center - arc.center, 1j * other.vector)
     towards = np.array((other.start - arc.center, other.end - arc.center, normal, -normal))
     return traveled(arc, towards) / arc.angle
 
 
-def _antipodes(arc: Measured, other: Measured) -> Floats:
+def _antipodes(arc: PieceArrays, other: PieceArrays) -> Floats:
     towards = np.array((arc.center - other.start, arc.center - other.end))
     return traveled(arc, towards) / arc.angle
 
 
-def _no_antipodes(line: Measured, _other: Measured) -> Floats:
+def _no_antipodes(line: PieceArrays, _other: PieceArrays) -> Floats:
     return np.zeros((2, len(line)))
 
 
-def _even_places(pieces: Measured, arc: Measured) -> Floats:
+def _even_places(pieces: PieceArrays, arc: PieceArrays) -> Floats:
     middle = arc.arm / arc.radius * np.exp(0.5j * arc.turn * arc.angle)
     places = on_line(pieces, arc.center, middle)
     return np.concatenate((places, places))
 
 
-def _no_places(pieces: Measured, _other: Measured) -> Floats:
+def _no_places(pieces: PieceArrays, _other: PieceArrays) -> Floats:
     return np.zeros((4, len(pieces)))
 
 
-def between(pieces: Measured, other: Measured, places: Floats) -> Floats:
+def between(pieces: PieceArrays, other: PieceArrays, places: Floats) -> Floats:
     """(k, n) distances of the points at `places` (k, n) of each piece from its partner in `other`."""
     return distance(other, at(pieces, places))

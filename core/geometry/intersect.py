@@ -16,12 +16,12 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Floats, Indices, Masks, Path, Pieces, Planes, coordinates, pieces_of, taken
+from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, coordinates, pieces_of
 from core.geometry.piece import SLIVER
 from core.tolerance import JOINED, ON_PATH
 
 _ROOM: Final = 1e-6
-"""How much too large a sector is taken, times the radius: the exact test comes after it."""
+"""How much too large a sector is times the radius: the exact test comes after it."""
 
 
 class Meeting(IntEnum):
@@ -44,7 +44,7 @@ class Meetings:
     """
 
     kinds: NDArray[np.int8]
-    pair: Indices
+    pair: Rows
     along_a: Floats
     along_b: Floats
     rest_a: Floats
@@ -55,24 +55,24 @@ class Meetings:
 class _Points(NamedTuple):
     """p points in the order of their pairs: `Meetings` without its kinds."""
 
-    pair: Indices
+    pair: Rows
     along_a: Floats
     along_b: Floats
     rest_a: Floats
     rest_b: Floats
-    point: Planes
+    point: Points
 
 
 _Solved = tuple[NDArray[np.int8], _Points]
 """How each of k pairs meets, and the points where they do."""
 
 
-def meet(one: Path, a: Indices, other: Path, b: Indices) -> Meetings:
+def meet(one: Path, a: Rows, other: Path, b: Rows) -> Meetings:
     """How pieces a (k,) of `one` meet pieces b (k,) of `other`, pair by pair; `meet_pieces` says by which rules."""
     return meet_pieces(pieces_of(one), a, pieces_of(other), b)
 
 
-def meet_pieces(one: Pieces, a: Indices, other: Pieces, b: Indices) -> Meetings:
+def meet_pieces(one: Pieces, a: Rows, other: Pieces, b: Rows) -> Meetings:
     """How pieces a (k,) of `one` meet pieces b (k,) of `other`, pair by pair.
 
     A point counts when it lies on both pieces within ON_PATH.  Lines are parallel when they part by no more
@@ -87,7 +87,7 @@ def meet_pieces(one: Pieces, a: Indices, other: Pieces, b: Indices) -> Meetings:
     for these, solve in which:
         rows = these.nonzero()[0]
         if len(rows):
-            kinds[rows], found = solve(taken(one, a[rows]), taken(other, b[rows]))
+            kinds[rows], found = solve(one.take(a[rows]), other.take(b[rows]))
             parts.append(_Points(rows[found.pair], *found[1:]))
     found = _joined(parts)
     return Meetings(kinds, *found[:5], coordinates(found.point))
@@ -105,7 +105,7 @@ def _joined(parts: list[_Points]) -> _Points:
     return _Points(pair[order], *(column[order] for column in columns))
 
 
-def _kinds(count: int, pair: Indices, touching: Masks) -> NDArray[np.int8]:
+def _kinds(count: int, pair: Rows, touching: Flags) -> NDArray[np.int8]:
     """CROSS or TOUCH for the pairs that have a point."""
     kinds = np.zeros(count, np.int8)
     kinds[pair] = np.where(touching[pair], Meeting.TOUCH.value, Meeting.CROSS.value)
@@ -128,7 +128,7 @@ def _lines(a: Pieces, b: Pieces) -> _Solved:
     kinds[on] = Meeting.CROSS.value
     rows = (parallel & (length_a > 0.0) & (length_b > 0.0)).nonzero()[0]
     if len(rows):
-        kinds[rows], touches = _parallel(taken(a, rows), taken(b, rows))
+        kinds[rows], touches = _parallel(a.take(rows), b.take(rows))
         found = _joined([found, touches._replace(pair=rows[touches.pair])])
     return kinds, found
 
@@ -163,9 +163,9 @@ def _line_arc(line: Pieces, arc: Pieces) -> _Solved:
     on = _within(along, length[pair]).nonzero()[0]
     pair, along = pair[on], along[on]
     points = line.start[pair] + along * unit[pair]
-    near = _in_sector(points, taken(arc, pair)).nonzero()[0]
+    near = _in_sector(points, arc.take(pair)).nonzero()[0]
     pair, along, points = pair[near], along[near], points[near]
-    run, rest = _along_arc(points, taken(arc, pair), radius[pair])
+    run, rest = _along_arc(points, arc.take(pair), radius[pair])
     found = _on_both(_Points(pair, along, run, length[pair] - along, rest, points))
     return _kinds(len(room), found.pair, np.abs(room) <= ON_PATH), found
 
@@ -186,20 +186,20 @@ def _arcs(a: Pieces, b: Pieces) -> _Solved:
     pair, half = _half_chords(np.sqrt(np.maximum(area, 0.0)) / (2.0 * divisor), room)
     foot = (apart + differ * total / divisor) / 2.0
     points = a.center[pair] + (between / divisor)[pair] * (foot[pair] + 1j * half)
-    near = _in_sector(points, taken(a, pair)).nonzero()[0]
-    near = near[_in_sector(points[near], taken(b, pair[near]))]
+    near = _in_sector(points, a.take(pair)).nonzero()[0]
+    near = near[_in_sector(points[near], b.take(pair[near]))]
     pair, points = pair[near], points[near]
-    run_a, rest_a = _along_arc(points, taken(a, pair), big[pair])
-    run_b, rest_b = _along_arc(points, taken(b, pair), small[pair])
+    run_a, rest_a = _along_arc(points, a.take(pair), big[pair])
+    run_b, rest_b = _along_arc(points, b.take(pair), small[pair])
     found = _as_traveled(_on_both(_Points(pair, run_a, run_b, rest_a, rest_b, points)))
     kinds = _kinds(len(room), found.pair, np.abs(room) <= ON_PATH)
     rows = (concentric & (np.abs(differ) <= ON_PATH)).nonzero()[0]
     if len(rows):
-        kinds[rows[_overlap(taken(a, rows), taken(b, rows))]] = Meeting.OVERLAP.value
+        kinds[rows[_overlap(a.take(rows), b.take(rows))]] = Meeting.OVERLAP.value
     return kinds, found
 
 
-def _in_sector(point: Planes, arc: Pieces) -> Masks:
+def _in_sector(point: Points, arc: Pieces) -> Flags:
     """Which points may lie on their arc: between the rays to its ends by cross products, with room for rounding.
 
     Of an arc of half a turn or more, and of one whose ends are nearly one point, those behind either ray.
@@ -212,7 +212,7 @@ def _in_sector(point: Planes, arc: Pieces) -> Masks:
     return np.where(minor, behind_first & before_last, behind_first | before_last)
 
 
-def _half_chords(half: Floats, room: Floats) -> tuple[Indices, Floats]:
+def _half_chords(half: Floats, room: Floats) -> tuple[Rows, Floats]:
     """The pairs with a common chord, twice in a row, and its two halves, the first below 0.
 
     Halves within JOINED make one point: the foot between them, once, free of rounding.  `room` is what the pair is
@@ -225,18 +225,18 @@ def _half_chords(half: Floats, room: Floats) -> tuple[Indices, Floats]:
     return pair, signed
 
 
-def _overlap(a: Pieces, b: Pieces) -> Masks:
+def _overlap(a: Pieces, b: Pieces) -> Flags:
     """Do arcs of one circle share more than their ends?"""
     return _inside(a, _middle(b)) | _inside(b, _middle(a)) | _inside(a, b.start) | _inside(a, b.end)
 
 
-def _middle(arc: Pieces) -> Planes:
+def _middle(arc: Pieces) -> Points:
     """The point half way along each arc."""
-    middle: Planes = arc.center + (arc.start - arc.center) * np.exp(1j * _sweep(arc) / 2.0 * arc.turn)
+    middle: Points = arc.center + (arc.start - arc.center) * np.exp(1j * _sweep(arc) / 2.0 * arc.turn)
     return middle
 
 
-def _inside(arc: Pieces, point: Planes) -> Masks:
+def _inside(arc: Pieces, point: Points) -> Flags:
     """Does a point of the arc's circle lie on the arc, off its ends?"""
     run, rest = _along_arc(point, arc, np.abs(arc.start - arc.center))
     return (run > ON_PATH) & (rest > ON_PATH)
@@ -250,7 +250,7 @@ def _sweep(arc: Pieces) -> Floats:
     return swept
 
 
-def _turned(arc: Pieces, point: Planes) -> Floats:
+def _turned(arc: Pieces, point: Points) -> Floats:
     """The angle from the arc's start to a point, in the arc's direction, 0 ... a full turn."""
     across = (arc.start - arc.center).conj() * (point - arc.center)
     angle = np.arctan2(across.imag, across.real) * arc.turn
@@ -258,7 +258,7 @@ def _turned(arc: Pieces, point: Planes) -> Floats:
     return turned
 
 
-def _along_arc(point: Planes, arc: Pieces, radius: Floats) -> tuple[Floats, Floats]:
+def _along_arc(point: Points, arc: Pieces, radius: Floats) -> tuple[Floats, Floats]:
     """Distance on each arc from its start to a point of its circle, and from there to its end.
 
     A point off the arc is on the nearer end's side: the one distance is below 0 before the start, the other behind
@@ -269,7 +269,7 @@ def _along_arc(point: Planes, arc: Pieces, radius: Floats) -> tuple[Floats, Floa
     return run, length - run
 
 
-def _within(along: Floats, length: Floats) -> Masks:
+def _within(along: Floats, length: Floats) -> Flags:
     return (along >= -ON_PATH) & (along <= length + ON_PATH)
 
 

@@ -21,7 +21,8 @@ import numpy as np
 import shapely
 
 from core.geometry.distance import distance
-from core.geometry.piece_arrays import Flags, Floats, Measured, Points, Rows
+from core.geometry.path import Flags, Floats, Points, Rows
+from core.geometry.piece_arrays import PieceArrays
 
 FAN: Final = 4
 """Consecutive chords, or runs of them, in one run."""
@@ -117,7 +118,7 @@ class Chords:
         return np.concatenate((low - self.slack, high + self.slack))
 
 
-def chords_of(pieces: Measured) -> Chords:
+def chords_of(pieces: PieceArrays) -> Chords:
     """The chord of each piece; an arc is within its height over the chord, however far it turns."""
     return Chords(pieces.start, pieces.end, pieces.radius * (1.0 - np.cos(pieces.angle / 2.0)))
 
@@ -215,7 +216,7 @@ def _at_least_apart(chord: Chords, other: Chords) -> Floats:
     return apart
 
 
-def nearest_pieces(points: Points, pieces: Measured, tie: float = 0.0) -> tuple[Rows, Rows, Floats]:
+def nearest_pieces(points: Points, pieces: PieceArrays, tie: float = 0.0) -> tuple[Rows, Rows, Floats]:
     """Triples (k, j, distance), by rising k, then j: for each point the pieces no farther than the nearest and `tie`.
 
     Exact.  Every point has one, if there is a piece at all.
@@ -230,7 +231,7 @@ def nearest_pieces(points: Points, pieces: Measured, tie: float = 0.0) -> tuple[
     return np.concatenate(k), np.concatenate(j), np.concatenate(apart)
 
 
-def _nearest_part(points: Points, first: int, pieces: Measured, runs: Runs, tie: float) -> tuple[Rows, Rows, Floats]:
+def _nearest_part(points: Points, first: int, pieces: PieceArrays, runs: Runs, tie: float) -> tuple[Rows, Rows, Floats]:
     """The triples of BATCH_QUERIES points from `first` on."""
     points = points[first : first + BATCH_QUERIES]
     k, j = np.divmod(np.arange(len(points) * len(runs[-1])), len(runs[-1]))
@@ -248,7 +249,7 @@ def _nearest_part(points: Points, first: int, pieces: Measured, runs: Runs, tie:
     return k + first, j, apart[near]
 
 
-def closest_pieces(one: Measured, other: Measured) -> tuple[Rows, Rows]:
+def closest_pieces(one: PieceArrays, other: PieceArrays) -> tuple[Rows, Rows]:
     """Pairs (i, j), by rising i, then j, among which are all with the least distance between two sets of pieces.
 
     A superset: what may come so near as two starts come somewhere.  Neither set is empty.

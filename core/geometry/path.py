@@ -3,8 +3,8 @@
 The one representation of geometry for ten pieces and for a hundred thousand.  A path of n pieces has
 n + 1 points, so that it is joined by construction.  Millimeters and radians, right-handed XY.
 
-What is calculated with many pieces at once takes points as complex numbers x + iy (`planes`) and pieces that need not
-join (`Pieces`): conj(u) v has the dot product of u and v as its real and the cross product as its imaginary part.
+What is calculated with many pieces at once takes points as complex numbers x + iy (`as_complex`) and pieces that need
+not join (`Pieces`): conj(u) v has the dot product of u and v as its real and the cross product as its imaginary part.
 """
 
 from __future__ import annotations
@@ -20,6 +20,9 @@ from numpy.typing import NDArray
 from core.geometry.piece import SLIVER, Arc, Line, Piece, Turn
 
 Floats = NDArray[np.float64]
+Points = NDArray[np.complex128]
+Rows = NDArray[np.intp]
+Flags = NDArray[np.bool_]
 Turns = NDArray[np.int8]
 
 _QUARTERS: Final = np.array([[0.0], [tau / 4], [tau / 2], [3 * tau / 4]])
@@ -215,42 +218,36 @@ EMPTY = Path(np.empty((0, 2)), np.empty((0, 2)), np.empty(0, np.int8), np.empty(
 """The path without pieces."""
 
 
-Indices = NDArray[np.intp]
-Planes = NDArray[np.complex128]
-Masks = NDArray[np.bool_]
-
-
 class Pieces(NamedTuple):
     """k pieces that need not join: ends and centers as complex numbers, turns as in `Path`."""
 
-    start: Planes
-    end: Planes
-    center: Planes
+    start: Points
+    end: Points
+    center: Points
     turn: Turns
 
+    def take(self, rows: Rows) -> Pieces:
+        """Some of the pieces."""
+        return Pieces(self.start[rows], self.end[rows], self.center[rows], self.turn[rows])
 
-def planes(pairs: Floats) -> Planes:
+
+def as_complex(pairs: Floats) -> Points:
     """(n, 2) coordinates as (n,) complex numbers, without a copy where they lie together in memory."""
-    flat: Planes = np.ascontiguousarray(pairs).view(np.complex128)[:, 0]
+    flat: Points = np.ascontiguousarray(pairs).view(np.complex128)[:, 0]
     return flat
 
 
-def coordinates(points: Planes) -> Floats:
+def coordinates(points: Points) -> Floats:
     """(n,) complex numbers as (n, 2) coordinates, without a copy where they lie together in memory."""
     return np.ascontiguousarray(points).view(np.float64).reshape(-1, 2)
 
 
-def onward(values: NDArray[Any]) -> NDArray[Any]:
+def next_in_ring(values: NDArray[Any]) -> NDArray[Any]:
     """The next one of each value round a ring: that of the last is the first.  `np.roll` takes five times as long."""
     return np.concatenate((values[1:], values[:1]))
 
 
 def pieces_of(path: Path) -> Pieces:
     """The pieces of a path, without a copy."""
-    points = planes(path.points)
-    return Pieces(points[:-1], points[1:], planes(path.centers), path.turns)
-
-
-def taken(pieces: Pieces, rows: Indices) -> Pieces:
-    """Some of the pieces."""
-    return Pieces(pieces.start[rows], pieces.end[rows], pieces.center[rows], pieces.turn[rows])
+    points = as_complex(path.points)
+    return Pieces(points[:-1], points[1:], as_complex(path.centers), path.turns)

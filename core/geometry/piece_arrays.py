@@ -1,4 +1,4 @@
-"""Measured: the pieces of a path with what exact distances need, worked out once, for whole arrays of pieces.
+"""PieceArrays: the pieces of a path with what exact distances need, worked out once, for whole arrays of pieces.
 
 Points are complex numbers x + iy.  A place on a piece is the fraction t of it that has been traveled, 0 to 1;
 a place on a whole path is the length s traveled since its first point.
@@ -6,7 +6,7 @@ a place on a whole path is the length s traveled since its first point.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import pi, tau
 from typing import Any, Final
@@ -14,7 +14,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Path, coordinates, planes
+from core.geometry.path import Flags, Floats, Path, Points, Rows, as_complex, coordinates
 from core.geometry.piece import SLIVER
 from core.tolerance import ARC_RADII, ON_PATH
 
@@ -24,14 +24,9 @@ FEW: Final = 500
 BLOCK: Final = 16_000
 """Pairs worked out at a time."""
 
-Floats = NDArray[np.float64]
-Points = NDArray[np.complex128]
-Rows = NDArray[np.intp]
-Flags = NDArray[np.bool_]
-
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Measured:
+class PieceArrays:
     """n pieces, (n,) arrays each, millimeters and radians.
 
     `rows` are the pieces' rows in the path they come from.  `vector` is end - start.  `arm` is start - center of an
@@ -53,10 +48,10 @@ class Measured:
     def __len__(self) -> int:
         return len(self.rows)
 
-    def take(self, rows: Rows) -> Measured:
+    def take(self, rows: Rows) -> PieceArrays:
         """The pieces of these indices, repeated and ordered as they come."""
         # an array's own `take` takes half as long as an index
-        return Measured(
+        return PieceArrays(
             self.rows.take(rows),
             self.start.take(rows),
             self.vector.take(rows),
@@ -68,10 +63,10 @@ class Measured:
             self.slack.take(rows),
         )
 
-    def part(self, first: int, last: int) -> Measured:
+    def part(self, first: int, last: int) -> PieceArrays:
         """The pieces from one index up to another, which is not among them: views."""
         part = slice(first, last)
-        return Measured(
+        return PieceArrays(
             self.rows[part],
             self.start[part],
             self.vector[part],
@@ -116,21 +111,21 @@ class Measured:
 
 _NO_POINTS: Final = np.zeros(0, np.complex128)
 _NO_TURNS: Final = np.zeros(0, np.float64)
-Given = Measured | Floats | Points
+Given = PieceArrays | Floats | Points
 Formula = Callable[..., NDArray[Any]]
 
 
-def stacked(paths: Sequence[Path]) -> Measured:
-    """The pieces of several paths that have a length as those of one path, and of a path of which none has the first.
+def piece_arrays(*paths: Path) -> PieceArrays:
+    """The pieces of these paths that have a length, as those of one path; of a path of which none has, the first.
 
     Rows count all pieces of all paths.
     """
-    corners = [planes(path.points) for path in paths]
+    corners = [as_complex(path.points) for path in paths]
     start = np.concatenate([_NO_POINTS, *(points[:-1] for points in corners)])
     end = np.concatenate([_NO_POINTS, *(points[1:] for points in corners)])
-    center = np.concatenate([_NO_POINTS, *(planes(path.centers) for path in paths)])
+    center = np.concatenate([_NO_POINTS, *(as_complex(path.centers) for path in paths)])
     turn = np.concatenate([_NO_TURNS, *(path.turns for path in paths)])
-    whole = _measured(start, end, center, turn)
+    whole = _of_points(start, end, center, turn)
     short = whole.length <= ON_PATH
     if not short.any():
         return whole
@@ -143,12 +138,7 @@ def stacked(paths: Sequence[Path]) -> Measured:
     return whole.take(keep.nonzero()[0])
 
 
-def measured(path: Path) -> Measured:
-    """The pieces of `path` that have a length; the first alone if none has."""
-    return stacked((path,))
-
-
-def _measured(start: Points, end: Points, center: Points, turn: Floats) -> Measured:
+def _of_points(start: Points, end: Points, center: Points, turn: Floats) -> PieceArrays:
     arc = turn.nonzero()[0]
     arm, vector = np.ones(len(turn), np.complex128), end - start
     angle, radius, slack = np.zeros((3, len(turn)))
@@ -160,7 +150,7 @@ def _measured(start: Points, end: Points, center: Points, turn: Floats) -> Measu
         radius[arc] = bend = np.abs(from_middle)
         angle[arc] = swept = _angles(from_middle, last - middle, way, first == last)
         length[arc] = bend * swept
-    return Measured(np.arange(len(turn)), start, vector, arm, turn, angle, radius, length, slack)
+    return PieceArrays(np.arange(len(turn)), start, vector, arm, turn, angle, radius, length, slack)
 
 
 def _one_radius(start: Points, end: Points, center: Points, turn: Floats) -> tuple[Points, Floats]:
@@ -240,41 +230,41 @@ def blocks(first: Flags, second: Flags) -> Iterator[Rows]:
 
 
 def _pick(given: tuple[Given, ...], rows: Rows) -> list[Given]:
-    return [item.take(rows) if isinstance(item, Measured) else item.take(rows, axis=-1) for item in given]
+    return [item.take(rows) if isinstance(item, PieceArrays) else item.take(rows, axis=-1) for item in given]
 
 
-def at(pieces: Measured, t: Floats) -> Points:
+def at(pieces: PieceArrays, t: Floats) -> Points:
     """(..., n) points at the fractions `t` (..., n) of each piece."""
     points: Points = by_kind(pieces.arcs, _line_at, _arc_at, pieces, t)
     return points
 
 
-def _line_at(line: Measured, t: Floats) -> Points:
+def _line_at(line: PieceArrays, t: Floats) -> Points:
     return line.start + t * line.vector
 
 
-def _arc_at(arc: Measured, t: Floats) -> Points:
+def _arc_at(arc: PieceArrays, t: Floats) -> Points:
     points: Points = arc.center + arc.arm * np.exp(1j * (arc.turn * arc.angle) * t)
     return points
 
 
-def direction(pieces: Measured, t: Floats) -> Points:
+def direction(pieces: PieceArrays, t: Floats) -> Points:
     """(n,) unit tangents at the fractions `t` (n,)."""
     units: Points = by_kind(pieces.arcs, _line_direction, _arc_direction, pieces, t)
     return units
 
 
-def _line_direction(line: Measured, t: Floats) -> Points:
+def _line_direction(line: PieceArrays, t: Floats) -> Points:
     return line.unit + 0.0 * t
 
 
-def _arc_direction(arc: Measured, t: Floats) -> Points:
+def _arc_direction(arc: PieceArrays, t: Floats) -> Points:
     size = np.where(arc.radius == 0.0, 1.0, arc.radius)
     units: Points = 1j * arc.turn * (arc.arm / size) * np.exp(1j * (arc.turn * arc.angle) * t)
     return units
 
 
-def traveled(arc: Measured, towards: Points) -> Floats:
+def traveled(arc: PieceArrays, towards: Points) -> Floats:
     """Angles in [0, tau) from each arc's start to the directions `towards` (..., n), seen from its center."""
     turned = towards * np.conj(arc.arm)
     angle: Floats = np.arctan2(turned.imag, turned.real) * arc.turn
@@ -283,7 +273,7 @@ def traveled(arc: Measured, towards: Points) -> Floats:
     return angle
 
 
-def place(pieces: Measured, stations: Floats, s: Floats) -> tuple[Rows, Floats]:
+def place(pieces: PieceArrays, stations: Floats, s: Floats) -> tuple[Rows, Floats]:
     """Piece index and fraction of the places `s` along the whole path; at a joint the piece that begins there."""
     index = stations[1:-1].searchsorted(s, side="right")
     length = pieces.length.take(index)
@@ -295,7 +285,7 @@ QUARTERS: Final = np.array((-pi, -pi / 2.0, 0.0, pi / 2.0))[:, None]
 """(4, 1) angles of the directions -x, -y, x and y."""
 
 
-def boxes(pieces: Measured) -> Floats:
+def boxes(pieces: PieceArrays) -> Floats:
     """(4, n) exact bounding boxes: least x, least y, largest x, largest y."""
     start, end = coordinates(pieces.start).T, coordinates(pieces.end).T
     box = np.empty((4, len(pieces)))
@@ -320,7 +310,7 @@ def boxes(pieces: Measured) -> Floats:
     return box
 
 
-def _quarters(arc: Measured) -> Flags:
+def _quarters(arc: PieceArrays) -> Flags:
     """(4, n) whether the arcs pass the directions -x, -y, x and y seen from their centers.
 
     What doubles cannot tell, at the ends of an arc, moves no box by more than their last digit: so near to such a

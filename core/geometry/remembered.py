@@ -12,7 +12,7 @@ from typing import Any, Final
 
 from numpy.typing import NDArray
 
-from core.geometry.piece_arrays import Given, Measured
+from core.geometry.piece_arrays import Given, PieceArrays
 
 FEW: Final = 50
 """Pieces of which the answer is kept: more of them are seldom all as they were, and take more room."""
@@ -41,7 +41,7 @@ class _Asked:
 
 def _bits(given: Given) -> tuple[bytes, ...]:
     """All that a formula may use; the row a piece has in its path is not among it."""
-    if not isinstance(given, Measured):
+    if not isinstance(given, PieceArrays):
         return (given.tobytes(),)
     points = given.start.tobytes(), given.vector.tobytes(), given.arm.tobytes()
     sizes = given.angle.tobytes(), given.radius.tobytes(), given.length.tobytes(), given.slack.tobytes()

@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import EMPTY, Floats, Indices, Path, Planes, coordinates, planes
+from core.geometry.path import EMPTY, Floats, Path, Points, Rows, as_complex, coordinates
 from core.geometry.piece import Arc, Line, Piece, Point
 
 
@@ -18,9 +18,9 @@ class Ends(NamedTuple):
     """
 
     first: Floats
-    start: Planes
+    start: Points
     last: Floats
-    end: Planes
+    end: Points
 
 
 class Parts(NamedTuple):
@@ -57,10 +57,10 @@ def pieces_joined(path: Path, rows: NDArray[np.intp]) -> Parts:
     """Single pieces of a path, by their rows, each a part of its own."""
     if not len(rows):
         return NO_PARTS
-    given, points = planes(path.points), np.empty(2 * len(rows), np.complex128)
+    given, points = as_complex(path.points), np.empty(2 * len(rows), np.complex128)
     points[::2], points[1::2] = given[rows], given[rows + 1]
     centers, turns, own = points[:-1].copy(), np.zeros(len(points) - 1, np.int8), np.zeros(len(points) - 1, np.bool_)
-    centers[::2], turns[::2], own[::2] = planes(path.centers)[rows], path.turns[rows], True
+    centers[::2], turns[::2], own[::2] = as_complex(path.centers)[rows], path.turns[rows], True
     return Parts(Path(coordinates(points), coordinates(centers), turns, path.numbers[rows].repeat(2)[:-1]), own)
 
 
@@ -71,7 +71,7 @@ def stretch_lengths(surface: Path, wanted: Ends) -> list[list[tuple[float, float
     return [each[head:tail] for head, tail in zip(heads.tolist(), tails.tolist(), strict=True)]
 
 
-def _cut_out(surface: Path, wanted: Ends) -> tuple[Path, Indices, Indices]:
+def _cut_out(surface: Path, wanted: Ends) -> tuple[Path, Rows, Rows]:
     """The stretches one behind the other with a line between them, and the first row and one behind the last of each.
 
     Those of unknown segments are left out.
@@ -84,7 +84,7 @@ def _cut_out(surface: Path, wanted: Ends) -> tuple[Path, Indices, Indices]:
     behind = counts.cumsum()
     heads, tails = behind - counts, behind - 1
     rows = (np.arange(behind[-1]) + (begins - heads).repeat(counts)) % len(surface)
-    points, centers, turns = planes(surface.points)[rows], planes(surface.centers)[rows], surface.turns[rows]
+    points, centers, turns = as_complex(surface.points)[rows], as_complex(surface.centers)[rows], surface.turns[rows]
     points[heads], points[tails], turns[tails] = wanted.start, wanted.end, 0
     # a line has its own start for a center
     lines = (turns == 0).nonzero()[0]
@@ -93,7 +93,7 @@ def _cut_out(surface: Path, wanted: Ends) -> tuple[Path, Indices, Indices]:
     return whole, heads, tails
 
 
-def _rows(surface: Path, wanted: Ends) -> tuple[Indices, Indices, Ends]:
+def _rows(surface: Path, wanted: Ends) -> tuple[Rows, Rows, Ends]:
     """Of stretches on known segments the first segment's first row and the last one's last row, and their ends."""
     numbers = surface.numbers
     if not len(numbers):
@@ -108,9 +108,9 @@ def _rows(surface: Path, wanted: Ends) -> tuple[Indices, Indices, Ends]:
     return begins[known], lasts[known], Ends(*(column[known] for column in wanted))
 
 
-def _steps(surface: Path, begins: Indices, lasts: Indices, wanted: Ends) -> Indices:
+def _steps(surface: Path, begins: Rows, lasts: Rows, wanted: Ends) -> Rows:
     """Rows from a point on one row to a point on another, or all round to the same one."""
-    steps: Indices = (lasts - begins) % len(surface)
+    steps: Rows = (lasts - begins) % len(surface)
     for one in (begins == lasts).nonzero()[0].tolist():
         piece, start, end = surface[int(begins[one])], _point(wanted.start[one]), _point(wanted.end[one])
         # from its start back to its start an arc is a full turn: what begins there ends behind that on any piece

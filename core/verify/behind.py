@@ -14,7 +14,8 @@ import numpy as np
 
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import distance, foot, on_line
-from core.geometry.piece_arrays import Flags, Floats, Points, Rows, at, direction, place
+from core.geometry.path import Flags, Floats, Points, Rows
+from core.geometry.piece_arrays import at, direction, place
 from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.farthest import FINE, farthest
 from core.verify.gouge import Gouging

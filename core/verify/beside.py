@@ -18,7 +18,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from core.geometry.aligned import Runs
-from core.geometry.piece_arrays import Flags, Floats, Measured, Points, Rows
+from core.geometry.path import Flags, Floats, Points, Rows
+from core.geometry.piece_arrays import PieceArrays
 from core.tolerance import GOUGE
 
 HALF: Final = pi * (1.0 + 1e-12)
@@ -69,8 +70,8 @@ NOBODY: Final = Beside(_NO_ROWS, _NO_ROWS, _NOTHING, _NOTHING, _NOTHING, np.zero
 
 
 class _Given(NamedTuple):
-    center: Measured
-    surface: Measured
+    center: PieceArrays
+    surface: PieceArrays
     sign: int
     radius: float
     grant: float
@@ -85,7 +86,7 @@ class _Runs(NamedTuple):
     apart: Floats
 
 
-def beside(center: Measured, likely: Rows, surface: Measured, sign: int, radius: float, grant: float) -> Beside:
+def beside(center: PieceArrays, likely: Rows, surface: PieceArrays, sign: int, radius: float, grant: float) -> Beside:
     """The own pieces of all walls; `likely` (m,) is the wall each piece may run beside, -1 where it is none.
 
     The cutter is on the left where `sign` is 1, on the right where it is -1.  What is off by no more than `grant`
@@ -163,7 +164,7 @@ def _joints(given: _Given, piece: Rows, from_start: Flags, to_end: Flags) -> tup
     return proved, meeting, corner
 
 
-def _meeting(pieces: Measured, rows: Rows, following: Rows, grant: float) -> Flags:
+def _meeting(pieces: PieceArrays, rows: Rows, following: Rows, grant: float) -> Flags:
     """Which of these pieces end where the following ones begin; one path's last and the next one's first may not."""
     meeting: Flags = np.abs(pieces.start[rows] + pieces.vector[rows] - pieces.start[following]) <= grant
     return meeting
@@ -207,7 +208,7 @@ def _tangent(given: _Given, j: Rows, i: Rows, k: Rows) -> Flags:
     return proved
 
 
-def _from_whole(pieces: Measured, rows: Rows, points: Points) -> Floats:
+def _from_whole(pieces: PieceArrays, rows: Rows, points: Points) -> Floats:
     """Distance of each point from its piece's whole circle or endless line."""
     start, arm, vector = pieces.start[rows], pieces.arm[rows], pieces.vector[rows]
     round_ = np.abs(np.abs(points - start + arm) - pieces.radius[rows])

@@ -11,7 +11,8 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from core.geometry.piece_arrays import Flags, Floats, Measured
+from core.geometry.path import Flags, Floats
+from core.geometry.piece_arrays import PieceArrays
 
 SHORT: Final = 1e-3
 """Chords shorter than this part of the radius do not say where an arc's middle is to the last digit."""
@@ -53,7 +54,7 @@ class Columns(NamedTuple):
     size: Floats = _NONE
 
 
-def columns(pieces: Measured) -> Floats:
+def columns(pieces: PieceArrays) -> Floats:
     """(15, n) the columns of these pieces, in order; a line's arc columns mean nothing.  (5, n) without any arcs."""
     x, y, along, up = pieces.start.real, pieces.start.imag, pieces.vector.real, pieces.vector.imag
     square = along * along + up * up
@@ -69,7 +70,7 @@ def columns(pieces: Measured) -> Floats:
     )
 
 
-def _middles(pieces: Measured, square: Floats) -> tuple[Floats, Floats]:
+def _middles(pieces: PieceArrays, square: Floats) -> tuple[Floats, Floats]:
     """The directions of arcs' middles from their centers; `square` is the chords' squared length, or 1."""
     size = np.sqrt(square)
     x, y = pieces.turn * pieces.vector.imag / size, -pieces.turn * pieces.vector.real / size

@@ -7,7 +7,8 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.piece_arrays import Flags, Rows, at, direction
+from core.geometry.path import Flags, Rows
+from core.geometry.piece_arrays import at, direction
 from core.tolerance import ON_PATH
 from core.verify.pairs import Pairs
 from core.verify.touch import POINT

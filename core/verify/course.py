@@ -8,8 +8,8 @@ from typing import Final
 
 import numpy as np
 
-from core.geometry.path import Path
-from core.geometry.piece_arrays import Floats, Measured, Rows, boxes, stacked
+from core.geometry.path import Floats, Path, Rows
+from core.geometry.piece_arrays import PieceArrays, boxes, piece_arrays
 from core.verify.columns import columns as columns_of
 
 FEW: Final = 2_000
@@ -23,7 +23,7 @@ class Course:
     Many pieces have no columns until they are `whole`: of nearly all of them nothing is asked.
     """
 
-    pieces: Measured
+    pieces: PieceArrays
     stations: Floats
     boxes: Floats
     columns: Floats | None
@@ -47,9 +47,9 @@ def courses(*groups: Sequence[Path]) -> Iterator[Course]:
     counts = [sum(map(len, group)) for group in groups]
     if sum(counts) > FEW:
         for group in groups:
-            yield _course(stacked(group))
+            yield _course(piece_arrays(*group))
         return
-    pieces = stacked([path for group in groups for path in group])
+    pieces = piece_arrays(*(path for group in groups for path in group))
     around, bends, whole = boxes(pieces), columns_of(pieces), len(pieces) == sum(counts)
     first = before = 0
     for count in counts:
@@ -62,5 +62,5 @@ def courses(*groups: Sequence[Path]) -> Iterator[Course]:
         first, before = last, behind
 
 
-def _course(pieces: Measured) -> Course:
+def _course(pieces: PieceArrays) -> Course:
     return Course(pieces, pieces.stations, boxes(pieces), None)

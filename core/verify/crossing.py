@@ -11,7 +11,8 @@ import numpy as np
 from core.geometry.aligned import aligned_pairs
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import between, distance, foot, nearest_places
-from core.geometry.piece_arrays import Flags, Floats, Measured, Points, Rows, at, direction
+from core.geometry.path import Flags, Floats, Points, Rows
+from core.geometry.piece_arrays import PieceArrays, at, direction
 from core.tolerance import JOINED
 from core.verify.course import Course
 from core.verify.unproved import clear
@@ -63,7 +64,7 @@ def crossings(course: Course, *, closed: bool, free: Course | None = None) -> Cr
     return Crossings(np.stack((first, second), axis=1)[order], points[k, pair][order])
 
 
-def _altered(pieces: Measured, before: Measured) -> Rows | None:
+def _altered(pieces: PieceArrays, before: PieceArrays) -> Rows | None:
     """The pieces that are not what those of the same index were before; None where these are many."""
     if len(pieces) != len(before):
         return None
@@ -83,7 +84,7 @@ def _unclear(course: Course, *, closed: bool, rows: Rows | None = None) -> tuple
     return i[unclear], j[unclear]
 
 
-def _candidates(surface: Measured, bounds: Floats, *, closed: bool, rows: Rows | None) -> tuple[Rows, Rows]:
+def _candidates(surface: PieceArrays, bounds: Floats, *, closed: bool, rows: Rows | None) -> tuple[Rows, Rows]:
     """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbors that come back.
 
     Only those of which one is among `rows`, where these are given; both are told twice then.
@@ -112,7 +113,7 @@ def _near(bounds: Floats, rows: Rows) -> tuple[Rows, Rows]:
     return np.minimum(one[far], other[far]), np.maximum(one[far], other[far])
 
 
-def _may_come_back(surface: Measured) -> Flags:
+def _may_come_back(surface: PieceArrays) -> Flags:
     """(n - 1,) pieces and the next ones that are not both straight, or that go back by all but half a turn."""
     vector, length, bent = surface.vector, surface.length, surface.arcs
     back: Flags = (np.conj(vector[:-1]) * vector[1:]).real < -0.99 * length[:-1] * length[1:]
@@ -120,7 +121,7 @@ def _may_come_back(surface: Measured) -> Flags:
     return back
 
 
-def _turned(surface: Measured, rows: Rows, following: Rows) -> Floats:
+def _turned(surface: PieceArrays, rows: Rows, following: Rows) -> Floats:
     """How much these pieces, the following ones and the joints between them turn, radians."""
     end, begin = at_joints(surface, rows, following)
     corner = begin * np.conj(end)
@@ -129,7 +130,7 @@ def _turned(surface: Measured, rows: Rows, following: Rows) -> Floats:
     return turned
 
 
-def at_joints(surface: Measured, rows: Rows, following: Rows) -> Points:
+def at_joints(surface: PieceArrays, rows: Rows, following: Rows) -> Points:
     """(2, m) the directions in which these pieces end and the following ones begin, of any length."""
     both = np.array((rows, following))
     vector, turn = surface.vector[both], surface.turn[both]
@@ -148,12 +149,14 @@ def _overlapping(bounds: Floats) -> Flags:
     return either
 
 
-def _turns_half_round(surface: Measured) -> bool:
+def _turns_half_round(surface: PieceArrays) -> bool:
     """The last and the first piece can meet elsewhere than at START: a curve must turn half round to come back."""
     return _turned(surface, np.array([-1]), np.array([0])).item() > pi - TURN
 
 
-def _away(one: Measured, other: Measured, places: Floats, points: Points, following: Flags, around: Flags) -> Flags:
+def _away(
+    one: PieceArrays, other: PieceArrays, places: Floats, points: Points, following: Flags, around: Flags
+) -> Flags:
     """(9, m) places that are no part of a joint.
 
     Pieces that leave a joint smoothly stay within any tolerance of each other for a while; they meet again

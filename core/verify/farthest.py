@@ -16,7 +16,8 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import between, distance, farthest_places
-from core.geometry.piece_arrays import Floats, Measured, Points, Rows, at, place
+from core.geometry.path import Floats, Points, Rows
+from core.geometry.piece_arrays import PieceArrays, at, place
 from core.tolerance import GOUGE
 from core.verify.reach import Stretches, changes, nearest
 
@@ -70,9 +71,9 @@ class _Search:
     Of pieces that are equally near, within `tie`, the first one is told.
     """
 
-    walked: Measured
+    walked: PieceArrays
     stations: Floats
-    other: Measured
+    other: PieceArrays
     bounds: Floats
     give: float
     tie: float
@@ -106,9 +107,9 @@ class _Search:
 
 
 def farthest(
-    walked: Measured,
+    walked: PieceArrays,
     stretches: Stretches,
-    other: Measured,
+    other: PieceArrays,
     around: Floats,
     *,
     near: Rows | None = None,
@@ -220,7 +221,7 @@ def _equally_far(search: _Search, spans: _Spans) -> Floats:
     return share
 
 
-def _within_span(piece: Measured, near: Measured, t: Floats) -> tuple[Floats, Floats]:
+def _within_span(piece: PieceArrays, near: PieceArrays, t: Floats) -> tuple[Floats, Floats]:
     """Largest distance to one nearest piece at the places inside the span `t` (2, m) where it can be largest, and the
     place, if there is one."""
     places = farthest_places(piece, near)

@@ -15,7 +15,8 @@ import numpy as np
 from core.geometry.aligned import aligned_pairs
 from core.geometry.boxes import near_pairs
 from core.geometry.distance import distance
-from core.geometry.piece_arrays import Flags, Floats, Measured, Points, Rows, at, place, traveled
+from core.geometry.path import Flags, Floats, Points, Rows
+from core.geometry.piece_arrays import PieceArrays, at, place, traveled
 from core.tolerance import ON_PATH
 from core.verify.farthest import FINE, farthest
 from core.verify.pairs import Pairs
@@ -123,7 +124,7 @@ class _Bends(NamedTuple):
     """The parts on arcs, by their rows, these arcs, and the lengths traveled at the arcs' starts."""
 
     rows: Rows
-    arc: Measured
+    arc: PieceArrays
     start: Floats
 
 

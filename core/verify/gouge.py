@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.path import Path
-from core.geometry.piece_arrays import Floats, Rows, at
+from core.geometry.path import Floats, Path, Rows
+from core.geometry.piece_arrays import at
 from core.tolerance import JOINED, ON_PATH
 from core.verify.pairs import Approaches, Pairs
 from core.verify.reach import Parts, Stretches, changes, joined, union, within

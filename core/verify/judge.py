@@ -11,9 +11,9 @@ from typing import Final
 import numpy as np
 
 from core.geometry.boxes import near_pairs
-from core.geometry.path import Path
+from core.geometry.path import Floats, Path
 from core.geometry.piece import Side
-from core.geometry.piece_arrays import Floats, Measured
+from core.geometry.piece_arrays import PieceArrays
 from core.tolerance import CLOSED, GOUGE, LARGEST
 from core.verify.behind import behind, deepened, parted
 from core.verify.beside import NOBODY, Beside, beside
@@ -223,7 +223,9 @@ def _judged(ground: Ground, side: Side, radius: float, numbers: Floats, measured
     )
 
 
-def _own(moves: Measured, numbers: Floats, walls: Measured, segments: Floats, side: Side, radius: float) -> Beside:
+def _own(
+    moves: PieceArrays, numbers: Floats, walls: PieceArrays, segments: Floats, side: Side, radius: float
+) -> Beside:
     """The moves that run beside the wall of their number, where there are enough walls for that to save time."""
     if len(walls) <= FEW:
         return NOBODY

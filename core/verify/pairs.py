@@ -9,7 +9,8 @@ import numpy as np
 
 from core.geometry.boxes import closest_pairs, near_pairs
 from core.geometry.distance import between, nearest_places
-from core.geometry.piece_arrays import Floats, Measured, Rows, blocks
+from core.geometry.path import Floats, Rows
+from core.geometry.piece_arrays import PieceArrays, blocks
 from core.geometry.remembered import remembered
 from core.tolerance import UNCUT
 from core.verify.beside import NOBODY, Beside
@@ -28,8 +29,8 @@ class Pairs:
     the pieces' starts and at the end.
     """
 
-    center: Measured
-    surface: Measured
+    center: PieceArrays
+    surface: PieceArrays
     center_stations: Floats
     surface_stations: Floats
     center_boxes: Floats
@@ -69,7 +70,7 @@ def pairs_of(
     return Pairs(moves, walls, *stations, *bounds, i, j, grant, touch, own)
 
 
-def granted(surface: Measured) -> float:
+def granted(surface: PieceArrays) -> float:
     """What counts as exact: UNCUT, and four units in the last place of the largest coordinate or radius."""
     largest = max(np.abs(surface.start.view(np.float64)).max(), surface.radius.max())
     return UNCUT + 4.0 * ulp(largest)
@@ -132,7 +133,7 @@ def _measure_block(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
 
 
 @remembered
-def _measured(piece: Measured, other: Measured) -> tuple[Floats, Floats]:
+def _measured(piece: PieceArrays, other: PieceArrays) -> tuple[Floats, Floats]:
     """(8, m) places where the pieces may be nearest to their partners, and how far they are there."""
     places = nearest_places(piece, other)
     return places, between(piece, other, places)

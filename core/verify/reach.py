@@ -14,7 +14,8 @@ import numpy as np
 
 from core.geometry.boxes import nearest_boxes
 from core.geometry.distance import band_places, between, distance
-from core.geometry.piece_arrays import Flags, Floats, Measured, Points, Rows, blocks
+from core.geometry.path import Flags, Floats, Points, Rows
+from core.geometry.piece_arrays import PieceArrays, blocks
 from core.geometry.remembered import remembered
 from core.tolerance import ON_PATH
 
@@ -52,7 +53,7 @@ class Parts:
     pair: Rows
 
 
-def within(pieces: Measured, i: Rows, others: Measured, j: Rows, reach: Floats) -> Parts:
+def within(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows, reach: Floats) -> Parts:
     """All parts of pieces `i` that are nearer to their partners `j` than `reach` (m,).
 
     The pieces are parted wherever the distance can pass `reach`, and the middle of each part decides.
@@ -74,7 +75,7 @@ def joined(found: Sequence[Parts]) -> Parts:
     return Parts(first, last, middle, apart, np.concatenate((np.zeros(0, np.intp), *(one.pair for one in found))))
 
 
-def _within_block(pieces: Measured, others: Measured, starts: Floats, reach: Floats, rows: Rows) -> Parts:
+def _within_block(pieces: PieceArrays, others: PieceArrays, starts: Floats, reach: Floats, rows: Rows) -> Parts:
     places, middles, apart = _bands(pieces, others, reach)
     part, pair = ((apart < reach) & (places[1:] > places[:-1])).nonzero()
     start, length, spot = starts.take(pair), pieces.length.take(pair), part * len(rows) + pair
@@ -83,7 +84,7 @@ def _within_block(pieces: Measured, others: Measured, starts: Floats, reach: Flo
 
 
 @remembered
-def _bands(pieces: Measured, others: Measured, reach: Floats) -> tuple[Floats, Floats, Floats]:
+def _bands(pieces: PieceArrays, others: PieceArrays, reach: Floats) -> tuple[Floats, Floats, Floats]:
     """(10, m) where the pieces are parted, and (9, m) middles of the parts and their distances from the partners."""
     places = band_places(pieces, others, reach)
     middles = (places[1:] + places[:-1]) / 2.0
@@ -123,7 +124,7 @@ class Nearest:
 
 
 def nearest(
-    points: Points, pieces: Measured, bounds: Floats, *, tie: float = 0.0, known: Floats | None = None
+    points: Points, pieces: PieceArrays, bounds: Floats, *, tie: float = 0.0, known: Floats | None = None
 ) -> Nearest:
     """For each point the pieces no farther than the nearest one and `tie`.
 

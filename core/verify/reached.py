@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.geometry.distance import band_places, feet
-from core.geometry.piece_arrays import Floats, Rows
+from core.geometry.path import Floats, Rows
 from core.tolerance import STOCK
 from core.verify.pairs import Pairs
 from core.verify.reach import Parts, Stretches, joined, within

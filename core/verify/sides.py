@@ -8,8 +8,9 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import foot
+from core.geometry.path import Flags, Floats, Points, Rows
 from core.geometry.piece import Side
-from core.geometry.piece_arrays import Flags, Floats, Measured, Points, Rows, at, place
+from core.geometry.piece_arrays import PieceArrays, at, place
 from core.tolerance import ARC_RADII, CLOSED, JOINED, ON_PATH
 from core.verify.crossing import Crossings, at_joints
 from core.verify.gouge import Gouging
@@ -201,7 +202,7 @@ def on_part_side(pairs: Pairs, points: Points, near: Nearest, surface: Sided) ->
     return wrong
 
 
-def _left(walls: Measured, off: Points) -> Floats:
+def _left(walls: PieceArrays, off: Points) -> Floats:
     """1 for points that are on the left of their walls, in the direction `off` from the walls' starts, -1 on the right.
 
     Those on the left of an arc are within its circle where it turns left, and without where it turns right.
@@ -212,7 +213,7 @@ def _left(walls: Measured, off: Points) -> Floats:
     return np.sign(across)
 
 
-def _off_joints(walls: Measured, before: Rows, off: Points, apart: Floats) -> Floats:
+def _off_joints(walls: PieceArrays, before: Rows, off: Points, apart: Floats) -> Floats:
     """For points to which the joint behind wall `before` is nearest, `off` from it and so `apart`, a number that is
     positive for those on the left.
 

@@ -14,7 +14,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.piece_arrays import Flags, Floats, Measured, Rows
+from core.geometry.path import Flags, Floats, Rows
+from core.geometry.piece_arrays import PieceArrays
 from core.tolerance import ON_PATH, STOCK
 from core.verify.columns import (
     CENTER,
@@ -220,7 +221,9 @@ def _between_ends(block: _Block) -> Floats:
     return apart
 
 
-def _hull(within: Flags, places: Floats, block: _Block, center: Measured, surface: Measured) -> tuple[Floats, Floats]:
+def _hull(
+    within: Flags, places: Floats, block: _Block, center: PieceArrays, surface: PieceArrays
+) -> tuple[Floats, Floats]:
     """First and last fraction of a surface piece that is one of the ends within the limit.
 
     The distance from a line is convex along another: what lies between is within too.  On arcs the feet are looked for
@@ -237,7 +240,7 @@ def _hull(within: Flags, places: Floats, block: _Block, center: Measured, surfac
     return first, last
 
 
-def _unsure(share: Floats, block: _Block, center: Measured, surface: Measured) -> Flags:
+def _unsure(share: Floats, block: _Block, center: PieceArrays, surface: PieceArrays) -> Flags:
     """Touches with arcs that are more than a point, such a `share` of the surface piece, unless both arcs are about one
     center and overlap but once."""
     unsure: Flags = block.bent[0] | block.bent[1]

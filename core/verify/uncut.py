@@ -6,9 +6,8 @@ from math import inf, nan
 
 import numpy as np
 
-from core.geometry.path import Path
+from core.geometry.path import Flags, Floats, Path, Points
 from core.geometry.piece import Side
-from core.geometry.piece_arrays import Flags, Floats, Points
 from core.tolerance import CLOSED, STOCK
 from core.verify.gaps import Bound, GapParts, bounds, parts_of, thickest
 from core.verify.pairs import Pairs

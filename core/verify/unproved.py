@@ -12,7 +12,8 @@ import numpy as np
 
 from core.geometry.aligned import aligned_pairs
 from core.geometry.boxes import near_pairs, reaching
-from core.geometry.piece_arrays import Flags, Floats, Measured, Rows
+from core.geometry.path import Flags, Floats, Rows
+from core.geometry.piece_arrays import PieceArrays
 from core.verify.beside import Beside
 
 CLEAR: Final = 3.0
@@ -20,7 +21,7 @@ CLEAR: Final = 3.0
 
 
 def unproved_pairs(
-    center: Measured, around: Floats, surface: Measured, bounds: Floats, own: Beside, reach: float, far: float
+    center: PieceArrays, around: Floats, surface: PieceArrays, bounds: Floats, own: Beside, reach: float, far: float
 ) -> tuple[Rows, Rows]:
     """Pieces i of the center path, rising, and walls j whose boxes come within `reach`, but for those that are proved.
 
@@ -69,7 +70,7 @@ def company_boxes(around: Floats, own: Beside) -> Floats:
     return boxes
 
 
-def clear(center: Measured, i: Rows, surface: Measured, j: Rows, far: float) -> Flags:
+def clear(center: PieceArrays, i: Rows, surface: PieceArrays, j: Rows, far: float) -> Flags:
     """Pairs of two lines of which one is wholly on one side of the other's endless line, and farther than `far`."""
     parted = np.zeros(len(i), np.bool_)
     if not len(i):

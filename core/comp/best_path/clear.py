@@ -6,11 +6,11 @@ import numpy as np
 
 from core.comp.best_path.surface import Surface
 from core.comp.best_path.tree import near, tree
-from core.geometry.path import Floats, Indices, Masks, Path, Planes, Turns, planes
+from core.geometry.path import Flags, Floats, Path, Points, Rows, Turns, as_complex
 from core.tolerance import CLEAR
 
 
-def clear(surface: Surface, points: Planes, segments: Indices, radius: float) -> Masks:
+def clear(surface: Surface, points: Points, segments: Rows, radius: float) -> Flags:
     """(k,) which points are no nearer to any piece of the surface than the radius, within CLEAR.
 
     `segments` (k,) are the pieces the points were offset from: most points that are not clear are too near to a joint
@@ -26,10 +26,10 @@ def clear(surface: Surface, points: Planes, segments: Indices, radius: float) ->
     return found
 
 
-def _clear_nearby(surface: Path, points: Planes, segments: Indices, radius: float) -> Masks:
+def _clear_nearby(surface: Path, points: Points, segments: Rows, radius: float) -> Flags:
     """Which points are clear of the joints 1, 2, 4, 8 ... segments ahead and behind, as far as any of those is near."""
     found = np.ones(len(points), np.bool_)
-    joints, step, near_some = planes(surface.points), 1, True
+    joints, step, near_some = as_complex(surface.points), 1, True
     while near_some and step < len(surface):
         near_some = False
         for shift in (step, -step):
@@ -42,9 +42,9 @@ def _clear_nearby(surface: Path, points: Planes, segments: Indices, radius: floa
     return found
 
 
-def distances(surface: Path, rows: Indices, points: Planes) -> Floats:
+def distances(surface: Path, rows: Rows, points: Points) -> Floats:
     """(k,) least distances of points from pieces of a path."""
-    ends = planes(surface.points)
+    ends = as_complex(surface.points)
     start, end = ends[rows], ends[rows + 1]
     arcs = surface.turns[rows].nonzero()[0]
     span, to = end - start, points - start
@@ -52,12 +52,12 @@ def distances(surface: Path, rows: Indices, points: Planes) -> Floats:
     part = (span.real * to.real + span.imag * to.imag) / np.where(square == 0.0, 1.0, square)
     found: Floats = np.abs(to - np.minimum(np.maximum(part, 0.0), 1.0) * span)
     if len(arcs):
-        center, turn = planes(surface.centers)[rows[arcs]], surface.turns[rows[arcs]]
+        center, turn = as_complex(surface.centers)[rows[arcs]], surface.turns[rows[arcs]]
         found[arcs] = _arc_distances(start[arcs] - center, end[arcs] - center, turn, points[arcs] - center)
     return found
 
 
-def _arc_distances(first: Planes, last: Planes, turn: Turns, radial: Planes) -> Floats:
+def _arc_distances(first: Points, last: Points, turn: Turns, radial: Points) -> Floats:
     """Distances from arcs about the origin: radially inside their sector, else to the nearer end.
 
     Being inside is decided by cross products: with both ends' rays for an arc under a half turn, with either above it.

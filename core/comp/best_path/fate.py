@@ -15,7 +15,7 @@ from core.comp.best_path.clear import clear
 from core.comp.best_path.raw_offset import Raw
 from core.comp.best_path.slices import Slices, merged, middles
 from core.comp.best_path.surface import Surface
-from core.geometry.path import Indices, Masks
+from core.geometry.path import Flags, Rows
 
 EVERY: Final = 64
 """Of a company's slices in their order the first and then one of so many are measured, and all that are long."""
@@ -40,7 +40,7 @@ def clear_slices(raw: Raw, cut: Slices, surface: Surface, radius: float) -> Slic
     return cut.take(good.nonzero()[0])
 
 
-def _measured(raw: Raw, cut: Slices, asked: Masks, surface: Surface, radius: float) -> Masks:
+def _measured(raw: Raw, cut: Slices, asked: Flags, surface: Surface, radius: float) -> Flags:
     """Which of the slices that are asked about are clear, each measured in its middle."""
     good = asked.copy()
     spots, piece = middles(raw, cut, asked.nonzero()[0])
@@ -48,14 +48,14 @@ def _measured(raw: Raw, cut: Slices, asked: Masks, surface: Surface, radius: flo
     return good
 
 
-def _none(dead: Masks, company: Indices) -> Masks:
+def _none(dead: Flags, company: Rows) -> Flags:
     """Slices in whose company none is dead."""
     lost = np.zeros(len(dead), np.bool_)
     lost[company[dead]] = True
     return ~lost[company]
 
 
-def _rank(company: Indices) -> Indices:
+def _rank(company: Rows) -> Rows:
     """Each slice's place in its company."""
     order = np.argsort(company, kind="stable")
     sort = company[order]

@@ -6,10 +6,10 @@ import numpy as np
 
 from core.comp.best_path.raw_offset import Raw
 from core.comp.best_path.slices import Slices
-from core.geometry.path import Floats, Indices, Path, coordinates
+from core.geometry.path import Floats, Path, Rows, coordinates
 
 
-def loop_of(raw: Raw, cut: Slices, rows: Indices, origin: Floats) -> Path:
+def loop_of(raw: Raw, cut: Slices, rows: Rows, origin: Floats) -> Path:
     """The path along slices `rows` in this order, moved by `origin`; slices of one piece are one piece again."""
     first, until = cut.piece[rows], cut.until[rows]
     counts = until - first + 1

@@ -16,7 +16,7 @@ import numpy as np
 from core.comp.best_path.raw_offset import Raw
 from core.comp.best_path.tree import near, near_selves, piece_boxes, tree
 from core.geometry.intersect import Meeting, Meetings, meet_pieces
-from core.geometry.path import Floats, Indices, Masks, Planes, planes
+from core.geometry.path import Flags, Floats, Points, Rows, as_complex
 from core.tolerance import JOINED, ON_PATH
 
 MOST_PAIRS: Final = 8_000_000
@@ -40,11 +40,11 @@ class Events:
     side, negative where the way from other to one does, 0 where they touch, overlap, or meet at an end.
     """
 
-    one: Indices
-    other: Indices
+    one: Rows
+    other: Rows
     along_one: Floats
     along_other: Floats
-    points: Planes
+    points: Points
     turn: Floats
 
 
@@ -66,7 +66,7 @@ def events(raw: Raw, sign: int) -> Events | None:
     return _all(found)
 
 
-def _pairs(raw: Raw) -> Iterator[tuple[Indices, Indices]]:
+def _pairs(raw: Raw) -> Iterator[tuple[Rows, Rows]]:
     """Pairs of side pieces, and of side and outline pieces, that lie near each other and may meet off their joint.
 
     Pieces joined smoothly meet only at their joint, unless together they go once around one way.
@@ -85,7 +85,7 @@ def _pairs(raw: Raw) -> Iterator[tuple[Indices, Indices]]:
         yield i[keep], j[keep]
 
 
-def _parted(raw: Raw) -> Masks:
+def _parted(raw: Raw) -> Flags:
     """(m,) which pieces meet the one that follows nowhere but at their joint."""
     arm = np.abs(raw.start - raw.center)
     swept = np.where(raw.turns == 0, 0.0, raw.lengths / np.where(raw.turns == 0, 1.0, arm))
@@ -103,23 +103,23 @@ def _all(found: list[Events]) -> Events:
     return Events(*(np.concatenate([getattr(some, name) for some in found]) for name in names))
 
 
-def _events(raw: Raw, i: Indices, j: Indices, met: Meetings, sign: int) -> Events:
-    one, other, points = i[met.pair], j[met.pair], planes(met.points)
+def _events(raw: Raw, i: Rows, j: Rows, met: Meetings, sign: int) -> Events:
+    one, other, points = i[met.pair], j[met.pair], as_complex(met.points)
     bend = directions(raw, one, points).conj() * directions(raw, other, points)
     ends = np.minimum(np.minimum(met.along_a, met.rest_a), np.minimum(met.along_b, met.rest_b))
     proper = (met.kinds[met.pair] == Meeting.CROSS) & (ends > JOINED)
     return Events(one, other, met.along_a, met.along_b, points, np.where(proper, sign * bend.imag, 0.0))
 
 
-def directions(raw: Raw, rows: Indices, points: Planes) -> Planes:
+def directions(raw: Raw, rows: Rows, points: Points) -> Points:
     """(k,) directions of travel of pieces at points on them, not of unit length."""
-    along: Planes = np.where(
+    along: Points = np.where(
         raw.turns[rows] == 0, raw.end[rows] - raw.start[rows], 1j * raw.turns[rows] * (points - raw.center[rows])
     )
     return along
 
 
-def _overlaps(raw: Raw, i: Indices, j: Indices) -> Events:
+def _overlaps(raw: Raw, i: Rows, j: Rows) -> Events:
     """Of pieces that run along each other, each end that lies on the other piece."""
     found = []
     for one, other in ((i, j), (j, i)):
@@ -130,7 +130,7 @@ def _overlaps(raw: Raw, i: Indices, j: Indices) -> Events:
     return _all(found)
 
 
-def along_of(raw: Raw, rows: Indices, points: Planes) -> Floats:
+def along_of(raw: Raw, rows: Rows, points: Points) -> Floats:
     """(k,) distances from the pieces' starts of the places abreast of points."""
     start, center, turns = raw.start[rows], raw.center[rows], raw.turns[rows]
     straight = turns == 0
@@ -143,12 +143,12 @@ def along_of(raw: Raw, rows: Indices, points: Planes) -> Floats:
     return along
 
 
-def places(raw: Raw, rows: Indices, along: Floats) -> Planes:
+def places(raw: Raw, rows: Rows, along: Floats) -> Points:
     """(k,) points at distances from the pieces' starts."""
     start, turns = raw.start[rows], raw.turns[rows]
     arm = np.where(turns == 0, raw.start[rows] - raw.end[rows], start - raw.center[rows])
     size = np.abs(arm)
     straight = start - arm * (along / size)
     curved = start - arm + arm * np.exp(1j * turns * (along / size))
-    points: Planes = np.where(turns == 0, straight, curved)
+    points: Points = np.where(turns == 0, straight, curved)
     return points

@@ -14,7 +14,7 @@ import numpy as np
 
 from core.comp.best_path.winding import winds
 from core.comp.offset import Chain, Part, offset
-from core.geometry.path import Floats, Indices, Masks, Path, Pieces, Planes, Turns, joined, planes
+from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, Turns, as_complex, joined
 from core.geometry.piece import SLIVER, Side
 from core.tolerance import JOINED
 
@@ -29,18 +29,18 @@ class Raw:
     the corner behind it.  `blunt_start`, `blunt_end` (m,) mark pieces cut off inside a wall there.
     """
 
-    start: Planes
-    end: Planes
-    center: Planes
+    start: Points
+    end: Points
+    center: Points
     turns: Turns
     numbers: Floats
     lengths: Floats
-    following: Indices
-    smooth: Masks
-    side: Masks
-    segment: Indices
-    blunt_start: Masks
-    blunt_end: Masks
+    following: Rows
+    smooth: Flags
+    side: Flags
+    segment: Rows
+    blunt_start: Flags
+    blunt_end: Flags
 
     def __len__(self) -> int:
         return len(self.turns)
@@ -60,10 +60,10 @@ class Untrimmed:
     """
 
     raw: Raw
-    order: Indices
-    inside: Masks
-    corner: Masks
-    joints: Planes
+    order: Rows
+    inside: Flags
+    corner: Flags
+    joints: Points
 
 
 def untrimmed(surface: Path, side: Side, radius: float, *, closed: bool, crossing: bool) -> Untrimmed:
@@ -77,16 +77,16 @@ def untrimmed(surface: Path, side: Side, radius: float, *, closed: bool, crossin
     if crossing or winds(surface, radius):
         both = joined((surface, surface.reversed()))
         chain = _around(both, side, radius)
-        return _untrimmed(chain, 2 * len(surface) - 1, planes(both.points), rings=(len(chain),))
+        return _untrimmed(chain, 2 * len(surface) - 1, as_complex(both.points), rings=(len(chain),))
     whole = joined((surface.part(0, 1).reversed(), surface, surface.part(len(surface) - 1, len(surface)).reversed()))
     chain = _without_cusps(offset(whole, side, radius), whole, side)
     chain = Chain(chain.raw, chain.parts, chain.places - 2)
-    return _untrimmed(chain, 2 * len(surface) - 1, planes(surface.points), rings=())
+    return _untrimmed(chain, 2 * len(surface) - 1, as_complex(surface.points), rings=())
 
 
 def _closed(surface: Path, side: Side, radius: float, *, crossing: bool) -> Untrimmed:
     chain = _around(surface, side, radius)
-    joints = planes(surface.points)
+    joints = as_complex(surface.points)
     if not crossing:
         return _untrimmed(chain, 2 * len(surface), joints, rings=(len(chain),))
     back = _around(surface.reversed(), side, radius)
@@ -108,7 +108,7 @@ def _without_cusps(chain: Chain, surface: Path, side: Side) -> Chain:
     Which side is inside shows in how far to the left the way back lies of the way there, a little before the tip:
     by the angle between them and by their curvatures.  Where they lie on each other both sides are outside.
     """
-    points, centers = planes(chain.raw.points), planes(chain.raw.centers)
+    points, centers = as_complex(chain.raw.points), as_complex(chain.raw.centers)
     corners = (chain.parts == Part.CORNER.value).nonzero()[0]
     across = points[corners] + points[corners + 1] - 2.0 * centers[corners]
     corners = corners[np.abs(across) <= JOINED]
@@ -127,14 +127,14 @@ def _without_cusps(chain: Chain, surface: Path, side: Side) -> Chain:
     return Chain(chain.raw, parts, chain.places)
 
 
-def _lengths(path: Path, rows: Indices) -> Floats:
-    points = planes(path.points)
-    return lengths(points[rows], points[rows + 1], planes(path.centers)[rows], path.turns[rows])
+def _lengths(path: Path, rows: Rows) -> Floats:
+    points = as_complex(path.points)
+    return lengths(points[rows], points[rows + 1], as_complex(path.centers)[rows], path.turns[rows])
 
 
-def _curvature(path: Path, rows: Indices) -> Floats:
+def _curvature(path: Path, rows: Rows) -> Floats:
     """Curvatures of pieces, positive to the left, 0 of a line."""
-    radii = np.abs(planes(path.points)[rows] - planes(path.centers)[rows])
+    radii = np.abs(as_complex(path.points)[rows] - as_complex(path.centers)[rows])
     curvature: Floats = path.turns[rows] / np.where(path.turns[rows] == 0, 1.0, radii)
     return curvature
 
@@ -153,7 +153,7 @@ def _both(one: Chain, two: Chain, places: int) -> Chain:
     return Chain(path, parts, np.concatenate((one.places, one.places[-1:] + 1, two.places + places)))
 
 
-def _untrimmed(chain: Chain, sides: int, joints: Planes, *, rings: tuple[int, ...]) -> Untrimmed:
+def _untrimmed(chain: Chain, sides: int, joints: Points, *, rings: tuple[int, ...]) -> Untrimmed:
     """The pieces of a chain that have a geometry of their own, joined over provisional bridges of no length.
 
     Side pieces have places 0 ... `sides` - 1.  Before each of the rows `rings` a ring ends, whose last piece is joined
@@ -161,9 +161,9 @@ def _untrimmed(chain: Chain, sides: int, joints: Planes, *, rings: tuple[int, ..
     """
     path = chain.raw
     rows = (chain.parts <= Part.CORNER.value).nonzero()[0]
-    points = planes(path.points)
+    points = as_complex(path.points)
     start, end, turns = points[rows], points[rows + 1], path.turns[rows]
-    center = planes(path.centers)[rows]
+    center = as_complex(path.centers)[rows]
     onward, order = _onward(rows, len(chain), rings)
     gapless = (order >= 0) & (np.abs(start[order] - end) <= JOINED)
     bridged = (order >= 0) & ~gapless & (chain.parts[onward[rows]] == Part.BRIDGE.value)
@@ -185,7 +185,7 @@ def _untrimmed(chain: Chain, sides: int, joints: Planes, *, rings: tuple[int, ..
     return Untrimmed(raw, order, inside, chain.parts[rows] == Part.CORNER.value, joints)
 
 
-def _onward(rows: Indices, count: int, rings: tuple[int, ...]) -> tuple[Indices, Indices]:
+def _onward(rows: Rows, count: int, rings: tuple[int, ...]) -> tuple[Rows, Rows]:
     """The row behind each of `count` rows, round each ring; and of the rows `rows` the next one of them, or -1."""
     onward = np.minimum(np.arange(1, count + 1), count - 1)
     order = np.arange(1, len(rows) + 1)
@@ -199,7 +199,7 @@ def _onward(rows: Indices, count: int, rings: tuple[int, ...]) -> tuple[Indices,
     return onward, order
 
 
-def lengths(start: Planes, end: Planes, center: Planes, turns: Turns) -> Floats:
+def lengths(start: Points, end: Points, center: Points, turns: Turns) -> Floats:
     """(n,) lengths of pieces; an arc whose ends are equal is a full circle."""
     found: Floats = np.abs(end - start)
     arcs = turns.nonzero()[0]

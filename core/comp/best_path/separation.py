@@ -17,7 +17,7 @@ from core.comp.best_path.clear import distances
 from core.comp.best_path.raw_offset import lengths
 from core.comp.best_path.result import BestPath
 from core.comp.best_path.tree import Tree, near, piece_boxes, tree
-from core.geometry.path import Floats, Indices, Masks, Path, Planes, coordinates, planes
+from core.geometry.path import Flags, Floats, Path, Points, Rows, as_complex, coordinates
 from core.tolerance import GOUGE
 
 
@@ -67,7 +67,7 @@ def _unfollowed(control: Path, loop: Path, limit: float) -> list[tuple[float, fl
     return list(zip(reached[gaps].tolist(), begin[gaps + 1].tolist(), strict=True))
 
 
-def _near(loop: Path, control: Path, limit: float) -> Iterator[tuple[Indices, Indices]]:
+def _near(loop: Path, control: Path, limit: float) -> Iterator[tuple[Rows, Rows]]:
     """Pairs of pieces of the same kind near each other."""
     for i, j in near(_boxes(loop, limit), _boxes(control, limit), 0.0):
         same = (loop.turns[i] != 0) == (control.turns[j] != 0)
@@ -75,24 +75,24 @@ def _near(loop: Path, control: Path, limit: float) -> Iterator[tuple[Indices, In
 
 
 def _boxes(path: Path, limit: float) -> Tree:
-    points = planes(path.points)
-    return tree(piece_boxes(points[:-1], points[1:], planes(path.centers), path.turns, limit))
+    points = as_complex(path.points)
+    return tree(piece_boxes(points[:-1], points[1:], as_complex(path.centers), path.turns, limit))
 
 
-def _along(loop: Path, i: Indices, control: Path, j: Indices) -> Iterator[tuple[Floats, Floats]]:
+def _along(loop: Path, i: Rows, control: Path, j: Rows) -> Iterator[tuple[Floats, Floats]]:
     """From where to where on pieces i the ends of pieces j project; twice, because an arc may run over the start."""
-    points, ends = planes(loop.points), planes(control.points)
+    points, ends = as_complex(loop.points), as_complex(control.points)
     start, turns = points[i], loop.turns[i]
     straight = turns == 0
     chord = points[i + 1] - start
     unit = chord / np.where(straight & (chord != 0.0), np.abs(chord), 1.0)
     one, two = (unit.conj() * (ends[j] - start)).real, (unit.conj() * (ends[j + 1] - start)).real
-    arm = start - planes(loop.centers)[i]
+    arm = start - as_complex(loop.centers)[i]
     radius = np.abs(arm)
     other = control.turns[j] != turns
-    entry = np.where(other, ends[j + 1], ends[j]) - planes(loop.centers)[i]
+    entry = np.where(other, ends[j + 1], ends[j]) - as_complex(loop.centers)[i]
     begin = np.mod(np.angle(arm.conj() * entry) * turns, tau) * radius
-    centers = planes(control.centers)
+    centers = as_complex(control.centers)
     swept = lengths(ends[j], ends[j + 1], centers[j], control.turns[j])
     scale = np.abs(ends[j] - centers[j])
     end = begin + swept * radius / np.where(scale == 0.0, 1.0, scale)
@@ -100,7 +100,7 @@ def _along(loop: Path, i: Indices, control: Path, j: Indices) -> Iterator[tuple[
     yield np.where(straight, 0.0, begin - tau * radius), np.where(straight, 0.0, end - tau * radius)
 
 
-def _follows(loop: Path, i: Indices, control: Path, j: Indices, along: tuple[Floats, ...], limit: float) -> Masks:
+def _follows(loop: Path, i: Rows, control: Path, j: Rows, along: tuple[Floats, ...], limit: float) -> Flags:
     """Which pieces i are at all of these places along them within the limit of pieces j."""
     near = np.ones(len(i), np.bool_)
     for at in along:
@@ -108,13 +108,13 @@ def _follows(loop: Path, i: Indices, control: Path, j: Indices, along: tuple[Flo
     return near
 
 
-def _places(path: Path, rows: Indices, along: Floats) -> Planes:
+def _places(path: Path, rows: Rows, along: Floats) -> Points:
     """(k,) points at distances from the starts of pieces."""
-    start, turns = planes(path.points)[rows], path.turns[rows]
-    arm = np.where(turns == 0, start - planes(path.points)[rows + 1], start - planes(path.centers)[rows])
+    start, turns = as_complex(path.points)[rows], path.turns[rows]
+    arm = np.where(turns == 0, start - as_complex(path.points)[rows + 1], start - as_complex(path.centers)[rows])
     size = np.abs(arm)
     part = along / np.where(size == 0.0, 1.0, size)
-    points: Planes = np.where(turns == 0, start - arm * part, start - arm + arm * np.exp(1j * turns * part))
+    points: Points = np.where(turns == 0, start - arm * part, start - arm + arm * np.exp(1j * turns * part))
     return points
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from core.comp.best_path.meetings import Events, places
 from core.comp.best_path.raw_offset import Raw
-from core.geometry.path import Floats, Indices, Masks, Planes, onward
+from core.geometry.path import Flags, Floats, Points, Rows, next_in_ring
 from core.tolerance import CROWDED, JOINED
 
 
@@ -28,22 +28,22 @@ class Slices:
     `points` are the nodes' places; `outer` marks the nodes where the outline takes part.
     """
 
-    piece: Indices
-    until: Indices
+    piece: Rows
+    until: Rows
     begin: Floats
     end: Floats
     size: Floats
-    first: Indices
-    last: Indices
-    dead: Masks
-    turning: Indices
-    points: Planes
-    outer: Masks
+    first: Rows
+    last: Rows
+    dead: Flags
+    turning: Rows
+    points: Points
+    outer: Flags
 
     def __len__(self) -> int:
         return len(self.piece)
 
-    def take(self, rows: Indices) -> Slices:
+    def take(self, rows: Rows) -> Slices:
         """Some slices, with all nodes."""
         place = np.full(len(self) + 1, -1)
         place[rows] = np.arange(len(rows))
@@ -58,9 +58,9 @@ class _Strands(NamedTuple):
     A strand that another one follows ends at that one's first node.  `nodes` is how many nodes the strands have.
     """
 
-    heads: Indices
-    tails: Indices
-    ends: Indices
+    heads: Rows
+    tails: Rows
+    ends: Rows
     nodes: int
 
 
@@ -70,18 +70,18 @@ class _Stations(NamedTuple):
     `turn` is positive where the piece ends its clear stretch at the event, negative where it begins it.
     """
 
-    piece: Indices
+    piece: Rows
     along: Floats
-    event: Indices
-    node: Indices
+    event: Rows
+    node: Rows
     turn: Floats
 
-    def of(self, pieces: Masks) -> _Stations:
+    def of(self, pieces: Flags) -> _Stations:
         """Those on some pieces."""
         rows = pieces[self.piece].nonzero()[0]
         return _Stations(self.piece[rows], self.along[rows], self.event[rows], self.node[rows], self.turn[rows])
 
-    def twins(self) -> tuple[Indices, Indices]:
+    def twins(self) -> tuple[Rows, Rows]:
         """The nodes of stations that follow each other on one piece within JOINED."""
         same = (self.piece[1:] == self.piece[:-1]) & (self.along[1:] - self.along[:-1] <= JOINED)
         return self.node[:-1][same], self.node[1:][same]
@@ -100,7 +100,7 @@ def sliced(raw: Raw, found: Events) -> Slices:
     piece[head], first[head] = strands.heads, np.arange(len(head))
     piece[at], begin[at], first[at] = stations.piece, stations.along, stations.node
     tail = np.append(head[1:], count)[: len(head)] - 1
-    until, end, last = onward(piece), onward(begin), onward(first)
+    until, end, last = next_in_ring(piece), next_in_ring(begin), next_in_ring(first)
     until[tail], end[tail], last[tail] = strands.tails, raw.lengths[strands.tails], strands.ends
     dead, turning = _turns(stations, at - 1, _alone(raw, stations), count)
     del stations, at
@@ -116,10 +116,10 @@ def sliced(raw: Raw, found: Events) -> Slices:
 def _strands(raw: Raw) -> _Strands:
     """The strands of a raw chain; full circles are strands of their own."""
     pieces = raw.side.nonzero()[0]
-    onward = raw.smooth & (raw.following == np.arange(1, len(raw) + 1)) & (raw.start != raw.end)
-    onward[:-1] &= raw.start[1:] != raw.end[1:]
+    next_in_ring = raw.smooth & (raw.following == np.arange(1, len(raw) + 1)) & (raw.start != raw.end)
+    next_in_ring[:-1] &= raw.start[1:] != raw.end[1:]
     begins = np.ones(len(pieces), np.bool_)
-    begins[1:] = ~onward[pieces[:-1]]
+    begins[1:] = ~next_in_ring[pieces[:-1]]
     heads = pieces[begins]
     tails = pieces[np.append(begins[1:], True)[: len(pieces)]]
     count = len(heads)
@@ -141,21 +141,21 @@ def _stations(raw: Raw, found: Events, nodes: int) -> _Stations:
     )
 
 
-def _sorted(piece: Indices, along: Floats) -> Indices:
+def _sorted(piece: Rows, along: Floats) -> Rows:
     """The order by piece and then along it: ranks along everything are whole numbers, and sort faster together."""
     rank = np.empty(len(along), np.int64)
     rank[np.argsort(along)] = np.arange(len(along))
     return np.argsort(piece * len(along) + rank)
 
 
-def _sizes(raw: Raw, piece: Indices, begin: Floats, until: Indices, end: Floats) -> Floats:
+def _sizes(raw: Raw, piece: Rows, begin: Floats, until: Rows, end: Floats) -> Floats:
     """(s,) lengths of slices, by differences on one piece where they can be."""
     traveled = np.cumsum(raw.lengths) - raw.lengths
     size: Floats = np.where(piece == until, end - begin, (traveled[until] + end) - (traveled[piece] + begin))
     return size
 
 
-def _alone(raw: Raw, stations: _Stations) -> Masks:
+def _alone(raw: Raw, stations: _Stations) -> Flags:
     """The stations with no other, and no joint beyond which another may be, within CROWDED on their piece."""
     piece, along = stations.piece, stations.along
     joined = np.zeros(len(raw), np.bool_)
@@ -168,20 +168,20 @@ def _alone(raw: Raw, stations: _Stations) -> Masks:
     return ~crowded
 
 
-def _turns(stations: _Stations, at: Indices, alone: Masks, count: int) -> tuple[Masks, Indices]:
+def _turns(stations: _Stations, at: Rows, alone: Flags, count: int) -> tuple[Flags, Rows]:
     """Which of `count` slices turn the wrong way, and where the others turn to; slice at[k] ends at station k."""
     dead, turning = np.zeros(count, np.bool_), np.full(count, -1)
     ending, beginning = stations.turn > 0.0, stations.turn < 0.0
     dead[at[ending] + 1] = True
     dead[at[beginning]] = True
     ending, beginning = ending & alone, beginning & alone
-    onward = np.full(int(stations.event.max(initial=-1)) + 1, -1)
-    onward[stations.event[beginning]] = at[beginning] + 1
-    turning[at[ending]] = onward[stations.event[ending]]
+    next_in_ring = np.full(int(stations.event.max(initial=-1)) + 1, -1)
+    next_in_ring[stations.event[beginning]] = at[beginning] + 1
+    turning[at[ending]] = next_in_ring[stations.event[ending]]
     return dead, turning
 
 
-def _nodes(raw: Raw, found: Events, strands: _Strands) -> tuple[Planes, Masks]:
+def _nodes(raw: Raw, found: Events, strands: _Strands) -> tuple[Points, Flags]:
     """All nodes before welding: the strands' starts and ends, then the events; and where the outline takes part."""
     count = len(strands.heads)
     points = np.concatenate((raw.start[strands.heads], raw.end[strands.tails], found.points))
@@ -195,7 +195,7 @@ def _nodes(raw: Raw, found: Events, strands: _Strands) -> tuple[Planes, Masks]:
     return points, outer
 
 
-def _welded(cut: Slices, one: Indices, other: Indices) -> Slices:
+def _welded(cut: Slices, one: Rows, other: Rows) -> Slices:
     """Slices no longer than JOINED dropped, their two nodes made one; so are nodes `one` and `other`."""
     short = cut.size <= JOINED
     if not short.any() and not len(one):
@@ -208,7 +208,7 @@ def _welded(cut: Slices, one: Indices, other: Indices) -> Slices:
     return joined.take((~short).nonzero()[0])
 
 
-def merged(count: int, one: Indices, other: Indices) -> Indices:
+def merged(count: int, one: Rows, other: Rows) -> Rows:
     """(count,) the least number among all numbers that pairs one, other (p,) connect with each."""
     same = np.arange(count)
     while True:
@@ -223,7 +223,7 @@ def merged(count: int, one: Indices, other: Indices) -> Indices:
             return same
 
 
-def middles(raw: Raw, cut: Slices, rows: Indices) -> tuple[Planes, Indices]:
+def middles(raw: Raw, cut: Slices, rows: Rows) -> tuple[Points, Rows]:
     """The points half way along slices, and the pieces they lie on."""
     piece, along = cut.piece[rows], (cut.begin[rows] + cut.end[rows]) / 2.0
     several = (piece != cut.until[rows]).nonzero()[0]

@@ -13,7 +13,7 @@ import numpy as np
 from core.comp.best_path.meetings import directions
 from core.comp.best_path.raw_offset import Raw
 from core.comp.best_path.slices import Slices, middles
-from core.geometry.path import Indices, Masks, onward
+from core.geometry.path import Flags, Rows, next_in_ring
 from core.tolerance import GOUGE, WHISKER
 
 _ROUNDS = 32
@@ -25,8 +25,8 @@ class Stitched:
     """Slices `cut`, for each the one that follows it or -1, and which are `loose`: an end leads nowhere."""
 
     cut: Slices
-    following: Indices
-    loose: Masks
+    following: Rows
+    loose: Flags
 
 
 def stitch(raw: Raw, cut: Slices, sign: int) -> Stitched:
@@ -70,14 +70,14 @@ def _without_whiskers(cut: Slices) -> Slices:
     return cut
 
 
-def _straight_on(cut: Slices) -> Indices:
+def _straight_on(cut: Slices) -> Rows:
     """For each slice the next one, where that is on the same piece or joined to it and begins where the slice ends."""
-    following = onward(np.arange(len(cut)))
+    following = next_in_ring(np.arange(len(cut)))
     following[cut.last != cut.first[following]] = -1
     return following
 
 
-def _across(raw: Raw, cut: Slices, following: Indices, sign: int) -> None:
+def _across(raw: Raw, cut: Slices, following: Rows, sign: int) -> None:
     """Fill in what follows the slices that end at a node where another piece takes over."""
     taken = np.zeros(len(cut), np.bool_)
     taken[following[following >= 0]] = True
@@ -93,7 +93,7 @@ def _across(raw: Raw, cut: Slices, following: Indices, sign: int) -> None:
         _by_turn(raw, cut, following, sign, ends[several], [begins[low[k] : high[k]] for k in several.tolist()])
 
 
-def _by_turn(raw: Raw, cut: Slices, following: Indices, sign: int, ends: Indices, begins: list[Indices]) -> None:
+def _by_turn(raw: Raw, cut: Slices, following: Rows, sign: int, ends: Rows, begins: list[Rows]) -> None:
     """At crowded nodes, the slice that turns most to the cutter's side first."""
     pairs = np.array([(end, begin) for end, some in zip(ends.tolist(), begins, strict=True) for begin in some.tolist()])
     nodes = cut.points[cut.last[pairs[:, 0]]]
@@ -109,7 +109,7 @@ def _by_turn(raw: Raw, cut: Slices, following: Indices, sign: int, ends: Indices
             taken.remove(begin)
 
 
-def chains(made: Stitched) -> list[tuple[Indices, bool]]:
+def chains(made: Stitched) -> list[tuple[Rows, bool]]:
     """The slices in loops and open chains, each from the contour's earliest slice of it on, and whether it is closed.
 
     Slices that follow each other in number are walked as one run; only runs are looked at singly.
@@ -126,18 +126,18 @@ def chains(made: Stitched) -> list[tuple[Indices, bool]]:
     return _walk(following, heads, tails, entry)
 
 
-def _walk(following: Indices, heads: Indices, tails: Indices, entry: Indices) -> list[tuple[Indices, bool]]:
+def _walk(following: Rows, heads: Rows, tails: Rows, entry: Rows) -> list[tuple[Rows, bool]]:
     """Runs heads[k] ... tails[k], run entry[k] behind run k, put together; open chains from their beginning."""
-    onward = np.where(following[tails] < 0, -1, entry).tolist()
-    reached = set(onward)
-    unwalked = dict.fromkeys(range(len(onward)))
+    next_in_ring = np.where(following[tails] < 0, -1, entry).tolist()
+    reached = set(next_in_ring)
+    unwalked = dict.fromkeys(range(len(next_in_ring)))
     found = []
     for first in [k for k in unwalked if k not in reached] + list(unwalked):
         walk, run = [], first
         while run in unwalked:
             del unwalked[run]
             walk.append(np.arange(heads[run], tails[run] + 1))
-            run = onward[run]
+            run = next_in_ring[run]
         if walk:
             found.append((np.concatenate(walk), run == first))
     return sorted(found, key=lambda chain: int(chain[0][0]))

@@ -12,7 +12,7 @@ from core.comp import trouble
 from core.comp.best_path.tree import Tree, near_selves, piece_boxes, tree
 from core.finding import Finding
 from core.geometry.intersect import Meeting, meet
-from core.geometry.path import EMPTY, Floats, Indices, Masks, Path, Planes, coordinates, onward, planes
+from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates, next_in_ring
 from core.tolerance import JOINED, ON_PATH
 
 _UNDER_HALF: Final = 3.1
@@ -44,7 +44,7 @@ def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
     refused = trouble.refusal(contour, radius, ())
     if refused:
         return Surface(EMPTY, _walls(EMPTY), np.zeros(2), refused)
-    points = planes(contour.points)
+    points = as_complex(contour.points)
     kept = np.abs(points[1:] - points[:-1]) > JOINED
     if not kept.all():
         kept |= contour.lengths > JOINED
@@ -60,11 +60,11 @@ def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
 
 
 def _walls(path: Path) -> Tree:
-    points = planes(path.points)
-    return tree(piece_boxes(points[:-1], points[1:], planes(path.centers), path.turns, ON_PATH))
+    points = as_complex(path.points)
+    return tree(piece_boxes(points[:-1], points[1:], as_complex(path.centers), path.turns, ON_PATH))
 
 
-def _without(contour: Path, kept: Masks) -> Path:
+def _without(contour: Path, kept: Flags) -> Path:
     """The contour's kept segments: each starts where the one kept before it ends, full circles stay full."""
     ends = contour.points[1:][kept]
     whole = (contour.points[1:] == contour.points[:-1]).all(axis=1)[kept].nonzero()[0]
@@ -81,7 +81,7 @@ def _even(path: Path) -> Path:
     shorter than the radius, an arc of more than half a turn is parted in its middle first, half way between its radii;
     one of less keeps its ends and gets the radius between its two.
     """
-    points, centers = planes(path.points), planes(path.centers)
+    points, centers = as_complex(path.points), as_complex(path.centers)
     start, end = points[:-1], points[1:]
     off = np.abs(np.abs(start - centers) - np.abs(end - centers))
     rows = ((path.turns != 0) & (off > ON_PATH)).nonzero()[0]
@@ -103,9 +103,9 @@ def _even(path: Path) -> Path:
     return Path(path.points, coordinates(centers), path.turns, path.numbers)
 
 
-def _parted_at(path: Path, rows: Indices, angles: Floats) -> Path:
+def _parted_at(path: Path, rows: Rows, angles: Floats) -> Path:
     """The path with arcs `rows`, which turn through `angles`, in two halves that meet between their radii."""
-    points, center = planes(path.points), planes(path.centers)[rows]
+    points, center = as_complex(path.points), as_complex(path.centers)[rows]
     arm, last = points[rows] - center, points[rows + 1] - center
     size = (np.abs(arm) + np.abs(last)) / 2.0
     middle = center + arm / np.abs(arm) * size * np.exp(0.5j * angles * path.turns[rows])
@@ -116,7 +116,7 @@ def _parted_at(path: Path, rows: Indices, angles: Floats) -> Path:
 
 def _closed(path: Path) -> Path:
     """The path that ends exactly at its start."""
-    gap = float(np.abs(planes(path.points)[-1] - planes(path.points)[0]))
+    gap = float(np.abs(as_complex(path.points)[-1] - as_complex(path.points)[0]))
     if gap <= JOINED:
         points = path.points.copy()
         points[-1] = points[0]
@@ -147,47 +147,47 @@ def crosses_itself(surface: Surface, *, closed: bool) -> tuple[float, float] | N
         if not len(i):
             continue
         met = meet(path, i, path, j)
-        hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], planes(met.points))]
+        hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], as_complex(met.points))]
         hit = np.concatenate((hit, (met.kinds == Meeting.OVERLAP).nonzero()[0]))
         if len(hit):
             return float(path.numbers[i[hit[0]]]), float(path.numbers[j[hit[0]]])
     return None
 
 
-def _parted(path: Path) -> Masks:
+def _parted(path: Path) -> Flags:
     """(n,) which pieces meet the next one, the last one the first, nowhere but at their joint.
 
     It is so where the two together turn through less than half a turn.
     """
     first, last = tangents(path)
-    turned = np.abs(np.angle(last.conj() * onward(first)))
+    turned = np.abs(np.angle(last.conj() * next_in_ring(first)))
     arcs = path.turns.nonzero()[0]
     if len(arcs):
         own = np.zeros(len(path))
         own[arcs] = np.mod(np.angle(first[arcs].conj() * last[arcs]) * path.turns[arcs], tau)
         own[arcs[first[arcs] == last[arcs]]] = tau
         tangent = _tangent(path, own, turned)
-        turned += own + onward(own)
+        turned += own + next_in_ring(own)
         turned[tangent] = 0.0
-    parted: Masks = turned <= _UNDER_HALF
+    parted: Flags = turned <= _UNDER_HALF
     return parted
 
 
-def _tangent(path: Path, own: Floats, joint: Floats) -> Masks:
+def _tangent(path: Path, own: Floats, joint: Floats) -> Flags:
     """Which arcs go on so smoothly in one of the other turn that their circles meet nowhere but at the joint.
 
     The chord between the two points where circles meet is no longer than the smaller diameter times the angle there.
     """
-    radii = np.abs(planes(path.points)[:-1] - planes(path.centers))
-    joined: Masks = 2.0 * np.minimum(radii, onward(radii)) * joint <= JOINED
-    joined &= path.turns * onward(path.turns) < 0
-    joined &= np.maximum(own, onward(own)) < _NOT_WHOLE
+    radii = np.abs(as_complex(path.points)[:-1] - as_complex(path.centers))
+    joined: Flags = 2.0 * np.minimum(radii, next_in_ring(radii)) * joint <= JOINED
+    joined &= path.turns * next_in_ring(path.turns) < 0
+    joined &= np.maximum(own, next_in_ring(own)) < _NOT_WHOLE
     return joined
 
 
-def tangents(path: Path) -> tuple[Planes, Planes]:
+def tangents(path: Path) -> tuple[Points, Points]:
     """(n,) directions of travel at the starts and at the ends of all pieces, not of unit length."""
-    points, centers = planes(path.points), planes(path.centers)
+    points, centers = as_complex(path.points), as_complex(path.centers)
     chord = points[1:] - points[:-1]
     arcs = path.turns.nonzero()[0]
     if not len(arcs):
@@ -199,10 +199,10 @@ def tangents(path: Path) -> tuple[Planes, Planes]:
     return first, last
 
 
-def _at_joint(path: Path, i: Indices, j: Indices, at: Planes) -> Masks:
+def _at_joint(path: Path, i: Rows, j: Rows, at: Points) -> Flags:
     """Which points are the joint of neighbors i and j, or of the last and the first of a closed path."""
-    points = planes(path.points)
+    points = as_complex(path.points)
     near = (j - i == 1) & (np.abs(at - points[j]) <= JOINED)
     around = (i == 0) & (j == len(path) - 1) & (np.abs(at - points[0]) <= JOINED) & (points[0] == points[-1])
-    joint: Masks = near | around
+    joint: Flags = near | around
     return joint

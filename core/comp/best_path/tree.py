@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Floats, Indices, Masks, Planes, Turns
+from core.geometry.path import Flags, Floats, Points, Rows, Turns
 
 FAN: Final = 4
 """Boxes in a group."""
@@ -89,12 +89,12 @@ def _grouped(low: NDArray[np.float32]) -> NDArray[np.float32]:
     return grouped
 
 
-def near(one: Tree, two: Tree, reach: float) -> Iterator[tuple[Indices, Indices]]:
+def near(one: Tree, two: Tree, reach: float) -> Iterator[tuple[Rows, Rows]]:
     """All pairs (i, j) of boxes of both trees no farther apart than `reach`, in batches."""
     return _descend(one, two, reach, selves=False)
 
 
-def near_selves(boxes: Tree, known: Masks | None = None) -> Iterator[tuple[Indices, Indices]]:
+def near_selves(boxes: Tree, known: Flags | None = None) -> Iterator[tuple[Rows, Rows]]:
     """All pairs (i, j), i < j, of boxes of one tree that meet, in batches.
 
     `known` (n,) marks boxes i whose pair with i + 1 is not wanted.
@@ -105,7 +105,7 @@ def near_selves(boxes: Tree, known: Masks | None = None) -> Iterator[tuple[Indic
         yield from _descend(boxes, boxes, 0.0, selves=True)
 
 
-def _following(boxes: NDArray[np.float32], first: int, last: int, known: Masks | None) -> tuple[Indices, Indices]:
+def _following(boxes: NDArray[np.float32], first: int, last: int, known: Flags | None) -> tuple[Rows, Rows]:
     """The pairs of boxes first ... last - 1 with those up to WINDOW behind them."""
     count = last - first
     behind = np.full((4, count + WINDOW), _NOWHERE, np.float32)
@@ -128,7 +128,7 @@ def _shifted(values: NDArray[np.float32], count: int) -> NDArray[np.float32]:
     return np.ndarray((WINDOW, count), np.float32, values, values.itemsize, (values.itemsize, values.itemsize))
 
 
-def _descend(one: Tree, two: Tree, reach: float, *, selves: bool) -> Iterator[tuple[Indices, Indices]]:
+def _descend(one: Tree, two: Tree, reach: float, *, selves: bool) -> Iterator[tuple[Rows, Rows]]:
     """Pairs of groups replaced by pairs of their members, nearest to the leaves first, so that little is held."""
     if not one.count or not two.count:
         return
@@ -153,9 +153,9 @@ def _descend(one: Tree, two: Tree, reach: float, *, selves: bool) -> Iterator[tu
             stack.append((depth + 1, *_members(i[some], j[some], first, second, depth)))
 
 
-def _apart_enough(i: Indices, j: Indices, above: int) -> Masks:
+def _apart_enough(i: Rows, j: Rows, above: int) -> Flags:
     """Which groups, so many levels above the boxes, may hold boxes of NEARBY groups that are not beside each other."""
-    apart: Masks = ((j + 1) * FAN**above - 1) // NEARBY - (i * FAN**above) // NEARBY > 1
+    apart: Flags = ((j + 1) * FAN**above - 1) // NEARBY - (i * FAN**above) // NEARBY > 1
     return apart
 
 
@@ -169,9 +169,7 @@ def _beginning(first: tuple[Packed, ...], second: tuple[Packed, ...]) -> int:
     return max(depth for depth in range(len(first)) if depth == 0 or len(first[depth]) * len(second[depth]) <= 4096)
 
 
-def _members(
-    i: Indices, j: Indices, first: tuple[Packed, ...], second: tuple[Packed, ...], depth: int
-) -> tuple[Indices, Indices]:
+def _members(i: Rows, j: Rows, first: tuple[Packed, ...], second: tuple[Packed, ...], depth: int) -> tuple[Rows, Rows]:
     """All pairs of members of paired groups; a level that is repeated has itself as its only member."""
     if first[depth] is not first[depth + 1]:
         i, j = _brood(i, j, len(first[depth + 1]))
@@ -180,7 +178,7 @@ def _members(
     return i, j
 
 
-def _brood(grow: Indices, keep: Indices, count: int) -> tuple[Indices, Indices]:
+def _brood(grow: Rows, keep: Rows, count: int) -> tuple[Rows, Rows]:
     """Each group in `grow` replaced by its members below `count`, its partner in `keep` repeated."""
     members = (grow[:, None] * FAN + np.arange(FAN)).ravel()
     partners = np.repeat(keep, FAN)
@@ -188,20 +186,20 @@ def _brood(grow: Indices, keep: Indices, count: int) -> tuple[Indices, Indices]:
     return (members, partners) if real.all() else (members[real], partners[real])
 
 
-def _meet(low: Packed, high: Packed, reach: float) -> Masks:
+def _meet(low: Packed, high: Packed, reach: float) -> Flags:
     """Which boxes are within reach of their partners; where there is a reach, by the distance between boxes."""
     one, two = low.view(np.float32).reshape(-1, 4), high.view(np.float32).reshape(-1, 4)
     if reach == 0.0:
-        meeting: Masks = (one <= two).view(np.uint32)[:, 0] == 0x01010101
+        meeting: Flags = (one <= two).view(np.uint32)[:, 0] == 0x01010101
         return meeting
     gap = one - two
     apart = np.maximum(np.maximum(gap[:, :2], gap[:, 2:]), 0.0)
     squared = apart[:, 0] * apart[:, 0] + apart[:, 1] * apart[:, 1]
-    near: Masks = squared <= np.float32(reach * reach * (1.0 + 1e-6))
+    near: Flags = squared <= np.float32(reach * reach * (1.0 + 1e-6))
     return near
 
 
-def piece_boxes(start: Planes, end: Planes, center: Planes, turns: Turns, grow: float) -> Floats:
+def piece_boxes(start: Points, end: Points, center: Points, turns: Turns, grow: float) -> Floats:
     """(4, n) boxes around pieces, grown on all sides: of a line its ends, of an arc its ends and tangents' corner.
 
     Arcs of more than a quarter turn get the whole circle's box.
@@ -218,7 +216,7 @@ def piece_boxes(start: Planes, end: Planes, center: Planes, turns: Turns, grow: 
     return boxes
 
 
-def _widen(boxes: Floats, arcs: Indices, first: Planes, last: Planes, center: Planes, turns: Turns) -> None:
+def _widen(boxes: Floats, arcs: Rows, first: Points, last: Points, center: Points, turns: Turns) -> None:
     """Make the boxes of arcs hold more than their ends."""
     bend = first.conj() * last
     quarter = (bend.imag * turns > 0.0) & (bend.real >= 0.0) & (first != last)

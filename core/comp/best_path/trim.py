@@ -14,7 +14,7 @@ import numpy as np
 
 from core.comp.best_path.meetings import places
 from core.comp.best_path.raw_offset import Raw, Untrimmed
-from core.geometry.path import Floats, Indices, Masks, Planes
+from core.geometry.path import Flags, Floats, Points, Rows
 from core.tolerance import CROWDED, JOINED
 
 PROBES: Final = 4096
@@ -54,7 +54,7 @@ def trimmed(chain: Untrimmed, sign: int, radius: float) -> Raw:
     return _rebuilt(chain, left, (corners, meets), cut_low, cut_high)
 
 
-def _mitred(chain: Untrimmed, left: _Left, sign: int, radius: float) -> tuple[Indices, Planes]:
+def _mitred(chain: Untrimmed, left: _Left, sign: int, radius: float) -> tuple[Rows, Points]:
     """Inside corners of two lines that meet: the first line's row and the point; `left` is cut there.
 
     Where three offset lines meet in one place, or nearly, all is left to the general rule.
@@ -136,14 +136,14 @@ def _narrowed_by_steps(chain: Untrimmed, left: _Left, radius: float, limit: floa
         step *= 2
 
 
-def _joints(chain: Untrimmed, rows: Indices, step: int, *, ahead: bool) -> Planes:
+def _joints(chain: Untrimmed, rows: Rows, step: int, *, ahead: bool) -> Points:
     """The joint `step` segments ahead of pieces, or behind them, their own ends not counted."""
     segment = chain.raw.segment[rows]
     own = segment + 1 + step if ahead else segment + chain.corner[rows] - step
     return chain.joints[np.minimum(np.maximum(own, 0), len(chain.joints) - 1)]
 
 
-def _cut(raw: Raw, left: _Left, rows: Indices, spots: Planes, limit: float) -> bool:
+def _cut(raw: Raw, left: _Left, rows: Rows, spots: Points, limit: float) -> bool:
     """Cut from pieces `rows` what at either end of them is within `limit` of their spots; was there anything?"""
     near = np.abs(spots - raw.start[rows]) < limit + raw.lengths[rows]
     near &= left.low[rows] < left.high[rows]
@@ -163,7 +163,7 @@ def _cut(raw: Raw, left: _Left, rows: Indices, spots: Planes, limit: float) -> b
     return any_cut
 
 
-def _within_lines(raw: Raw, rows: Indices, spots: Planes, limit: float) -> tuple[Floats, Floats]:
+def _within_lines(raw: Raw, rows: Rows, spots: Points, limit: float) -> tuple[Floats, Floats]:
     """From where to where along lines points are within `limit` of spots; NaN where none is."""
     unit = (raw.end[rows] - raw.start[rows]) / raw.lengths[rows]
     foot = unit.conj() * (spots - raw.start[rows])
@@ -172,7 +172,7 @@ def _within_lines(raw: Raw, rows: Indices, spots: Planes, limit: float) -> tuple
     return foot.real - half, foot.real + half
 
 
-def _within_arcs(raw: Raw, rows: Indices, spots: Planes, limit: float) -> tuple[Floats, Floats]:
+def _within_arcs(raw: Raw, rows: Rows, spots: Points, limit: float) -> tuple[Floats, Floats]:
     """The same of arcs, of two stretches the one nearer to an arc's middle; NaN for an arc's own center."""
     arm, towards = raw.start[rows] - raw.center[rows], spots - raw.center[rows]
     radius, apart = np.abs(arm), np.abs(towards)
@@ -186,7 +186,7 @@ def _within_arcs(raw: Raw, rows: Indices, spots: Planes, limit: float) -> tuple[
     return (angle - half) * radius, (angle + half) * radius
 
 
-def _rebuilt(chain: Untrimmed, left: _Left, corners: tuple[Indices, Planes], cut_low: Masks, cut_high: Masks) -> Raw:
+def _rebuilt(chain: Untrimmed, left: _Left, corners: tuple[Rows, Points], cut_low: Flags, cut_high: Flags) -> Raw:
     """The raw chain of what is left: pieces shortened, dead ones gone, and what was joined to those blunt."""
     raw, (rows, meets) = chain.raw, corners
     following, smooth = raw.following.copy(), raw.smooth.copy()
@@ -215,7 +215,7 @@ def _rebuilt(chain: Untrimmed, left: _Left, corners: tuple[Indices, Planes], cut
     return _kept(raw, ~gone) if gone.any() else raw
 
 
-def _kept(raw: Raw, keep: Masks) -> Raw:
+def _kept(raw: Raw, keep: Flags) -> Raw:
     """Some pieces of the chain; those that followed a piece that is gone follow none."""
     place = np.where(keep, np.cumsum(keep) - 1, -1)
     following = raw.following[keep]

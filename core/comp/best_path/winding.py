@@ -15,7 +15,7 @@ import numpy as np
 
 from core.comp.best_path.surface import tangents
 from core.comp.best_path.tree import near, piece_boxes, tree
-from core.geometry.path import Floats, Path, planes
+from core.geometry.path import Floats, Path, as_complex
 from core.geometry.piece import SLIVER
 from core.tolerance import ON_PATH
 
@@ -50,8 +50,8 @@ def winds(path: Path, radius: float) -> bool:
 
 def _faces_itself(path: Path, radius: float, low: Floats, high: Floats) -> bool:
     """Are there segments no farther apart than the cutter is wide whose headings differ by more than half a turn?"""
-    points = planes(path.points)
-    boxes = piece_boxes(points[:-1], points[1:], planes(path.centers), path.turns, ON_PATH)
+    points = as_complex(path.points)
+    boxes = piece_boxes(points[:-1], points[1:], as_complex(path.centers), path.turns, ON_PATH)
     starts = np.arange(0, len(path), GROUP)
     low, high = np.minimum.reduceat(low, starts), np.maximum.reduceat(high, starts)
     least, most = np.minimum.reduceat(boxes[:2], starts, axis=1), np.maximum.reduceat(boxes[2:], starts, axis=1)

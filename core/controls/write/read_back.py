@@ -23,7 +23,7 @@ from core.finding import Finding, Severity
 from core.geometry.distance import distance
 from core.geometry.path import Path
 from core.geometry.piece import Point
-from core.geometry.piece_arrays import at, measured
+from core.geometry.piece_arrays import at, piece_arrays
 from core.units import Unit
 from core.verify.judge import judge
 from core.verify.verdict import Verdict
@@ -208,7 +208,7 @@ def farthest(path: Path, other: Path) -> tuple[float, float]:
 
     A distance that is no number is farther than any other; of several pieces as far off it is that of the first place.
     """
-    pieces, onto = measured(path), measured(other)
+    pieces, onto = piece_arrays(path), piece_arrays(other)
     if not len(pieces) or not len(onto):
         return (np.inf, 0.0) if len(pieces) or len(onto) else (0.0, 0.0)
     places = np.concatenate([at(pieces, np.full(len(pieces), part)) for part in (0.0, 0.25, 0.5, 0.75, 1.0)])

@@ -12,7 +12,7 @@ from typing import assert_never
 
 from core.finding import Finding
 from core.geometry import construct
-from core.geometry.construct import Apart, One, Two
+from core.geometry.construct import OnePoint, OutOfReach, TwoPoints
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.program.fields import Form
 from core.program.model import Direction
@@ -81,12 +81,12 @@ def _center_and_coordinate(axis: int, turn: Turn, start: Point, known: Known) ->
         return radius
     ends = construct.on_circle(center, radius, axis, value)
     match ends:
-        case One(point):
+        case OnePoint(point):
             return (_arc(turn, start, point, known),)
-        case Two(first, second):
+        case TwoPoints(first, second):
             # at the circle's extreme both may be the start itself
             return _ordered(*dict.fromkeys(_arc(turn, start, end, known) for end in (first, second)))
-        case Apart():
+        case OutOfReach():
             text = f"The arc's radius is {{0}}: it does not come to {'XY'[axis]} END {{1}}."
             return wrong("CONTRADICTION", text, _END[axis], radius, value)
         case _:
@@ -114,13 +114,13 @@ def _end_and_radius(turn: Turn, start: Point, known: Known) -> Answer:
         return Beside()
     centers = construct.centers(start, end, radius, turn)
     match centers:
-        case One(point):
+        case OnePoint(point):
             return (Arc(start, end, point, turn),)
-        case Two(first, second):
+        case TwoPoints(first, second):
             return _ordered(Arc(start, end, first, turn), Arc(start, end, second, turn))
-        case Apart(least):
+        case OutOfReach(least):
             return wrong("CONTRADICTION", "RADIUS {0} does not reach the end: it takes {1}.", "radius", radius, least)
-        case construct.Beside():
+        case construct.NotDetermined():
             return Beside()
         case _:
             assert_never(centers)
@@ -130,7 +130,7 @@ def _end_and_sweep(turn: Turn, start: Point, known: Known) -> Answer:
     if comes_back(start, _end(known)):
         return Beside()
     center = construct.center_by_sweep(start, _end(known), known["sweep"], turn)
-    return (Arc(start, _end(known), center.point, turn),) if isinstance(center, One) else Beside()
+    return (Arc(start, _end(known), center.point, turn),) if isinstance(center, OnePoint) else Beside()
 
 
 def _end_and_coordinate(axis: int, turn: Turn, start: Point, known: Known) -> Answer:
@@ -138,7 +138,7 @@ def _end_and_coordinate(axis: int, turn: Turn, start: Point, known: Known) -> An
     if comes_back(start, _end(known)):
         return Beside()
     center = construct.center_by_coordinate(start, _end(known), axis, known[_CENTER[axis]])
-    if not isinstance(center, One):
+    if not isinstance(center, OnePoint):
         return Beside()
     radius = _radius(start, center.point)
     return radius if isinstance(radius, Finding) else (Arc(start, _end(known), center.point, turn),)
@@ -148,10 +148,10 @@ def _radius_sweep_center(axis: int, turn: Turn, start: Point, known: Known) -> A
     """RADIUS, SWEEP ANGLE and one coordinate of the center: its other coordinate greater first."""
     radius, value = known["radius"], known[_CENTER[axis]]
     centers = construct.on_circle(start, radius, axis, value)
-    if isinstance(centers, Apart):
+    if isinstance(centers, OutOfReach):
         text = f"RADIUS {{0}} does not reach {'XY'[axis]} CENTER {{1}}: it takes at least {{2}}."
         return wrong("CONTRADICTION", text, "radius", radius, value, centers.least)
-    points = (centers.point,) if isinstance(centers, One) else (centers.first, centers.second)
+    points = (centers.point,) if isinstance(centers, OnePoint) else (centers.first, centers.second)
     return tuple(_turned(turn, start, point, known["sweep"]) for point in points)
 
 
@@ -161,10 +161,10 @@ def _radius_sweep_end(axis: int, turn: Turn, start: Point, known: Known) -> Answ
     if chord <= CLOSED:
         return Beside()
     ends = construct.on_circle(start, chord, axis, known[_END[axis]])
-    if isinstance(ends, Apart):
+    if isinstance(ends, OutOfReach):
         text = f"RADIUS and SWEEP ANGLE make the end {{0}} from the start: that does not reach {'XY'[axis]} END {{1}}."
         return wrong("CONTRADICTION", text, _END[axis], chord, known[_END[axis]])
-    points = (ends.point,) if isinstance(ends, One) else (ends.first, ends.second)
+    points = (ends.point,) if isinstance(ends, OnePoint) else (ends.first, ends.second)
     arcs = (_by_sweep(turn, start, point, known["sweep"]) for point in points)
     found = tuple(arc for arc in arcs if arc is not None)
     return found or Beside()
@@ -172,7 +172,7 @@ def _radius_sweep_end(axis: int, turn: Turn, start: Point, known: Known) -> Answ
 
 def _by_sweep(turn: Turn, start: Point, end: Point, sweep: float) -> Arc | None:
     center = construct.center_by_sweep(start, end, sweep, turn)
-    return Arc(start, end, center.point, turn) if isinstance(center, One) else None
+    return Arc(start, end, center.point, turn) if isinstance(center, OnePoint) else None
 
 
 def _disagrees(piece: Piece, name: str, value: float) -> Finding | None:

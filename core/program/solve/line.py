@@ -10,7 +10,7 @@ from typing import assert_never
 
 from core.finding import Finding
 from core.geometry import construct
-from core.geometry.construct import Apart, Behind, One, Two
+from core.geometry.construct import BehindStart, OnePoint, OutOfReach, TwoPoints
 from core.geometry.piece import Line, Piece, Point
 from core.program.fields import Form
 from core.program.solve.rules import Answer, Beside, Known, Rule, Task, lines_to, wrong
@@ -34,14 +34,14 @@ def _along(axis: int, start: Point, known: Known) -> Answer:
     end = construct.reach(start, angle, axis, value)
     label = f"{'XY'[axis]} END"
     match end:
-        case One():
+        case OnePoint():
             return lines_to(start, end)
-        case construct.Beside() if "length" in known or abs(value - start[axis]) <= ARC_RADII:
+        case construct.NotDetermined() if "length" in known or abs(value - start[axis]) <= ARC_RADII:
             return Beside()
-        case construct.Beside():
+        case construct.NotDetermined():
             kept = f"XY ANGLE {degrees(angle)} keeps {'XY'[axis]} at {{0}} and never comes to {label} {{1}}"
             return wrong("CONTRADICTION", f"{kept}: correct one of them.", "angle", start[axis], value)
-        case Behind():
+        case BehindStart():
             text = f"XY ANGLE {degrees(angle)} leads away from {label} {{0}}: correct one of them."
             return wrong("CONTRADICTION", text, "angle", value)
         case _:
@@ -53,9 +53,9 @@ def _long(axis: int, start: Point, known: Known) -> Answer:
     value, length = known[_END[axis]], known["length"]
     ends = construct.on_circle(start, length, axis, value)
     match ends:
-        case One() | Two():
+        case OnePoint() | TwoPoints():
             return lines_to(start, ends)
-        case Apart(least):
+        case OutOfReach(least):
             text = f"XY LENGTH {{0}} does not reach {'XY'[axis]} END {{1}}: it takes at least {{2}}."
             return wrong("CONTRADICTION", text, "length", length, value, least)
         case _:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 from core.finding import Finding, Severity
-from core.geometry.construct import One, Two
+from core.geometry.construct import OnePoint, TwoPoints
 from core.geometry.piece import Line, Piece, Point
 from core.program.fields import Form, field
 
@@ -122,9 +122,9 @@ def _either(labels: list[str]) -> str:
     return labels[0] if len(labels) == 1 else f"{', '.join(labels[:-1])} or {labels[-1]}"
 
 
-def lines_to(start: Point, ends: One | Two) -> tuple[Piece, ...]:
+def lines_to(start: Point, ends: OnePoint | TwoPoints) -> tuple[Piece, ...]:
     """The lines from `start` to each point."""
-    points = (ends.point,) if isinstance(ends, One) else (ends.first, ends.second)
+    points = (ends.point,) if isinstance(ends, OnePoint) else (ends.first, ends.second)
     return tuple(Line(start, point) for point in points)
 
 

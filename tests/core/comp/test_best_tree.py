@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from core.comp.best_path.clear import distances
 from core.comp.best_path.raw_offset import lengths
 from core.comp.best_path.tree import near, near_selves, piece_boxes, tree
-from core.geometry.path import Floats, Path, planes
+from core.geometry.path import Floats, Path, as_complex
 from tests.core.comp.best_truth import distance, sampled
 from tests.core.comp.contours import mixed
 
@@ -59,7 +59,7 @@ def test_no_boxes_are_near_nothing():
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(mixed)
 def test_a_box_holds_its_piece_and_is_no_larger_than_its_circle(contour):
-    points, centers = planes(contour.points), planes(contour.centers)
+    points, centers = as_complex(contour.points), as_complex(contour.centers)
     found = piece_boxes(points[:-1], points[1:], centers, contour.turns, 0.0)
     for row in range(len(contour)):
         spots = sampled(contour.part(row, row + 1)).T
@@ -74,11 +74,11 @@ def test_a_box_holds_its_piece_and_is_no_larger_than_its_circle(contour):
 @given(mixed, st.integers(0, 1000))
 def test_distances_and_lengths_of_pieces(contour, seed):
     spots = np.random.default_rng(seed).uniform(-5, 5, (len(contour), 2))
-    found = distances(contour, np.arange(len(contour)), planes(spots))
+    found = distances(contour, np.arange(len(contour)), as_complex(spots))
     exact = [distance(contour.part(row, row + 1), spots[row : row + 1])[0] for row in range(len(contour))]
     assert found == pytest.approx(np.array(exact), abs=1e-12)
-    points = planes(contour.points)
-    measured = lengths(points[:-1], points[1:], planes(contour.centers), contour.turns)
+    points = as_complex(contour.points)
+    measured = lengths(points[:-1], points[1:], as_complex(contour.centers), contour.turns)
     assert measured == pytest.approx(contour.lengths, abs=1e-12)
 
 
@@ -86,6 +86,6 @@ def test_a_full_circle_has_the_box_of_its_circle_whatever_rounding_makes_of_its_
     angles = np.linspace(0.0, 6.28, 100)
     for x, y in zip(np.cos(angles), np.sin(angles), strict=True):
         circle = Path.of(np.array([(x, y), (x, y)]), np.zeros((1, 2)), np.ones(1, np.int8))
-        points = planes(circle.points)
-        box = piece_boxes(points[:-1], points[1:], planes(circle.centers), circle.turns, 0.0)
+        points = as_complex(circle.points)
+        box = piece_boxes(points[:-1], points[1:], as_complex(circle.centers), circle.turns, 0.0)
         assert box[:, 0] == pytest.approx((-1, -1, 1, 1), abs=1e-12)

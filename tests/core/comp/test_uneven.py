@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate
-from core.geometry.path import Path, Planes, coordinates, planes
+from core.geometry.path import Path, Points, as_complex, coordinates
 from core.geometry.piece import Side
 from core.tolerance import ARC_RADII, JOINED
 
@@ -33,24 +33,24 @@ def arc_between_lines(along: float, off: float, turn: int) -> Path:
     return Path.of(coordinates(points), coordinates(centers), np.array([0, turn, 0]))
 
 
-def along_path(path: Path) -> Planes:
+def along_path(path: Path) -> Points:
     """Points all along a path."""
     parts = np.linspace(0.0, 1.0, 257)
-    start, end = planes(path.starts)[:, None], planes(path.ends)[:, None]
-    center, sweep = planes(path.centers)[:, None], path.sweeps[:, None]
+    start, end = as_complex(path.starts)[:, None], as_complex(path.ends)[:, None]
+    center, sweep = as_complex(path.centers)[:, None], path.sweeps[:, None]
     line = start + (end - start) * parts
     arc = center + (start - center) * np.exp(1j * sweep * parts)
-    every: Planes = np.where(path.turns[:, None] == 0, line, arc).ravel()
+    every: Points = np.where(path.turns[:, None] == 0, line, arc).ravel()
     return every
 
 
-def from_line(points: Planes, start: complex, end: complex) -> float:
+def from_line(points: Points, start: complex, end: complex) -> float:
     along = end - start
     part = np.clip(((points - start) * np.conj(along)).real / abs(along) ** 2, 0.0, 1.0)
     return float(np.abs(points - start - part * along).min())
 
 
-def from_surface(points: Planes, contour: Path, off: float, *, full: bool) -> float:
+def from_surface(points: Points, contour: Path, off: float, *, full: bool) -> float:
     """The least distance of points from the contour, as far as its two radii and a short arc's height leave it open."""
     start, end = (complex(*row) for row in contour.points[1:3])
     least = min(from_line(points, FROM, start), from_line(points, end, BACK))
@@ -111,6 +111,6 @@ def test_the_control_s_path_stays_beside_an_arc_of_uneven_radii(along, off, out,
     contour = arc_between_lines(way * along, out * off, turn)
     raw = compensate(contour, side, CUTTER, 1, closed=False).raw
     row = raw.numbers.tolist().index(2)
-    arms = np.abs(planes(raw.points[row : row + 2]) + 1j * ROUND)
+    arms = np.abs(as_complex(raw.points[row : row + 2]) + 1j * ROUND)
     assert (np.abs(np.abs(arms - ROUND) - CUTTER) <= off + 1e-9).all()
     assert abs(abs(raw.sweeps[row]) - abs(contour.sweeps[1])) < 1e-9

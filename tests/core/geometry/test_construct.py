@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from core.geometry import construct
-from core.geometry.construct import Apart, Behind, Beside, One, Two
+from core.geometry.construct import BehindStart, NotDetermined, OnePoint, OutOfReach, TwoPoints
 from core.geometry.piece import Arc, Point, Turn
 from core.tolerance import ARC_RADII
 
@@ -33,30 +33,30 @@ def test_polar():
 
 def test_reach():
     found = construct.reach((1.0, 1.0), pi / 4, 0, 3.0)
-    assert isinstance(found, One)
+    assert isinstance(found, OnePoint)
     assert near(found.point, (3.0, 3.0))
     found = construct.reach((1.0, 1.0), pi / 6, 1, 2.0)
-    assert isinstance(found, One)
+    assert isinstance(found, OnePoint)
     assert near(found.point, (1 + sqrt(3), 2.0))
     assert found.point[1] == 2.0
 
 
 def test_reach_says_why_not():
-    assert construct.reach((1.0, 1.0), pi / 2, 0, 1.0) == Beside()
-    assert construct.reach((1.0, 1.0), pi, 1, 5.0) == Beside()
-    assert construct.reach((1.0, 1.0), pi / 4, 0, 0.0) == Behind()
+    assert construct.reach((1.0, 1.0), pi / 2, 0, 1.0) == NotDetermined()
+    assert construct.reach((1.0, 1.0), pi, 1, 5.0) == NotDetermined()
+    assert construct.reach((1.0, 1.0), pi / 4, 0, 0.0) == BehindStart()
 
 
 def test_on_circle():
-    assert construct.on_circle((1.0, 1.0), 5.0, 0, 4.0) == Two((4.0, 5.0), (4.0, -3.0))
-    assert construct.on_circle((1.0, 1.0), 5.0, 1, -2.0) == Two((5.0, -2.0), (-3.0, -2.0))
-    assert construct.on_circle((1.0, 1.0), 5.0, 0, 6.0) == One((6.0, 1.0))
-    assert construct.on_circle((1.0, 1.0), 5.0, 0, 7.0) == Apart(6.0)
+    assert construct.on_circle((1.0, 1.0), 5.0, 0, 4.0) == TwoPoints((4.0, 5.0), (4.0, -3.0))
+    assert construct.on_circle((1.0, 1.0), 5.0, 1, -2.0) == TwoPoints((5.0, -2.0), (-3.0, -2.0))
+    assert construct.on_circle((1.0, 1.0), 5.0, 0, 6.0) == OnePoint((6.0, 1.0))
+    assert construct.on_circle((1.0, 1.0), 5.0, 0, 7.0) == OutOfReach(6.0)
 
 
 def test_on_circle_takes_a_coordinate_rounded_outwards():
-    assert construct.on_circle((0.0, 0.0), 5.0, 1, 5.0 + ARC_RADII) == One((0.0, 5.0 + ARC_RADII))
-    assert construct.on_circle((0.0, 0.0), 5.0, 1, 5.01) == Apart(5.01)
+    assert construct.on_circle((0.0, 0.0), 5.0, 1, 5.0 + ARC_RADII) == OnePoint((0.0, 5.0 + ARC_RADII))
+    assert construct.on_circle((0.0, 0.0), 5.0, 1, 5.01) == OutOfReach(5.01)
 
 
 @pytest.mark.parametrize(
@@ -65,16 +65,16 @@ def test_on_circle_takes_a_coordinate_rounded_outwards():
 )
 def test_centers_of_the_shorter_arc_first(turn, first, second):
     found = construct.centers((-4.0, 0.0), (4.0, 0.0), 5.0, turn)
-    assert isinstance(found, Two)
+    assert isinstance(found, TwoPoints)
     assert near(found.first, first)
     assert near(found.second, second)
 
 
 def test_centers_of_half_circles_and_of_none():
-    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 4.0, Turn.CW) == One((0.0, 0.0))
-    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 4.0 - ARC_RADII, Turn.CW) == One((0.0, 0.0))
-    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 3.9, Turn.CW) == Apart(4.0)
-    assert construct.centers((1.0, 1.0), (1.0, 1.0), 3.9, Turn.CW) == Beside()
+    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 4.0, Turn.CW) == OnePoint((0.0, 0.0))
+    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 4.0 - ARC_RADII, Turn.CW) == OnePoint((0.0, 0.0))
+    assert construct.centers((-4.0, 0.0), (4.0, 0.0), 3.9, Turn.CW) == OutOfReach(4.0)
+    assert construct.centers((1.0, 1.0), (1.0, 1.0), 3.9, Turn.CW) == NotDetermined()
 
 
 @laws
@@ -82,15 +82,15 @@ def test_centers_of_half_circles_and_of_none():
 def test_centers_are_as_far_as_the_radius_and_short_comes_first(start, end, radius, turn):
     assume(dist(start, end) > 0.01)
     match construct.centers(start, end, radius, turn):
-        case Two(first, second):
+        case TwoPoints(first, second):
             for center in (first, second):
                 assert dist(center, start) == pytest.approx(radius, abs=1e-7)
                 assert dist(center, end) == pytest.approx(radius, abs=1e-7)
             assert abs(Arc(start, end, first, turn).sweep) <= pi + 1e-6
             assert abs(Arc(start, end, second, turn).sweep) >= pi - 1e-6
-        case One(center):
+        case OnePoint(center):
             assert dist(center, start) == pytest.approx(dist(start, end) / 2)
-        case Apart(least):
+        case OutOfReach(least):
             assert least == dist(start, end) / 2
             assert least > radius
         case other:
@@ -99,16 +99,16 @@ def test_centers_are_as_far_as_the_radius_and_short_comes_first(start, end, radi
 
 def test_center_by_sweep():
     found = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), pi / 2, Turn.CCW)
-    assert isinstance(found, One)
+    assert isinstance(found, OnePoint)
     assert near(found.point, (0.0, 0.0))
     found = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), 3 * pi / 2, Turn.CCW)
-    assert isinstance(found, One)
+    assert isinstance(found, OnePoint)
     assert near(found.point, (1.0, 1.0))
     found = construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), pi / 2, Turn.CW)
-    assert isinstance(found, One)
+    assert isinstance(found, OnePoint)
     assert near(found.point, (1.0, 1.0))
-    assert construct.center_by_sweep((1.0, 0.0), (1.0, 0.0), pi, Turn.CW) == Beside()
-    assert construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), tau, Turn.CW) == Beside()
+    assert construct.center_by_sweep((1.0, 0.0), (1.0, 0.0), pi, Turn.CW) == NotDetermined()
+    assert construct.center_by_sweep((1.0, 0.0), (0.0, 1.0), tau, Turn.CW) == NotDetermined()
 
 
 @laws
@@ -118,7 +118,7 @@ def test_an_arc_is_found_again_from_its_sweep(center, radius, angle, sweep, turn
     end = construct.rotated(start, center, turn * sweep)
     assert construct.swept(start, end, center, turn) == pytest.approx(sweep, abs=1e-9)
     found = construct.center_by_sweep(start, end, sweep, turn)
-    assert isinstance(found, One)
+    assert isinstance(found, OnePoint)
     assert near(found.point, center, 1e-7)
 
 
@@ -129,14 +129,14 @@ def test_an_arc_is_found_again_from_one_coordinate_of_its_center(center, radius,
     end = construct.rotated(start, center, sweep)
     assume(abs(end[1 - axis] - start[1 - axis]) > 0.01 * dist(start, end))
     found = construct.center_by_coordinate(start, end, axis, center[axis])
-    assert isinstance(found, One)
+    assert isinstance(found, OnePoint)
     assert near(found.point, center, 1e-6)
 
 
 def test_a_coordinate_along_the_bisector_says_nothing():
-    assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 0, 2.0) == Beside()
-    assert construct.center_by_coordinate((0.0, 0.0), (0.0, 0.0), 0, 2.0) == Beside()
-    assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 1, 7.0) == One((2.0, 7.0))
+    assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 0, 2.0) == NotDetermined()
+    assert construct.center_by_coordinate((0.0, 0.0), (0.0, 0.0), 0, 2.0) == NotDetermined()
+    assert construct.center_by_coordinate((0.0, 0.0), (4.0, 0.0), 1, 7.0) == OnePoint((2.0, 7.0))
 
 
 def test_equal_ends_are_swept_as_a_full_turn():
@@ -207,4 +207,4 @@ def test_chord_factor():
 
 
 def test_nothing_reaches_infinitely_far():
-    assert construct.on_circle((0.0, 0.0), 1.0, 0, inf) == Apart(inf)
+    assert construct.on_circle((0.0, 0.0), 1.0, 0, inf) == OutOfReach(inf)

@@ -19,23 +19,23 @@ from core.geometry.distance import (
     on_circle,
     on_line,
 )
-from core.geometry.path import Path
+from core.geometry.path import Floats, Path
 from core.geometry.piece import Arc, Line, Piece, Turn
-from core.geometry.piece_arrays import Floats, Measured, at, measured
+from core.geometry.piece_arrays import PieceArrays, at, piece_arrays
 from tests.core.verify import oracle
 from tests.core.verify.shapes import circle, lines, paths
 
 HALF = Arc((2.0, 0.0), (-2.0, 0.0), (0.0, 0.0), Turn.CCW)
 
 
-def one(piece: Piece) -> Measured:
-    return measured(Path.from_pieces([piece]))
+def one(piece: Piece) -> PieceArrays:
+    return piece_arrays(Path.from_pieces([piece]))
 
 
-def pairs(first: Path, second: Path) -> tuple[Measured, Measured]:
+def pairs(first: Path, second: Path) -> tuple[PieceArrays, PieceArrays]:
     """Every piece of the one beside every piece of the other."""
     i, j = np.divmod(np.arange(len(first) * len(second)), len(second))
-    return measured(first).take(i), measured(second).take(j)
+    return piece_arrays(first).take(i), piece_arrays(second).take(j)
 
 
 @pytest.fixture(autouse=True)

@@ -20,7 +20,7 @@ from core.geometry.nearby import (
     runs_of,
 )
 from core.geometry.path import Path
-from core.geometry.piece_arrays import Measured, boxes, measured
+from core.geometry.piece_arrays import PieceArrays, boxes, piece_arrays
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.signedinteger[Any]]
@@ -28,7 +28,7 @@ Rows = NDArray[np.signedinteger[Any]]
 SIZES = [(1, 1), (3, 40), (57, 5), (130, 131), (300, 700)]
 
 
-def walk(seed: int, count: int, *, arcs: bool = True) -> Measured:
+def walk(seed: int, count: int, *, arcs: bool = True) -> PieceArrays:
     """A random walk of lines and arcs of all angles, which meets itself often."""
     random = np.random.default_rng(seed)
     points = np.cumsum(random.normal(size=(count + 1, 2)), axis=0)
@@ -36,7 +36,7 @@ def walk(seed: int, count: int, *, arcs: bool = True) -> Measured:
     chord = np.diff(points, axis=0)
     normal = np.stack((-chord[:, 1], chord[:, 0]), axis=1)
     centers = (points[1:] + points[:-1]) / 2.0 + normal * random.normal(size=(count, 1))
-    return measured(Path.of(points, np.where(turns[:, None] == 0, points[:-1], centers), turns))
+    return piece_arrays(Path.of(points, np.where(turns[:, None] == 0, points[:-1], centers), turns))
 
 
 def boxes_apart(a: Floats, b: Floats) -> Floats:
@@ -46,7 +46,7 @@ def boxes_apart(a: Floats, b: Floats) -> Floats:
     return np.asarray(np.hypot(np.maximum(x, 0.0), np.maximum(y, 0.0)))
 
 
-def pieces_apart(one: Measured, other: Measured) -> Floats:
+def pieces_apart(one: PieceArrays, other: PieceArrays) -> Floats:
     """(n, m) distances of pieces."""
     i, j = np.divmod(np.arange(len(one) * len(other)), len(other))
     first, second = one.take(i), other.take(j)
@@ -116,11 +116,11 @@ def test_a_piece_that_is_no_number_is_never_left_out() -> None:
     assert len(np.unique(i[j == 77])) == 300
 
 
-def waves(count: int, radius: float) -> Measured:
+def waves(count: int, radius: float) -> PieceArrays:
     angle = np.linspace(0.0, 2.0 * np.pi, count + 1)
     size = radius + 0.01 * np.sin(40.0 * angle)
     points = np.stack((size * np.cos(angle), size * np.sin(angle)), axis=1)
-    return measured(Path.of(points, points[:-1], np.zeros(count, np.int8)))
+    return piece_arrays(Path.of(points, points[:-1], np.zeros(count, np.int8)))
 
 
 @pytest.mark.parametrize("limit", [5.95, 6.0, 6.01])

@@ -1,4 +1,4 @@
-"""Pieces measured: lengths, boxes, places, and pieces that are hardly there."""
+"""Pieces as arrays: lengths, boxes, places, and pieces that are hardly there."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.geometry.piece_arrays import at, boxes, direction, measured, place
+from core.geometry.piece_arrays import at, boxes, direction, piece_arrays, place
 from core.verify.judge import judge
 from tests.core.verify import oracle
 from tests.core.verify.shapes import lines, paths
@@ -20,48 +20,48 @@ QUARTER = Path.from_pieces([Line((0, 0), (3, 4)), Arc((3, 4), (4, 5), (4, 4), Tu
 
 
 def test_lengths_and_stations() -> None:
-    pieces = measured(QUARTER)
+    pieces = piece_arrays(QUARTER)
     assert pieces.length == pytest.approx([5.0, pi / 2, 4.0])
     assert pieces.stations == pytest.approx([0.0, 5.0, 5.0 + pi / 2, 9.0 + pi / 2])
     assert pieces.radius[1] == 1.0
 
 
 def test_points_and_directions() -> None:
-    pieces, half = measured(QUARTER), np.full(3, 0.5)
+    pieces, half = piece_arrays(QUARTER), np.full(3, 0.5)
     assert at(pieces, half) == pytest.approx([1.5 + 2j, 4 + 4j + (-1 + 1j) / sqrt(2), 4 + 7j])
     assert direction(pieces, half) == pytest.approx([0.6 + 0.8j, (1 + 1j) / sqrt(2), 1j])
 
 
 def test_a_joint_belongs_to_the_piece_that_begins_there() -> None:
-    pieces = measured(QUARTER)
+    pieces = piece_arrays(QUARTER)
     index, t = place(pieces, pieces.stations, np.array((-1.0, 0.0, 5.0, 5.0 + pi / 4, 100.0)))
     assert index.tolist() == [0, 0, 1, 1, 2]
     assert t == pytest.approx([0.0, 0.0, 0.0, 0.5, 1.0])
 
 
 def test_pieces_without_length_are_left_out_but_for_a_lone_one() -> None:
-    assert measured(lines((0, 0), (0, 0), (1, 0), (1, 0))).rows.tolist() == [1]
-    assert measured(lines((1, 1), (1, 1), (1, 1))).rows.tolist() == [0]
-    assert len(measured(EMPTY)) == 0
+    assert piece_arrays(lines((0, 0), (0, 0), (1, 0), (1, 0))).rows.tolist() == [1]
+    assert piece_arrays(lines((1, 1), (1, 1), (1, 1))).rows.tolist() == [0]
+    assert len(piece_arrays(EMPTY)) == 0
 
 
 def test_a_piece_that_is_no_number_is_not_one_of_no_length() -> None:
     path = lines((0, 0), (1, 0), (1, 0), (nan, 1), (2, 1))
-    assert measured(path).rows.tolist() == [0, 2, 3]
+    assert piece_arrays(path).rows.tolist() == [0, 2, 3]
 
 
 def test_an_uneven_arc_gets_a_circle_through_both_ends() -> None:
-    arc = measured(Path.from_pieces([Arc((10.0, 0.0), (0.0, 10.002), (0.0, 0.0), Turn.CCW)]))
+    arc = piece_arrays(Path.from_pieces([Arc((10.0, 0.0), (0.0, 10.002), (0.0, 0.0), Turn.CCW)]))
     assert at(arc, np.array((1.0,)))[0] == pytest.approx(10.002j, abs=1e-9)
     assert 0.001 < arc.slack[0] < 0.003
-    wild = measured(Path.from_pieces([Arc((10.0, 0.0), (0.0, 11.0), (0.0, 0.0), Turn.CCW)]))
+    wild = piece_arrays(Path.from_pieces([Arc((10.0, 0.0), (0.0, 11.0), (0.0, 0.0), Turn.CCW)]))
     assert wild.slack[0] == inf
 
 
 @settings(deadline=None, max_examples=80, derandomize=True)
 @given(paths())
 def test_boxes_hold_all_points_and_are_no_larger(path: Path) -> None:
-    box = boxes(measured(path))
+    box = boxes(piece_arrays(path))
     for index, piece in enumerate(path):
         x, y = oracle.along(piece, np.linspace(0.0, 1.0, 400)).T
         low_x, low_y, high_x, high_y = box[:, index]
@@ -80,7 +80,7 @@ def test_an_uneven_arc_is_nowhere_farther_from_its_circle_than_its_radii_are_apa
     """The chord decides nothing: a short one once took the center of a nearly full arc millimeters away."""
     chord, off = 10.0**power, 10.0**differ
     last = (10.0 + out * off) * np.exp(1j * way * chord / 10.0)
-    arc = measured(Path.from_pieces([Arc((10.0, 0.0), (last.real, last.imag), (0.0, 0.0), Turn.CCW)]))
+    arc = piece_arrays(Path.from_pieces([Arc((10.0, 0.0), (last.real, last.imag), (0.0, 0.0), Turn.CCW)]))
     assert arc.slack[0] == pytest.approx(off, rel=1e-3)
     turned = chord if way > 0 else 20.0 * pi - chord
     assert arc.length[0] == pytest.approx(abs(complex(turned, off)) if way > 0 else turned, abs=10.0 * off)

@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.geometry.path import Path
+from core.geometry.path import Floats, Path
 from core.geometry.piece import Arc, Line, Turn
-from core.geometry.piece_arrays import Floats, Measured, measured
+from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.geometry.remembered import FEW, remembered
 
 BENT = Arc((4.0, 0.0), (6.0, 2.0), center=(4.0, 2.0), turn=Turn.CCW)
-PIECES = measured(Path.from_pieces([Line((0.0, 0.0), (4.0, 0.0)), BENT]))
+PIECES = piece_arrays(Path.from_pieces([Line((0.0, 0.0), (4.0, 0.0)), BENT]))
 
 
 class FarEnds:
@@ -22,7 +22,7 @@ class FarEnds:
         self.asked = 0
         self.of: Callable[..., tuple[Floats, ...]] = remembered(self._far_ends)
 
-    def _far_ends(self, pieces: Measured, more: Floats) -> tuple[Floats, ...]:
+    def _far_ends(self, pieces: PieceArrays, more: Floats) -> tuple[Floats, ...]:
         self.asked += 1
         return (np.abs(pieces.end) + more,)
 

@@ -16,7 +16,7 @@ from core.controls.registry import NO_TOOLS, names, run
 from core.controls.write.programmed_contour import Travel
 from core.geometry.distance import distance
 from core.geometry.path import Path as Line
-from core.geometry.piece_arrays import at, measured
+from core.geometry.piece_arrays import at, piece_arrays
 from core.output.nc import Posted, Refusal
 from core.output.passes import passes
 from core.pipeline import post
@@ -67,7 +67,7 @@ def table(of: Program, text: str) -> ToolTable:
 
 def apart(one: Line, other: Line) -> float:
     """How far the ends and middles of a path's pieces are from another path at most."""
-    pieces, onto = measured(one), measured(other)
+    pieces, onto = piece_arrays(one), piece_arrays(other)
     places = np.concatenate([at(pieces, np.full(len(pieces), part)) for part in (0.0, 0.5, 1.0)])
     return max(float(distance(onto, np.full(len(onto), place)).min()) for place in places)
 
@@ -244,7 +244,7 @@ def test_no_control_is_told_to_compensate_an_arc_that_ends_beside_its_start(
 def test_an_arc_that_a_control_runs_as_a_full_circle_is_not_handed_out(
     unit: Unit, control: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Whoever writes it: what is read back is measured."""
+    """Whoever writes it: what is read back is piece_arrays."""
     monkeypatch.setattr(
         post, "_travels", lambda motions: [Travel(m.x, m.y, m.z, m.feed, int(m.turn), m.center) for m in motions]
     )

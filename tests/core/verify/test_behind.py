@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 from shapely.geometry import Polygon
 
-from core.geometry.path import Path
+from core.geometry.path import Flags, Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.geometry.piece_arrays import Flags
 from core.verify import behind
 from core.verify.judge import judge
 from core.verify.pairs import Pairs

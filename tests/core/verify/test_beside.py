@@ -13,7 +13,7 @@ from core.comp.compensate import compensate
 from core.geometry import aligned
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
-from core.geometry.piece_arrays import measured, stacked
+from core.geometry.piece_arrays import piece_arrays
 from core.tolerance import GOUGE
 from core.verify import judge as module
 from core.verify.beside import Beside, beside
@@ -86,7 +86,7 @@ def compensated(random: Random) -> Iterator[tuple[Path, Side, float, Path]]:
 
 
 def found(surface: Path, side: Side, radius: float, path: Path) -> Beside:
-    walls, moves = measured(surface), measured(path)
+    walls, moves = piece_arrays(surface), piece_arrays(path)
     whole = np.flatnonzero(path.numbers[moves.rows] % 1.0 == 0.0)
     likely = np.full(len(moves), -1)
     likely[whole] = np.searchsorted(surface.numbers[walls.rows], path.numbers[moves.rows][whole])
@@ -96,7 +96,7 @@ def found(surface: Path, side: Side, radius: float, path: Path) -> Beside:
 @pytest.mark.parametrize("seed", range(25))
 def test_what_is_proved_is_no_nearer_than_the_radius(seed: int) -> None:
     for surface, side, radius, path in compensated(Random(seed)):
-        own, rows, moves = found(surface, side, radius, path), measured(surface).rows, measured(path).rows
+        own, rows, moves = found(surface, side, radius, path), piece_arrays(surface).rows, piece_arrays(path).rows
         near = [(own.piece[k], k) for k in range(len(rows)) if own.piece[k] >= 0]
         near += [(own.corner[k], k + both) for k in range(len(rows)) for both in (0, 1) if own.corner[k] >= 0]
         near += [(own.piece[k], k + 1) for k in range(len(rows) - 1) if own.proved[k]]
@@ -111,8 +111,8 @@ def test_an_own_piece_that_begins_and_ends_within_what_is_granted_reaches_its_wh
     late, early = 5e-10, 4.0 - 5e-10
     up, along = 3.0 * sin(late / 4.0), 3.0 * cos(late / 4.0)
     ends = (4.0 + up, 4.0 - along), (4.0 + along, 4.0 - up)
-    moves = stacked([lines((late, 1.0), (early, 1.0)), Path.from_pieces([Arc(*ends, (4.0, 4.0), Turn.CCW)])])
-    own = beside(moves, np.arange(2), measured(surface), 1, 1.0, GRANT)
+    moves = piece_arrays(lines((late, 1.0), (early, 1.0)), Path.from_pieces([Arc(*ends, (4.0, 4.0), Turn.CCW)]))
+    own = beside(moves, np.arange(2), piece_arrays(surface), 1, 1.0, GRANT)
     assert own.piece.tolist() == [0, 1]
     assert own.first.tolist() == [0.0, 0.0]
     assert own.last.tolist() == [1.0, 1.0]
@@ -145,9 +145,9 @@ def _clear(own: Beside, company: int, wall: int, surface: Path, path: Path, radi
 def test_what_is_granted_at_every_joint_of_a_run_adds_up_to_half_a_gouge(grant: float) -> None:
     """Walls that go straight on, each a grant lower than the one before, and moves that sink as much on top of it."""
     give = 0.9 * grant
-    walls = stacked([lines((k, -k * give), (k + 1.0, -k * give)) for k in range(60)])
+    walls = piece_arrays(*[lines((k, -k * give), (k + 1.0, -k * give)) for k in range(60)])
     heights = [1.0 - k * give for k in range(60)]
-    moves = stacked([lines((k, y + give), (k + 1.0, y - give)) for k, y in enumerate(heights)])
+    moves = piece_arrays(*[lines((k, y + give), (k + 1.0, y - give)) for k, y in enumerate(heights)])
     own = beside(moves, np.arange(60), walls, 1, 1.0, grant)
     assert own.runs
     longest = max(step for step in range(1, 59) if own.runs.ahead(step).any() or own.runs.behind(step).any())

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.geometry.piece_arrays import measured
+from core.geometry.piece_arrays import piece_arrays
 from core.verify.columns import Columns, columns, inside
 from core.verify.judge import judge
 from tests.core.verify.shapes import moved
@@ -88,7 +88,7 @@ def test_what_is_inside_an_arc_is_ahead_of_its_center(
         (far + radius * cos(angle), far + radius * sin(angle))
         for angle in (begin, begin + int(turn) * min(sweep, 6.28))
     ]
-    arc = Columns(*columns(measured(Path.from_pieces([Arc(ends[0], ends[1], (far, far), turn)]))))
+    arc = Columns(*columns(piece_arrays(Path.from_pieces([Arc(ends[0], ends[1], (far, far), turn)]))))
     seen = begin + np.concatenate((np.linspace(0.0, 2.0 * pi, 97), sweep * np.linspace(0.0, 1.0, 9)))
     seen = np.concatenate((seen, begin + pi + np.linspace(-2.0, 2.0, 41) * sweep))
     x, y = np.cos(seen) * radius, np.sin(seen) * radius

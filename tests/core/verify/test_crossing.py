@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Point, Side, Turn
-from core.geometry.piece_arrays import direction, measured
+from core.geometry.piece_arrays import direction, piece_arrays
 from core.verify import crossing as module
 from core.verify.course import courses
 from core.verify.crossing import at_joints, crossings
@@ -103,14 +103,14 @@ def test_what_is_told_apart_by_its_lines_does_not_meet(surface: Path, closed: bo
         quick = crossings(course, closed=closed)
     with pytest.MonkeyPatch.context() as patch, np.errstate(all="ignore"):
         patch.setattr(module, "clear", lambda _one, i, *_: np.zeros(len(i), np.bool_))
-        measured = crossings(course, closed=closed)
-    assert np.array_equal(quick.places, measured.places)
-    assert np.array_equal(quick.points, measured.points)
+        piece_arrays = crossings(course, closed=closed)
+    assert np.array_equal(quick.places, piece_arrays.places)
+    assert np.array_equal(quick.points, piece_arrays.points)
 
 
 @given(paths(), paths())
 def test_directions_at_joints_are_those_of_the_pieces(one: Path, other: Path) -> None:
-    pieces = measured(Path.from_pieces([*one, *other]))
+    pieces = piece_arrays(Path.from_pieces([*one, *other]))
     rows = np.arange(len(pieces))
     for row in rows.tolist():
         end, begin = at_joints(pieces, rows, np.roll(rows, row))
