@@ -10,9 +10,9 @@ from typing import Final
 from core.controls import shop_rules
 from core.controls.compared_contours import ContourPair, Parting, contours
 from core.controls.compared_controls import Compared, OtherLanguage, compare
-from core.controls.compensation.radius_zero import RADIUS_ZERO
 from core.controls.control_run import Run
 from core.controls.control_tools import ToolTable
+from core.controls.iso.modal_state import RADIUS_ZERO
 from core.controls.judged_runs import Judged, depth, findings, judged
 from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run

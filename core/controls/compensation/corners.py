@@ -98,7 +98,7 @@ def turning(first: Element, second: Element) -> float:
     return atan2(ax * by - ay * bx, ax * bx + ay * by)
 
 
-def mitre(corner: Point, way: Point, angle: float, offset: float) -> Point:
+def miter(corner: Point, way: Point, angle: float, offset: float) -> Point:
     """M: where the offsets of two straight directions meet outside the corner; `angle` as by `turning`."""
     x, y = square(corner, way, offset)
     reach = abs(offset) * tan(abs(angle) / 2)

@@ -6,20 +6,19 @@ the depth from R.  G98 comes back to that height, G99 to R.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final, NoReturn
+from typing import Final, NoReturn
 
-from core.controls.iso.rates import INVERSE
-from core.controls.iso.words import Block, whole
+from core.controls.iso.modal_state import INVERSE, ModalState
+from core.controls.iso.reader import Block, whole
 from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
 
-if TYPE_CHECKING:
-    from core.controls.iso.machine import Machine
-
-
-_BACK: Final = 0.254
+CHIP_CLEARANCE: Final = 0.254
 """Millimeters (0.010 in) by which a peck comes back, or stays off the ground at its return."""
+
+MAX_REPEATS: Final = 10_000
 
 _AXES: Final = (("X", "Y", "Z"), ("Z", "X", "Y"), ("Y", "Z", "X"))
 _PECKS: Final = (730, 830)
@@ -27,23 +26,10 @@ _FEEDS_OUT: Final = (740, 840, 850, 890)
 _BORE: Final = 850
 _TAPS: Final = (740, 840)
 _DWELLS: Final = (820, 860, 890)
-_OTHERS: Final = (870, 880)
-_MOST: Final = 10_000
+_NOT_FOLLOWED: Final = (870, 880)
 
-
-@dataclass(slots=True)
-class Cycles:
-    """What stays from hole to hole: the cycle, the height its row began at, R, depth and peck, in millimeters.
-
-    `r` and `depth` are as written; `to_r` is G99.
-    """
-
-    code: int | None = None
-    began: float = 0.0
-    r: float = 0.0
-    depth: float = 0.0
-    peck: float = 0.0
-    to_r: bool = False
+Leg = tuple[Point3, bool]
+"""The end of a straight move, and whether it is a rapid."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,144 +42,131 @@ class Hole:
     r: float
     ground: float
     back: float
+    plane: Plane
+
+    def at(self, height: float) -> Point3:
+        """The point of the hole's axis at a height."""
+        return solid(self.first, self.second, height, self.plane)
 
 
-def drill(machine: Machine, block: Block) -> None:
-    """Runs a block of a cycle in force."""
-    code = machine.mode or 0
-    if machine.follower.active:
-        text = "A drilling cycle does not go with compensation; write G40 before it, or G80 and another motion."
-        machine.log.stop(machine.dialect.cycle_rule, text, block.line, block.column("GXYZ"))
-    if not machine.dialect.cycles or code in _OTHERS:
-        _only_positions(machine, block)
+def drill(state: ModalState, block: Block) -> Iterator[Leg]:
+    """The moves of a block of the cycle in force; what it lacks stops the run."""
+    code = state.mode or 0
+    if not state.dialect.cycles or code in _NOT_FOLLOWED:
+        text = "Only the positions of this drilling cycle are followed, its depth is not."
+        state.log.tell(Severity.WARNING, "CYCLE", text, block.line, 1)
+        first, second, _ = flat(state.target(block.words), state.plane)
+        yield solid(first, second, flat(state.position, state.plane)[2], state.plane), True
         return
-    if machine.rates.mode == INVERSE:
-        _stop(machine, "A drilling cycle does not go with G93; write G94.", block)
-    if not machine.feed:
-        machine.no_feed(block)
-    fresh = machine.cycles.code != code
-    _values(machine, code, block)
-    _row(machine, code, block, fresh=fresh)
+    if state.rates.mode == INVERSE:
+        _stop(state, "A drilling cycle does not go with G93; write G94.", block)
+    if not state.feed:
+        state.no_feed(block)
+    fresh = state.cycle.code != code
+    _take_values(state, code, block)
+    yield from _row(state, code, block, fresh=fresh)
 
 
-def _only_positions(machine: Machine, block: Block) -> None:
-    text = "Only the positions of this drilling cycle are followed, its depth is not."
-    machine.log.tell(Severity.WARNING, "CYCLE", text, block.line, 1)
-    first, second, _ = flat(machine.target(block.words), machine.plane)
-    _move(machine, block, solid(first, second, flat(machine.position, machine.plane)[2], machine.plane), 0)
+def _stop(state: ModalState, text: str, block: Block, letters: str = "G") -> NoReturn:
+    state.log.stop("CYCLE", text, block.line, block.column(letters))
 
 
-def _stop(machine: Machine, text: str, block: Block, letters: str = "G") -> NoReturn:
-    machine.log.stop("CYCLE", text, block.line, block.column(letters))
-
-
-def _spindle(machine: Machine, code: int, block: Block) -> None:
-    """Tapping needs its direction, G86 a spindle that turns; known only where the program's start is."""
-    if code in _TAPS and machine.plane is not Plane.XY and machine.dialect.table_needed:
-        _stop(machine, "In this plane the control taps along the wrong axes; write G17.", block)
-    wanted = {740: -1, 840: 1}.get(code)
-    turning = machine.rates.turning
-    wrong = turning != wanted if wanted else code == 860 and not turning
-    if machine.dialect.table_needed and wrong:
-        way = {-1: "with M4", 1: "with M3", None: "with M3 or M4"}[wanted]
-        _stop(machine, f"G{code // 10} needs a spindle that turns; start it {way}.", block)
-
-
-def _values(machine: Machine, code: int, block: Block) -> None:
+def _take_values(state: ModalState, code: int, block: Block) -> None:
     """Takes R, depth and peck of a block; what the first block of a cycle lacks stops the run."""
-    state, words, scale = machine.cycles, block.words, machine.scale
-    fresh, letter = state.code != code, _AXES[machine.plane][2]
-    if state.code is None:
-        state.began = flat(machine.position, machine.plane)[2] - flat(machine.shift, machine.plane)[2]
-    for one in ("R", letter) if fresh else ():
-        if one not in words:
-            _stop(machine, f"{one} is missing; the first block of G{code // 10} has to say it.", block)
+    cycle, words, scale = state.cycle, block.words, state.scale
+    letter = _AXES[state.plane][2]
+    if cycle.code is None:
+        cycle.began = flat(state.position, state.plane)[2] - flat(state.shift, state.plane)[2]
+    for needed in ("R", letter) if cycle.code != code else ():
+        if needed not in words:
+            _stop(state, f"{needed} is missing; the first block of G{code // 10} has to say it.", block)
     if "R" in words:
-        state.r = words["R"] * scale
+        cycle.r = words["R"] * scale
     if letter in words:
-        state.depth = words[letter] * scale
+        cycle.depth = words[letter] * scale
     if "Q" in words:
-        state.peck = words["Q"] * scale
-    state.code = code
+        cycle.peck = words["Q"] * scale
+    cycle.code = code
 
 
-def _more(machine: Machine, code: int, block: Block) -> None:
-    """What the first block of some cycles has to say besides: the peck, the time at the ground."""
-    wanted = "Q" if code in _PECKS else "P" if code in _DWELLS and machine.dialect.table_needed else ""
-    if wanted and wanted not in block.words:
-        _stop(machine, f"{wanted} is missing; the first block of G{code // 10} has to say it.", block)
-
-
-def _row(machine: Machine, code: int, block: Block, *, fresh: bool) -> None:
+def _row(state: ModalState, code: int, block: Block, *, fresh: bool) -> Iterator[Leg]:
     """All holes of a block; `fresh` in the first one of a cycle."""
-    state, plane = machine.cycles, machine.plane
-    here = flat(machine.position, plane)
-    origin = flat(machine.shift, plane)[2]
-    r = state.r + origin + (state.began if machine.incremental else 0.0)
-    ground = state.depth + (r if machine.incremental else origin)
+    cycle, plane = state.cycle, state.plane
+    here = flat(state.position, plane)
+    origin = flat(state.shift, plane)[2]
+    r = cycle.r + origin + (cycle.began if state.incremental else 0.0)
+    ground = cycle.depth + (r if state.incremental else origin)
     if r < ground:
-        _stop(machine, "R lies below the ground of the hole; correct R or the depth.", block, "RXYZG")
-    over, level = here[2], state.began + origin
+        _stop(state, "R lies below the ground of the hole; correct R or the depth.", block, "RXYZG")
+    over, level = here[2], cycle.began + origin
     if level < r:
-        _move(machine, block, solid(here[0], here[1], r, plane), 0)
+        yield solid(here[0], here[1], r, plane), True
         over = level = r
     if fresh:
-        _more(machine, code, block)
-    back = r if state.to_r else level
+        _check_first(state, code, block)
+    back = r if cycle.to_r else level
     over = over if over > r else back
-    first, second, _ = flat(machine.target(block.words), plane)
-    step = (first - here[0], second - here[1]) if machine.incremental else (0.0, 0.0)
-    for index in range(_times(machine, block)):
-        hole = Hole(first + index * step[0], second + index * step[1], over if not index else back, r, ground, back)
-        _hole(machine, code, block, hole)
+    first, second, _ = flat(state.target(block.words), plane)
+    step = (first - here[0], second - here[1]) if state.incremental else (0.0, 0.0)
+    for index in range(_repeats(state, block)):
+        x, y = first + index * step[0], second + index * step[1]
+        yield from _hole(state, code, block, Hole(x, y, back if index else over, r, ground, back, plane))
 
 
-def _times(machine: Machine, block: Block) -> int:
+def _check_first(state: ModalState, code: int, block: Block) -> None:
+    """What the first block of some cycles has to say besides: the peck, the time at the ground."""
+    needed = "Q" if code in _PECKS else "P" if code in _DWELLS and state.dialect.table_needed else ""
+    if needed and needed not in block.words:
+        _stop(state, f"{needed} is missing; the first block of G{code // 10} has to say it.", block)
+
+
+def _repeats(state: ModalState, block: Block) -> int:
     number = whole(block.words.get("L", 1.0))
-    if number is None or not 0 < number <= _MOST:
-        _stop(machine, f"L, how often the cycle runs, is a whole number from 1 to {_MOST}.", block, "L")
+    if number is None or not 0 < number <= MAX_REPEATS:
+        _stop(state, f"L, how often the cycle runs, is a whole number from 1 to {MAX_REPEATS}.", block, "L")
     return number
 
 
-def _hole(machine: Machine, code: int, block: Block, hole: Hole) -> None:
-    def to(height: float, mode: int) -> None:
-        _move(machine, block, solid(hole.first, hole.second, height, machine.plane), mode)
-
-    to(hole.over, 0)
+def _hole(state: ModalState, code: int, block: Block, hole: Hole) -> Iterator[Leg]:
+    yield hole.at(hole.over), True
     if hole.over != hole.r:
-        to(hole.r, 0)
-    _spindle(machine, code, block)
+        yield hole.at(hole.r), True
+    _check_spindle(state, code, block)
     if code in _PECKS:
-        _pecks(machine, code, block, hole)
+        yield from _pecks(state, code, block, hole)
     else:
-        to(hole.ground, 10)
+        yield hole.at(hole.ground), False
     if code in _FEEDS_OUT:
-        to(hole.r if code == _BORE else hole.back, 10)
+        yield hole.at(hole.r if code == _BORE else hole.back), False
     if code not in _FEEDS_OUT or code == _BORE:
-        to(hole.back, 0)
+        yield hole.at(hole.back), True
 
 
-def _pecks(machine: Machine, code: int, block: Block, hole: Hole) -> None:
+def _check_spindle(state: ModalState, code: int, block: Block) -> None:
+    """Tapping needs its direction, G86 a spindle that turns; known only where the program's start is."""
+    if not state.dialect.table_needed:
+        return
+    if code in _TAPS and state.plane is not Plane.XY:
+        _stop(state, "In this plane the control taps along the wrong axes; write G17.", block)
+    wanted = {740: -1, 840: 1}.get(code)
+    turning = state.rates.turning
+    if turning != wanted if wanted else code == 860 and not turning:
+        way = {-1: "with M4", 1: "with M3", None: "with M3 or M4"}[wanted]
+        _stop(state, f"G{code // 10} needs a spindle that turns; start it {way}.", block)
+
+
+def _pecks(state: ModalState, code: int, block: Block, hole: Hole) -> Iterator[Leg]:
     """G83 comes out to R between pecks, G73 only a little back."""
-
-    def to(height: float, mode: int) -> None:
-        _move(machine, block, solid(hole.first, hole.second, height, machine.plane), mode)
-
-    depth, peck = hole.r - machine.cycles.peck, machine.cycles.peck
+    peck = state.cycle.peck
     if peck <= 0.0:
-        _stop(machine, "Q, the depth of a peck, has to be larger than 0.", block, "QG")
-    if (hole.r - hole.ground) / peck > _MOST:
-        _stop(machine, f"That is more than {_MOST} pecks; correct Q.", block, "QG")
+        _stop(state, "Q, the depth of a peck, has to be larger than 0.", block, "QG")
+    if (hole.r - hole.ground) / peck > MAX_REPEATS:
+        _stop(state, f"That is more than {MAX_REPEATS} pecks; correct Q.", block, "QG")
+    depth = hole.r - peck
     while depth > hole.ground:
-        to(depth, 10)
+        yield hole.at(depth), False
         if code == 830:
-            to(hole.r, 0)
-        to(depth + _BACK, 0)
+            yield hole.at(hole.r), True
+        yield hole.at(depth + CHIP_CLEARANCE), True
         depth -= peck
-    to(hole.ground, 10)
-
-
-def _move(machine: Machine, block: Block, end: Point3, mode: int) -> None:
-    kept, machine.mode = machine.mode, mode
-    machine.straight(block, end)
-    machine.mode = kept
+    yield hole.at(hole.ground), False

@@ -11,8 +11,8 @@ from enum import Enum, auto
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.iso.parameters import Kept
-from core.controls.iso.words import PLAIN, Syntax
+from core.controls.iso.macro import Kept
+from core.controls.iso.reader import PLAIN, SWITCHES, Block, Syntax
 from core.units import Unit
 
 
@@ -113,6 +113,8 @@ class Dialect:
     nothing is known of them.  `cycles`: its drilling cycles are known; `cycle_rule` the rule that keeps them from
     compensation; `returns_to_r`: G99 is in force at the start.  `d_anywhere`: D may stand in any block.
     `dwell_takes_axes`: X with G4 is a time, or may be.  `tells_unused`: words that nothing takes are told.
+    `max_repeated_blocks`: so many blocks may subprograms and loops run again, and `max_o_words` O-words may run, until
+    the run is given up.
     """
 
     name: str
@@ -137,7 +139,39 @@ class Dialect:
     d_anywhere: bool = False
     dwell_takes_axes: bool = True
     tells_unused: bool = True
+    max_repeated_blocks: int = 400_000
+    max_o_words: int = 15_000
 
     def starting(self, unit: Unit | None) -> Dialect:
         """The same in a machine that starts in another unit, the control's usual one for None."""
         return self if unit is None else replace(self, unit=unit)
+
+
+_ALWAYS_TAKEN: Final = frozenset("NOXYZFSTABCUVW")
+"""Words that have a meaning in any block; other axes than X, Y and Z are told as axes."""
+
+_TAKEN_BY_G: Final[Mapping[int, str]] = MappingProxyType(
+    {40: "PXU", 100: "LPR", 400: "DIJK", 411: "DL", 421: "DL", 410: "DI", 420: "DI"}
+    | {430: "H", 490: "H", 640: "P", 960: "D"}
+)
+_TAKEN_BY_M: Final[Mapping[int, str]] = MappingProxyType({980: "PL"})
+_TAKEN_BY_ARC: Final = "IJKR"
+_TAKEN_BY_CYCLE: Final = "RQPLIJK"
+
+
+def unused_words(block: Block, mode: int | None, dialect: Dialect) -> list[str]:
+    """The words of a block that nothing in it takes, the motion in force being `mode`."""
+    if _ALWAYS_TAKEN.issuperset(block.words):
+        return []
+    taken = set(_ALWAYS_TAKEN)
+    for code in block.g:
+        taken.update(_TAKEN_BY_G.get(code, ""))
+    for code in block.m:
+        taken.update(_TAKEN_BY_M.get(code, ""))
+    if mode in (20, 30):
+        taken.update(_TAKEN_BY_ARC)
+    elif mode not in (0, 10, 800, None):
+        taken.update(_TAKEN_BY_CYCLE)
+    if dialect.d_anywhere or not SWITCHES.isdisjoint(block.g):
+        taken.add("D")
+    return [letter for letter in block.words if letter not in taken]

@@ -1,28 +1,314 @@
-"""Flow: which line comes next: subprograms by M98, O-words, and what both may not do."""
+"""Flow: runs the lines of a program in their order: subprograms by M98, O-words, the end, an alarm.
+
+LinuxCNC's O-words go from line to line: `O100 sub` ... `O100 endsub`, `O100 call [1] [2]`, `if`, `elseif`, `else`,
+`endif`, `while`, `endwhile`, `do`, `repeat`, `endrepeat`, `break`, `continue`, `return`.  A label is a number or a
+name; where a word leads is found by its label.
+"""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from typing import Final
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Final, NamedTuple, NoReturn
 
-from core.controls.control_run import Log
+from core.controls.control_run import AlarmError, Log, Run
+from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.owords import OWords, found_in
-from core.controls.iso.parameters import Kept, Parameters
-from core.controls.iso.words import Block, is_plain, whole
+from core.controls.iso.machine import Control, Machine
+from core.controls.iso.macro import ExpressionReader, FaultError, Kept, Parameters, Squeezed, tell_unset
+from core.controls.iso.reader import Block, is_plain, read_line, whole
+from core.controls.program_text import lines_of, quoted
 from core.finding import Severity
 
-MOST_BLOCKS: Final = 400_000
-"""Blocks that subprograms and loops may run again; beyond it the run stops."""
-
-LONG: Final = 64
-WORKED_OUT: Final = 4
+SIGNS_PER_BLOCK: Final = 64
+SIGNS_PER_EXPRESSION: Final = 4
 """A line that is more than plain words counts as two blocks, and as one more for so many signs: reading takes time, and
 working out expressions a lot of it."""
 
-MOST_OWORDS: Final = 15_000
-"""O-words that may run."""
+MAX_NESTED: Final = 9
+"""Subprograms that may run inside each other."""
+
+MAX_ARGUMENTS: Final = 30
+
+_WORDS: Final = "ENDSUB|SUB|CALL|ELSEIF|ENDIF|IF|ELSE|ENDWHILE|WHILE|DO|ENDREPEAT|REPEAT|BREAK|CONTINUE|RETURN"
+_LINE: Final = re.compile(rf"(?:N[0-9]++)?O(?:([0-9]++)|<([^<>]++)>|([#\[].*?))({_WORDS})(?=[\[#]|$)")
+_COMMENT: Final = re.compile(r"\([^)]*+(?:\)|$)|;.*")
+"""One that is not closed is found too, so that no line is searched again from each of its brackets."""
+_ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE"}
+
+
+class OWord(NamedTuple):
+    """An O-word: its row of the file from 0, label and word; the line, where the word begins, and what is behind it.
+
+    The label is empty where it is worked out when it runs.
+    """
+
+    row: int
+    label: str
+    word: str
+    line: Squeezed
+    begin: int
+    behind: int
+
+
+@dataclass(slots=True)
+class Open:
+    """A branch or a loop that runs: its first word, where that stands, how often a repeat runs again."""
+
+    word: str
+    row: int
+    again: int = 0
+
+
+@dataclass(slots=True)
+class Frame:
+    """A subprogram that runs: its label, where it returns to, what is open in it."""
+
+    label: str
+    back: int
+    opened: dict[str, Open] = field(default_factory=dict)
+
+
+def o_words_of(lines: Sequence[str]) -> dict[int, OWord]:
+    """The O-words of a program by their line's index."""
+    found = ((index, _read(index, line)) for index, line in enumerate(lines) if "o" in line or "O" in line)
+    return {index: word for index, word in found if word is not None}
+
+
+def _read(index: int, line: str) -> OWord | None:
+    if not line.isascii():
+        return None
+    bare = _COMMENT.sub(_blank, line.upper())
+    squeezed = Squeezed.of(bare)
+    match = _LINE.match(squeezed.text)
+    if match is None:
+        return None
+    label = match[1].lstrip("0") or "0" if match[1] else match[2] or ""
+    return OWord(index, label, match[4], squeezed, match.start(4), match.end())
+
+
+def _blank(comment: re.Match[str]) -> str:
+    """Blanks for a comment; one that is not closed is left for the words' reader to tell."""
+    text = comment[0]
+    return " " * len(text) if text.endswith(")") or text.startswith(";") else text
+
+
+class OWords:
+    """Follows them; `run` gives the index of the next line."""
+
+    def __init__(self, words: dict[int, OWord], values: Parameters, log: Log) -> None:
+        self.words = words
+        self.values = values
+        self.log = log
+        self.frames: list[Frame] = []
+        self.opened: dict[str, Open] = {}
+        self.begun: dict[tuple[str, str], int] = {}
+        self.by_label: dict[str, list[OWord]] = {}
+        for word in words.values():
+            self.by_label.setdefault(word.label, []).append(word)
+        self._steps: dict[str, Callable[[OWord], int]] = {
+            "SUB": self._sub,
+            "CALL": self._call,
+            "ENDSUB": self._end,
+            "RETURN": self._end,
+            "IF": self._if,
+            "ELSEIF": self._else,
+            "ELSE": self._else,
+            "ENDIF": self._endif,
+            "WHILE": self._while,
+            "ENDWHILE": self._again,
+            "DO": self._do,
+            "REPEAT": self._repeat,
+            "ENDREPEAT": self._again,
+            "BREAK": self._break,
+            "CONTINUE": self._continue,
+        }
+
+    def run(self, word: OWord) -> int:
+        """Runs an O-word."""
+        if not word.label and word.word != "CALL":
+            self._stop(word, "Only call takes a label that is worked out; write the number itself.")
+        return self._steps[word.word](word)
+
+    def _stop(self, word: OWord, text: str) -> NoReturn:
+        self.log.stop("OWORD", text, word.row + 1, word.line.column(word.begin))
+
+    def _fault(self, word: OWord, fault: FaultError) -> NoReturn:
+        self.log.stop(fault.code, fault.text, word.row + 1, word.line.column(fault.at))
+
+    @property
+    def _opened(self) -> dict[str, Open]:
+        return self.frames[-1].opened if self.frames else self.opened
+
+    def _values(self, word: OWord, most: int) -> list[float]:
+        """The bracketed values behind a word; anything else there stops the run."""
+        text, found = word.line.text, list[float]()
+        reader = ExpressionReader(text, self.values, word.behind)
+        try:
+            while reader.at < len(text) and len(found) < most:
+                found.append(reader.brackets())
+            if reader.at < len(text):
+                rest = f"{quoted(text[reader.at :])} has no place behind {word.word.lower()} here."
+                raise FaultError("OWORD", rest, reader.at)
+        except FaultError as fault:
+            self._fault(word, fault)
+        tell_unset(reader, word.line, word.row + 1, self.log)
+        return found
+
+    def _true(self, word: OWord) -> bool:
+        values = self._values(word, 1)
+        if not values:
+            self._stop(word, f"{word.word.lower()} needs a condition in square brackets.")
+        return values[0] != 0.0
+
+    def _seek(self, word: OWord, *wanted: str) -> OWord:
+        """The next of some words of the same label behind a word."""
+        later = (other for other in self.by_label[word.label] if other.row > word.row and other.word in wanted)
+        found = next(later, None)
+        if found is None:
+            self._stop(word, f"There is no {wanted[-1].lower()} of this label behind {word.word.lower()}.")
+        return found
+
+    def _open(self, word: OWord, *wanted: str) -> Open:
+        """What is open under a word's label."""
+        opened = self._opened.get(word.label)
+        if opened is None or opened.word not in wanted:
+            before = " or ".join(one.lower() for one in wanted)
+            self._stop(word, f"{word.word.lower()} has no {before} of its label before it.")
+        return opened
+
+    def _sub(self, word: OWord) -> int:
+        """A subprogram that is met is stepped over."""
+        if self.frames:
+            self._stop(word, "A subprogram begins inside a subprogram; write it behind the end of that one.")
+        self._fresh(word)
+        self._values(word, 0)
+        end = self._seek(word, "ENDSUB")
+        nested = next((one for one in self.words.values() if one.word == "SUB" and word.row < one.row < end.row), None)
+        if nested:
+            self._stop(nested, "A subprogram begins inside a subprogram; write it behind the end of that one.")
+        return end.row + 1
+
+    def _call(self, word: OWord) -> int:
+        label = word.label or self._worked_label(word)
+        begun = next((other for other in self.by_label.get(label, ()) if other.word == "SUB"), None)
+        if begun is None:
+            name = f"O{label}" if label.isdigit() else f"O<{label.lower()}>"
+            self._stop(word, f"There is no subprogram {quoted(name)} in this file; other files are not read.")
+        if len(self.frames) >= MAX_NESTED:
+            self._stop(word, f"More than {MAX_NESTED} subprograms run inside each other; the control stops here.")
+        self.values.enter(self._values(word, MAX_ARGUMENTS))
+        self.frames.append(Frame(label, word.row + 1))
+        return begun.row + 1
+
+    def _worked_label(self, word: OWord) -> str:
+        at = word.line.text.index("O") + 1
+        reader = ExpressionReader(word.line.text, self.values, at)
+        try:
+            value = reader.value()
+        except FaultError as fault:
+            self._fault(word, fault)
+        if reader.at != word.begin or value != round(value):
+            self._stop(word, "The label of a subprogram has to be a whole number.")
+        return str(round(value))
+
+    def _end(self, word: OWord) -> int:
+        if not self.frames:
+            self._stop(word, f"{word.word.lower()} stands outside of any subprogram that was called.")
+        if word.word == "ENDSUB" and self.frames[-1].label != word.label:
+            self._stop(word, "Another subprogram is running than the one that ends here.")
+        values = self._values(word, 1)
+        self.values.leave(values[0] if values else None)
+        return self.frames.pop().back
+
+    def _if(self, word: OWord) -> int:
+        self._fresh(word)
+        if self._true(word):
+            self._opened[word.label] = Open("IF", word.row)
+            return word.row + 1
+        return self._other_branch(word)
+
+    def _other_branch(self, word: OWord) -> int:
+        """The branch that runs where a condition is false."""
+        while True:
+            word = self._seek(word, "ELSEIF", "ELSE", "ENDIF")
+            if word.word == "ENDIF":
+                return word.row + 1
+            if word.word == "ELSE" or self._true(word):
+                self._opened[word.label] = Open("IF", word.row)
+                return word.row + 1
+
+    def _else(self, word: OWord) -> int:
+        """The end of a branch that ran."""
+        self._open(word, "IF")
+        del self._opened[word.label]
+        return self._seek(word, "ENDIF").row + 1
+
+    def _endif(self, word: OWord) -> int:
+        self._open(word, "IF")
+        del self._opened[word.label]
+        return word.row + 1
+
+    def _fresh(self, word: OWord) -> None:
+        """A label that began something once cannot begin anything else in its subprogram."""
+        key = (self.frames[-1].label if self.frames else "", word.label)
+        if self.begun.setdefault(key, word.row) != word.row:
+            text = f"This label is in use since line {self.begun[key] + 1}; give this {word.word.lower()} its own."
+            self._stop(word, text)
+
+    def _while(self, word: OWord) -> int:
+        opened = self._opened.get(word.label)
+        if opened is not None and opened.word == "DO":
+            if self._true(word):
+                return opened.row + 1
+            del self._opened[word.label]
+            return word.row + 1
+        self._fresh(word)
+        if not self._true(word):
+            self._opened.pop(word.label, None)
+            return self._seek(word, "ENDWHILE").row + 1
+        self._opened[word.label] = Open("WHILE", word.row)
+        return word.row + 1
+
+    def _do(self, word: OWord) -> int:
+        self._fresh(word)
+        self._values(word, 0)
+        self._opened[word.label] = Open("DO", word.row)
+        return word.row + 1
+
+    def _repeat(self, word: OWord) -> int:
+        self._fresh(word)
+        values = self._values(word, 1)
+        if not values:
+            self._stop(word, "repeat needs a number in square brackets.")
+        times = round(values[0])
+        if times <= 0:
+            return self._seek(word, "ENDREPEAT").row + 1
+        self._opened[word.label] = Open("REPEAT", word.row, times - 1)
+        return word.row + 1
+
+    def _again(self, word: OWord) -> int:
+        """The end of a loop."""
+        opened = self._open(word, word.word.removeprefix("END"))
+        if opened.word == "WHILE":
+            return opened.row
+        if opened.again > 0:
+            opened.again -= 1
+            return opened.row + 1
+        del self._opened[word.label]
+        return word.row + 1
+
+    def _break(self, word: OWord) -> int:
+        opened = self._open(word, "WHILE", "DO")
+        end = self._seek(word, _ENDS[opened.word])
+        del self._opened[word.label]
+        return end.row + 1
+
+    def _continue(self, word: OWord) -> int:
+        opened = self._open(word, "WHILE", "DO")
+        return self._seek(word, _ENDS[opened.word]).row
+
 
 GIVEN_UP: Final = "The run is given up here and not judged: end the loop, or let it run less often."
 
@@ -46,22 +332,22 @@ class _Call:
 class Flow:
     """The lines of a program and the one to run next, `at` from 0; `values` are its parameters, if it has any."""
 
-    def __init__(self, lines: list[str], dialect: Dialect, log: Log) -> None:
+    def __init__(self, lines: list[str], dialect: Dialect, log: Log, machine: Machine) -> None:
         self.lines = lines
         self.dialect = dialect
         self.log = log
         self.at = 0
         self.calls: list[_Call] = []
-        self.budget = MOST_BLOCKS
+        self.budget = dialect.max_repeated_blocks
         self.ran = bytearray(len(lines))
-        self.words_left = MOST_OWORDS
+        self.words_left = dialect.max_o_words
         self.labels: dict[int, int] | None = None
         self.percents = 0
-        self.values = Parameters(dialect.parameters) if dialect.parameters else None
-        words = found_in(lines) if dialect.parameters is Kept.NGC else {}
+        self.values = Parameters(dialect.parameters, machine.value_of) if dialect.parameters else None
+        words = o_words_of(lines) if dialect.parameters is Kept.NGC else {}
         self.owords = OWords(words, self.values, log) if words and self.values else None
 
-    def follow(self, index: int) -> bool:
+    def follow_o_word(self, index: int) -> bool:
         """Follows the O-word of a line, if it has one."""
         word = self.owords.words.get(index) if self.owords else None
         if word is None or self.owords is None:
@@ -71,7 +357,7 @@ class Flow:
             self.log.stop("OWORD", text, index + 1, word.line.column(word.begin))
         self.words_left -= 1
         if self.words_left < 0:
-            text = f"The program has run more than {MOST_OWORDS} O-words. {GIVEN_UP}"
+            text = f"The program has run more than {self.dialect.max_o_words} O-words. {GIVEN_UP}"
             self.log.stop("LIMIT", text, index + 1, word.line.column(word.begin))
         self.at = self.owords.run(word)
         return True
@@ -81,7 +367,7 @@ class Flow:
         """O-word subprograms that run."""
         return len(self.owords.frames) if self.owords else 0
 
-    def after(self, block: Block) -> bool:
+    def follow_call(self, block: Block) -> bool:
         """Follows a block's M98 or M99; False where the program ends with it."""
         if 980 in block.m:
             self._call(block)
@@ -146,22 +432,60 @@ class Flow:
                     self.labels.setdefault(int(match[1]), index)
         return self.labels
 
-    def next_line(self, line: int) -> None:
+    def count_repeat(self, line: int) -> None:
         """Counts a line that is about to run, if it ran before: a plain one as one block, any other as more."""
         if not self.ran[line - 1]:
             self.ran[line - 1] = True
             return
         text = self.lines[line - 1]
-        signs = WORKED_OUT if "#" in text or "[" in text else LONG
+        signs = SIGNS_PER_EXPRESSION if "#" in text or "[" in text else SIGNS_PER_BLOCK
         self.budget -= 1 if is_plain(text) else 2 + len(text) // signs
         if self.budget < 0:
-            text = f"Subprograms or loops run more than {MOST_BLOCKS} blocks again, long ones counted several times"
-            self.log.stop("LIMIT", f"{text}. {GIVEN_UP}", line, 1)
+            text = f"Subprograms or loops run more than {self.dialect.max_repeated_blocks} blocks again"
+            self.log.stop("LIMIT", f"{text}, long ones counted several times. {GIVEN_UP}", line, 1)
 
-    def ended(self) -> None:
+    def end_of_file(self) -> None:
         """The file is at its end; what is not closed by then is told."""
         if self.calls or self.depth:
             text = "The file ends inside a subprogram; end the subprogram with M99."
             self.log.tell(Severity.WARNING, "SUBPROGRAM", text, len(self.lines), 1)
         elif self.dialect.end_needed and self.percents < 2:
             self.log.tell(Severity.WARNING, "END", "The program has no end; write M2 or M30.", len(self.lines), 1)
+
+
+def execute(
+    text: bytes, name: str, dialect: Dialect, tools: ToolTable, log: Log, make: Callable[[Log], Control]
+) -> Run:  # fmt: skip
+    """A program on the control that `make` gives."""
+    control = make(log)
+    machine = Machine(dialect, control, tools, log)
+    stopped_at = None
+    try:
+        _run(Flow(lines_of(text), dialect, log, machine), machine)
+    except AlarmError as alarm:
+        log.add(alarm.finding)
+        stopped_at = alarm.line
+    control.close_stretch()
+    unit = machine.first_unit or machine.unit
+    return Run(name, unit, control.tape.moves(), log.closed(), stopped_at, tuple(control.stretches))
+
+
+def _run(flow: Flow, machine: Machine) -> None:
+    """Runs lines until the program ends."""
+    while flow.at < len(flow.lines):
+        line = flow.at = flow.at + 1
+        text = flow.lines[line - 1]
+        flow.count_repeat(line)
+        if flow.follow_o_word(line - 1):
+            continue
+        for block in read_line(text, line, flow.log, flow.dialect.syntax, flow.values):
+            machine.step(block)
+            if machine.ended or not flow.follow_call(block):
+                machine.control.close()
+                return
+        if flow.dialect.percent_ends and text.strip() == "%":
+            flow.percents += 1
+            if flow.percents > 1:
+                break
+    flow.end_of_file()
+    machine.control.close()

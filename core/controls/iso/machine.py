@@ -1,112 +1,122 @@
-"""The modal machine of the word-address controls: blocks in, programmed elements out to a control's follower.
+"""Machine of the word-address controls: runs blocks in the order the controls take them.
 
-All positions are millimeters from the machine's zero as the program shifts it; work offsets nobody gave are zero.
+Blocks come in; programmed elements go out to a `Control`, which compensates them and makes the moves.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import dist, hypot
+from types import MappingProxyType
 from typing import Final
 
-from core.controls.compensation.corners import arc_element, element_sweep, line_element
-from core.controls.compensation.follower import Follower
+from core.controls.compensation.corners import Element, arc_element, element_sweep, line_element
+from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
-from core.controls.iso import cycles, origin, tooling, unused
+from core.controls.iso import cycles
 from core.controls.iso.arcs import NoArc, about, given_center, through
-from core.controls.iso.dialect import Code, Dialect, Do
-from core.controls.iso.rates import PER_MINUTE, Rates
-from core.controls.iso.words import Block, whole
+from core.controls.iso.dialect import Code, Dialect, Do, unused_words
+from core.controls.iso.modal_state import G54, PER_MINUTE, ZERO, ModalState, Origin
+from core.controls.iso.reader import Block
 from core.controls.moves import Plane, Point3, flat
 from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.tolerance import ON_PATH
 from core.units import Unit
 
-_UNUSED: Final = "ABCUVW"
+ONCE: Final = frozenset((Do.HOME, Do.SHIFT, Do.PRESET, Do.MACHINE, Do.DATA))
+"""What takes a block's axis words for itself."""
+
+_OTHER_AXES: Final = "ABCUVW"
 _PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
-_METRIC: Final = (210, 710)
 _TURNS: Final = {20: -1, 30: 1}
-_ORDER: Final = {Do.PLANE: 1, Do.UNITS: 2, Do.DISTANCE: 3, Do.OWN: 4, Do.SIDE: 5}
+_ORDER: Final = {Do.MOTION: 0, Do.PLANE: 1, Do.UNITS: 2, Do.DISTANCE: 3, Do.OWN: 4, Do.SIDE: 5}
 _LATEST: Final = 9
+_G53: Final = 530
+_SURFACE: Final = 960
+_LINES: Final = (0, 10)
+_MOVES: Final = frozenset((0, 10, 20, 30))
+_ENDS: Final = frozenset((20, 300))
+_CENTERS: Final = frozenset("IJKR")
 
 
-class Machine:
-    """What is in force, block by block.
+class Control(Recorder):
+    """What a control adds to the machine: its compensation, and what it says of blocks.
 
-    `position` is the programmed point and `shift` the origin the program works from, x, y, z in millimeters; `tool`
-    the number in force for compensation, 0 for none; `unit` that of the words; `feed` in millimeters a minute.
+    `machine` is set by the machine that runs it.
     """
 
-    def __init__(self, dialect: Dialect, follower: Follower, tools: ToolTable, log: Log) -> None:
-        self.dialect = dialect
-        self.follower = follower
-        follower.machine = self
-        self.tools = tools
-        self.log = log
-        self.unit = dialect.unit
-        self.scale = 25.4 if dialect.unit is Unit.IN else 1.0
-        self.moved_in: Unit | None = None
-        self.unit_said = False
-        self.mode = dialect.mode
-        self.plane = Plane.XY
-        self.position: Point3 = (0.0, 0.0, 0.0)
-        self.shift: Point3 = (0.0, 0.0, 0.0)
-        self.origin = origin.Origin()
-        self.incremental = False
-        self.absolute_centers = dialect.arcs.absolute
-        self.feed = 0.0
-        self.rates = Rates()
-        self.cycles = cycles.Cycles(to_r=dialect.returns_to_r)
-        self.tool = 0
-        self.next_tool = 0
-        self.ended = False
+    machine: Machine
+
+    def begin(self, side: Side, block: Block) -> None:
+        """G41 or G42, also while already active; before the block's motion."""
+
+    def finish(self, block: Block) -> None:
+        """G40; before the block's motion."""
+
+    def watch(self, block: Block) -> None:
+        """Any block, before anything of it happens."""
+
+    def tool_called(self, number: int, block: Block) -> None:
+        """A T word or tool data, before it takes effect."""
+
+    def idle(self, block: Block) -> None:
+        """A block without motion while active, after its codes."""
+
+    def own_code(self, code: int, block: Block) -> None:
+        """A G code of this control alone, in tenths."""
+
+    def close(self) -> None:
+        """The program ends."""
+
+
+class Machine(ModalState):
+    """Runs blocks on a control."""
+
+    def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
+        super().__init__(dialect, tools, log)
+        self.control = control
+        control.machine, control.unit = self, self.unit
 
     def step(self, block: Block) -> None:
-        """Runs one block: its codes in the order the controls take them, then its motion."""
-        if self.follower.watching:
-            self.follower.watch(block)
-        if block.moves_only:
-            if block.g:
-                self.mode, self.cycles.code = block.g[0], None
-            if self.dialect.tells_unused and self.mode in (0, 10) and not _CENTERS.isdisjoint(block.words):
-                unused.tell(self, block)
-            if self.mode in _LINES and not _AXES.isdisjoint(block.words):
-                self.straight(block, self.target(block.words))
-            else:
-                self._motion(block)
-            return
+        """Runs one block: its codes, then its motion."""
+        self.control.watch(block)
         once = self._codes(block)
         if once is None:
             self._motion(block)
         else:
-            origin.run_once(self, once, block)
-        if block.m and not _ENDS.isdisjoint(block.m):
+            self._run_once(once, block)
+        if not _ENDS.isdisjoint(block.m):
             self.ended = True
+
+    def value_of(self, key: int | str) -> float | str | None:
+        """What a program reads of the machine by number or name."""
+        return self.value(key, self.control.active, self.control.readable_position(self.position))
 
     def _codes(self, block: Block) -> Code | None:
         """Everything of a block but its motion; the code that takes the block's axis words for itself, if any."""
         codes = self._grouped(block)
         for code in codes:
             if code.do is Do.RATE:
-                self.rates.set(code.value, self)
+                self.set_rate(code.value)
             elif code.do is Do.UNITS and self.dialect.unit_first:
-                self._set(code, block)
+                self._set_units(code.value)
         if not self.dialect.unit_first and "F" in block.words:
             self.feed = block.words["F"] * self.scale
-        self.rates.take(block)
-        tooling.take(self, block)
-        self._warn_unused(block)
+        self.take_spindle(block)
+        self._take_tool(block)
+        self._warn_of_axes(block)
         once = None
         for code in codes:
-            if code.do in origin.ONCE or (code.do is Do.DWELL and self.dialect.dwell_takes_axes):
+            if code.do in ONCE or (code.do is Do.DWELL and self.dialect.dwell_takes_axes):
                 once = code
             else:
                 self._set(code, block)
         if self.dialect.unit_first and "F" in block.words:
             self.feed = block.words["F"] * self.scale
         if self.dialect.tells_unused:
-            unused.tell(self, block)
+            self._warn_of_unused(block)
         return once
 
     def _grouped(self, block: Block) -> list[Code]:
@@ -122,123 +132,118 @@ class Machine:
                 self.log.stop(self.dialect.group_rule, text, block.line, block.column("G", number))
             groups.add(code.group)
             known.append(code)
-        known.sort(key=lambda code: _ORDER.get(code.do, 0 if code.do is Do.MOTION else _LATEST))
+        known.sort(key=lambda code: _ORDER.get(code.do, _LATEST))
         return known
 
     def _set(self, code: Code, block: Block) -> None:
         match code.do:
             case Do.MOTION:
-                self.mode, self.cycles.code = code.value, None
+                self.mode, self.cycle.code = code.value, None
             case Do.CYCLE:
                 self.mode = code.value
             case Do.PLANE:
-                self.plane = self.follower.plane = _PLANES[code.value]
+                self.plane = self.control.plane = _PLANES[code.value]
             case Do.UNITS:
-                self.unit = Unit.MM if code.value in _METRIC else Unit.IN
-                self.scale = 1.0 if self.unit is Unit.MM else 25.4
-                self.unit_said = True
+                self._set_units(code.value)
             case Do.DISTANCE:
                 self.incremental = code.value == 910
             case Do.CENTERS:
                 self.absolute_centers = code.value == 901
-            case Do.SIDE:
-                self._set_side(code.value, block)
-            case Do.SYSTEM | Do.UNSHIFT:
-                origin.changed(self, code, block)
+            case Do.SPINDLE:
+                self.rates.surface = code.value == _SURFACE
+            case Do.RETRACT:
+                self.cycle.to_r = code.value == 990
             case _:
-                self._set_other(code, block)
+                self._act(code, block)
 
-    def _set_other(self, code: Code, block: Block) -> None:
+    def _act(self, code: Code, block: Block) -> None:
+        """A code of which more is to be said or done than a value to be kept."""
         match code.do:
+            case Do.SIDE if code.value == 400:
+                self.control.finish(block)
+            case Do.SIDE:
+                self.control.begin(Side.LEFT if code.value // 10 == 41 else Side.RIGHT, block)
+            case Do.SYSTEM:
+                self._select_system(code.value, block)
+            case Do.UNSHIFT:
+                self.set_origin(replace(self.origin, local=ZERO))
+            case Do.OWN:
+                self.control.own_code(code.value, block)
             case Do.BEYOND:
                 text = f"G{code.value / 10:g} is not worked out here, and what follows would be wrong; nothing does."
                 self.log.stop("BEYOND", text, block.line, block.column("G", code.value))
-            case Do.OWN:
-                self.follower.own(code.value, block)
-            case Do.SPINDLE:
-                self.rates.set_speed(code.value)
-            case Do.RETRACT:
-                self.cycles.to_r = code.value == 990
-            case _:
-                pass
 
-    def _set_side(self, code: int, block: Block) -> None:
-        if code == 400:
-            self.follower.finish(block)
-        else:
-            self.follower.begin(Side.LEFT if code // 10 == 41 else Side.RIGHT, block)
+    def _set_units(self, code: int) -> None:
+        self.set_units(code)
+        self.control.unit = self.unit
 
-    def _warn_unused(self, block: Block) -> None:
-        for letter in _UNUSED:
+    def _take_tool(self, block: Block) -> None:
+        number = self.tool_number(block)
+        if number is not None:
+            self.control.tool_called(number, block)
+            self.select_tool(number, block)
+        self.change_tool(block)
+
+    def _warn_of_axes(self, block: Block) -> None:
+        for letter in _OTHER_AXES:
             if letter in block.words:
                 text = f"{letter} is an axis that is not followed here; only X, Y and Z are."
                 self.log.tell(Severity.WARNING, "AXIS", text, block.line, block.column(letter))
 
-    def whole_word(self, block: Block, letter: str) -> int:
-        """A word's value as a whole number, which it has to be."""
-        number = whole(block.words[letter])
-        if number is None or number < 0:
-            self.log.stop("NUMBER", f"{letter} takes a whole number, not below 0.", block.line, block.column(letter))
-        return number
-
-    def target(self, words: dict[str, float]) -> Point3:
-        """Where a block's axis words lead, in millimeters."""
-        (x, y, z), scale = self.position, self.scale
-        base = self.position if self.incremental else self.shift
-        if "X" in words:
-            x = base[0] + words["X"] * scale
-        if "Y" in words:
-            y = base[1] + words["Y"] * scale
-        if "Z" in words:
-            z = base[2] + words["Z"] * scale
-        return x, y, z
+    def _warn_of_unused(self, block: Block) -> None:
+        """A control may do something with such words that is not followed here."""
+        unused = unused_words(block, self.mode, self.dialect)
+        if unused:
+            text = f"Nothing in this block takes {' and '.join(unused)} here; "
+            text += "what the control does with it is not followed."
+            self.log.tell(Severity.WARNING, "UNUSED", text, block.line, block.column("".join(unused)))
 
     def _motion(self, block: Block) -> None:
         words, mode = block.words, self.mode
         if "X" in words or "Y" in words or "Z" in words or (mode in _TURNS and not _CENTERS.isdisjoint(words)):
             self._travel(block, mode)
         elif self.dialect.moves_alone and not _MOVES.isdisjoint(block.g):
-            self._alone(block)
-        elif self.follower.active:
-            self.follower.idle(block)
+            self._move_alone(block)
+        elif self.control.active:
+            self.control.idle(block)
 
-    def _alone(self, block: Block) -> None:
+    def _move_alone(self, block: Block) -> None:
         if self.mode in _TURNS:
             text = "The arc has neither end point nor center; write them."
             self.log.stop("ARC", text, block.line, block.column("G", self.mode))
         self.straight(block, self.position)
 
     def _travel(self, block: Block, mode: int | None) -> None:
-        if mode in _TURNS:
-            self._arc(block, _TURNS[mode])
-        elif mode == 0 or mode == 10:
+        if mode in _LINES:
             self.straight(block, self.target(block.words))
+        elif mode in _TURNS:
+            self._arc(block, _TURNS[mode])
         elif mode is None or mode == 800:
             text = "Axis words without a motion in force; write G0, G1, G2 or G3."
             self.log.stop("MOTION", text, block.line, block.column("XYZ"))
         else:
-            cycles.drill(self, block)
+            self._drill(block)
 
     def straight(self, block: Block, end: Point3) -> None:
-        """A straight move of a block."""
-        rapid, feed = self.mode == 0, self.feed
+        """A straight move of a block, a rapid under G0."""
+        self._straight(block, end, rapid=self.mode == 0)
+
+    def _straight(self, block: Block, end: Point3, *, rapid: bool) -> None:
+        feed = self.feed
         if not rapid and self.rates.mode != PER_MINUTE:
-            feed = self.rates.feed(self, block, dist(self.position, end))
+            feed = self.feed_over(block, dist(self.position, end))
         elif not rapid and not feed:
             self.no_feed(block)
-        if self.moved_in is None:
-            self._first_motion(block)
-        if self.plane is Plane.XY:
-            ax, ay, low = self.position
-            bx, by, high = end
-        else:
-            ax, ay, low = flat(self.position, self.plane)
-            bx, by, high = flat(end, self.plane)
+        self._first_motion(block)
+        ax, ay, low = flat(self.position, self.plane)
+        bx, by, high = flat(end, self.plane)
         self.position = end
-        self.follower.travel(line_element((ax, ay), (bx, by), low, high, rapid, feed, block.line))
+        self.control.travel(line_element((ax, ay), (bx, by), low, high, rapid, feed, block.line))
 
     def _first_motion(self, block: Block) -> None:
-        self.moved_in = self.unit
+        if self.first_unit is not None:
+            return
+        self.first_unit = self.unit
         if not self.unit_said:
             name = "inches" if self.unit is Unit.IN else "millimeters"
             text = f"The program does not say its unit; it is taken as {name}."
@@ -247,8 +252,7 @@ class Machine:
     def _arc(self, block: Block, turn: int) -> None:
         if not self.feed and self.rates.mode == PER_MINUTE:
             self.no_feed(block)
-        if self.moved_in is None:
-            self._first_motion(block)
+        self._first_motion(block)
         end = self.target(block.words)
         ax, ay, low = flat(self.position, self.plane)
         bx, by, high = flat(end, self.plane)
@@ -256,41 +260,108 @@ class Machine:
         if hypot(ax - bx, ay - by) < ON_PATH and "R" not in block.words:
             stop = start
         center = self._center(block, start, stop, turn)
+        self.position = end
+        element = arc_element(start, stop, center, turn, low, high, self.feed, block.line)
+        self.control.travel(self._timed(element, block))
+
+    def _timed(self, element: Element, block: Block) -> Element:
+        """An arc with the feed that F means for its length."""
+        if self.rates.mode == PER_MINUTE:
+            return element
+        length = hypot(element_sweep(element) * element.radius, element.high - element.low)
+        return element._replace(feed=self.feed_over(block, length))
+
+    def _center(self, block: Block, start: Point, end: Point, turn: int) -> Point:
+        """The center of an arc; one that is impossible stops the run."""
+        if "R" in block.words and {"I", "J", "K"}.isdisjoint(block.words):
+            center = through(start, end, block.words["R"] * self.scale, turn)
+        else:
+            origin = flat(self.shift, self.plane) if self.centers_from_origin else None
+            center = given_center(block.words, self.plane, start, self.scale, origin)
+            if not isinstance(center, NoArc):
+                center = about(start, end, center, self.dialect.arcs, self.unit) or center
         if isinstance(center, NoArc):
             column = block.column("R" if "R" in block.words else "IJK")
             self.log.stop("ARC", center.text, block.line, column, lengths=center.lengths)
-        self.position = end
-        element = arc_element(start, stop, center, turn, low, high, self.feed, block.line)
-        if self.rates.mode != PER_MINUTE:
-            length = hypot(element_sweep(element) * element.radius, high - low)
-            element = element._replace(feed=self.rates.feed(self, block, length))
-        self.follower.travel(element)
+        return center
 
-    @property
-    def centers_from_origin(self) -> bool:
-        """Whether I, J, K count from the program's origin; otherwise from the arc's start."""
-        return self.absolute_centers and not (self.incremental and self.dialect.arcs.absolute)
+    def _drill(self, block: Block) -> None:
+        """A block of a drilling cycle in force."""
+        if self.control.active:
+            text = "A drilling cycle does not go with compensation; write G40 before it, or G80 and another motion."
+            self.log.stop(self.dialect.cycle_rule, text, block.line, block.column("GXYZ"))
+        for end, rapid in cycles.drill(self, block):
+            self._straight(block, end, rapid=rapid)
 
-    def _center(self, block: Block, start: Point, end: Point, turn: int) -> Point | NoArc:
-        origin_there = flat(self.shift, self.plane) if self.centers_from_origin else None
-        if "R" in block.words and _CENTERS_IJK.isdisjoint(block.words):
-            return through(start, end, block.words["R"] * self.scale, turn)
-        center = given_center(block.words, self.plane, start, self.scale, origin_there)
-        return (
-            center if isinstance(center, NoArc) else about(start, end, center, self.dialect.arcs, self.unit) or center
+    def _run_once(self, code: Code, block: Block) -> None:
+        """Runs a code that takes the block's axis words for itself: G28, G52, G53, G92, G10, G4."""
+        match code.do:
+            case Do.SHIFT:
+                self.set_origin(replace(self.origin, local=self.axis_words(block, self.origin.local)))
+            case Do.PRESET:
+                self._preset(block)
+            case Do.DATA:
+                self._set_system(block)
+            case Do.HOME:
+                self._home(block)
+            case Do.DWELL:
+                self._dwell(block)
+            case _:
+                self._move_in_machine(block)
+
+    def _select_system(self, code: int, block: Block) -> None:
+        """Another work offset; one that the program did not set is taken as zero, and told."""
+        if code not in self.origin.systems and code != G54:
+            text = f"The offset of G{code / 10:g} is not in the program; it is taken as zero."
+            self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("G", code))
+        self.set_origin(replace(self.origin, system=code))
+
+    def _preset(self, block: Block) -> None:
+        """G92: the origin moves so that the present position reads as written."""
+        reads, base, old = self.axis_words(block, ZERO), self.origin.base, self.origin.local
+        x, y, z = (
+            self.position[axis] - reads[axis] - base[axis] if "XYZ"[axis] in block.words else old[axis]
+            for axis in range(3)
         )
+        self.set_origin(replace(self.origin, local=(x, y, z)))
 
-    def no_feed(self, block: Block) -> None:
-        """A move at feed without a feed."""
-        text = "There is no feed; write F before the first move at feed."
-        if self.dialect.feed_needed:
-            self.log.stop("FEED", text, block.line, block.column("XYZIJ"))
-        self.log.tell(Severity.WARNING, "FEED", text, block.line, block.column("XYZIJ"))
+    def _set_system(self, block: Block) -> None:
+        """G10 L2 P: a work offset is set; other data are not understood."""
+        number = int(block.words.get("P", -1.0))
+        if block.words.get("L") != 2.0 or not 0 <= number <= 6 or "R" in block.words:
+            text = "Only work offsets are set here: G10 L2 P1 to P6 with X, Y, Z; set other data on the control."
+            self.log.stop("DATA", text, block.line, block.column("L"))
+        code = _G53 + 10 * number if number else self.origin.system
+        offset = self.axis_words(block, self.origin.systems.get(code, ZERO))
+        systems = MappingProxyType({**self.origin.systems, code: offset})
+        self.set_origin(Origin(systems, self.origin.system, self.origin.local))
 
+    def _home(self, block: Block) -> None:
+        """G28, G30: by way of the block's point to the reference point, which is taken as machine zero."""
+        text = "The reference point is not known; it is taken as the machine's zero."
+        self.log.tell(Severity.WARNING, "HOME", text, block.line, block.column("G"))
+        named = [letter in block.words for letter in "XYZ"]
+        if any(named):
+            self._straight(block, self.target(block.words), rapid=True)
+        goes = named if any(named) else [True] * 3
+        x, y, z = (0.0 if home else now for home, now in zip(goes, self.position, strict=True))
+        self._straight(block, (x, y, z), rapid=True)
 
-_AXES: Final = frozenset("XYZ")
-_LINES: Final = (0, 10)
-_MOVES: Final = frozenset((0, 10, 20, 30))
-_ENDS: Final = frozenset((20, 300))
-_CENTERS: Final = frozenset("IJKR")
-_CENTERS_IJK: Final = frozenset("IJK")
+    def _dwell(self, block: Block) -> None:
+        """G4: X beside it is a time, and Y or Z have no place there; nothing moves."""
+        wrong = next((letter for letter in "YZ" if letter in block.words), None)
+        if wrong is not None:
+            text = f"{wrong} beside G4 may be a move or nothing; write it in a block of its own."
+            self.log.stop("DWELL", text, block.line, block.column(wrong))
+        if "X" in block.words:
+            text = "X beside G4 is taken as the time to wait; nothing moves."
+            self.log.tell(Severity.INFO, "DWELL", text, block.line, block.column("X"))
+        if self.control.active:
+            self.control.idle(block)
+
+    def _move_in_machine(self, block: Block) -> None:
+        """G53: this block counts from the machine's zero."""
+        if self.mode not in _LINES or self.incremental:
+            text = "G53 goes with G0 or G1 in absolute positions; write G90 G0 G53."
+            self.log.stop("MOTION", text, block.line, block.column("G", _G53))
+        self.straight(block, self.axis_words(block, self.position))

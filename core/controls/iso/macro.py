@@ -1,16 +1,369 @@
-"""Lines with parameters and expressions: worked out to words that are numbers, each with its place."""
+"""Macro: parameters and expressions of word-address programs, worked out to words that are numbers.
+
+Expressions are numbers, #parameters, [brackets] and functions as LinuxCNC and RosettaCNC work them out: operators of
+one rank go from left to right, the power too; angles are degrees; two values are equal within 0.0001.  A name belongs
+to the subprogram that set it, unless it begins with an underscore.
+"""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable, Mapping, Sequence
+from enum import Enum, auto
+from math import acos, asin, atan2, ceil, cos, degrees, exp, floor, fmod, isfinite, radians, sin, sqrt, tan
+from math import log as natural_log
 from typing import Final, NamedTuple
 
 from core.controls.control_run import Log
-from core.controls.iso.expressions import Reader
-from core.controls.iso.parameters import FaultError, Parameters
 from core.controls.program_text import quoted
 from core.finding import Severity
 
-_DIGITS: Final = frozenset("0123456789")
+_KEPT: Final = """
+LINE MOTION_MODE PLANE CCOMP METRIC IMPERIAL ABSOLUTE INCREMENTAL INVERSE_TIME UNITS_PER_MINUTE UNITS_PER_REV
+COORD_SYSTEM TOOL_OFFSET RETRACT_R_PLANE RETRACT_OLD_Z SPINDLE_RPM_MODE SPINDLE_CSS_MODE IJK_ABSOLUTE_MODE
+LATHE_DIAMETER_MODE LATHE_RADIUS_MODE SPINDLE_ON SPINDLE_CW MIST FLOOD SPEED_OVERRIDE FEED_OVERRIDE ADAPTIVE_FEED
+FEED_HOLD FEED RPM CURRENT_TOOL SELECTED_POCKET CURRENT_POCKET X Y Z A B C U V W ABS_X ABS_Y ABS_Z ABS_A ABS_B ABS_C
+VALUE CALL_LEVEL REMAP_LEVEL SELECTED_TOOL VALUE_RETURNED TASK VMAJOR VMINOR
+"""
+
+NAMES: Final = frozenset(f"_{name}" for name in _KEPT.split())
+"""Names that the control keeps itself."""
+
+_LOCALS: Final = 30
+_SYSTEM: Final = 5001
+_LAST: Final = 5601
+_TOOL_AND_PLACE: Final = range(5400, 5429)
+_MACRO_SYSTEM: Final = 5000
+
+
+class FaultError(Exception):
+    """What cannot be worked out: the rule's id, a sentence, and where in the text being read."""
+
+    def __init__(self, code: str, text: str, at: int) -> None:
+        super().__init__(text)
+        self.code = code
+        self.text = text
+        self.at = at
+
+
+class Kept(Enum):
+    """How a control keeps parameters."""
+
+    NGC = auto()
+    """As LinuxCNC: 1 to 30 are a subprogram's own; what was never set is 0."""
+    MACRO_B = auto()
+    """As RosettaCNC: what was never set is empty or stands in the control's own table; #0 always is empty."""
+
+
+MachineValue = Callable[[int | str], float | str | None]
+"""What a program reads of the machine by number or name: a value, a sentence why it has none, None if not known."""
+
+
+class Parameters:
+    """The values of one run; `machine_value` reads those that the control itself keeps."""
+
+    def __init__(self, kept: Kept, machine_value: MachineValue = lambda _: None) -> None:
+        self.kept = kept
+        self.machine_value = machine_value
+        self.numbered: dict[int, float] = {}
+        self.names: dict[str, float] = {}
+        self.shared: dict[str, float] = {}
+        self.returned: float | None = None
+        self._outer: list[tuple[dict[int, float], dict[str, float]]] = []
+
+    def number(self, index: int, at: int) -> float | None:
+        """A numbered value; None for one that counts as 0 because nothing set it."""
+        if self.kept is Kept.MACRO_B:
+            return self._variable(index, at)
+        self._within(index, at)
+        if index >= _SYSTEM:
+            return self._system(index, f"#{index} belongs to the control and", at)
+        if index <= _LOCALS and self._outer:
+            return self.numbered.get(index, 0.0)
+        return self.numbered.get(index)
+
+    def _within(self, index: int, at: int) -> None:
+        if not 1 <= index <= _LAST:
+            raise FaultError("PARAMETER", f"#{index} is none of the parameters 1 to {_LAST}.", at)
+
+    def _variable(self, index: int, at: int) -> float:
+        if index >= _MACRO_SYSTEM:
+            text = f"#{index} is a variable of the control, which is not known before it runs; write the number itself."
+            raise FaultError("BEYOND", text, at)
+        value = self.numbered.get(index)
+        if value is None:
+            text = f"#{index} is given no value before this; it is empty, or set at the control. Give it one."
+            raise FaultError("PARAMETER", text, at)
+        return value
+
+    def _system(self, key: int | str, subject: str, at: int) -> float:
+        value = self.machine_value(key)
+        if isinstance(value, float):
+            return value
+        before = "before it runs" if isinstance(key, int) else "before the control runs"
+        raise FaultError("BEYOND", value or f"{subject} is not known {before}; write the number itself.", at)
+
+    def named(self, name: str, at: int) -> float:
+        """A named value; one that has none is a fault."""
+        if name in NAMES or name.startswith(("_HAL[", "_INI[")):
+            if name in ("_VALUE", "_VALUE_RETURNED"):
+                return self._result(name)
+            if name == "_CALL_LEVEL":
+                return float(len(self._outer))
+            return self._system(name, f"#<{quoted(name.lower())}>", at)
+        value = self._scope(name).get(name)
+        if value is None:
+            text = f"#<{quoted(name.lower())}> is given no value before this; set it first."
+            raise FaultError("PARAMETER", text, at)
+        return value
+
+    def _result(self, name: str) -> float:
+        if name == "_VALUE":
+            return self.returned or 0.0
+        return 0.0 if self.returned is None else 1.0
+
+    def exists(self, name: str) -> bool:
+        """Whether a name has a value."""
+        return name in NAMES or name in self._scope(name)
+
+    def _scope(self, name: str) -> dict[str, float]:
+        return self.shared if name.startswith("_") else self.names
+
+    def settable(self, key: int | str, at: int) -> None:
+        """Refuses what a program cannot set."""
+        if isinstance(key, str):
+            if key in NAMES or key.startswith(("_HAL[", "_INI[")):
+                raise FaultError("PARAMETER", f"#<{quoted(key.lower())}> can only be read; choose another name.", at)
+        elif self.kept is Kept.MACRO_B:
+            if not 1 <= key < _MACRO_SYSTEM:
+                raise FaultError("PARAMETER", f"#{key} can only be read; a program sets #1 to #4999.", at)
+        else:
+            self._within(key, at)
+            if key in _TOOL_AND_PLACE:
+                raise FaultError("PARAMETER", f"#{key} can only be read; choose another number.", at)
+            if key >= _SYSTEM:
+                text = f"#{key} changes the control itself, and what follows would be wrong; use the G code for it."
+                raise FaultError("BEYOND", text, at)
+
+    def set(self, key: int | str, value: float) -> None:
+        """Gives a number or a name that is `settable` its value."""
+        if isinstance(key, str):
+            self._scope(key)[key] = value
+        else:
+            self.numbered[key] = value
+
+    def enter(self, arguments: Sequence[float]) -> None:
+        """A subprogram begins, with its own numbers 1 to 30 and its own names."""
+        own = {index: value for index, value in self.numbered.items() if index <= _LOCALS}
+        self._outer.append((own, self.names))
+        self._locals(dict(enumerate(arguments, 1)))
+        self.names = {}
+
+    def leave(self, value: float | None) -> None:
+        """A subprogram ends, and may return a value."""
+        own, self.names = self._outer.pop()
+        self._locals(own)
+        self.returned = value
+
+    def _locals(self, own: dict[int, float]) -> None:
+        for index in range(1, _LOCALS + 1):
+            self.numbered.pop(index, None)
+        self.numbered.update(own)
+
+
+EQUAL: Final = 1e-4
+"""How far two values may be apart and still be equal."""
+
+_WHOLE: Final = 1e-4
+_DEEPEST: Final = 50
+_NUMBER: Final = re.compile(r"(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)")
+_OPERATOR: Final = re.compile(r"\*\*|MOD|AND|XOR|OR|EQ|NE|GT|GE|LT|LE|[-+*/&|^]")
+_NAME: Final = re.compile(r"<([^<>#=]++(?:\[[^\]]*+\])?[^<>#=]*+)>")
+_FUNCTION: Final = re.compile(r"([A-Z]{2,6})\[")
+
+
+def _modulo(left: float, right: float) -> float:
+    rest = fmod(left, right)
+    return rest + abs(right) if rest < 0.0 else rest
+
+
+def _power(left: float, right: float) -> float:
+    if left < 0.0 and right != floor(right):
+        raise ValueError
+    return float(left**right)
+
+
+_RANKS: Final[Mapping[str, tuple[int, Callable[[float, float], float]]]] = {
+    "**": (4, _power),
+    "*": (3, lambda left, right: left * right),
+    "/": (3, lambda left, right: left / right),
+    "MOD": (3, _modulo),
+    "+": (2, lambda left, right: left + right),
+    "-": (2, lambda left, right: left - right),
+    "EQ": (1, lambda left, right: float(abs(left - right) < EQUAL)),
+    "NE": (1, lambda left, right: float(abs(left - right) >= EQUAL)),
+    "GT": (1, lambda left, right: float(left > right)),
+    "LT": (1, lambda left, right: float(left < right)),
+    "GE": (1, lambda left, right: float(left >= right)),
+    "LE": (1, lambda left, right: float(left <= right)),
+    "AND": (0, lambda left, right: float(left != 0.0 and right != 0.0)),
+    "OR": (0, lambda left, right: float(left != 0.0 or right != 0.0)),
+    "XOR": (0, lambda left, right: float((left != 0.0) != (right != 0.0))),
+    "&": (0, lambda left, right: float(int(left) & int(right))),
+    "|": (0, lambda left, right: float(int(left) | int(right))),
+    "^": (0, lambda left, right: float(int(left) ^ int(right))),
+}
+
+_FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = {
+    "ABS": abs,
+    "ACOS": lambda value: degrees(acos(value)),
+    "ASIN": lambda value: degrees(asin(value)),
+    "COS": lambda value: cos(radians(value)),
+    "EXP": exp,
+    "FIX": lambda value: float(floor(value)),
+    "FUP": lambda value: float(ceil(value)),
+    "LN": natural_log,
+    "ROUND": lambda value: float(int(value + (-0.5 if value < 0.0 else 0.5))),
+    "SIN": lambda value: sin(radians(value)),
+    "SQRT": sqrt,
+    "TAN": lambda value: tan(radians(value)),
+}
+
+
+class ExpressionReader:
+    """Reads values out of a text in capitals without blanks; `at` is where it stands.
+
+    `unset` are the numbers read that nothing had set, and where.
+    """
+
+    def __init__(self, text: str, values: Parameters, at: int = 0) -> None:
+        self.text = text
+        self.values = values
+        self.at = at
+        self.unset: list[tuple[int, int]] = []
+        self._depth = 0
+
+    def value(self) -> float:
+        """One value: a number, a parameter, brackets, a function, any of them with signs before."""
+        sign, text = 1.0, self.text
+        while text[self.at : self.at + 1] in ("+", "-"):
+            sign = -sign if text[self.at] == "-" else sign
+            self.at += 1
+        self._depth += 1
+        if self._depth > _DEEPEST:
+            raise FaultError("MACRO", "Too many brackets or signs # lie inside each other; use parameters.", self.at)
+        value = sign * self._bare()
+        self._depth -= 1
+        return value
+
+    def _bare(self) -> float:
+        found = _NUMBER.match(self.text, self.at)
+        if found:
+            self.at = found.end()
+            return self._worked(found.start(), "This number", float, found[0])
+        first = self.text[self.at : self.at + 1]
+        if first == "[":
+            return self.brackets()
+        if first == "#":
+            return self._parameter()
+        return self._function()
+
+    def brackets(self) -> float:
+        """An expression in square brackets."""
+        begin = self.at
+        if self.text[begin : begin + 1] != "[":
+            raise FaultError("MACRO", f"A value in square brackets is missing{self._before()}.", begin)
+        self.at += 1
+        value = self._ranked(0)
+        if self.text[self.at : self.at + 1] != "]":
+            if self.at >= len(self.text):
+                raise FaultError("MACRO", "The bracket is not closed; write the closing one.", begin)
+            raise FaultError("MACRO", f"An operator or a closing bracket is missing{self._before()}.", self.at)
+        self.at += 1
+        return value
+
+    def _ranked(self, rank: int) -> float:
+        value = self.value()
+        while (found := _OPERATOR.match(self.text, self.at)) and _RANKS[found[0]][0] >= rank:
+            if found[0] in "&|^" and self.values.kept is not Kept.MACRO_B:
+                break
+            begin, self.at = self.at, found.end()
+            above, work = _RANKS[found[0]]
+            value = self._worked(begin, found[0], work, value, self._ranked(above + 1))
+        return value
+
+    def _worked(self, at: int, name: str, work: Callable[..., float], *values: float | str) -> float:
+        try:
+            value = work(*values)
+        except (ValueError, ArithmeticError):
+            value = float("nan")
+        if not isfinite(value):
+            raise FaultError("MACRO", f"{name} has no value here; correct what it is worked out from.", at)
+        return value
+
+    def _parameter(self) -> float:
+        begin, key = self.at, self.key()
+        if isinstance(key, str):
+            return self.values.named(key, begin)
+        value = self.values.number(key, begin)
+        if value is None:
+            self.unset.append((key, begin))
+        return value or 0.0
+
+    def key(self) -> int | str:
+        """The number or the name behind a sign #."""
+        begin = self.at
+        self.at += 1
+        if self.text[self.at : self.at + 1] == "<":
+            return self.name()
+        value = self.value()
+        if abs(value - round(value)) > _WHOLE:
+            raise FaultError("PARAMETER", "The number of a parameter has to be a whole one.", begin)
+        return round(value)
+
+    def name(self) -> str:
+        """A name between < and >."""
+        found = _NAME.match(self.text, self.at)
+        if found is None:
+            raise FaultError("MACRO", "The name is not closed; write > behind it.", self.at)
+        self.at = found.end()
+        return found[1]
+
+    def _function(self) -> float:
+        begin, found = self.at, _FUNCTION.match(self.text, self.at)
+        if found is None:
+            raise FaultError("MACRO", f"A value is missing{self._before()}.", begin)
+        name, self.at = found[1], found.end(1)
+        if name == "EXISTS":
+            return self._exists()
+        if name == "ATAN":
+            return self._atan(begin)
+        if name not in _FUNCTIONS:
+            raise FaultError("MACRO", f"{name} is no function of this control.", begin)
+        return self._worked(begin, name, _FUNCTIONS[name], self.brackets())
+
+    def _atan(self, begin: int) -> float:
+        first = self.brackets()
+        if self.text[self.at : self.at + 2] != "/[":
+            raise FaultError("MACRO", "ATAN takes two values: ATAN[y]/[x].", begin)
+        self.at += 1
+        return degrees(atan2(first, self.brackets()))
+
+    def _exists(self) -> float:
+        begin = self.at
+        if self.text[begin : begin + 3] != "[#<":
+            raise FaultError("MACRO", "EXISTS takes a name: EXISTS[#<name>].", begin)
+        self.at += 2
+        name = self.name()
+        if self.text[self.at : self.at + 1] != "]":
+            raise FaultError("MACRO", "The bracket is not closed; write the closing one.", begin)
+        self.at += 1
+        return float(self.values.exists(name))
+
+    def _before(self) -> str:
+        rest = quoted(self.text[self.at :])
+        return f" before {rest}" if rest else " at the end"
+
 
 GAP: Final = "\x01"
 """Stands where a comment was: words may be parted by it, numbers not."""
@@ -40,12 +393,16 @@ class WorkedOut(NamedTuple):
     columns: tuple[int, ...]
 
 
+Setting = tuple[int | str, float]
+"""A parameter's number or name, and the value it gets."""
+
+
 def worked_out(line: Squeezed, number: int, values: Parameters, log: Log) -> WorkedOut:
     """Works a line out and then sets what it sets; what cannot be worked out stops the run at its place."""
-    reader = Reader(line.text, values)
+    reader = ExpressionReader(line.text, values)
     words: list[str] = []
     columns: list[int] = []
-    settings: list[tuple[int | str, float]] = []
+    settings: list[Setting] = []
     try:
         while reader.at < len(line.text):
             _item(reader, line, words, columns, settings)
@@ -58,7 +415,7 @@ def worked_out(line: Squeezed, number: int, values: Parameters, log: Log) -> Wor
 
 
 def _item(
-    reader: Reader, line: Squeezed, words: list[str], columns: list[int], settings: list[tuple[int | str, float]]
+    reader: ExpressionReader, line: Squeezed, words: list[str], columns: list[int], settings: list[Setting]
 ) -> None:  # fmt: skip
     """One word, or one setting of a parameter."""
     begin, text = reader.at, line.text
@@ -67,7 +424,7 @@ def _item(
         reader.at += 1
     elif sign == "#":
         settings.append(_setting(reader))
-    elif sign == "N" and text[begin + 1 : begin + 2] not in _DIGITS:
+    elif sign == "N" and text[begin + 1 : begin + 2] not in frozenset("0123456789"):
         raise FaultError("WORD", "A block number is plain digits.", begin)
     elif "A" <= sign <= "Z":
         reader.at += 1
@@ -77,7 +434,7 @@ def _item(
         raise FaultError("WORD", f"{quoted(text[begin:])} is not understood; a word is a letter and a value.", begin)
 
 
-def _setting(reader: Reader) -> tuple[int | str, float]:
+def _setting(reader: ExpressionReader) -> Setting:
     begin, key = reader.at, reader.key()
     if reader.text[reader.at : reader.at + 1] != "=":
         raise FaultError("WORD", "This value has no letter before it, and no = behind it that would set it.", begin)
@@ -86,7 +443,7 @@ def _setting(reader: Reader) -> tuple[int | str, float]:
     return key, reader.value()
 
 
-def tell_unset(reader: Reader, line: Squeezed, number: int, log: Log) -> None:
+def tell_unset(reader: ExpressionReader, line: Squeezed, number: int, log: Log) -> None:
     """Tells of parameters that were read before anything set them."""
     for index, at in reader.unset:
         text = f"#{index} is not set by the program; it is taken as 0, and the control may keep another value in it."

@@ -12,14 +12,14 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.compensation.one_move_queue import LookAhead
-from core.controls.compensation.radius_zero import nothing_compensated
+from core.controls.compensation.chain import OneMoveQueue
 from core.controls.control_run import Log, Run
 from core.controls.control_tools import ToolTable, not_there
 from core.controls.iso.dialect import Arcs, Dialect, Do, codes
-from core.controls.iso.parameters import Kept
-from core.controls.iso.runner import execute
-from core.controls.iso.words import SWITCHES, Block, Syntax, whole
+from core.controls.iso.flow import execute
+from core.controls.iso.machine import Control
+from core.controls.iso.macro import Kept
+from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
 from core.controls.moves import Plane
 from core.finding import Severity
 from core.geometry.piece import Side
@@ -83,10 +83,8 @@ def _lacks(tools: ToolTable, value: float) -> bool:
     return number is None or (number != 0 and tools.get(number) is None)
 
 
-class LinuxCnc(LookAhead):
+class LinuxCnc(OneMoveQueue, Control):
     """What turns LinuxCNC's compensation on, and what it refuses meanwhile."""
-
-    always = True
 
     def watch(self, block: Block) -> None:
         """Words without a code that takes them, and codes that compensation does not allow."""
@@ -98,7 +96,7 @@ class LinuxCnc(LookAhead):
             self._other_words(block)
         if not _CENTERS.isdisjoint(words):
             self._arc_words(block)
-        for code in () if block.moves_only else block.g:
+        for code in block.g:
             if code // 10 == 38 and code != 380:
                 text = "Where a probe stops is not known before it runs."
                 self.log.stop("N-PROBE", text, block.line, block.column("G", code))
@@ -170,8 +168,12 @@ class LinuxCnc(LookAhead):
             text = "The diameter is negative: the tool runs on the other side."
             self.log.tell(Severity.INFO, "NEGATIVE", text, block.line, block.side_column())
         elif radius == 0.0:
-            nothing_compensated(self.machine, "The radius is 0.", block.line, block.side_column())
+            self.machine.nothing_compensated("The radius is 0.", block.line, block.side_column())
         self.turn_on(radius * side.sign, orientation)
+
+    def finish(self, block: Block) -> None:
+        """G40."""
+        self.turn_off(block.line)
 
     def radius(self, block: Block) -> tuple[float, int]:
         """The radius asked for, millimeters, negative flips the side; and a lathe tool's orientation."""
@@ -187,7 +189,7 @@ class LinuxCnc(LookAhead):
         if tool is None:
             if number == 0 or "D" not in block.words:
                 text = "No tool is loaded, so the radius is 0."
-                nothing_compensated(self.machine, text, block.line, block.side_column())
+                self.machine.nothing_compensated(text, block.line, block.side_column())
                 return 0.0, 0
             self.log.stop("N-DBIG", not_there(number), block.line, block.column("D"))
         if tool.orientation not in (0, 9) and self.machine.plane is not Plane.ZX:

@@ -11,17 +11,25 @@ from __future__ import annotations
 from math import radians
 from typing import Final, NamedTuple
 
-from core.controls.compensation import generated
-from core.controls.compensation.corners import Element, fits, meeting, offset_radius, square_end, square_start
-from core.controls.compensation.generated import Corners
-from core.controls.compensation.offset_chain import Joint
-from core.controls.compensation.radius_zero import nothing_compensated
+from core.controls.compensation.chain import Chain
+from core.controls.compensation.corners import Element, fits, offset_radius, square_end, square_start
+from core.controls.compensation.joint import (
+    Corner,
+    CornerRules,
+    Joint,
+    Outside,
+    change,
+    departure,
+    entry,
+    inward_turn,
+    vector_end,
+)
 from core.controls.control_run import Log, Run
 from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect, Do, codes
-from core.controls.iso.runner import execute
-from core.controls.iso.words import Block, Semicolon, Syntax
-from core.controls.makers.nine_words import NineWords
+from core.controls.iso.flow import execute
+from core.controls.iso.machine import Control
+from core.controls.iso.reader import SWITCHES, Block, Semicolon, Syntax, whole
 from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.units import Unit
@@ -47,8 +55,14 @@ DIALECT: Final = Dialect(
 TANGENT: Final = radians(0.05)
 """Inside corners under this angle whose offsets miss each other are tangent; the control's own limit is not known."""
 
+OUTSIDE: Final = {"g39": Outside.LINES, "g39.1": Outside.MITER_OR_ARC}
+"""How sharp outside corners are gone round: generated lines (G39) or an arc (G39.1)."""
+
 NON_MOTION: Final = 10
 """Blocks without motion in the plane that compensation looks across; the machine builder sets it, this is assumed."""
+
+_MACHINE: Final = frozenset((280, 300, 530))
+_CHANGES: Final = frozenset((520, 920, 921, 540, 550, 560, 570, 580, 590))
 
 
 class Before(NamedTuple):
@@ -60,27 +74,117 @@ class Before(NamedTuple):
     standing: tuple[Element, ...]
 
 
-class NineSeries(NineWords):
-    """The compensation itself."""
+class NineSeries(Chain, Control):
+    """The compensation of the 9/Series.
 
-    short = True
+    `coming` is the next element's signed radius, `offset` that of what is held, in millimeters; `written_side` the side
+    of the word in force; `entering` until the entry has ended; `exit_block` the block with G40 until the exit move.
+    """
 
-    def __init__(self, log: Log) -> None:
+    def __init__(self, log: Log, *, type_a: bool = True, outside: Outside = Outside.LINES) -> None:
         super().__init__(log)
+        self.type_a = type_a
+        self.rules = CornerRules(outside=outside)
+        self.number = 0
+        self.coming = 0.0
+        self.written_side: Side | None = None
         self.entering = False
+        self.exit_block: Block | None = None
+        self.checks = True
         self.quiet = 0
         self.before = Before(0, None, None, ())
 
+    def watch(self, block: Block) -> None:
+        """What a block says beside its motion: D, M800 and M801, a change of origin."""
+        if "D" in block.words:
+            self._take_number(block)
+        for code, on in ((8000, False), (8010, True)):
+            if code in block.m:
+                self.checks = on
+                text = (
+                    f"M{code // 10} turns the alarms for backwards moves and crossing vectors {'on' if on else 'off'}."
+                )
+                self.log.tell(Severity.INFO, "R11", text, block.line, block.column("M", code))
+        if self.active and not {0, 10}.isdisjoint(block.m):
+            text = "Moves by hand or MDI at this stop are not compensated; compensation starts anew after them."
+            self.log.tell(Severity.INFO, "R6", text, block.line, block.column("M"))
+        if self.active and not _CHANGES.isdisjoint(block.g):
+            self.interrupt(block)
+        if self.active and not _MACHINE.isdisjoint(block.g):
+            text = "What compensation does with a move to the machine's own points is not known; write G40 before."
+            self.log.stop("HOME", text, block.line, block.column("G"))
+        if self.active and self.exit_block is None and not {170, 180, 190}.isdisjoint(block.g):
+            text = "The plane is not changed under compensation; write G40 before."
+            self.log.stop("PLANE", text, block.line, block.side_column())
+
+    def _take_number(self, block: Block) -> None:
+        number = whole(block.words["D"])
+        if number is None or number < 0:
+            text = "D is an offset number, a whole number."
+            self.log.stop("NUMBER", text, block.line, block.column("D"))
+        self.number = number
+        if number == 0 and (self.active or not SWITCHES.isdisjoint(block.g)):
+            text = "D0 does not cancel compensation, it goes on with radius 0; write G40 to cancel."
+            self.log.tell(Severity.WARNING, "R3", text, block.line, block.column("D"))
+        if self.active and self.exit_block is None and SWITCHES.isdisjoint(block.g) and self.written_side is not None:
+            self.coming = self.radius(block) * self.written_side.sign
+
+    def radius(self, block: Block) -> float:
+        """Half the diameter of the offset in force, millimeters."""
+        if self.number == 0:
+            return 0.0
+        tool = self.machine.tools.get(self.number)
+        if tool is None:
+            text = f"Offset {self.number} is not entered; enter its radius or write another D."
+            self.log.stop("TOOL", text, block.line, block.column("DG"))
+        radius = tool.diameter_mm(self.machine.unit) / 2
+        if radius < 0.0:
+            text = "The radius is negative: the tool runs on the other side."
+            self.log.tell(Severity.INFO, "R4", text, block.line, block.column("DG"))
+        return radius
+
+    @property
+    def running(self) -> Side:
+        """The side on which the tool runs: a negative radius is on the other one, offset 0 on the one written."""
+        sign = self.coming or (self.written_side.sign if self.written_side else 0)
+        return Side.LEFT if sign > 0.0 else Side.RIGHT
+
+    def own_code(self, code: int, _: Block) -> None:
+        """G39 and G39.1."""
+        self.rules = CornerRules(outside=Outside.MITER_OR_ARC if code == 391 else Outside.LINES)
+
+    def goes_on(self, joint: Joint) -> None:
+        """The stretch has the coming side and radius behind this joint; behind its entry it had no other one."""
+        if self.elements == 1:
+            self.begin_stretch(self.running, self.coming)
+        else:
+            self.change_stretch(self.running, self.coming, 1 + len(self.standing), joint.moves)
+
+    def generates(self, line: int) -> None:
+        """A generated block, made however short it is."""
+        text = "the least length of a generated block (AMP) is taken as 0; the control drops a shorter one."
+        self._assumed("AMP", text, line)
+
+    def slows(self, line: int) -> None:
+        """The feed inside an arc, however small it is."""
+        self._assumed("MFR", "the least feed inside arcs (MFR) is taken as 0; the control may feed faster.", line)
+
+    def _assumed(self, rule: str, text: str, line: int) -> None:
+        """Tells once of a value that the machine builder sets."""
+        if rule not in self.log.counts:
+            words = f"The machine builder sets a value that counts here, and first here: {text}"
+            self.log.tell(Severity.INFO, rule, words, line, 1)
+
     def begin(self, side: Side, block: Block) -> None:
         """G41 and G42: the start, or a change of side."""
-        if self.leaving is not None:
+        if self.exit_block is not None:
             self._leave_square()
         if not self.active:
             if self.machine.mode in (20, 30):
                 self._circular_start(block.line, block.side_column())
             self.active, self.entering, self.quiet = True, True, 0
             self.held, self.start, self.elements = None, None, 0
-        self.side = side
+        self.written_side = side
         self.coming = self.radius(block) * side.sign
 
     def _circular_start(self, line: int, column: int) -> None:
@@ -92,12 +196,12 @@ class NineSeries(NineWords):
         if self.active and (self.held is None or (self.entering and self.elements == 0)):
             self._cancel()
         elif self.active:
-            self.leaving = block
+            self.exit_block = block
 
     def idle(self, block: Block) -> None:
         """A block without motion in the plane."""
         self.quiet += 1
-        if self.quiet <= NON_MOTION or self.held is None or self.leaving is not None:
+        if self.quiet <= NON_MOTION or self.held is None or self.exit_block is not None:
             return
         text = (
             f"More than {NON_MOTION} blocks without motion (an assumed limit, the machine builder sets it): the move "
@@ -110,12 +214,12 @@ class NineSeries(NineWords):
     def travel(self, element: Element) -> None:
         """One element: entry, compensated, exit or none of them."""
         if not self.active:
-            if self._leaving and element.turn:
+            if self.leaving and element.turn:
                 self._circular_exit(element.line)
             super().travel(element)
         elif not element.moves:
             self._across(element)
-        elif self.leaving is not None:
+        elif self.exit_block is not None:
             self._exit(element)
         else:
             self._compensated(element)
@@ -123,8 +227,8 @@ class NineSeries(NineWords):
     def _across(self, element: Element) -> None:
         """A move that does not lie in the plane."""
         self.quiet += 1
-        if self.held is None or self.leaving is not None:
-            what = "start" if self.leaving is None else "end"
+        if self.held is None or self.exit_block is not None:
+            what = "start" if self.exit_block is None else "end"
             text = (
                 f"This move is not in the plane: compensation does not {what} with it, but with the next one that is."
             )
@@ -141,8 +245,8 @@ class NineSeries(NineWords):
             if element.turn:
                 self._circular_start(element.line, 1)
             self._without_offset(element)
-            if self._span is None:
-                self.open_span(self.running, self.coming, element)
+            if not self.stretch_open:
+                self.open_stretch(self.running, self.coming, element)
         elif not fits(element, self.coming):
             text = "The arc's radius {0} is not larger than the cutter's {1}; use a smaller cutter."
             self.log.stop("R9", text, element.line, 1, lengths=(element.radius, abs(self.coming)))
@@ -152,7 +256,7 @@ class NineSeries(NineWords):
 
     def _without_offset(self, element: Element) -> None:
         if self.coming == 0.0:
-            nothing_compensated(self.machine, "The offset is 0; write D and an offset's number.", element.line, 1)
+            self.machine.nothing_compensated("The offset is 0; write D and an offset's number.", element.line, 1)
 
     def joint(self, first: Element, second: Element) -> Joint:
         """How this control joins: the entry, a change, inside and outside corners."""
@@ -160,22 +264,19 @@ class NineSeries(NineWords):
             self.entering = False
             self.offset = self.coming
             self._interpreted(first, second)
-            joint = generated.entry(first, second, self.coming, self.corners, short=self.short)
+            joint = entry(first, second, self.coming, self.rules.outside, direct=self.type_a)
             self.goes_on(joint)
             return self._told(joint, second)
         if self.coming != self.offset:
             text = "The side or the radius changes here; the way across is an interpretation."
             self.log.tell(Severity.INFO, "CHANGE", text, second.line, 1)
-            joint = generated.changed(first, second, self.offset, self.coming)
+            joint = change(first, second, self.offset, self.coming)
             self.goes_on(joint)
             return joint
-        angle = generated.inward(first, second, self._sign)
-        if abs(angle) < generated.STRAIGHT or self.offset == 0.0:
-            end = square_end(first, self.offset)
-            return Joint(end, end)
-        if angle < 0.0:
-            return self._told(generated.outside(first, second, self.offset, self.corners), second)
-        return self._inside(first, second, angle)
+        joint = super().joint(first, second)
+        if joint.missed:
+            return self._missed(first, second)
+        return self._told(joint, second) if joint.corner is Corner.OUTSIDE else joint
 
     def _told(self, joint: Joint, element: Element) -> Joint:
         """The joint; that its generated blocks are made however short they are is told."""
@@ -183,25 +284,19 @@ class NineSeries(NineWords):
             self.generates(element.line)
         return joint
 
-    @property
-    def _sign(self) -> int:
-        return 1 if self.offset > 0.0 else -1
-
     def _interpreted(self, first: Element, second: Element) -> None:
-        if not self.short and generated.inward(first, second, self._sign) < 0.0:
+        if not self.type_a and inward_turn(first, second, self.offset) < 0.0:
             text = "The generated blocks of a type B entry are read from figures: an interpretation."
             self.log.tell(Severity.INFO, "TYPE-B", text, first.line, 1)
 
-    def _inside(self, first: Element, second: Element, angle: float) -> Joint:
-        point = meeting(first, second, self.offset)
-        if point is not None:
-            return Joint(point, point)
-        if angle < TANGENT:
-            end = square_end(first, self.offset)
+    def _missed(self, first: Element, second: Element) -> Joint:
+        """The offsets of an inside corner do not meet: tangent, or an alarm."""
+        end = square_end(first, self.offset)
+        if inward_turn(first, second, self.offset) < TANGENT:
             return Joint(end, end)
         text = "The offset paths do not meet at this inside corner: the compensation vectors cross."
         self._interference("R10", text, second.line)
-        return Joint(square_end(first, self.offset), square_start(second, self.offset))
+        return Joint(end, square_start(second, self.offset))
 
     def backwards(self, element: Element) -> None:
         """A line that would run backwards, or an arc whose ends have crossed."""
@@ -232,17 +327,17 @@ class NineSeries(NineWords):
         """The exit move: from the square end, type B's way round the corner, or as the vector bends it."""
         if element.turn:
             self._circular_exit(element.line)
-        held, block = self.held, self.leaving
+        held, block = self.held, self.exit_block
         if held is None or block is None:
             return
         if not {"I", "J", "K"}.isdisjoint(block.words):
-            self.release(generated.bent(held, self._vector(block), self.offset))
-        elif self.short or self.offset == 0.0:
+            self.release(vector_end(held, self._vector(block), self.offset))
+        elif self.type_a or self.offset == 0.0:
             self.release_square()
         else:
-            joint = self._told(generated.exit_points(held, element, self.offset, self.corners), element)
+            joint = self._told(departure(held, element, self.offset, self.rules.outside), element)
             self.release(joint.end)
-            self._between(joint, element)
+            self.lead_on(joint, element, self.offset)
         self._cancel()
         super().travel(element)
 
@@ -252,9 +347,9 @@ class NineSeries(NineWords):
         return block.words.get(first, 0.0) * scale, block.words.get(second, 0.0) * scale
 
     def _cancel(self) -> None:
-        self.active, self.entering, self.leaving, self.side = False, False, None, None
+        self.active, self.entering, self.exit_block, self.written_side = False, False, None, None
         self.held, self.start, self.standing = None, None, []
-        self.leave(entry=1, exits=0)
+        self.leave()
 
     def _leave_square(self) -> None:
         self.release_square()
@@ -285,9 +380,6 @@ def run(text: bytes, variant: str, tools: ToolTable, unit: Unit | None = None) -
     kind, _, corners = variant.partition("-")
 
     def make(log: Log) -> NineSeries:
-        follower = NineSeries(log)
-        follower.short = kind == "a"
-        follower.corners = Corners(corners or "g39")
-        return follower
+        return NineSeries(log, type_a=kind == "a", outside=OUTSIDE[corners or "g39"])
 
     return execute(text, f"nine-series:{variant}", DIALECT.starting(unit), tools, Log(), make)

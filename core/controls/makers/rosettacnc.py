@@ -11,16 +11,17 @@ from __future__ import annotations
 from math import acos, atan2, cos, hypot, pi, sin
 from typing import Final, NoReturn
 
-from core.controls.compensation.corners import Element, fits, square_end, square_start, turning
-from core.controls.compensation.follower import Follower
-from core.controls.compensation.one_move_queue import LookAhead, Rules
+from core.controls.compensation.chain import AlarmCodes, Chain, OneMoveQueue
+from core.controls.compensation.corners import Element, fits, square_end, square_start
+from core.controls.compensation.joint import Corner, CornerRules
 from core.controls.control_run import Log, Run
-from core.controls.control_tools import ToolTable
+from core.controls.control_tools import ToolTable, not_there
 from core.controls.iso.dialect import Dialect, Do, codes
-from core.controls.iso.parameters import Kept
-from core.controls.iso.runner import execute
-from core.controls.iso.words import Block
-from core.controls.makers.rosettacnc_words import Switch
+from core.controls.iso.flow import execute
+from core.controls.iso.machine import Control
+from core.controls.iso.macro import Kept
+from core.controls.iso.reader import SWITCHES, Block, whole
+from core.controls.moves import Plane
 from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.units import Unit
@@ -47,63 +48,140 @@ DIALECT: Final = Dialect(
     cycle_rule="C8",
 )
 
-TANGENT: Final = 0.01
-"""Radians under which a corner is none, by the text of NIST."""
+CORNERS: Final = CornerRules(tangent=0.01, reversal=0.01, rapid_straight=True)
+"""The corners of NIST: under 0.01 radians a corner is none."""
+
+_NOT_NOW: Final = frozenset((170, 180, 190, 280, 300, 520, 530, 920, 540, 550, 560, 570, 580, 590, 591, 592, 593))
+_PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
 
 
-class Normal(LookAhead):
-    """The entry `normal`: LinuxCNC's queue, in all three planes."""
+class Switch(Control):
+    """What G41, G42, G41.1 and G42.1 ask for on this control, and what is refused while they are in force."""
 
-    rules = Rules("C8", "C7", "C6", "C8")
-    always = True
+    def asked_offset(self, side: Side, block: Block) -> float:
+        """The signed radius asked for, in millimeters; trouble stops the run."""
+        column = block.side_column()
+        if self.active:
+            text = "Compensation is on already; write G40 before it is turned on again."
+            self.log.stop("C2", text, block.line, column)
+        point_one = not {411, 421}.isdisjoint(block.g)
+        radius = self._diameter(block) / 2 if point_one else self._table(block)
+        if radius == 0.0:
+            self.machine.nothing_compensated("The radius is 0.", block.line, column)
+        if radius < 0.0:
+            text = "The radius is negative and changes the side; that is an interpretation."
+            self.log.tell(Severity.INFO, "NEGATIVE", text, block.line, column)
+        return radius * side.sign
 
-    def __init__(self, log: Log) -> None:
-        super().__init__(log)
-        self.switch = Switch(self)
+    def _diameter(self, block: Block) -> float:
+        machine, log = self.machine, self.log
+        if machine.plane is Plane.YZ:
+            text = "G41.1 and G42.1 do not work in the plane G19; write G41 or another plane."
+            log.stop("C3", text, block.line, block.side_column())
+        if "D" not in block.words:
+            text = "G41.1 and G42.1 need D and the cutter's diameter."
+            log.stop("C1", text, block.line, block.side_column())
+        self._orientation(block)
+        return block.words["D"] * machine.scale
+
+    def _orientation(self, block: Block) -> None:
+        log, column = self.log, block.column("L")
+        if "L" not in block.words:
+            return
+        number = whole(block.words["L"])
+        if number is None or not 0 <= number <= 9:
+            log.stop("C4", "L, the orientation of a lathe tool, is 0 to 9.", block.line, column)
+        if self.machine.plane is not Plane.ZX:
+            log.stop("C5", "L goes with the plane G18 only; leave it out.", block.line, column)
+        self._nose(number, block, column)
+
+    def _nose(self, orientation: int, block: Block, column: int) -> None:
+        if orientation not in (0, 9):
+            text = "The moves are those of the center of the tool's nose; the orientation does not shift them here."
+            self.log.tell(Severity.WARNING, "ORIENTATION", text, block.line, column)
+
+    def _table(self, block: Block) -> float:
+        machine, log = self.machine, self.log
+        number = machine.tool
+        if "D" in block.words:
+            wanted = whole(block.words["D"])
+            if wanted is None or wanted <= 0:
+                text = "D is a tool number, 1 or more; a diameter goes with G41.1."
+                log.stop("C1", text, block.line, block.column("D"))
+            number = wanted
+        tool = machine.tools.get(number)
+        if tool is None and number:
+            column = block.column("D") if "D" in block.words else block.side_column()
+            log.stop("C1", not_there(number), block.line, column)
+        if tool is None:
+            text = "No tool is loaded and there is no D, so the radius is 0."
+            machine.nothing_compensated(text, block.line, block.side_column())
+        if tool is not None:
+            self._nose(tool.orientation, block, block.side_column())
+        radius = tool.diameter_mm(machine.unit) / 2 if tool else 0.0
+        return radius - block.words.pop("I", 0.0) * machine.scale
 
     def watch(self, block: Block) -> None:
-        """What is refused."""
-        self.switch.watch(block)
+        """The list of NIST, of which nobody said that it holds here."""
+        log = self.log
+        if "D" in block.words and SWITCHES.isdisjoint(block.g):
+            text = "D needs G41 or G42 in its block. That is an interpretation, by the list of NIST."
+            log.stop("C8", text, block.line, block.column("D"))
+        if not self.active:
+            return
+        for code in _NOT_NOW.intersection(block.g):
+            if _PLANES.get(code) is not self.machine.plane:
+                text = f"G{code / 10:g} is not allowed under compensation. That is an interpretation, by NIST's list."
+                log.stop("C8", text, block.line, block.column("G", code))
+
+
+class Normal(OneMoveQueue, Switch):
+    """The entry `normal`: LinuxCNC's queue, in all three planes."""
+
+    alarms = AlarmCodes("C8", "C7", "C6", "C8")
 
     def begin(self, side: Side, block: Block) -> None:
         """G41 and its kin."""
-        self.turn_on(self.switch.offset(side, block))
+        self.turn_on(self.asked_offset(side, block))
         text = "The entry follows LinuxCNC: square to its own move. That is an interpretation."
         self.log.tell(Severity.INFO, "ENTRY", text, block.line, block.side_column())
 
+    def finish(self, block: Block) -> None:
+        """G40."""
+        self.turn_off(block.line)
 
-class Nist(Follower):
-    """The entry `nist`: no look-ahead at all."""
+
+class Nist(Chain, Switch):
+    """The entry `nist`: no look-ahead at all; `before` is the element that ran last, `first` until one has."""
+
+    rules = CORNERS
 
     def __init__(self, log: Log) -> None:
         super().__init__(log)
-        self.watching = True
-        self.switch = Switch(self)
-        self.offset = 0.0
         self.before: Element | None = None
         self.first = True
 
     def watch(self, block: Block) -> None:
         """What is refused, a change of unit among it."""
-        self.switch.watch(block)
+        super().watch(block)
         if self.active and not {200, 210}.isdisjoint(block.g):
             text = "The unit is not changed under compensation. That is an interpretation, by NIST's list."
             self.log.stop("C8", text, block.line, block.side_column())
 
     def begin(self, side: Side, block: Block) -> None:
         """G41 and its kin."""
-        self.offset = self.switch.offset(side, block)
+        self.offset = self.asked_offset(side, block)
         self.active, self.first, self.before = True, True, None
 
     def finish(self, _: Block) -> None:
         """G40: no move; the next one starts where the tool is."""
         if self.active and self.offset and not self.first:
-            self.leave(entry=1, exits=0)
+            self.leave()
         self.active = False
 
     def travel(self, element: Element) -> None:
         """One element, at once."""
-        if self._leaving and element.turn:
+        if self.leaving and element.turn:
             self._refuse_arc(element, "The first move after G40 has to be straight")
         if not self.active or not self.offset:
             super().travel(element)
@@ -119,22 +197,18 @@ class Nist(Follower):
     def enter(self, element: Element) -> None:
         """The first move ends so that it runs along the tangent from its end to the tool where it stands."""
         (sx, sy), (px, py) = element.start, element.end
-        length, radius = hypot(px - sx, py - sy), abs(self.offset)
+        length, radius, sign = hypot(px - sx, py - sy), abs(self.offset), self.side.sign
         if element.turn:
             self._refuse_arc(element, "An arc as first move has to touch the tool where it stands; write a line")
         if length <= radius:
             self._too_short(element, length)
-        self.start_span(element)
+        self.open_stretch(self.side, self.offset, element)
         self.note(element)
-        angle = atan2(sy - py, sx - px) - acos(radius / length) * (1 if self.offset > 0.0 else -1)
-        way = angle - (pi / 2 if self.offset > 0.0 else -pi / 2)
+        angle = atan2(sy - py, sx - px) - acos(radius / length) * sign
+        way = angle - pi / 2 * sign
         self.before = element._replace(arriving=(cos(way), sin(way)))
         self.straight(element, (px + radius * cos(angle), py + radius * sin(angle)))
         self.first = False
-
-    def start_span(self, element: Element) -> None:
-        """The stretch of compensated moves begins."""
-        self.open_span(Side.LEFT if self.offset > 0.0 else Side.RIGHT, self.offset, element)
 
     def _refuse_arc(self, element: Element, what: str) -> NoReturn:
         self.log.stop("C8", f"{what}. That is an interpretation, by the rules of NIST.", element.line, 1)
@@ -144,49 +218,33 @@ class Nist(Follower):
         self.log.stop("C8", text, element.line, 1, lengths=(length, abs(self.offset)))
 
     def _corner(self, element: Element) -> None:
-        before = self.before
-        if before is None:
+        if self.before is None:
             return
-        angle = turning(before, element) * (1 if self.offset > 0.0 else -1)
-        if TANGENT < angle < pi - TANGENT:
+        joint = self.joint(self.before, element)
+        if joint.corner is Corner.INSIDE:
             text = "An inside corner is an error with this entry; round it in the program or use the normal entry."
             self.log.stop("C6", text, element.line, 1, at=element.start)
-        if abs(angle) <= TANGENT:
-            return
-        start = square_start(element, self.offset)
-        if element.rapid:
-            self.straight(element, start, low=True)
-        else:
-            self.bend(element, start, element.start, -1 if self.offset > 0.0 else 1, element.low)
+        self.lead_on(joint, element, self.offset)
 
     def follow(self, element: Element) -> None:
-        """A move on its offset, to its square end."""
+        """A move on its offset, to the offset point at its end."""
         if not fits(element, self.offset):
             text = "The arc's radius {0} has to be larger than the cutter's {1}; use a smaller cutter."
             self.log.stop("C7", text, element.line, 1, lengths=(element.radius, abs(self.offset)))
         self.note(element)
-        end = square_end(element, self.offset)
-        if element.turn:
-            self.arc(element, end, element.center)
-        else:
-            self.straight(element, end)
-        self.before = element
+        self.held = self.before = element
+        self.run_held(square_end(element, self.offset))
 
 
 class Easy(Nist):
-    """The entry `easy`: the first move waits for the second one."""
-
-    def __init__(self, log: Log) -> None:
-        super().__init__(log)
-        self.held: Element | None = None
-        self.standing: list[Element] = []
+    """The entry `easy`: the first move waits for the second one, in `held`."""
 
     def enter(self, element: Element) -> None:
-        """Holds the first move; with the second one it ends square to that one's start."""
+        """Holds the first move; with the second one it ends at the offset point of that one's start."""
         if self.held is None:
             if element.turn:
                 self._refuse_arc(element, "The first move has to be straight")
-            self.start_span(element)
+            self.open_stretch(self.side, self.offset, element)
             self.note(element)
             self.held = element
         elif not element.moves:
@@ -197,14 +255,11 @@ class Easy(Nist):
             self.follow(element)
 
     def _end_entry(self, point: Point) -> None:
-        held, standing = self.held, self.standing
-        self.held, self.standing, self.first = None, [], False
-        for one in (held, *standing):
-            if one is not None:
-                self.straight(one, point)
+        self.run_held(point)
+        self.first = False
 
     def finish(self, block: Block) -> None:
-        """G40; a first move that still waits ends square to itself."""
+        """G40; a first move that still waits ends at its own offset point."""
         self.close()
         super().finish(block)
 
@@ -216,5 +271,5 @@ class Easy(Nist):
 
 def run(text: bytes, variant: str, tools: ToolTable, unit: Unit | None = None) -> Run:
     """A program as RosettaCNC runs it with the entry `nist`, `easy` or `normal`."""
-    followers: dict[str, type[Follower]] = {"nist": Nist, "easy": Easy, "normal": Normal}
-    return execute(text, f"rosettacnc:{variant}", DIALECT.starting(unit), tools, Log(), followers[variant])
+    entries: dict[str, type[Control]] = {"nist": Nist, "easy": Easy, "normal": Normal}
+    return execute(text, f"rosettacnc:{variant}", DIALECT.starting(unit), tools, Log(), entries[variant])

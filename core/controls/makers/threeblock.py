@@ -8,26 +8,20 @@ straight from the square end of the last element to its point.
 
 from __future__ import annotations
 
+import re
 from math import hypot, radians
 from typing import Final, NoReturn
 
-from core.controls.compensation.corners import (
-    Element,
-    element_sweep,
-    fits,
-    meeting,
-    offset_radius,
-    square_end,
-    square_start,
-    turning,
-)
-from core.controls.compensation.offset_chain import Joint
+from core.controls.compensation.chain import Chain
+from core.controls.compensation.corners import Element, element_sweep, fits, offset_radius, square_end, square_start
+from core.controls.compensation.joint import Corner, CornerRules, Joint
 from core.controls.control_run import Log, Run
 from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Arcs, Dialect, Do, codes
-from core.controls.iso.runner import execute
-from core.controls.iso.words import Block, Semicolon, Slash, Syntax
-from core.controls.makers.threeblock_words import ThreeBlockWords
+from core.controls.iso.flow import execute
+from core.controls.iso.machine import Control
+from core.controls.iso.reader import Block, Semicolon, Slash, Syntax
+from core.controls.moves import Plane
 from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.units import Unit
@@ -53,14 +47,124 @@ TANGENT: Final = radians(0.05)
 QUICK: Final = 0.25
 """Seconds: a block that takes less makes the control dwell."""
 
+LARGEST_DIAMETER: Final = 83.23072
+"""Millimeters (3.2768 in); the 83.321 mm printed beside it has two digits swapped."""
 
-class ThreeBlock(ThreeBlockWords):
-    """Compensation with the next element only, and the rules on the blocks under it."""
+_ORIGINS: Final = frozenset((40, 280, 300, 920, 540, 550, 560, 570, 580, 590, 200, 210, 700, 710))
+_POINTLESS: Final = re.compile(r"[XYZIJ][ \t]*[-+]?0*[1-9][0-9]*(?![0-9.])", re.IGNORECASE)
+
+
+class ThreeBlock(Chain, Control):
+    """Compensation with the next element only, and the rules on the blocks under it.
+
+    `opening` in the block with G41 or G42; `blocks` what came behind it: line, Z moved, X or Y moved; `ratio` under
+    G45.
+    """
+
+    rules = CornerRules(tangent=TANGENT, reversal=TANGENT)
 
     def __init__(self, log: Log) -> None:
         super().__init__(log)
+        self.opening = False
+        self.ratio = False
+        self.blocks: list[tuple[int, bool, bool]] = []
+        self.turned_on = 0
         self.narrow = False
         self.inserted = False
+
+    def watch(self, block: Block) -> None:
+        """The rules that hold for any block, and those for a block under compensation."""
+        self.opening = False
+        self._decimals(block)
+        if self.machine.incremental and not {"I", "J"}.isdisjoint(block.words):
+            text = "Under G91 the center is taken as counted from the arc's start; that is an interpretation."
+            self.log.tell(Severity.INFO, "G91-CENTER", text, block.line, block.column("IJ"))
+        if "R" in block.words:
+            text = "Nothing is known of arcs with R on this control; write the center I, J."
+            self.log.tell(Severity.WARNING, "RADIUS", text, block.line, block.column("R"))
+        if not self.active:
+            return
+        if block.m:
+            text = "No M code between the block behind G41 or G42 and the one with G40; write it before or after."
+            self.log.stop("B14-MCODE", text, block.line, block.column("M"))
+        if not {170, 180, 190}.isdisjoint(block.g) and 170 not in block.g:
+            self.wrong_plane(block)
+        wrong = next((code for code in block.g if code in _ORIGINS), None)
+        if wrong is not None:
+            text = f"What compensation does at G{wrong / 10:g} is not known; write G40 before."
+            self.log.stop("ORIGIN", text, block.line, block.column("G", wrong))
+        if 990 in block.g:
+            text = "G99 is taken out under compensation; the control puts its own between tangent moves."
+            self.log.tell(Severity.INFO, "B15-G99", text, block.line, block.column("G", 990))
+
+    def wrong_plane(self, block: Block) -> NoReturn:
+        """Stops the run: compensation in another plane than XY."""
+        text = "Compensation works in the XY plane only; write G17."
+        self.log.stop("B1-PLANE", text, block.line, block.column("G"))
+
+    def _decimals(self, block: Block) -> None:
+        found = _POINTLESS.search(block.text)
+        if found:
+            text = "A coordinate without a decimal point is taken as whole units here; write the point."
+            self.log.tell(Severity.WARNING, "B22-DECIMAL", text, block.line, block.start + found.start() + 1)
+
+    def tool_called(self, number: int, block: Block) -> None:
+        """Tool numbers are 1 to 24, and stay while compensation is on."""
+        if self.active:
+            text = "The tool and its diameter stay while compensation is on; write G40 before."
+            self.log.stop("B9-AMOUNT", text, block.line, block.column("T"))
+        if not 1 <= number <= 24:
+            text = f"Tool {number} is none of the tools 1 to 24 of this control."
+            self.log.stop("B19-TRANGE", text, block.line, block.column("T"))
+
+    def own_code(self, code: int, block: Block) -> None:
+        """G45 and the G44 that ends it; G99 does nothing to the path."""
+        if code == 450 and not self.ratio:
+            text = "G45 is taken to hold until G44; that is an interpretation."
+            self.log.tell(Severity.INFO, "G45", text, block.line, block.column("G", 450))
+        self.ratio = code == 450 if code in (440, 450) else self.ratio
+
+    def begin(self, side: Side, block: Block) -> None:
+        """G41, G42: the conditions, and the offset in force from the next block on."""
+        column = block.side_column()
+        if self.active:
+            self._again(side, block)
+            return
+        if self.machine.plane is not Plane.XY:
+            self.wrong_plane(block)
+        if self.machine.mode not in (0, 10):
+            self.log.stop("B2-MODE", "G41 and G42 need G0 or G1; write it in this block.", block.line, column)
+        offset = self._radius(block) * side.sign
+        if offset == 0.0:
+            text = "The diameter is 0: G41 and G42 turn nothing on."
+            self.machine.nothing_compensated(text, block.line, column, code="B3-DIA0", severity=Severity.INFO)
+            return
+        self.offset, self.active, self.opening = offset, True, True
+        self.blocks, self.held, self.start, self.elements = [], None, None, 0
+        self.turned_on = block.line
+
+    def _again(self, side: Side, block: Block) -> None:
+        column = block.side_column()
+        if (self.offset > 0.0) != (side is Side.LEFT) and self._radius(block) > 0.0:
+            text = "G41 and G42 cannot be exchanged while compensation is on; write G40 before."
+            self.log.stop("B8-SIDE", text, block.line, column)
+        text = "Compensation is on already on this side; that this is allowed is an interpretation."
+        self.log.tell(Severity.WARNING, "B8-SIDE", text, block.line, column)
+
+    def _radius(self, block: Block) -> float:
+        """Half the diameter in force, in millimeters."""
+        tool = self.machine.tools.get(self.machine.tool)
+        if self.machine.tool == 0 or tool is None:
+            text = f"The diameter of tool {self.machine.tool} is not entered; write T1/length/diameter before."
+            if self.machine.tool == 0:
+                text = "The tool number has to stand before G41 or G42; write T and the number."
+            self.log.stop("B5-TOOL", text, block.line, block.side_column())
+        diameter = tool.diameter_mm(self.machine.unit)
+        if abs(diameter) > LARGEST_DIAMETER + 1e-6:
+            text = "The diameter {0} is beyond the largest of this control, {1}."
+            lengths = (diameter, LARGEST_DIAMETER)
+            self.log.stop("B4-MAX", text, block.line, block.side_column(), lengths=lengths)
+        return diameter / 2
 
     def idle(self, block: Block) -> None:
         """A block that moves nothing."""
@@ -71,7 +175,7 @@ class ThreeBlock(ThreeBlockWords):
     def travel(self, element: Element) -> None:
         """The turn-on block and moves without compensation as programmed, all others on the offset."""
         if not self.active or self.opening:
-            if self._leaving and element.turn:
+            if self.leaving and element.turn:
                 self._arc_exit(element.line, 1)
             super().travel(element)
             return
@@ -108,7 +212,7 @@ class ThreeBlock(ThreeBlockWords):
             if element.turn:
                 text = "The block behind G41 or G42 has to be straight: it is the approach."
                 self.log.stop("B6-APPR", text, element.line, 1)
-            self.open_span(Side.LEFT if self.offset > 0.0 else Side.RIGHT, self.offset, element)
+            self.open_stretch(self.side, self.offset, element)
 
     def _collinear(self, element: Element) -> None:
         held = self.held
@@ -121,18 +225,13 @@ class ThreeBlock(ThreeBlockWords):
 
     def joint(self, first: Element, second: Element) -> Joint:
         """The approach ends square to the next; then offsets meet inside, an arc goes round outside."""
-        start = square_start(second, self.offset)
         if self.elements == 1:
+            start = square_start(second, self.offset)
             return Joint(start, start)
-        end = square_end(first, self.offset)
-        angle = turning(first, second) * (1 if self.offset > 0.0 else -1)
-        if abs(angle) < TANGENT:
+        joint = super().joint(first, second)
+        if joint.corner is Corner.TANGENT:
             self._override(second)
-            return Joint(end, end)
-        if angle < 0.0 or angle > radians(179.95):
-            return Joint(end, start, center=second.start)
-        point = meeting(first, second, self.offset)
-        return Joint(end, start) if point is None else Joint(point, point)
+        return joint
 
     def _override(self, element: Element) -> None:
         if not self.inserted:
@@ -188,7 +287,7 @@ class ThreeBlock(ThreeBlockWords):
                 text = "No Z in the last three compensated blocks; move Z before them or after G40."
                 self.log.stop("B12-ZENDS", text, line, 1, stops_at=block.line)
         self.release_square()
-        self.leave(entry=1, exits=0)
+        self.leave()
         self.active = False
 
     def _arc_exit(self, line: int, column: int) -> NoReturn:

@@ -14,7 +14,7 @@ from core.controls.compensation.corners import (
     line_element,
     meeting,
     meetings,
-    mitre,
+    miter,
     offset_radius,
     runs_back,
     square_end,
@@ -46,9 +46,9 @@ def test_turns_are_positive_to_the_left() -> None:
     assert turning(EAST, SOUTH) == pytest.approx(-pi / 2)
 
 
-def test_the_mitre_is_where_prolonged_offsets_meet() -> None:
-    assert mitre((4, 0), (1, 0), -pi / 2, 1) == pytest.approx((5, 1))
-    assert mitre((4, 0), (1, 0), pi / 2, -1) == pytest.approx((5, -1))
+def test_the_miter_is_where_prolonged_offsets_meet() -> None:
+    assert miter((4, 0), (1, 0), -pi / 2, 1) == pytest.approx((5, 1))
+    assert miter((4, 0), (1, 0), pi / 2, -1) == pytest.approx((5, -1))
 
 
 def test_lines_meet_inside() -> None:

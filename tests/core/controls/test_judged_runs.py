@@ -9,14 +9,13 @@ import pytest
 
 from core.controls.compared_controls import Compared, OtherLanguage, compare, parting
 from core.controls.control_tools import ToolTable
-from core.controls.iso import flow
 from core.controls.judged_runs import depth, findings, judged
 from core.controls.registry import compared, names, reads, resolve
 from core.finding import Severity
 from core.geometry.path import Path
 from core.units import Unit, from_mm, sentence
 from core.verify.judge import judge
-from tests.core.controls.hand import DATA, ran, sample, told
+from tests.core.controls.hand import DATA, ran, ran_up_to, sample, told
 
 NOTCH = "G20 G17 F10\nG0 X-1 Y2\nG41 D1\nG1 X0 Y0\nX2\nY-.3\nX2.3\nY0\nX5\nG40\nG0 Y2\nM2\n"
 
@@ -123,9 +122,8 @@ def test_a_real_wrong_side_with_a_radius_is_still_told() -> None:
     assert "WRONG-SIDE" in {finding.code for finding in findings(judged(done))}
 
 
-def test_a_run_that_was_given_up_is_not_judged(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(flow, "MOST_BLOCKS", 500)
-    done = ran("G21 F9\nG41 D1\nG1 X9\no1 while [1]\nX20\nY20\nX0\nY0\no1 endwhile\nM2\n", "linuxcnc", t1=1)
+def test_a_run_that_was_given_up_is_not_judged() -> None:
+    done = ran_up_to("G21 F9\nG41 D1\nG1 X9\no1 while [1]\nX20\nY20\nX0\nY0\no1 endwhile\nM2\n", 500, t1=1)
     assert done.stretches
     assert judged(done) == ()
     assert "not judged" in told(done, "LIMIT")[0].text

@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from core.controls.compensation.one_move_queue import NO_FIT
+from core.controls.compensation.chain import NO_FIT
 from core.controls.control_run import Run
 from core.controls.judged_runs import judged
 from core.controls.moves import Moves, Plane

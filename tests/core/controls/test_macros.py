@@ -8,14 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.controls.iso import flow
-from core.controls.iso.expressions import Reader
-from core.controls.iso.owords import found_in
-from core.controls.iso.parameters import FaultError, Kept, Parameters
+from core.controls.iso.flow import o_words_of
+from core.controls.iso.macro import ExpressionReader, FaultError, Kept, Parameters
 from core.finding import Severity
 from core.units import Unit
 from tests.core.controls.compare_rs274 import outcome
-from tests.core.controls.hand import lines_and_ends, ran, same, shape, told
+from tests.core.controls.hand import lines_and_ends, ran, ran_up_to, same, shape, told
 from tests.core.controls.macro_programs import REFUSED, SAME, generated, whole
 from tests.rs274 import WITNESS
 
@@ -147,7 +145,7 @@ def test_controls_of_which_nothing_is_known_stop_at_an_expression(control: str) 
 @given(st.text(alphabet="#[]<>-+*/.0123456789ABSINATMODGTEQ=_", max_size=40))
 @settings(max_examples=500, derandomize=True)
 def test_any_expression_is_a_number_or_a_fault(text: str) -> None:
-    reader = Reader(text, Parameters(Kept.MACRO_B))
+    reader = ExpressionReader(text, Parameters(Kept.MACRO_B))
     fault: FaultError | None = None
     value = 0.0
     try:
@@ -159,7 +157,7 @@ def test_any_expression_is_a_number_or_a_fault(text: str) -> None:
 
 
 def test_brackets_that_never_close_are_read_once() -> None:
-    assert found_in(["o1 sub (", "o1 " + "(" * 200_000, "o2 sub (a ; b)", "o3 sub ; (", "(o4 sub"]).keys() == {2, 3}
+    assert o_words_of(["o1 sub (", "o1 " + "(" * 200_000, "o2 sub (a ; b)", "o3 sub ; (", "(o4 sub"]).keys() == {2, 3}
 
 
 def looped(line: str, kind: str) -> str:
@@ -171,10 +169,9 @@ def looped(line: str, kind: str) -> str:
 
 
 @pytest.mark.parametrize("kind", ["while", "M98"])
-def test_what_takes_long_to_work_out_is_given_up_sooner(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(flow, "MOST_BLOCKS", 20_000)
+def test_what_takes_long_to_work_out_is_given_up_sooner(kind: str) -> None:
     plain, long = "G1 X1 Y2", "G1 X[1+2*sin[30]/2.5] Y[2+3*[3+4]-5] F[100+2*2]"
-    few, many = (ran(looped(line, kind), "linuxcnc") for line in (long, plain))
+    few, many = (ran_up_to(looped(line, kind), 20_000) for line in (long, plain))
     assert told(few, "LIMIT")
     assert told(many, "LIMIT")
     assert len(many.moves) > 18_000
@@ -183,17 +180,15 @@ def test_what_takes_long_to_work_out_is_given_up_sooner(kind: str, monkeypatch: 
         assert "not judged: end the loop, or let it run less often." in told(given_up, "LIMIT")[0].text
 
 
-def test_blocks_that_run_once_are_no_repeats(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(flow, "MOST_BLOCKS", 10)
+def test_blocks_that_run_once_are_no_repeats() -> None:
     lines = "\n".join(f"G1 X[{index}+1]\nG1 X{index}" for index in range(200))
-    assert not told(ran(f"G20 F9\n{lines}\nM98 P1\nM2\nO1\n{lines}\nM99\n", "linuxcnc"), "LIMIT")
+    assert not told(ran_up_to(f"G20 F9\n{lines}\nM98 P1\nM2\nO1\n{lines}\nM99\n", 10), "LIMIT")
 
 
-def test_lines_with_more_than_moves_may_run_often(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(flow, "MOST_BLOCKS", flow.MOST_BLOCKS // 20)
+def test_lines_with_more_than_moves_may_run_often() -> None:
     for line in ("G90 G1 X1.0000 Y2.0000 F100. (a note)", "N10 G1 X1.0000 Y2.0000 F1000 M8"):
         body = "\n".join([line] * 200)
-        assert not told(ran(f"G20 F9\nM98 P1 L25\nM2\nO1\n{body}\nM99\n", "linuxcnc"), "LIMIT")
+        assert not told(ran_up_to(f"G20 F9\nM98 P1 L25\nM2\nO1\n{body}\nM99\n", 20_000), "LIMIT")
 
 
 def test_a_loop_of_o_words_that_is_given_up_says_what_to_do() -> None:

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.controls.control_run import AlarmError, Log
-from core.controls.iso.words import PLAIN, Block, Semicolon, Slash, Syntax, ToolData, read_line, tenths, whole
+from core.controls.iso.reader import PLAIN, Block, Semicolon, Slash, Syntax, ToolData, read_line, tenths, whole
 from core.controls.program_text import lines_of, quoted
 from core.finding import Finding
 
@@ -87,11 +87,6 @@ def test_blanks_may_be_nothing_anywhere() -> None:
     found = block("G4 1 X1 .5 Y - 2", Syntax(blanks=False))
     assert (found.g, found.words) == ([410], {"X": 1.5, "Y": -2.0})
     assert fault("G4 1 X1")[0] == "WORD"
-
-
-def test_plain_moves_are_told_from_others() -> None:
-    assert block("N1 G1 X1 Y2 I3").moves_only
-    assert not any(block(text).moves_only for text in ("G2.1 X1", "G1 X1 F2", "G1 G40 X1", "X1 M3", "G4 P1"))
 
 
 def test_tool_data_behind_slashes() -> None:

@@ -1,4 +1,4 @@
-"""Words: one line of a word-address program into letters and numbers, each with its column.
+"""Reader: one line of a word-address program into blocks of words and numbers, each with its column.
 
 G and M codes are counted in tenths, so that G41.1 is 411 and M6 is 60.  A line that holds nothing but words is read
 by two expressions; only a line with comments or with something wrong in it is looked at closer.
@@ -14,8 +14,7 @@ from types import MappingProxyType
 from typing import Final
 
 from core.controls.control_run import Log
-from core.controls.iso.macro import GAP, Squeezed, worked_out
-from core.controls.iso.parameters import Parameters
+from core.controls.iso.macro import GAP, Parameters, Squeezed, worked_out
 from core.controls.program_text import capitals, quoted
 from core.finding import Severity
 from core.tolerance import LARGEST
@@ -39,8 +38,6 @@ _BRANCH: Final = re.compile(
 )
 _EXPRESSION: Final = re.compile(r"[#\[]|[-+][ \t]*+[-+]")
 _NESTED: Final = re.compile(r"^[^;(]*+\([^()]*+\(")
-_MOTIONS: Final = frozenset((0, 10, 20, 30))
-_PLACES: Final = frozenset("NXYZIJKR")
 
 WHOLE: Final = 1e-4
 """How far a code or a tool number may be from a whole number (a code: of tenths) and still be one."""
@@ -85,11 +82,10 @@ class ToolData:
 class Block:
     """One block: the values of its words by letter, its G and M codes in tenths, as written.
 
-    `start` is the column, less one, at which the block begins on its line.  `moves_only`: there is nothing but
-    positions, an arc's center, and one of G0 to G3 at most.
+    `start` is the column, less one, at which the block begins on its line.
     """
 
-    __slots__ = ("columns", "data", "g", "line", "m", "moves_only", "start", "text", "words")
+    __slots__ = ("columns", "data", "g", "line", "m", "start", "text", "words")
 
     def __init__(self, line: int, text: str, start: int = 0) -> None:
         self.line = line
@@ -99,7 +95,6 @@ class Block:
         self.g: list[int] = []
         self.m: list[int] = []
         self.data: ToolData | None = None
-        self.moves_only = False
         self.columns: tuple[int, ...] = ()
 
     def column(self, letters: str, code: int | None = None) -> int:
@@ -115,20 +110,16 @@ class Block:
 
     def second(self, letter: str) -> int:
         """Where the second word of a letter stands."""
-        places = [at for one, _, at in self._placed() if one == letter]
-        return places[1] if len(places) > 1 else self.start + 1
-
-    def written(self, letter: str) -> str:
-        """The number of a letter as it is written, empty without one."""
-        return next((number for one, number, _ in self._placed() if one == letter), "")
+        columns = [at for name, _, at in self._placed() if name == letter]
+        return columns[1] if len(columns) > 1 else self.start + 1
 
     def _placed(self) -> Iterator[tuple[str, str, int]]:
         if self.columns:
             pairs = _PAIR.findall(self.text)
             yield from ((letter, number, at) for (letter, number), at in zip(pairs, self.columns, strict=True))
             return
-        for found in _PAIR.finditer(_bare(capitals(self.text))):
-            yield found[1], found[2], self.start + found.start() + 1
+        for pair in _PAIR.finditer(_bare(capitals(self.text))):
+            yield pair[1], pair[2], self.start + pair.start() + 1
 
 
 def tenths(value: float) -> int | None:
@@ -256,9 +247,6 @@ def _filled(block: Block, upper: str, log: Log) -> Block:
         if not -LARGEST < value < LARGEST:
             words_too = f"The number of {letter} is too large for any machine."
             log.stop("NUMBER", words_too, block.line, block.column(letter))
-    codes = block.g
-    plain = not codes or (len(codes) == 1 and codes[0] in _MOTIONS)
-    block.moves_only = plain and not block.m and not block.data and _PLACES.issuperset(words)
     return block
 
 

@@ -1,0 +1,259 @@
+"""Chain: offset elements, each held until the next one is known and joined to it by the control's corner rules.
+
+`OneMoveQueue` is the chain as LinuxCNC runs it, and RosettaCNC's entry `normal` after it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import hypot, tau
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.compensation.corners import (
+    Element,
+    element_sweep,
+    fits,
+    runs_back,
+    square_end,
+    sweep,
+)
+from core.controls.compensation.joint import Corner, CornerRules, Inside, Joint, join
+from core.controls.compensation.recorder import Recorder
+from core.controls.control_run import Log
+from core.controls.moves import Plane, Point3, flat, solid
+from core.geometry.piece import Point, Side
+from core.units import Unit
+
+
+class Chain(Recorder):
+    """Offset elements being joined; `offset` is the tool radius in millimeters, positive with the tool on the left.
+
+    `held` waits for the next element and starts at `start`; `standing` are moves across the plane that wait with it.
+    """
+
+    rules = CornerRules()
+
+    def __init__(self, log: Log) -> None:
+        super().__init__(log)
+        self.offset = 0.0
+        self.held: Element | None = None
+        self.start: Point | None = None
+        self.standing: list[Element] = []
+        self.elements = 0
+
+    @property
+    def side(self) -> Side:
+        """The side of the path on which the tool runs."""
+        return Side.LEFT if self.offset > 0.0 else Side.RIGHT
+
+    def joint(self, first: Element, second: Element) -> Joint:
+        """How this control joins two elements."""
+        return join(first, second, self.offset, self.rules)
+
+    def backwards(self, element: Element) -> None:
+        """A trimmed element would run against its programmed direction."""
+
+    def feed_of(self, element: Element) -> float:
+        """The feed at which an offset element runs."""
+        return element.feed
+
+    def hold(self, element: Element) -> None:
+        """Takes the next element in; the one before it can run now."""
+        self.note(element)
+        if not element.moves and self.held is not None:
+            self.standing.append(element)
+            return
+        if self.held is not None:
+            joint = self.joint(self.held, element)
+            self.release(joint.end)
+            self.lead_on(joint, element, self.offset)
+            self.start = joint.start
+        self.held = element
+        self.elements += 1
+
+    def release(self, end: Point) -> None:
+        """Runs what is held to a point, and moves across the plane there."""
+        if self.held is not None and self.start is not None and runs_back(self.held, self.start, end):
+            self.backwards(self.held)
+        self.run_held(end)
+
+    def run_held(self, end: Point) -> None:
+        """Runs what is held to a point, without a look at its direction."""
+        held, standing = self.held, self.standing
+        self.held, self.standing = None, []
+        if held is None:
+            return
+        held = held._replace(feed=self.feed_of(held))
+        if held.turn:
+            self.arc(held, end, held.center)
+        else:
+            self.straight(held, end)
+        for element in standing:
+            self.straight(element, end)
+
+    def release_square(self) -> None:
+        """Runs what is held to the offset point at its end."""
+        if self.held is not None:
+            self.release(square_end(self.held, self.offset))
+        self.start = None
+
+
+NOSES: Final[Mapping[int, tuple[int, int]]] = MappingProxyType(
+    {1: (1, -1), 2: (-1, -1), 3: (-1, 1), 4: (1, 1), 5: (1, 0), 6: (0, -1), 7: (-1, 0), 8: (0, 1)}
+)
+"""Lathe orientation: in which direction of Z and X the controlled point lies from the nose's center, in radii."""
+
+NO_FIT: Final = "The cutter does not fit into this corner without gouging; use a smaller cutter or open the corner."
+
+
+@dataclass(frozen=True, slots=True)
+class AlarmCodes:
+    """The ids of a control's rules for the same faults."""
+
+    entry: str
+    arc_radius: str
+    concave: str
+    arc_exit: str
+
+
+class OneMoveQueue(Chain):
+    """The queue of LinuxCNC: one move of the plane is held, with the moves of Z behind it.
+
+    The first move ends at its own offset point.  `first`: it is still to come.
+    """
+
+    rules = CornerRules(tangent=0.05, reversal=0.05, inside=Inside.BY_SIDE, hooks=True, rapid_straight=True)
+    alarms = AlarmCodes("N-GOUGE", "N-ARCRADIUS", "N-CONCAVE", "N-ARCEXIT")
+
+    def __init__(self, log: Log) -> None:
+        super().__init__(log)
+        self.first = True
+        self.no_arc = False
+        self.nose: Point = (0.0, 0.0)
+
+    def turn_on(self, offset: float, orientation: int = 0) -> None:
+        """Compensation is on from the next move on; a lathe tool's orientation shifts its moves by the nose radius."""
+        self.offset = offset
+        ways = NOSES.get(orientation, (0, 0)) if self.plane is Plane.ZX else (0, 0)
+        self.nose = (ways[0] * abs(offset), ways[1] * abs(offset))
+        self.active = self.first = True
+
+    def turn_off(self, line: int) -> None:
+        """G40: what is held ends at its offset point."""
+        if self.active and self.offset and not self.first:
+            self._run_out(line)
+            self.no_arc = True
+            self.leave()
+        self.active, self.first = False, True
+
+    def close(self) -> None:
+        """The end of the program: what is held ends at its offset point."""
+        if self.held is not None:
+            self._run_out((self.standing or [self.held])[-1].line)
+
+    def _run_out(self, line: int) -> None:
+        if self.held is not None:
+            end = square_end(self.held, self.offset)
+            self._check(self.held, end, line)
+            self.run_held(end)
+
+    def straight(self, element: Element, end: Point, *, low: bool = False) -> None:
+        """A straight move, of a lathe tool's controlled point."""
+        super().straight(element, self._controlled(end), low=low)
+
+    def arc_about(self, element: Element, end: Point, center: Point, turn: int, height: float) -> None:
+        """An arc, of a lathe tool's controlled point."""
+        super().arc_about(element, self._controlled(end), self._controlled(center), turn, height)
+
+    def _controlled(self, point: Point) -> Point:
+        return (point[0] + self.nose[0], point[1] + self.nose[1]) if self.active else point
+
+    def readable_position(self, programmed: Point3) -> Point3:
+        """Under compensation where the held move would end, were it not changed by the next one."""
+        if not self.active or self.held is None:
+            return programmed
+        first, second = square_end(self.held, self.offset)
+        return solid(first, second, flat(programmed, self.plane)[2], self.plane)
+
+    def travel(self, element: Element) -> None:
+        """One element: alone, as entry, or against what is held."""
+        if element.turn and self.no_arc:
+            text = "The first move after G40 is straight; write a line before the arc."
+            self.log.stop(self.alarms.arc_exit, text, element.line, 1)
+        self.no_arc = False
+        if not self.active or not self.offset:
+            super().travel(element)
+        elif self.first:
+            self._enter(element)
+        elif element.moves and self.held is not None:
+            self._follow(self.held, element)
+        else:
+            self.note(element)
+            self.standing.append(element)
+
+    def _enter(self, element: Element) -> None:
+        """The first move: longer than the radius, to the offset point at its own end."""
+        length = hypot(element.end[0] - element.start[0], element.end[1] - element.start[1])
+        if length <= abs(self.offset):
+            text = "The entry move is {0} long and the radius is {1}; it has to be longer than the radius."
+            self.log.stop(self.alarms.entry, text, element.line, 1, lengths=(length, abs(self.offset)))
+        self._check_radius(element)
+        self.open_stretch(self.side, self.offset, element)
+        self.note(element)
+        if element.turn and self.nose != (0.0, 0.0):
+            self.straight(element, element.start, low=True)
+        self.start = None if element.turn else element.start
+        self.held, self.standing, self.first = self._as_entry(element), [], False
+
+    def _as_entry(self, element: Element) -> Element:
+        """The entry as it runs; LinuxCNC does not look whether a later trim turns it round."""
+        if not element.turn:
+            return element._replace(leaving=(0.0, 0.0))
+        return element._replace(start=element.end, center=self._entry_center(element))
+
+    def _entry_center(self, element: Element) -> Point:
+        """The center of the entry arc: to the offset point at its end, with the programmed tangent there."""
+        (sx, sy), (ex, ey), (cx, cy) = element.start, square_end(element, self.offset), element.center
+        half = hypot(sx - ex, sy - ey) / 2
+        reach = hypot(cx - ex, cy - ey) or 1.0
+        way = ((cx - ex) / reach, (cy - ey) / reach)
+        lean = ((sx - ex) * way[0] + (sy - ey) * way[1]) / (2 * half)
+        if abs(lean) < 1e-6:
+            self._too_small(element)
+        return ex + way[0] * half / lean, ey + way[1] * half / lean
+
+    def _check_radius(self, element: Element) -> None:
+        if not fits(element, self.offset):
+            self._too_small(element)
+
+    def _too_small(self, element: Element) -> None:
+        text = "The arc's radius {0} is not larger than the cutter's {1}; use a smaller cutter or a larger arc."
+        self.log.stop(self.alarms.arc_radius, text, element.line, 1, lengths=(element.radius, abs(self.offset)))
+
+    def _follow(self, held: Element, element: Element) -> None:
+        """A further move in the plane, against the one that is held; no trim, no look at its direction."""
+        self._check_radius(element)
+        joint = self.joint(held, element)
+        if joint.missed:
+            self.log.stop(self.alarms.concave, NO_FIT, element.line, 1, at=element.start)
+        if joint.corner is Corner.INSIDE or (joint.corner is Corner.OUTSIDE and not element.turn):
+            self._check(held, joint.end, element.line)
+        self.run_held(joint.end)
+        self.lead_on(joint, element, self.offset)
+        self.note(element)
+        self.held, self.start = element, joint.start
+
+    def _check(self, held: Element, end: Point, line: int) -> None:
+        """A held move that would run backwards, or round an arc nearly once more, stops the program."""
+        if self.start is None:
+            return
+        if held.turn:
+            traveled = sweep(self.start, end, held.center, held.turn) or tau
+            back = traveled > element_sweep(held) + (0.001 if self.unit is Unit.IN else 0.0254)
+        else:
+            way = held.leaving
+            back = (end[0] - self.start[0]) * way[0] + (end[1] - self.start[1]) * way[1] < 0.0
+        if back:
+            self.log.stop(self.alarms.concave, NO_FIT, line, 1, at=held.end)

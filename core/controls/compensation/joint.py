@@ -1,0 +1,249 @@
+"""Joint: how the offsets of two elements are joined at their corner, by the rules of a control.
+
+`join` is the one algorithm: it takes two elements, the signed tool radius and a control's `CornerRules`, and gives the
+`Joint`: where the first offset ends, what leads from there, and where the second one starts.  E1 is the offset point at
+the end of the first element, E2 that at the start of the second, M the miter point, Q1 and Q2 the ends of both offsets
+prolonged by the radius.  Entries, exits and changes of the radius are joints too.
+"""
+
+from __future__ import annotations
+
+from enum import Enum, auto
+from math import hypot, pi
+from typing import Final, NamedTuple
+
+from core.controls.compensation.corners import (
+    WHOLE,
+    Element,
+    beyond,
+    line_element,
+    meeting,
+    meetings,
+    miter,
+    square_end,
+    square_start,
+    turning,
+)
+from core.geometry.piece import Point
+
+SAME_POINT: Final = 1e-9
+"""Millimeters within which the axes are taken to stand at a point already."""
+
+RIGHT_ANGLE: Final = pi / 2 + 1e-9
+"""Turns up to this are prolonged to the miter point."""
+
+
+class Corner(Enum):
+    """What a corner is to a tool on one side of the path."""
+
+    TANGENT = auto()
+    INSIDE = auto()
+    OUTSIDE = auto()
+
+
+class Outside(Enum):
+    """How a control goes round an outside corner."""
+
+    ARC = auto()
+    """An arc of the tool radius about the corner."""
+    LINES = auto()
+    """Up to a right angle over M, beyond it over Q1 and Q2."""
+    MITER_OR_ARC = auto()
+    """Up to a right angle over M, beyond it an arc between two lines, over Q1 and Q2 at an arc."""
+    MEETING = auto()
+    """By the meeting of the two offsets, as at an inside corner."""
+
+
+class Inside(Enum):
+    """How a control joins two offsets at an inside corner."""
+
+    NEAREST = auto()
+    """At the meeting nearest to the corner."""
+    BY_SIDE = auto()
+    """At the first meeting outside an arc along a line, of two arcs by the side they bend to; LinuxCNC's choice."""
+    OPEN = auto()
+    """Not at all: straight from E1 to E2."""
+
+
+class CornerRules(NamedTuple):
+    """The corner rules of a control, as data.
+
+    `tangent`: radians up to which a corner is none; `touching`: millimeters between E1 and E2 up to which it is none.
+    `reversal`: radians short of half a turn from which on a corner is outside whatever its sign; with `hooks` it is
+    inside off or onto an arc that has the cutter outside of it.  `rapid_straight`: a rapid goes straight to E2.
+    """
+
+    tangent: float = WHOLE
+    reversal: float = WHOLE
+    outside: Outside = Outside.ARC
+    inside: Inside = Inside.NEAREST
+    hooks: bool = False
+    rapid_straight: bool = False
+    touching: float = 0.0
+
+
+class Joint(NamedTuple):
+    """How two offsets meet: the first one ends, straight moves lead to each point of `through`, the second one starts.
+
+    `center`: the last of the way to `start` is an arc about it on the tool's side.  `missed`: the offsets of an inside
+    corner do not meet.
+    """
+
+    end: Point
+    start: Point
+    through: tuple[Point, ...] = ()
+    center: Point | None = None
+    corner: Corner = Corner.TANGENT
+    missed: bool = False
+
+    @property
+    def moves(self) -> int:
+        """How many moves lead from the end to the start."""
+        last = self.through[-1] if self.through else self.end
+        apart = abs(last[0] - self.start[0]) > SAME_POINT or abs(last[1] - self.start[1]) > SAME_POINT
+        return len(self.through) + (self.center is not None or apart)
+
+
+def inward_turn(first: Element, second: Element, offset: float) -> float:
+    """The turn at a corner, radians, positive toward the tool; a reversal turns away from it."""
+    angle = turning(first, second) * (1 if offset > 0.0 else -1)
+    return -pi if abs(angle) > pi - WHOLE else angle
+
+
+def corner(first: Element, second: Element, offset: float, rules: CornerRules) -> Corner:
+    """What the corner between two elements is to a tool `offset` to their left."""
+    inward = inward_turn(first, second, offset)
+    if not offset:
+        return Corner.TANGENT
+    if abs(inward) > pi - rules.reversal:
+        hooked = rules.hooks and (second.turn or first.turn) * offset < 0.0
+        return Corner.INSIDE if hooked else Corner.OUTSIDE
+    if abs(inward) <= rules.tangent or _touch(first, second, offset, rules.touching):
+        return Corner.TANGENT
+    return Corner.INSIDE if inward > 0.0 else Corner.OUTSIDE
+
+
+def _touch(first: Element, second: Element, offset: float, within: float) -> bool:
+    (ax, ay), (bx, by) = square_end(first, offset), square_start(second, offset)
+    return within > 0.0 and hypot(ax - bx, ay - by) <= within
+
+
+def join(first: Element, second: Element, offset: float, rules: CornerRules) -> Joint:
+    """The joint of two elements that follow each other, the tool `offset` millimeters to their left."""
+    kind = corner(first, second, offset, rules)
+    end, start = square_end(first, offset), square_start(second, offset)
+    if kind is Corner.TANGENT:
+        return Joint(end, end)
+    if kind is Corner.INSIDE and rules.inside is Inside.OPEN:
+        return Joint(end, start, corner=kind)
+    if kind is Corner.INSIDE or rules.outside is Outside.MEETING:
+        point = _met(first, second, offset, rules.inside)
+        return Joint(end, start, corner=kind, missed=True) if point is None else Joint(point, point, corner=kind)
+    return _outside(first, second, offset, rules)._replace(corner=kind)
+
+
+def _met(first: Element, second: Element, offset: float, rule: Inside) -> Point | None:
+    if rule is not Inside.BY_SIDE:
+        return meeting(first, second, offset)
+    points = meetings(first, second, offset, offset)
+    return points[_by_side(first, second, offset) if len(points) > 1 else 0] if points else None
+
+
+def _by_side(first: Element, second: Element, offset: float) -> int:
+    if not first.turn:
+        return 1 if second.turn * offset > 0.0 else 0
+    if not second.turn:
+        return 0 if first.turn * offset > 0.0 else 1
+    return 0 if (first.turn * offset > 0.0) == (second.turn > 0) else 1
+
+
+def _outside(first: Element, second: Element, offset: float, rules: CornerRules) -> Joint:
+    end, start = square_end(first, offset), square_start(second, offset)
+    angle = turning(first, second)
+    if rules.outside is Outside.ARC:
+        straight = rules.rapid_straight and second.rapid
+        return Joint(end, start, (start,)) if straight else Joint(end, start, center=second.start)
+    if abs(angle) <= RIGHT_ANGLE:
+        point = miter(first.end, first.arriving, angle, offset)
+        return _over(first, second, (end, point, point, start))
+    if rules.outside is Outside.MITER_OR_ARC and not first.turn and not second.turn:
+        return Joint(end, start, center=second.start)
+    leaving, coming = _prolonged(first, second, offset)
+    return _over(first, second, (end, leaving, coming, start))
+
+
+def _prolonged(first: Element, second: Element, offset: float) -> tuple[Point, Point]:
+    """Q1 and Q2."""
+    end, start, reach = square_end(first, offset), square_start(second, offset), abs(offset)
+    return beyond(end, first.arriving, reach), beyond(start, second.leaving, -reach)
+
+
+def _over(first: Element, second: Element, points: tuple[Point, Point, Point, Point]) -> Joint:
+    """The joint over E1, the end of the first one's prolongation, the start of the second one's, E2.
+
+    A line is prolonged itself; an arc ends at its offset point and the prolongation is a block of its own.
+    """
+    end, leaving, coming, start = points
+    through = () if not first.turn else (leaving,)
+    if second.turn and coming != leaving:
+        through = (*through, coming)
+    return Joint(leaving if not first.turn else end, start if second.turn else coming, through)
+
+
+def entry(first: Element, second: Element, offset: float, rule: Outside, *, direct: bool) -> Joint:
+    """The entry move against the first element: `direct` (type A) goes straight to E2, type B round outside corners.
+
+    The polylines of type B are read from figures and agree with those of other makers: an interpretation.
+    """
+    start = square_start(second, offset)
+    if direct or inward_turn(first, second, offset) >= 0.0:
+        return Joint(start, start)
+    end, angle = square_end(first, offset), turning(first, second)
+    if abs(angle) <= RIGHT_ANGLE:
+        return Joint(miter(first.end, first.arriving, angle, offset), start)
+    if rule is Outside.MITER_OR_ARC and not second.turn:
+        return Joint(end, start, center=second.start)
+    return Joint(end, start, _prolonged(first, second, offset))
+
+
+def departure(last: Element, leaving: Element, offset: float, rule: Outside) -> Joint:
+    """Type B's way from the last element to where the exit move starts: the mirror image of the entry."""
+    end = square_end(last, offset)
+    if inward_turn(last, leaving, offset) >= 0.0:
+        return Joint(end, end)
+    angle = turning(last, leaving)
+    if abs(angle) <= RIGHT_ANGLE:
+        return Joint(end, miter(last.end, last.arriving, angle, offset))
+    start = square_start(leaving, offset)
+    if rule is Outside.MITER_OR_ARC and not last.turn:
+        return Joint(end, start, center=leaving.start)
+    return Joint(end, start, _prolonged(last, leaving, offset))
+
+
+def change(first: Element, second: Element, old: float, new: float) -> Joint:
+    """The radius or the side changes: from E1 with the old one to E2 with the new one.
+
+    Where the side changes at an arc, the meeting of the two offsets is taken if there is one.
+    """
+    if old * new < 0.0 and (first.turn or second.turn):
+        point = meeting(first, second, old, new)
+        if point is not None:
+            return Joint(point, point)
+    return Joint(square_end(first, old), square_start(second, new))
+
+
+def vector_end(last: Element, vector: Point, offset: float) -> Point:
+    """The end of the last element as the vector of an exit block moves it, by one radius at most.
+
+    The vector's line through the programmed end is offset to the tool's side; where it meets the offset path is the new
+    point.  A vector along the path shifts the point against the vector by the radius.
+    """
+    end, reach, size = square_end(last, offset), abs(offset), hypot(*vector)
+    if not size:
+        return end
+    towards = beyond(last.end, vector, 1.0)
+    point = meeting(last, line_element(last.end, towards, 0.0, 0.0, rapid=False, feed=0.0, line=0), offset)
+    if point is None:
+        return beyond(end, vector, -reach / size)
+    way = (point[0] - end[0], point[1] - end[1])
+    return beyond(end, way, 1.0 if hypot(*way) <= reach else reach / hypot(*way))

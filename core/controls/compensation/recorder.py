@@ -1,0 +1,139 @@
+"""Recorder: the moves a control makes, and the compensated stretches among them with what was programmed there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from core.controls.compensation.corners import Element
+from core.controls.compensation.joint import Joint
+from core.controls.control_run import Change, Log, Stretch
+from core.controls.moves import Plane, Point3, Tape, flat, solid
+from core.geometry.piece import Point, Side
+from core.units import Unit
+
+
+@dataclass(slots=True)
+class _OpenStretch:
+    """A stretch of compensated moves that is not closed yet."""
+
+    side: Side
+    radius: float
+    plane: Plane
+    first: int
+    programmed: Tape
+    changes: list[Change] = field(default_factory=list)
+
+
+class Recorder:
+    """Moves of programmed elements, without compensation unless a control adds it.
+
+    `active`: compensation is in force.  `plane` and `unit` are those in force.  `leaving`: compensation is canceled and
+    the next move in the plane still belongs to the stretch.
+    """
+
+    def __init__(self, log: Log) -> None:
+        self.log = log
+        self.tape = Tape()
+        self.plane = Plane.XY
+        self.unit = Unit.MM
+        self.active = False
+        self.leaving = False
+        self.stretches: list[Stretch] = []
+        self._open: _OpenStretch | None = None
+
+    def travel(self, element: Element) -> None:
+        """One programmed element."""
+        if element.turn:
+            self.arc(element, element.end, element.center)
+        else:
+            self.straight(element, element.end)
+        if self.leaving and element.moves:
+            self.close_stretch()
+
+    def straight(self, element: Element, end: Point, *, low: bool = False) -> None:
+        """A straight move of an element's to a point of its plane, at its end's height or still at its start's."""
+        x, y, z = solid(*end, element.low if low else element.high, self.plane)
+        if element.rapid:
+            self.tape.rapid(x, y, z, element.line)
+        else:
+            self.tape.straight(x, y, z, element.feed, element.line)
+
+    def arc(self, element: Element, end: Point, center: Point) -> None:
+        """An element's own arc, or its offset, to a point of its plane."""
+        self.arc_about(element, end, center, element.turn, element.high)
+
+    def arc_about(self, element: Element, end: Point, center: Point, turn: int, height: float) -> None:
+        """Any arc at an element's feed."""
+        target, middle = solid(*end, height, self.plane), solid(*center, height, self.plane)
+        self.tape.arc(target, middle, turn, self.plane, element.feed, element.line)
+
+    def lead_on(self, joint: Joint, element: Element, offset: float) -> None:
+        """The way of a joint, from the end of one offset to the start of the element behind it."""
+        for point in joint.through:
+            self.straight(element, point, low=True)
+        if joint.center is not None:
+            self.arc_about(element, joint.start, joint.center, -1 if offset > 0.0 else 1, element.low)
+        elif joint.moves > len(joint.through):
+            self.straight(element, joint.start, low=True)
+
+    @property
+    def here(self) -> Point:
+        """Where the axes stand, in the plane."""
+        return flat(self.tape.last, self.plane)[:2]
+
+    def readable_position(self, programmed: Point3) -> Point3:
+        """Where a program reads that the axes stand, millimeters; without compensation the programmed point."""
+        return programmed
+
+    def open_stretch(self, side: Side, radius: float, element: Element) -> None:
+        """Compensated moves begin with this element; whatever is on the tape is before them."""
+        self.close_stretch()
+        start = Tape(solid(element.start[0], element.start[1], element.low, self.plane))
+        self._open = _OpenStretch(side, abs(radius), self.plane, len(self.tape) - 1, start)
+
+    @property
+    def stretch_open(self) -> bool:
+        """Whether compensated moves are being gathered."""
+        return self._open is not None
+
+    def change_stretch(self, side: Side, radius: float, before: int, across: int) -> None:
+        """From the element noted last on the stretch has this side and radius.
+
+        `before` moves are still to be made up to there with the old one, and `across` from there to the new one.
+        """
+        stretch = self._open
+        if stretch is None:
+            return
+        row = len(self.tape) - 1 + before
+        now = stretch.changes[-1] if stretch.changes else stretch
+        if (now.side, now.radius) != (side, abs(radius)):
+            stretch.changes.append(Change(len(stretch.programmed) - 1, row, row + across, side, abs(radius)))
+
+    def begin_stretch(self, side: Side, radius: float) -> None:
+        """The stretch has this side and radius from its first element on."""
+        if self._open is not None:
+            self._open.side, self._open.radius = side, abs(radius)
+
+    def note(self, element: Element) -> None:
+        """An element programmed under compensation."""
+        if self._open is None:
+            return
+        tape, target = self._open.programmed, solid(*element.end, element.high, self.plane)
+        if element.turn:
+            center = solid(*element.center, element.high, self.plane)
+            tape.arc(target, center, element.turn, self.plane, element.feed, element.line)
+        else:
+            tape.straight(*target, element.feed, element.line)
+
+    def leave(self) -> None:
+        """Compensation is canceled: the next motion in the plane still belongs to the stretch."""
+        self.leaving = self._open is not None
+
+    def close_stretch(self) -> None:
+        """Nothing more belongs to the stretch."""
+        opened, self._open, self.leaving = self._open, None, False
+        if opened is None:
+            return
+        moves, last, changes = opened.programmed.moves(), len(self.tape), tuple(opened.changes)
+        stretch = Stretch(opened.side, opened.radius, opened.plane, moves, 1, 0, opened.first, last, changes=changes)
+        self.stretches.append(stretch)

@@ -1,0 +1,263 @@
+"""Modal state of a word-address control: what is in force between blocks, and what a program can read of it.
+
+All positions are millimeters from the machine's zero as the program shifts it; work offsets nobody gave are zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.control_run import Log
+from core.controls.control_tools import CutterTool, ToolTable, not_there
+from core.controls.iso.dialect import Dialect
+from core.controls.iso.reader import Block, ToolData, whole
+from core.controls.moves import Plane, Point3
+from core.finding import Finding, Severity
+from core.units import Unit, from_mm
+
+ZERO: Final[Point3] = (0.0, 0.0, 0.0)
+G54: Final = 540
+
+INVERSE: Final = 930
+PER_MINUTE: Final = 940
+
+RADIUS_ZERO: Final = frozenset(("RADIUS0", "B3-DIA0"))
+"""Rules that tell of compensation that is asked for and moves nothing."""
+
+_CHANGE: Final = 60
+_SPINDLE: Final = {30: 1, 40: -1, 50: 0, 190: 0}
+_METRIC: Final = (210, 710)
+_PLANE_CODES: Final = {Plane.XY: 170.0, Plane.ZX: 180.0, Plane.YZ: 190.0}
+_POSITION: Final = {5420: 0, 5421: 1, 5422: 2, "_X": 0, "_Y": 1, "_Z": 2}
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """The work offsets by code in tenths, the one in force, and the shift of G52 or G92 on top, millimeters."""
+
+    systems: Mapping[int, Point3] = field(default_factory=lambda: MappingProxyType({}))
+    system: int = G54
+    local: Point3 = ZERO
+
+    @property
+    def base(self) -> Point3:
+        """The work offset in force."""
+        return self.systems.get(self.system, ZERO)
+
+    @property
+    def shift(self) -> Point3:
+        """The program's origin."""
+        base = self.base
+        return base[0] + self.local[0], base[1] + self.local[1], base[2] + self.local[2]
+
+
+@dataclass(slots=True)
+class Rates:
+    """What an F word means (G93, G94, G95) and the spindle that it may go by.
+
+    `speed` in turns a minute, with `surface` (G96) that of the cutter's edge; `turning` +1 for M3, -1 for M4, 0 for
+    none.
+    """
+
+    mode: int = PER_MINUTE
+    speed: float = 0.0
+    turning: int = 0
+    surface: bool = False
+
+
+@dataclass(slots=True)
+class Cycle:
+    """What stays from hole to hole: the cycle, the height its row began at, R, depth and peck, in millimeters.
+
+    `r` and `depth` are as written; `to_r` is G99.
+    """
+
+    code: int | None = None
+    began: float = 0.0
+    r: float = 0.0
+    depth: float = 0.0
+    peck: float = 0.0
+    to_r: bool = False
+
+
+class ModalState:
+    """What is in force.
+
+    `position` is the programmed point and `shift` the origin the program works from, x, y, z in millimeters; `tool`
+    the number in force for compensation, 0 for none; `unit` that of the words, `first_unit` that of the first motion;
+    `feed` in millimeters a minute.
+    """
+
+    def __init__(self, dialect: Dialect, tools: ToolTable, log: Log) -> None:
+        self.dialect = dialect
+        self.tools = tools
+        self.log = log
+        self.unit = dialect.unit
+        self.scale = 25.4 if dialect.unit is Unit.IN else 1.0
+        self.first_unit: Unit | None = None
+        self.unit_said = False
+        self.mode = dialect.mode
+        self.plane = Plane.XY
+        self.position = ZERO
+        self.origin = Origin()
+        self.shift = ZERO
+        self.incremental = False
+        self.absolute_centers = dialect.arcs.absolute
+        self.feed = 0.0
+        self.rates = Rates()
+        self.cycle = Cycle(to_r=dialect.returns_to_r)
+        self.tool = 0
+        self.next_tool = 0
+        self.ended = False
+
+    def target(self, words: Mapping[str, float]) -> Point3:
+        """Where a block's axis words lead, in millimeters."""
+        (x, y, z), scale = self.position, self.scale
+        base = self.position if self.incremental else self.shift
+        if "X" in words:
+            x = base[0] + words["X"] * scale
+        if "Y" in words:
+            y = base[1] + words["Y"] * scale
+        if "Z" in words:
+            z = base[2] + words["Z"] * scale
+        return x, y, z
+
+    def axis_words(self, block: Block, old: Point3) -> Point3:
+        """A block's axis words in millimeters, the old coordinate where there is none."""
+        x, y, z = (
+            block.words[letter] * self.scale if letter in block.words else before
+            for letter, before in zip("XYZ", old, strict=True)
+        )
+        return x, y, z
+
+    @property
+    def centers_from_origin(self) -> bool:
+        """Whether I, J, K count from the program's origin; otherwise from the arc's start."""
+        return self.absolute_centers and not (self.incremental and self.dialect.arcs.absolute)
+
+    def set_units(self, code: int) -> None:
+        """G20, G21, G70 or G71."""
+        self.unit = Unit.MM if code in _METRIC else Unit.IN
+        self.scale = 1.0 if self.unit is Unit.MM else 25.4
+        self.unit_said = True
+
+    def set_origin(self, origin: Origin) -> None:
+        """The program counts from another origin."""
+        self.origin, self.shift = origin, origin.shift
+
+    def set_rate(self, code: int) -> None:
+        """G93, G94 or G95; where the meaning of F changes there is no feed any more."""
+        if code != self.rates.mode:
+            self.feed = 0.0
+        self.rates.mode = code
+
+    def take_spindle(self, block: Block) -> None:
+        """S, M3, M4 and M5."""
+        if "S" in block.words:
+            self.rates.speed = abs(block.words["S"])
+        for code in block.m:
+            self.rates.turning = _SPINDLE.get(code, self.rates.turning)
+
+    def feed_over(self, block: Block, length: float) -> float:
+        """The feed of a move of this length, millimeters a minute; 0 where it is not known."""
+        rates, column = self.rates, block.column("FXYZIJ")
+        if rates.mode == INVERSE:
+            if "F" not in block.words:
+                text = "Under G93 every move at feed needs its own F; write it in this block."
+                self.log.stop("FEED", text, block.line, column)
+            return block.words["F"] * length
+        if not self.feed:
+            return 0.0
+        if not rates.speed or rates.surface:
+            text = "Under G95 the feed goes with the spindle, whose speed is not known here; write S in turns a minute."
+            if self.dialect.feed_needed and not rates.surface:
+                self.log.stop("FEED", text, block.line, column)
+            self.log.tell(Severity.WARNING, "FEED", text, block.line, column)
+        return 0.0 if rates.surface else self.feed * rates.speed
+
+    def no_feed(self, block: Block) -> None:
+        """A move at feed without a feed."""
+        text = "There is no feed; write F before the first move at feed."
+        if self.dialect.feed_needed:
+            self.log.stop("FEED", text, block.line, block.column("XYZIJ"))
+        self.log.tell(Severity.WARNING, "FEED", text, block.line, block.column("XYZIJ"))
+
+    def tool_number(self, block: Block) -> int | None:
+        """The number of a block's tool data or T word, None without them."""
+        if block.data:
+            return block.data.number
+        if "T" not in block.words:
+            return None
+        number = whole(block.words["T"])
+        if number is None or number < 0:
+            self.log.stop("NUMBER", "T takes a whole number, not below 0.", block.line, block.column("T"))
+        return number
+
+    def select_tool(self, number: int, block: Block) -> None:
+        """A T word, with tool data where the control takes them."""
+        if block.data is not None:
+            self._enter(block.data, block)
+        if number and self.dialect.table_needed and self.tools.get(number) is None:
+            self.log.stop("TOOL", not_there(number), block.line, block.column("T"))
+        self.next_tool = number
+        if self.dialect.loads_at_t:
+            self.tool = number
+
+    def _enter(self, data: ToolData, block: Block) -> None:
+        """Tool data in the text: what is left out stays as it is."""
+        old = self.tools.get(data.number) or CutterTool(data.number, 0.0)
+        diameter = old.diameter if data.diameter is None else data.diameter
+        unit = old.unit if data.diameter is None else self.unit
+        tool = CutterTool(data.number, diameter, old.length if data.length is None else data.length, 0, unit)
+        self.tools = self.tools.with_tools(ToolTable.of(tool))
+        if data.length is None and data.diameter is None:
+            text = "This tool data sets neither length nor diameter; both stay as they are."
+            self.log.tell(Severity.INFO, "TOOL", text, block.line, block.column("T"))
+
+    def change_tool(self, block: Block) -> None:
+        """M6."""
+        if _CHANGE in block.m:
+            self.tool = self.next_tool
+
+    def nothing_compensated(
+        self, why: str, line: int, column: int, *, code: str = "RADIUS0", severity: Severity = Severity.WARNING
+    ) -> None:
+        """Tell that nothing is compensated and how deep the tool cuts; `why` says what to do, or what is missing."""
+        known = self.tools.tools
+        tool = known.get(self.tool or (next(iter(known)) if len(known) == 1 else 0))
+        cut, lengths = "any cutter cuts by its radius", tuple[float, ...]()
+        if tool is not None and tool.diameter != 0.0:
+            across = abs(tool.diameter_mm(self.unit))
+            cut, lengths = f"tool {tool.number} of diameter {{0}} cuts {{1}}", (across, across / 2)
+        text = f"Nothing is compensated: {cut} into the part along the contour. {why}"
+        self.log.add(Finding(code, severity, text, lengths=lengths, line=line, column=column))
+
+    def value(self, key: int | str, compensated: bool, standing: Point3) -> float | str | None:
+        """What a program reads of the machine by number or name, None if it is not known before the control runs.
+
+        `standing` is where a program reads that the axes stand.
+        """
+        if key in _POSITION:
+            if compensated and isinstance(key, int):
+                return "The position cannot be read under compensation; write G40 before it."
+            axis = _POSITION[key]
+            return from_mm((self.position if isinstance(key, int) else standing)[axis] - self.shift[axis], self.unit)
+        tool, system = self.tools.get(self.tool), self.origin.system
+        values: dict[int | str, float] = {
+            5220: float((system - 530) // 10 if system <= 590 else system - 584),
+            5400: float(self.tool),
+            5410: from_mm(tool.diameter_mm(self.unit), self.unit) if tool else 0.0,
+            "_PLANE": _PLANE_CODES[self.plane],
+            "_METRIC": float(self.unit is Unit.MM),
+            "_IMPERIAL": float(self.unit is Unit.IN),
+            "_ABSOLUTE": float(not self.incremental),
+            "_INCREMENTAL": float(self.incremental),
+            "_IJK_ABSOLUTE_MODE": float(self.absolute_centers),
+            "_COORD_SYSTEM": float(system),
+            "_CURRENT_TOOL": float(self.tool),
+            "_SELECTED_TOOL": float(self.next_tool),
+        }
+        return values.get(key)
