@@ -14,7 +14,7 @@ from app.screens.page import Sketch
 from app.widgets.rows import Look, Row, Span
 from core.draw.characters import Mode
 from core.draw.raster import Picture, draw
-from core.draw.scene import Box, Gathered, Scene, Style, Symbol
+from core.draw.scene import Box, Scene, Style, Symbol
 from core.draw.view import View
 from core.geometry.piece import Point
 
@@ -49,20 +49,14 @@ def picture_rows(scene: Scene, sketch: Sketch, columns: int, rows: int, mode: st
     """The scene in columns x rows cells, in the window the sketch gives."""
     if rows < ROOM_FOR_SCALE:
         scene = replace(scene, unit=None)
-    gathered = scene.gathered
-    view = _view_of(gathered, sketch, columns, rows)
-    return () if view is None else _rows(draw(scene, view, columns, rows, Mode(mode), gathered))
+    view = view_of(scene, sketch, columns, rows)
+    return () if view is None else _rows(draw(scene, view, columns, rows, Mode(mode)))
 
 
 def view_of(scene: Scene, sketch: Sketch, columns: int, rows: int) -> View | None:
     """The window the sketch gives; None where there is nothing to be seen."""
-    return _view_of(scene.gathered, sketch, columns, rows)
-
-
-def _view_of(gathered: Gathered, sketch: Sketch, columns: int, rows: int) -> View | None:
-    scene = gathered.scene
     # parts of the surface that are drawn once more cannot widen what spans the drawing
-    bounds = gathered.bounds(without=AGAIN)
+    bounds = scene.extent(without=AGAIN)
     if bounds is None:
         return None
     return (

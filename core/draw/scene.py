@@ -1,8 +1,6 @@
-"""What is to be drawn: paths, circles and marks with the role each plays, in millimeters, before any screen.
+"""Scene: what is to be drawn, as paths, circles and marks with the role each plays, in millimeters, before any screen.
 
 Later layers win a cell's style, circles win over layers, marks over circles; dots once lit stay lit.
-
-The scene of one contour: what lies over what, and which marks it carries.
 """
 
 from __future__ import annotations
@@ -10,14 +8,13 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum, IntEnum, auto
-from itertools import accumulate
-from math import cos, sin, tau
+from math import cos, sin
 from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import EMPTY, Floats, Path, Points, Turns, as_complex, coordinates, swept
+from core.geometry.path import EMPTY, Floats, Path
 from core.geometry.piece import Line, Piece, Point
 from core.geometry.stretch import NO_PARTS, Parts
 from core.tolerance import LARGEST
@@ -27,18 +24,10 @@ Box = tuple[float, float, float, float]
 
 BEYOND: Final = 10 * LARGEST
 """A coordinate larger than this, or not a number, is neither drawn nor fitted into a view."""
-ALIKE: Final = 1e-9
-"""Millimeters by which an arc may reach over the points without its being seen: rounding does, where it ends there."""
-
-_SIDES: Final = np.array([[tau / 2], [3 * tau / 4], [0.0], [tau / 4]])
-"""(4, 1) the directions in which a circle reaches farthest to each side of a box."""
 
 
 class Style(IntEnum):
     """The role of what is drawn; a screen gives each role its looks."""
-
-    # an enumeration's own is written in Python
-    __hash__ = int.__hash__
 
     BACKGROUND = 0
     AXIS = 1
@@ -58,9 +47,6 @@ class Style(IntEnum):
 
 class Symbol(Enum):
     """What a mark says; the raster picks a character for it that the mode's terminals have."""
-
-    # as of `Style`
-    __hash__ = object.__hash__
 
     START = auto()
     ARROW = auto()
@@ -116,170 +102,42 @@ class Scene:
     axes: bool = True
 
     @property
+    def outlined(self) -> tuple[Layer, ...]:
+        """The layers that have pieces, with the outlines of the circles after them."""
+        return tuple(layer for layer in (*self.layers, *map(_outline, self.circles)) if len(layer.path))
+
+    @property
     def bounds(self) -> Box | None:
         """Least x, least y, largest x, largest y of all that can be drawn; None for an empty scene."""
-        return self.gathered.bounds([mark.at for mark in self.marks])
+        marks = [(x, y, x, y) for (x, y), *_ in self.marks]
+        return _around([*self._boxes(()), np.array(marks, float).reshape(-1, 4)])
 
-    @property
-    def gathered(self) -> Gathered:
-        """The scene's pieces, to be asked once and not layer by layer."""
-        layers = [layer for layer in (*self.layers, *map(_outline, self.circles)) if len(layer.path.turns)]
-        pieces = _gathered(layers) if layers else NO_PIECES
-        return Gathered(self, layers, pieces, pieces.arcs)
+    def extent(self, without: Container[Style] = ()) -> Box | None:
+        """The same of circles and layers alone, but for layers of the styles `without`."""
+        return _around(self._boxes(without))
 
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Arcs:
-    """k arcs among some pieces: their `rows` among them, centers, turns and radii (k,), in millimeters.
-
-    `begin` (k,) are the directions in which they start from their centers, `sweeps` (k,) the angles they travel.
-    """
-
-    rows: NDArray[np.intp]
-    centers: Points
-    turns: Turns
-    radii: Floats
-    begin: Floats
-    sweeps: Floats
-
-    def boxes(self, keep: NDArray[np.bool_], box: Box) -> list[Box]:
-        """Of some arcs with their ends in a box that box, as far out as each arc reaches on every side it passes."""
-        x, y, radii = self.centers.real[keep], self.centers.imag[keep], self.radii[keep]
-        passed = np.mod((_SIDES - self.begin[keep]) * self.turns[keep], tau) < self.sweeps[keep]
-        sides = np.where(passed, (x - radii, y - radii, x + radii, y + radii), np.array(box)[:, None])
-        return [(left, low, right, high) for left, low, right, high in sides.T.tolist()]
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Pieces:
-    """The n pieces of several layers one behind the other, in millimeters, points as complex numbers.
-
-    `points` (m,) are those of all paths; piece i runs from `points[rows[i]]` to the next one and belongs to the layer
-    `layers[i]`.  `centers` (n,) and `turns` (n,) as a path has them.
-    """
-
-    points: Points
-    rows: NDArray[np.intp]
-    centers: Points
-    turns: Turns
-    layers: NDArray[np.intp]
-
-    def only(self, keep: NDArray[np.intp]) -> Pieces:
-        """These pieces, by their numbers."""
-        return Pieces(self.points, self.rows[keep], self.centers[keep], self.turns[keep], self.layers[keep])
-
-    @property
-    def arcs(self) -> Arcs:
-        """The arcs among them."""
-        arcs = self.turns.nonzero()[0]
-        rows, centers, turns = self.rows[arcs], self.centers[arcs], self.turns[arcs]
-        starts, ends = self.points[rows], self.points[rows + 1]
+    def _boxes(self, without: Container[Style]) -> list[Floats]:
+        layers = [*(layer for layer in self.layers if layer.style not in without), *map(_outline, self.circles)]
         with np.errstate(invalid="ignore", over="ignore"):
-            first, last, same = starts - centers, ends - centers, coordinates(starts) == coordinates(ends)
-            sweeps = swept(coordinates(first), coordinates(last), turns, same)
-            x, y = first.real, first.imag
-            return Arcs(arcs, centers, turns, np.hypot(x, y), np.arctan2(y, x), sweeps)
-
-
-_NONE: Final = np.empty(0, np.complex128)
-_NO_ROWS: Final = np.empty(0, np.intp)
-_ROUND: Final = np.ones(1, np.int8)
-_FIRST: Final = np.ones(1)
-"""Turn and number of the one piece of a circle."""
-NO_PIECES: Final = Pieces(_NONE, _NO_ROWS, _NONE, np.empty(0, np.int8), _NO_ROWS)
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Gathered:
-    """A scene's pieces, gathered once for its bounds and its picture, and the `arcs` among them.
-
-    `layers` are those that have pieces, and behind them the outlines of the circles.
-    """
-
-    scene: Scene
-    layers: Sequence[Layer]
-    pieces: Pieces
-    arcs: Arcs
-
-    def bounds(self, spots: Sequence[Point] = (), without: Container[Style] = ()) -> Box | None:
-        """Least x, least y, largest x, largest y of all spots, circles and layers, but for layers `without`."""
-        boxes = [_box_of(circle.center, circle.radius) for circle in self.scene.circles]
-        boxes += [_box_of(spot, 0.0) for spot in spots]
-        count = len(self.layers) - len(self.scene.circles)
-        spanning = [row < count and layer.style not in without for row, layer in enumerate(self.layers)]
-        with np.errstate(invalid="ignore", over="ignore"):
-            boxes += self._boxes(spanning) if any(spanning) else []
-        kept = [box for box in boxes if _drawn(box)]
-        if not kept:
-            return None
-        left, low, right, high = zip(*kept, strict=True)
-        return min(left), min(low), max(right), max(high)
-
-    def _boxes(self, spanning: list[bool]) -> list[Box]:
-        """Boxes that span the same as those of all pieces of some layers: of their points, and of arcs that reach over.
-
-        Where a coordinate can be no part of a drawing each piece has its own, so that it can be left out.
-        """
-        spans, pieces, arcs = np.array(spanning), self.pieces, self.arcs
-        points = pieces.points[spans.repeat([len(layer.path.points) for layer in self.layers])]
-        x, y = points.real, points.imag
-        left, low, right, high = box = float(x.min()), float(y.min()), float(x.max()), float(y.max())
-        # what is not a number is neither the least nor the largest, but comes out of both
-        if not _drawn(box):
-            return _each(pieces.only(spans[pieces.layers].nonzero()[0]))
-        x, y, reach = arcs.centers.real, arcs.centers.imag, ALIKE - arcs.radii
-        over = (left - x > reach) | (low - y > reach) | (x - right > reach) | (y - high > reach)
-        return [box, *arcs.boxes(over & spans[pieces.layers[arcs.rows]], box)] if over.any() else [box]
+            return [path.boxes for layer in layers for path in layer.parts]
 
 
 def _outline(circle: Circle) -> Layer:
     """The whole circle as a layer."""
     (x, y), radius = circle.center, circle.radius
     rim = np.array([[x + radius, y], [x + radius, y]])
-    return Layer(Path(rim, np.array([[x, y]]), _ROUND, _FIRST), circle.style)
+    return Layer(Path(rim, np.array([[x, y]]), np.ones(1, np.int8), np.ones(1)), circle.style)
 
 
-def _gathered(layers: Sequence[Layer]) -> Pieces:
-    """All pieces that are drawn of layers with paths that are not empty."""
-    paths, counts = [layer.path for layer in layers], [len(layer.path.turns) for layer in layers]
-    owners = np.arange(len(counts)).repeat(counts)
-    every = Pieces(
-        as_complex(np.concatenate([path.points for path in paths])),
-        np.arange(len(owners)) + owners,
-        as_complex(np.concatenate([path.centers for path in paths])),
-        np.concatenate([path.turns for path in paths]),
-        owners,
-    )
-    if all(layer.own is None for layer in layers):
-        return every
-    drawn = np.ones(len(owners), np.bool_)
-    for layer, behind in zip(layers, accumulate(counts), strict=True):
-        if layer.own is not None:
-            drawn[behind - len(layer.own) : behind] = layer.own
-    return every.only(drawn.nonzero()[0])
-
-
-def _drawn(box: Box) -> bool:
-    """Whether nothing of a box is beyond every drawing, or no number."""
-    left, low, right, high = box
-    return abs(left) <= BEYOND and abs(low) <= BEYOND and abs(right) <= BEYOND and abs(high) <= BEYOND
-
-
-def _each(pieces: Pieces) -> list[Box]:
-    """The boxes of all pieces, taken from a path of them with a line from each to the next."""
-    if not len(pieces.rows):
-        return []
-    points = np.empty(2 * len(pieces.rows), np.complex128)
-    points[::2], points[1::2] = pieces.points[pieces.rows], pieces.points[pieces.rows + 1]
-    centers, turns = points[:-1].copy(), np.zeros(len(points) - 1, np.int8)
-    centers[::2], turns[::2] = pieces.centers, pieces.turns
-    path = Path.of(coordinates(points), coordinates(centers), turns)
-    return [(a, b, c, d) for a, b, c, d in path.boxes[::2].tolist()]
-
-
-def _box_of(center: Point, radius: float) -> Box:
-    (x, y) = center
-    return (x - radius, y - radius, x + radius, y + radius)
+def _around(boxes: Sequence[Floats]) -> Box | None:
+    """The box around those of the boxes (n, 4) that can be drawn."""
+    every = np.concatenate([np.empty((0, 4)), *boxes])
+    # a comparison with what is not a number is false
+    drawn = every[(np.abs(every) <= BEYOND).all(axis=1)]
+    if not len(drawn):
+        return None
+    (left, low), (right, high) = drawn[:, :2].min(axis=0).tolist(), drawn[:, 2:].max(axis=0).tolist()
+    return left, low, right, high
 
 
 def joined_scenes(scenes: Sequence[Scene]) -> Scene:

@@ -79,6 +79,6 @@ def test_bounds_can_do_without_some_layers_and_reach_as_far_as_their_arcs():
     wide = Path.from_pieces([Arc((-7.0, 0.0), (7.0, 0.0), (0.0, 0.0), Turn.CW)])
     scene = Scene((Layer(over, Style.SURFACE), Layer(wide, Style.UNCUT), Layer(right, Style.PATH)))
     assert scene.bounds == (-7.0, -4.0, 7.0, 7.0)
-    assert scene.gathered.bounds(without={Style.UNCUT}) == (-3.0, -4.0, 5.0, 5.0)
-    assert scene.gathered.bounds([(9.0, -9.0)], {Style.UNCUT, Style.PATH}) == (-3.0, -9.0, 9.0, 5.0)
-    assert scene.gathered.bounds(without=set(Style)) is None
+    assert scene.extent(without={Style.UNCUT}) == (-3.0, -4.0, 5.0, 5.0)
+    assert scene.extent(without={Style.UNCUT, Style.PATH}) == (-3.0, -4.0, 3.0, 5.0)
+    assert scene.extent(without=set(Style)) is None

@@ -1,0 +1,172 @@
+"""Chords: the pieces of a scene as short straight chords inside a window, for all layers at once.
+
+Window coordinates: the window's center is 0, a cell is 1 wide and `TALL` high, the second axis points up; a point is
+one complex number.  Arcs are cut down to the part near the window before they are divided, so that no zoom makes them
+expensive.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from math import hypot, tau
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.draw.scene import BEYOND, Layer
+from core.draw.view import TALL, View
+from core.geometry.path import Floats, Points, Turns, as_complex
+
+SAG: Final = 0.1
+"""How far a chord may stray from its arc, in cells' widths: less than half a dot of the finest mode."""
+STEP: Final = tau / 8
+"""The most a chord turns, in radians."""
+SHORT: Final = 0.25
+"""An arc shorter than this, in cells' widths, is its own chord: half a dot of the finest mode."""
+CONCENTRIC: Final = 1e-9
+"""An arc about the window's center is all in sight or all out of it; this keeps the division finite."""
+
+Rows = NDArray[np.intp]
+Flags = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Chords:
+    """m chords in window coordinates, ordered by `layers` (m,): each from `starts` by `runs` (m,).
+
+    `along` (m,) is the length traveled on the layer's path up to the chord's start, in cells' widths.
+    """
+
+    starts: Points
+    runs: Points
+    layers: Rows
+    along: Floats
+
+    def only(self, keep: Rows) -> Chords:
+        """These chords, by their numbers."""
+        return Chords(self.starts[keep], self.runs[keep], self.layers[keep], self.along[keep])
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Pieces:
+    """n pieces in window coordinates; `sweeps` (n,) is the angle an arc travels, 0 for a line."""
+
+    starts: Points
+    ends: Points
+    centers: Points
+    turns: Turns
+    sweeps: Floats
+    layers: Rows
+    along: Floats
+
+    def only(self, keep: Rows | Flags) -> _Pieces:
+        """These pieces."""
+        return _Pieces(*(getattr(self, field.name)[keep] for field in fields(self)))
+
+    @property
+    def radii(self) -> Floats:
+        """(n,) radii of arcs, in cells' widths."""
+        radii: Floats = np.abs(self.starts - self.centers)
+        return radii
+
+
+def chords(layers: Sequence[Layer], view: View, columns: int, rows: int) -> Chords:
+    """The chords of all layers' pieces that may touch the window of columns x rows cells.
+
+    What is not finite, or beyond every machine, is left out.  A layer is known by its place among `layers`.
+    """
+    with np.errstate(invalid="ignore", over="ignore"):
+        pieces = _pieces(layers, view)
+        bent = (pieces.radii * pieces.sweeps > SHORT) & (pieces.turns != 0)
+    lines = pieces.only(~bent)
+    straight = Chords(lines.starts, lines.ends - lines.starts, lines.layers, lines.along)
+    if not bent.any():
+        return straight
+    divided = _divided(pieces.only(bent), hypot(columns / 2, rows * TALL / 2) + 1.0)
+    parts = ((getattr(straight, field.name), getattr(divided, field.name)) for field in fields(Chords))
+    both = Chords(*(np.concatenate(pair) for pair in parts))
+    return both.only(both.layers.argsort(kind="stable"))
+
+
+def _pieces(layers: Sequence[Layer], view: View) -> _Pieces:
+    """The pieces of all layers that are drawn at all."""
+    paths = [layer.path for layer in layers]
+
+    def together(name: str) -> Points:
+        return as_complex(np.concatenate([np.empty((0, 2)), *(getattr(path, name) for path in paths)]))
+
+    counts = [len(path) for path in paths]
+    starts, ends, centers = (together(name) - complex(*view.center) for name in ("starts", "ends", "centers"))
+    turns = np.concatenate([np.empty(0, np.int8), *(path.turns for path in paths)])
+    sweeps = np.concatenate([np.empty(0), *(np.abs(path.sweeps) for path in paths)])
+    along = np.concatenate([np.empty(0), *map(_traveled, layers)])
+    wanted = np.concatenate([np.empty(0, np.bool_), *map(_wanted, layers)])
+    drawn = wanted & _within(starts) & _within(ends) & (_within(centers) | (turns == 0)) & np.isfinite(along)
+    owners = np.arange(len(layers)).repeat(counts)
+    scale = view.scale
+    return _Pieces(starts / scale, ends / scale, centers / scale, turns, sweeps, owners, along / scale).only(drawn)
+
+
+def _wanted(layer: Layer) -> Flags:
+    return np.ones(len(layer.path), np.bool_) if layer.own is None else layer.own
+
+
+def _within(points: Points) -> Flags:
+    """(n,) which points are drawn at all; what is not a number is not."""
+    within: Flags = (np.abs(points.real) <= BEYOND) & (np.abs(points.imag) <= BEYOND)
+    return within
+
+
+def _traveled(layer: Layer) -> Floats:
+    """(n,) millimeters from its path's start to each piece of a dashed layer.
+
+    Where only parts of a path are drawn each piece's dashes begin with it.
+    """
+    if not layer.dashed or layer.own is not None:
+        return np.zeros(len(layer.path))
+    lengths = layer.path.lengths
+    traveled: Floats = np.cumsum(lengths) - lengths
+    return traveled
+
+
+def _divided(arcs: _Pieces, reach: float) -> Chords:
+    """Chords of arcs within `reach` of the window's center."""
+    arcs, low, span = _visible(arcs, reach)
+    counts = np.ceil(span / np.minimum(np.sqrt(8.0 * SAG / np.maximum(arcs.radii, SAG)), STEP)).astype(np.intp)
+    pace = span / np.maximum(counts, 1)
+    arc = np.arange(len(counts)).repeat(counts)
+    nth = np.arange(len(arc)) - (counts.cumsum() - counts)[arc]
+    turned, turns, radii = low[arc] + nth * pace[arc], arcs.turns, arcs.radii[arc]
+    starts = radii * np.exp(1j * (_begin(arcs)[arc] + turns[arc] * turned))
+    runs = starts * (np.exp(1j * turns * pace) - 1.0)[arc]
+    return Chords(arcs.centers[arc] + starts, runs, arcs.layers[arc], arcs.along[arc] + turned * radii)
+
+
+def _begin(arcs: _Pieces) -> Floats:
+    """(k,) the directions in which arcs start from their centers."""
+    begin: Floats = np.angle(arcs.starts - arcs.centers)
+    return begin
+
+
+def _visible(arcs: _Pieces, reach: float) -> tuple[_Pieces, Floats, Floats]:
+    """m parts of arcs that run within `reach` of the window's center: (m,) the angle traveled to each, and its own.
+
+    The circle meets the disc of that reach symmetrically about the direction to the window's center, over a half
+    angle h with sin^2(h / 2) = (reach^2 - (d - r)^2) / (4 d r), d being the distance of the two centers.
+    """
+    distance, radii, sweeps = np.abs(arcs.centers), arcs.radii, arcs.sweeps
+    within = reach * reach - (distance - radii) ** 2
+    part = np.minimum(np.maximum(within / np.maximum(4.0 * distance * radii, CONCENTRIC), 0.0), 1.0)
+    inside = distance + radii <= reach
+    whole, hidden = (part >= 1.0) | inside, (within <= 0.0) & ~inside
+    half = 2.0 * np.arcsin(np.sqrt(part))
+    middle = np.mod((np.angle(-arcs.centers) - _begin(arcs)) * arcs.turns, tau)
+    turned = np.array([[-tau], [0.0], [tau]])
+    low = np.maximum(middle - half + turned, 0.0)
+    high = np.minimum(middle + half + turned, sweeps)
+    low[:, whole], high[:, whole | hidden] = 0.0, 0.0
+    high[1] = np.where(whole & ~hidden, sweeps, high[1])
+    shown, arc = np.nonzero(high > low)
+    return arcs.only(arc), low[shown, arc], (high - low)[shown, arc]
