@@ -1,4 +1,4 @@
-"""The pictures of core/LOOKAHEAD.md, drawn by the program itself: `python -m tests.docpictures`."""
+"""The pictures of the pages beside core's rooms, drawn by the program itself: `python -m tests.docpictures`."""
 
 from __future__ import annotations
 
@@ -21,14 +21,17 @@ from core.program.model import (
     Tool,
 )
 
-FOLDER: Final = Path(__file__).parent.parent / "core" / "pictures"
+CORE: Final = Path(__file__).parent.parent / "core"
 
 Corner = tuple[float, float]
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A contour from `start` with its tool in inches, a typed look-ahead or CAL, and the path that is posted."""
+    """A contour from `start` with its tool in inches, a typed look-ahead or CAL, and the path that is posted.
+
+    `room` is the room of core whose page shows it.
+    """
 
     name: str
     title: str
@@ -38,6 +41,12 @@ class Picture:
     diameter: float = 0.5
     lookahead: int | None = None
     path: PathChoice = PathChoice.CONTROL
+    room: str = "comp"
+
+    @property
+    def file(self) -> Path:
+        """Where it is kept."""
+        return CORE / self.room / "pictures" / f"{self.name}.svg"
 
 
 NOTCH: Final = ((2.0, 0.0), (2.0, -0.3), (2.3, -0.3), (2.3, 0.0), (5.0, 0.0))
@@ -53,10 +62,12 @@ PICTURES: Final = (
     Picture("walk-3", "Look-ahead 3: the notch is passed over", (0.0, 0.0), NOTCH, lookahead=3),
     Picture("corner-start", "Started at an inside corner", (0.0, 0.0), SQUARE),
     Picture("mid-side-start", "Started mid-side", (1.0, 0.0), (*SQUARE, (1.0, 0.0))),
-    Picture("long-way", "CAL 4 erases the longer way round", (0.1, 0.0), CHAMFERED),
+    Picture("long-way", "CAL 4 deletes the longer way around", (0.1, 0.0), CHAMFERED),
     Picture("bone-control", "CAL 8: the neck is too narrow", (1.0, 0.0), BONE),
     Picture("bone-best", "The best path: two loops", (1.0, 0.0), BONE, path=PathChoice.BEST),
-    Picture("uncut", "Corners the cutter does not reach", (1.0, 0.0), (*SQUARE, (1.0, 0.0)), diameter=1.2),
+    Picture(
+        "uncut", "Corners the cutter does not reach", (1.0, 0.0), (*SQUARE, (1.0, 0.0)), diameter=1.2, room="verify"
+    ),
 )
 
 
@@ -81,19 +92,19 @@ def _lookahead(picture: Picture) -> Entry | None:
     return None if picture.lookahead is None else Entry(picture.lookahead)
 
 
-def drawn() -> Iterator[tuple[str, str]]:
-    """Every picture's file name and SVG text."""
+def drawn() -> Iterator[tuple[Path, str]]:
+    """Every picture's file and SVG text."""
     for picture in PICTURES:
-        yield f"{picture.name}.svg", svg_of(derive(program(picture)), title=picture.title)
+        yield picture.file, svg_of(derive(program(picture)), title=picture.title)
 
 
 def main() -> None:
     """Write every picture."""
     argparse.ArgumentParser("tests.docpictures", description=__doc__).parse_args()
-    FOLDER.mkdir(exist_ok=True)
-    for name, text in drawn():
-        (FOLDER / name).write_text(text, encoding="utf-8")
-        print(name)
+    for file, text in drawn():
+        file.parent.mkdir(exist_ok=True)
+        file.write_text(text, encoding="utf-8")
+        print(file.relative_to(CORE))
 
 
 if __name__ == "__main__":

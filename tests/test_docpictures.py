@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import pytest
 
 from core.advice.work import Work
 from core.pipeline.derive import derive
-from tests.docpictures import FOLDER, PICTURES, drawn, program
+from tests.docpictures import CORE, PICTURES, drawn, program
 
-PAGE = FOLDER.parent / "LOOKAHEAD.md"
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 
 
@@ -46,15 +44,19 @@ def test_deletions_and_loops_are_those_of_the_text():
     assert _work("uncut").verdict.uncut_length > 4 * 25.4
 
 
-def test_every_picture_of_the_page_is_there_and_no_other():
-    linked = set(re.findall(r"\(pictures/([\w-]+\.svg)\)", PAGE.read_text()))
-    assert linked == {file.name for file in FOLDER.iterdir()} == {name for name, _ in drawn()}
+def test_every_picture_of_a_page_is_drawn_and_every_drawn_picture_is_on_a_page():
+    linked = {
+        page.parent / picture
+        for page in CORE.rglob("*.md")
+        for picture in re.findall(r"\((pictures/[\w-]+\.svg)\)", page.read_text())
+    }
+    assert linked == set(CORE.rglob("*.svg")) == {file for file, _ in drawn()}
 
 
-@pytest.mark.parametrize(("name", "text"), list(drawn()))
-def test_a_picture_is_what_the_program_draws(name, text):
+@pytest.mark.parametrize(("file", "text"), list(drawn()), ids=lambda value: getattr(value, "stem", ""))
+def test_a_picture_is_what_the_program_draws(file, text):
     """Compared word by word and number by number: last digits may differ between machines."""
-    kept = Path(FOLDER / name).read_text()
+    kept = file.read_text()
     assert NUMBER.sub("#", kept) == NUMBER.sub("#", text), "python -m tests.docpictures draws it anew"
     ours, theirs = (list(map(float, NUMBER.findall(one))) for one in (kept, text))
     assert ours == pytest.approx(theirs, abs=2e-6)
