@@ -15,7 +15,7 @@ from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
 from core.controls.iso import cycles
-from core.controls.iso.arcs import NoArc, given_center, through
+from core.controls.iso.arcs import NoArc, about, given_center, through
 from core.controls.iso.dialect import Code, Dialect, Do, unused_words
 from core.controls.iso.modal_state import G54, PER_MINUTE, ZERO, ModalState, Origin
 from core.controls.iso.reader import Block
@@ -279,7 +279,7 @@ class Machine(ModalState):
             origin = flat(self.shift, self.plane) if self.centers_from_origin else None
             center = given_center(block.words, self.plane, start, self.scale, origin)
             if not isinstance(center, NoArc):
-                center = self.dialect.arc_radii.refused(start, end, center, self.unit) or center
+                center = about(start, end, center, self.dialect.arcs, self.unit) or center
         if isinstance(center, NoArc):
             column = block.column("R" if "R" in block.words else "IJK")
             self.log.stop("ARC", center.text, block.line, column, lengths=center.lengths)

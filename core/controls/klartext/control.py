@@ -1,61 +1,40 @@
-"""The Klartext control: runs a program's text block by block and gives its moves and findings."""
+"""The Klartext control: runs a program block by block, with its labels, repeats, Q parameters and conditions."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Callable, Mapping, Sequence
+from math import isclose
 from types import MappingProxyType
 from typing import Final
 
 from core.controls.control_run import AlarmError, Log, Run
 from core.controls.control_tools import ToolTable
-from core.controls.klartext import circles, flow, functions, leading, motion, setup
-from core.controls.klartext.blocks import Block, blocks
-from core.controls.klartext.center import Center
-from core.controls.klartext.record import Record
+from core.controls.klartext import leads, m_functions, path_functions, settings
+from core.controls.klartext.center_path import CenterPath, Record
+from core.controls.klartext.corner_rounding import WaitingElement
+from core.controls.klartext.reader import Block, read_blocks
 from core.controls.klartext.state import State
-from core.controls.program_text import lines_of
+from core.controls.program_text import lines_of, quoted
 from core.finding import Severity
 
-JUMPED: Final = 50_000
+MAX_REPEATED_BLOCKS: Final = 50_000
 """Blocks that jumps and repeats may run again before the run is given up."""
 
-HEADS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
-    {
-        "L": motion.straight,
-        "LP": motion.polar_straight,
-        "CC": motion.center,
-        "RND": motion.corner,
-        "CHF": motion.corner,
-        "C": circles.circle,
-        "CR": circles.radius_arc,
-        "CT": circles.tangent_arc,
-        "CP": circles.polar_circle,
-        "CTP": circles.polar_tangent,
-        "APPR": leading.approach,
-        "DEP": leading.leave,
-        "BEGIN": setup.begin,
-        "END": setup.end,
-        "BLK": setup.ignored,
-        "TOOL": setup.tool,
-        "CYCL": setup.cycle,
-        "TRANS": setup.transformation,
-        "PLANE": setup.plane,
-        "*": setup.structure,
-        "STOP": functions.only_functions,
-        "M": functions.only_functions,
-        "LBL": flow.label,
-        "CALL": flow.call,
-        "FN": flow.function,
-        "IF": flow.condition,
-        "Q": flow.parameter,
-        "QL": flow.parameter,
-        "QR": flow.parameter,
-    }
-)
+MAX_CALL_DEPTH: Final = 19
+"""Subprograms that may call one another."""
 
+TINY_SHARE: Final = 1e-7
+"""Share of the tool's radius for which no contour is too narrow."""
 
-THIN: Final = 1e-7
-"""Share of the tool's radius with which no contour is too narrow."""
+_LABEL: Final = re.compile(r'\s*("[^"]*"|\d+)\s*$', re.ASCII)
+_CALL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*(?:REP\s*(\d{1,5})(?:/\d+)?)?\s*$', re.ASCII)
+_SET: Final = re.compile(r"\s*(\d+)\s*=(.*)$", re.ASCII)
+_FUNCTION: Final = re.compile(r"\s*(\d+)\s*:\s*(.*)$", re.ASCII)
+_ASSIGNMENT: Final = re.compile(r"(Q[LR]?\d+)\s*=(.*)$", re.ASCII)
+_COMPARISON: Final = re.compile(r"EQU|NE(?!G)|GT|LT", re.ASCII)
+_GOAL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*$', re.ASCII)
+_FORMULA_OF_FN: Final = {5: "SQRT", 6: "SIN", 7: "COS"}
 
 
 def run(text: bytes, variant: str, tools: ToolTable) -> Run:  # noqa: ARG001  (the one variant is the empty one)
@@ -63,56 +42,171 @@ def run(text: bytes, variant: str, tools: ToolTable) -> Run:  # noqa: ARG001  (t
 
     Tools of the table count before TOOL DEF of the same number.
     """
-    return _ran(text, tools, 1.0)
+    return _run(text, tools, 1.0)
 
 
 def programmed(text: bytes, tools: ToolTable) -> Run:
-    """The same with a tool of next to no radius: its stretches tell the contour where the tool itself does not fit."""
-    return _ran(text, tools, THIN)
+    """The run with a tool of next to no radius: its stretches are the contour even where the tool does not fit."""
+    return _run(text, tools, TINY_SHARE)
 
 
-def _ran(text: bytes, tools: ToolTable, share: float) -> Run:
+def _run(text: bytes, tools: ToolTable, share: float) -> Run:
     log = Log()
-    center = Center(log, Record(share=share))
-    read = tuple(blocks(lines_of(text)))
-    state = State(log, center, tools, read, flow.labels_of(read), share=share)
-    stopped = None
+    center = CenterPath(log, Record(share))
+    blocks = tuple(read_blocks(lines_of(text)))
+    state = State(log, WaitingElement(center), tools, blocks, _labels(blocks), share)
+    stopped_at = None
     try:
-        _run(state)
-        state.flush()
+        _run_blocks(state)
+        state.waiting.flush()
         center.finish()
     except AlarmError as alarm:
         log.add(alarm.finding)
-        stopped = alarm.finding.line
+        stopped_at = alarm.finding.line
         center.give_up()
-    record = center.record
-    return Run("klartext", state.unit, record.tape.moves(), log.closed(), stopped, tuple(record.stretches))
+    moves, stretches = center.record.tape.moves(), tuple(center.record.stretches)
+    return Run("klartext", state.unit, moves, log.closed(), stopped_at, stretches)
 
 
-def _run(state: State) -> None:
-    program = state.blocks
-    limit = len(program) + JUMPED
-    while state.next < len(program) and not state.ended:
-        block = program[state.next]
+def _run_blocks(state: State) -> None:
+    left = len(state.blocks) + MAX_REPEATED_BLOCKS
+    while state.next < len(state.blocks) and not state.ended:
+        block = state.blocks[state.next]
         state.next += 1
-        limit -= 1
-        if limit < 0:
-            text = f"More than {JUMPED} blocks are repeated. The run is given up here and not judged"
-            state.stop("LIMIT", f"{text}: repeat them less often.", block)
+        left -= 1
+        if left < 0:
+            text = f"More than {MAX_REPEATED_BLOCKS} repeated blocks: the run ends here, not judged. Repeat fewer."
+            state.stop("LIMIT", text, block)
         if block.skip:
-            state.tell(Severity.INFO, "SKIP", "The block is run: block skip is taken as switched off.", block)
-        HEADS.get(block.head, setup.unknown)(state, block)
-    _close(state)
+            state.tell(Severity.INFO, "SKIP", "Block skip is taken as switched off: the block runs.", block)
+        HEADS.get(block.head, settings.unknown)(state, block)
+    _check_end(state)
 
 
-def _close(state: State) -> None:
-    """Say what is missing at the end of the program."""
+def _check_end(state: State) -> None:
+    """What is missing at the end of the program."""
     last = state.blocks[-1] if state.blocks else Block(1, "", "", 1, skip=False)
     if not state.begun:
-        text = "The program has no BEGIN PGM; millimeters are assumed. Write BEGIN PGM PART MM as its first block."
+        text = "BEGIN PGM is missing; millimeters are assumed. Write BEGIN PGM PART MM as the first block."
         state.log.tell(Severity.WARNING, "PROGRAM", text, 1, 1)
     elif not any(block.head == "END" for block in reversed(state.blocks)):
         state.tell(Severity.WARNING, "PROGRAM", "END PGM is missing; the file may be cut off.", last)
     if state.applied:
-        text = "The program ends under compensation; cancel it with an L block with R0, or with DEP."
+        text = "The program ends under compensation. Cancel it with an L block with R0, or with DEP."
         state.tell(Severity.WARNING, "PROGRAM", text, last)
+
+
+def _labels(blocks: Sequence[Block]) -> Mapping[str, int]:
+    """Label to the block after it, the first where one stands twice; LBL 0 is the end of a subprogram, no label."""
+    labels: dict[str, int] = {}
+    for index, block in enumerate(blocks):
+        if block.head == "LBL" and (name := _LABEL.match(block.body)) and name[1] != "0":
+            labels.setdefault(name[1], index + 1)
+    return labels
+
+
+def _label(state: State, block: Block) -> None:
+    """LBL n: a place to jump to; LBL 0 ends a subprogram."""
+    name = _LABEL.match(block.body)
+    if name is None:
+        state.stop("LABEL", "LBL needs a number or a name in quotes.", block)
+    if name[1] == "0" and state.calls:
+        state.next = state.calls.pop()[1]
+
+
+def _call(state: State, block: Block) -> None:
+    """CALL LBL n runs a subprogram; with REP m the part from LBL n to here is run m times more."""
+    call = _CALL.match(block.body)
+    if call is None:
+        settings.unknown(state, block)
+    elif call[2]:
+        left = state.repeats.pop(state.next, int(call[2]))
+        if left > 0:
+            state.repeats[state.next] = left - 1
+            _jump(state, block, call[1])
+    else:
+        if len(state.calls) >= MAX_CALL_DEPTH or any(name == call[1] for name, _ in state.calls):
+            text = f"LBL {quoted(call[1])} calls itself, or more than {MAX_CALL_DEPTH} calls are nested. Write LBL 0."
+            state.stop("LABEL", text, block)
+        state.calls.append((call[1], state.next))
+        _jump(state, block, call[1])
+
+
+def _jump(state: State, block: Block, name: str) -> None:
+    if name not in state.labels:
+        state.stop("LABEL", f"There is no LBL {quoted(name)} in this program.", block)
+    state.next = state.labels[name]
+
+
+def _parameter(state: State, block: Block) -> None:
+    """Q1 = formula."""
+    assignment = _SET.match(block.body)
+    if assignment is None:
+        state.stop("Q", "A Q parameter needs = and a formula.", block)
+    state.parameters[f"{block.head}{assignment[1]}"] = state.value(assignment[2], block)
+
+
+def _function(state: State, block: Block) -> None:
+    """FN 0 to FN 13: assignments, and jumps on a condition; the others are not supported."""
+    function = _FUNCTION.match(block.body)
+    number = int(function[1][:4]) if function else -1
+    rest = function[2] if function else ""
+    if 9 <= number <= 12:
+        _condition(state, block._replace(body=rest))
+    elif 0 <= number <= 13 and (assignment := _ASSIGNMENT.match(rest)):
+        name, formula = assignment.groups()
+        operator = _FORMULA_OF_FN.get(number, "")
+        state.parameters[name] = state.value(formula if operator in formula else f"{operator} {formula}", block)
+    else:
+        settings.unknown(state, block)
+
+
+def _condition(state: State, block: Block) -> None:
+    """IF a EQU, NE, GT or LT b GOTO LBL n."""
+    question, _, goal = block.body.strip().removeprefix("IF").partition("GOTO")
+    sign, label = _COMPARISON.search(question), _GOAL.match(goal)
+    if sign is None or label is None:
+        settings.unknown(state, block)
+        return
+    first = state.value(question[: sign.start()], block)
+    second = state.value(question[sign.end() :], block)
+    equal = isclose(first, second, rel_tol=0.0, abs_tol=1e-9)
+    holds = {"EQU": equal, "NE": not equal, "GT": first > second and not equal, "LT": first < second and not equal}
+    if holds[sign[0]]:
+        _jump(state, block, label[1])
+
+
+HEADS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
+    {
+        "L": path_functions.line,
+        "LP": path_functions.polar_line,
+        "CC": path_functions.pole,
+        "RND": path_functions.corner,
+        "CHF": path_functions.corner,
+        "C": path_functions.circle,
+        "CR": path_functions.radius_arc,
+        "CT": path_functions.tangent_arc,
+        "CP": path_functions.polar_circle,
+        "CTP": path_functions.polar_tangent,
+        "APPR": leads.approach,
+        "DEP": leads.depart,
+        "BEGIN": settings.begin,
+        "END": settings.end,
+        "BLK": settings.ignored,
+        "TOOL": settings.tool,
+        "CYCL": settings.cycle,
+        "TRANS": settings.transformation,
+        "PLANE": settings.plane,
+        "*": settings.structure,
+        "STOP": m_functions.only_functions,
+        "M": m_functions.only_functions,
+        "LBL": _label,
+        "CALL": _call,
+        "FN": _function,
+        "IF": _condition,
+        "Q": _parameter,
+        "QL": _parameter,
+        "QR": _parameter,
+    }
+)
+"""What runs a block, by its head word."""

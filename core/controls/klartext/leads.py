@@ -1,99 +1,118 @@
-"""APPR and DEP: the path of the tool center between a free point and the contour.
-
-LT is a straight line tangent to the contour, LN one square to it, CT an arc tangent to it over an angle, LCT a line
-and an arc tangent to each other and to the contour.  All lengths and radii count on the tool center: an approach
-ends at PA', the point square to the contour's first point at one tool radius.  PS is where the tool stands, PH
-where the lead itself begins.  Departures are approaches traveled backwards.
-"""
+"""Leads: APPR and DEP blocks, which apply and cancel compensation along a lead."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from enum import StrEnum
-from math import acos, atan2, cos, hypot, sin, tau
+import re
+from math import radians
 from typing import Final
 
-from core.controls.compensation.corners import WHOLE, beyond, square, turned
-from core.geometry.piece import Point
-from core.tolerance import JOINED
+from core.controls.compensation.corners import Element, square
+from core.controls.klartext.center_path import Role, Step
+from core.controls.klartext.lead_curves import Form, Lead, departure
+from core.controls.klartext.m_functions import functions
+from core.controls.klartext.path_functions import POLAR, polar_target, straight_element
+from core.controls.klartext.reader import Block
+from core.controls.klartext.state import AXES, COMMON, State, Words
+from core.controls.moves import solid
+from core.finding import Severity
 
-LEAST: Final = 1e-12
-"""Share of the radius by which rounding may put the start of an LCT inside its circle."""
-
-
-class Form(StrEnum):
-    """The shape of an approach or departure."""
-
-    LT = "LT"
-    LN = "LN"
-    CT = "CT"
-    LCT = "LCT"
+_FORM: Final = re.compile(r"[ \t]*(P?)(LT|LN|CT|LCT)(?![A-Z])", re.ASCII)
+_NEEDED: Final = {Form.LT: ("LEN",), Form.LN: ("LEN",), Form.CT: ("CCA", "R"), Form.LCT: ("R",)}
 
 
-@dataclass(frozen=True, slots=True)
-class Lead:
-    """A programmed lead: `length` of LT and LN, signed `radius` and `angle` (radians) of CT, `radius` of LCT."""
-
-    form: Form
-    length: float = 0.0
-    radius: float = 0.0
-    angle: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Curve:
-    """The lead on the tool center: straight to or from `point` (PH), and between it and the contour a line or an arc.
-
-    With `turn` 0 it is a line; an arc whose `point` is the contour's is a full circle.
-    """
-
-    point: Point
-    center: Point
-    turn: int
+def approach(state: State, block: Block) -> None:
+    """APPR LT, LN, CT, LCT and their polar forms: the lead to the contour's first point."""
+    form, polar, words = _read(state, block, "APPR")
+    end = polar_target(state, block, words)[0] if polar else state.target(block, words)
+    state.chosen_side(block, words)
+    _check_side(state, block, form)
+    lead = _lead(state, block, form, words)
+    before = state.before
+    rapid, feed = state.chosen_feed(block, words)
+    functions(state, block, words)
+    state.moving(block, rapid=rapid, feed=feed)
+    state.apply(block)
+    element = straight_element(state, block, end, rapid=rapid, feed=feed)
+    state.position, state.last = end, None
+    plane, hand = state.plane, _hand(state.offset, state.side)
+    state.push(Step(Role.APPROACH, element, state.offset, plane, lead=lead, hand=hand, before=before))
 
 
-def approach(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
-    """The approach from PS to PA' where the contour sets off in direction `way`.
-
-    `hand` is +1 with the tool on the left of the contour, -1 on the right, 0 without compensation: an LCT then has
-    its circle on the side PS lies on.  Points in millimeters.  None for an LCT that starts inside its own circle.
-    """
-    if lead.form is Form.LT:
-        point = beyond(end, way, -lead.length)
-        return Curve(point, point, 0)
-    if lead.form is Form.LN:
-        point = square(end, way, hand * lead.length)
-        return Curve(point, point, 0)
-    if lead.form is Form.CT:
-        center = square(end, way, hand * lead.radius)
-        turn = hand if lead.radius > 0.0 else -hand
-        whole = lead.angle >= tau - WHOLE
-        return Curve(end if whole else turned(end, center, -turn * lead.angle), center, turn)
-    return _tangent_arc(lead.radius, start, end, way, hand or _side_of(start, end, way))
-
-
-def _tangent_arc(radius: float, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
-    center = square(end, way, hand * radius)
-    dx, dy = start[0] - center[0], start[1] - center[1]
-    apart = hypot(dx, dy)
-    if apart < radius * (1.0 - LEAST):
-        return None
-    # Seen from the center PS lies behind PH by the angle whose cosine is radius / distance.
-    angle = atan2(dy, dx) + hand * acos(min(1.0, radius / apart))
-    point = (center[0] + radius * cos(angle), center[1] + radius * sin(angle))
-    if hypot(point[0] - end[0], point[1] - end[1]) <= JOINED:  # PS lies straight behind PA'
-        return Curve(end, end, 0)
-    return Curve(point, center, hand)
+def depart(state: State, block: Block) -> None:
+    """DEP LT, LN, CT, LCT and PLCT: the lead away from the contour's last point; it cancels compensation."""
+    form, polar, words = _read(state, block, "DEP")
+    _check_side(state, block, form)
+    last = state.last
+    if last is None:
+        state.stop("HE7", "DEP needs a contour element directly before it. Write an L or C block first.", block)
+    lead = _lead(state, block, form, words)
+    goal = _goal(state, block, words, form, last, lead, polar=polar)
+    rapid, feed = state.chosen_feed(block, words)
+    functions(state, block, words)
+    state.moving(block, rapid=rapid, feed=feed)
+    element = straight_element(state, block, goal, rapid=rapid, feed=feed)._replace(leaving=last.arriving)
+    hand = _hand(state.offset, state.applied)
+    state.push(Step(Role.DEPARTURE, element, state.offset, state.plane, lead=lead, hand=hand))
+    state.position, state.last, state.side = goal, None, 0
+    state.release()
 
 
-def _side_of(at: Point, corner: Point, way: Point) -> int:
-    return 1 if way[0] * (at[1] - corner[1]) - way[1] * (at[0] - corner[0]) >= 0.0 else -1
+def _read(state: State, block: Block, name: str) -> tuple[Form, bool, Words]:
+    """The form of a lead, whether its point is polar, and its words."""
+    lead = _FORM.match(block.body)
+    if lead is None or (name == "DEP" and lead[1] and lead[2] != "LCT"):
+        text = f"{name} needs its form: LT, LN, CT or LCT{', or with polar coordinates PLT ...' * (name == 'APPR')}."
+        state.stop("WORD", text, block)
+    form, polar = Form(lead[2]), bool(lead[1])
+    coordinates = POLAR if polar else frozenset(AXES)
+    return form, polar, state.words(block.after(lead.end()), COMMON | coordinates | set(_NEEDED[form]))
 
 
-def departure(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
-    """The departure from PE', where the contour ends in direction `way`, to `end` (only LCT looks at it).
+def _check_side(state: State, block: Block, form: Form) -> None:
+    if form in (Form.LN, Form.CT) and not (state.side or state.applied):
+        text = f"{block.head} {form} has no side without compensation. Write RL or RR with it."
+        state.stop("HE4", text, block, "R0")
+    if form is Form.LCT and not (state.side or state.applied):
+        text = "Without compensation this arc is taken to lie on the same side of the contour as the free point."
+        state.tell(Severity.INFO, "INTERPRETED", text, block)
 
-    It is the approach from `end` to PE' run backwards: the contour runs the other way with the tool on its other hand.
-    """
-    back = approach(lead, end, start, (-way[0], -way[1]), -hand)
-    return None if back is None else Curve(back.point, back.center, -back.turn)
+
+def _lead(state: State, block: Block, form: Form, words: Words) -> Lead:
+    for name in _NEEDED[form]:
+        if name not in words:
+            state.stop("LEAD", f"{block.head} {form} needs {name}. Write it with a number.", block)
+    length = state.length(block, words, "LEN") if "LEN" in words else 0.0
+    radius = state.length(block, words, "R") if "R" in words else 0.0
+    angle = state.number(block, words, "CCA") if "CCA" in words else 0.0
+    if length < 0.0 or ("LEN" in words and not length):
+        state.stop("LEAD", "LEN must be above 0.", block, "LEN")
+    if "R" in words and (not radius or (radius < 0.0 and form is Form.LCT)):
+        least = "must be above 0" if form is Form.LCT else "cannot be 0"
+        state.stop("LEAD", f"The radius of {block.head} {form} {least}.", block, "R")
+    if "CCA" in words and not 0.0 < angle <= 360.0:
+        state.stop("LEAD", "CCA must be above 0, up to 360 degrees. The sign of R turns the arc over.", block, "CCA")
+    return Lead(form, length, radius, radians(angle))
+
+
+def _goal(
+    state: State, block: Block, words: Words, form: Form, last: Element, lead: Lead, *, polar: bool
+) -> list[float]:
+    """Where a departure ends: as programmed for LCT, else where the lead itself does."""
+    end = polar_target(state, block, words)[0] if polar else state.target(block, words)
+    point, height = state.flat(end)
+    if form is Form.LCT:
+        return end
+    here = state.flat(state.position)[0]
+    if point != here:
+        text = f"DEP {form} ends where its lead ends. Only DEP LCT takes an end point."
+        state.stop("WORD", text, block)
+    start = square(here, last.arriving, state.offset)
+    curve = departure(lead, start, here, last.arriving, _hand(state.offset, state.applied))
+    return list(solid(*(curve.point if curve else here), height, state.plane))
+
+
+def _hand(offset: float, side: int) -> int:
+    """The side of the tool, which a negative radius turns over."""
+    if offset:
+        return 1 if offset > 0.0 else -1
+    return side

@@ -1,4 +1,4 @@
-"""The state of a Klartext program while it is read: what holds on from block to block, and how words are valued.
+"""State of a Klartext program: what holds on from block to block, and the values of a block's words.
 
 Everything is millimeters and millimeters a minute whatever the program's unit; positions are programmed ones.
 """
@@ -14,11 +14,10 @@ from typing import Final, NoReturn
 from core.controls.compensation.corners import Element
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
-from core.controls.klartext.blocks import WORD, Block, head_place, place, together
-from core.controls.klartext.center import Center
-from core.controls.klartext.formula import NoValue, evaluate
-from core.controls.klartext.rounding import NoRoom, chamfer, rounding
-from core.controls.klartext.steps import Corner, Role, Speed, Step
+from core.controls.klartext.center_path import FeedAt, Role, Step
+from core.controls.klartext.corner_rounding import WaitingElement
+from core.controls.klartext.formulas import NoValue, evaluate
+from core.controls.klartext.reader import WORD, Block, joined_name, place_of
 from core.controls.moves import Plane
 from core.controls.program_text import quoted
 from core.finding import Severity
@@ -37,21 +36,8 @@ COMMON: Final = frozenset(("R0", "RL", "RR", "F", "FMAX", "FAUTO", "M", "LA", "M
 FEEDS: Final = frozenset(("F", "FMAX", "FAUTO"))
 OTHER_AXES: Final = frozenset(f"{step}{name}" for step in ("", "I") for name in "ABCUVW")
 
-NOT_BESIDE: Final = "RND and CHF stand between two contour elements of one side, with nothing else between; move it."
-
 Words = dict[str, str]
 """The words of a block by name, each with its number as written; R0, RL, RR, M3 ... are names without a number."""
-
-
-@dataclass(slots=True)
-class Blend:
-    """A rounding (radius) or chamfer (leg) that waits for the element behind it."""
-
-    block: Block
-    size: float
-    round: bool
-    feed: float
-    column: int
 
 
 @dataclass(slots=True)
@@ -60,15 +46,16 @@ class State:
 
     `side` is what the last RL (+1), RR (-1) or R0 (0) said, `applied` what the tool's path has taken up since,
     `offset` the signed radius it runs at, and `ahead` the blocks that M120 looks ahead.  `last` is the contour element
-    just programmed, None where there is none to be tangent to.  `waiting` is that element as a step, until it is known
-    whether RND or CHF follows it.  `share` is the share of the tool's radius that is run with.
+    just programmed, None where there is none to be tangent to.  `waiting` takes the steps.  `share` is the
+    share of the tool's radius that is run with.
     """
 
     log: Log
-    center: Center
+    waiting: WaitingElement
     tools: ToolTable
-    blocks: Sequence[Block] = ()
-    labels: Mapping[str, int] = field(default_factory=dict)
+    blocks: Sequence[Block]
+    labels: Mapping[str, int]
+    share: float = 1.0
     unit: Unit = Unit.MM
     begun: bool = False
     ended: bool = False
@@ -87,51 +74,48 @@ class State:
     defined: dict[str, float] = field(default_factory=dict)
     tool: str = ""
     radius: float | None = None
-    speed: Speed = Speed.CENTER
+    feed_at: FeedAt = FeedAt.CENTER
     side: int = 0
     applied: int = 0
     offset: float = 0.0
     ahead: int = 0
     last: Element | None = None
-    waiting: Step | None = None
-    blend: Blend | None = None
-    share: float = 1.0
 
     def stop(self, code: str, text: str, block: Block, name: str = "", *lengths: float) -> NoReturn:
         """The control stops at a word of the block, or at its head."""
-        at = place(block, name) if name else head_place(block)
+        at = place_of(block, name)
         self.log.stop(code, text, at.line, at.column, lengths=lengths)
 
     def tell(self, severity: Severity, code: str, text: str, block: Block, name: str = "", *lengths: float) -> None:
         """Say something about a word of the block, or about the block."""
-        at = place(block, name) if name else head_place(block)
+        at = place_of(block, name)
         self.log.tell(severity, code, text, at.line, at.column, lengths=lengths)
 
     def words(self, block: Block, allowed: frozenset[str], pattern: Pattern[str] = WORD) -> Words:
-        """The block's words, all of them allowed and none twice; M words are told apart by their numbers."""
-        found: Words = {}
+        """The block's words, all of them allowed and none twice; M words have their numbers in their names."""
+        words: Words = {}
         for written, number, junk in pattern.findall(block.body):
-            name = together(written)
+            name = joined_name(written)
             if name == "R" and number == "0":
                 name, number = "R0", ""
             if name not in allowed:
                 self._unknown(block, name or junk, number)
             if name == "M":
                 name, number = f"M{number}", ""
-            if name in found:
-                self.stop("TWICE", f"{name} is written twice in this block; keep one.", block, name)
-            found[name] = number
-        return found
+            if name in words:
+                self.stop("TWICE", f"{name} is written twice in this block. Keep one.", block, name)
+            words[name] = number
+        return words
 
     def _unknown(self, block: Block, name: str, number: str) -> NoReturn:
         if name in OTHER_AXES and number:
-            text = f"{name} is a rotary or parallel axis; its moves are not worked out here."
+            text = f"{name} is a rotary or parallel axis, which is not supported."
         elif name == "R" and number in ("+", "-"):
-            text = "R+ and R- are for single-axis blocks, which are not worked out here; write L with R0, RL or RR."
+            text = "R+ and R- are for single-axis blocks, which are not supported. Write L with R0, RL or RR."
         else:
-            at = place(block, name)
-            written = block.body[at.column - block.column :].split(maxsplit=1)[0]
-            text = f"{quoted(written)} is not understood in a block {quoted(block.head)}."
+            column = place_of(block, name).column
+            written = block.body[column - block.column :].split(maxsplit=1)[0]
+            text = f"{quoted(written)} is no word of a block {quoted(block.head)}."
         self.stop("WORD", text, block, name)
 
     def number(self, block: Block, words: Words, name: str) -> float:
@@ -147,8 +131,12 @@ class State:
 
     def _other_number(self, block: Block, name: str, raw: str) -> float:
         if not raw or raw in "+-":
-            self.stop("NUMBER", f"{name} needs a number behind it.", block, name)
-        value = evaluate(raw, self.parameters)
+            self.stop("NUMBER", f"{name} needs a number after it.", block, name)
+        return self.value(raw, block, name)
+
+    def value(self, formula: str, block: Block, name: str = "") -> float:
+        """The value of a formula."""
+        value = evaluate(formula, self.parameters)
         if isinstance(value, NoValue):
             self.stop("Q", value.text, block, name)
         return value
@@ -173,7 +161,7 @@ class State:
                 if not relative:
                     self.known.add(axis)
                 elif AXES[name[1:]][0] == axis and name[1:] in words:
-                    self.stop("TWICE", f"{name} and {name[1:]} stand in one block; keep one.", block, name)
+                    self.stop("TWICE", f"{name} and {name[1:]} are in one block. Keep one.", block, name)
                 base = self.position[axis] if relative else self.shift[axis]
                 position[axis] = base + self.length(block, words, name)
         return position
@@ -184,10 +172,10 @@ class State:
             return
         names = [name for name in SIDES if name in words]
         if len(names) > 1:
-            self.stop("TWICE", f"{names[0]} and {names[1]} stand in one block; keep one.", block, names[1])
+            self.stop("TWICE", f"{names[0]} and {names[1]} are in one block. Keep one.", block, names[1])
         side = SIDES[names[0]]
         if side and side == -(self.applied or self.side):
-            text = "The side changes without R0 between; cancel in an L block with R0 first, then apply it anew."
+            text = "The side changes without R0 between. Cancel in an L block with R0 first."
             self.stop("HE1", text, block, names[0])
         self.side = side
 
@@ -197,7 +185,7 @@ class State:
             return False, self.feed
         names = [name for name in words if name in FEEDS]
         if len(names) > 1:
-            self.stop("TWICE", f"{names[0]} and {names[1]} stand in one block; keep one.", block, names[1])
+            self.stop("TWICE", f"{names[0]} and {names[1]} are in one block. Keep one.", block, names[1])
         if "F" in words:
             self.feed = self.length(block, words, "F")
         elif "FAUTO" in words:
@@ -207,44 +195,9 @@ class State:
         return "FMAX" in words, self.feed
 
     def push(self, step: Step) -> None:
-        """Hand a step on; a contour element waits for a rounding or chamfer behind it."""
-        if self.ahead and step.role is Role.CONTOUR:
-            step = step._replace(ahead=self.ahead)
-        if step.role is not Role.CONTOUR and step.role is not Role.FREE:
-            self.flush()
-            self.center.push(step)
-            return
-        if self.blend:
-            step = self._blended(self.blend, step)
-        elif self.waiting:
-            self.center.push(self.waiting)
-        self.waiting = step
-
-    def _blended(self, blend: Blend, second: Step) -> Step:
-        """Hand on the waiting element and what joins it to the next, and give back the next cut short."""
-        first, self.waiting, self.blend = self.waiting, None, None
-        if first is None or first.role is not second.role:
-            self._no_blend(blend, NOT_BESIDE)
-        join = rounding if blend.round else chamfer
-        parts = join(first.element, second.element, blend.size)
-        if isinstance(parts, NoRoom):
-            self._no_blend(blend, parts.text)
-        line, column = blend.block.line, blend.column
-        between = parts[1]._replace(line=line, column=column, rapid=False, feed=blend.feed)
-        self.center.push(first._replace(element=parts[0], corner=Corner.PLAIN))
-        self.center.push(first._replace(element=between, corner=Corner.PLAIN))
-        return second._replace(element=parts[2])
-
-    def flush(self) -> None:
-        """Hand on the element that waits: what follows is no rounding of it."""
-        if self.blend:
-            self._no_blend(self.blend, NOT_BESIDE)
-        if self.waiting:
-            waiting, self.waiting = self.waiting, None
-            self.center.push(waiting)
-
-    def _no_blend(self, blend: Blend, text: str) -> NoReturn:
-        self.log.stop("CORNER", text, blend.block.line, blend.column)
+        """The next step, for the center path."""
+        ahead = self.ahead if step.role is Role.CONTOUR else 0
+        self.waiting.push(step._replace(ahead=ahead) if ahead else step)
 
     def moving(self, block: Block, *, rapid: bool, feed: float) -> None:
         """Take note of a block that moves, and say what it lacks."""
@@ -252,11 +205,11 @@ class State:
         if rapid:
             return
         if not feed:
-            text = "No feed is programmed for this move, and the control stops for it; write F or FMAX."
+            text = "This move has no feed: the control stops here. Write F or FMAX."
             self.tell(Severity.WARNING, "FEED", text, block)
         if len(self.known) < 3 and not self.known.issuperset(self.plane.axes[:2]):
             self.known.update(self.plane.axes[:2])
-            text = "Where the tool stands is not programmed yet and taken as 0; write an L block with both axes before."
+            text = "The tool's position is not programmed yet and taken as 0. Write an L block with both axes before."
             self.tell(Severity.WARNING, "POSITION", text, block)
 
     def apply(self, block: Block) -> None:
@@ -265,13 +218,13 @@ class State:
             self.applied, self.offset = self.side, self.offset if self.side else 0.0
             return
         if self.radius is None:
-            text = "The tool's radius is not known; write TOOL DEF and TOOL CALL, or give the tool's diameter."
+            text = "The tool's radius is unknown. Write TOOL DEF and TOOL CALL, or give the tool's diameter."
             self.stop("TOOL", text, block, "RL" if self.side > 0 else "RR")
         if self.radius < 0.0:
-            text = "The tool radius {0} with its deltas is negative: the tool runs on the other side of the contour."
+            text = "Tool radius {0} with its deltas is negative: the tool runs on the other side of the contour."
             self.tell(Severity.WARNING, "TOOL", text, block, "", self.radius)
         elif not self.radius:
-            self.tell(Severity.WARNING, "TOOL", "The tool radius is 0: the center runs on the contour.", block)
+            self.tell(Severity.WARNING, "TOOL", "Tool radius 0: the center runs on the contour.", block)
         self.applied, self.offset = self.side, self.side * self.radius * self.share
 
     def release(self) -> None:

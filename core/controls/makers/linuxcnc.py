@@ -15,8 +15,7 @@ from typing import Final
 from core.controls.compensation.chain import OneMoveQueue
 from core.controls.control_run import Log, Run
 from core.controls.control_tools import ToolTable, not_there
-from core.controls.iso.arcs import ArcRadii
-from core.controls.iso.dialect import Dialect, Do, codes
+from core.controls.iso.dialect import Arcs, Dialect, Do, codes
 from core.controls.iso.flow import execute
 from core.controls.iso.machine import Control
 from core.controls.iso.macro import Kept
@@ -25,6 +24,8 @@ from core.controls.moves import Plane
 from core.finding import Severity
 from core.geometry.piece import Side
 from core.units import Unit
+
+_ARCS: Final = Arcs(inch=0.002828427, mm=0.02828427, worst=100.0)
 
 DIALECT: Final = Dialect(
     "linuxcnc",
@@ -49,7 +50,7 @@ DIALECT: Final = Dialect(
     Unit.MM,
     mode=None,
     syntax=Syntax(blanks=False),
-    arc_radii=ArcRadii(inch=0.002828427, mm=0.02828427, most=100.0, interpreted=False),
+    arcs=_ARCS,
     moves_alone=True,
     feed_needed=True,
     table_needed=True,

@@ -17,7 +17,7 @@ from core.controls.compensation.corners import Element, element_sweep, fits, off
 from core.controls.compensation.joint import Corner, CornerRules, Joint
 from core.controls.control_run import Log, Run
 from core.controls.control_tools import ToolTable
-from core.controls.iso.dialect import Dialect, Do, codes
+from core.controls.iso.dialect import Arcs, Dialect, Do, codes
 from core.controls.iso.flow import execute
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import Block, Semicolon, Slash, Syntax
@@ -34,7 +34,7 @@ DIALECT: Final = Dialect(
         ("deceleration", Do.OWN, (990,)),
     ),
     Unit.IN,
-    absolute_centers=True,
+    arcs=Arcs(absolute=True),
     syntax=Syntax(Semicolon.END, Slash.DATA),
     loads_at_t=True,
     subprograms=False,

@@ -19,7 +19,7 @@ from core.finding import Severity
 from core.geometry.piece import Side
 from core.units import Unit, from_mm
 from tests.core.controls.klartext.klartext_runs import HEAD
-from tests.core.controls.klartext.test_center_laws import LEGS, pieces_of, programmed
+from tests.core.controls.klartext.test_center_path_laws import LEGS, pieces_of, programmed
 
 NEAR = pytest.approx
 HOOK = ("L X-30 Y-30 R0 FMAX", "L Z-5", "L X+0 Y+0 RL F200", "L Y+50", "L X+40", "L X-30 R0")

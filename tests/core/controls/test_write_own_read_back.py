@@ -22,7 +22,7 @@ from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Side, Turn
 from core.geometry.piece import Line as Straight
 from core.units import Unit
-from tests.core.controls.klartext.test_center_laws import LEGS, pieces_of
+from tests.core.controls.klartext.test_center_path_laws import LEGS, pieces_of
 from tests.core.controls.own_programs import (
     EVERY,
     INCH,

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from core.controls.klartext.leads import Curve, Form, Lead, approach, departure
+from core.controls.klartext.lead_curves import Curve, Form, Lead, approach, departure
 from core.geometry.piece import Point
 
 EAST = (1.0, 0.0)

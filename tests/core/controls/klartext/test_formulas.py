@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.controls.klartext.formula import NoValue, evaluate
+from core.controls.klartext.formulas import NoValue, evaluate
 
 
 @pytest.mark.parametrize(
@@ -40,18 +40,18 @@ def test_values(text: str, value: float) -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("1 / 0", "no value"),
-        ("SQRT -1", "no value"),
+        ("1 / 0", "divides by zero"),
+        ("SQRT -1", "outside its range"),
         ("Q2 + 1", "Q2 has no value yet"),
-        ("1 +", "The end stands"),
+        ("1 +", "needs a number where it ends"),
         ("( 1", "not closed"),
-        ("1 2", "2 is not understood"),
-        ("10 ^ 400", "no value"),
-        ("%", "stands where"),
-        ("", "The end stands"),
-        ("(" * 5000, "too deep"),
-        ("-" * 5000, "too deep"),
-        ("1e5", "not understood"),
+        ("1 2", "cannot have 2 here"),
+        ("10 ^ 400", "outside its range"),
+        ("%", "needs a number where % stands"),
+        ("", "needs a number where it ends"),
+        ("(" * 5000, "nests more than 50"),
+        ("-" * 5000, "nests more than 50"),
+        ("1e5", "cannot have e here"),
     ],
 )
 def test_no_values(text: str, words: str) -> None:

@@ -1,4 +1,4 @@
-"""M functions: which end the program, which change the path, which are only told."""
+"""M functions: which end the program, which change the path, which only leave a finding."""
 
 from __future__ import annotations
 
@@ -6,19 +6,20 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.klartext.blocks import Block
+from core.controls.compensation.joint import CornerRules
+from core.controls.klartext.center_path import M97, M98, PLAIN, FeedAt
+from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXES, State, Words
-from core.controls.klartext.steps import Corner, Speed
 from core.controls.program_text import quoted
 from core.finding import Severity
 
-FARTHEST: Final = 99
+MAX_LOOK_AHEAD: Final = 99
 """Blocks that M120 can look ahead."""
 
-AHEAD: Final = "M120 is taken to leave out what lies between two crossings of the path within so many blocks."
+M120_SKIPS: Final = "M120 is taken to skip what lies between two crossings of the path within so many blocks."
 
-_SPEEDS: Final[Mapping[int, Speed]] = MappingProxyType({109: Speed.EDGE, 110: Speed.INSIDE, 111: Speed.CENTER})
-_CORNERS: Final[Mapping[int, Corner]] = MappingProxyType({97: Corner.M97, 98: Corner.M98})
+_FEEDS: Final[Mapping[int, FeedAt]] = MappingProxyType({109: FeedAt.EDGE, 110: FeedAt.INSIDE_EDGE, 111: FeedAt.CENTER})
+_CORNERS: Final[Mapping[int, CornerRules]] = MappingProxyType({97: M97, 98: M98})
 _SILENT: Final = frozenset((0, 1, 3, 4, 5, 6, 7, 8, 9, 13, 14))
 _MOVING: Final = frozenset((89, 91, 92, 99, 114, 128, 130, 140, 144))
 _MACHINE: Final = frozenset(("M91", "M92", "M140"))
@@ -34,9 +35,9 @@ _DIFFERENT: Final[Mapping[int, str]] = MappingProxyType(
 )
 
 
-def functions(state: State, block: Block, words: Words) -> Corner:
-    """Take up the block's M words; how the corner at its end is made."""
-    corner = Corner.PLAIN
+def functions(state: State, block: Block, words: Words) -> CornerRules:
+    """Take up the block's M words; the rules of the corner at its end."""
+    corner = PLAIN
     for name in words:
         if name == "M120":
             _look_ahead(state, block, words)
@@ -44,25 +45,25 @@ def functions(state: State, block: Block, words: Words) -> Corner:
             corner = _function(state, block, name, corner)
     for name, owner in _BELONGS.items():
         if name in words and owner not in words:
-            state.stop("WORD", f"{name} belongs to {owner}; write it with {owner}, or leave it out.", block, name)
+            state.stop("WORD", f"{name} belongs to {owner}. Write it with {owner}, or leave it out.", block, name)
     return corner
 
 
-def _function(state: State, block: Block, name: str, corner: Corner) -> Corner:
+def _function(state: State, block: Block, name: str, corner: CornerRules) -> CornerRules:
     if not name[1:].isdecimal():
-        state.stop("NUMBER", "M needs a whole number behind it.", block, name)
+        state.stop("NUMBER", "M needs a whole number after it.", block, name)
     code = int(name[1:])
     if code in (2, 30):
         state.ended = True
-    elif code in _SPEEDS:
-        state.speed = _SPEEDS[code]
+    elif code in _FEEDS:
+        state.feed_at = _FEEDS[code]
     elif code in _CORNERS:
         return _CORNERS[code]
     elif code in _MOVING:
-        text = f"{quoted(name)} moves the axes in a way that is not worked out here."
+        text = f"{quoted(name)} moves the axes, which is not supported."
         state.stop("WORD", text, block, name)
     elif code in _DIFFERENT:
-        state.tell(Severity.WARNING, "M", f"{name} is not worked out here: {_DIFFERENT[code]}.", block, name)
+        state.tell(Severity.WARNING, "M", f"{name} is not supported: {_DIFFERENT[code]}.", block, name)
     elif code not in _SILENT:
         state.tell(Severity.INFO, "M", f"{quoted(name)} is taken to move nothing.", block, name)
     return corner
@@ -71,13 +72,13 @@ def _function(state: State, block: Block, name: str, corner: Corner) -> Corner:
 def _look_ahead(state: State, block: Block, words: Words) -> None:
     """M120 LA n from this block on until R0; without LA, or with LA0, off."""
     depth = state.number(block, words, "LA") if "LA" in words else 0.0
-    if not 0.0 <= depth <= FARTHEST or depth != int(depth):
-        state.stop("NUMBER", f"LA is a whole number of blocks up to {FARTHEST}.", block, "LA")
+    if not 0.0 <= depth <= MAX_LOOK_AHEAD or depth != int(depth):
+        state.stop("NUMBER", f"LA is a whole number of blocks up to {MAX_LOOK_AHEAD}.", block, "LA")
     if depth and not state.side:
-        text = "M120 has no effect here: it looks ahead under RL or RR only; write it into that block."
+        text = "M120 has no effect here. Write it into a block with RL or RR."
         state.tell(Severity.WARNING, "M", text, block, "M120")
     elif depth:
-        state.tell(Severity.INFO, "INTERPRETED", AHEAD, block, "M120")
+        state.tell(Severity.INFO, "INTERPRETED", M120_SKIPS, block, "M120")
     state.ahead = int(depth) if state.side else 0
 
 
@@ -97,8 +98,8 @@ def leaves_workpiece(state: State, block: Block, words: Words) -> bool:
         return False
     for name in words.keys() & AXES.keys():
         state.known.discard(AXES[name][0])
-    state.flush()
+    state.waiting.flush()
     state.last = None
-    text = "This move ends where only the machine knows, and is left out; the next absolute words set the place again."
+    text = "This move ends where only the machine knows, and is skipped. The next absolute words set the position."
     state.tell(Severity.WARNING, "MACHINE", text, block)
     return True

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from core.controls.klartext.blocks import LONGEST, TOO_LONG, WORD, Block, Place, blocks, place
+from core.controls.klartext.reader import MAX_LINE_LENGTH, TOO_LONG, WORD, Block, Place, place_of, read_blocks
 
 
 def only(line: str) -> Block:
-    (block,) = blocks([line])
+    (block,) = read_blocks([line])
     return block
 
 
@@ -28,12 +28,12 @@ def test_glued_heads() -> None:
 
 
 def test_empty_lines_and_comments_are_no_blocks() -> None:
-    assert list(blocks(["", "   ", "; only this", "14", "15 ; that"])) == []
+    assert list(read_blocks(["", "   ", "; only this", "14", "15 ; that"])) == []
 
 
 def test_a_line_that_ends_in_a_tilde_goes_on_in_the_next() -> None:
     lines = ["5 CYCL DEF 200 DRILLING ~", " Q200=2 ;CLEARANCE ~", " Q201=-20 ;DEPTH", "6 L X+1"]
-    assert [(block.line, block.head) for block in blocks(lines)] == [(1, "CYCL"), (4, "L")]
+    assert [(block.line, block.head) for block in read_blocks(lines)] == [(1, "CYCL"), (4, "L")]
 
 
 def test_a_sign_that_begins_nothing_is_a_head_of_its_own() -> None:
@@ -43,7 +43,7 @@ def test_a_sign_that_begins_nothing_is_a_head_of_its_own() -> None:
 
 def test_a_line_of_a_megabyte_is_not_read() -> None:
     assert only("L X+1 " * 170_000) == Block(1, TOO_LONG, "", 1, skip=False)
-    assert only("L" + " " * (LONGEST - 4) + "X+1").head == "L"
+    assert only("L" + " " * (MAX_LINE_LENGTH - 4) + "X+1").head == "L"
 
 
 def test_words() -> None:
@@ -56,6 +56,6 @@ def test_words() -> None:
 
 def test_places_of_words() -> None:
     block = only("12 L X+1 RL M3")
-    assert place(block, "RL") == Place(1, 10)
-    assert place(block, "M3") == Place(1, 13)
-    assert place(block, "Y") == Place(1, 4)
+    assert place_of(block, "RL") == Place(1, 10)
+    assert place_of(block, "M3") == Place(1, 13)
+    assert place_of(block, "Y") == Place(1, 4)

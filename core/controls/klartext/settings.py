@@ -1,4 +1,4 @@
-"""What a Klartext program sets before it moves: its name and unit, the blank, tools, datum shifts."""
+"""Settings: what a program sets without moving: its unit, tools, cycles and datum shifts."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from math import inf
 from typing import Final
 
-from core.controls.klartext.blocks import LONGEST, TOO_LONG, TOOL_WORD, Block
+from core.controls.klartext.reader import MAX_LINE_LENGTH, TOO_LONG, TOOL_WORD, Block
 from core.controls.klartext.state import State, Words
 from core.controls.moves import Plane
 from core.controls.program_text import quoted
@@ -22,19 +22,20 @@ _NEUTRAL: Final = {
     11: re.compile(r"\s*SCL\s*\+?0*1(?:\.0*)?\s*", re.ASCII),
     19: re.compile(r"(?:\s*[ABC]\s*[+-]?0+(?:\.0*)?)*\s*", re.ASCII),
 }
-"""Cycles that turn, mirror, scale or tilt, and what stands behind them where they do none of it."""
+"""Cycles that turn, mirror, scale or tilt, and the words with which they do none of it."""
 
-_BEYOND: Final = (
-    (re.compile(r"CALL\s*PGM|PGM\s*CALL", re.ASCII), "runs another file, which is not read here; copy its blocks in."),
-    (re.compile(r"F(?:L|LT|C|CT|POL|SELECT)\b", re.ASCII), "is free contour programming (FK), which is not worked out"
-     " here; write L, C, CR or CT with end points."),
-    (re.compile(r"FN\b|IF\b", re.ASCII), "is a function that is not worked out here; FN 0 to 13 with numbers are."),
-    (re.compile(r"PLANE\b|TRANS\b", re.ASCII), "turns, mirrors or tilts, which is not worked out here."),
-)  # fmt: skip
-"""Blocks that the control knows and that are not followed here, and what is to be said of them."""
+_UNSUPPORTED: Final = (
+    (re.compile(r"CALL\s*PGM|PGM\s*CALL", re.ASCII), "runs another file. Copy its blocks in."),
+    (
+        re.compile(r"F(?:L|LT|C|CT|POL|SELECT)\b", re.ASCII),
+        "is free contour programming (FK), which is not supported. Write L, C, CR or CT with end points.",
+    ),
+    (re.compile(r"FN\b|IF\b", re.ASCII), "is not supported. Use FN 0 to 13 with numbers."),
+    (re.compile(r"PLANE\b|TRANS\b", re.ASCII), "turns, mirrors or tilts, which is not supported."),
+)
+"""Blocks that the control knows and that are not supported here, and the end of the sentence about them."""
 
 _PLANES: Final = {"Z": Plane.XY, "X": Plane.YZ, "Y": Plane.ZX}
-_AXES: Final = frozenset(_PLANES)
 _DEF: Final = frozenset(("L", "R", "R2", "DL", "DR", "DR2"))
 _CALL: Final = frozenset(("S", "F", "DL", "DR", "DR2", "X", "Y", "Z"))
 _SHIFTING: Final = {f"{step}{name}": axis for step in ("", "I") for axis, name in enumerate("XYZ")}
@@ -42,28 +43,28 @@ _SHIFTING: Final = {f"{step}{name}": axis for step in ("", "I") for axis, name i
 
 def begin(state: State, block: Block) -> None:
     """BEGIN PGM name MM or INCH."""
-    found = _BEGIN.match(block.body)
-    if found is None:
-        state.stop("UNIT", "BEGIN PGM needs a name and MM or INCH; write BEGIN PGM PART MM.", block)
+    name_and_unit = _BEGIN.match(block.body)
+    if name_and_unit is None:
+        state.stop("UNIT", "BEGIN PGM needs a name and MM or INCH. Write BEGIN PGM PART MM.", block)
     if state.begun:
-        state.stop("PROGRAM", "A second program begins here; keep one program in a file.", block)
+        state.stop("PROGRAM", "A second program begins here. Keep one program in a file.", block)
     state.begun = True
-    state.unit = Unit.IN if found[2] == "INCH" else Unit.MM
+    state.unit = Unit.IN if name_and_unit[2] == "INCH" else Unit.MM
     if state.unit is Unit.IN:
-        text = "F is taken as inches a minute; some of these controls take tenths of an inch a minute."
+        text = "F is taken as inches a minute. Some of these controls take tenths of an inch a minute."
         state.tell(Severity.INFO, "UNIT", text, block)
 
 
 def end(state: State, block: Block) -> None:
     """END PGM."""
     if not block.body.strip().startswith("PGM"):
-        state.stop("WORD", "The program ends with END PGM, its name and unit.", block)
+        state.stop("WORD", "END needs PGM, the program's name and unit.", block)
     state.ended = True
 
 
 def ignored(state: State, block: Block) -> None:
     """BLK FORM and the like: nothing that moves."""
-    state.tell(Severity.INFO, "IGNORED", f"{quoted(block.head)} moves nothing and is passed over.", block)
+    state.tell(Severity.INFO, "IGNORED", f"{quoted(block.head)} moves nothing and is skipped.", block)
 
 
 def structure(state: State, block: Block) -> None:
@@ -71,31 +72,30 @@ def structure(state: State, block: Block) -> None:
 
 
 def plane(state: State, block: Block) -> None:
-    """PLANE RESET STAY, which undoes a tilting there is none of; any other PLANE is not worked out here."""
+    """PLANE RESET STAY, which undoes a tilting there is none of; any other PLANE is not supported."""
     if block.body.split() != ["RESET", "STAY"]:
         unknown(state, block)
     ignored(state, block)
 
 
 def unknown(state: State, block: Block) -> None:
-    """A block that is not understood, or not worked out here: the program stops."""
+    """A block that is not understood or not supported: the program stops."""
     if block.head == TOO_LONG:
-        state.stop("WORD", f"This line has more than {LONGEST} signs; no control takes it.", block)
+        state.stop("WORD", f"This line has more than {MAX_LINE_LENGTH} characters. No control takes it.", block)
     whole = block.head + block.body
-    why = next((why for pattern, why in _BEYOND if pattern.match(whole)), "")
-    text = "is not understood here; write L, C, CR, CT, APPR or DEP."
-    state.stop("WORD", f"{quoted(whole)} {why or text}", block)
+    why = next((why for pattern, why in _UNSUPPORTED if pattern.match(whole)), "")
+    state.stop("WORD", f"{quoted(whole)} {why or 'is no block of Klartext. Write L, C, CR, CT, APPR or DEP.'}", block)
 
 
 def tool(state: State, block: Block) -> None:
     """TOOL DEF and TOOL CALL."""
-    found = _NUMBERED.match(block.body)
-    if found is None:
+    number = _NUMBERED.match(block.body)
+    if number is None:
         unknown(state, block)
         return
-    rest = block._replace(body=" " * found.end() + block.body[found.end() :])
-    name = found[2] if found[2] is not None else (found[3] or "").replace(",", ".").removeprefix("+")
-    if found[1] == "DEF":
+    rest = block.after(number.end())
+    name = number[2] if number[2] is not None else (number[3] or "").replace(",", ".").removeprefix("+")
+    if number[1] == "DEF":
         _define(state, rest, name, state.words(rest, _DEF, TOOL_WORD))
     else:
         _call(state, rest, name, state.words(rest, _CALL, TOOL_WORD))
@@ -104,7 +104,7 @@ def tool(state: State, block: Block) -> None:
 def _define(state: State, block: Block, name: str, words: Words) -> None:
     """TOOL DEF n L R: without a radius it only names the tool that comes next."""
     if not name:
-        state.stop("TOOL", "TOOL DEF needs the tool's number; write TOOL DEF 1 L+0 R+5.", block)
+        state.stop("TOOL", "TOOL DEF needs the tool's number. Write TOOL DEF 1 L+0 R+5.", block)
     if "R" in words:
         delta = state.length(block, words, "DR") if "DR" in words else 0.0
         state.defined[name] = state.length(block, words, "R") + delta
@@ -113,24 +113,24 @@ def _define(state: State, block: Block, name: str, words: Words) -> None:
 def _call(state: State, block: Block, name: str, words: Words) -> None:
     if "F" in words:
         state.feed = state.tool_feed = state.length(block, words, "F")
-    if not name and not words.keys() & ({"DR"} | _AXES):
+    if not name and not words.keys() & ({"DR"} | _PLANES.keys()):
         return
     if state.applied:
-        text = "The tool cannot be changed under compensation; cancel it with R0 or DEP first."
+        text = "The tool cannot be changed under compensation. Cancel it with R0 or DEP first."
         state.stop("TOOL", text, block)
-    state.flush()
-    axes = sorted(words.keys() & _AXES)
+    state.waiting.flush()
+    axes = sorted(words.keys() & _PLANES.keys())
     if len(axes) > 1:
-        state.stop("TWICE", f"{axes[0]} and {axes[1]} stand as tool axes; keep one.", block, axes[1])
+        state.stop("TWICE", f"{axes[0]} and {axes[1]} are both tool axes. Keep one.", block, axes[1])
     if axes and _PLANES[axes[0]] is not state.plane:
         state.plane, state.pole = _PLANES[axes[0]], None
     state.tool = name or state.tool
     state.last = None
     delta = state.length(block, words, "DR") if "DR" in words else 0.0
-    _take(state, block, delta)
+    _take_radius(state, block, delta)
 
 
-def _take(state: State, block: Block, delta: float) -> None:
+def _take_radius(state: State, block: Block, delta: float) -> None:
     """Radius of the tool in force: of the tool table if it has the tool, else of TOOL DEF, with the deltas."""
     listed = state.tools.get(int(state.tool)) if state.tool.isdecimal() and len(state.tool) < 9 else None
     defined = state.defined.get(state.tool)
@@ -149,37 +149,41 @@ def _take(state: State, block: Block, delta: float) -> None:
 
 
 def cycle(state: State, block: Block) -> None:
-    """CYCL DEF and CYCL CALL: the datum shift is done, cycles that wait for their call are passed over."""
-    found = _CYCLE.match(block.body)
-    number = int(found[2][:6]) if found and found[2] else 0
-    rest = block._replace(body=" " * found.end() + block.body[found.end() :]) if found else block
-    if found is None or found[1] == "CALL" or not number:
-        text = "Cycles are not worked out here: their moves are not known, so the run ends before them."
-        state.stop("WORD", text, block)
+    """CYCL DEF and CYCL CALL: the datum shift is done, cycles that wait for their call are skipped."""
+    head = _CYCLE.match(block.body)
+    number = int(head[2][:6]) if head and head[2] else 0
+    rest = block.after(head.end()) if head else block
+    if head is None or head[1] == "CALL" or not number:
+        state.stop("WORD", "Calling cycles is not supported: their moves are unknown. The run ends here.", block)
     elif number == 7:
-        if found[3] not in (None, "0"):
+        if head[3] not in (None, "0"):
             shift(state, rest)
-    elif number in _NEUTRAL and found[3] == "0":
-        return  # only the cycle's name; what it does stands behind it
+    elif number in _NEUTRAL and head[3] == "0":
+        return  # only the cycle's name; what it does comes in the blocks after it
     elif number in _NEUTRAL and _NEUTRAL[number].fullmatch(rest.body):
-        text = f"Cycle {number} is passed over: here it turns nothing, mirrors nothing and scales nothing."
+        text = f"Cycle {number} is skipped: these values turn, mirror and scale nothing."
         state.tell(Severity.INFO, "IGNORED", text, block)
-    elif number == 247 and len(state.center.record.tape) == 1 and state.waiting is None:
-        text = "Cycle 247 chooses the workpiece's datum, from which everything is quoted."
+    elif number == 247 and _at_the_start(state):
+        text = "Cycle 247 selects the workpiece datum. All positions count from it."
         state.tell(Severity.INFO, "IGNORED", text, block)
     elif number in (8, 10, 11, 19, 26, 27, 28, 29, 220, 221, 247) or number >= 400:
-        text = f"Cycle {number} changes where things are; it is not worked out here."
+        text = f"Cycle {number} moves or transforms the contour, which is not supported."
         state.stop("WORD", text, block)
     else:
-        text = f"Cycle {number} is passed over: it moves nothing before it is called."
+        text = f"Cycle {number} is skipped: it moves nothing before it is called."
         state.tell(Severity.INFO, "IGNORED", text, block)
+
+
+def _at_the_start(state: State) -> bool:
+    """Whether nothing has moved yet."""
+    return len(state.waiting.center.record.tape) == 1 and state.waiting.step is None
 
 
 def shift(state: State, block: Block) -> None:
     """A datum shift: absolute words count from the unshifted datum, incremental ones from the last shift."""
     words = state.words(block, frozenset(_SHIFTING))
     if not words:
-        state.stop("WORD", "A datum shift needs an axis and a value here; write X+10.", block)
+        state.stop("WORD", "A datum shift needs an axis and a value. Write X+10.", block)
     for name, axis in _SHIFTING.items():
         if name in words:
             value = state.length(block, words, name)
@@ -189,10 +193,10 @@ def shift(state: State, block: Block) -> None:
 
 def transformation(state: State, block: Block) -> None:
     """TRANS DATUM AXIS and TRANS DATUM RESET."""
-    found = re.match(r"\s*DATUM\s+(AXIS|RESET)\b", block.body, re.ASCII)
-    if found is None:
+    head = re.match(r"\s*DATUM\s+(AXIS|RESET)\b", block.body, re.ASCII)
+    if head is None:
         unknown(state, block)
-    elif found[1] == "AXIS":
-        shift(state, block._replace(body=" " * found.end() + block.body[found.end() :]))
+    elif head[1] == "AXIS":
+        shift(state, block.after(head.end()))
     else:
         state.shift, state.pole = [0.0, 0.0, 0.0], None

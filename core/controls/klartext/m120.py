@@ -1,7 +1,7 @@
-"""M120 LA: the center path computed some blocks ahead, which leaves out what the tool cannot reach.
+"""M120 LA: the center path computed some blocks ahead, without what the tool cannot reach.
 
-What is said of M120 is that the control looks for undercuts and for crossings of the path with itself in the blocks
-ahead, and does not machine what lies between.  That is the look-ahead rule of a MILL CONTOUR block, which is used here.
+The control's manual says that M120 looks for undercuts and for crossings of the path with itself in the blocks ahead,
+and does not machine what lies between.  That is the look-ahead rule of a MILL CONTOUR block, which is used here.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ class Run(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Ahead:
-    """The center path along some elements: where and in which direction it starts, its pieces, what it leaves out."""
+class PathAhead:
+    """The center path along some elements: its start point and direction, its pieces, the elements it leaves out."""
 
     start: Point
     way: Point
@@ -51,39 +51,41 @@ class Unreached:
 
     row: int
     text: str
-    before: Ahead | None = None
+    before: PathAhead | None = None
 
 
-def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Point | None) -> Ahead | Unreached:
+def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Point | None) -> PathAhead | Unreached:
     """The center path along elements that join, looked at `depth` blocks ahead, tool radius `offset` to the left.
 
     `begin`: where the path stands already, on the first element's offset; None for square to its start.
     """
     side = Side.LEFT if offset > 0.0 else Side.RIGHT
-    found = compensate(_contour(elements), side, abs(offset), depth, closed=False)
-    if not len(found.path):
+    compensated = compensate(_contour(elements), side, abs(offset), depth, closed=False)
+    if not len(compensated.path):
         return Unreached(0, "the tool of radius {0} reaches nothing of this contour")
-    if bool(found.bridged.any()):
-        row = int(found.path.numbers[found.bridged][0])
-        start, way = _point(found.path.points[0]), _point(found.path.start_directions[0])
-        before = Ahead(begin or start, way, tuple(one for one in _runs(found.path) if one.row < row), ())
-        why = "within the blocks of LA the tool of radius {0} finds no way past this block"
+    if bool(compensated.bridged.any()):
+        row = int(compensated.path.numbers[compensated.bridged][0])
+        start, way = _point(compensated.path.points[0]), _point(compensated.path.start_directions[0])
+        before = PathAhead(begin or start, way, tuple(run for run in _runs(compensated.path) if run.row < row), ())
+        why = "within the blocks of LA the tool of radius {0} cannot get past this block"
         return Unreached(row, why, before)
-    return _checked(found, elements, offset, begin)
+    return _checked(compensated, elements, offset, begin)
 
 
 def _contour(elements: Sequence[Element]) -> Path:
     """The elements numbered from 0."""
-    points = np.array([elements[0].start, *(one.end for one in elements)])
-    turns = np.array([one.turn for one in elements], np.int8)
+    points = np.array([elements[0].start, *(element.end for element in elements)])
+    turns = np.array([element.turn for element in elements], np.int8)
     return Path.of(
-        points, np.array([one.center for one in elements]), turns, np.arange(len(elements), dtype=np.float64)
+        points, np.array([element.center for element in elements]), turns, np.arange(len(elements), dtype=np.float64)
     )
 
 
-def _checked(found: Compensated, elements: Sequence[Element], offset: float, begin: Point | None) -> Ahead | Unreached:
+def _checked(
+    compensated: Compensated, elements: Sequence[Element], offset: float, begin: Point | None
+) -> PathAhead | Unreached:
     """The path, where its first and last piece are of the first and last element."""
-    path, last = found.path, len(elements) - 1
+    path, last = compensated.path, len(elements) - 1
     runs = tuple(_runs(path))
     if runs[0].row != 0 or runs[0].corner:
         return Unreached(0, "the tool of radius {0} reaches nothing of this block, the first one that M120 looks at")
@@ -93,10 +95,11 @@ def _checked(found: Compensated, elements: Sequence[Element], offset: float, beg
         )
     start, way = _point(path.points[0]), _point(path.start_directions[0])
     if begin is not None and not _near(begin, start):
-        if _behind(elements[0], start, begin, runs[0].end):
+        if _trimmed_away(elements[0], start, begin, runs[0].end):
             return Unreached(0, "between its neighbors nothing is left of this block for the tool of radius {0}")
         start = begin
-    return Ahead(start, way, runs, tuple(int(one) for one in found.deleted.segments.tolist() if one == int(one)))
+    left_out = tuple(int(number) for number in compensated.deleted.segments.tolist() if number == int(number))
+    return PathAhead(start, way, runs, left_out)
 
 
 def _runs(path: Path) -> Iterator[Run]:
@@ -114,8 +117,8 @@ def _near(one: Point, other: Point) -> bool:
     return abs(one[0] - other[0]) <= JOINED and abs(one[1] - other[1]) <= JOINED
 
 
-def _behind(element: Element, start: Point, begin: Point, end: Point) -> bool:
-    """Does an element's offset, trimmed to `begin`, lie behind the end it is trimmed to?"""
+def _trimmed_away(element: Element, start: Point, begin: Point, end: Point) -> bool:
+    """Whether an element's offset, trimmed to `begin`, would run backwards to the end it is trimmed to."""
     if not element.turn:
         (wx, wy), dx, dy = element.leaving, end[0] - begin[0], end[1] - begin[1]
         return dx * wx + dy * wy < -JOINED

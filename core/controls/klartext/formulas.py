@@ -14,7 +14,7 @@ from typing import Final
 
 from core.controls.program_text import quoted
 
-DEEPEST: Final = 50
+MAX_NESTING: Final = 50
 """Brackets and functions within one another that a formula may have."""
 
 _TOKEN: Final = re.compile(r"\s*(?:(\d+[.,]?\d*|[.,]\d+)|(Q[LR]?\d+)|([A-Z]+|[-+*/^()])|(\S))", re.ASCII)
@@ -63,23 +63,23 @@ class _FaultError(Exception):
 
 def evaluate(text: str, parameters: Mapping[str, float]) -> float | NoValue:
     """The value of a formula in upper case, its Q parameters taken from `parameters`; never raises."""
-    tokens = [found.group(found.lastindex or 0).strip() for found in _TOKEN.finditer(text)]
-    reader = _Reader(tokens, parameters)
+    tokens = [token.group(token.lastindex or 0).strip() for token in _TOKEN.finditer(text)]
+    parser = _Parser(tokens, parameters)
     try:
-        value = reader.sum()
-        if reader.at < len(tokens):
-            return NoValue(f"{quoted(tokens[reader.at])} is not understood in a formula.")
+        value = parser.sum()
+        if parser.at < len(tokens):
+            return NoValue(f"A formula cannot have {quoted(tokens[parser.at])} here.")
     except _FaultError as fault:
         return NoValue(str(fault))
     except (ArithmeticError, ValueError):
-        return NoValue("This formula has no value: a division by zero, or a function outside its range.")
+        return NoValue("The formula divides by zero, or a function or power is outside its range.")
     if isinstance(value, complex) or not math.isfinite(value):
-        return NoValue("This formula's value is no number.")
+        return NoValue("The formula's value is too large.")
     return float(value)
 
 
 @dataclass(slots=True)
-class _Reader:
+class _Parser:
     tokens: list[str]
     parameters: Mapping[str, float]
     at: int = field(default=0)
@@ -113,8 +113,8 @@ class _Reader:
 
     def operand(self) -> float:
         self.depth += 1
-        if self.depth > DEEPEST:
-            raise _FaultError("This formula is too deep.")
+        if self.depth > MAX_NESTING:
+            raise _FaultError(f"The formula nests more than {MAX_NESTING} brackets and functions.")
         value = self._operand(self.take())
         self.depth -= 1
         return value
@@ -125,7 +125,7 @@ class _Reader:
         if token == "(":
             value = self.sum()
             if self.take() != ")":
-                raise _FaultError("A bracket of this formula is not closed.")
+                raise _FaultError("A bracket is not closed in this formula.")
             return value
         if token == "PI":
             return math.pi
@@ -136,8 +136,8 @@ class _Reader:
     def number(self, token: str) -> float:
         if token.startswith("Q"):
             if token not in self.parameters:
-                raise _FaultError(f"{token} has no value yet; set it before it is used.")
+                raise _FaultError(f"{token} has no value yet. Set it before.")
             return self.parameters[token]
         if not token or not (token[0].isdigit() or token[0] in ".,"):
-            raise _FaultError(f"{quoted(token) or 'The end'} stands where a formula needs a number.")
+            raise _FaultError(f"A formula needs a number where {quoted(token) or 'it ends'} stands.")
         return float(token.replace(",", "."))

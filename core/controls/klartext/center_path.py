@@ -1,0 +1,433 @@
+"""Center path: the steps of a Klartext program offset by the tool radius and joined at their corners.
+
+An outside corner gets an arc about the corner, an inside corner the meeting of the two offsets.  A contour element
+waits until the next one is known.  A contour's first point and its last are reached square to it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from enum import Enum, auto
+from math import hypot, pi, tau
+from typing import Final, NamedTuple, NoReturn
+
+from core.controls.compensation import corners
+from core.controls.compensation.corners import Element
+from core.controls.compensation.joint import Corner, CornerRules, Inside, Joint, Outside, join
+from core.controls.control_run import Log, Stretch
+from core.controls.klartext import lead_curves
+from core.controls.klartext.lead_curves import Form, Lead
+from core.controls.klartext.m120 import PathAhead, Run, Unreached, path_ahead
+from core.controls.moves import Plane, Point3, Tape, flat, solid
+from core.finding import Severity
+from core.geometry.piece import Point, Side
+from core.tolerance import JOINED
+
+PLAIN: Final = CornerRules(tangent=0.0, touching=JOINED)
+M97: Final = PLAIN._replace(outside=Outside.MEETING)
+"""An outside corner by the meeting of the two offsets instead of an arc."""
+M98: Final = PLAIN._replace(inside=Inside.OPEN)
+"""An inside corner run out to the ends of both elements."""
+
+ROUNDED: Final = 1e-11
+"""Millimeters by which rounding moves a line meters from the origin; its meeting with one that hardly turns, by this
+over the angle in radians."""
+
+NO_CONTOUR: Final = "No contour element follows the start of compensation. Write the contour before its end."
+DEPTH_FIRST: Final = "The tool axis is taken to move before the arc about this outside corner."
+NOT_UNDER_M120: Final = "Under M120 only moves in the working plane without M97 and M98 are supported. End it with LA0."
+LEFT_OUT: Final = "M120 skips this block: the tool of radius {0} does not reach it."
+INSIDE_CIRCLE: Final = "PS or PN lies inside the circle of radius {0} of the lead. Move it out or shorten R."
+
+
+class Role(Enum):
+    """What a step is to the compensation."""
+
+    FREE = auto()
+    """Moved as programmed, without compensation."""
+    ENTRY = auto()
+    """The straight move in which RL or RR takes effect."""
+    CONTOUR = auto()
+    """An element of the compensated contour."""
+    DEPTH = auto()
+    """Only the tool axis moves."""
+    EXIT = auto()
+    """The straight move in which R0 takes effect."""
+    APPROACH = auto()
+    DEPARTURE = auto()
+
+
+class FeedAt(Enum):
+    """Where on an arc the programmed feed holds."""
+
+    CENTER = auto()
+    """M111: at the tool's center."""
+    EDGE = auto()
+    """M109: at the cutting edge, inside and outside."""
+    INSIDE_EDGE = auto()
+    """M110: at the cutting edge inside, at the center outside."""
+
+
+class Step(NamedTuple):
+    """One programmed element: `offset` is the tool radius, positive with the tool on the left, 0 without compensation.
+
+    `element` starts at the programmed point before it.  Approaches and departures have a `lead`; their `hand` is the
+    side of the word RL (+1), RR (-1) or R0 (0), turned over by a negative radius; `before` is rapid and feed of the
+    block before.  A departure's element is straight, `leaving` in the contour's last direction.  `corner` are the rules
+    at its end, `ahead` is the LA of M120, 0 without.
+    """
+
+    role: Role
+    element: Element
+    offset: float
+    plane: Plane
+    corner: CornerRules = PLAIN
+    feed_at: FeedAt = FeedAt.CENTER
+    lead: Lead | None = None
+    hand: int = 0
+    before: tuple[bool, float] = (False, 0.0)
+    ahead: int = 0
+
+    @property
+    def arc_feed(self) -> float:
+        """The feed of the center along the step's offset arc."""
+        share = corners.offset_radius(self.element, self.offset) / self.element.radius
+        at_edge = self.feed_at is FeedAt.EDGE or (self.feed_at is FeedAt.INSIDE_EDGE and share < 1.0)
+        return self.element.feed * share if at_edge else self.element.feed
+
+
+@dataclass(slots=True)
+class Record:
+    """Center moves on `tape`; `stretches` of them made under compensation, the open one's surface on `programmed`.
+
+    `share` is the share of the tool's radius that is run with.
+    """
+
+    share: float = 1.0
+    tape: Tape = field(default_factory=Tape)
+    stretches: list[Stretch] = field(default_factory=list)
+    programmed: Tape | None = None
+    entry: Step | None = None
+    first: int = 0
+    leaving: int = 0
+    led_out: bool = False
+
+    def at(self, step: Step) -> Point3:
+        """Where the center stands, in the coordinates of the step's plane."""
+        return flat(self.tape.last, step.plane)
+
+    def line(self, end: Point, height: float, step: Step, *, lead: bool = False) -> None:
+        """A straight move at the step's feed, or at that of the block before it."""
+        target = solid(end[0], end[1], height, step.plane)
+        rapid, feed = step.before if lead else (step.element.rapid, step.element.feed)
+        self.tape.row(target, target, 0, 0, feed, step.element.line, rapid=rapid)
+
+    def arc(self, end: Point, height: float, center: Point, turn: int, step: Step, feed: float | None = None) -> None:
+        """An arc in the step's plane, at the step's feed unless given."""
+        target, middle = solid(*end, height, step.plane), solid(*center, height, step.plane)
+        element = step.element
+        speed = element.feed if feed is None else feed
+        self.tape.row(target, middle, turn, step.plane, speed, element.line, rapid=element.rapid)
+
+    def plain(self, step: Step, end: Point) -> None:
+        """The step's element as programmed, but ending at `end`."""
+        element = step.element
+        if element.turn:
+            self.arc(end, element.high, element.center, element.turn, step)
+        else:
+            self.line(end, element.high, step)
+
+    def sink(self, step: Step) -> None:
+        """The tool axis alone, where the center stands."""
+        x, y, _ = self.at(step)
+        self.line((x, y), step.element.high, step)
+
+    def open(self, step: Step) -> None:
+        """Compensation begins: the next moves are a stretch."""
+        self.programmed, self.entry = Tape(self.tape.last), step
+        self.first, self.leaving = len(self.tape) - 1, 0
+        self.note(step)
+
+    def note(self, step: Step) -> None:
+        """Put the step's element on the tape of what is programmed."""
+        if self.programmed is None:
+            return
+        element = step.element
+        target = solid(*element.end, element.high, step.plane)
+        center = solid(*element.center, element.high, step.plane) if element.turn else target
+        plane = step.plane if element.turn else 0
+        self.programmed.row(target, center, element.turn, plane, element.feed, element.line, rapid=element.rapid)
+        self.leaving = int(step.role in (Role.EXIT, Role.DEPARTURE))
+        self.led_out = step.role is Role.DEPARTURE
+
+    def close(self) -> None:
+        """Compensation ends: keep the stretch, unless it is the path itself or only its entry."""
+        entry, programmed = self.entry, self.programmed
+        self.entry, self.programmed = None, None
+        if entry is None or programmed is None or not entry.offset or len(self.tape) <= self.first + 1:
+            return
+        side = Side.LEFT if entry.offset > 0.0 else Side.RIGHT
+        radius, moves, last = abs(entry.offset) / self.share, programmed.moves(), len(self.tape)
+        stretch = Stretch(side, radius, entry.plane, moves, 1, self.leaving, self.first, last)
+        self.stretches.append(replace(stretch, led_in=entry.role is Role.APPROACH, led_out=self.led_out))
+
+
+@dataclass(slots=True)
+class CenterPath:
+    """Takes steps in their order and records the center's moves.
+
+    `held` is the contour element whose end is not known yet, `begin` the point at which its offset starts;
+    `entry` a start of compensation that waits for its first element; `depths` tool-axis moves that wait with either.
+    `ahead` are the elements that M120 looks over, `stands` where the path is on the first one's offset already.
+    """
+
+    log: Log
+    record: Record = field(default_factory=Record)
+    held: Step | None = None
+    begin: Point = (0.0, 0.0)
+    entry: Step | None = None
+    depths: list[Step] = field(default_factory=list)
+    ahead: list[Step] = field(default_factory=list)
+    stands: Point | None = None
+
+    def push(self, step: Step) -> None:
+        """The next step; raises the alarm where the control would stop."""
+        match step.role:
+            case Role.CONTOUR:
+                self._contour(step)
+            case Role.FREE:
+                if self.entry:  # an approach without compensation
+                    goal = corners.square_start(step.element, self.entry.offset)
+                    self._arrive(self.entry, goal, step.element.leaving)
+                    self.record.close()
+                self.record.plain(step, step.element.end)
+            case Role.DEPTH if self.ahead:
+                self._stop_m120(step)
+            case Role.DEPTH if self.held or self.entry:
+                self.depths.append(step)
+            case Role.DEPTH:
+                self.record.sink(step)
+                self.record.note(step)
+            case Role.ENTRY | Role.APPROACH:
+                self._enter(step)
+            case Role.EXIT | Role.DEPARTURE:
+                self._leave(step)
+
+    def finish(self) -> None:
+        """The program ends: the last element ends square to the contour, compensated or not."""
+        self._run_out()
+        self.record.close()
+
+    def give_up(self) -> None:
+        """The control has stopped: what is recorded so far stays."""
+        self.record.close()
+
+    def _enter(self, step: Step) -> None:
+        self._run_out()  # an approach under compensation connects two contours
+        self.record.close()
+        self.entry = step
+        self.record.open(step)
+
+    def _leave(self, step: Step) -> None:
+        self._run_out()
+        if step.lead is None:
+            self.record.plain(step, step.element.end)
+        else:
+            self._depart(step, step.lead)
+        self.record.note(step)
+        self.record.close()
+
+    def _run_out(self) -> None:
+        """Finish what waits: nothing follows it."""
+        self._run_ahead(goes_on=False)
+        if self.held:
+            self._finish(self.held, corners.square_end(self.held.element, self.held.offset))
+        if self.entry:
+            self._stop("HE7", NO_CONTOUR, self.entry)
+
+    def _arrive(self, entry: Step, goal: Point, way: Point) -> None:
+        """Run the entry to the point square to the first element's start, where that sets off in direction `way`."""
+        if entry.lead is None:
+            self.record.plain(entry, goal)
+        else:
+            self._approach(entry, entry.lead, goal, way)
+        self.entry = None
+        self._sink_waiting()
+
+    def _approach(self, step: Step, lead: Lead, goal: Point, way: Point) -> None:
+        x, y, height = self.record.at(step)
+        curve = lead_curves.approach(lead, (x, y), goal, way, step.hand)
+        if curve is None:
+            self._stop("HE5", INSIDE_CIRCLE, step, lead.radius)
+        depth = step.element.high
+        if lead.form is Form.LCT:
+            self.record.line(curve.point, depth, step)
+        else:
+            self.record.line(curve.point, height, step, lead=True)
+            if depth != height:
+                self.record.line(curve.point, depth, step, lead=True)
+        self._run_curve(goal, depth, curve, step)
+
+    def _depart(self, step: Step, lead: Lead) -> None:
+        x, y, height = self.record.at(step)
+        curve = lead_curves.departure(lead, (x, y), step.element.end, step.element.leaving, step.hand)
+        if curve is None:
+            self._stop("HE5", INSIDE_CIRCLE, step, lead.radius)
+        self._run_curve(curve.point, height, curve, step)
+        if lead.form is Form.LCT:
+            self.record.line(step.element.end, height, step)
+        if step.element.high != height:
+            self.record.sink(step)
+
+    def _run_curve(self, end: Point, height: float, curve: lead_curves.Curve, step: Step) -> None:
+        if curve.turn:
+            self.record.arc(end, height, curve.center, curve.turn, step)
+        elif curve.point != end or self.record.at(step)[:2] != end:
+            self.record.line(end, height, step)
+
+    def _contour(self, step: Step) -> None:
+        element = step.element
+        if self.ahead and step.ahead != self.ahead[-1].ahead:
+            self._run_ahead(goes_on=True)
+        if step.ahead:
+            self._gather(step)
+            return
+        if element.turn and corners.offset_radius(element, step.offset) <= JOINED:
+            why = "the tool of radius {0} cannot run inside this arc of radius {1}"
+            self._stop_too_large(step, why, abs(step.offset), element.radius)
+        begin = corners.square_start(element, step.offset)
+        if self.entry:
+            self._arrive(self.entry, begin, element.leaving)
+        elif self.held:
+            begin = self._corner(self.held, step)
+        self.held, self.begin = step, begin
+
+    def _corner(self, before: Step, after: Step) -> Point:
+        """Finish the held element at its corner with the next; the point at which that one's offset starts."""
+        first, offset = _at_its_end(before.element), before.offset
+        joint = join(first, after.element, offset, before.corner)
+        if joint.missed or (joint.corner is Corner.INSIDE and self._overruns(first, after.element, offset, joint)):
+            why = "the tool of radius {0} cannot come into the corner before this block"
+            self._stop_too_large(after, why, abs(offset))
+        if joint.center is not None and self.depths:
+            self._tell(Severity.INFO, "INTERPRETED", DEPTH_FIRST, self.depths[0])
+        self._finish(before, joint.end)
+        if joint.center is not None:
+            height, turn = self.record.at(before)[2], -1 if offset > 0.0 else 1
+            self.record.arc(joint.start, height, first.end, turn, before)
+        elif joint.start != joint.end:
+            self.record.line(joint.start, first.high, before)
+        return joint.start
+
+    @staticmethod
+    def _overruns(first: Element, second: Element, offset: float, joint: Joint) -> bool:
+        """Whether two offsets meet beyond what there is of them."""
+        if joint.start != joint.end:
+            return False
+        slack = max(JOINED, ROUNDED / max(abs(corners.turning(first, second)), corners.WHOLE))
+        end, begin = corners.square_end(first, offset), corners.square_start(second, offset)
+        return min(advance(first, joint.end, end), advance(second, begin, joint.end)) < -slack
+
+    def _finish(self, step: Step, end: Point) -> None:
+        """Record the held element, now that its end is known."""
+        element = step.element
+        left = remaining(element, self.begin, end, step.offset)
+        if left < -JOINED:
+            self._stop_too_large(step, "between its neighbors nothing is left of this block", abs(step.offset))
+        if element.turn and left > JOINED:
+            if left >= tau * corners.offset_radius(element, step.offset) - JOINED:
+                end = self.begin
+            self.record.arc(end, element.high, element.center, element.turn, step, step.arc_feed)
+        else:
+            self.record.line(end, element.high, step)
+        self.record.note(step)
+        self.held = None
+        self._sink_waiting()
+
+    def _sink_waiting(self) -> None:
+        for step in self.depths:
+            self.record.sink(step)
+            self.record.note(step)
+        self.depths.clear()
+
+    def _gather(self, step: Step) -> None:
+        """An element under M120: its path is known once the last one is."""
+        if step.corner is not PLAIN or step.element.low != step.element.high:
+            self._stop_m120(step)
+        if self.depths and not self.entry:
+            self._stop_m120(self.depths[0])
+        if self.held and not self.ahead:
+            self.ahead.append(self.held)
+            self.stands, self.held = self.begin, None
+        self.ahead.append(step)
+
+    def _run_ahead(self, *, goes_on: bool) -> None:
+        """Run along the elements gathered under M120; `goes_on`: the last one waits for a corner with the next."""
+        steps, stands = self.ahead, self.stands
+        self.ahead, self.stands = [], None
+        if not steps:
+            return
+        path = path_ahead([step.element for step in steps], steps[0].offset, steps[-1].ahead, stands)
+        if isinstance(path, Unreached):
+            if path.before:
+                self._run_along(steps, path.before, path.before.runs)
+                self._note_all(steps[: path.row])
+            self._stop_too_large(steps[path.row], path.text, abs(steps[0].offset))
+        for row in path.left_out:
+            self._tell(Severity.WARNING, "M120", LEFT_OUT, steps[row], abs(steps[0].offset))
+        runs, last = (path.runs[:-1], path.runs[-2:-1]) if goes_on else (path.runs, ())
+        self._run_along(steps, path, runs)
+        self._note_all(steps[:-1] if goes_on else steps)
+        if goes_on:
+            self.held, self.begin = steps[-1], last[0].end if last else path.start
+
+    def _run_along(self, steps: list[Step], path: PathAhead, runs: tuple[Run, ...]) -> None:
+        """The move to a path computed ahead, and pieces of it."""
+        if self.entry:
+            self._arrive(self.entry, path.start, path.way)
+        for run in runs:
+            step = steps[run.row]
+            height = step.element.high
+            if run.turn:
+                self.record.arc(run.end, height, run.center, run.turn, step, None if run.corner else step.arc_feed)
+            else:
+                self.record.line(run.end, height, step)
+
+    def _note_all(self, steps: list[Step]) -> None:
+        for step in steps:
+            self.record.note(step)
+
+    def _tell(self, severity: Severity, code: str, text: str, step: Step, *lengths: float) -> None:
+        self.log.tell(severity, code, text, step.element.line, step.element.column, lengths=lengths)
+
+    def _stop(self, code: str, text: str, step: Step, *lengths: float) -> NoReturn:
+        self.log.stop(code, text, step.element.line, step.element.column, lengths=lengths)
+
+    def _stop_m120(self, step: Step) -> NoReturn:
+        self._stop("WORD", NOT_UNDER_M120, step)
+
+    def _stop_too_large(self, step: Step, why: str, *lengths: float) -> NoReturn:
+        self._stop("HE3", f"Tool radius too large: {why}. Take a smaller tool or open the contour.", step, *lengths)
+
+
+def _at_its_end(element: Element) -> Element:
+    """The element as it is at its end: an arc's radius there may differ a little from that at its start."""
+    return element._replace(start=element.end) if element.turn else element
+
+
+def advance(element: Element, start: Point, end: Point) -> float:
+    """Millimeters along an element from one point of its offset to another, negative backwards, at most half an arc."""
+    if not element.turn:
+        (x, y), (ex, ey), way = start, end, element.leaving
+        return (ex - x) * way[0] + (ey - y) * way[1]
+    angle = corners.sweep(start, end, element.center, element.turn)
+    return (angle - tau if angle > pi else angle) * hypot(start[0] - element.center[0], start[1] - element.center[1])
+
+
+def remaining(element: Element, begin: Point, end: Point, offset: float) -> float:
+    """Millimeters left of an element's offset between the points its corners trim it to; negative if they cross."""
+    if not element.turn:
+        return advance(element, begin, end)
+    whole = corners.element_sweep(element) * corners.offset_radius(element, offset)
+    first, last = corners.square_start(element, offset), corners.square_end(element, offset)
+    return whole - advance(element, first, begin) - advance(element, end, last)

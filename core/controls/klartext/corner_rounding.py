@@ -1,0 +1,146 @@
+"""Corner rounding: RND and CHF put an arc or a line between two programmed elements, which wait until it is known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import hypot
+from typing import Final, NoReturn
+
+from core.controls.compensation import corners
+from core.controls.compensation.corners import Element, arc_element, line_element
+from core.controls.klartext.center_path import PLAIN, CenterPath, Role, Step
+from core.controls.klartext.reader import Place
+from core.geometry.piece import Point
+from core.tolerance import JOINED
+
+NOT_BETWEEN: Final = "RND and CHF must stand directly between two contour elements of one side. Move the block."
+
+
+@dataclass(frozen=True, slots=True)
+class NoRoom:
+    """Why two elements cannot be rounded or chamfered; a sentence."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Blend:
+    """A rounding (its radius) or chamfer (its leg) that waits for the element after it."""
+
+    place: Place
+    size: float
+    round: bool
+    feed: float
+
+
+@dataclass(slots=True)
+class WaitingElement:
+    """Hands steps on to the center path; a contour element waits here until no RND or CHF can follow it."""
+
+    center: CenterPath
+    step: Step | None = None
+    blend: Blend | None = None
+
+    def push(self, step: Step) -> None:
+        """The next step."""
+        if step.role is not Role.CONTOUR and step.role is not Role.FREE:
+            self.flush()
+            self.center.push(step)
+            return
+        if self.blend:
+            step = self._blended(self.blend, step)
+        elif self.step:
+            self.center.push(self.step)
+        self.step = step
+
+    def flush(self) -> None:
+        """Hand on the element that waits: what follows does not round it."""
+        if self.blend:
+            self._stop(self.blend, NOT_BETWEEN)
+        step, self.step = self.step, None
+        if step:
+            self.center.push(step)
+
+    def _blended(self, blend: Blend, second: Step) -> Step:
+        """Hand on the waiting element and what joins it to the next; the next one cut short."""
+        first, self.step, self.blend = self.step, None, None
+        if first is None or first.role is not second.role:
+            self._stop(blend, NOT_BETWEEN)
+        parts = (rounding if blend.round else chamfer)(first.element, second.element, blend.size)
+        if isinstance(parts, NoRoom):
+            self._stop(blend, parts.text)
+        line, column = blend.place.line, blend.place.column
+        between = parts[1]._replace(line=line, column=column, rapid=False, feed=blend.feed)
+        self.center.push(first._replace(element=parts[0], corner=PLAIN))
+        self.center.push(first._replace(element=between, corner=PLAIN))
+        return second._replace(element=parts[2])
+
+    def _stop(self, blend: Blend, text: str) -> NoReturn:
+        self.center.log.stop("CORNER", text, blend.place.line, blend.place.column)
+
+
+Blended = tuple[Element, Element, Element]
+"""The first element cut short, what is between, and the second element cut short."""
+
+
+def rounding(first: Element, second: Element, radius: float) -> Blended | NoRoom:
+    """An arc of `radius` millimeters tangent to both elements; the arc has the first one's feed, line and column."""
+    angle = corners.turning(first, second)
+    if abs(angle) < corners.WHOLE or not _level(first, second):
+        return NoRoom("There is no corner to round. Both blocks must lie in the working plane and meet at an angle.")
+    offset = radius if angle > 0.0 else -radius
+    ending = first._replace(start=first.end) if first.turn else first
+    center = corners.meeting(ending, second, offset)
+    if center is None:
+        return NoRoom("No arc of this radius touches both blocks. Write a smaller R.")
+    start, end = _touch(ending, center, offset), _touch(second, center, offset)
+    if not _on(first, start) or not _on(second, end):
+        return NoRoom("The rounding is longer than the blocks it joins. Write a smaller R.")
+    turn = 1 if angle > 0.0 else -1
+    arc = arc_element(start, end, center, turn, first.high, first.high, first.feed, first.line, first.column)
+    return _cut_end(first, start), arc, _cut_start(second, end)
+
+
+def chamfer(first: Element, second: Element, leg: float) -> Blended | NoRoom:
+    """A line that cuts `leg` millimeters off both elements; they must be straight."""
+    if first.turn or second.turn or not _level(first, second):
+        return NoRoom("A chamfer needs two straight blocks in the working plane. Use RND.")
+    start, end = corners.beyond(first.end, first.arriving, -leg), corners.beyond(first.end, second.leaving, leg)
+    if not _on(first, start) or not _on(second, end):
+        return NoRoom("The chamfer is longer than the blocks it joins. Write a shorter one.")
+    high, line = first.high, first.line
+    between = line_element(start, end, high, high, first.rapid, first.feed, line, first.column)
+    return _cut_end(first, start), between, _cut_start(second, end)
+
+
+def _level(first: Element, second: Element) -> bool:
+    return first.low == first.high == second.low == second.high
+
+
+def _touch(element: Element, center: Point, offset: float) -> Point:
+    """Where a circle about `center`, `offset` to the left of the element, touches it."""
+    if not element.turn:
+        return corners.square(center, element.leaving, -offset)
+    (x, y), (cx, cy) = center, element.center
+    share = element.radius / hypot(x - cx, y - cy)
+    return cx + (x - cx) * share, cy + (y - cy) * share
+
+
+def _on(element: Element, at: Point) -> bool:
+    if not element.turn:
+        (x, y), way = element.start, element.leaving
+        along = (at[0] - x) * way[0] + (at[1] - y) * way[1]
+        return -JOINED <= along <= hypot(element.end[0] - x, element.end[1] - y) + JOINED
+    return corners.sweep(element.start, at, element.center, element.turn) <= corners.element_sweep(element)
+
+
+def _cut_end(element: Element, end: Point) -> Element:
+    if not element.turn:
+        return element._replace(end=end)
+    return element._replace(end=end, arriving=corners.tangent(end, element.center, element.turn))
+
+
+def _cut_start(element: Element, start: Point) -> Element:
+    if not element.turn:
+        return element._replace(start=start, center=start)
+    return element._replace(start=start, leaving=corners.tangent(start, element.center, element.turn))

@@ -1,0 +1,99 @@
+"""APPR and DEP: the path of the tool center between a free point and the contour.
+
+LT is a straight line tangent to the contour, LN one square to it, CT an arc tangent to it over an angle, LCT a line
+and an arc tangent to each other and to the contour.  All lengths and radii count on the tool center: an approach
+ends at PA', the point square to the contour's first point at one tool radius.  PS is where the tool stands, PH
+where the lead itself begins.  Departures are approaches traveled backwards.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from math import acos, atan2, cos, hypot, sin, tau
+from typing import Final
+
+from core.controls.compensation.corners import WHOLE, beyond, square, turned
+from core.geometry.piece import Point
+from core.tolerance import JOINED
+
+LEAST: Final = 1e-12
+"""Share of the radius by which rounding may put the start of an LCT inside its circle."""
+
+
+class Form(StrEnum):
+    """The shape of an approach or departure."""
+
+    LT = "LT"
+    LN = "LN"
+    CT = "CT"
+    LCT = "LCT"
+
+
+@dataclass(frozen=True, slots=True)
+class Lead:
+    """A programmed lead: `length` of LT and LN, signed `radius` and `angle` (radians) of CT, `radius` of LCT."""
+
+    form: Form
+    length: float = 0.0
+    radius: float = 0.0
+    angle: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """The lead on the tool center: straight to or from `point` (PH), and between it and the contour a line or an arc.
+
+    With `turn` 0 it is a line; an arc whose `point` is the contour's is a full circle.
+    """
+
+    point: Point
+    center: Point
+    turn: int
+
+
+def approach(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
+    """The approach from PS to PA' where the contour sets off in direction `way`.
+
+    `hand` is +1 with the tool on the left of the contour, -1 on the right, 0 without compensation: an LCT then has
+    its circle on the side PS lies on.  Points in millimeters.  None for an LCT that starts inside its own circle.
+    """
+    if lead.form is Form.LT:
+        point = beyond(end, way, -lead.length)
+        return Curve(point, point, 0)
+    if lead.form is Form.LN:
+        point = square(end, way, hand * lead.length)
+        return Curve(point, point, 0)
+    if lead.form is Form.CT:
+        center = square(end, way, hand * lead.radius)
+        turn = hand if lead.radius > 0.0 else -hand
+        whole = lead.angle >= tau - WHOLE
+        return Curve(end if whole else turned(end, center, -turn * lead.angle), center, turn)
+    return _tangent_arc(lead.radius, start, end, way, hand or _side_of(start, end, way))
+
+
+def _tangent_arc(radius: float, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
+    center = square(end, way, hand * radius)
+    dx, dy = start[0] - center[0], start[1] - center[1]
+    apart = hypot(dx, dy)
+    if apart < radius * (1.0 - LEAST):
+        return None
+    # Seen from the center PS lies behind PH by the angle whose cosine is radius / distance.
+    angle = atan2(dy, dx) + hand * acos(min(1.0, radius / apart))
+    point = (center[0] + radius * cos(angle), center[1] + radius * sin(angle))
+    if hypot(point[0] - end[0], point[1] - end[1]) <= JOINED:  # PS lies straight behind PA'
+        return Curve(end, end, 0)
+    return Curve(point, center, hand)
+
+
+def _side_of(at: Point, corner: Point, way: Point) -> int:
+    return 1 if way[0] * (at[1] - corner[1]) - way[1] * (at[0] - corner[0]) >= 0.0 else -1
+
+
+def departure(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
+    """The departure from PE', where the contour ends in direction `way`, to `end` (only LCT looks at it).
+
+    It is the approach from `end` to PE' run backwards: the contour runs the other way with the tool on its other hand.
+    """
+    back = approach(lead, end, start, (-way[0], -way[1]), -hand)
+    return None if back is None else Curve(back.point, back.center, -back.turn)

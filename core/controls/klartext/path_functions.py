@@ -1,0 +1,293 @@
+"""Path functions: lines and arcs in axis words or polar, the pole CC, and RND and CHF."""
+
+from __future__ import annotations
+
+from math import atan2, cos, degrees, hypot, radians
+from typing import Final
+
+from core.controls.compensation import corners
+from core.controls.compensation.corners import Element, arc_element, line_element
+from core.controls.iso.arcs import NoArc, through
+from core.controls.klartext.center_path import Role, Step
+from core.controls.klartext.corner_rounding import Blend
+from core.controls.klartext.m_functions import functions, leaves_workpiece
+from core.controls.klartext.reader import Block, place_of
+from core.controls.klartext.state import AXES, COMMON, SIDES, State, Words
+from core.controls.moves import solid
+from core.finding import Severity
+from core.geometry.piece import Point
+from core.tolerance import JOINED
+
+POLAR: Final = frozenset(("PR", "PA", "IPR", "IPA", *AXES))
+"""The words of a polar point, and those of the axes, of which only the tool axis's may stand with them."""
+
+RADII_DIFFERENCE: Final = 0.016
+"""Millimeters by which the radii at the start and the end of an arc about the pole may differ."""
+
+MAX_HELIX: Final = 5400.0
+"""Degrees a helix may turn."""
+
+NOT_YET: Final = "RL, RR or R0 with the tool axis alone is taken to act in the next line of the working plane."
+ONE_STRAIGHT: Final = "The end point lies straight ahead or back: no tangent arc leads there. Write L."
+
+_LINE: Final = COMMON | frozenset(AXES)
+_POLAR_LINE: Final = COMMON | POLAR
+_CORNER: Final = frozenset(("R", "F", "LEN"))
+
+
+def line(state: State, block: Block) -> None:
+    """L: a straight line; in the block whose RL, RR or R0 is new it applies or cancels compensation."""
+    words = state.words(block, _LINE)
+    if "FMAX" in words or "MB" in words:
+        state.chosen_side(block, words)
+        if leaves_workpiece(state, block, words):
+            return
+    _line_to(state, block, words, state.target(block, words))
+
+
+def polar_line(state: State, block: Block) -> None:
+    """LP: a straight line to a point given by distance and angle from the pole."""
+    words = state.words(block, _POLAR_LINE)
+    _line_to(state, block, words, polar_target(state, block, words)[0])
+
+
+def _line_to(state: State, block: Block, words: Words, end: list[float]) -> None:
+    state.chosen_side(block, words)
+    rapid, feed = state.chosen_feed(block, words)
+    corner_rules = functions(state, block, words)
+    if end == state.position:
+        return
+    state.moving(block, rapid=rapid, feed=feed)
+    element = straight_element(state, block, end, rapid=rapid, feed=feed)
+    state.position = end
+    if element.start == element.end:
+        state.last = None
+        state.push(Step(Role.DEPTH, element, 0.0, state.plane))
+        if state.side != state.applied and SIDES.keys() & words.keys():
+            state.tell(Severity.INFO, "INTERPRETED", NOT_YET, block)
+    elif state.side == state.applied:
+        role = Role.CONTOUR if state.side else Role.FREE
+        state.push(Step(role, element, state.offset, state.plane, corner_rules, state.feed_at))
+        state.last = element
+    else:
+        _change_side(state, block, element)
+
+
+def straight_element(state: State, block: Block, end: list[float], *, rapid: bool, feed: float) -> Element:
+    """The line from where the program stands to a position."""
+    (start, low), (goal, high) = state.flat(state.position), state.flat(end)
+    return line_element(start, goal, low, high, rapid, feed, block.line, block.column - len(block.head))
+
+
+def _change_side(state: State, block: Block, element: Element) -> None:
+    """The line in which RL, RR or R0 takes effect."""
+    state.last = None
+    if state.side:
+        state.apply(block)
+        state.push(Step(Role.ENTRY, element, state.offset, state.plane))
+    else:
+        state.release()
+        state.push(Step(Role.EXIT, element, 0.0, state.plane))
+
+
+def pole(state: State, block: Block) -> None:
+    """CC: the pole and circle center, by both axes of the plane; without words where the tool stands."""
+    words, known = state.words(block, frozenset(AXES)), set(state.known)
+    point, height = state.flat(state.target(block, words))
+    state.known = known
+    if len(words) not in (0, 2) or height != state.flat(state.position)[1]:
+        text = "CC needs both axes of the working plane, or none for where the tool stands."
+        state.stop("ARC", text, block)
+    state.pole = point
+
+
+def pole_of(state: State, block: Block) -> Point:
+    """The pole, without which there are no polar coordinates and no C."""
+    if state.pole is None:
+        state.stop("ARC", "No center is programmed. Write a CC block before this one.", block)
+    return state.pole
+
+
+def polar_point(pole: Point, radius: float, angle: float) -> Point:
+    """The point at a distance and an angle in degrees from a pole; multiples of 90 degrees are exact."""
+    quarter = angle / 90.0
+    if quarter.is_integer():
+        x, y = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[int(quarter) % 4]
+    else:
+        x, y = cos(radians(angle)), cos(radians(angle - 90.0))
+    return pole[0] + radius * x, pole[1] + radius * y
+
+
+def polar_target(state: State, block: Block, words: Words) -> tuple[list[float], float]:
+    """The position that PR, PA, IPR, IPA and the tool axis's word lead to, and its angle in degrees."""
+    center = pole_of(state, block)
+    (x, y), _ = state.flat(state.position)
+    radius, angle = hypot(x - center[0], y - center[1]), degrees(atan2(y - center[1], x - center[0]))
+    radius = _polar_value(state, block, words, "PR", radius)
+    angle = _polar_value(state, block, words, "PA", angle)
+    target = state.target(block, words)
+    if state.flat(target)[0] != (x, y):
+        text = "A polar block takes only the tool axis with PR and PA. Write an L or C block instead."
+        state.stop("WORD", text, block)
+    point = polar_point(center, radius, angle)
+    state.known.update(state.plane.axes[:2])
+    return list(solid(*point, state.flat(target)[1], state.plane)), angle
+
+
+def _polar_value(state: State, block: Block, words: Words, name: str, now: float) -> float:
+    """PR in millimeters or PA in degrees: absolute, incremental, or as it is."""
+    read = state.length if name == "PR" else state.number
+    if name in words and f"I{name}" in words:
+        state.stop("TWICE", f"{name} and I{name} are in one block. Keep one.", block, f"I{name}")
+    if name in words:
+        return read(block, words, name)
+    return now + read(block, words, f"I{name}") if f"I{name}" in words else now
+
+
+def circle(state: State, block: Block) -> None:
+    """C: an arc about the pole to an end point; an end at the start is the full circle."""
+    words = state.words(block, _LINE | {"DR"})
+    turn = _direction(state, block, words)
+    _about_pole(state, block, words, state.target(block, words), turn)
+
+
+def polar_circle(state: State, block: Block) -> None:
+    """CP: an arc about the pole to an angle; with IPA and the tool axis a helix of any number of turns."""
+    words = state.words(block, _POLAR_LINE | {"DR"})
+    turn = _direction(state, block, words)
+    end, angle = polar_target(state, block, words)
+    if "IPA" in words:
+        _helix(state, block, words, end, angle, turn)
+        return
+    if state.flat(end)[1] != state.flat(state.position)[1]:
+        state.stop("ARC", "A helix needs its angle as IPA. Write IPA with the sign of DR.", block)
+    _about_pole(state, block, words, end, turn)
+
+
+def radius_arc(state: State, block: Block) -> None:
+    """CR: an arc of a radius; above 0 it is at most half a circle, below 0 at least half."""
+    words = state.words(block, _LINE | {"DR", "R"})
+    turn = _direction(state, block, words)
+    if "R" not in words:
+        state.stop("ARC", "CR needs a radius. Write R+ or R- with a number.", block)
+    end, radius = state.target(block, words), state.length(block, words, "R")
+    if abs(radius) <= JOINED:
+        state.stop("ARC", "An arc cannot have the radius 0.", block, "R")
+    center = through(state.flat(state.position)[0], state.flat(end)[0], radius, turn)
+    if isinstance(center, NoArc):
+        state.stop("ARC", center.text, block, "R", *center.lengths)
+    _arc_to(state, block, words, end, center, turn)
+
+
+def tangent_arc(state: State, block: Block) -> None:
+    """CT: an arc tangent to the contour element before it."""
+    words = state.words(block, _LINE)
+    _tangent_to(state, block, words, state.target(block, words))
+
+
+def polar_tangent(state: State, block: Block) -> None:
+    """CTP: the same to a point given from the pole."""
+    words = state.words(block, _POLAR_LINE)
+    _tangent_to(state, block, words, polar_target(state, block, words)[0])
+
+
+def _tangent_to(state: State, block: Block, words: Words, end: list[float]) -> None:
+    """The arc to a position that sets off in the direction of the element before it."""
+    if state.last is None or state.waiting.blend:
+        text = "A tangent arc needs a contour element directly before it. Write an L or C block first, or use CR."
+        state.stop("HE6", text, block)
+    start, goal, way = state.flat(state.position)[0], state.flat(end)[0], state.last.arriving
+    dx, dy = goal[0] - start[0], goal[1] - start[1]
+    cross, chord = way[0] * dy - way[1] * dx, hypot(dx, dy)
+    if chord <= JOINED:
+        state.stop("ARC", "A tangent arc needs an end point away from its start.", block)
+    if abs(cross) <= chord * corners.WHOLE:
+        state.stop("ARC", ONE_STRAIGHT, block)
+    center = corners.square(start, way, chord * chord / (2.0 * cross))
+    _arc_to(state, block, words, end, center, 1 if cross > 0.0 else -1)
+
+
+def _about_pole(state: State, block: Block, words: Words, end: list[float], turn: int) -> None:
+    center = pole_of(state, block)
+    _check_radii(state, block, center, state.flat(end)[0])
+    _arc_to(state, block, words, end, center, turn)
+
+
+def _check_radii(state: State, block: Block, center: Point, goal: Point) -> None:
+    start = state.flat(state.position)[0]
+    first, last = hypot(start[0] - center[0], start[1] - center[1]), hypot(goal[0] - center[0], goal[1] - center[1])
+    if abs(first - last) > RADII_DIFFERENCE or min(first, last) <= JOINED:
+        text = "The arc's radius is {0} at its start and {1} at its end. Correct CC or the end point."
+        state.stop("ARC", text, block, "", first, last)
+
+
+def _helix(state: State, block: Block, words: Words, end: list[float], angle: float, turn: int) -> None:
+    """The full turns of a CP block with IPA, and the rest."""
+    swept = state.number(block, words, "IPA")
+    if swept * turn <= 0.0 or abs(swept) > MAX_HELIX:
+        text = f"IPA needs the sign of DR and at most {MAX_HELIX:.0f} degrees."
+        state.stop("ARC", text, block, "IPA")
+    center, goal = pole_of(state, block), state.flat(end)[0]
+    _check_radii(state, block, center, goal)
+    start, low = state.flat(state.position)
+    high, size = state.flat(end)[1], hypot(start[0] - center[0], start[1] - center[1])
+    whole, rest = divmod(abs(swept), 360.0)
+    share = 360.0 / abs(swept)
+    for count in range(1, int(whole) + 1):
+        height = high if not rest and count == whole else low + (high - low) * share * count
+        _arc_to(state, block, words, list(solid(*start, height, state.plane)), center, turn, helix=True)
+    if rest:
+        goal = goal if "PR" in words or "IPR" in words else polar_point(center, size, angle)
+        _arc_to(state, block, words, list(solid(*goal, high, state.plane)), center, turn, helix=True)
+
+
+def _direction(state: State, block: Block, words: Words) -> int:
+    sign = words.pop("DR", None)
+    if sign not in ("+", "-"):
+        text = "The direction is missing. Write DR+ (counter-clockwise) or DR- (clockwise)."
+        state.stop("ARC", text, block, "" if sign is None else "DR")
+    return 1 if sign == "+" else -1
+
+
+def _arc_to(
+    state: State, block: Block, words: Words, end: list[float], center: Point, turn: int, *, helix: bool = False
+) -> None:
+    """An arc to `end` about `center`, as the next contour element."""
+    state.chosen_side(block, words)
+    rapid, feed = state.chosen_feed(block, words)
+    corner_rules = functions(state, block, words)
+    start, low = state.flat(state.position)
+    goal, high = state.flat(end)
+    if high != low and not helix:
+        state.stop("ARC", "The tool axis cannot move in this arc. Write a helix as CP with IPA.", block)
+    if state.side != state.applied:
+        verb = "applied" if state.side else "canceled"
+        text = f"Compensation cannot be {verb} in an arc. Do it in an L block before or after it, or with APPR and DEP."
+        state.stop("HE2", text, block, ("R0", "RL", "RR")[state.side])
+    state.moving(block, rapid=rapid, feed=feed)
+    if hypot(goal[0] - start[0], goal[1] - start[1]) <= JOINED:
+        goal = start
+    element = arc_element(start, goal, center, turn, low, high, feed, block.line, block.column - len(block.head))
+    element = element._replace(rapid=rapid)
+    state.position = end
+    role = Role.CONTOUR if state.applied else Role.FREE
+    state.push(Step(role, element, state.offset, state.plane, corner_rules, state.feed_at))
+    state.last = element
+
+
+def corner(state: State, block: Block) -> None:
+    """RND R and CHF: a rounding or chamfer between the element before and the one after."""
+    place, body = place_of(block), block.body.lstrip()
+    if body and body[0] in "+-.0123456789Q":  # the size stands without a name, as in CHF 5
+        block = block._replace(body=f"LEN{body}", column=block.column + len(block.body) - len(body) - 3)
+    words = state.words(block, _CORNER)
+    name = next((word for word in ("R", "LEN") if word in words), "")
+    if not name:
+        state.stop("CORNER", f"{block.head} needs its size. Write RND R5 or CHF 5.", block)
+    size = state.length(block, words, name)
+    if size <= JOINED:
+        state.stop("CORNER", f"The size of {block.head} must be above 0.", block)
+    if state.waiting.step is None or state.last is None or state.waiting.blend:
+        state.stop("CORNER", "RND and CHF need a contour element directly before them. Move the block.", block)
+    feed = state.length(block, words, "F") if "F" in words else state.feed
+    state.waiting.blend = Blend(place, size, block.head == "RND", feed)

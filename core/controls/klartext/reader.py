@@ -1,0 +1,94 @@
+"""Klartext program text as blocks: a head word and the words after it, each with its place.
+
+A block is a line, or several where a line ends in `~`.  Before the head word may stand `/` (block skip) and a block
+number; after `;` comes a comment.  A head word is L, CC, APPR, TOOL ...; the rest of the block, in capitals, is its
+body.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Final, NamedTuple
+
+from core.controls.program_text import capitals
+
+NUMBER: Final = r"[+-]?(?:Q[LR]?\d+|\d+[.,]?\d*|[.,]\d+)"
+"""A number with a point or a comma, or a Q parameter; either with a sign or without."""
+
+_NAMES: Final = r"F[ \t]*(?:MAX|AUTO)|R[LR](?=[FM]|\s|$)|[A-PR-Z]+"
+WORD: Final = re.compile(rf"({_NAMES})[ \t]*({NUMBER}|[+-])?|([^ \t])", re.ASCII)
+"""A word: letters and after them a number, a bare sign or nothing; or a sign that is no word."""
+
+TOOL_WORD: Final = re.compile(rf"(DR2|R2(?=[+-])|{_NAMES})[ \t]*({NUMBER}|[+-])?|([^ \t])", re.ASCII)
+"""The same where a second tool radius may stand."""
+
+MAX_LINE_LENGTH: Final = 1000
+"""Characters of a line; the controls take fewer."""
+
+TOO_LONG: Final = "TOO LONG"
+"""The head of a line that is too long to be read."""
+
+_START: Final = re.compile(r"[ \t]*(/)?[ \t]*(?:\d+(?=[ \t]|$|\*))?[ \t]*", re.ASCII)
+_HEAD: Final = re.compile(r"[A-Z]+|\*|$", re.ASCII)
+_GLUED_HEAD: Final = re.compile(r"(L|CC|C)(?=I?[XYZ][ \t]*[-+.\dQ])", re.ASCII)
+
+
+class Block(NamedTuple):
+    """One block: `line` from 1; `head` is "" for an empty block; the body's first character is at `column` (from 1)."""
+
+    line: int
+    head: str
+    body: str
+    column: int
+    skip: bool
+
+    def after(self, end: int) -> Block:
+        """The block with the first `end` characters of its body blanked, every other one in its place."""
+        return self._replace(body=" " * end + self.body[end:])
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A line and a column of the program, both from 1."""
+
+    line: int
+    column: int
+
+
+def read_blocks(lines: Iterable[str]) -> Iterator[Block]:
+    """The blocks of a program in order, without comments, continuation lines and empty blocks."""
+    continued = False
+    for number, raw in enumerate(lines, start=1):
+        code = raw.partition(";")[0].rstrip()
+        continuation, continued = continued, code.endswith("~") or raw.endswith("~")
+        if len(code) > MAX_LINE_LENGTH:
+            yield Block(number, TOO_LONG, "", 1, skip=False)
+        elif code and not continuation:
+            block = _block(number, capitals(code.removesuffix("~")))
+            if block.head:
+                yield block
+
+
+def _block(number: int, code: str) -> Block:
+    start = _START.match(code)
+    begin = start.end() if start else 0
+    head = _GLUED_HEAD.match(code, begin) or _HEAD.match(code, begin)
+    skip = bool(start and start[1])
+    if head is None:
+        return Block(number, code[begin], code[begin:], begin + 1, skip)
+    return Block(number, head[0], code[head.end() :], head.end() + 1, skip)
+
+
+def place_of(block: Block, name: str = "") -> Place:
+    """Where the word `name` stands in the block; its head word if there is no such word."""
+    for word in WORD.finditer(block.body) if name else ():
+        if name in (joined_name(word[1] or ""), word[3], (word[1] or "") + (word[2] or "")):
+            return Place(block.line, block.column + word.start())
+    return Place(block.line, max(1, block.column - len(block.head)))
+
+
+def joined_name(name: str) -> str:
+    """A word's name without blanks inside it: F MAX is FMAX."""
+    return "".join(name.split())
