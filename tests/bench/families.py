@@ -95,4 +95,53 @@ def stair(count: int) -> Work:
     return Work(_polyline((step + 1) // 2 * 0.2 + 1j * (step // 2) * 0.1), Side.LEFT, 0.25, False, 0.04)
 
 
-FAMILIES: Final[tuple[Callable[[int], Work], ...]] = (lines, arcs, gear, spline, spiral, teeth, notches, stair)
+def dense_disc(count: int) -> Work:
+    """A wavy disc of 116 mm drawn by ever shorter chords, 4 micrometers at 100,000, for a cutter of 6 mm."""
+    angle = 2.0 * pi * _steps(count) / count
+    angle[-1] = 0.0
+    return Work(_polyline((58.0 + 2.0 * np.cos(12.0 * angle)) * np.exp(1j * angle)), Side.RIGHT, 3.0, True, 1.0)
+
+
+def dense_waves(count: int) -> Work:
+    """Forty waves of 10 mm, the cutter too wide for their bottoms, drawn by ever shorter chords."""
+    x = 400.0 * _steps(count) / count
+    return Work(_polyline(x + 4j * np.sin(2.0 * pi / 10.0 * x)), Side.LEFT, 2.0, False, 0.3)
+
+
+def dense_spiral(count: int) -> Work:
+    """Thirty turns 2 mm apart for a cutter of 1.2 mm, drawn by ever shorter chords."""
+    angle = 2.0 * pi * np.sqrt(900.0 * _steps(count) / count + 4.0)
+    return Work(_polyline(2.0 * angle / (2.0 * pi) * np.exp(1j * angle)), Side.LEFT, 0.6, False, 0.6)
+
+
+def tangent_slots(count: int) -> Work:
+    """Slots exactly as wide as the cutter, one beside the other: the offsets of their walls lie on one another."""
+    slot = np.array([0.0, 1.0, 1.0 - 8j, 2.0 - 8j])
+    places = (2.0 * np.arange(count // 4 + 2)[:, None] + slot).ravel()[: count + 1]
+    return Work(_polyline(places.astype(np.complex128)), Side.LEFT, 0.5, False, 0.05)
+
+
+def tangent_stack(count: int) -> Work:
+    """Half circles whose offsets all touch one another in one line: a meander with walls two radii apart."""
+    row = np.arange(count + 1)
+    points = np.stack((40.0 * ((row + 1) // 2 % 2), 2.0 * (row // 2)), axis=1)
+    turns = np.where(row[:-1] % 2 == 0, 0, np.where(row[:-1] % 4 == 1, 1, -1))
+    centers = np.where(turns[:, None] == 0, points[:-1], points[:-1] + np.array((0.0, 1.0)))
+    return Work(Path.of(points, centers, turns), Side.LEFT, 1.0, False, 0.5)
+
+
+FAMILIES: Final[tuple[Callable[[int], Work], ...]] = (
+    lines,
+    arcs,
+    gear,
+    spline,
+    spiral,
+    teeth,
+    notches,
+    stair,
+    dense_disc,
+    dense_waves,
+    dense_spiral,
+    tangent_slots,
+    tangent_stack,
+)

@@ -36,8 +36,7 @@ from pathlib import Path
 from app.documents.files import save
 from core.program.edit import new_block
 from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, Program, Segment, Tool
-from tests.bench.pace import EMPTY_SECONDS, Slowness, rs274_slowness
-from tests.bench.work import at_work, worked
+from tests.bench.machine import EMPTY_SECONDS, Slowness, at_work, rs274_slowness, worked
 from tests.terminal import Terminal, running
 
 EMPTY_APP = """

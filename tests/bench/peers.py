@@ -27,6 +27,33 @@ CLIPPER: Final = find_spec("pyclipr") is not None
 MOST_CHORDS: Final = 2_000_000
 """Longer polygons are not given to the peers."""
 
+NAMES: Final = ("rs274", "offset_curve", "buffer", "clipper2")
+
+
+def runs(work: Work, folder: File) -> dict[str, Callable[[], object]]:
+    """The peers that are installed and take so many chords, each ready to run."""
+    made: dict[str, Callable[[], object] | None] = {"rs274": _accepted(interpreter(work, folder))}
+    points = chords(work.contour)
+    if len(points) <= MOST_CHORDS:
+        made |= {
+            "offset_curve": offset_curve(work, points),
+            "buffer": buffer(work, points),
+            "clipper2": clipper(work, points),
+        }
+    return {name: run for name, run in made.items() if run is not None}
+
+
+def _accepted(run: Callable[[], subprocess.CompletedProcess[str]] | None) -> Callable[[], object] | None:
+    """The interpreter's run, which has to reach the program's end."""
+    if run is None:
+        return None
+
+    def accepted() -> None:
+        done = run()
+        assert "PROGRAM_END" in done.stdout, done.stderr
+
+    return accepted
+
 
 def chords(path: Path) -> Floats:
     """(k, 2) points of a path whose arcs are chords within CHORD of them."""

@@ -1,12 +1,13 @@
-"""How fast the machine is here and now: printed beside times, since it may be half as fast a minute later."""
+"""Machine: how fast it is here and now, which may change in a minute, and what a process works on it."""
 
 from __future__ import annotations
 
 import platform
 import tempfile
 import time
+from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path as File
+from pathlib import Path
 from statistics import median
 from typing import Final
 
@@ -53,7 +54,7 @@ class Slowness:
 def rs274_slowness() -> float | None:
     """How many times slower rs274 is here and now than where the bars were set; None without it."""
     with tempfile.TemporaryDirectory() as folder:
-        process = peers.interpreter(gear(SEGMENTS), File(folder))
+        process = peers.interpreter(gear(SEGMENTS), Path(folder))
         if process is None:
             return None
         begun = time.perf_counter()
@@ -66,3 +67,22 @@ def _loop() -> float:
     for step in range(STEPS):
         total += step
     return time.perf_counter() - begun
+
+
+def at_work(pid: int) -> bool:
+    """Whether a thread of a process runs, could run or waits for the disk, by /proc."""
+    states = set()
+    for thread in Path(f"/proc/{pid}/task").iterdir():
+        with suppress(FileNotFoundError, ProcessLookupError):
+            # the state stands behind the name, which may hold anything
+            states.add((thread / "stat").read_text().rpartition(")")[2].split()[0])
+    return not states.isdisjoint("RD")
+
+
+def worked(pid: int) -> float:
+    """Seconds that all threads of a process have run, also those that have ended: a busy machine does not change it.
+
+    It is the process's own clock, which Linux names by the complement of the process's number and a 2 for the
+    scheduler's clock, and which any process may read.
+    """
+    return time.clock_gettime((~pid << 3) | 2)
