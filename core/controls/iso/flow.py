@@ -8,6 +8,7 @@ name; where a word leads is found by its label.
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple, NoReturn
@@ -39,7 +40,7 @@ _ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE"}
 
 
 class OWord(NamedTuple):
-    """An O-word: its row of the file from 0, label and word; the line, where the word begins, and what is behind it.
+    """An O-word: its row of the file from 0, label and word; the line, where the word begins, and where it ends.
 
     The label is empty where it is worked out when it runs.
     """
@@ -49,11 +50,16 @@ class OWord(NamedTuple):
     word: str
     line: Squeezed
     begin: int
-    behind: int
+    end: int
+
+    @property
+    def column(self) -> int:
+        """Where the word stands in its line."""
+        return self.line.column(self.begin)
 
 
 @dataclass(slots=True)
-class Open:
+class OpenBlock:
     """A branch or a loop that runs: its first word, where that stands, how often a repeat runs again."""
 
     word: str
@@ -62,18 +68,32 @@ class Open:
 
 
 @dataclass(slots=True)
-class Frame:
-    """A subprogram that runs: its label, where it returns to, what is open in it."""
+class Scope:
+    """The program, or a subprogram that an O-word called: its label (None for the program), and what is open in it."""
 
-    label: str
+    label: str | None = None
+    opened: dict[str, OpenBlock] = field(default_factory=dict)
+
+
+@dataclass(slots=True)
+class Call:
+    """The program or a subprogram that runs: the line index it returns to and its scope.
+
+    One that M98 called has its `number`, the index it starts at, and how often it runs again; it runs in the scope of
+    its caller.
+    """
+
     back: int
-    opened: dict[str, Open] = field(default_factory=dict)
+    scope: Scope
+    number: int | None = None
+    start: int = 0
+    again: int = 0
 
 
 def o_words_of(lines: Sequence[str]) -> dict[int, OWord]:
     """The O-words of a program by their line's index."""
-    found = ((index, _read(index, line)) for index, line in enumerate(lines) if "o" in line or "O" in line)
-    return {index: word for index, word in found if word is not None}
+    read = ((index, _read(index, line)) for index, line in enumerate(lines) if "o" in line or "O" in line)
+    return {index: word for index, word in read if word is not None}
 
 
 def _read(index: int, line: str) -> OWord | None:
@@ -95,15 +115,18 @@ def _blank(comment: re.Match[str]) -> str:
 
 
 class OWords:
-    """Follows them; `run` gives the index of the next line."""
+    """Follows the O-words of a program; `run` gives the index of the next line.
 
-    def __init__(self, words: dict[int, OWord], values: Parameters, log: Log) -> None:
+    `calls` are the program and the subprograms that run, the innermost last, those that M98 called among them.
+    """
+
+    def __init__(self, words: dict[int, OWord], values: Parameters, log: Log, calls: list[Call]) -> None:
         self.words = words
         self.values = values
         self.log = log
-        self.frames: list[Frame] = []
-        self.opened: dict[str, Open] = {}
-        self.begun: dict[tuple[str, str], int] = {}
+        self.calls = calls
+        self.begun: dict[tuple[str | None, str], int] = {}
+        self.subs = [row for row, word in words.items() if word.word == "SUB"]
         self.by_label: dict[str, list[OWord]] = {}
         for word in words.values():
             self.by_label.setdefault(word.label, []).append(word)
@@ -132,29 +155,34 @@ class OWords:
         return self._steps[word.word](word)
 
     def _stop(self, word: OWord, text: str) -> NoReturn:
-        self.log.stop("OWORD", text, word.row + 1, word.line.column(word.begin))
+        self.log.stop("OWORD", text, word.row + 1, word.column)
 
     def _fault(self, word: OWord, fault: FaultError) -> NoReturn:
         self.log.stop(fault.code, fault.text, word.row + 1, word.line.column(fault.at))
 
     @property
-    def _opened(self) -> dict[str, Open]:
-        return self.frames[-1].opened if self.frames else self.opened
+    def scope(self) -> Scope:
+        """That of the innermost subprogram."""
+        return self.calls[-1].scope
+
+    @property
+    def _opened(self) -> dict[str, OpenBlock]:
+        return self.scope.opened
 
     def _values(self, word: OWord, most: int) -> list[float]:
         """The bracketed values behind a word; anything else there stops the run."""
-        text, found = word.line.text, list[float]()
-        reader = ExpressionReader(text, self.values, word.behind)
+        text, values = word.line.text, list[float]()
+        reader = ExpressionReader(text, self.values, word.end)
         try:
-            while reader.at < len(text) and len(found) < most:
-                found.append(reader.brackets())
+            while reader.at < len(text) and len(values) < most:
+                values.append(reader.brackets())
             if reader.at < len(text):
                 rest = f"{quoted(text[reader.at :])} has no place behind {word.word.lower()} here."
                 raise FaultError("OWORD", rest, reader.at)
         except FaultError as fault:
             self._fault(word, fault)
         tell_unset(reader, word.line, word.row + 1, self.log)
-        return found
+        return values
 
     def _true(self, word: OWord) -> bool:
         values = self._values(word, 1)
@@ -165,29 +193,30 @@ class OWords:
     def _seek(self, word: OWord, *wanted: str) -> OWord:
         """The next of some words of the same label behind a word."""
         later = (other for other in self.by_label[word.label] if other.row > word.row and other.word in wanted)
-        found = next(later, None)
-        if found is None:
+        following = next(later, None)
+        if following is None:
             self._stop(word, f"There is no {wanted[-1].lower()} of this label behind {word.word.lower()}.")
-        return found
+        return following
 
-    def _open(self, word: OWord, *wanted: str) -> Open:
+    def _open(self, word: OWord, *wanted: str) -> OpenBlock:
         """What is open under a word's label."""
         opened = self._opened.get(word.label)
         if opened is None or opened.word not in wanted:
-            before = " or ".join(one.lower() for one in wanted)
+            before = " or ".join(wanted).lower()
             self._stop(word, f"{word.word.lower()} has no {before} of its label before it.")
         return opened
 
     def _sub(self, word: OWord) -> int:
         """A subprogram that is met is stepped over."""
-        if self.frames:
-            self._stop(word, "A subprogram begins inside a subprogram; write it behind the end of that one.")
+        nested = "A subprogram begins inside a subprogram; write it behind the end of that one."
+        if self.scope.label is not None:
+            self._stop(word, nested)
         self._fresh(word)
         self._values(word, 0)
         end = self._seek(word, "ENDSUB")
-        nested = next((one for one in self.words.values() if one.word == "SUB" and word.row < one.row < end.row), None)
-        if nested:
-            self._stop(nested, "A subprogram begins inside a subprogram; write it behind the end of that one.")
+        after = bisect_right(self.subs, word.row)
+        if after < len(self.subs) and self.subs[after] < end.row:
+            self._stop(self.words[self.subs[after]], nested)
         return end.row + 1
 
     def _call(self, word: OWord) -> int:
@@ -196,15 +225,14 @@ class OWords:
         if begun is None:
             name = f"O{label}" if label.isdigit() else f"O<{label.lower()}>"
             self._stop(word, f"There is no subprogram {quoted(name)} in this file; other files are not read.")
-        if len(self.frames) >= MAX_NESTED:
+        if sum(call.number is None for call in self.calls) > MAX_NESTED:
             self._stop(word, f"More than {MAX_NESTED} subprograms run inside each other; the control stops here.")
         self.values.enter(self._values(word, MAX_ARGUMENTS))
-        self.frames.append(Frame(label, word.row + 1))
+        self.calls.append(Call(word.row + 1, Scope(label)))
         return begun.row + 1
 
     def _worked_label(self, word: OWord) -> str:
-        at = word.line.text.index("O") + 1
-        reader = ExpressionReader(word.line.text, self.values, at)
+        reader = ExpressionReader(word.line.text, self.values, word.line.text.index("O") + 1)
         try:
             value = reader.value()
         except FaultError as fault:
@@ -214,18 +242,18 @@ class OWords:
         return str(round(value))
 
     def _end(self, word: OWord) -> int:
-        if not self.frames:
+        if self.scope.label is None:
             self._stop(word, f"{word.word.lower()} stands outside of any subprogram that was called.")
-        if word.word == "ENDSUB" and self.frames[-1].label != word.label:
+        if word.word == "ENDSUB" and self.scope.label != word.label:
             self._stop(word, "Another subprogram is running than the one that ends here.")
         values = self._values(word, 1)
         self.values.leave(values[0] if values else None)
-        return self.frames.pop().back
+        return self.calls.pop().back
 
     def _if(self, word: OWord) -> int:
         self._fresh(word)
         if self._true(word):
-            self._opened[word.label] = Open("IF", word.row)
+            self._opened[word.label] = OpenBlock("IF", word.row)
             return word.row + 1
         return self._other_branch(word)
 
@@ -236,7 +264,7 @@ class OWords:
             if word.word == "ENDIF":
                 return word.row + 1
             if word.word == "ELSE" or self._true(word):
-                self._opened[word.label] = Open("IF", word.row)
+                self._opened[word.label] = OpenBlock("IF", word.row)
                 return word.row + 1
 
     def _else(self, word: OWord) -> int:
@@ -252,7 +280,7 @@ class OWords:
 
     def _fresh(self, word: OWord) -> None:
         """A label that began something once cannot begin anything else in its subprogram."""
-        key = (self.frames[-1].label if self.frames else "", word.label)
+        key = (self.scope.label, word.label)
         if self.begun.setdefault(key, word.row) != word.row:
             text = f"This label is in use since line {self.begun[key] + 1}; give this {word.word.lower()} its own."
             self._stop(word, text)
@@ -268,13 +296,13 @@ class OWords:
         if not self._true(word):
             self._opened.pop(word.label, None)
             return self._seek(word, "ENDWHILE").row + 1
-        self._opened[word.label] = Open("WHILE", word.row)
+        self._opened[word.label] = OpenBlock("WHILE", word.row)
         return word.row + 1
 
     def _do(self, word: OWord) -> int:
         self._fresh(word)
         self._values(word, 0)
-        self._opened[word.label] = Open("DO", word.row)
+        self._opened[word.label] = OpenBlock("DO", word.row)
         return word.row + 1
 
     def _repeat(self, word: OWord) -> int:
@@ -285,7 +313,7 @@ class OWords:
         times = round(values[0])
         if times <= 0:
             return self._seek(word, "ENDREPEAT").row + 1
-        self._opened[word.label] = Open("REPEAT", word.row, times - 1)
+        self._opened[word.label] = OpenBlock("REPEAT", word.row, times - 1)
         return word.row + 1
 
     def _again(self, word: OWord) -> int:
@@ -315,20 +343,6 @@ GIVEN_UP: Final = "The run is given up here and not judged: end the loop, or let
 _LABEL: Final = re.compile(r"[ \t]*+(?:[Nn][ \t]*+[0-9]++)?[ \t]*+[Oo][ \t]*+([0-9]{1,9})(?![0-9])")
 
 
-@dataclass(slots=True)
-class _Call:
-    """A subprogram that runs: its number, the line index it starts at and returns to, how often it runs again.
-
-    `depth` is the number of O-word subprograms in which it was called.
-    """
-
-    number: int
-    start: int
-    back: int
-    again: int
-    depth: int
-
-
 class Flow:
     """The lines of a program and the one to run next, `at` from 0; `values` are its parameters, if it has any."""
 
@@ -337,35 +351,30 @@ class Flow:
         self.dialect = dialect
         self.log = log
         self.at = 0
-        self.calls: list[_Call] = []
+        self.calls = [Call(len(lines), Scope())]
         self.budget = dialect.max_repeated_blocks
         self.ran = bytearray(len(lines))
-        self.words_left = dialect.max_o_words
+        self.o_words_left = dialect.max_o_words
         self.labels: dict[int, int] | None = None
         self.percents = 0
         self.values = Parameters(dialect.parameters, machine.value_of) if dialect.parameters else None
         words = o_words_of(lines) if dialect.parameters is Kept.NGC else {}
-        self.owords = OWords(words, self.values, log) if words and self.values else None
+        self.o_words = OWords(words, self.values, log, self.calls) if words and self.values else None
 
     def follow_o_word(self, index: int) -> bool:
         """Follows the O-word of a line, if it has one."""
-        word = self.owords.words.get(index) if self.owords else None
-        if word is None or self.owords is None:
+        word = self.o_words.words.get(index) if self.o_words else None
+        if word is None or self.o_words is None:
             return False
-        if word.word in ("ENDSUB", "RETURN") and self.calls and self.calls[-1].depth == len(self.owords.frames):
+        if word.word in ("ENDSUB", "RETURN") and self.calls[-1].number is not None:
             text = "A subprogram called by M98 ends with M99; call it with its O-word, or write M99."
-            self.log.stop("OWORD", text, index + 1, word.line.column(word.begin))
-        self.words_left -= 1
-        if self.words_left < 0:
+            self.log.stop("OWORD", text, index + 1, word.column)
+        self.o_words_left -= 1
+        if self.o_words_left < 0:
             text = f"The program has run more than {self.dialect.max_o_words} O-words. {GIVEN_UP}"
-            self.log.stop("LIMIT", text, index + 1, word.line.column(word.begin))
-        self.at = self.owords.run(word)
+            self.log.stop("LIMIT", text, index + 1, word.column)
+        self.at = self.o_words.run(word)
         return True
-
-    @property
-    def depth(self) -> int:
-        """O-word subprograms that run."""
-        return len(self.owords.frames) if self.owords else 0
 
     def follow_call(self, block: Block) -> bool:
         """Follows a block's M98 or M99; False where the program ends with it."""
@@ -373,10 +382,14 @@ class Flow:
             self._call(block)
         elif 990 in block.m:
             return self._return(block)
-        elif "O" in block.words and not self.calls and self.at > 1 and self._code_before():
+        elif "O" in block.words and not self._numbers() and self.at > 1 and self._code_before():
             text = "The program runs into a subprogram; end it with M30 or M2 before the subprograms."
             self.log.tell(Severity.WARNING, "SUBPROGRAM", text, block.line, block.column("O"))
         return True
+
+    def _numbers(self) -> set[int]:
+        """Of the subprograms that M98 called."""
+        return {call.number for call in self.calls if call.number is not None}
 
     def _code_before(self) -> bool:
         return any(line.strip() and line.strip()[0] not in "(;%" for line in self.lines[: self.at - 1])
@@ -388,7 +401,7 @@ class Flow:
             self.log.stop("SUBPROGRAM", "This control has no subprograms; write the blocks out.", block.line, column)
         if number is None or number < 0:
             self.log.stop("SUBPROGRAM", "M98 needs P and the number of a subprogram.", block.line, column)
-        if any(call.number == number for call in self.calls):
+        if number in self._numbers():
             self.log.stop("SUBPROGRAM", f"Subprogram O{number} calls itself without end.", block.line, column)
         start = self._labels().get(number)
         if start is None:
@@ -399,17 +412,17 @@ class Flow:
             text = "L, how often the subprogram runs, is a whole number, not below 0."
             self.log.stop("SUBPROGRAM", text, block.line, block.column("L"))
         if times > 0:
-            self.calls.append(_Call(number, start, self.at, times - 1, self.depth))
+            self.calls.append(Call(self.at, self.calls[-1].scope, number, start, times - 1))
             self.at = start
 
     def _return(self, block: Block) -> bool:
         if "P" in block.words:
             text = "M99 with P goes on at a block number, which is not followed here; write the blocks as they run."
             self.log.stop("BRANCH", text, block.line, block.column("P"))
-        if self.owords and self.depth and (not self.calls or self.calls[-1].depth != self.depth):
+        if len(self.calls) > 1 and self.calls[-1].number is None:
             text = "A subprogram called by its O-word ends with endsub or return, not with M99."
             self.log.stop("OWORD", text, block.line, block.column("M", 990))
-        if not self.calls:
+        if len(self.calls) == 1:
             text = "M99 in the main program starts it again without end; it is taken as its end here."
             self.log.tell(Severity.INFO, "SUBPROGRAM", text, block.line, block.column("M", 990))
             return False
@@ -424,12 +437,12 @@ class Flow:
 
     def _labels(self) -> dict[int, int]:
         if self.labels is None:
-            words = self.owords.words if self.owords else {}
-            found = ((index, _LABEL.match(line)) for index, line in enumerate(self.lines) if index not in words)
+            words = self.o_words.words if self.o_words else {}
             self.labels = {}
-            for index, match in found:
-                if match:
-                    self.labels.setdefault(int(match[1]), index)
+            for index, line in enumerate(self.lines):
+                label = None if index in words else _LABEL.match(line)
+                if label:
+                    self.labels.setdefault(int(label[1]), index)
         return self.labels
 
     def count_repeat(self, line: int) -> None:
@@ -446,7 +459,7 @@ class Flow:
 
     def end_of_file(self) -> None:
         """The file is at its end; what is not closed by then is told."""
-        if self.calls or self.depth:
+        if len(self.calls) > 1:
             text = "The file ends inside a subprogram; end the subprogram with M99."
             self.log.tell(Severity.WARNING, "SUBPROGRAM", text, len(self.lines), 1)
         elif self.dialect.end_needed and self.percents < 2:
