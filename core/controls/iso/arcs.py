@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import hypot, sqrt
+from math import hypot, inf, sqrt
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.iso.dialect import Arcs
 from core.controls.moves import Plane, Point3
 from core.geometry.piece import Point
 from core.units import Unit
-
-THOUSANDTH: Final = 0.001
-"""Share of the radius up to which an arc's radii may differ whatever they are."""
 
 WHOLE_CHORD: Final = 1 - 1e-12
 """Share of the diameter from which on a chord is one: rounding must not put the center beside it."""
@@ -31,18 +27,40 @@ class NoArc:
     lengths: tuple[float, ...] = ()
 
 
-def about(start: Point, end: Point, center: Point, arcs: Arcs, unit: Unit) -> NoArc | None:
-    """What forbids an arc about a center, if anything: no radius, or two that differ."""
-    first = hypot(start[0] - center[0], start[1] - center[1])
-    last = hypot(end[0] - center[0], end[1] - center[1])
-    if min(first, last) < SHORTEST:
-        return NoArc("The arc has no radius: its center is its start or its end; correct the center.")
-    apart = abs(first - last)
-    allowed = arcs.allowed(unit)
-    if apart > allowed * arcs.worst or (apart > allowed and apart > THOUSANDTH * max(first, last)):
+@dataclass(frozen=True, slots=True)
+class ArcRadii:
+    """How far the radii of an arc at its start and at its end may differ on a control.
+
+    The control accepts a difference up to `inch` or `mm`, by the unit in force, and beyond it up to `share` of the
+    larger radius, but no more than `most` times the first.  `interpreted`: its maker's papers are silent.
+    """
+
+    inch: float = 0.0005
+    mm: float = 0.0127
+    share: float = 0.001
+    most: float = inf
+    interpreted: bool = True
+
+    def largest_difference(self, radius: float, unit: Unit) -> float:
+        """Millimeters by which the radii may differ, the larger one given."""
+        allowed = self.inch * 25.4 if unit is Unit.IN else self.mm
+        return max(allowed, min(allowed * self.most, self.share * radius))
+
+    def refused(self, start: Point, end: Point, center: Point, unit: Unit) -> NoArc | None:
+        """What forbids an arc about a center, if anything: no radius, or two that differ too much."""
+        first = hypot(start[0] - center[0], start[1] - center[1])
+        last = hypot(end[0] - center[0], end[1] - center[1])
+        if min(first, last) < SHORTEST:
+            return NoArc("The arc has no radius: its center is its start or its end; correct the center.")
+        if abs(first - last) <= self.largest_difference(max(first, last), unit):
+            return None
         text = "The arc's radius is {0} at its start and {1} at its end; correct the center or the end point."
-        return NoArc(text, (first, last))
-    return None
+        limit = " By how much they may differ on this control is an interpretation." if self.interpreted else ""
+        return NoArc(text + limit, (first, last))
+
+
+USUAL_RADII: Final = ArcRadii()
+"""What is taken where a maker's papers are silent."""
 
 
 def through(start: Point, end: Point, radius: float, turn: int) -> Point | NoArc:

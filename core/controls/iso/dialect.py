@@ -11,8 +11,10 @@ from enum import Enum, auto
 from types import MappingProxyType
 from typing import Final
 
+from core.controls.iso.arcs import USUAL_RADII, ArcRadii
 from core.controls.iso.macro import Kept
 from core.controls.iso.reader import PLAIN, SWITCHES, Block, Syntax
+from core.controls.moves import Plane
 from core.units import Unit
 
 
@@ -57,6 +59,9 @@ def _group(group: str, do: Do, *codes: int) -> dict[int, Code]:
     return {code: Code(group, do, code) for code in codes}
 
 
+PLANES: Final[Mapping[int, Plane]] = MappingProxyType({170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ})
+"""The codes of the planes."""
+
 COMMON: Final[Mapping[int, Code]] = MappingProxyType(
     {
         **_group("motion", Do.MOTION, 0, 10, 20, 30, 800),
@@ -77,27 +82,9 @@ COMMON: Final[Mapping[int, Code]] = MappingProxyType(
 
 
 def codes(*groups: tuple[str, Do, tuple[int, ...]]) -> Mapping[int, Code]:
-    """The common codes with a control's own over them."""
-    own = {code: entry for group, do, numbers in groups for code, entry in _group(group, do, *numbers).items()}
-    return MappingProxyType({**COMMON, **own})
-
-
-@dataclass(frozen=True, slots=True)
-class Arcs:
-    """How a control takes I, J, K of an arc, and how far its radii at start and end may differ.
-
-    `absolute`: from the origin while positions are (G90), otherwise always from the arc's start.  The difference is
-    refused beyond `inch` or `mm` when it is also more than a thousandth, and always beyond `worst` times that.
-    """
-
-    absolute: bool = False
-    inch: float = 0.0005
-    mm: float = 0.0127
-    worst: float = 1e9
-
-    def allowed(self, unit: Unit) -> float:
-        """Millimeters by which the radii may differ."""
-        return self.inch * 25.4 if unit is Unit.IN else self.mm
+    """The common codes with those of a control over them."""
+    added = {code: entry for group, do, numbers in groups for code, entry in _group(group, do, *numbers).items()}
+    return MappingProxyType({**COMMON, **added})
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,6 +92,7 @@ class Dialect:
     """A control's way of reading: everything that is data rather than a rule of compensation.
 
     `mode` is the motion in force at the start, None where the control refuses axis words without one.
+    `absolute_centers`: I, J, K count from the origin while positions do (G90), otherwise always from the arc's start.
     `moves_alone`: G0 or G1 without any axis is a move of no length.  `feed_needed`: an error without a feed.
     `loads_at_t`: the T word itself puts the tool in force; otherwise M6 does.  `table_needed`: a tool that is not in
     the table cannot be selected.  `unit_first`: the F of a block counts in the unit the block sets.
@@ -121,7 +109,8 @@ class Dialect:
     codes: Mapping[int, Code]
     unit: Unit
     mode: int | None = 0
-    arcs: Arcs = Arcs()
+    absolute_centers: bool = False
+    arc_radii: ArcRadii = USUAL_RADII
     syntax: Syntax = PLAIN
     moves_alone: bool = False
     feed_needed: bool = False

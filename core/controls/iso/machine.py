@@ -15,11 +15,11 @@ from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
 from core.controls.iso import cycles
-from core.controls.iso.arcs import NoArc, about, given_center, through
-from core.controls.iso.dialect import Code, Dialect, Do, unused_words
+from core.controls.iso.arcs import NoArc, given_center, through
+from core.controls.iso.dialect import PLANES, Code, Dialect, Do, unused_words
 from core.controls.iso.modal_state import G54, PER_MINUTE, ZERO, ModalState, Origin
 from core.controls.iso.reader import Block
-from core.controls.moves import Plane, Point3, flat
+from core.controls.moves import Point3, flat
 from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.tolerance import ON_PATH
@@ -29,7 +29,6 @@ ONCE: Final = frozenset((Do.HOME, Do.SHIFT, Do.PRESET, Do.MACHINE, Do.DATA))
 """What takes a block's axis words for itself."""
 
 _OTHER_AXES: Final = "ABCUVW"
-_PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
 _TURNS: Final = {20: -1, 30: 1}
 _ORDER: Final = {Do.MOTION: 0, Do.PLANE: 1, Do.UNITS: 2, Do.DISTANCE: 3, Do.OWN: 4, Do.SIDE: 5}
 _LATEST: Final = 9
@@ -142,7 +141,7 @@ class Machine(ModalState):
             case Do.CYCLE:
                 self.mode = code.value
             case Do.PLANE:
-                self.plane = self.control.plane = _PLANES[code.value]
+                self.plane = self.control.plane = PLANES[code.value]
             case Do.UNITS:
                 self._set_units(code.value)
             case Do.DISTANCE:
@@ -279,7 +278,7 @@ class Machine(ModalState):
             origin = flat(self.shift, self.plane) if self.centers_from_origin else None
             center = given_center(block.words, self.plane, start, self.scale, origin)
             if not isinstance(center, NoArc):
-                center = about(start, end, center, self.dialect.arcs, self.unit) or center
+                center = self.dialect.arc_radii.refused(start, end, center, self.unit) or center
         if isinstance(center, NoArc):
             column = block.column("R" if "R" in block.words else "IJK")
             self.log.stop("ARC", center.text, block.line, column, lengths=center.lengths)

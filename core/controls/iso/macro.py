@@ -154,21 +154,21 @@ class Parameters:
 
     def enter(self, arguments: Sequence[float]) -> None:
         """A subprogram begins, with its own numbers 1 to 30 and its own names."""
-        own = {index: value for index, value in self.numbered.items() if index <= _LOCALS}
-        self._outer.append((own, self.names))
+        outer = {index: value for index, value in self.numbered.items() if index <= _LOCALS}
+        self._outer.append((outer, self.names))
         self._locals(dict(enumerate(arguments, 1)))
         self.names = {}
 
     def leave(self, value: float | None) -> None:
         """A subprogram ends, and may return a value."""
-        own, self.names = self._outer.pop()
-        self._locals(own)
+        outer, self.names = self._outer.pop()
+        self._locals(outer)
         self.returned = value
 
-    def _locals(self, own: dict[int, float]) -> None:
+    def _locals(self, values: dict[int, float]) -> None:
         for index in range(1, _LOCALS + 1):
             self.numbered.pop(index, None)
-        self.numbered.update(own)
+        self.numbered.update(values)
 
 
 EQUAL: Final = 1e-4
@@ -257,10 +257,10 @@ class ExpressionReader:
         return value
 
     def _bare(self) -> float:
-        found = _NUMBER.match(self.text, self.at)
-        if found:
-            self.at = found.end()
-            return self._worked(found.start(), "This number", float, found[0])
+        number = _NUMBER.match(self.text, self.at)
+        if number:
+            self.at = number.end()
+            return self._worked(number.start(), "This number", float, number[0])
         first = self.text[self.at : self.at + 1]
         if first == "[":
             return self.brackets()
@@ -284,12 +284,12 @@ class ExpressionReader:
 
     def _ranked(self, rank: int) -> float:
         value = self.value()
-        while (found := _OPERATOR.match(self.text, self.at)) and _RANKS[found[0]][0] >= rank:
-            if found[0] in "&|^" and self.values.kept is not Kept.MACRO_B:
+        while (operator := _OPERATOR.match(self.text, self.at)) and _RANKS[operator[0]][0] >= rank:
+            if operator[0] in "&|^" and self.values.kept is not Kept.MACRO_B:
                 break
-            begin, self.at = self.at, found.end()
-            above, work = _RANKS[found[0]]
-            value = self._worked(begin, found[0], work, value, self._ranked(above + 1))
+            begin, self.at = self.at, operator.end()
+            above, work = _RANKS[operator[0]]
+            value = self._worked(begin, operator[0], work, value, self._ranked(above + 1))
         return value
 
     def _worked(self, at: int, name: str, work: Callable[..., float], *values: float | str) -> float:
@@ -323,17 +323,17 @@ class ExpressionReader:
 
     def name(self) -> str:
         """A name between < and >."""
-        found = _NAME.match(self.text, self.at)
-        if found is None:
+        name = _NAME.match(self.text, self.at)
+        if name is None:
             raise FaultError("MACRO", "The name is not closed; write > behind it.", self.at)
-        self.at = found.end()
-        return found[1]
+        self.at = name.end()
+        return name[1]
 
     def _function(self) -> float:
-        begin, found = self.at, _FUNCTION.match(self.text, self.at)
-        if found is None:
+        begin, function = self.at, _FUNCTION.match(self.text, self.at)
+        if function is None:
             raise FaultError("MACRO", f"A value is missing{self._before()}.", begin)
-        name, self.at = found[1], found.end(1)
+        name, self.at = function[1], function.end(1)
         if name == "EXISTS":
             return self._exists()
         if name == "ATAN":

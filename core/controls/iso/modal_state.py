@@ -105,7 +105,7 @@ class ModalState:
         self.origin = Origin()
         self.shift = ZERO
         self.incremental = False
-        self.absolute_centers = dialect.arcs.absolute
+        self.absolute_centers = dialect.absolute_centers
         self.feed = 0.0
         self.rates = Rates()
         self.cycle = Cycle(to_r=dialect.returns_to_r)
@@ -136,7 +136,7 @@ class ModalState:
     @property
     def centers_from_origin(self) -> bool:
         """Whether I, J, K count from the program's origin; otherwise from the arc's start."""
-        return self.absolute_centers and not (self.incremental and self.dialect.arcs.absolute)
+        return self.absolute_centers and not (self.incremental and self.dialect.absolute_centers)
 
     def set_units(self, code: int) -> None:
         """G20, G21, G70 or G71."""

@@ -200,10 +200,10 @@ def _closer(
 
 
 def _no_branch(block: Block, bare: str, log: Log) -> None:
-    found = _BRANCH.match(bare)
-    if found:
-        text = f"{found[1]} is a branch or a loop, which is not followed here; write the blocks out as they run."
-        log.stop("BRANCH", text, block.line, block.start + found.start(1) + 1)
+    branch = _BRANCH.match(bare)
+    if branch:
+        text = f"{branch[1]} is a branch or a loop, which is not followed here; write the blocks out as they run."
+        log.stop("BRANCH", text, block.line, block.start + branch.start(1) + 1)
 
 
 def _worked_out(block: Block, log: Log, values: Parameters) -> list[Block]:
@@ -226,9 +226,9 @@ def _squeezed(block: Block, log: Log) -> str:
     return "".join(_bare(capitals(block.text), GAP).split()).replace(GAP, " ")
 
 
-def _tool_data(found: re.Match[str]) -> ToolData:
-    length, diameter = (None if part is None else float(part) for part in (found[2], found[3]))
-    return ToolData(int(found[1][:9]), length, diameter)
+def _tool_data(data: re.Match[str]) -> ToolData:
+    length, diameter = (None if part is None else float(part) for part in (data[2], data[3]))
+    return ToolData(int(data[1][:9]), length, diameter)
 
 
 def _filled(block: Block, upper: str, log: Log) -> Block:
@@ -252,8 +252,8 @@ def _filled(block: Block, upper: str, log: Log) -> Block:
 
 def _fault(block: Block, bare: str, log: Log) -> None:
     """Stops the run at the first sign that belongs to no word."""
-    found = _CLEAN.match(bare)
-    at = found.end() if found else 0
+    clean = _CLEAN.match(bare)
+    at = clean.end() if clean else 0
     at += len(bare[at:]) - len(bare[at:].lstrip())
     rest, column = block.text[at:], block.start + at + 1
     if rest.startswith("("):

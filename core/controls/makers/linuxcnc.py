@@ -15,7 +15,8 @@ from typing import Final
 from core.controls.compensation.chain import OneMoveQueue
 from core.controls.control_run import Log, Run
 from core.controls.control_tools import ToolTable, not_there
-from core.controls.iso.dialect import Arcs, Dialect, Do, codes
+from core.controls.iso.arcs import ArcRadii
+from core.controls.iso.dialect import PLANES, Dialect, Do, codes
 from core.controls.iso.flow import execute
 from core.controls.iso.machine import Control
 from core.controls.iso.macro import Kept
@@ -24,8 +25,6 @@ from core.controls.moves import Plane
 from core.finding import Severity
 from core.geometry.piece import Side
 from core.units import Unit
-
-_ARCS: Final = Arcs(inch=0.002828427, mm=0.02828427, worst=100.0)
 
 DIALECT: Final = Dialect(
     "linuxcnc",
@@ -50,7 +49,7 @@ DIALECT: Final = Dialect(
     Unit.MM,
     mode=None,
     syntax=Syntax(blanks=False),
-    arcs=_ARCS,
+    arc_radii=ArcRadii(inch=0.002828427, mm=0.02828427, most=100.0, interpreted=False),
     moves_alone=True,
     feed_needed=True,
     table_needed=True,
@@ -110,12 +109,12 @@ class LinuxCnc(OneMoveQueue, Control):
             if code not in _KNOWN_M:
                 text = f"M{code / 10:g} is no M code of this control; leave it out."
                 self.log.stop("CODE", text, block.line, block.column("M", code))
-        beside = {f"G{code}" for code in block.g} | {f"M{code}" for code in block.m}
+        given = {f"G{code}" for code in block.g} | {f"M{code}" for code in block.m}
         mode = self._motion(block)
         if mode is not None:
-            beside.add(f"G{mode}")
+            given.add(f"G{mode}")
         for letter, codes_for in NEEDED.items():
-            if letter in block.words and beside.isdisjoint(codes_for):
+            if letter in block.words and given.isdisjoint(codes_for):
                 text = f"{letter} has no code in this block that takes it; leave it out."
                 self.log.stop("N-WORDALONE", text, block.line, block.column(letter))
         if 40 in block.g and "P" not in block.words:
@@ -151,7 +150,7 @@ class LinuxCnc(OneMoveQueue, Control):
             rule, what = REFUSED[code]
             text = f"G{code / 10:g} {what}, which is not allowed under compensation; write G40 before it."
             self.log.stop(rule, text, block.line, block.column("G", code))
-        if code in (170, 180, 190) and _PLANES[code] is not self.machine.plane:
+        if code in PLANES and PLANES[code] is not self.machine.plane:
             text = "The plane cannot be changed under compensation; write G40 before it."
             self.log.stop("N-PLANE", text, block.line, block.column("G", code))
 
@@ -233,7 +232,6 @@ _KNOWN_M: Final = frozenset(
     10 * code for code in (*range(10), 19, 30, *range(48, 54), *range(60, 69), *range(70, 74), 98, 99, *range(100, 200))
 )
 _CENTERS: Final = frozenset("IJKR")
-_PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
 
 
 def run(text: bytes, _: str, tools: ToolTable, unit: Unit | None = None) -> Run:

@@ -26,7 +26,8 @@ from core.controls.compensation.joint import (
 )
 from core.controls.control_run import Log, Run
 from core.controls.control_tools import ToolTable
-from core.controls.iso.dialect import Dialect, Do, codes
+from core.controls.iso.arcs import IN_PLANE
+from core.controls.iso.dialect import PLANES, Dialect, Do, codes
 from core.controls.iso.flow import execute
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import SWITCHES, Block, Semicolon, Syntax, whole
@@ -78,7 +79,8 @@ class NineSeries(Chain, Control):
     """The compensation of the 9/Series.
 
     `coming` is the next element's signed radius, `offset` that of what is held, in millimeters; `written_side` the side
-    of the word in force; `entering` until the entry has ended; `exit_block` the block with G40 until the exit move.
+    of the word in force; `entering` until the entry has ended; `exit_block` the block with G40 until the exit move;
+    `motionless` counts blocks without motion in the plane.
     """
 
     def __init__(self, log: Log, *, type_a: bool = True, outside: Outside = Outside.LINES) -> None:
@@ -91,7 +93,7 @@ class NineSeries(Chain, Control):
         self.entering = False
         self.exit_block: Block | None = None
         self.checks = True
-        self.quiet = 0
+        self.motionless = 0
         self.before = Before(0, None, None, ())
 
     def watch(self, block: Block) -> None:
@@ -109,11 +111,11 @@ class NineSeries(Chain, Control):
             text = "Moves by hand or MDI at this stop are not compensated; compensation starts anew after them."
             self.log.tell(Severity.INFO, "R6", text, block.line, block.column("M"))
         if self.active and not _CHANGES.isdisjoint(block.g):
-            self.interrupt(block)
+            self._interrupt(block)
         if self.active and not _MACHINE.isdisjoint(block.g):
             text = "What compensation does with a move to the machine's own points is not known; write G40 before."
             self.log.stop("HOME", text, block.line, block.column("G"))
-        if self.active and self.exit_block is None and not {170, 180, 190}.isdisjoint(block.g):
+        if self.active and self.exit_block is None and not PLANES.keys().isdisjoint(block.g):
             text = "The plane is not changed under compensation; write G40 before."
             self.log.stop("PLANE", text, block.line, block.side_column())
 
@@ -127,9 +129,9 @@ class NineSeries(Chain, Control):
             text = "D0 does not cancel compensation, it goes on with radius 0; write G40 to cancel."
             self.log.tell(Severity.WARNING, "R3", text, block.line, block.column("D"))
         if self.active and self.exit_block is None and SWITCHES.isdisjoint(block.g) and self.written_side is not None:
-            self.coming = self.radius(block) * self.written_side.sign
+            self.coming = self._offset_radius(block) * self.written_side.sign
 
-    def radius(self, block: Block) -> float:
+    def _offset_radius(self, block: Block) -> float:
         """Half the diameter of the offset in force, millimeters."""
         if self.number == 0:
             return 0.0
@@ -144,7 +146,7 @@ class NineSeries(Chain, Control):
         return radius
 
     @property
-    def running(self) -> Side:
+    def _tool_side(self) -> Side:
         """The side on which the tool runs: a negative radius is on the other one, offset 0 on the one written."""
         sign = self.coming or (self.written_side.sign if self.written_side else 0)
         return Side.LEFT if sign > 0.0 else Side.RIGHT
@@ -153,19 +155,19 @@ class NineSeries(Chain, Control):
         """G39 and G39.1."""
         self.rules = CornerRules(outside=Outside.MITER_OR_ARC if code == 391 else Outside.LINES)
 
-    def goes_on(self, joint: Joint) -> None:
+    def _continue_stretch(self, joint: Joint) -> None:
         """The stretch has the coming side and radius behind this joint; behind its entry it had no other one."""
         if self.elements == 1:
-            self.begin_stretch(self.running, self.coming)
+            self.begin_stretch(self._tool_side, self.coming)
         else:
-            self.change_stretch(self.running, self.coming, 1 + len(self.standing), joint.moves)
+            self.change_stretch(self._tool_side, self.coming, 1 + len(self.standing), joint.moves)
 
-    def generates(self, line: int) -> None:
+    def _tell_generated(self, line: int) -> None:
         """A generated block, made however short it is."""
         text = "the least length of a generated block (AMP) is taken as 0; the control drops a shorter one."
         self._assumed("AMP", text, line)
 
-    def slows(self, line: int) -> None:
+    def _tell_slowed(self, line: int) -> None:
         """The feed inside an arc, however small it is."""
         self._assumed("MFR", "the least feed inside arcs (MFR) is taken as 0; the control may feed faster.", line)
 
@@ -182,10 +184,10 @@ class NineSeries(Chain, Control):
         if not self.active:
             if self.machine.mode in (20, 30):
                 self._circular_start(block.line, block.side_column())
-            self.active, self.entering, self.quiet = True, True, 0
+            self.active, self.entering, self.motionless = True, True, 0
             self.held, self.start, self.elements = None, None, 0
         self.written_side = side
-        self.coming = self.radius(block) * side.sign
+        self.coming = self._offset_radius(block) * side.sign
 
     def _circular_start(self, line: int, column: int) -> None:
         text = "Compensation cannot be started in G2 or G3; write G1 and a straight entry move."
@@ -200,8 +202,8 @@ class NineSeries(Chain, Control):
 
     def idle(self, block: Block) -> None:
         """A block without motion in the plane."""
-        self.quiet += 1
-        if self.quiet <= NON_MOTION or self.held is None or self.exit_block is not None:
+        self.motionless += 1
+        if self.motionless <= NON_MOTION or self.held is None or self.exit_block is not None:
             return
         text = (
             f"More than {NON_MOTION} blocks without motion (an assumed limit, the machine builder sets it): the move "
@@ -226,7 +228,7 @@ class NineSeries(Chain, Control):
 
     def _across(self, element: Element) -> None:
         """A move that does not lie in the plane."""
-        self.quiet += 1
+        self.motionless += 1
         if self.held is None or self.exit_block is not None:
             what = "start" if self.exit_block is None else "end"
             text = (
@@ -240,13 +242,13 @@ class NineSeries(Chain, Control):
             self.hold(element)
 
     def _compensated(self, element: Element) -> None:
-        self.quiet = 0
+        self.motionless = 0
         if self.held is None and self.entering:
             if element.turn:
                 self._circular_start(element.line, 1)
             self._without_offset(element)
             if not self.stretch_open:
-                self.open_stretch(self.running, self.coming, element)
+                self.open_stretch(self._tool_side, self.coming, element)
         elif not fits(element, self.coming):
             text = "The arc's radius {0} is not larger than the cutter's {1}; use a smaller cutter."
             self.log.stop("R9", text, element.line, 1, lengths=(element.radius, abs(self.coming)))
@@ -265,23 +267,23 @@ class NineSeries(Chain, Control):
             self.offset = self.coming
             self._interpreted(first, second)
             joint = entry(first, second, self.coming, self.rules.outside, direct=self.type_a)
-            self.goes_on(joint)
-            return self._told(joint, second)
+            self._continue_stretch(joint)
+            return self._with_notice(joint, second)
         if self.coming != self.offset:
             text = "The side or the radius changes here; the way across is an interpretation."
             self.log.tell(Severity.INFO, "CHANGE", text, second.line, 1)
             joint = change(first, second, self.offset, self.coming)
-            self.goes_on(joint)
+            self._continue_stretch(joint)
             return joint
         joint = super().joint(first, second)
         if joint.missed:
             return self._missed(first, second)
-        return self._told(joint, second) if joint.corner is Corner.OUTSIDE else joint
+        return self._with_notice(joint, second) if joint.corner is Corner.OUTSIDE else joint
 
-    def _told(self, joint: Joint, element: Element) -> Joint:
+    def _with_notice(self, joint: Joint, element: Element) -> Joint:
         """The joint; that its generated blocks are made however short they are is told."""
         if joint.through or joint.center is not None or joint.end != joint.start:
-            self.generates(element.line)
+            self._tell_generated(element.line)
         return joint
 
     def _interpreted(self, first: Element, second: Element) -> None:
@@ -316,7 +318,7 @@ class NineSeries(Chain, Control):
         """Inside an arc the surface keeps the feed; outside the center does."""
         if not element.turn or element.turn * self.offset <= 0.0:
             return element.feed
-        self.slows(element.line)
+        self._tell_slowed(element.line)
         return element.feed * offset_radius(element, self.offset) / element.radius
 
     def _circular_exit(self, line: int) -> None:
@@ -335,14 +337,14 @@ class NineSeries(Chain, Control):
         elif self.type_a or self.offset == 0.0:
             self.release_square()
         else:
-            joint = self._told(departure(held, element, self.offset, self.rules.outside), element)
+            joint = self._with_notice(departure(held, element, self.offset, self.rules.outside), element)
             self.release(joint.end)
             self.lead_on(joint, element, self.offset)
         self._cancel()
         super().travel(element)
 
     def _vector(self, block: Block) -> Point:
-        first, second = (("I", "J"), ("K", "I"), ("J", "K"))[self.plane]
+        first, second, _ = IN_PLANE[self.plane]
         scale = self.machine.scale
         return block.words.get(first, 0.0) * scale, block.words.get(second, 0.0) * scale
 
@@ -355,7 +357,7 @@ class NineSeries(Chain, Control):
         self.release_square()
         self._cancel()
 
-    def interrupt(self, block: Block) -> None:
+    def _interrupt(self, block: Block) -> None:
         """A change of origin: the last move becomes an exit move, the next one an entry move."""
         text = "The origin changes under compensation: the last move leaves it and the next one enters it again."
         self.log.tell(Severity.WARNING, "R7", text, block.line, block.column("G"))

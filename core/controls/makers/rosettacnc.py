@@ -16,7 +16,7 @@ from core.controls.compensation.corners import Element, fits, square_end, square
 from core.controls.compensation.joint import Corner, CornerRules
 from core.controls.control_run import Log, Run
 from core.controls.control_tools import ToolTable, not_there
-from core.controls.iso.dialect import Dialect, Do, codes
+from core.controls.iso.dialect import PLANES, Dialect, Do, codes
 from core.controls.iso.flow import execute
 from core.controls.iso.machine import Control
 from core.controls.iso.macro import Kept
@@ -52,7 +52,6 @@ CORNERS: Final = CornerRules(tangent=0.01, reversal=0.01, rapid_straight=True)
 """The corners of NIST: under 0.01 radians a corner is none."""
 
 _NOT_NOW: Final = frozenset((170, 180, 190, 280, 300, 520, 530, 920, 540, 550, 560, 570, 580, 590, 591, 592, 593))
-_PLANES: Final = {170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ}
 
 
 class Switch(Control):
@@ -74,25 +73,23 @@ class Switch(Control):
         return radius * side.sign
 
     def _diameter(self, block: Block) -> float:
-        machine, log = self.machine, self.log
-        if machine.plane is Plane.YZ:
+        if self.plane is Plane.YZ:
             text = "G41.1 and G42.1 do not work in the plane G19; write G41 or another plane."
-            log.stop("C3", text, block.line, block.side_column())
+            self.log.stop("C3", text, block.line, block.side_column())
         if "D" not in block.words:
             text = "G41.1 and G42.1 need D and the cutter's diameter."
-            log.stop("C1", text, block.line, block.side_column())
+            self.log.stop("C1", text, block.line, block.side_column())
         self._orientation(block)
-        return block.words["D"] * machine.scale
+        return block.words["D"] * self.machine.scale
 
     def _orientation(self, block: Block) -> None:
-        log, column = self.log, block.column("L")
         if "L" not in block.words:
             return
-        number = whole(block.words["L"])
+        column, number = block.column("L"), whole(block.words["L"])
         if number is None or not 0 <= number <= 9:
-            log.stop("C4", "L, the orientation of a lathe tool, is 0 to 9.", block.line, column)
-        if self.machine.plane is not Plane.ZX:
-            log.stop("C5", "L goes with the plane G18 only; leave it out.", block.line, column)
+            self.log.stop("C4", "L, the orientation of a lathe tool, is 0 to 9.", block.line, column)
+        if self.plane is not Plane.ZX:
+            self.log.stop("C5", "L goes with the plane G18 only; leave it out.", block.line, column)
         self._nose(number, block, column)
 
     def _nose(self, orientation: int, block: Block, column: int) -> None:
@@ -123,16 +120,15 @@ class Switch(Control):
 
     def watch(self, block: Block) -> None:
         """The list of NIST, of which nobody said that it holds here."""
-        log = self.log
         if "D" in block.words and SWITCHES.isdisjoint(block.g):
             text = "D needs G41 or G42 in its block. That is an interpretation, by the list of NIST."
-            log.stop("C8", text, block.line, block.column("D"))
+            self.log.stop("C8", text, block.line, block.column("D"))
         if not self.active:
             return
         for code in _NOT_NOW.intersection(block.g):
-            if _PLANES.get(code) is not self.machine.plane:
+            if PLANES.get(code) is not self.plane:
                 text = f"G{code / 10:g} is not allowed under compensation. That is an interpretation, by NIST's list."
-                log.stop("C8", text, block.line, block.column("G", code))
+                self.log.stop("C8", text, block.line, block.column("G", code))
 
 
 class Normal(OneMoveQueue, Switch):

@@ -17,7 +17,7 @@ from core.controls.compensation.corners import Element, element_sweep, fits, off
 from core.controls.compensation.joint import Corner, CornerRules, Joint
 from core.controls.control_run import Log, Run
 from core.controls.control_tools import ToolTable
-from core.controls.iso.dialect import Arcs, Dialect, Do, codes
+from core.controls.iso.dialect import Dialect, Do, codes
 from core.controls.iso.flow import execute
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import Block, Semicolon, Slash, Syntax
@@ -34,7 +34,7 @@ DIALECT: Final = Dialect(
         ("deceleration", Do.OWN, (990,)),
     ),
     Unit.IN,
-    arcs=Arcs(absolute=True),
+    absolute_centers=True,
     syntax=Syntax(Semicolon.END, Slash.DATA),
     loads_at_t=True,
     subprograms=False,
@@ -87,7 +87,7 @@ class ThreeBlock(Chain, Control):
         if block.m:
             text = "No M code between the block behind G41 or G42 and the one with G40; write it before or after."
             self.log.stop("B14-MCODE", text, block.line, block.column("M"))
-        if not {170, 180, 190}.isdisjoint(block.g) and 170 not in block.g:
+        if not {180, 190}.isdisjoint(block.g) and 170 not in block.g:
             self.wrong_plane(block)
         wrong = next((code for code in block.g if code in _ORIGINS), None)
         if wrong is not None:
@@ -103,10 +103,10 @@ class ThreeBlock(Chain, Control):
         self.log.stop("B1-PLANE", text, block.line, block.column("G"))
 
     def _decimals(self, block: Block) -> None:
-        found = _POINTLESS.search(block.text)
-        if found:
+        pointless = _POINTLESS.search(block.text)
+        if pointless:
             text = "A coordinate without a decimal point is taken as whole units here; write the point."
-            self.log.tell(Severity.WARNING, "B22-DECIMAL", text, block.line, block.start + found.start() + 1)
+            self.log.tell(Severity.WARNING, "B22-DECIMAL", text, block.line, block.start + pointless.start() + 1)
 
     def tool_called(self, number: int, block: Block) -> None:
         """Tool numbers are 1 to 24, and stay while compensation is on."""

@@ -1,0 +1,72 @@
+"""Arcs whose radii differ at start and end: what each control accepts, and its alarm beyond that."""
+
+from __future__ import annotations
+
+from math import sqrt
+from pathlib import Path
+
+import pytest
+
+from core.controls.iso.arcs import ArcRadii
+from core.controls.makers import linuxcnc, nine_series, rosettacnc, threeblock
+from core.finding import Severity
+from core.units import Unit
+from tests.core.controls.hand import ran, told
+from tests.core.controls.rs274 import witness
+from tests.rs274 import WITNESS
+
+ACCEPTED: dict[str, ArcRadii] = {
+    "threeblock": threeblock.DIALECT.arc_radii,
+    "rosettacnc": rosettacnc.DIALECT.arc_radii,
+    "nine-series": nine_series.DIALECT.arc_radii,
+    "linuxcnc": linuxcnc.DIALECT.arc_radii,
+}
+CASES = [(unit, radius) for unit in Unit for radius in (1.0, 40.0, 3000.0)]
+SCALE = {Unit.MM: 1.0, Unit.IN: 25.4}
+
+
+def quarter(unit: Unit, radius: float, difference: float) -> str:
+    """A quarter about the origin, from `radius` out to `difference` more, in program units."""
+    code = "G71" if unit is Unit.MM else "G70"
+    start, end = f"X{radius:.7f} Y0.", f"X0. Y{radius + difference:.7f}"
+    return f"{code} G17 G90 F10.\nG0 X0. Y0.\nG1 {start}\nG3 {end} I{{i}} J0.\nM2\n".replace("{i}", f"{-radius:.7f}")
+
+
+def program(control: str, unit: Unit, radius: float, difference: float) -> str:
+    text = quarter(unit, radius, difference)
+    if control == "threeblock":
+        return text.replace(f"I{-radius:.7f}", "I0.")
+    return text.replace("G70", "G20").replace("G71", "G21")
+
+
+@pytest.mark.parametrize(("unit", "radius"), CASES)
+@pytest.mark.parametrize("control", ACCEPTED)
+def test_a_difference_is_run_up_to_the_control_s_limit_and_an_alarm_beyond_it(
+    control: str, unit: Unit, radius: float
+) -> None:
+    limit = ACCEPTED[control].largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
+    within, beyond = (ran(program(control, unit, radius, share * limit), control) for share in (0.99, 1.01))
+    assert within.stopped_at is None
+    assert not told(within, "ARC")
+    (alarm,) = told(beyond, "ARC")
+    assert (alarm.severity, alarm.line, beyond.stopped_at) == (Severity.ERROR, 4, 4)
+    assert alarm.lengths == pytest.approx((radius * SCALE[unit], (radius + 1.01 * limit) * SCALE[unit]), abs=1e-5)
+    assert ("interpretation" in alarm.text) is (control != "linuxcnc")
+
+
+@pytest.mark.skipif(WITNESS is None, reason="LinuxCNC's rs274 is not installed")
+@pytest.mark.parametrize(("unit", "radius"), CASES)
+@pytest.mark.parametrize("share", [0.99, 1.01])
+def test_linuxcnc_s_limit_is_that_of_the_interpreter_itself(
+    unit: Unit, radius: float, share: float, tmp_path: Path
+) -> None:
+    limit = ACCEPTED["linuxcnc"].largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
+    text = program("linuxcnc", unit, radius, share * limit)
+    assert bool(witness(text, tmp_path, {1: 0.5}, unit).refusal) is (share > 1.0)
+
+
+def test_the_limit_of_linuxcnc_is_its_own_figure() -> None:
+    limit = ACCEPTED["linuxcnc"]
+    assert limit.largest_difference(1.0, Unit.MM) == pytest.approx(0.01 * 2 * sqrt(2))
+    assert limit.largest_difference(1.0, Unit.IN) == pytest.approx(0.001 * 2 * sqrt(2) * 25.4)
+    assert limit.largest_difference(100.0, Unit.MM) == pytest.approx(0.1)
