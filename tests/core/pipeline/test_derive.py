@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.advice.path_findings import move_names, path_findings, size_warning
+from core.advice.path_findings import move_names, path_findings
 from core.advice.work import Loop
 from core.comp.blend import blend_in, blend_out
 from core.finding import Severity
@@ -179,15 +179,6 @@ def test_a_tool_larger_than_the_part_is_said():
     tiny = ((0, 0), (0.2, 0), (0.2, 0.2), (0, 0.2), (0, 0))
     (found,) = derive(program(block(tiny, CutterComp.RIGHT))).blocks
     assert "TOOL_LARGE" in codes(found)
-
-
-@pytest.mark.parametrize(("radius", "told"), [(0.99, False), (1.0, False), (1.01, True)])
-def test_the_size_of_a_contour_is_that_of_its_arcs(radius, told):
-    """The points of this circle span 1 mm by 0."""
-    half = Path.of(np.array([[0.0, 0], [1, 0], [0, 0]]), np.array([[0.5, 0], [1, 0]]), np.array([1, 0], np.int8))
-    whole = Path.of(np.zeros((2, 2)), np.array([[1.0, 0]]), np.array([1], np.int8))
-    assert bool(size_warning(radius, whole)) is told
-    assert bool(size_warning(radius / 2, half)) is told
 
 
 DUMBBELL = (

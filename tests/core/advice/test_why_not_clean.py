@@ -9,21 +9,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.advice.remedies import STEP, largest_tool, started
+from core.advice.remedies import STEP, started
 from core.advice.trials import Trial, table_of
 from core.advice.why_not_clean import MAX_NAMED, Needs, needs_of
 from core.comp.lookahead import calculated
 from core.finding import Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.pipeline.derive import derive
-from core.pipeline.lookahead_table import needs
-from core.program.model import CutterComp
 from core.units import Unit, sentence
 from tests.bench.families import gear
-from tests.bench.keys import gear as typed_gear
 from tests.core.comp.contours import lines, mixed, shut
-from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OUTSIDE_SQUARE, block, program
 
 SQUARE = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0))
 SLOT = lines((0, 2), (0, 0), (0.4, 0), (0.4, 2))
@@ -50,29 +45,6 @@ def said(found: Needs) -> str:
     return " ".join(sentence(one, Unit.MM) for one in found.sentences)
 
 
-def test_a_clean_contour_needs_nothing():
-    part = program(block(OUTSIDE_SQUARE, CutterComp.RIGHT))
-    found = needs(derive(part).blocks[0], part)
-    assert found is not None
-    assert not found.sentences
-
-
-def test_without_compensation_nothing_is_known():
-    part = program(block(OUTSIDE_SQUARE, CutterComp.ON))
-    assert needs(derive(part).blocks[0], part) is None
-
-
-def test_the_notch_is_told_the_look_ahead_that_is_clean():
-    part = program(block(NOTCH, CutterComp.LEFT))
-    found = needs(derive(part).blocks[0], part)
-    assert found is not None
-    assert codes(found) == ["CAL_NOT_CLEAN"]
-    assert said(found) == "CAL 2 gouges. Type look-ahead 3: clean."
-    assert found.sentences[0].at is not None
-    assert found.tool is None
-    assert found.start is None
-
-
 def test_an_inside_square_is_to_be_started_mid_side():
     asked = trial(SQUARE, Side.LEFT, closed=True)
     found = of(asked)
@@ -81,7 +53,7 @@ def test_an_inside_square_is_to_be_started_mid_side():
     assert found.start is not None
     assert (found.start.segment, found.start.at) == (1, (1.0, 0.0))
     assert table_of(replace(asked, surface=started(SQUARE, 0))).row(found.start.value).clean
-    assert started(SQUARE, 0).points.tolist() == [[float(x), float(y)] for x, y in MID_SIDE_SQUARE]
+    assert started(SQUARE, 0).points.tolist() == [[1, 0], [2, 0], [2, 2], [0, 2], [0, 0], [1, 0]]
 
 
 def test_a_chamfer_at_the_seam():
@@ -102,20 +74,6 @@ def test_the_largest_tool_of_a_slot_is_its_width():
     assert "inside corner after segment 2" in said(found)
     assert table_of(replace(asked, radius=found.tool.diameter / 2)).row(found.tool.value).clean
     assert table_of(replace(asked, radius=(found.tool.diameter + STEP) / 2)).recommended is None
-
-
-@pytest.mark.parametrize("width", [0.2005, 0.3999, 0.4999])
-def test_the_largest_tool_is_rounded_down(width):
-    slot = lines((0, 2), (0, 0), (width, 0), (width, 2))
-    found = largest_tool(trial(slot, Side.LEFT, closed=False))
-    assert found is not None
-    assert width - STEP < found.diameter <= width
-    assert round(found.diameter / STEP) * STEP == pytest.approx(found.diameter, abs=1e-12)
-
-
-def test_a_hint_finds_the_same_tool():
-    asked = trial(SLOT, Side.LEFT, closed=False)
-    assert largest_tool(asked, 0.2) == largest_tool(asked, 0.05) == largest_tool(asked)
 
 
 def test_an_inside_radius_smaller_than_the_tool_is_named():
@@ -241,22 +199,6 @@ def test_another_start_is_told_only_where_one_number_of_it_is_wrong_and_it_helps
     assert "START_AT_END" not in codes(found)
 
 
-@pytest.mark.parametrize("tries", range(8))
-def test_remedies_nobody_waits_for_are_given_up_at_the_next_one(tries):
-    """The gear tries six starts and one without blend moves: each is asked before, none after the answer was no."""
-    part = typed_gear(200)
-    found = derive(part).blocks[0]
-    asked: list[bool] = []
-
-    def wanted() -> bool:
-        still = bool(len(asked) < tries)
-        asked.append(still)
-        return still
-
-    assert needs(found, part, wanted=wanted) is None
-    assert asked == [True] * tries + [False]
-
-
 def test_many_places_are_counted():
     work = gear(50)
     found = of(trial(work.contour, work.side, 6.0, closed=True))
@@ -287,3 +229,25 @@ def test_every_remedy_holds(contour, side, radius, closed, blend):
         assert table_of(replace(asked, blend=0.0)).row(found.lookahead_without_blends).clean
     if found.tool is not None and found.tool_without_blends is not None:
         assert found.tool_without_blends.diameter > found.tool.diameter
+
+
+def test_the_value_that_is_clean_is_told_where_the_calculated_one_is_not():
+    notch = lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
+    found = of(trial(notch, Side.LEFT, closed=False))
+    assert said(found) == "CAL 2 gouges. Type look-ahead 3: clean."
+    assert (found.tool, found.start) == (None, None)
+    assert not of(trial(notch, Side.RIGHT, closed=False)).sentences
+
+
+@pytest.mark.parametrize("tries", range(8))
+def test_remedies_nobody_waits_for_are_given_up_at_the_next_one(tries):
+    """A shape that nothing mends: each remedy is asked before, none after the answer was no."""
+    asked = trial(STAR, Side.LEFT, closed=True, blend=0.1)
+    answers: list[bool] = []
+
+    def wanted() -> bool:
+        answers.append(len(answers) < tries)
+        return answers[-1]
+
+    assert needs_of(asked, 8, table_of(asked), wanted) is None
+    assert answers == [True] * tries + [False]

@@ -1,3 +1,5 @@
+""""""
+
 from dataclasses import fields, replace
 
 import pytest
@@ -6,11 +8,12 @@ from core.comp.advise import recommended
 from core.output.passes import meets_solid
 from core.pipeline.derive import derive
 from core.pipeline.jobs import job
-from core.pipeline.lookahead_table import look_ahead_table
+from core.pipeline.lookahead_table import look_ahead_table, needs
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Entry, Parameters, PathChoice, Tool
-from core.units import Unit
+from core.units import Unit, sentence
 from core.verify.judge import judge
+from tests.bench.keys import gear
 from tests.core.pipeline.parts import NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE, block, program
 
 
@@ -110,3 +113,42 @@ def test_a_gap_of_the_forms_last_digit_is_closed_wherever_it_is(start, unit):
 def test_what_forbids_posting_is_a_finding_of_the_block():
     part = program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3), speed=Entry(0)))
     assert [finding.code for finding in derive(part).blocks[0].errors] == ["OUT_OF_RANGE"]
+
+
+def test_a_clean_contour_needs_nothing():
+    part = program(block(OUTSIDE_SQUARE, CutterComp.RIGHT))
+    found = needs(derive(part).blocks[0], part)
+    assert found is not None
+    assert not found.sentences
+
+
+def test_without_compensation_nothing_is_known():
+    part = program(block(OUTSIDE_SQUARE, CutterComp.ON))
+    assert needs(derive(part).blocks[0], part) is None
+
+
+def test_the_notch_is_told_the_look_ahead_that_is_clean():
+    part = program(block(NOTCH, CutterComp.LEFT))
+    found = needs(derive(part).blocks[0], part)
+    assert found is not None
+    assert [finding.code for finding in found.sentences] == ["CAL_NOT_CLEAN"]
+    assert sentence(found.sentences[0], part.unit) == "CAL 2 gouges. Type look-ahead 3: clean."
+    assert found.sentences[0].at is not None
+    assert found.tool is None
+    assert found.start is None
+
+
+@pytest.mark.parametrize("tries", range(8))
+def test_remedies_nobody_waits_for_are_given_up_at_the_next_one(tries):
+    """The gear tries six starts and one without blend moves: each is asked before, none after the answer was no."""
+    part = gear(200)
+    found = derive(part).blocks[0]
+    asked: list[bool] = []
+
+    def wanted() -> bool:
+        still = bool(len(asked) < tries)
+        asked.append(still)
+        return still
+
+    assert needs(found, part, wanted=wanted) is None
+    assert asked == [True] * tries + [False]

@@ -1,19 +1,16 @@
-"""A contour that turns straight back says so, and no other does."""
+"""What is said of a surface: where it turns straight back, where it ends, and how large it is."""
 
 from __future__ import annotations
 
 from math import cos, radians, sin
 
+import numpy as np
 import pytest
 
-from core.advice.path_findings import turning_back
-from core.finding import Severity
+from core.advice.path_findings import ZStep, open_finding, size_warning, turning_back, z_step_findings
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Turn
-from core.pipeline.derive import derive
-from core.program.model import CutterComp
 from core.units import Unit, sentence
-from tests.core.pipeline.parts import MID_SIDE_SQUARE, OUTSIDE_SQUARE, OVER_RUN_SQUARE, block, program
 
 
 def rounded(turn: Turn) -> list[Piece]:
@@ -60,22 +57,34 @@ def test_a_circle_does_not() -> None:
     assert turned(Arc((1, 0), (1, 0), (0, 0), Turn.CCW), closed=True) == []
 
 
-def test_it_is_a_warning_beside_the_path_that_names_the_place_and_what_to_do() -> None:
-    (found,) = derive(program(block(((0, 0), (2, 0), (1, 0), (1, 3)), CutterComp.LEFT))).blocks
-    (one,) = (one for one in found.findings if one.code == "TURNS_BACK")
-    assert one.severity is Severity.WARNING
-    assert sentence(one, Unit.IN) == "It begins straight back along segment 1, at X 2.0000 Y 0.0000. Check its end."
-    warnings = [told for told in found.findings if told.severity is Severity.WARNING]
-    assert warnings[0] == one
-    assert {told.code for told in warnings[1:]} == {"PLUNGE_FED", "CROSSES_ITSELF"}
+@pytest.mark.parametrize(("radius", "told"), [(0.99, False), (1.0, False), (1.01, True)])
+def test_the_size_of_a_contour_is_that_of_its_arcs(radius, told):
+    """The points of this circle span 1 mm by 0."""
+    half = Path.of(np.array([[0.0, 0], [1, 0], [0, 0]]), np.array([[0.5, 0], [1, 0]]), np.array([1, 0], np.int8))
+    whole = Path.of(np.zeros((2, 2)), np.array([[1.0, 0]]), np.array([1], np.int8))
+    assert bool(size_warning(radius, whole)) is told
+    assert bool(size_warning(radius / 2, half)) is told
 
 
-def test_where_the_center_runs_on_the_contour_it_may() -> None:
-    (found,) = derive(program(block(((0, 0), (2, 0), (0, 0)), CutterComp.ON))).blocks
-    assert all(one.code != "TURNS_BACK" for one in found.findings)
+@pytest.mark.parametrize(
+    ("gap", "closed", "code"),
+    [(0.0, False, None), (0.002, True, "NEARLY_CLOSED"), (5.0, False, "NEARLY_CLOSED"), (5.1, False, "OPEN")],
+)
+def test_a_gap_is_told_by_its_size_beside_the_tool(gap: float, closed: bool, code: str | None) -> None:
+    surface = Path.from_pieces([Line((0, 0), (20, 0)), Line((20, 0), (20, 20)), Line((20, 20), (0, gap))])
+    assert [finding.code for finding in open_finding(surface, 5.0, closed=closed)] == ([code] if code else [])
 
 
-@pytest.mark.parametrize("points", [OUTSIDE_SQUARE, OVER_RUN_SQUARE, MID_SIDE_SQUARE])
-def test_a_plain_part_does_not(points: tuple[tuple[float, float], ...]) -> None:
-    (found,) = derive(program(block(points, CutterComp.RIGHT))).blocks
-    assert all(one.code != "TURNS_BACK" for one in found.findings)
+def test_a_gap_between_two_segments_is_no_gap_but_an_open_contour() -> None:
+    surface = Path.from_pieces([Line((0, 0), (20, 0)), Line((20, 0), (0, 1))])
+    assert [finding.code for finding in open_finding(surface, 5.0, closed=False)] == []
+
+
+def test_the_deepest_and_the_highest_step_are_told_with_their_numbers() -> None:
+    steps = [ZStep(-1.0, 2.0, (0, 0)), ZStep(-3.0, 4.0, (5, 0)), ZStep(2.0, 6.0, (7, 1))]
+    down, up = z_step_findings(steps)
+    assert (down.segment, down.value, down.at) == (4.0, 3.0, (5, 0))
+    assert sentence(down, Unit.MM).endswith("cut off there. There are 2 such places.")
+    assert (up.segment, up.value) == (6.0, 2.0)
+    assert "straight up 2.000" in sentence(up, Unit.MM)
+    assert z_step_findings([]) == ()

@@ -1,4 +1,4 @@
-"""Programs posted for every control: the example parts, and LinuxCNC's own word on what is written for it."""
+"""Programs posted for controls that compensate by themselves, read back and measured."""
 
 from __future__ import annotations
 
@@ -284,3 +284,31 @@ def _distinct(points: list[list[float]]) -> np.ndarray:
         if max(abs(a - b) for a, b in zip(point, kept[-1], strict=True)) > 2e-4:
             kept.append(point)
     return np.array(kept[2:])
+
+
+@pytest.mark.parametrize("control", names())
+def test_the_part_name_stands_at_the_head_of_every_controls_program(control: str) -> None:
+    """Read back with it, and the same blocks as without; where the text holds no comments, that is said."""
+    plain = program(SQUARE, SQUARE, parameters=BLENDS)
+    named = derive(replace(plain, setup=replace(plain.setup, name="Teil ö) ; M30 (7")))
+    found, nameless = posted(named, control), posted(derive(plain), control)
+    lines, others = found.text.splitlines(), nameless.text.splitlines()
+    told = [note.code for note in found.notes if note.code == "PART_NAME"]
+    if control == "threeblock":
+        assert (lines, told) == (others, ["PART_NAME"])
+        return
+    at = 2 if control == "klartext" else 1
+    said = "PART Teil ?] , M30 [7"
+    assert lines[at] == (f"{at} ; {said}" if control == "klartext" else f"({said})")
+    assert told == []
+    bare = [line.partition(" ")[2] if control == "klartext" else line for line in lines]
+    assert [*bare[:at], *bare[at + 1 :]] == [
+        line.partition(" ")[2] if control == "klartext" else line for line in others
+    ]
+
+
+def test_a_name_that_no_control_takes_is_changed() -> None:
+    result = post_control_program(derive(program(SQUARE, parameters=BLENDS)), name="Teil 7 ;) ö", control="klartext")
+    assert isinstance(result, Posted)
+    assert result.text.startswith("0 BEGIN PGM Teil-7----- INCH\n")
+    assert result.text.isascii()

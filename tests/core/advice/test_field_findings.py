@@ -1,20 +1,22 @@
-"""What a program leaves blank or says in vain, and what comes of it is said in words."""
+"""What the fields of a block leave blank, say without effect, or put too low."""
 
 from dataclasses import replace
 
 import pytest
 
+from core.advice.field_findings import field_findings, typed_lookahead_warning
 from core.finding import Severity
-from core.pipeline.outline import outline
-from core.pipeline.parameters import stocks
-from core.program.model import ArcSegment, CutterComp, Entry, LineSegment, Parameters, Unread, changed
+from core.program.model import ArcSegment, CutterComp, Entry, LineSegment, Parameters, PartSetup, Unread, changed
+from core.program.shared import shared_findings
+from core.program.solve.solve import solve_block
 from core.units import Unit, sentence
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, block, program
 
 
 def told(part, code):
-    (found,) = outline(part).blocks
-    return [(one, sentence(one, part.unit)) for one in found.findings if one.code == code]
+    (typed,) = part.blocks
+    findings = (*shared_findings(part), *field_findings(typed, solve_block(typed, part), part))
+    return [(finding, sentence(finding, part.unit)) for finding in findings if finding.code == code]
 
 
 def fed(*feeds, plunge=5.0):
@@ -188,16 +190,6 @@ def test_nothing_is_told_of_a_profile_in_several_passes_and_where_there_is_none(
     assert told(part, "ONE_PASS") == []
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.05, 0.1, 0.3])
-@pytest.mark.parametrize("finish", [None, 0.0, 0.1])
-def test_one_pass_is_told_exactly_where_there_is_one(offset, finish):
-    changes = {} if finish is None else {"finish_tool": Entry(2)}
-    part = profiled(CutterComp.PROFILE_LEFT, Entry(offset), None if finish is None else Entry(finish), **changes)
-    (found,) = outline(part).blocks
-    passes = len(stocks(found, part)) - (finish is not None)
-    assert bool(told(part, "ONE_PASS")) is (passes == 0)
-
-
 def alone(segment, comp=CutterComp.LEFT):
     return program(replace(block(((0, 0),), comp), segments=(segment,)))
 
@@ -259,3 +251,61 @@ def test_a_contour_that_has_a_length_or_may_get_one_is_no_point(segments):
     part = alone(POINT)
     (one,) = part.blocks
     assert told(replace(part, blocks=(replace(one, segments=segments),)), "NO_LENGTH") == []
+
+
+def safe_z_told(safe, *, z_start=0.0, retract=None):
+    one = replace(block(MID_SIDE_SQUARE, CutterComp.LEFT), z_start=Entry(z_start))
+    part = replace(program(one), setup=PartSetup(safe_z=safe), parameters=Parameters(retract_clearance=retract))
+    return [(finding.severity, finding.field, text) for finding, text in told(part, "SAFE_Z")]
+
+
+@pytest.mark.parametrize("safe", [Entry(-1.0), Entry(0.0999)])
+def test_a_safe_z_in_the_part_or_below_the_clearance_is_a_warning(safe):
+    ((severity, field, text),) = safe_z_told(safe)
+    assert (severity, field) == (Severity.WARNING, "safe_z")
+    assert text.startswith(f"SAFE Z {safe.value:.4f} is below Z 0.1000, RETRACT CLEARANCE 0.1000 over Z START 0.0000:")
+    assert "0.1000 instead" in text
+
+
+def test_the_usual_safe_z_is_told_when_z_start_is_above_it():
+    ((severity, _, text),) = safe_z_told(None, z_start=2.0)
+    assert severity is Severity.INFO
+    assert text.startswith("SAFE Z 1.0000 is below Z 2.1000")
+
+
+@pytest.mark.parametrize("safe", [None, Entry(0.1), Unread("x", "no number"), Entry(1e300)])
+def test_nothing_is_told_of_one_that_is_high_enough_or_refused(safe):
+    assert safe_z_told(safe) == []
+
+
+def test_nothing_is_told_where_the_clearance_is_refused():
+    assert safe_z_told(Entry(-1.0), retract=Unread("x", "no number")) == []
+
+
+@pytest.mark.parametrize(
+    ("height", "expected"),
+    [
+        (0.1, "Z END 0.1000 is above Z START 0.0000, in the way of rapids. Type -0.2500 to 0.0000."),
+        (-0.3, "Z END -0.3000 is below Z BOTTOM -0.2500: no pass goes so deep. Type -0.2500 to 0.0000."),
+    ],
+)
+def test_a_z_end_outside_the_block_is_an_error_that_names_the_range(height, expected):
+    typed = block(MID_SIDE_SQUARE, CutterComp.LEFT)
+    steep = changed(typed.segments[1], {"z_end": Entry(height)})
+    part = program(replace(typed, segments=(typed.segments[0], steep, *typed.segments[2:])))
+    ((finding, text),) = told(part, "Z_END")
+    assert (finding.severity, finding.segment, finding.field) == (Severity.ERROR, 2.0, "z_end")
+    assert text == expected
+
+
+def test_z_ends_at_the_top_and_at_the_bottom_are_in_order():
+    segments = tuple(
+        LineSegment(x_end=Entry(x), y_end=Entry(0.0), z_end=Entry(z)) for x, z in ((1.0, 0.0), (2.0, -0.25))
+    )
+    assert told(program(replace(block(NOTCH, CutterComp.LEFT), segments=segments)), "Z_END") == []
+
+
+def test_a_typed_look_ahead_is_told_with_the_calculated_one():
+    warning = typed_lookahead_warning(4, 8)
+    assert (warning.code, warning.severity, warning.field) == ("USR_LOOKAHEAD", Severity.WARNING, "lookahead")
+    assert warning.text == "USR 4 in force, CAL is 8. F3 goes back to CAL."

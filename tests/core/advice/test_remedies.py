@@ -1,0 +1,74 @@
+"""Remedies by themselves: another start, and the largest tool."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from core.advice.remedies import STEP, Unwanted, largest_tool, lookahead_without_blends, middle, start_mid_side, started
+from core.advice.trials import Trial, table_of
+from core.geometry.piece import Arc, Side, Turn
+from tests.core.comp.contours import lines, mixed, shut
+
+SLOT = lines((0, 2), (0, 0), (0.4, 0), (0.4, 2))
+
+
+def test_the_middle_of_an_arc_lies_on_it():
+    assert middle(Arc((1, 0), (-1, 0), (0, 0), Turn.CCW)) == pytest.approx((0, 1))
+    assert middle(Arc((1, 0), (-1, 0), (0, 0), Turn.CW)) == pytest.approx((0, -1))
+    assert middle(Arc((1, 0), (1, 0), (0, 0), Turn.CW)) == pytest.approx((-1, 0))
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(mixed.map(shut), st.integers(0, 30))
+def test_a_contour_started_elsewhere_is_the_same_contour(contour, row):
+    row %= len(contour)
+    other = started(contour, row)
+    assert len(other) == len(contour) + 1
+    assert other.points[0].tolist() == other.points[-1].tolist()
+    assert other.lengths.sum() == pytest.approx(contour.lengths.sum(), rel=1e-9, abs=1e-6)
+
+
+@pytest.mark.parametrize("width", [0.2005, 0.3999, 0.4999])
+def test_the_largest_tool_is_rounded_down(width):
+    slot = lines((0, 2), (0, 0), (width, 0), (width, 2))
+    found = largest_tool(Trial(slot, Side.LEFT, 0.25, False, 0.0, 0.0))
+    assert found is not None
+    assert width - STEP < found.diameter <= width
+    assert round(found.diameter / STEP) * STEP == pytest.approx(found.diameter, abs=1e-12)
+
+
+def test_a_hint_finds_the_same_tool():
+    asked = Trial(SLOT, Side.LEFT, 0.25, False, 0.0, 0.0)
+    assert largest_tool(asked, 0.2) == largest_tool(asked, 0.05) == largest_tool(asked)
+
+
+def test_no_tool_is_looked_for_that_is_as_large_as_the_one_in_force():
+    asked = Trial(SLOT, Side.LEFT, 0.25, False, 0.0, 0.0)
+    assert largest_tool(asked, least=500) is None
+    assert largest_tool(asked, least=401) is None
+    assert largest_tool(asked, least=400).diameter == pytest.approx(0.4)
+
+
+def test_a_start_in_the_middle_is_for_closed_contours_only():
+    square = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0))
+    asked = Trial(square, Side.LEFT, 0.25, True, 0.0, 0.0)
+    found = start_mid_side(asked)
+    assert (found.segment, found.at) == (1.0, (1.0, 0.0))
+    assert found.value == table_of(replace(asked, surface=started(square, 0))).recommended
+    assert start_mid_side(replace(asked, closed=False)) is None
+    assert start_mid_side(asked, max_starts=0) is None
+
+
+@pytest.mark.parametrize("blend", [0.0, 0.5])
+def test_blend_moves_are_left_out_only_where_there_are_any(blend):
+    channel = lines((0, 0), (2, 0), (2, 0.6), (-2, 0.6))
+    assert lookahead_without_blends(Trial(channel, Side.LEFT, 0.25, False, blend, 0.0)) == (1 if blend else None)
+
+
+def test_a_remedy_nobody_waits_for_is_not_tried():
+    with pytest.raises(Unwanted):
+        largest_tool(Trial(SLOT, Side.LEFT, 0.25, False, 0.0, 0.0), wanted=lambda: False)
