@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from core.comp.advise import recommended
-from core.comp.compensate import compensate_all
-from core.comp.lookahead import HIGHEST, LOWEST
+from core.comp.lookahead import HIGHEST, LOWEST, recommended
 from core.comp.result import Compensated
+from core.comp.table import compensate_all
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Side
@@ -35,7 +34,7 @@ class Trial:
     rougher: float | None = None
 
     def paths(self, radius: float, lookaheads: tuple[int, ...] | range = VALUES) -> tuple[Compensated, ...]:
-        """The control's path at a radius for each look-ahead; those that are the same share one `path` object."""
+        """The control's path at a radius for each look-ahead; those that are the same test as many crossings."""
         return compensate_all(
             self.surface, self.side, radius, lookaheads, closed=self.closed, blend=self.blend, overlap=self.overlap
         )
@@ -102,6 +101,6 @@ def table_of(trial: Trial) -> Table:
 
 def _verdicts(trial: Trial, cutter: float, paths: tuple[Compensated, ...]) -> list[Verdict]:
     """What a cutter of this radius does on each path; one that several values share is judged once."""
-    distinct = {id(one.path): one for one in paths}
+    distinct = {one.tested: one for one in paths}
     verdicts = {key: judge(trial.surface, trial.side, cutter, one.whole) for key, one in distinct.items()}
-    return [verdicts[id(one.path)] for one in paths]
+    return [verdicts[one.tested] for one in paths]

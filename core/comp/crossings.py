@@ -6,20 +6,14 @@ decides which of those points are left.  The walk itself then needs no geometry.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import Final
 
 import numpy as np
 
-from core.comp.offset import BRIDGE, CORNER, Chain, stacked
+from core.comp.offset import Chain, Part
 from core.geometry.intersect import Meeting, Meetings, meet_pieces
-from core.geometry.path import Flags, Floats, Pieces, Points, Rows, as_complex, coordinates, pieces_of
+from core.geometry.path import Flags, Floats, Pieces, Points, Rows, as_complex, boxes, pieces_of
 from core.tolerance import ON_PATH
-
-_STRETCH: Final = 8192
-"""Pieces tested at a time against those before them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -27,7 +21,7 @@ class Crossings:
     """p points where an earlier piece `a` and a later piece `b` of the chain meet, in order of b, then a, then along a.
 
     `along_a`, `along_b` are distances from the pieces' raw starts in millimeters, `a_ends` marks points at
-    a's raw end, `b_ends` at b's.  `points` are complex numbers.
+    a's raw end, `b_ends` at b's.
     """
 
     a: Rows
@@ -56,15 +50,11 @@ class Candidates:
 
     def within(self, lookahead: int) -> Crossings:
         """The crossings of pieces that are not neighbors and that this look-ahead tests."""
-        rows = self.reach <= 2 * lookahead
-        return self.others if rows.all() else self.others.chosen(rows)
+        return self.others.chosen(self.reach <= 2 * lookahead)
 
-    def counts(self, lookaheads: Sequence[int]) -> list[int]:
-        """How many each of these look-aheads tests: those of one count test the same."""
-        if not len(self.reach):
-            return [0] * len(lookaheads)
-        counts: list[int] = np.sort(self.reach).searchsorted(2 * np.array(lookaheads), side="right").tolist()
-        return counts
+    def count(self, lookahead: int) -> int:
+        """How many of these this look-ahead tests: look-aheads of one count test the same."""
+        return int(np.count_nonzero(self.reach <= 2 * lookahead))
 
 
 def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
@@ -73,33 +63,19 @@ def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
     Tangent touches of pieces that are not neighbors are left out: a cutter that just fits passes.  The first and
     the last segment of a closed contour are never tested against each other, unless they are neighbors.
     """
-    pieces, partners = pieces_of(chain.raw), (chain.parts <= CORNER).nonzero()[0]
-    bounds = [*range(0, max(len(partners), 1), _STRETCH), len(partners)]
-    joints, others = [], []
-    for first, last in pairwise(bounds):
-        a, b = _pairs(pieces, chain.places, partners, first, last, 2 * lookahead)
-        joint = (b - a == 2) & (chain.parts[b - 1] == BRIDGE)
-        if closed and chain.places[-1] - chain.places[0] <= 2 * lookahead:
-            tested = joint | (a > 0) | (b < len(chain) - 1)
-            a, b, joint = a[tested], b[tested], joint[tested]
-        met = meet_pieces(pieces, a, pieces, b)
-        at_joint, crossed = joint[met.pair], met.kinds[met.pair] == Meeting.CROSS.value
-        joints.append(_found(met, a, b, at_joint))
-        others.append(_found(met, a, b, crossed & ~at_joint))
-    far = _all(others)
-    return Candidates(_all(joints), far, chain.places[far.b] - chain.places[far.a])
+    pieces = pieces_of(chain.raw)
+    a, b = _near_pairs(chain, pieces, 2 * lookahead)
+    joint = (b - a == 2) & (chain.parts[b - 1] == Part.BRIDGE)
+    if closed:
+        tested = joint | (a > 0) | (b < len(chain) - 1)
+        a, b, joint = a[tested], b[tested], joint[tested]
+    met = meet_pieces(pieces, a, pieces, b)
+    at_joint, crossed = joint[met.pair], met.kinds[met.pair] == Meeting.CROSS
+    others = _chosen(met, a, b, crossed & ~at_joint)
+    return Candidates(_chosen(met, a, b, at_joint), others, chain.places[others.b] - chain.places[others.a])
 
 
-def _all(parts: list[Crossings]) -> Crossings:
-    """The crossings of all parts, one behind the other; takes the list apart."""
-    if len(parts) == 1:
-        return parts.pop()
-    rows = [tuple(getattr(part, name) for name in Crossings.__slots__) for part in parts]
-    parts.clear()
-    return Crossings(*stacked(rows))
-
-
-def _found(met: Meetings, a: Rows, b: Rows, chosen: Flags) -> Crossings:
+def _chosen(met: Meetings, a: Rows, b: Rows, chosen: Flags) -> Crossings:
     """Some of the points at which pairs of pieces a, b have met."""
     rows = chosen.nonzero()[0]
     pair = met.pair[rows]
@@ -114,69 +90,36 @@ def _found(met: Meetings, a: Rows, b: Rows, chosen: Flags) -> Crossings:
     )
 
 
-def _pairs(pieces: Pieces, every_place: Rows, partners: Rows, first: int, last: int, reach: int) -> tuple[Rows, Rows]:
-    """Pairs a < b of `partners`, not next to each other in the chain, within reach and with boxes that meet.
+def _near_pairs(chain: Chain, pieces: Pieces, reach: int) -> tuple[Rows, Rows]:
+    """Pairs a < b, by b, then a, of segments and corners that are not next to each other in the chain, within reach
+    and with boxes that meet.
 
-    b are the partners first ... last - 1.  Each row of the comparison is one distance among them, most distant first.
+    No two have one place, so that there are no more than `reach` of them within reach: shifting all of them along
+    themselves by one, two and so on finds every pair, and no more where a thousand pieces lie on top of each other.
     """
-    # no two have the same place: there are no more within reach
-    before = min(first, reach)
-    rows = partners[first - before : last]
-    places = every_place[rows]
-    farthest = places.searchsorted(places[before:] - reach)
-    window = int((np.arange(before, len(rows)) - farthest).max(initial=0))
-    if not window:
-        return np.empty(0, np.intp), np.empty(0, np.intp)
-    lows, highs = _boxes(pieces.take(rows[max(before - window, 0) :]), max(window - before, 0))
-    beside = _shifted(lows, window) <= highs[:, None, window:]
-    beside &= _shifted(highs, window) >= lows[:, None, window:]
-    meeting = beside[0] & beside[1]
-    b, a = np.divmod(meeting.T.ravel().nonzero()[0], window)
-    b += before
-    a += b - window
-    near = places[b] - places[a] <= reach
-    a, b = rows[a], rows[b]
-    near &= b - a > 1
-    return a[near], b[near]
+    rows = (chain.parts <= Part.CORNER).nonzero()[0]
+    places, grown = chain.places[rows], _grown_boxes(pieces.take(rows))
+    first, second = [np.zeros(0, np.intp)], [np.zeros(0, np.intp)]
+    for step in range(1, min(reach, len(rows) - 1) + 1):
+        near = places[step:] - places[:-step] <= reach
+        if not near.any():
+            break
+        near &= rows[step:] - rows[:-step] > 1
+        near &= (grown[:2, step:] <= grown[2:, :-step]).all(axis=0)
+        near &= (grown[2:, step:] >= grown[:2, :-step]).all(axis=0)
+        low = near.nonzero()[0]
+        first.append(low)
+        second.append(low + step)
+    a, b = np.concatenate(first), np.concatenate(second)
+    order = np.lexsort((a, b))
+    return rows[a[order]], rows[b[order]]
 
 
-def _shifted(values: Floats, window: int) -> Floats:
-    """(2, window, k) view of (2, window + k) values: row i is shifted by i."""
-    count = values.shape[1] - window
-    step = values.itemsize
-    return np.ndarray((2, window, count), np.float64, values, 0, (values.strides[0], step, step))
-
-
-def _boxes(pieces: Pieces, pad: int) -> tuple[Floats, Floats]:
-    """Boxes that hold n pieces: least and largest x and y, each (2, pad + n); the first `pad` are empty."""
-    count = len(pieces.turn)
-    lows, highs = np.empty((2, pad + count)), np.empty((2, pad + count))
-    lows[:, :pad], highs[:, :pad] = np.inf, -np.inf
-    low, high, both = lows[:, pad:], highs[:, pad:], (coordinates(pieces.start).T, coordinates(pieces.end).T)
-    np.minimum(*both, out=low)
-    np.maximum(*both, out=high)
-    arcs, beyond = pieces.turn.nonzero()[0], np.zeros(count)
-    if len(arcs):
-        lift = np.zeros(count, np.complex128)
-        lift[arcs], beyond[arcs] = _lifts(pieces.take(arcs))
-        up = coordinates(lift).T
-        low += np.minimum(up, 0.0)
-        high += np.maximum(up, 0.0)
-    beyond += ON_PATH
-    low -= beyond
-    high += beyond
-    return lows, highs
-
-
-def _lifts(arcs: Pieces) -> tuple[Points, Floats]:
-    """By how much arcs lie beside their chords, as vectors, and by how much a box must grow on all sides besides.
-
-    An arc of half a turn or less lies in the rectangle of its chord and its height, on the chord's right if
-    counter-clockwise; a larger one within a diameter of its ends.  An arc whose radii differ grows by that.
-    """
-    first, last, run = arcs.start - arcs.center, arcs.end - arcs.center, (arcs.end - arcs.start) / 2.0
-    radius, half = np.abs(first), np.abs(run)
-    small = ((first.conj() * last).imag * arcs.turn > 0.0) & (half > 0.0)
-    height = radius - np.sqrt(np.maximum((radius - half) * (radius + half), 0.0))
-    lift = -1j * run * (arcs.turn * height / np.where(small, half, np.inf))
-    return lift, np.abs(np.abs(last) - radius) + np.where(small, 0.0, 2.0 * radius)
+def _grown_boxes(pieces: Pieces) -> Floats:
+    """Boxes a hair larger than the pieces, and than the circle for which an arc of two different radii is taken."""
+    first, last = np.abs(pieces.start - pieces.center), np.abs(pieces.end - pieces.center)
+    grow = ON_PATH + np.where(pieces.turn == 0, 0.0, np.abs(last - first))
+    grown = boxes(pieces)
+    grown[:2] -= grow
+    grown[2:] += grow
+    return grown

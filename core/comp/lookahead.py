@@ -1,8 +1,11 @@
-"""The control's look-ahead: the calculated value (CAL) and the range of a typed one (USR)."""
+"""The control's look-ahead: the calculated value (CAL), the range of a typed one (USR), and which one to recommend."""
 
 from __future__ import annotations
 
-from typing import Final
+from collections.abc import Sequence
+from typing import Final, Protocol
+
+from core.tolerance import JOINED
 
 LOWEST: Final = 1
 """The smallest look-ahead an operator may type."""
@@ -14,9 +17,32 @@ _LARGEST_CALCULATED: Final = 8
 
 
 def calculated(count: int, *, closed: bool) -> int:
-    """The CAL value for `count` segments, START not counted (the control's look-ahead note).
+    """The CAL value for `count` segments, START not counted (LOOKAHEAD.md).
 
     Closed: count - 1, at least 3.  Open: count - 3, at least 2.  Never more than 8.
     """
     wanted, least = (count - 1, 3) if closed else (count - 3, 2)
     return min(max(wanted, least), _LARGEST_CALCULATED)
+
+
+class Outcome(Protocol):
+    """What one look-ahead value does to a contour: lengths in millimeters."""
+
+    @property
+    def value(self) -> int:
+        """The look-ahead value."""
+
+    @property
+    def clean(self) -> bool:
+        """Whether its path gouges nothing."""
+
+    @property
+    def uncut(self) -> float:
+        """Length of surface it leaves."""
+
+
+def recommended(outcomes: Sequence[Outcome]) -> int | None:
+    """The clean value that leaves least uncut, of those the smallest; None when no value is clean."""
+    clean = [outcome for outcome in outcomes if outcome.clean]
+    least = min((outcome.uncut for outcome in clean), default=0.0)
+    return min((outcome.value for outcome in clean if outcome.uncut <= least + JOINED), default=None)

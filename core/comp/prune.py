@@ -2,22 +2,23 @@
 
 The pieces b come one after the other.  Each is first joined to its predecessor; then it is tested against what is
 left of earlier pieces a within the look-ahead, and the earliest that crosses it wins: a ends there, b starts there,
-everything between is deleted (the control's look-ahead note).  What is left of a piece is a range of distances
-along it, so that the walk compares numbers and visits only pieces at which something is not settled by themselves.
+everything between is deleted (LOOKAHEAD.md).  What is left of a piece is a range of distances along it and all
+crossings are known, so that the walk compares numbers and visits only pieces at which something is not settled.
 """
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from dataclasses import dataclass
+from math import inf
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.comp.crossings import Crossings
-from core.comp.offset import BRIDGE, Chain
+from core.comp.offset import Chain, Part
 from core.comp.result import Deletions
-from core.comp.walk import Left, Walk
-from core.geometry.path import EMPTY, Flags, Path, Rows, as_complex, coordinates
+from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates
 from core.tolerance import JOINED, ON_PATH
 
 
@@ -34,73 +35,137 @@ class Pruned:
     deleted: Deletions
 
 
+class _Left(NamedTuple):
+    """What is left of the chain's m pieces: from `low` to `high` (m,) millimeters along them, infinite for a whole end;
+    the points `starts` (m,) where they start, and which of them stand (m,)."""
+
+    low: Floats
+    high: Floats
+    starts: Points
+    stands: Flags
+
+
 def prune(chain: Chain, joints: Crossings, others: Crossings, *, last_wins: bool = False) -> Pruned:
     """Walk the chain with the crossings of its joints and those of other pieces that the look-ahead tests.
 
     `last_wins`: a joint takes the latest point on the earlier piece (closed contours of two segments).
     """
-    left, unsettled = _joined(chain, joints, last_wins=last_wins)
-    met = np.empty(0, np.intp)
-    if len(others) or len(unsettled):
-        met = Walk(chain, left, joints, others).visit(unsettled)
+    again, wins = joints.b[1:] == joints.b[:-1], np.ones(len(joints), np.bool_)
+    (wins[:-1] if last_wins else wins[1:])[again] = False
+    walk = _Walk(len(chain), joints.chosen(wins), joints, others)
+    walk.visit()
+    left, met = walk.left(chain), np.array(walk.met, np.intp)
     path, bridges = _what_is_left(chain, left)
-    gone = np.frombuffer(left.gone, np.bool_)
-    del left
-    return Pruned(path, *bridges, _deletions(chain, others, met, gone))
+    gone = np.frombuffer(walk.gone, np.bool_)
+    return Pruned(path, chain.parts[bridges[1]] >= Part.BRIDGE, bridges[0], _deletions(chain, others, met, gone))
 
 
-def _joined(chain: Chain, joints: Crossings, *, last_wins: bool) -> tuple[Left, Rows]:
-    """Trim every inside corner at its first crossing; also the pieces whose start is trimmed beyond their end."""
-    count = len(chain)
-    high, standing = np.empty(count), np.empty(count, np.uint8)
-    high.fill(np.inf)
-    standing.fill(1)
-    left = Left(np.zeros(count), high, as_complex(chain.raw.points)[:-1].copy(), standing, bytearray(count))
-    if not len(joints):
-        return left, np.empty(0, np.intp)
-    again = joints.b[1:] == joints.b[:-1]
-    trims = joints
-    if again.any():
-        trims = joints.chosen(~np.append(again, False) if last_wins else ~np.append(False, again))
-    left.high[trims.a], left.low[trims.b], left.starts[trims.b] = trims.along_a, trims.along_b, trims.points
-    left.standing[trims.b - 1] = 0
-    return left, (left.low > left.high + ON_PATH).nonzero()[0] + 2
+class _Walk:
+    """One walk along a chain of `count` pieces.
+
+    Inside corners are trimmed by `trims` before it begins: only the joints of pieces whose start is then beyond their
+    end are made anew.
+    """
+
+    def __init__(self, count: int, trims: Crossings, joints: Crossings, others: Crossings) -> None:
+        low, high = np.zeros(count), np.full(count, np.inf)
+        high[trims.a], low[trims.b] = trims.along_a, trims.along_b
+        self._agenda: list[int] = ((low > high + ON_PATH).nonzero()[0] + 2)[::-1].tolist()
+        self._low: list[float] = low.tolist()
+        self._high: list[float] = high.tolist()
+        self._trims, self._joints, self._others = trims, joints, others
+        self._joint_pieces: list[int] = joints.b.tolist()
+        self._bridged: list[int] = []
+        self._rejoined: list[int] = []
+        self.gone = bytearray(count)
+        self.met: list[int] = []
+        """Rows of `others` that deleted something, in order."""
+
+    def visit(self) -> None:
+        """Test every piece by its crossings: it takes the first that lies on what is left of both pieces.
+
+        One's very end at the other's very start is no crossing.  The earlier piece then ends there, the later one
+        starts there, everything between is gone.
+        """
+        low, high, gone, agenda, others = self._low, self._high, self.gone, self._agenda, self._others
+        columns = others.b, others.a, others.along_a, others.along_b, others.a_ends, others.b_ends
+        rows = zip(*(column.tolist() for column in columns), strict=True)
+        piece, taken = -1, True
+        for row, (b, a, at, on, a_ends, b_ends) in enumerate(rows):
+            if b != piece:
+                self._settle(b)
+                piece, taken = b, False
+            start, first, last = low[b], low[a], high[a]
+            if taken or gone[a] or on < start - ON_PATH:
+                continue
+            if at < first - ON_PATH or at > last + ON_PATH or (b_ends and at <= first + ON_PATH):
+                continue
+            if on <= start + ON_PATH and (a_ends or at >= last - ON_PATH):
+                continue
+            high[a], low[b], taken = at, on, True
+            gone[a + 1 : b] = b"\1" * (b - a - 1)
+            self.met.append(row)
+            if high[b] < on - ON_PATH:
+                agenda.append(b + 2)
+        self._settle(len(low))
+
+    def _settle(self, until: int) -> None:
+        """Join anew what no longer holds, up to the joint of piece `until` with its predecessor."""
+        low, high, agenda = self._low, self._high, self._agenda
+        while agenda and agenda[-1] <= until:
+            piece = agenda.pop()
+            start = low[piece - 2] - ON_PATH
+            if high[piece - 2] < start:
+                # at their other crossing, if they have one that is left, else by a bridge
+                row = bisect_right(self._joint_pieces, piece) - 1
+                along = float(self._joints.along_a[row])
+                if along >= start:
+                    high[piece - 2], low[piece] = along, float(self._joints.along_b[row])
+                    self._rejoined.append(row)
+                else:
+                    high[piece - 2], low[piece] = inf, 0.0
+                    self._bridged.append(piece)
+            if piece < until and high[piece] < low[piece] - ON_PATH:
+                agenda.append(piece + 2)
+
+    def left(self, chain: Chain) -> _Left:
+        """What the walk has left of the chain."""
+        raw_starts, bridged = as_complex(chain.raw.points)[:-1], np.array(self._bridged, np.intp)
+        starts, stands = raw_starts.copy(), np.ones(len(chain), np.bool_)
+        starts[self._trims.b], stands[self._trims.b - 1] = self._trims.points, False
+        starts[bridged], stands[bridged - 1] = raw_starts[bridged], True
+        starts[self._joints.b[self._rejoined]] = self._joints.points[self._rejoined]
+        starts[self._others.b[self.met]] = self._others.points[self.met]
+        stands &= ~np.frombuffer(self.gone, np.bool_)
+        return _Left(np.array(self._low), np.array(self._high), starts, stands)
 
 
-def _what_is_left(chain: Chain, left: Left) -> tuple[Path, tuple[Flags, Rows]]:
-    """The path of the pieces that still stand; which of them are bridges, and their rows in the chain."""
-    alive = (left.standing > np.frombuffer(left.gone, np.uint8)).nonzero()[0]
-    starts = np.concatenate((left.starts[alive], as_complex(chain.raw.points)[-1:]))
+def _what_is_left(chain: Chain, left: _Left) -> tuple[Path, tuple[Rows, Rows]]:
+    """The path of the pieces that still stand; the rows of the bridges among them, and the rows of all."""
+    alive = left.stands.nonzero()[0]
+    starts = np.append(left.starts[alive], as_complex(chain.raw.points)[-1:])
     real = _not_slivers(chain, left, alive, starts)
-    if not real.all():
-        alive, starts = alive[real], starts[np.append(real, True)]
-    bridged = chain.parts[alive] >= BRIDGE
+    alive, starts = alive[real], starts[np.append(real, True)]
+    bridges = alive[chain.parts[alive] >= Part.BRIDGE]
     if not len(alive):
-        return EMPTY, (bridged, alive)
+        return EMPTY, (bridges, alive)
     turns = chain.raw.turns[alive]
-    centers, arcs = starts[:-1].copy(), turns.nonzero()[0]
-    centers[arcs] = as_complex(chain.raw.centers)[alive[arcs]]
+    centers = np.where(turns == 0, starts[:-1], as_complex(chain.raw.centers)[alive])
     path = Path(coordinates(starts), coordinates(centers), turns, chain.raw.numbers[alive])
-    return path, (bridged, alive[bridged])
+    return path, (bridges, alive)
 
 
-def _not_slivers(chain: Chain, left: Left, alive: Rows, starts: NDArray[np.complex128]) -> Flags:
+def _not_slivers(chain: Chain, left: _Left, alive: Rows, starts: Points) -> Flags:
     """Which pieces still have a length: an arc trimmed to a point must not be taken for a full circle.
 
     One that is left for a whole turn but for rounding is made one: its ends in `starts` become the same numbers.
     """
     real = np.abs(starts[1:] - starts[:-1]) > JOINED
-    near = (~real).nonzero()[0]
-    if not len(near):
-        return real
-    arcs = near[chain.raw.turns[alive[near]] != 0]
-    rest = left.high[alive[arcs]] - left.low[alive[arcs]]
-    for row in np.isinf(rest).nonzero()[0].tolist():
-        piece = int(alive[arcs[row]])
-        rest[row] = chain.raw[piece].length - left.low[piece]
-    whole = arcs[rest > JOINED]
-    starts[whole + 1] = starts[whole]
-    real[whole] = True
+    for row in (~real & (chain.raw.turns[alive] != 0)).nonzero()[0].tolist():
+        piece = int(alive[row])
+        length = min(float(left.high[piece]), chain.raw[piece].length) - float(left.low[piece])
+        if length > JOINED:
+            starts[row + 1], real[row] = starts[row], True
     return real
 
 
@@ -111,10 +176,10 @@ def _deletions(chain: Chain, others: Crossings, met: Rows, gone: Flags) -> Delet
     deleted = gone.nonzero()[0]
     deleted = deleted[chain.places[deleted] % 2 == 0]
     a, b = others.a[met], others.b[met]
-    # events come in the order of b: the first that ends behind a piece spans it unless it begins behind it too
+    # events come in the order of b: the first that ends after a piece spans it unless it begins after it too
     event = b.searchsorted(deleted, side="right")
-    while (behind := a[event] >= deleted).any():
-        event[behind] += 1
-    numbers, by = chain.raw.numbers, np.empty((len(event), 2))
-    by[:, 0], by[:, 1] = numbers[a[event]], numbers[b[event]]
+    while (late := a[event] >= deleted).any():
+        event[late] += 1
+    numbers = chain.raw.numbers
+    by = np.stack((numbers[a[event]], numbers[b[event]]), axis=1)
     return Deletions(numbers[deleted], by, coordinates(others.points[met[event]]))

@@ -44,7 +44,8 @@ class Compensated:
 
     `raw` is the chain of all offset pieces, corner arcs and provisional bridges before any test; `path` what is
     left of it.  `bridged` (len(path),) marks pieces of `path` that are provisional bridges still standing.
-    `lead_in` and `lead_out` are the blend moves.  Millimeters.
+    `lead_in` and `lead_out` are the blend moves.  Millimeters.  `tested` is how many crossings the look-ahead tests:
+    two look-aheads of one contour that test equally many test the same, and make one path.
     """
 
     contour: Path
@@ -53,6 +54,7 @@ class Compensated:
     lookahead: int
     closed: bool
     raw: Path
+    tested: int
     path: Path
     bridged: NDArray[np.bool_]
     deleted: Deletions

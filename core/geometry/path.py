@@ -9,7 +9,7 @@ not join (`Pieces`): conj(u) v has the dot product of u and v as its real and th
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import tau
 from typing import Any, Final, NamedTuple
@@ -25,8 +25,8 @@ Rows = NDArray[np.intp]
 Flags = NDArray[np.bool_]
 Turns = NDArray[np.int8]
 
-_QUARTERS: Final = np.array([[0.0], [tau / 4], [tau / 2], [3 * tau / 4]])
-"""(4, 1) where a circle reaches farthest along +X, +Y, -X, -Y, in radians."""
+_QUARTERS: Final = np.array([[tau / 2], [3 * tau / 4], [0.0], [tau / 4]])
+"""(4, 1) where a circle reaches farthest left, down, right and up, in radians."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -82,17 +82,6 @@ class Path:
             np.array(given, np.float64),
         )
 
-    def altered(self, others: Iterable[tuple[int, float, Piece]]) -> Path:
-        """The path with other pieces in some rows, each with its number; they too join those beside them."""
-        points, centers = self.points.copy(), self.centers.copy()
-        turns, numbers = self.turns.copy(), self.numbers.copy()
-        for row, number, piece in others:
-            if row == 0:
-                points[0] = piece.start
-            points[row + 1], numbers[row] = piece.end, number
-            centers[row], turns[row] = (piece.center, piece.turn) if isinstance(piece, Arc) else (piece.start, 0)
-        return Path(points, centers, turns, numbers)
-
     def __len__(self) -> int:
         return len(self.turns)
 
@@ -127,20 +116,15 @@ class Path:
     @property
     def sweeps(self) -> Floats:
         """(n,) angle traveled by each arc, positive counter-clockwise, 0 for a line, a full turn for a circle."""
-        first, last = self.starts - self.centers, self.ends - self.centers
-        return swept(first, last, self.turns, self.starts == self.ends) * self.turns
+        return swept(pieces_of(self)) * self.turns
 
     @property
     def lengths(self) -> Floats:
         """(n,) length of each piece."""
-        span = self.points[1:] - self.points[:-1]
-        lengths: Floats = np.hypot(span[:, 0], span[:, 1])
+        pieces = pieces_of(self)
+        lengths: Floats = np.abs(pieces.end - pieces.start)
         arcs = self.turns.nonzero()[0]
-        if len(arcs):
-            centers, starts, ends = self.centers[arcs], self.points[arcs], self.points[arcs + 1]
-            first = starts - centers
-            angles = swept(first, ends - centers, self.turns[arcs], starts == ends)
-            lengths[arcs] = np.hypot(first[:, 0], first[:, 1]) * angles
+        lengths[arcs] = self.radii[arcs] * swept(pieces.take(arcs))
         return lengths
 
     @property
@@ -163,26 +147,27 @@ class Path:
 
     @property
     def boxes(self) -> Floats:
-        """(n, 4) exact bounding boxes: least x, least y, largest x, largest y."""
-        low, high = np.minimum(self.starts, self.ends), np.maximum(self.starts, self.ends)
-        arcs = self.turns.nonzero()[0]
-        if len(arcs):
-            centers, turns = self.centers[arcs], self.turns[arcs]
-            starts, ends = self.points[arcs], self.points[arcs + 1]
-            first = starts - centers
-            radii = np.hypot(first[:, 0], first[:, 1])[:, None]
-            begin = np.arctan2(first[:, 1], first[:, 0])
-            ahead = np.mod((_QUARTERS - begin) * turns, tau)
-            passed = (ahead < swept(first, ends - centers, turns, starts == ends)).T
-            high[arcs] = np.where(passed[:, :2], np.maximum(high[arcs], centers + radii), high[arcs])
-            low[arcs] = np.where(passed[:, 2:], np.minimum(low[arcs], centers - radii), low[arcs])
-        return np.hstack((low, high))
+        """(n, 4) exact bounding boxes: left, bottom, right, top."""
+        return boxes(pieces_of(self)).T
 
     def reversed(self) -> Path:
         """The same pieces traveled the other way; numbers stay with their pieces."""
         order = slice(None, None, -1)
         centers = np.where(self.turns[:, None] == 0, self.ends, self.centers)
         return Path.of(self.points[order], centers[order], -self.turns[order], self.numbers[order])
+
+    def without(self, rows: Rows) -> Path:
+        """The path without these pieces of no length: each piece starts where the one before it ends.
+
+        Full circles stay full.
+        """
+        kept = np.ones(len(self), np.bool_)
+        kept[rows] = False
+        points = np.concatenate((self.points[:1], self.points[1:][kept]))
+        circles = (self.points[1:] == self.points[:-1]).all(axis=1)[kept].nonzero()[0]
+        for row in circles[::-1].tolist():
+            points[row] = points[row + 1]
+        return Path.of(points, self.centers[kept], self.turns[kept], self.numbers[kept])
 
     def part(self, first: int, last: int) -> Path:
         """Pieces first ... last - 1."""
@@ -191,13 +176,37 @@ class Path:
         return Path(self.points[first : last + 1], self.centers[keep], self.turns[keep], self.numbers[keep])
 
 
-def swept(first: Floats, last: Floats, turns: Turns, same: NDArray[np.bool_]) -> Floats:
-    """(n,) angle traveled from `first` to `last` (n, 2) from the centers, a full turn where `same` (n, 2)."""
-    angle = np.arctan2(last[:, 1], last[:, 0]) - np.arctan2(first[:, 1], first[:, 0])
-    turned: Floats = np.mod(angle * turns, tau)
-    turned[turned > tau - SLIVER] = 0.0
-    turned[same[:, 0] & same[:, 1]] = tau
-    return turned
+def boxes(pieces: Pieces) -> Floats:
+    """(4, n) exact bounding boxes: left, bottom, right, top.
+
+    What doubles cannot tell, at the ends of an arc, moves no box by more than their last digit: so near to a quarter
+    an arc keeps its distance from the center.
+    """
+    box = np.empty((4, len(pieces.turn)))
+    for axis, (start, end) in enumerate(((pieces.start.real, pieces.end.real), (pieces.start.imag, pieces.end.imag))):
+        np.minimum(start, end, out=box[axis])
+        np.maximum(start, end, out=box[axis + 2])
+    rows = pieces.turn.nonzero()[0]
+    arcs = pieces.take(rows)
+    arm = arcs.start - arcs.center
+    ahead = np.mod((_QUARTERS - np.angle(arm)) * arcs.turn, tau)
+    center, radius = coordinates(arcs.center).T, np.abs(arm)
+    reached = np.concatenate((center - radius, center + radius))
+    box[:, rows] = np.where(ahead <= swept(arcs), reached, box[:, rows])
+    return box
+
+
+def swept(pieces: Pieces) -> Floats:
+    """(n,) angle traveled by each arc, in [0, tau]: a full turn where both ends are the same numbers, 0 for a line.
+
+    A hair less than a full turn is what rounding makes of an empty arc.
+    """
+    turned = (pieces.end - pieces.center) * (pieces.start - pieces.center).conj()
+    angle = np.arctan2(turned.imag * pieces.turn, turned.real)
+    angle[angle < 0.0] += tau
+    angle[(angle > tau - SLIVER) | np.isnan(angle) | (pieces.turn == 0)] = 0.0
+    angle[(pieces.start == pieces.end) & (pieces.turn != 0)] = tau
+    return angle
 
 
 def joined(parts: Sequence[Path]) -> Path:

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from math import pi, tau
+from math import tau
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Flags, Floats, Path, Points, Rows, as_complex, coordinates
+from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, as_complex, swept
+from core.geometry.path import boxes as boxes_of
 from core.geometry.piece import SLIVER
 from core.tolerance import ARC_RADII, ON_PATH
 
@@ -148,8 +149,8 @@ def _of_points(start: Points, end: Points, center: Points, turn: Floats) -> Piec
         middle, slack[arc] = _one_radius(first, last, center.take(arc), way)
         arm[arc] = from_middle = first - middle
         radius[arc] = bend = np.abs(from_middle)
-        angle[arc] = swept = _angles(from_middle, last - middle, way, first == last)
-        length[arc] = bend * swept
+        angle[arc] = turned = swept(Pieces(first, last, middle, way.astype(np.int8)))
+        length[arc] = bend * turned
     return PieceArrays(np.arange(len(turn)), start, vector, arm, turn, angle, radius, length, slack)
 
 
@@ -179,16 +180,6 @@ def _one_radius(start: Points, end: Points, center: Points, turn: Floats) -> tup
     on_one_ray = (np.abs(turned.imag) <= 2.0 * SLIVER * turned.real) & (turned.real > 0.0)
     slack = np.where((off > ARC_RADII) | on_one_ray, np.inf, off)
     return np.where(uneven, moved, center), np.where(uneven, slack, 0.0)
-
-
-def _angles(arm: Points, last: Points, turn: Floats, whole: Flags) -> Floats:
-    """Angles traveled from `arm` to `last`, in [0, tau]; a hair less than a full turn or no radius is an empty arc."""
-    turned = last * np.conj(arm)
-    angle = np.arctan2(turned.imag * turn, turned.real)
-    angle[angle < 0.0] += tau
-    angle[(angle > tau - SLIVER) | np.isnan(angle)] = 0.0
-    angle[whole] = tau
-    return angle
 
 
 def by_kind(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArray[Any]:
@@ -281,42 +272,6 @@ def place(pieces: PieceArrays, stations: Floats, s: Floats) -> tuple[Rows, Float
     return index, np.minimum(np.maximum(t, 0.0), 1.0)
 
 
-QUARTERS: Final = np.array((-pi, -pi / 2.0, 0.0, pi / 2.0))[:, None]
-"""(4, 1) angles of the directions -x, -y, x and y."""
-
-
 def boxes(pieces: PieceArrays) -> Floats:
-    """(4, n) exact bounding boxes: least x, least y, largest x, largest y."""
-    start, end = coordinates(pieces.start).T, coordinates(pieces.end).T
-    box = np.empty((4, len(pieces)))
-    np.minimum(start, end, out=box[:2])
-    np.maximum(start, end, out=box[2:])
-    bent = pieces.arcs
-    arcs = np.count_nonzero(bent)
-    if not arcs:
-        return box
-    rows: Rows | slice = slice(None)
-    arc = pieces
-    if arcs < len(pieces) > FEW:
-        rows = some = bent.nonzero()[0]
-        arc = pieces.take(some)
-    passed, center, out = _quarters(arc), coordinates(arc.center).T, arc.radius
-    if arcs < len(arc):
-        passed &= bent
-    reached = box[:, rows]
-    np.copyto(reached[:2], center - out, where=passed[:2])
-    np.copyto(reached[2:], center + out, where=passed[2:])
-    box[:, rows] = reached
-    return box
-
-
-def _quarters(arc: PieceArrays) -> Flags:
-    """(4, n) whether the arcs pass the directions -x, -y, x and y seen from their centers.
-
-    What doubles cannot tell, at the ends of an arc, moves no box by more than their last digit: so near to such a
-    direction an arc keeps its distance from the center.
-    """
-    ahead = (QUARTERS - np.arctan2(arc.arm.imag, arc.arm.real)) * arc.turn
-    ahead += tau * (ahead < 0.0)
-    passed: Flags = ahead <= arc.angle
-    return passed
+    """(4, n) exact bounding boxes: left, bottom, right, top."""
+    return boxes_of(Pieces(pieces.start, pieces.end, pieces.center, pieces.turn.astype(np.int8)))

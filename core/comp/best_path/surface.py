@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from core.comp import trouble
+from core.comp import findings as comp_findings
 from core.comp.best_path.tree import Tree, near_selves, piece_boxes, tree
 from core.finding import Finding
 from core.geometry.intersect import Meeting, meet
@@ -41,18 +41,18 @@ def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
     Zero-length segments are dropped.  An arc whose radii differ (by less than ARC_RADII) is made one of one radius.
     A closed contour's gap is bridged by a line of its last segment's number.
     """
-    refused = trouble.refusal(contour, radius, ())
+    refused = comp_findings.refusal(contour, radius, ())
     if refused:
         return Surface(EMPTY, _walls(EMPTY), np.zeros(2), refused)
     points = as_complex(contour.points)
     kept = np.abs(points[1:] - points[:-1]) > JOINED
     if not kept.all():
         kept |= contour.lengths > JOINED
-    findings = tuple(trouble.zero_length(contour, (~kept).nonzero()[0]))
+    findings = tuple(comp_findings.zero_length(contour, (~kept).nonzero()[0]))
     if not kept.all():
         contour = _without(contour, kept)
     if not len(contour):
-        return Surface(EMPTY, _walls(EMPTY), np.zeros(2), (*findings, *trouble.refusal(contour, radius, ())))
+        return Surface(EMPTY, _walls(EMPTY), np.zeros(2), (*findings, *comp_findings.refusal(contour, radius, ())))
     origin = (contour.points.min(axis=0) + contour.points.max(axis=0)) / 2.0
     path = _even(Path.of(contour.points - origin, contour.centers - origin, contour.turns, contour.numbers))
     path = _closed(path) if closed else path

@@ -10,10 +10,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from core.comp.compensate import compensate, compensate_all, crossed
+from core.comp.compensate import compensate
 from core.comp.crossings import crossings
 from core.comp.offset import offset
 from core.comp.result import Compensated
+from core.comp.table import compensate_all
 from core.geometry.path import Floats, Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.tolerance import JOINED
@@ -88,25 +89,15 @@ def test_all_lookaheads_together_are_those_one_by_one(contour, side, radius, clo
         assert done.findings == alone.findings
 
 
-def test_what_was_crossed_once_makes_every_lookahead_and_takes_over_one_that_is_known():
+def test_lookaheads_that_test_the_same_crossings_make_the_same_path():
     notch = lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
-    found = crossed(notch, Side.LEFT, 0.25, range(1, 21), closed=False, blend=0.1)
-    (known,) = found.at([4])
-    every = found.at(range(1, 21), known)
+    every = compensate_all(notch, Side.LEFT, 0.25, range(1, 21), closed=False, blend=0.1)
     assert [one.lookahead for one in every] == list(range(1, 21))
-    assert [one.path is known.path for one in every] == [False] * 2 + [True] * 18
+    assert [one.tested for one in every] == [0, 0] + [1] * 18
     for one in every:
         alone = compensate(notch, Side.LEFT, 0.25, one.lookahead, closed=False, blend=0.1)
         assert np.array_equal(one.whole.points, alone.whole.points)
         assert list(one.deleted) == list(alone.deleted)
-
-
-def test_lookaheads_without_a_difference_share_their_path():
-    notch = lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
-    one, two, three, four = compensate_all(notch, Side.LEFT, 0.25, (1, 2, 3, 4), closed=False)
-    assert one.path is two.path
-    assert two.path is not three.path
-    assert three.path is four.path
 
 
 def _moved(path: Path, move: Callable[[Floats], Floats], *, mirrored: bool = False) -> Path:

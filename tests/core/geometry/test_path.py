@@ -80,23 +80,6 @@ def test_part_and_join():
     assert whole.numbers.tolist() == [1, 2, 3, 4]
 
 
-@given(mixed, st.data())
-@settings(deadline=None, derandomize=True)
-def test_other_pieces_in_some_rows_are_as_a_path_of_all(path, data):
-    pieces = list(path)
-    numbers = [float(2 * row) for row in range(len(path))]
-    rows = data.draw(st.sets(st.integers(0, len(path) - 1)))
-    for row in rows:
-        start, end = pieces[row].start, (pieces[row].end[0] + 0.25, pieces[row].end[1])
-        pieces[row] = data.draw(st.sampled_from([Line(start, end), Arc(start, end, (9.0, 9.0), Turn.CW)]))
-    others = [(row, numbers[row], pieces[row]) for row in sorted(rows)]
-    altered, anew = path.altered(others), Path.from_pieces(pieces)
-    assert np.array_equal(altered.points, anew.points)
-    assert np.array_equal(altered.centers, anew.centers)
-    assert np.array_equal(altered.turns, anew.turns)
-    assert altered.numbers.tolist() == [2 * row if row in rows else row + 1 for row in range(len(path))]
-
-
 def test_nothing():
     assert Path.from_pieces([]) is EMPTY
     assert joined([]) is EMPTY

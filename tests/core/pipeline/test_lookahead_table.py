@@ -4,7 +4,7 @@ from dataclasses import fields, replace
 
 import pytest
 
-from core.comp.advise import recommended
+from core.comp.lookahead import recommended
 from core.output.passes import meets_solid
 from core.pipeline.derive import derive
 from core.pipeline.jobs import job

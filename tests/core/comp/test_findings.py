@@ -8,9 +8,10 @@ from math import cos, inf, nan, pi, sin
 import numpy as np
 import pytest
 
-from core.comp.compensate import compensate, compensate_all
+from core.comp.compensate import compensate
+from core.comp.findings import MAX_NAMED_PLACES, spoken
 from core.comp.result import Compensated
-from core.comp.trouble import NAMED_AT_MOST, spoken
+from core.comp.table import compensate_all
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
@@ -207,14 +208,14 @@ def test_many_places_are_counted_not_listed():
     assert done.bridged.sum() == 150
     assert {(one.code, one.severity) for one in done.findings} == {("CORNER_MISSED", Severity.WARNING)}
     assert [one.segment for one in done.findings[:3]] == [3.5, 8.5, 13.5]
-    assert len(done.findings) == NAMED_AT_MOST + 1
+    assert len(done.findings) == MAX_NAMED_PLACES + 1
     assert "150" in done.findings[-1].text
 
 
 def test_zero_lengths_beyond_a_hundred_are_counted():
     contour = lines((0, 0), *[(1, 0)] * 150, (2, 0))
     found = compensate(contour, Side.LEFT, 0.25, 1, closed=False).findings
-    assert len(found) == NAMED_AT_MOST + 1
+    assert len(found) == MAX_NAMED_PLACES + 1
     assert "149" in found[-1].text
 
 

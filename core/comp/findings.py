@@ -1,4 +1,4 @@
-"""What compensation has to say: contours it refuses, and what became of a contour that the operator must know."""
+"""Findings of compensation: contours it refuses, and what became of a contour that the operator must know."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from core.geometry.path import Flags, Floats, Path, Rows, as_complex
 from core.geometry.piece import Side
 from core.tolerance import ARC_RADII, GOUGE, JOINED, LARGEST
 
-NAMED_AT_MOST: Final = 100
-"""So many places of one kind of trouble are named; a last finding then tells how many there are."""
+MAX_NAMED_PLACES: Final = 100
+"""So many places of one kind are named; a last finding then tells how many there are."""
 
 
 def refusal(contour: Path, radius: float, lookaheads: Sequence[int]) -> tuple[Finding, ...]:
@@ -46,7 +46,7 @@ def _usable(values: Floats) -> bool:
 def _not_finite(contour: Path) -> Finding:
     points: Flags = np.logical_and.reduce(np.abs(contour.points) <= LARGEST, axis=1)
     bad = ~(points[:-1] & points[1:] & (np.abs(contour.centers) <= LARGEST).all(axis=1))
-    text = "A coordinate of this segment is not a number a machine can have; type it again."
+    text = "A coordinate of this segment is too large for any machine. Type it again."
     return _error("NOT_FINITE", text, float(contour.numbers[np.argmax(bad)]))
 
 
@@ -66,14 +66,14 @@ def _not_arcs(contour: Path) -> tuple[Finding, ...]:
         return ()
     pointed = (np.minimum(first, last) <= JOINED) & (np.abs(end - start) > JOINED)
     bad = (off > ARC_RADII) | pointed
-    text = "The arc's radius is {0} at its start and {1} at its end: check its center."
+    text = "Radius {0} at start, {1} at end. Check X CENTER, Y CENTER."
     found = _arcs_named("ARC_RADII", text, contour.numbers[rows], bad, first, last)
     doubtful = (~bad & (off > JOINED)).nonzero()[0]
     if not len(doubtful):
         return found
     across = (start - centers)[doubtful].conj() * (end - centers)[doubtful]
     beside = (np.abs(across.imag) <= JOINED * first[doubtful]) & (across.real > 0.0)
-    text = "The arc's end is beside its start, {0} and {1} from its center: end it at its start, or away from there."
+    text = "The arc ends next to its start, {0} and {1} from its center. End it at its start, or away from there."
     rows, first, last = rows[doubtful], first[doubtful], last[doubtful]
     return (*found, *_arcs_named("ARC_ENDS", text, contour.numbers[rows], beside, first, last))
 
@@ -82,13 +82,13 @@ def _arcs_named(code: str, text: str, numbers: Floats, bad: Flags, first: Floats
     """An error for each bad arc, with its radii."""
     return tuple(
         Finding(code, Severity.ERROR, text, float(numbers[row]), lengths=(float(first[row]), float(last[row])))
-        for row in bad.nonzero()[0][:NAMED_AT_MOST].tolist()
+        for row in bad.nonzero()[0][:MAX_NAMED_PLACES].tolist()
     )
 
 
 def zero_length(contour: Path, rows: Rows) -> list[Finding]:
     """Segments dropped because they have no length."""
-    text = "This segment has no length and is passed over."
+    text = "No length: skipped. Type its end, or F1 deletes it."
     return _named("ZERO_LENGTH", text, contour.numbers[rows], contour.points[rows])
 
 
@@ -98,12 +98,12 @@ def inside_start(contour: Path, side: Side, radius: float) -> list[Finding]:
     bend = direction(last, last.end).conjugate() * direction(first, first.start)
     if side.sign * bend.imag <= 0.0 or radius * (1.0 - bend.real) <= GOUGE:
         return []
-    text = "The contour starts at an inside corner, where the cutter cuts into the last segment: start mid-side."
+    text = "START is in an inside corner: gouges the last wall. Start mid-side."
     at = (float(contour.points[0, 0]), float(contour.points[0, 1]))
     return [Finding("START_INSIDE_CORNER", Severity.WARNING, text, float(contour.numbers[0]), at=at)]
 
 
-def standing(contour: Path, chain: Chain, pruned: Pruned, radius: float) -> list[Finding]:
+def bridged(contour: Path, chain: Chain, pruned: Pruned, radius: float) -> list[Finding]:
     """Bridges that still stand in the path: inside arcs and corners the tool cannot enter."""
     rows = pruned.bridges
     if not len(rows):
@@ -116,7 +116,7 @@ def _vanished(contour: Path, chain: Chain, rows: Rows, radius: float) -> list[Fi
     segments = chain.places[rows] // 2
     radii = np.abs(as_complex(contour.points)[segments] - as_complex(contour.centers)[segments])
     small = radii < radius - JOINED
-    text = "The inside radius {value} is smaller than the tool's: the path bridges it and can cut into a wall."
+    text = "Inside radius {value} is too small for the tool: the path jumps it and may gouge."
     numbers, at = contour.numbers[segments[small]], contour.points[segments[small]]
     return _named("VANISHED", text, numbers, at, radii[small])
 
@@ -125,7 +125,7 @@ def _missed(contour: Path, chain: Chain, rows: Rows, radius: float) -> list[Find
     """Inside corners bridged where the bridge enters a wall: by the square of its length over the tool's diameter."""
     points = as_complex(chain.raw.points)
     rows = rows[np.abs(points[rows + 1] - points[rows]) ** 2 > 2.0 * radius * GOUGE]
-    text = "At this inside corner the offsets do not meet: the path bridges it and can cut into a wall."
+    text = "Corner too tight for the tool: the path jumps it and may gouge."
     at = contour.points[chain.places[rows] // 2 + 1]
     return _named("CORNER_MISSED", text, chain.raw.numbers[rows], at)
 
@@ -135,26 +135,14 @@ def long_way(contour: Path, pruned: Pruned) -> list[Finding]:
     deleted = pruned.deleted.segments
     if not len(deleted):
         return []
-    rows = _rows(contour.numbers, deleted)
-    points = as_complex(contour.points)
-    lines = np.abs(points[1:] - points[:-1])
-    lines[contour.turns.nonzero()[0]] = 0.0
-    if not contour.turns[rows].any() and lines[rows].sum() <= lines.sum() / 2.0:
-        # so it is with the arcs, which take longer to measure
-        return []
+    rows = np.isin(contour.numbers, deleted)
     lengths = contour.lengths
     erased = float(lengths[rows].sum())
     if erased <= lengths.sum() / 2.0:
         return []
-    text = f"The look-ahead deletes the longer way round: {spoken(deleted)}, {{value}} of surface."
+    what = f"LOOK-AHEAD deletes most of the part: {spoken(deleted)}, {{value}} long."
+    text = f"{what} Space on LOOKAHEAD shows what keeps it."
     return [Finding("LONG_WAY", Severity.WARNING, text, float(deleted[0]), value=erased)]
-
-
-def _rows(numbers: Floats, some: Floats) -> Rows:
-    """The rows of some of the numbers of a contour, by bisection where they rise, as they do but in a NC program."""
-    if (numbers[1:] > numbers[:-1]).all():
-        return np.searchsorted(numbers, some)
-    return np.isin(numbers, some).nonzero()[0]
 
 
 def nothing_left() -> Finding:
@@ -166,16 +154,16 @@ def spoken(numbers: NDArray[np.float64]) -> str:
     """Segment numbers as said on the shop floor: `segment 4`, `segments 2-3, 7`."""
     whole = numbers.astype(int)
     runs = np.split(whole, (np.diff(whole) != 1).nonzero()[0] + 1)
-    words = [f"{run[0]}-{run[-1]}" if len(run) > 1 else f"{run[0]}" for run in runs[:NAMED_AT_MOST]]
+    words = [f"{run[0]}-{run[-1]}" if len(run) > 1 else f"{run[0]}" for run in runs[:MAX_NAMED_PLACES]]
     return ("segments " if len(whole) > 1 else "segment ") + ", ".join(words)
 
 
 def _named(code: str, text: str, numbers: Floats, at: Floats, values: Floats | None = None) -> list[Finding]:
     """One warning for each place, and one more for those beyond the number that is named."""
-    some = slice(NAMED_AT_MOST)
-    told = [None] * len(numbers[some]) if values is None else values[some].tolist()
-    rows = zip(numbers[some].tolist(), at[some].tolist(), told, strict=True)
+    first = slice(MAX_NAMED_PLACES)
+    sizes = [None] * len(numbers[first]) if values is None else values[first].tolist()
+    rows = zip(numbers[first].tolist(), at[first].tolist(), sizes, strict=True)
     found = [Finding(code, Severity.WARNING, text, number, at=(x, y), value=value) for number, (x, y), value in rows]
-    if len(numbers) > NAMED_AT_MOST:
+    if len(numbers) > MAX_NAMED_PLACES:
         found.append(Finding(code, Severity.WARNING, f"There are {len(numbers)} such places; the first are named."))
     return found
