@@ -18,7 +18,7 @@ import numpy as np
 from core.finding import Finding, Severity
 from core.geometry.piece import Arc, Line, Turn
 from core.output.grid import Grid, length_text
-from core.output.objections import OVERRIDE, forbidding
+from core.output.objections import OVERRIDE, posting_errors
 from core.output.passes import Cutter, Job, Motion, Pass, passes, rough_runs
 from core.units import Kind, Unit, from_mm, sentence, show
 
@@ -78,7 +78,7 @@ class About:
 
 def sheet(jobs: Sequence[Job], unit: Unit, about: About) -> Sheet:
     """The sheet of a program's jobs; lengths on it are in program units."""
-    against = forbidding(jobs, Grid(unit), override=None)
+    against = posting_errors(jobs, Grid(unit), override=None)
     head = (
         ("PROGRAM", about.program),
         ("PART NAME", about.part or "-"),
@@ -123,7 +123,7 @@ def _tools(jobs: Sequence[Job], unit: Unit) -> Section:
 
 
 def _block(job: Job, unit: Unit) -> Section:
-    known = not forbidding([job], Grid(unit), override=OVERRIDE)
+    known = not posting_errors([job], Grid(unit), override=OVERRIDE)
     every = passes(job) if known else ()
     return Section(
         f"BLOCK {job.block}  MILL CONTOUR",

@@ -22,7 +22,7 @@ from core.finding import Finding
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Side
 from core.output.grid import Grid
-from core.output.objections import objections
+from core.output.objections import job_errors
 from core.output.passes import z_steps
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.jobs import job
@@ -142,5 +142,5 @@ def _with_findings(block: DerivedBlock, work: Work, program: Program) -> Derived
     findings = by_severity((*back, *block.findings, *trouble))
     block = replace(block, work=work, known=True, findings=findings)
     due = job(block, program)
-    further = (*dict.fromkeys(objections(due, Grid(program.unit))), *z_step_findings(z_steps(due)))
+    further = (*dict.fromkeys(job_errors(due, Grid(program.unit))), *z_step_findings(z_steps(due)))
     return replace(block, findings=by_severity((*findings, *further)))
