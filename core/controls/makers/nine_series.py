@@ -59,6 +59,9 @@ TANGENT: Final = radians(0.05)
 OUTSIDE: Final = {"g39": Outside.LINES, "g39.1": Outside.MITER_OR_ARC}
 """How sharp outside corners are gone round: generated lines (G39) or an arc (G39.1)."""
 
+VARIANTS: Final = ("a", "a-g39", "a-g39.1", "b", "b-g39", "b-g39.1")
+"""Type A or B, and the corners in force at the start."""
+
 NON_MOTION: Final = 10
 """Blocks without motion in the plane that compensation looks across; the machine builder sets it, this is assumed."""
 

@@ -48,6 +48,8 @@ DIALECT: Final = Dialect(
     cycle_rule="C8",
 )
 
+ENTRIES: Final = ("nist", "easy", "normal")
+
 CORNERS: Final = CornerRules(tangent=0.01, reversal=0.01, rapid_straight=True)
 """The corners of NIST: under 0.01 radians a corner is none."""
 
