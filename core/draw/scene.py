@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum, IntEnum, auto
-from math import cos, sin
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -222,13 +221,10 @@ def _travel(path: Path) -> Iterator[Mark]:
 
 def _middle(piece: Piece) -> tuple[Point, Point]:
     """The middle of a piece and the direction of travel there."""
-    (x0, y0), (x1, y1) = piece.start, piece.end
+    x, y = piece.point_at(0.5)
     if isinstance(piece, Line):
-        return ((x0 + x1) / 2, (y0 + y1) / 2), (x1 - x0, y1 - y0)
-    (cx, cy), half = piece.center, piece.sweep / 2
-    dx, dy = x0 - cx, y0 - cy
-    dx, dy = dx * cos(half) - dy * sin(half), dx * sin(half) + dy * cos(half)
-    return (cx + dx, cy + dy), (-dy * int(piece.turn), dx * int(piece.turn))
+        return (x, y), (piece.end[0] - piece.start[0], piece.end[1] - piece.start[1])
+    return (x, y), ((piece.center[1] - y) * int(piece.turn), (x - piece.center[0]) * int(piece.turn))
 
 
 def _plunge(leads: Sequence[Path], path: Path) -> Iterator[Mark]:

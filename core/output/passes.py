@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import atan2, ceil, cos, sin, tau
+from math import ceil, tau
 from typing import Final, Protocol
 
 import numpy as np
@@ -406,7 +406,7 @@ def _piece_at_level(piece: Piece, feed: float, floor: tuple[float, float], level
     low, high = floor
     if (low - level) * (high - level) < 0.0:
         part = (level - low) / (high - low)
-        yield _motion(piece, feed, _point(piece, part), level)
+        yield _motion(piece, feed, piece.point_at(part), level)
     yield _motion(piece, feed, piece.end, max(high, level))
 
 
@@ -414,13 +414,3 @@ def _motion(piece: Piece, feed: float, end: Point, z: float) -> Motion:
     if isinstance(piece, Line):
         return Motion(*end, z, feed)
     return Motion(*end, z, feed, piece.turn, piece.center)
-
-
-def _point(piece: Piece, part: float) -> Point:
-    """The point of a piece after a part of its length, 0 to 1."""
-    (x0, y0), (x1, y1) = piece.start, piece.end
-    if isinstance(piece, Line):
-        return x0 + part * (x1 - x0), y0 + part * (y1 - y0)
-    (cx, cy), radius = piece.center, piece.radius
-    angle = atan2(y0 - cy, x0 - cx) + part * piece.sweep
-    return cx + radius * cos(angle), cy + radius * sin(angle)

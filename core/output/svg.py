@@ -85,9 +85,7 @@ def outline(piece: Piece) -> str:
         return f"L{_at(piece.end)}"
     if abs(piece.sweep) <= pi:
         return _arc(piece, piece.end)
-    (x, y), (cx, cy) = piece.start, piece.center
-    half = complex(x - cx, y - cy) * np.exp(0.5j * piece.sweep)
-    middle = (cx + float(half.real), cy + float(half.imag))
+    middle = piece.point_at(0.5)
     return f"{_arc(piece, middle)} {_arc(piece, piece.end)}"
 
 
