@@ -130,9 +130,9 @@ def _outline(circle: Circle) -> Layer:
 
 def _around(boxes: Sequence[Floats]) -> Box | None:
     """The box around those of the boxes (n, 4) that can be drawn."""
-    every = np.concatenate([np.empty((0, 4)), *boxes])
+    rows = np.concatenate([np.empty((0, 4)), *boxes])
     # a comparison with what is not a number is false
-    drawn = every[(np.abs(every) <= BEYOND).all(axis=1)]
+    drawn = rows[(np.abs(rows) <= BEYOND).all(axis=1)]
     if not len(drawn):
         return None
     (left, low), (right, high) = drawn[:, :2].min(axis=0).tolist(), drawn[:, 2:].max(axis=0).tolist()
@@ -229,9 +229,9 @@ def _middle(piece: Piece) -> tuple[Point, Point]:
 
 def _plunge(leads: Sequence[Path], path: Path) -> Iterator[Mark]:
     """Where the cutter goes down: the first lead's beginning, or the path's."""
-    for one in [*(lead for lead in leads if len(lead)), path][:1]:
-        if len(one):
-            yield Mark(_point(one.points[0]), Style.LEAD, Symbol.PLUNGE)
+    first = next((lead for lead in leads if len(lead)), path)
+    if len(first):
+        yield Mark(_point(first.points[0]), Style.LEAD, Symbol.PLUNGE)
 
 
 def _point(row: Floats) -> Point:

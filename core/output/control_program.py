@@ -89,8 +89,8 @@ def _header(
 ) -> Iterator[str]:
     """The sentences of the header below its titles."""
     compensates = any(isinstance(cut, Cut) for cut in cuts)
-    how = "THE CONTROL COMPENSATES" if compensates else "NOTHING IS COMPENSATED"
-    yield f"WRITTEN BY CUTCOMP FOR {control}: THE CONTOUR AS TYPED, {how}"
+    compensation = "THE CONTROL COMPENSATES" if compensates else "NOTHING IS COMPENSATED"
+    yield f"WRITTEN BY CUTCOMP FOR {control}: THE CONTOUR AS TYPED, {compensation}"
     yield f"UNITS {'INCH' if unit is Unit.IN else 'MM'}"
     yield from dict.fromkeys(_tool_line(cut, unit, control) for cut in cuts)
     yield from _offsets(cuts, unit, control)

@@ -87,8 +87,8 @@ def _depths(job: Job) -> Iterator[_Check]:
     yield job.retract_clearance <= 0.0, "CLEARANCE", "RETRACT CLEARANCE must be above 0.", "retract_clearance"
     yield job.peck_clearance < 0.0, "CLEARANCE", "PECK CLEARANCE must not be below 0.", "peck_clearance"
     yield job.peck_depth < 0.0, "PECK_DEPTH", "PECK DEPTH must not be below 0.", "peck_depth"
-    many = job.peck_depth > 0.0 and deep > MAX_PECKS * job.peck_depth
-    yield many, "PECK_DEPTH", f"PECK DEPTH makes more than {MAX_PECKS} passes.", "peck_depth"
+    too_many = job.peck_depth > 0.0 and deep > MAX_PECKS * job.peck_depth
+    yield too_many, "PECK_DEPTH", f"PECK DEPTH makes more than {MAX_PECKS} passes.", "peck_depth"
 
 
 def _numbers(job: Job) -> Iterator[_Check]:

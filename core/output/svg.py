@@ -170,9 +170,9 @@ def _mark(mark: Mark, size: float) -> str:
     here, half = complex(*mark.at), size * 0.35
     if mark.symbol is Symbol.ARROW:
         wings = (here + ahead * 0.5 + ahead * turn for turn in (-0.8 + 0.45j, -0.8 - 0.45j))
-        one, other = (_at((wing.real, wing.imag)) for wing in wings)
+        left, right = (_at((wing.real, wing.imag)) for wing in wings)
         tip = here + ahead * 0.5
-        return _drawn(mark.style, f"M{one} L{_at((tip.real, tip.imag))} L{other}")
+        return _drawn(mark.style, f"M{left} L{_at((tip.real, tip.imag))} L{right}")
     if mark.symbol in (Symbol.GOUGE, Symbol.DELETED, Symbol.CENTER):
         x, y = mark.at
         first = f"M{_at((x - half, y - half))} L{_at((x + half, y + half))}"

@@ -27,13 +27,13 @@ def post_center_path(derived: Derived, *, name: str, override: str | None = None
 
 def post_control_program(derived: Derived, *, name: str, control: str) -> Posted | Refusal:
     """The program of a control by its full name, as the registry has it, or why there is none."""
-    unit, every = derived.program.unit, jobs(derived)
-    best = _best_path_refused(derived) if any(job.comp != "ON" for job in every) else ()
-    against = (*control_program_errors(every, unit), *best)
+    unit, all_jobs = derived.program.unit, jobs(derived)
+    best = _best_path_refused(derived) if any(job.comp != "ON" for job in all_jobs) else ()
+    against = (*control_program_errors(all_jobs, unit), *best)
     if against:
         return Refusal(against, unit)
-    cuts = [cut for block, job in zip(derived.blocks, every, strict=True) for cut in _cuts(block, job)]
-    return control_program(every, cuts, unit, name=name, control=control, part=derived.program.setup.name)
+    cuts = [cut for block, job in zip(derived.blocks, all_jobs, strict=True) for cut in _cuts(block, job)]
+    return control_program(all_jobs, cuts, unit, name=name, control=control, part=derived.program.setup.name)
 
 
 def _best_path_refused(derived: Derived) -> tuple[Finding, ...]:
