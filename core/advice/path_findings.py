@@ -9,7 +9,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from core.advice.work import Loop, RoughPass, Work
-from core.comp.best_path.best_path import BestPath, Separation
+from core.comp.best_path.best_path import BestPath
+from core.comp.best_path.separation import Separation
 from core.comp.result import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, next_in_ring

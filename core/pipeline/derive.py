@@ -14,7 +14,8 @@ from core.advice.path_findings import (
     z_step_findings,
 )
 from core.advice.work import Loop, RoughPass, Work
-from core.comp.best_path.best_path import BestPath, best_path, separation
+from core.comp.best_path.best_path import BestPath, best_path
+from core.comp.best_path.separation import separation
 from core.comp.blend import blend_in, blend_out
 from core.comp.compensate import compensate
 from core.comp.result import Compensated

@@ -22,7 +22,7 @@ from core.comp.best_path.surface import Surface, crosses_itself, surface_of
 from core.comp.best_path.trim import trimmed
 from core.finding import Finding, Severity
 from core.geometry.path import Path, Rows
-from core.geometry.side import Side
+from core.geometry.piece import Side
 from core.tolerance import GOUGE, JOINED, WHISKER
 
 MAX_LOOPS: Final = 10_000
@@ -93,11 +93,9 @@ def _tangled() -> Finding:
 
 
 def _crossing(numbers: tuple[float, float]) -> Finding:
-    first, second = numbers
-    text = (
-        f"Segments {first:g} and {second:g} cross or touch: the best path takes every segment as a wall on both sides."
-    )
-    return Finding("CROSSES_ITSELF", Severity.WARNING, text, first)
+    a, b = numbers
+    text = f"Segments {a:g} and {b:g} cross or touch: the best path takes every segment as a wall on both sides."
+    return Finding("CROSSES_ITSELF", Severity.WARNING, text, a)
 
 
 def _joined(raw: RawOffset, made: Stitched, rows: Rows, surface: Surface) -> tuple[Finding, ...]:

@@ -15,9 +15,8 @@ import numpy as np
 from core.comp.best_path.surface import winds
 from core.comp.offset import Chain, Part, offset
 from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, Turns, as_complex, joined
-from core.geometry.piece import SLIVER
+from core.geometry.piece import SLIVER, Side
 from core.geometry.piece_arrays import PieceArrays, boxes
-from core.geometry.side import Side
 from core.tolerance import CROWDED, JOINED, ON_PATH
 
 
@@ -78,11 +77,8 @@ class RawOffset:
 
     def directions(self, rows: Rows, points: Points) -> Points:
         """(k,) directions of travel of pieces at points on them, not of unit length."""
-        along: Points = np.where(
-            self.turns[rows] == 0,
-            self.end[rows] - self.start[rows],
-            1j * self.turns[rows] * (points - self.center[rows]),
-        )
+        turns, span = self.turns[rows], self.end[rows] - self.start[rows]
+        along: Points = np.where(turns == 0, span, 1j * turns * (points - self.center[rows]))
         return along
 
     def along(self, rows: Rows, points: Points) -> Floats:
@@ -286,7 +282,7 @@ def _smoothed(chain: Untrimmed, radius: float) -> Untrimmed:
 
 
 def _near_tangent(chain: Untrimmed) -> tuple[Rows, Rows, Rows]:
-    """Pieces whose ends are within CROWDED of the next one's start: before, the tiny corner arc between or -1, behind."""
+    """Pieces that end within CROWDED of the next one's start, the tiny corner arc between or -1, and the next ones."""
     raw, order = chain.raw, chain.order
     inside = (chain.inside & (np.abs(raw.start[order] - raw.end) <= CROWDED)).nonzero()[0]
     corners = (chain.corner & raw.smooth & (raw.lengths <= CROWDED)).nonzero()[0]

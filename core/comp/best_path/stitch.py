@@ -43,7 +43,7 @@ class Stitched:
 
 
 def bridge_limit(radius: float) -> float:
-    """The longest straight line between two clear places of the cutter that is no nearer to a wall than CLEAR allows."""
+    """The longest straight line between two clear places of the cutter that comes no nearer to a wall than CLEAR."""
     return min(WHISKER, sqrt(8.0 * radius * CLEAR))
 
 
