@@ -79,7 +79,7 @@ def _best(raw: RawOffset, made: Stitched, surface: Surface, findings: tuple[Find
 
 def _is_rounding(made: Stitched, rows: Rows) -> bool:
     """Are these slices no longer than what rounding leaves, which is more where it has parted them?"""
-    return float(made.cut.size[rows].sum()) <= (WHISKER if made.gaps[rows].any() else GOUGE)
+    return float(made.cut.size[rows].sum()) <= (WHISKER if (made.gaps[rows] > JOINED).any() else GOUGE)
 
 
 def _no_path() -> Finding:

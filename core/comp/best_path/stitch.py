@@ -8,16 +8,16 @@ parted an end from the beginning it belongs to, a straight line bridges the gap:
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt
 
 import numpy as np
 
-from core.comp.best_path.raw_offset import RawOffset
+from core.comp.best_path.raw_offset import RawOffset, lengths
 from core.comp.best_path.slices import Slices
 from core.geometry.nearby import gathered, near_pairs
 from core.geometry.path import Flags, Floats, Path, Points, Rows, coordinates, next_in_ring
-from core.tolerance import CLEAR, CROWDED, GOUGE, ON_PATH, WHISKER
+from core.tolerance import CLEAR, CROWDED, GOUGE, JOINED, WHISKER
 
 _ROUNDS = 32
 """How often slices are taken away that lead nowhere; near-tangent joints leave one or two in a row."""
@@ -61,7 +61,7 @@ def stitch(raw: RawOffset, cut: Slices, sign: int, radius: float) -> Stitched:
         if not whisker.any():
             break
         cut = cut.take((~whisker).nonzero()[0])
-    return Stitched(cut, following, end, begin)
+    return Stitched(_without_overlaps(raw, cut, following, bridge_limit(radius)), following, end, begin)
 
 
 def _not_followed_onto(following: Rows) -> Flags:
@@ -131,6 +131,29 @@ def _bridge(cut: Slices, following: Rows, limit: float) -> None:
     _pair_up(following, ends[i], begins[j], np.abs(end[i] - begin[j]))
 
 
+def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, limit: float) -> Slices:
+    """The slices with those that a bridge joins cut off abreast of each other, where they run on past each other."""
+    rows = (following >= 0).nonzero()[0]
+    rows = rows[np.abs(cut.points[cut.last[rows]] - cut.points[cut.first[following[rows]]]) > JOINED]
+    if not len(rows):
+        return cut
+    behind = following[rows]
+    begin, end, first, last = cut.begin.copy(), cut.end.copy(), cut.first.copy(), cut.last.copy()
+    piece, until, nodes = cut.piece[behind], cut.until[rows], len(cut.points) + np.arange(len(rows))
+    room = np.minimum(limit, cut.size / 2.0)
+    over = raw.along(piece, cut.points[last[rows]]) - begin[behind]
+    over[(over < 0.0) | (over > room[behind])] = 0.0
+    begin[behind] += over
+    starts = np.where(over > 0.0, raw.at(piece, begin[behind]), cut.points[first[behind]])
+    over = end[rows] - raw.along(until, starts)
+    over[(over < 0.0) | (over > room[rows])] = 0.0
+    end[rows] -= over
+    stops = np.where(over > 0.0, raw.at(until, end[rows]), cut.points[last[rows]])
+    last[rows], first[behind] = nodes, nodes + len(rows)
+    points, outer = np.concatenate((cut.points, stops, starts)), np.append(cut.outer, np.zeros(2 * len(rows), np.bool_))
+    return replace(cut, begin=begin, end=end, first=first, last=last, points=points, outer=outer)
+
+
 def _point_boxes(points: Points) -> Floats:
     return np.array((points.real, points.imag, points.real, points.imag))
 
@@ -181,10 +204,10 @@ def _walk(heads: Rows, tails: Rows, entry: list[int]) -> list[tuple[Rows, bool]]
 def loop_of(raw: RawOffset, made: Stitched, rows: Rows, origin: Floats) -> Path:
     """The path along slices `rows` in this order, moved by `origin`; slices of one piece are one piece again.
 
-    An arc shorter than CROWDED is a straight line: a bridge like any other, and rounding of its ends turns it nowhere.
+    An arc shorter than CROWDED whose ends rounding has turned past each other is a straight line, as a bridge is.
     """
     cut = made.cut
-    first, until, bridged = cut.piece[rows], cut.until[rows], made.gaps[rows] > ON_PATH
+    first, until, bridged = cut.piece[rows], cut.until[rows], made.gaps[rows] > JOINED
     counts = until - first + 1
     begins = np.cumsum(counts) - counts
     piece = np.arange(int(counts.sum())) + np.repeat(first - begins, counts)
@@ -195,14 +218,16 @@ def loop_of(raw: RawOffset, made: Stitched, rows: Rows, origin: Floats) -> Path:
     heads = fresh.nonzero()[0]
     size = np.add.reduceat(high - low, heads)
     piece, start = piece[heads], start[heads]
-    turns = np.where((size <= CROWDED) & (raw.start[piece] != raw.end[piece]), 0, raw.turns[piece])
-    centers, numbers = raw.center[piece], raw.numbers[piece]
+    turns, centers, numbers = raw.turns[piece].copy(), raw.center[piece], raw.numbers[piece]
     if bridged.any():
         at = np.searchsorted(heads, (begins + counts)[bridged])
         start = np.insert(start, at, cut.points[cut.last[rows[bridged]]])
         turns, centers = np.insert(turns, at, 0), np.insert(centers, at, 0.0)
-        numbers = np.insert(numbers, at, numbers[at - 1])
+        numbers, size = np.insert(numbers, at, numbers[at - 1]), np.insert(size, at, 0.0)
     next_slice = made.following[rows[-1]]
     points = np.append(start, cut.points[cut.first[next_slice] if next_slice >= 0 else cut.last[rows[-1]]])
+    tiny = ((turns != 0) & (size <= CROWDED)).nonzero()[0]
+    swept = lengths(points[tiny], points[tiny + 1], centers[tiny], turns[tiny])
+    turns[tiny[np.abs(swept - size[tiny]) > CROWDED / 2.0]] = 0
     centers = np.where(turns == 0, points[:-1], centers)
     return Path.of(coordinates(points) + origin, coordinates(centers) + origin, turns, numbers)

@@ -141,8 +141,9 @@ def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
         if closed and apart[-1]:
             known |= j - i == len(path) - 1
         i, j = i[~known], j[~known]
-        if not len(i):
-            continue
+        # of several crossings the one is named between which fewest segments lie
+        order = np.lexsort((i, j - i))
+        i, j = i[order], j[order]
         met = meet(path, i, path, j)
         hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], as_complex(met.points))]
         hit = np.concatenate((hit, (met.kinds == Meeting.OVERLAP).nonzero()[0]))
