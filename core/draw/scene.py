@@ -124,8 +124,8 @@ class Scene:
 def _outline(circle: Circle) -> Layer:
     """The whole circle as a layer."""
     (x, y), radius = circle.center, circle.radius
-    rim = np.array([[x + radius, y], [x + radius, y]])
-    return Layer(Path(rim, np.array([[x, y]]), np.ones(1, np.int8), np.ones(1)), circle.style)
+    rim = np.array([[x + radius, y], [x + radius, y]], float)
+    return Layer(Path(rim, np.array([[x, y]], float), np.ones(1, np.int8), np.ones(1)), circle.style)
 
 
 def _around(boxes: Sequence[Floats]) -> Box | None:
