@@ -8,7 +8,7 @@ from pathlib import Path
 from core.controls.control_tools import CutterTool, ToolTable, read_table
 from core.controls.program_text import quoted
 from core.controls.registry import UnknownControl, resolve
-from core.program.tool_table import faults
+from core.program.tools import table_faults
 from core.units import Unit
 
 
@@ -50,7 +50,7 @@ def tools_of(options: argparse.Namespace) -> ToolTable:
     if options.tools is not None:
         table, findings = read_table(bytes_of(options.tools))
         if findings:
-            raise Unusable(faults(name_of(options.tools), findings))
+            raise Unusable(table_faults(name_of(options.tools), findings))
     return table.with_tools(ToolTable.of(*(_tool(text) for text in options.tool)))
 
 

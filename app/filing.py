@@ -20,10 +20,9 @@ from app.screens.save import SaveAsPage
 from app.session import Session, Tone
 from app.widgets.words import in_spite, placed
 from core.finding import Severity
-from core.program.entries import unread
 from core.program.file.read import StoreError
 from core.program.file.write import dumps
-from core.program.model import Program
+from core.program.model import Program, unread_texts
 from core.units import Unit
 
 if TYPE_CHECKING:
@@ -75,7 +74,7 @@ def _save(desk: Desk, message: Save) -> Desk:
 
 def _marked(program: Program) -> str:
     """That what cannot be used is in the file too."""
-    return ", what is marked ERR as it was typed." if any(unread(program)) else ""
+    return ", what is marked ERR as it was typed." if any(unread_texts(program)) else ""
 
 
 def _as_program(path: Path, own: Path | None) -> Path:

@@ -20,7 +20,7 @@ from app.screens.post import PostPage
 from app.screens.program import ProgramPage
 from app.screens.save import SaveAsPage
 from app.session import SEGMENT, Said, Session
-from core.program.fields import Form, field, form_of
+from core.program.fields import Form, field_of, form_of
 from core.program.model import CutterComp, Entry, LineSegment
 from core.units import Unit
 
@@ -214,7 +214,7 @@ def _difference(session: Session, step: Step) -> str:
     held = block.segments[step.segment - 1] if step.segment else block
     if step.segment and not isinstance(held, LineSegment):
         return ""
-    label = field(Form.LINE if step.segment else Form.START, step.name).label.rstrip(".")
+    label = field_of(Form.LINE if step.segment else Form.START, step.name).label.rstrip(".")
     match getattr(held, step.name):
         case Entry(value):
             return f", its {label} is {value:g} instead of {step.text or 'blank'}"
@@ -228,7 +228,7 @@ def _difference(session: Session, step: Step) -> str:
 
 def _on_field(session: Session, step: Step) -> str:
     form = Form.START if step.segment == 0 else Form.LINE
-    label = field(form, step.name).label
+    label = field_of(form, step.name).label
     names = [SEGMENT, *(one.name for one in fields_at(session))]
     here = names.index(session.field) if session.field in names else 0
     if here != names.index(step.name):

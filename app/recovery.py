@@ -23,8 +23,8 @@ from app.screens.decide import Decide
 from app.session import Session, Tone
 from app.widgets.header import printable as whole
 from core.pipeline.outline import outline
-from core.program.difference import differences
 from core.program.file.read import StoreError
+from core.program.history import differences
 from core.units import printable
 
 if TYPE_CHECKING:

@@ -16,8 +16,8 @@ from app.naming import is_folder
 from app.screens.ask import Ask
 from app.screens.decide import Choose, shortened
 from app.session import Session, Tone
-from core.program.difference import differences
 from core.program.file.read import StoreError
+from core.program.history import differences
 from core.units import printable
 
 if TYPE_CHECKING:

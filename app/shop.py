@@ -19,7 +19,7 @@ from app.shell import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
 from core.finding import Finding
 from core.program.file.read import StoreError
 from core.program.model import Entry, Program, Tool
-from core.program.tool_table import Imported, decoded, faults, read_tool_table
+from core.program.tools import ImportedTools, decode_table, read_tool_table, table_faults
 from core.units import Kind, Unit, show
 
 
@@ -92,7 +92,7 @@ def _imported(options: argparse.Namespace) -> int:
     program = load(options.file)
     table = read_table(options.table, Unit(options.units) if options.units else program.unit, program.unit)
     if table.errors:
-        say(faults(str(options.table), table.errors))
+        say(table_faults(str(options.table), table.errors))
         say("nothing was imported.")
         return UNUSABLE
     _warn(options.table, table.findings)
@@ -107,7 +107,7 @@ def _listed(program: Program) -> int:
     return CLEAN
 
 
-def read_table(path: Path, unit: Unit, program: Unit) -> Imported:
+def read_table(path: Path, unit: Unit, program: Unit) -> ImportedTools:
     """A table's file; StoreError when it cannot be read."""
     try:
         with path.open("rb") as file:
@@ -117,7 +117,7 @@ def read_table(path: Path, unit: Unit, program: Unit) -> Imported:
         raise StoreError(f"{path} cannot be read: {why}. Check the name.") from error
     if len(data) > LARGEST:
         raise StoreError(f"{path} is too large for a tool table.")
-    return read_tool_table(decoded(data), unit, program)
+    return read_tool_table(decode_table(data), unit, program)
 
 
 LARGEST: Final = 1_000_000

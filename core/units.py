@@ -111,7 +111,7 @@ def show(value: float, kind: Kind, unit: Unit) -> str:
     """A value in program units as the screens print it, at most `WIDEST` characters, never a negative zero."""
     if not isfinite(value):
         return str(value)
-    decimals = _decimals(kind, unit)
+    decimals = decimals_shown(kind, unit)
     text = f"{value:.{decimals}f}"
     if len(text) > WIDEST:
         texts = (f"{value:.{places}f}" for places in range(decimals - 1, -1, -1))
@@ -119,7 +119,8 @@ def show(value: float, kind: Kind, unit: Unit) -> str:
     return text.removeprefix("-") if not text.strip("-0.") else text
 
 
-def _decimals(kind: Kind, unit: Unit) -> int:
+def decimals_shown(kind: Kind, unit: Unit) -> int:
+    """Decimals with which the screens print a value."""
     match kind:
         case Kind.LENGTH:
             return 4 if unit is Unit.IN else 3
@@ -166,7 +167,7 @@ def _told_from(value: float, other: float, unit: Unit) -> str:
     """A length with a form's decimals, or as many more as tell how far it is from another."""
     if not (isfinite(value) and isfinite(other)):
         return show(value, Kind.LENGTH, unit)
-    apart, fewest = abs(value - other), _decimals(Kind.LENGTH, unit)
+    apart, fewest = abs(value - other), decimals_shown(Kind.LENGTH, unit)
     enough = (
         places
         for places in range(fewest, fewest + CLOSER)

@@ -20,9 +20,8 @@ from typing import Any, Final, TypeVar
 from app.documents.files import Stamp
 from app.documents.journal_file import Record, whole_lines
 from app.documents.lock import Owner, owner_of
-from core.program.difference import splice
 from core.program.edit import Where
-from core.program.history import History, Step
+from core.program.history import History, Step, splice
 from core.program.model import (
     ArcSegment,
     BlendSegment,

@@ -18,8 +18,7 @@ from app.widgets.rows import Row
 from app.widgets.verdict import NOT_YET
 from core.finding import Finding, Severity
 from core.program.edit import Where, choose, type_field
-from core.program.entries import read
-from core.program.fields import SEGMENT_PROMPT, Field
+from core.program.fields import SEGMENT_PROMPT, Field, read_typed
 from core.program.solve.solved import Value
 from core.units import Kind, sentence
 
@@ -68,7 +67,7 @@ class Contour(FormPage):
 
     def edit(self, session: Session, one: Field, text: str) -> Edit:
         """The text read and put into the field."""
-        typed = read(text, one, session.program.unit)
+        typed = read_typed(text, one, session.program.unit)
         return Edit(type_field(session.program, session.where, one.name, typed), _label(one, session.where))
 
     def pick(self, session: Session, one: Field, choice: str) -> Answer:

@@ -13,8 +13,8 @@ from app.widgets.form import Cell, State
 from core.pipeline.derived import DerivedBlock, Tag
 from core.program.fields import SOLUTION, TABLES, Field, Form, form_of
 from core.program.model import Block, Entry, Segment, Unread
+from core.program.solve.block import ZERO_IF_BLANK
 from core.program.solve.solved import Solved, SolvedSegment, Value
-from core.program.solve.start import ZERO
 from core.units import Kind, Unit, from_mm, show
 
 _START: Final[Mapping[str, tuple[int, int]]] = MappingProxyType(
@@ -137,7 +137,7 @@ def _cell(one: Field, held: Value | str, unit: Unit, place: tuple[int, int], *, 
     cell = cell_of(one, held, unit, *place, needed=needed)
     if one.name == "lookahead" and cell.state is State.TYPED:
         return cell._replace(tag=str(Tag.USR))
-    if one.name in ZERO and cell.state is State.CALCULATED:
+    if one.name in ZERO_IF_BLANK and cell.state is State.CALCULATED:
         return cell._replace(tag="DEF")
     if one.name == "choice":
         return cell._replace(text=f"{int(cell.text) + 1} of 2" if cell.text else "?")

@@ -6,8 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from app.session import Session
-from core.program.entries import read
-from core.program.fields import Field
+from core.program.fields import Field, read_typed
 from core.program.history import History
 from core.program.model import Entry, Program, Unread
 from core.program.solve.solved import Value
@@ -33,7 +32,7 @@ def last_good(session: Session, one: Field, typed: Callable[[Session, str], Valu
 def _text(value: float, one: Field, session: Session) -> str:
     """A number as it may have been typed, nothing lost."""
     texts = (f"{value:.12g}", repr(value))
-    return next((text for text in texts if read(text, one, session.program.unit) == Entry(value)), "")
+    return next((text for text in texts if read_typed(text, one, session.program.unit) == Entry(value)), "")
 
 
 def _one_place(before: Program, after: Program) -> bool:

@@ -13,8 +13,7 @@ from app.widgets.form import Cell, State
 from core.finding import Severity
 from core.pipeline.derived import Tag
 from core.program.edit import Refused
-from core.program.entries import AGAIN, misfit, read, unread_reason
-from core.program.fields import SOLUTION, Field, check
+from core.program.fields import AGAIN, SOLUTION, Field, check, check_text, read_typed, unread_reason
 from core.program.model import Entry, Program, Unread
 from core.program.solve.solved import Solved, Value
 from core.units import Kind, Unit, sentence, show
@@ -102,7 +101,7 @@ class FormPage(Page):
             # refused stays to be mended
             gone = one.name == "lookahead"
             return Answer(done if gone else self, (Say(edit.outcome.text, Tone.ERROR, stays=gone),))
-        unread = None if one.kind is Kind.TEXT else read(editing.text, one, session.program.unit)
+        unread = None if one.kind is Kind.TEXT else read_typed(editing.text, one, session.program.unit)
         if isinstance(unread, Unread):
             return Answer(done, (edit, Say(_unread_sentence(unread, one, session.program.unit), Tone.ERROR)))
         return Answer(done, (edit,))
@@ -112,7 +111,7 @@ class FormPage(Page):
         one, editing = self.field(session), self.editing
         if one is None or editing is None or one.kind is Kind.TEXT or editing.text == self.text(session, one):
             return None
-        if not isinstance(read(editing.text, one, session.program.unit), Entry):
+        if not isinstance(read_typed(editing.text, one, session.program.unit), Entry):
             return None
         outcome = self.edit(session, one, editing.text).outcome
         return None if isinstance(outcome, Refused) else outcome
@@ -178,7 +177,7 @@ class FormPage(Page):
         if one is None or self.editing is None or one.kind is Kind.TEXT:
             return None
         typed, held = self.editing.text, self.text(session, one)
-        if typed.strip() == held or isinstance(read(typed, one, session.program.unit), Entry):
+        if typed.strip() == held or isinstance(read_typed(typed, one, session.program.unit), Entry):
             return None
         told = f"{_short(typed)} does not count" if typed.strip() else "A blank does not count before Enter"
         return Said(f"{told}: path and verdict are still those of {held or 'before'}.")
@@ -222,7 +221,7 @@ def unusable(held: Value | str, one: Field, unit: Unit) -> str | None:
 
 
 def _unread_sentence(unread: Unread, one: Field, unit: Unit) -> str:
-    if outside := misfit(unread.text, one, unit):
+    if outside := check_text(unread.text, one, unit):
         return outside
     if unread_reason(unread.text, one, unit) == AGAIN:
         return f"{unread.text.strip()} has not been taken yet: type it again."

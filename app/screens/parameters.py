@@ -14,8 +14,7 @@ from app.widgets.form import Cell, State, cursor_line, form_rows
 from app.widgets.header import header
 from app.widgets.rows import plain
 from core.program.edit import set_parameter, set_path_choice, set_unit
-from core.program.entries import read
-from core.program.fields import PARAMETERS, Field, default
+from core.program.fields import PARAMETERS, Field, default, read_typed
 from core.program.model import PathChoice
 from core.program.solve.solved import Value
 from core.units import Kind, Unit, show
@@ -57,7 +56,7 @@ class ParametersPage(FormPage):
 
     def edit(self, session: Session, one: Field, text: str) -> Edit:
         """The text read and put into the field."""
-        return Edit(set_parameter(session.program, one.name, read(text, one, session.program.unit)), one.label)
+        return Edit(set_parameter(session.program, one.name, read_typed(text, one, session.program.unit)), one.label)
 
     def pick(self, session: Session, one: Field, choice: str) -> Answer:
         """PATH is taken at once; another unit is asked about first, since it converts the whole program."""

@@ -12,8 +12,7 @@ from app.widgets.form import Cell, State, cursor_line, form_rows
 from app.widgets.header import header
 from app.widgets.rows import plain
 from core.program.edit import set_setup
-from core.program.entries import read
-from core.program.fields import SETUP, Field, default
+from core.program.fields import SETUP, Field, default, read_typed
 from core.program.solve.solved import Value
 from core.units import Kind, show
 
@@ -43,7 +42,7 @@ class SetupPage(FormPage):
 
     def edit(self, session: Session, one: Field, text: str) -> Edit:
         """The text put into the field, read as a number where the field is one."""
-        value = text.strip() if one.kind is Kind.TEXT else read(text, one, session.program.unit)
+        value = text.strip() if one.kind is Kind.TEXT else read_typed(text, one, session.program.unit)
         return Edit(set_setup(session.program, one.name, value), one.label)
 
     def escape(self, session: Session) -> Answer | None:

@@ -15,8 +15,7 @@ from app.widgets.form import typed_spans
 from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, padded, plain
 from core.program.edit import Edited, Refused, delete_tool, set_tool
-from core.program.entries import read
-from core.program.fields import TOOL, Field
+from core.program.fields import TOOL, Field, read_typed
 from core.program.model import Entry, Program, Tool, Unread
 from core.program.solve.solved import Value
 from core.units import Unit
@@ -190,9 +189,9 @@ def _typed(program: Program, tool: Tool, one: Field, text: str) -> Edited:
         case "type":
             return set_tool(program, replace(tool, type=text.strip()))
         case "diameter":
-            return set_tool(program, replace(tool, diameter=read(text, one, program.unit)))
+            return set_tool(program, replace(tool, diameter=read_typed(text, one, program.unit)))
         case _:
-            return _renumbered(program, tool, read(text, one, program.unit))
+            return _renumbered(program, tool, read_typed(text, one, program.unit))
 
 
 def _renumbered(program: Program, tool: Tool, typed: Entry | Unread | None) -> Edited:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from core.finding import Finding, Severity
-from core.program.fields import Form, check, default, field
+from core.program.fields import Form, check, default, field_of
 from core.program.model import Block, CutterComp, Entry, Program, Typed, Unread
 from core.program.solve.solved import SolvedBlock
 from core.tolerance import JOINED, LAST_PASS, ON_PATH
@@ -74,12 +74,12 @@ def _blank_feeds(block: Block, solved: SolvedBlock, program: Program) -> Iterato
     if not solved.determined or solved.plunge_feed is None:
         return
     count = len(block.segments)
-    blank = next((index for index, segment in enumerate(block.segments) if segment.feed is not None), count)
+    blank = next((index for index, one in enumerate(block.segments) if one.feed is not None), count)
     if not blank:
         return
-    subject = "the contour is" if blank == count else "it is" if blank == 1 else f"segments 1 to {blank} are"
+    who = "the contour is" if blank == count else "it is" if blank == 1 else f"segments 1 to {blank} are"
     feed = show(from_mm(solved.plunge_feed, program.unit), Kind.FEED, program.unit)
-    text = f"FEED is blank: {subject} milled with PLUNGE FEED {feed}. Enter FEED."
+    text = f"FEED is blank: {who} milled with PLUNGE FEED {feed}. Enter FEED."
     yield Finding("PLUNGE_FED", Severity.WARNING, text, 1, "feed")
 
 
@@ -92,7 +92,7 @@ def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[
         typed = getattr(program.parameters, name)
         if not isinstance(typed, Entry) or typed.value <= 0.0:
             continue
-        label = field(Form.PARAMETERS, name).label
+        label = field_of(Form.PARAMETERS, name).label
         text = f"{label} {{value}} is not left: FINISH TOOL is 0. Enter FINISH TOOL on START, or 0 in {label} "
         value = to_mm(typed.value, program.unit)
         yield Finding("NOT_LEFT", Severity.WARNING, text + "on PROGRAM PARAMETERS.", 0, "finish_tool", value=value)
@@ -100,15 +100,15 @@ def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[
 
 def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
     """Clearances that a field shows as 0: a rapid then ends on material."""
-    consequences = {"retract_clearance": "the tool comes by rapid onto the top of the material"}
+    onto = {"retract_clearance": "the tool comes by rapid onto the top of the material"}
     if _pecks(solved):
-        consequences["peck_clearance"] = "between pecks the tool comes down by rapid onto the floor it has just cut"
-    for name, consequence in consequences.items():
+        onto["peck_clearance"] = "between pecks the tool comes down by rapid onto the floor it has just cut"
+    for name, what in onto.items():
         value = _parameter(name, program)
         if value is None or value > SHOWN or show(from_mm(value, program.unit), Kind.LENGTH, program.unit).strip("0."):
             continue
-        label = field(Form.PARAMETERS, name).label
-        text = f"{label} is {{value}}: {consequence}. Enter {label} on PROGRAM PARAMETERS."
+        label = field_of(Form.PARAMETERS, name).label
+        text = f"{label} is {{value}}: {what}. Enter {label} on PROGRAM PARAMETERS."
         yield Finding("NO_CLEARANCE", Severity.WARNING, text, field=name, value=value)
 
 
@@ -166,6 +166,6 @@ def _length(typed: Typed, form: Form, name: str, program: Program) -> float | No
     if typed is None:
         usual = default(name, program.unit)
         return None if usual is None else to_mm(usual, program.unit)
-    if not isinstance(typed, Entry) or check(field(form, name), typed.value, program.unit):
+    if not isinstance(typed, Entry) or check(field_of(form, name), typed.value, program.unit):
         return None
     return to_mm(typed.value, program.unit)

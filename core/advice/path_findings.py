@@ -9,8 +9,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from core.advice.work import Loop, RoughPass, Work
-from core.comp.best_path.best_path import BestPath
-from core.comp.best_path.separation import Separation
+from core.comp.best_path.best_path import BestPath, Separation
 from core.comp.result import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, next_in_ring
@@ -131,33 +130,33 @@ def _blend_crosses_wall(loop: Loop, name: str) -> Finding:
 
 def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> Iterator[Finding]:
     """What is wrong with each roughing pass: gouges, stock that is not left, no room, segments it skips."""
-    for rough_pass in rough:
-        yield from _rough_errors(rough_pass)
-        skipped = _deleted(rough_pass.compensated) - (set() if finish is None else _deleted(finish))
+    for one in rough:
+        yield from _rough_errors(one)
+        skipped = _deleted(one.compensated) - (set() if finish is None else _deleted(finish))
         if skipped and finish is not None:
             numbers = ", ".join(f"{number:g}" for number in sorted(skipped))
             which = f"segment{'s' if len(skipped) > 1 else ''} {numbers}"
             text = f"Roughing that leaves {{0}} skips {which}. The next pass meets solid there."
-            yield Finding("ROUGH_DELETES", Severity.WARNING, text, min(skipped), lengths=(rough_pass.stock,))
+            yield Finding("ROUGH_DELETES", Severity.WARNING, text, min(skipped), lengths=(one.stock,))
 
 
-def _rough_errors(rough_pass: RoughPass) -> Iterator[Finding]:
-    for gouge in rough_pass.verdict.gouges[:1]:
-        left = rough_pass.stock - gouge.depth
-        where = gouge.surface_number, None, gouge.surface_at, abs(left), (rough_pass.stock,)
+def _rough_errors(one: RoughPass) -> Iterator[Finding]:
+    for gouge in one.verdict.gouges[:1]:
+        left = one.stock - gouge.depth
+        where = gouge.surface_number, None, gouge.surface_at, abs(left), (one.stock,)
         if left < -GOUGE:
             text = "Roughing that leaves {0} gouges {value} deep at X {x} Y {y}."
             yield Finding("ROUGH_GOUGES", Severity.ERROR, text, *where)
         else:
             text = "Roughing that should leave {0~value} leaves only {value~0} at X {x} Y {y}."
             yield Finding("ROUGH_STOCK", Severity.WARNING, text, *where)
-    if rough_pass.verdict.wrong_side or not rough_pass.verdict.judged:
-        what = "runs on the wrong side of the contour" if rough_pass.verdict.judged else "cannot be judged"
+    if one.verdict.wrong_side or not one.verdict.judged:
+        what = "runs on the wrong side of the contour" if one.verdict.judged else "cannot be judged"
         text = f"Roughing that leaves {{0}} {what}."
-        yield Finding("ROUGH_GOUGES", Severity.ERROR, text, lengths=(rough_pass.stock,))
-    if not rough_pass.loops:
+        yield Finding("ROUGH_GOUGES", Severity.ERROR, text, lengths=(one.stock,))
+    if not one.loops:
         text = "No room for the {0} roughing pass: skipped."
-        yield Finding("ROUGH_EMPTY", Severity.WARNING, text, lengths=(rough_pass.stock,))
+        yield Finding("ROUGH_EMPTY", Severity.WARNING, text, lengths=(one.stock,))
 
 
 def _deleted(compensated: Compensated) -> set[float]:
@@ -240,12 +239,15 @@ def open_finding(surface: Path, diameter: float, *, closed: bool) -> tuple[Findi
     if apart <= GOUGE or (not closed and len(surface) < FEWEST_CLOSED):
         return ()
     number, place = float(surface.numbers[-1]), tuple(surface.points[-1].tolist())
+    # with the digits that tell the end from START, however small the gap
+    lengths = (0.0, *surface.points[0].tolist())
     if not closed and apart > diameter:
-        text = "The contour is open: it ends {value} from START."
-        return (Finding("OPEN", Severity.INFO, text, number, None, place, apart),)
+        text = "The contour is open: it ends {value~0} from START."
+        return (Finding("OPEN", Severity.INFO, text, number, None, place, apart, lengths),)
     what = "counts as closed, but" if closed else "is not closed:"
-    text = f"The contour {what} it ends at X {{x}} Y {{y}}, {{value}} from START. Check START and the last segment."
-    return (Finding("NEARLY_CLOSED", Severity.WARNING, text, number, None, place, apart),)
+    text = f"The contour {what} it ends at X {{x~1}} Y {{y~2}}, {{value~0}} from START. "
+    text += "Check START and the last segment."
+    return (Finding("NEARLY_CLOSED", Severity.WARNING, text, number, None, place, apart, lengths),)
 
 
 def turning_back(surface: Path, *, closed: bool) -> tuple[Finding, ...]:

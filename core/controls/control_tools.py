@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from core.controls.program_text import lines_of
 from core.finding import Finding
-from core.program.tool_table import Listed, listed
+from core.program.tools import TableLine, table_lines
 from core.units import Unit, to_mm
 
 
@@ -64,7 +64,7 @@ def read_table(text: bytes, unit: Unit | None = None) -> tuple[ToolTable, tuple[
     """The tools of a LinuxCNC table (`T1 P1 Z0 D.25 Q0 ;comment`, one tool a line), and what cannot be read."""
     tools: list[CutterTool] = []
     findings: list[Finding] = []
-    for one in listed(lines_of(text)):
+    for one in table_lines(lines_of(text)):
         if isinstance(one, Finding):
             findings.append(one)
         else:
@@ -72,6 +72,6 @@ def read_table(text: bytes, unit: Unit | None = None) -> tuple[ToolTable, tuple[
     return ToolTable.of(*tools), tuple(findings)
 
 
-def _tool(one: Listed, unit: Unit | None) -> CutterTool:
+def _tool(one: TableLine, unit: Unit | None) -> CutterTool:
     words = one.words
     return CutterTool(one.number, words.get("D", 0.0), words.get("Z", 0.0), int(words.get("Q", 0.0)), unit)

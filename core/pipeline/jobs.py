@@ -9,7 +9,7 @@ from core.output.passes import Cutter, Job, Run
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.parameters import parameter, setup_value
 from core.program.model import Entry, Program, Typed
-from core.program.tools import find
+from core.program.tools import find_tool
 from core.units import Kind, Unit, from_mm, show, to_mm
 
 
@@ -71,7 +71,7 @@ def _whole(typed: Typed) -> int:
 def _cutter(number: Typed, diameter: float | None, program: Program) -> Cutter | None:
     if diameter is None or not isinstance(number, Entry):
         return None
-    tool = find(program, number.value)
+    tool = find_tool(program, number.value)
     return Cutter(int(number.value), diameter, "" if tool is None else tool.type)
 
 

@@ -10,8 +10,8 @@ from core.finding import Finding
 from core.geometry.piece import Side
 from core.pipeline.derived import Derived, DerivedBlock, LookAhead, Tag
 from core.program.model import Block, CutterComp, Entry, Program
-from core.program.shared import shared_findings
-from core.program.solve.solve import solve_block
+from core.program.solve.block import solve_block
+from core.program.solve.reading import shared_findings
 from core.program.solve.solved import SolvedBlock
 
 _SIDES = {

@@ -1,8 +1,7 @@
 """Edits of a program, each a pure function that yields the new program or refuses with a sentence.
 
-A refused edit changes nothing.  A number a field does not take is refused, a text that stays as it was typed
-(`core.program.entries`) is kept as `Unread`, but for the look-ahead, whose old value stays.  Blocks and segments count
-from 1, segment 0 is START.
+A refused edit changes nothing.  A number a field does not take is refused, a text that cannot be read is kept as
+`Unread`, but for the look-ahead, whose old value stays.  Blocks and segments count from 1, segment 0 is START.
 """
 
 from __future__ import annotations
@@ -12,9 +11,22 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Final
 
-from core.program.convert import converted
-from core.program.entries import misfit
-from core.program.fields import Field, Form, check, field, form_of, range_of
+from core.program.fields import (
+    PARAMETERS,
+    SETUP,
+    START,
+    TABLES,
+    TOOL,
+    Field,
+    Form,
+    check,
+    check_text,
+    default,
+    field_of,
+    form_of,
+    range_of,
+    unread_reason,
+)
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -23,14 +35,16 @@ from core.program.model import (
     Direction,
     Entry,
     LineSegment,
+    Part,
     PathChoice,
     Program,
     Segment,
     Tool,
     Typed,
+    Unread,
     changed,
 )
-from core.units import Kind, Unit, printable
+from core.units import Kind, Unit, convert, printable
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,11 +71,11 @@ def type_field(program: Program, where: Where, name: str, typed: Typed) -> Edite
         return refusal
     block = program.blocks[where.block - 1]
     if where.segment == 0:
-        if refusal := _misfit(field(Form.START, name), typed, program.unit) or _lookahead_misfit(block, name, typed):
+        if refusal := _misfit(field_of(Form.START, name), typed, program.unit) or _lookahead_misfit(block, name, typed):
             return refusal
         return _with_block(program, where, changed(block, {name: typed}))
     segment = block.segments[where.segment - 1]
-    if refusal := _misfit(field(form_of(segment), name), typed, program.unit):
+    if refusal := _misfit(field_of(form_of(segment), name), typed, program.unit):
         return refusal
     return _with_segment(program, where, _typed_into(segment, name, typed))
 
@@ -72,9 +86,9 @@ def choose(program: Program, where: Where, name: str, value: str | int | None) -
         return refusal
     block = program.blocks[where.block - 1]
     form = Form.START if where.segment == 0 else form_of(block.segments[where.segment - 1])
-    one = field(form, name)
-    if str(value) not in one.choices and not (value is None and name == "choice"):
-        return _takes(one)
+    field = field_of(form, name)
+    if str(value) not in field.choices and not (value is None and name == "choice"):
+        return _takes(field)
     picked = _PICKED[name](value)
     if where.segment == 0:
         return _with_block(program, where, changed(block, {name: picked}))
@@ -180,11 +194,11 @@ def delete_block(program: Program, at: int) -> Edited:
 
 def set_tool(program: Program, tool: Tool) -> Edited:
     """Put a line into the tool table, in place of the one of that number; the table stays in order of numbers."""
-    fits = _misfit(field(Form.TOOL, "number"), Entry(tool.number), program.unit)
-    if refusal := fits or _misfit(field(Form.TOOL, "diameter"), tool.diameter, program.unit):
+    fits = _misfit(field_of(Form.TOOL, "number"), Entry(tool.number), program.unit)
+    if refusal := fits or _misfit(field_of(Form.TOOL, "diameter"), tool.diameter, program.unit):
         return refusal
     others = (other for other in program.tools if other.number != tool.number)
-    return replace(program, tools=tuple(sorted((*others, tool), key=lambda one: one.number)))
+    return replace(program, tools=tuple(sorted((*others, tool), key=lambda tool: tool.number)))
 
 
 def delete_tool(program: Program, number: int) -> Edited:
@@ -197,7 +211,7 @@ def delete_tool(program: Program, number: int) -> Edited:
 
 def set_parameter(program: Program, name: str, typed: Typed) -> Edited:
     """Put what was typed, or a blank for the default, into a field of PROGRAM PARAMETERS."""
-    if refusal := _misfit(field(Form.PARAMETERS, name), typed, program.unit):
+    if refusal := _misfit(field_of(Form.PARAMETERS, name), typed, program.unit):
         return refusal
     return replace(program, parameters=changed(program.parameters, {name: typed}))
 
@@ -209,11 +223,11 @@ def set_path_choice(program: Program, choice: PathChoice) -> Program:
 
 def set_setup(program: Program, name: str, value: str | Typed) -> Edited:
     """Put what was typed into a field of PART SETUP: text for the name, a number or a blank for the others."""
-    one = field(Form.SETUP, name)
+    field = field_of(Form.SETUP, name)
     if isinstance(value, str):
-        if refusal := _unshown(one.label, value):
+        if refusal := _unshown(field.label, value):
             return refusal
-    elif refusal := _misfit(one, value, program.unit):
+    elif refusal := _misfit(field, value, program.unit):
         return refusal
     return replace(program, setup=changed(program.setup, {name: value}))
 
@@ -228,8 +242,53 @@ def _unshown(label: str, text: str) -> Refused | None:
 
 
 def set_unit(program: Program, unit: Unit) -> Program:
-    """The same part in another unit: every typed length and feed is converted, blanks stay blank."""
-    return converted(program, unit)
+    """The same part in another unit: every typed length and feed is converted.
+
+    A blank parameter stood for the old unit's usual value, which is another one in the new unit: it is written out, so
+    that the same part is cut.  One that comes to the new unit's usual value becomes a blank again.
+    """
+    if program.unit is unit:
+        return program
+    old = program.unit
+    return replace(
+        program,
+        unit=unit,
+        parameters=_converted_defaults(program.parameters, PARAMETERS, old, unit),
+        setup=_converted_defaults(program.setup, SETUP, old, unit),
+        tools=tuple(_converted(tool, TOOL, old, unit) for tool in program.tools),
+        blocks=tuple(_converted_block(block, old, unit) for block in program.blocks),
+    )
+
+
+def _converted_defaults(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Part:
+    """A copy converted, its blanks written out first and its usual values blank again."""
+    there = _converted(_defaults_typed(part, table, old), table, old, new)
+    usual = ((field.name, default(field.name, new)) for field in table if field.kind is Kind.LENGTH)
+    return changed(there, {name: None for name, value in usual if value and getattr(there, name) == Entry(value)})
+
+
+def _defaults_typed(part: Part, table: tuple[Field, ...], unit: Unit) -> Part:
+    """A copy whose blank lengths hold the unit's usual values, but for those that are 0 in every unit."""
+    blank = (field.name for field in table if field.kind is Kind.LENGTH and getattr(part, field.name) is None)
+    usual = ((name, default(name, unit)) for name in blank)
+    return changed(part, {name: Entry(value) for name, value in usual if value})
+
+
+def _converted_block(block: Block, old: Unit, new: Unit) -> Block:
+    segments = tuple(_converted(segment, TABLES[form_of(segment)], old, new) for segment in block.segments)
+    return replace(_converted(block, START, old, new), segments=segments)
+
+
+def _converted(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Part:
+    """A copy with the lengths and feeds converted; text stays, and what is against it is said in the new unit."""
+    typed = [(field, getattr(part, field.name)) for field in table if field.kind in (Kind.LENGTH, Kind.FEED)]
+    entries = {field.name: Entry(convert(held.value, old, new)) for field, held in typed if isinstance(held, Entry)}
+    texts = {field.name: _reread(held, field, new) for field, held in typed if isinstance(held, Unread)}
+    return changed(part, {**entries, **texts})
+
+
+def _reread(text: Unread, field: Field, unit: Unit) -> Unread:
+    return replace(text, reason=unread_reason(text.text, field, unit))
 
 
 def _absent(program: Program, where: Where) -> Refused | None:
@@ -252,26 +311,26 @@ def _last(thing: str, count: int) -> str:
     return f"the last {thing} is {count}." if count else f"no {thing} is typed yet."
 
 
-def _misfit(one: Field, typed: Typed, unit: Unit) -> Refused | None:
+def _misfit(field: Field, typed: Typed, unit: Unit) -> Refused | None:
     """Why a field does not take what was typed."""
-    if one.kind is Kind.CHOICE:
-        return _takes(one)
-    text = check(one, typed.value, unit) if isinstance(typed, Entry) else None
+    if field.kind is Kind.CHOICE:
+        return _takes(field)
+    text = check(field, typed.value, unit) if isinstance(typed, Entry) else None
     return None if text is None else Refused(text)
 
 
-def _takes(one: Field) -> Refused:
-    return Refused(f"{one.label} takes {', '.join(one.choices)}.")
+def _takes(field: Field) -> Refused:
+    return Refused(f"{field.label} takes {', '.join(field.choices)}.")
 
 
 def _lookahead_misfit(block: Block, name: str, typed: Typed) -> Refused | None:
     if name != "lookahead" or isinstance(typed, Entry) or typed == block.lookahead:
         return None
-    one = field(Form.START, "lookahead")
-    unreadable = typed is not None and misfit(typed.text, one, Unit.MM) is None
+    field = field_of(Form.START, "lookahead")
+    unreadable = typed is not None and check_text(typed.text, field, Unit.MM) is None
     again = f" {printable(typed.text)} cannot be read." if unreadable and typed is not None else ""
     back = "" if block.lookahead is None else " Press F3 to go back to CAL."
-    return Refused(f"{one.label} must be a whole number {range_of(one, Unit.MM)}.{again}{back}")
+    return Refused(f"{field.label} must be a whole number {range_of(field, Unit.MM)}.{again}{back}")
 
 
 def _typed_into(segment: Segment, name: str, typed: Typed) -> Segment:

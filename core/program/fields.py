@@ -1,4 +1,4 @@
-"""The fields of the screens: label, kind, range and prompt of everything that can be typed.
+"""The fields of the screens: label, kind, range and prompt of everything that can be typed, and what a text in one is.
 
 One table for the form, the reader of files, and the messages, so that a field has one name everywhere.
 `name` is the attribute of the model and the key of the program file.
@@ -18,11 +18,14 @@ from core.program.model import (
     BlendSegment,
     CutterComp,
     Direction,
+    Entry,
     LineSegment,
     PathChoice,
     Segment,
+    Typed,
+    Unread,
 )
-from core.units import Kind, Unit, from_mm
+from core.units import Kind, Unit, Unreadable, from_mm, parse, printable
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,29 +97,29 @@ def _count(name: str, label: str, prompt: str, low: float, high: float) -> Field
 _FEED: Final = _feed(
     "feed",
     "FEED",
-    "Enter the feed along this segment. Blank takes it from the segment before, on the first from PLUNGE FEED.",
+    "Feed along this segment. Blank: as the segment before.",
 )
-_X_END: Final = _place("x_end", "X END", "Enter the X coordinate of the end of this segment.")
-_Y_END: Final = _place("y_end", "Y END", "Enter the Y coordinate of the end of this segment.")
-_Z_END: Final = _place("z_end", "Z END", "Enter Z at the end of this segment. Blank keeps Z of the segment before.")
+_X_END: Final = _place("x_end", "X END", "X of the end of this segment.")
+_Y_END: Final = _place("y_end", "Y END", "Y of the end of this segment.")
+_Z_END: Final = _place("z_end", "Z END", "Z at the end of this segment. Blank: as the segment before.")
 
 START: Final = (
-    _count("tool", "TOOL", "Enter the number of the tool that mills this contour.", 1, 9999),
+    _count("tool", "TOOL", "Tool number. Space lists the tools.", 1, 9999),
     Field(
         "cutter_comp",
         "CUTTER COMP.",
         Kind.CHOICE,
-        "Select the side of the contour the tool runs on, seen along travel.",
+        "Side of the tool, seen along travel. Space lists.",
         choices=tuple(comp.value for comp in CutterComp),
     ),
-    _count("finish_tool", "FINISH TOOL", "Enter the number of the tool for the finish pass, or 0 for none.", 0, 9999),
-    _place("x_start", "X START", "Enter the X coordinate where the contour starts."),
-    _place("y_start", "Y START", "Enter the Y coordinate where the contour starts."),
-    _place("z_start", "Z START", "Enter the Z coordinate of the top of the material."),
-    _place("z_bottom", "Z BOTTOM", "Enter the Z coordinate of the bottom of the cut."),
-    _feed("plunge_feed", "PLUNGE FEED", "Enter the feed with which the tool goes down."),
-    _count("speed", "SPEED (RPM)", "Enter the spindle speed in revolutions per minute.", 1, FASTEST),
-    _allowance("peck_depth", "PECK DEPTH", "Enter the depth of one pass, or 0 for the full depth in one pass."),
+    _count("finish_tool", "FINISH TOOL", "Tool for the finish pass; 0 = none.", 0, 9999),
+    _place("x_start", "X START", "X where the contour starts."),
+    _place("y_start", "Y START", "Y where the contour starts."),
+    _place("z_start", "Z START", "Z of the top of the material."),
+    _place("z_bottom", "Z BOTTOM", "Z of the bottom of the cut."),
+    _feed("plunge_feed", "PLUNGE FEED", "Plunge feed."),
+    _count("speed", "SPEED (RPM)", "Spindle speed, revolutions per minute.", 1, FASTEST),
+    _allowance("peck_depth", "PECK DEPTH", "Depth of one pass; 0 = full depth."),
     _count("lookahead", "CUTCOMP LOOKAHEAD", LOOKAHEAD_PROMPT, 1, 20),
 )
 
@@ -124,8 +127,8 @@ LINE: Final = (
     _X_END,
     _Y_END,
     _Z_END,
-    _size("length", "XY LENGTH", "Enter the length of the line in the XY plane."),
-    Field("angle", "XY ANGLE", Kind.ANGLE, "Enter the angle of the line, counter-clockwise from +X.", -360.0, 360.0),
+    _size("length", "XY LENGTH", "Length of the line in the XY plane."),
+    Field("angle", "XY ANGLE", Kind.ANGLE, "Angle from +X, counter-clockwise, degrees.", -360.0, 360.0),
     _FEED,
 )
 
@@ -134,20 +137,20 @@ ARC: Final = (
         "direction",
         "DIRECTION",
         Kind.CHOICE,
-        "Select the direction of travel along the arc.",
+        "Direction of travel along the arc.",
         choices=tuple(direction.value for direction in Direction),
     ),
     _X_END,
     _Y_END,
     _Z_END,
-    _place("x_center", "X CENTER", "Enter the X coordinate of the center of the arc."),
-    _place("y_center", "Y CENTER", "Enter the Y coordinate of the center of the arc."),
-    _size("radius", "RADIUS", "Enter the radius of the arc."),
+    _place("x_center", "X CENTER", "X of the center of the arc."),
+    _place("y_center", "Y CENTER", "Y of the center of the arc."),
+    _size("radius", "RADIUS", "Radius of the arc."),
     Field(
         "sweep",
         "SWEEP ANGLE",
         Kind.ANGLE,
-        "Enter the angle the arc turns through in its direction, up to 360 for the full circle.",
+        "Angle the arc turns through; 360 = full circle.",
         high=360.0,
         above=0.0,
     ),
@@ -155,52 +158,52 @@ ARC: Final = (
 )
 
 BLEND: Final = (
-    _size("radius", "RADIUS", "Enter the radius of the arc that blends the segments before and after."),
+    _size("radius", "RADIUS", "Radius of the arc between the segments before and after."),
     _FEED,
 )
 
 TOOL: Final = (
-    _count("number", "TOOL", "Enter the number of the tool.", 1, 9999),
-    Field("type", "TYPE", Kind.TEXT, "Enter the type of the tool, such as END MILL."),
-    _size("diameter", "TOOL DIAMETER", "Enter the diameter of the tool."),
+    _count("number", "TOOL", "Tool number.", 1, 9999),
+    Field("type", "TYPE", Kind.TEXT, "Type of the tool, such as END MILL."),
+    _size("diameter", "TOOL DIAMETER", "Diameter of the tool."),
 )
 
 PARAMETERS: Final = (
-    _allowance("blend_offset", "BLEND OFFSET", "Enter the radius of the blend-in and blend-out arcs, or 0 for none."),
-    _allowance("blend_overlap", "BLEND OVERLAP", "Enter how far a closed contour runs past its start."),
-    _allowance("finish_xy", "FINISH XY", "Enter the material the roughing tool leaves on the sides."),
-    _allowance("finish_z", "FINISH Z", "Enter the material the roughing tool leaves on the floor."),
+    _allowance("blend_offset", "BLEND OFFSET", "Radius of the blend-in and blend-out arcs; 0 = none."),
+    _allowance("blend_overlap", "BLEND OVERLAP", "How far a closed contour runs past its start."),
+    _allowance("finish_xy", "FINISH XY", "Material the roughing tool leaves on the sides."),
+    _allowance("finish_z", "FINISH Z", "Material the roughing tool leaves on the floor."),
     Field(
         "pocket_overlap",
         "POCKET OVERLAP",
         Kind.PERCENT,
-        "Enter how much PROFILE passes overlap, in percent of the tool diameter.",
+        "Overlap of PROFILE passes, percent of the tool diameter.",
         0.0,
         99.0,
     ),
-    _allowance("max_offset", "MAX OFFSET", "Enter how far outside the contour PROFILE passes begin."),
-    _size("retract_clearance", "RETRACT CLEARANCE", "Enter how far above Z START the tool moves between pecks."),
-    _allowance("peck_clearance", "PECK CLEARANCE", "Enter how far above the last depth a rapid down stops."),
+    _allowance("max_offset", "MAX OFFSET", "How far outside the contour PROFILE passes begin."),
+    _size("retract_clearance", "RETRACT CLEARANCE", "How far above Z START the tool moves between pecks."),
+    _allowance("peck_clearance", "PECK CLEARANCE", "How far above the last depth a rapid down stops."),
     Field(
         "path",
         "PATH",
         Kind.CHOICE,
-        "Select which center path is posted: the control's, or the best one.",
+        "Path to post: CONTROL as the look-ahead makes it, BEST without its faults.",
         choices=tuple(choice.value for choice in PathChoice),
     ),
 )
 
 SETUP: Final = (
-    Field("name", "PART NAME", Kind.TEXT, "Enter a name for the part; it stands at the head of the NC file."),
-    _count("work_offset", "WORK OFFSET", "Enter the work offset, 54 to 59 for G54 to G59.", 54, 59),
-    _place("safe_z", "SAFE Z", "Enter the Z at which the tool may move freely above the part."),
+    Field("name", "PART NAME", Kind.TEXT, "Part name, for the head of the NC file."),
+    _count("work_offset", "WORK OFFSET", "Work offset, 54 to 59 for G54 to G59.", 54, 59),
+    _place("safe_z", "SAFE Z", "Z at which the tool moves freely above the part."),
 )
 
 SOLUTION: Final = Field(
     "choice",
     "SOLUTION",
     Kind.CHOICE,
-    "Two solutions fit what is typed: select the one on the drawing.",
+    "Two solutions fit: pick the one on the drawing.",
     choices=("0", "1"),
 )
 """Which of two solutions a LINE or an ARC takes; a screen shows it only where there are two."""
@@ -217,8 +220,16 @@ TABLES: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
     }
 )
 
+NUMBER_FIELDS: Final[Mapping[Form, tuple[Field, ...]]] = MappingProxyType(
+    {
+        form: tuple(field for field in table if field.kind not in (Kind.CHOICE, Kind.TEXT))
+        for form, table in TABLES.items()
+    }
+)
+"""The fields of each screen that take a number."""
+
 _BY_NAME: Final[Mapping[tuple[Form, str], Field]] = MappingProxyType(
-    {(form, one.name): one for form, table in TABLES.items() for one in table}
+    {(form, field.name): field for form, table in TABLES.items() for field in table}
     | {(Form.LINE, "choice"): SOLUTION, (Form.ARC, "choice"): SOLUTION}
 )
 
@@ -236,35 +247,35 @@ def form_of(segment: Segment) -> Form:
             assert_never(segment)
 
 
-def field(form: Form, name: str) -> Field:
+def field_of(form: Form, name: str) -> Field:
     """The field `name` of a screen; KeyError if it has none of that name."""
     return _BY_NAME[form, name]
 
 
-def check(one: Field, value: float, unit: Unit) -> str | None:
+def check(field: Field, value: float, unit: Unit) -> str | None:
     """The sentence that refuses a value, in program units, that a field does not take, None for one it takes."""
-    whole = one.kind is Kind.COUNT
-    low, high = bounds(one, unit)
+    whole = field.kind is Kind.COUNT
+    low, high = bounds(field, unit)
     fits = isfinite(value) and (not whole or value == int(value))
     fits = fits and (low is None or value >= low) and (high is None or value <= high)
-    if fits and (one.above is None or value > one.above):
+    if fits and (field.above is None or value > field.above):
         return None
-    return f"{one.label} must be {'a whole number ' if whole else ''}{range_of(one, unit) or 'a finite number'}."
+    return f"{field.label} must be {'a whole number ' if whole else ''}{range_of(field, unit) or 'a finite number'}."
 
 
-def bounds(one: Field, unit: Unit) -> tuple[float | None, float | None]:
+def bounds(field: Field, unit: Unit) -> tuple[float | None, float | None]:
     """The least and the largest value a field takes, in program units."""
-    low, high = one.low, one.high
-    if unit is Unit.MM or one.kind not in (Kind.LENGTH, Kind.FEED):
+    low, high = field.low, field.high
+    if unit is Unit.MM or field.kind not in (Kind.LENGTH, Kind.FEED):
         return low, high
     return None if low is None else from_mm(low, unit), None if high is None else from_mm(high, unit)
 
 
-def range_of(one: Field, unit: Unit) -> str:
+def range_of(field: Field, unit: Unit) -> str:
     """What a field takes, such as `from 1 to 20`; empty where everything goes."""
-    low, high = bounds(one, unit)
-    if one.above is not None:
-        return f"above {one.above:g}" + ("" if high is None else f", at most {_plain(high)}")
+    low, high = bounds(field, unit)
+    if field.above is not None:
+        return f"above {field.above:g}" + ("" if high is None else f", at most {_plain(high)}")
     return "" if low is None or high is None else f"from {_plain(low)} to {_plain(high)}"
 
 
@@ -292,3 +303,33 @@ def default(name: str, unit: Unit) -> float | None:
     """What a blank on PROGRAM PARAMETERS or PART SETUP stands for, in program units; None if it stands for nothing."""
     inch, millimeter = _DEFAULTS.get(name, (None, None))
     return inch if unit is Unit.IN else millimeter
+
+
+AGAIN: Final = "Type it again."
+"""What is said of a text that was refused once and could be read now."""
+
+
+def read_typed(text: str, field: Field, unit: Unit) -> Typed:
+    """A blank, an entry, or a text that cannot be read or is a number the field does not take, which is kept."""
+    if not text.strip():
+        return None
+    value = parse(text, field.kind, unit)
+    if isinstance(value, Unreadable):
+        return Unread(text, value.reason)
+    refusal = check_text(text, field, unit)
+    return Entry(value) if refusal is None else Unread(text, refusal)
+
+
+def check_text(text: str, field: Field, unit: Unit) -> str | None:
+    """The sentence about a text that is a number, and none the field takes; None for any other text."""
+    value = parse(text, field.kind, unit)
+    refusal = None if isinstance(value, Unreadable) else check(field, value, unit)
+    return None if refusal is None else f"{refusal.removesuffix('.')}, not {printable(text)}."
+
+
+def unread_reason(text: str, field: Field, unit: Unit) -> str:
+    """Why a text stays as it was typed; what the field would take by now waits to be typed again."""
+    value = parse(text, field.kind, unit)
+    if isinstance(value, Unreadable):
+        return value.reason
+    return check_text(text, field, unit) or AGAIN

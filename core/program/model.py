@@ -1,12 +1,12 @@
 """The program as the operator typed it: frozen, blanks included, nothing calculated.
 
-Numbers are in program units, as typed; `core.program.solve.solve` turns them into millimeters and calculates
+Numbers are in program units, as typed; `core.program.solve.block` turns them into millimeters and calculates
 the blanks.  A blank is None, text that could not be read stays as `Unread`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import Any, TypeVar
@@ -58,7 +58,7 @@ class PathChoice(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class LineSegment:
-    """A LINE as typed; `choice` is the index of the picked solution in `assist`'s documented order."""
+    """A LINE as typed; `choice` is the index of the picked solution in the documented order."""
 
     x_end: Typed = None
     y_end: Typed = None
@@ -71,7 +71,7 @@ class LineSegment:
 
 @dataclass(frozen=True, slots=True)
 class ArcSegment:
-    """An ARC as typed; `choice` is the index of the picked solution in `assist`'s documented order."""
+    """An ARC as typed; `choice` is the index of the picked solution in the documented order."""
 
     direction: Direction = Direction.CW
     x_end: Typed = None
@@ -164,3 +164,11 @@ Part = TypeVar("Part", bound=Block | LineSegment | ArcSegment | BlendSegment | T
 def changed(part: Part, values: Mapping[str, Any]) -> Part:
     """A copy of a part of a program with these attributes changed; the caller vouches for names and types."""
     return replace(part, **values)
+
+
+def unread_texts(program: Program) -> Iterator[Unread]:
+    """Every text of a program that could not be read, on whatever form."""
+    segments = (segment for block in program.blocks for segment in block.segments)
+    for part in (program.parameters, program.setup, *program.tools, *program.blocks, *segments):
+        values = (getattr(part, name) for name in part.__match_args__)
+        yield from (value for value in values if isinstance(value, Unread))

@@ -1,20 +1,26 @@
-"""The tool table: which tool a field calls, how large it is, and what is wrong with it."""
+"""Tools: the tool table of a program, which tool a field calls, and LinuxCNC tool tables.
+
+A LinuxCNC table has a tool a line, `T1 P1 Z0.5 D0.25 Q0 ;remark`: a letter and a number at a time, in any order, and a
+remark after the semicolon.  It does not say its unit: lengths are in the machine's.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from math import isfinite
-from typing import assert_never
+from typing import Final, assert_never
 
 from core.finding import Finding, Severity
-from core.program.entries import misfit
-from core.program.fields import Form, check, field
+from core.program.fields import TOOL, Form, check, check_text, field_of
 from core.program.model import Entry, Program, Tool, Typed, Unread
-from core.units import Unit, printable, to_mm
+from core.tolerance import LARGEST
+from core.units import Unit, convert, printable, to_mm
 
 
 @dataclass(frozen=True, slots=True)
-class Called:
+class CalledTool:
     """A tool as a block calls it: `diameter` in millimeters, None where the table gives none that can be used."""
 
     type: str = ""
@@ -22,35 +28,35 @@ class Called:
     findings: tuple[Finding, ...] = ()
 
 
-def find(program: Program, number: float) -> Tool | None:
+def find_tool(program: Program, number: float) -> Tool | None:
     """The tool of that number, None if the table has none."""
     return next((tool for tool in program.tools if tool.number == number), None)
 
 
-def called(program: Program, typed: Typed, name: str, severity: Severity = Severity.ERROR) -> Called:
+def called_tool(program: Program, typed: Typed, name: str, severity: Severity = Severity.ERROR) -> CalledTool:
     """The tool that field `name` (`tool` or `finish_tool`) calls.
 
     A blank and unreadable text call nothing and are for others to tell; 0 is no finish tool.
     `severity` weighs a diameter that cannot be used, which hurts less when the center runs on the contour.
     """
     if not isinstance(typed, Entry) or (name == "finish_tool" and typed.value == 0.0):
-        return Called()
-    tool = find(program, typed.value)
+        return CalledTool()
+    tool = find_tool(program, typed.value)
     if tool is None:
         text = f"Tool {typed.value:g} is not in the tool table: add it on TOOL SETUP, or call another."
-        return Called(findings=(Finding("TOOL_MISSING", Severity.ERROR, text, 0, name),))
+        return CalledTool(findings=(Finding("TOOL_MISSING", Severity.ERROR, text, 0, name),))
     trouble = _diameter_trouble(tool, program.unit)
     if trouble is not None:
-        return Called(tool.type, None, (Finding("TOOL_DIAMETER", severity, trouble, 0, name),))
+        return CalledTool(tool.type, None, (Finding("TOOL_DIAMETER", severity, trouble, 0, name),))
     assert isinstance(tool.diameter, Entry)
-    outside = check(field(Form.TOOL, "diameter"), tool.diameter.value, program.unit)
+    outside = check(field_of(Form.TOOL, "diameter"), tool.diameter.value, program.unit)
     if outside is not None:
         told = Finding("TOOL_DIAMETER", severity, f"Tool {tool.number}: {outside}", 0, name)
-        return Called(tool.type, None, (told,))
-    return Called(tool.type, diameter(tool, program.unit))
+        return CalledTool(tool.type, None, (told,))
+    return CalledTool(tool.type, tool_diameter(tool, program.unit))
 
 
-def diameter(tool: Tool, unit: Unit) -> float | None:
+def tool_diameter(tool: Tool, unit: Unit) -> float | None:
     """Diameter in millimeters, None while it is blank, unreadable or not above 0."""
     match tool.diameter:
         case Entry(value) if isfinite(value) and value > 0.0:
@@ -67,7 +73,7 @@ def _diameter_trouble(tool: Tool, unit: Unit) -> str | None:
         case None:
             return f"{there}; it is blank."
         case Unread(text, _):
-            outside = misfit(text, field(Form.TOOL, "diameter"), unit)
+            outside = check_text(text, field_of(Form.TOOL, "diameter"), unit)
             return f"Tool {tool.number}: {outside}" if outside else f"{there}; {printable(text)} cannot be read."
         case Entry(value) if not isfinite(value) or value <= 0.0:
             return f"{there}; it must be above 0, and it is {value:g}."
@@ -75,3 +81,157 @@ def _diameter_trouble(tool: Tool, unit: Unit) -> str | None:
             return None
         case _:
             assert_never(tool.diameter)
+
+
+TOOL_TABLE: Final = "TOOLTABLE"
+HOW: Final = "write T1 P1 D.25 Z0"
+LETTERS: Final = "TPXYZABCUVWDIJQ"
+"""The words a LinuxCNC table knows."""
+MAX_TABLE_LINES: Final = 10_000
+"""A table with more lines is none."""
+MAX_TABLE_FAULTS: Final = 3
+"""Faults that are named each."""
+_WORD: Final = re.compile(r"\s*([A-Za-z])\s*([-+]?(?:\d+(?:\.\d*)?|\.\d+))(?=[\sA-Za-z]|$)")
+_BREAK: Final = re.compile(r"\r\n|\n|\r")
+
+
+@dataclass(frozen=True, slots=True)
+class TableLine:
+    """One line of a table, in its own unit: its words by letter, where each stands (column from 1), and its remark."""
+
+    line: int
+    number: int
+    words: Mapping[str, float]
+    columns: Mapping[str, int]
+    remark: str = ""
+
+    def finding(self, severity: Severity, letter: str, text: str) -> Finding:
+        """Trouble with one word of this line."""
+        return Finding(TOOL_TABLE, severity, text, line=self.line, column=self.columns.get(letter, 1))
+
+
+@dataclass(frozen=True, slots=True)
+class ImportedTools:
+    """A whole table's tools in the program's unit, in order of number; none at all while there is an error."""
+
+    tools: tuple[Tool, ...] = ()
+    findings: tuple[Finding, ...] = field(default_factory=tuple)
+
+    @property
+    def errors(self) -> tuple[Finding, ...]:
+        """What stands against importing it."""
+        return tuple(finding for finding in self.findings if finding.severity is Severity.ERROR)
+
+
+def table_faults(name: str, findings: Sequence[Finding]) -> str:
+    """What is wrong with a table of this name: the first few faults, a line each, and how many more there are."""
+    listed = findings[:MAX_TABLE_FAULTS]
+    lines = [f"{name}, line {finding.line}, column {finding.column}: {finding.text}" for finding in listed]
+    if more := len(findings) - len(listed):
+        lines.append(f"{name}: {more} more fault{'s' if more > 1 else ''}.")
+    return "\n".join(lines)
+
+
+def decode_table(data: bytes) -> str:
+    """A table's text: UTF-8, or byte for byte where it is none."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
+def table_lines(lines: Iterable[str]) -> Iterator[TableLine | Finding]:
+    """Every line that has words, or what is wrong with it; blank lines and remarks alone are passed over."""
+    for number, text in enumerate(lines, 1):
+        words, _, remark = text.partition(";")
+        if words.strip():
+            yield _line(number, words, remark.strip())
+
+
+def read_tool_table(text: str, unit: Unit, program: Unit) -> ImportedTools:
+    """The tools of a table whose lengths are in `unit`, for a program that is in `program`.
+
+    The remark becomes the tool's type.  A tool without a diameter comes with a blank one and a warning.
+    """
+    rows: list[TableLine] = []
+    findings: list[Finding] = []
+    lines = _BREAK.split(text)
+    if len(lines) > MAX_TABLE_LINES:
+        findings.append(_whole(f"This has more than {MAX_TABLE_LINES} lines: it is no tool table."))
+    for row in table_lines(lines[:MAX_TABLE_LINES]):
+        if isinstance(row, Finding):
+            findings.append(row)
+        else:
+            rows.append(row)
+    findings += [finding for row in rows for finding in _objections(row, unit, program)] + list(_twice(rows))
+    if not rows and not findings:
+        findings.append(_whole("There is no tool in this table."))
+    findings.sort(key=lambda finding: (finding.line or 0, finding.column or 0))
+    if any(finding.severity is Severity.ERROR for finding in findings):
+        return ImportedTools((), tuple(findings))
+    tools = sorted((_tool(row, unit, program) for row in rows), key=lambda tool: tool.number)
+    return ImportedTools(tuple(tools), tuple(findings))
+
+
+def _whole(text: str) -> Finding:
+    return Finding(TOOL_TABLE, Severity.ERROR, text, line=1, column=1)
+
+
+def _line(line: int, text: str, remark: str) -> TableLine | Finding:
+    end, words, columns = 0, dict[str, float](), dict[str, int]()
+    while found := _WORD.match(text, end):
+        letter, column = found[1].upper(), found.start(1) + 1
+        trouble = _word_trouble(letter, float(found[2]), words)
+        if trouble is not None:
+            return Finding(TOOL_TABLE, Severity.ERROR, trouble, line=line, column=column)
+        words[letter], columns[letter], end = float(found[2]), column, found.end()
+    if rest := text[end:].strip():
+        column = end + len(text[end:]) - len(text[end:].lstrip()) + 1
+        text = f"{_quoted(rest)} is no word of a tool table; {HOW}."
+        return Finding(TOOL_TABLE, Severity.ERROR, text, line=line, column=column)
+    if "T" not in words or not words["T"].is_integer():
+        text = f"A tool table's line needs a whole tool number; {HOW}."
+        return Finding(TOOL_TABLE, Severity.ERROR, text, line=line, column=columns.get("T", 1))
+    return TableLine(line, int(words["T"]), words, columns, remark)
+
+
+def _quoted(text: str) -> str:
+    """A piece of the table as a message repeats it; braces would be taken for the place of a length."""
+    return printable(text).replace("{", "?").replace("}", "?")
+
+
+def _word_trouble(letter: str, value: float, words: Mapping[str, float]) -> str | None:
+    if letter not in LETTERS:
+        return f"{letter} is no word of a tool table; {HOW}."
+    if letter in words:
+        return f"{letter} stands twice in this line."
+    if not isfinite(value) or abs(value) > LARGEST:
+        return "A number of this line is too large for any tool."
+    return None
+
+
+def _objections(row: TableLine, unit: Unit, program: Unit) -> Iterator[Finding]:
+    """What the shop's own table cannot take, though a control may."""
+    number, _, size = TOOL
+    if (trouble := check(number, row.number, program)) is not None:
+        yield row.finding(Severity.ERROR, "T", trouble)
+    value = row.words.get("D", 0.0)
+    if value == 0.0:
+        yield row.finding(Severity.WARNING, "D", f"Tool {row.number} has no diameter: it stays blank.")
+    elif (trouble := check(size, convert(value, unit, program), program)) is not None:
+        yield row.finding(Severity.ERROR, "D", trouble)
+
+
+def _twice(rows: Iterable[TableLine]) -> Iterator[Finding]:
+    first: dict[int, int] = {}
+    for row in rows:
+        before = first.setdefault(row.number, row.line)
+        if before != row.line:
+            yield row.finding(Severity.ERROR, "T", f"Tool {row.number} stands in line {before} already.")
+
+
+def _tool(row: TableLine, unit: Unit, program: Unit) -> Tool:
+    value = row.words.get("D", 0.0)
+    size = Entry(convert(value, unit, program)) if value else None
+    kind = "".join(sign for sign in row.remark if sign.isprintable())[:40].strip()
+    return Tool(row.number, kind or Tool(row.number).type, size)

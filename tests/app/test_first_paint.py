@@ -72,7 +72,6 @@ LATER = {
     "app.commands",
     "argparse",
     "app.documents.journal",
-    "core.program.tool_table",
     "hashlib",
     "importlib.resources",
     "numpy",

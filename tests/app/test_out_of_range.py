@@ -12,11 +12,10 @@ from app.files import example
 from app.screens.forms import FormPage
 from app.screens.tools import ToolsPage
 from core.pipeline.outline import outline
-from core.program.entries import unread
 from core.program.fields import TABLES, Form, check
 from core.program.file.read import loads
 from core.program.file.write import dumps
-from core.program.model import ArcSegment, BlendSegment, Block, Entry, LineSegment, Program, Unread
+from core.program.model import ArcSegment, BlendSegment, Block, Entry, LineSegment, Program, Unread, unread_texts
 from core.units import Kind, Unit
 from tests.app.operator import Operator
 
@@ -111,7 +110,7 @@ def test_it_blocks_posting_and_is_saved_and_journaled(form: Form, name: str) -> 
     text = wild(form, name)
     operator = on(form, name).press(*text, "enter")
     now = operator.session.program
-    assert [one.text for one in unread(now)] == [text]
+    assert [one.text for one in unread_texts(now)] == [text]
     found = [
         one for block in outline(now).blocks for one in block.errors if one.field == (name, "tool")[name == "diameter"]
     ]

@@ -54,6 +54,6 @@ def test_what_is_still_to_be_typed_is_asked_for_and_is_no_error() -> None:
     operator.desk = operator.desk.knowing(derive(program))
     operator.press("6", "enter", "tab", "tab")
     assert operator.session.field == "y_end"
-    assert operator.said.startswith("! Not determined yet")
-    assert " ?  segment 6: Not determined yet" in operator.part("verdict")
+    assert operator.said.startswith("! More data needed")
+    assert " ?  segment 6: More data needed" in operator.part("verdict")
     assert "!!" not in "\n".join(operator.screen())

@@ -11,8 +11,7 @@ from app.screens.contour import Contour
 from app.screens.program import ProgramPage
 from app.session import Session
 from core.program.edit import Where
-from core.program.entries import read
-from core.program.fields import TOOL
+from core.program.fields import TOOL, read_typed
 from core.program.model import CutterComp, Entry, PathChoice, Tool, Unread
 from core.units import Unit
 from tests.app.operator import Operator
@@ -96,7 +95,7 @@ def test_a_tool_gets_another_number_and_the_cursor_follows_it() -> None:
 def test_a_diameter_must_be_above_zero(text: str) -> None:
     operator = opened().press("f6", "tab", "tab").type(text)
     assert "above 0" in operator.said
-    assert operator.session.program.tools[0].diameter == read(text, TOOL[2], Unit.IN)
+    assert operator.session.program.tools[0].diameter == read_typed(text, TOOL[2], Unit.IN)
     assert "ERR" in operator.part("body")
     operator.press("escape")
     assert operator.session.program.tools[0].diameter == Entry(0.5)

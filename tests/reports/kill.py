@@ -30,9 +30,8 @@ from app.documents.journal_file import journal_path
 from app.files import empty_program
 from app.places import read
 from app.session import FIRST, SEGMENT, Session
-from core.program.difference import differences
 from core.program.edit import Where
-from core.program.history import History
+from core.program.history import History, differences
 from tests.app.operator import Operator
 from tests.reports.kill_keys import keys, sent
 from tests.terminal import Terminal, running

@@ -12,7 +12,7 @@ from math import radians
 from typing import Final, NamedTuple
 
 from core.controls.compensation.chain import Chain
-from core.controls.compensation.corners import Element, fits, offset_end, offset_radius, offset_start
+from core.controls.compensation.corners import Element, fits, offset_radius, square_end, square_start
 from core.controls.compensation.joint import (
     Corner,
     CornerRules,
@@ -58,9 +58,6 @@ TANGENT: Final = radians(0.05)
 
 OUTSIDE: Final = {"g39": Outside.LINES, "g39.1": Outside.MITER_OR_ARC}
 """How sharp outside corners are gone round: generated lines (G39) or an arc (G39.1)."""
-
-VARIANTS: Final = ("a", "a-g39", "a-g39.1", "b", "b-g39", "b-g39.1")
-"""Type A or B, and the corners in force at the start."""
 
 NON_MOTION: Final = 10
 """Blocks without motion in the plane that compensation looks across; the machine builder sets it, this is assumed."""
@@ -213,7 +210,7 @@ class NineSeries(Chain, Control):
             "ends square and may cut too far; take some of them out."
         )
         self.log.tell(Severity.WARNING, "R5", text, block.line, 1)
-        self.release_at_end()
+        self.release_square()
         self.entering = True
 
     def travel(self, element: Element) -> None:
@@ -296,12 +293,12 @@ class NineSeries(Chain, Control):
 
     def _missed(self, first: Element, second: Element) -> Joint:
         """The offsets of an inside corner do not meet: tangent, or an alarm."""
-        end = offset_end(first, self.offset)
+        end = square_end(first, self.offset)
         if inward_turn(first, second, self.offset) < TANGENT:
             return Joint(end, end)
         text = "The offset paths do not meet at this inside corner: the compensation vectors cross."
         self._interference("R10", text, second.line)
-        return Joint(end, offset_start(second, self.offset))
+        return Joint(end, square_start(second, self.offset))
 
     def backwards(self, element: Element) -> None:
         """A line that would run backwards, or an arc whose ends have crossed."""
@@ -338,7 +335,7 @@ class NineSeries(Chain, Control):
         if not {"I", "J", "K"}.isdisjoint(block.words):
             self.release(vector_end(held, self._vector(block), self.offset))
         elif self.type_a or self.offset == 0.0:
-            self.release_at_end()
+            self.release_square()
         else:
             joint = self._with_notice(departure(held, element, self.offset, self.rules.outside), element)
             self.release(joint.end)
@@ -357,7 +354,7 @@ class NineSeries(Chain, Control):
         self.leave()
 
     def _leave_square(self) -> None:
-        self.release_at_end()
+        self.release_square()
         self._cancel()
 
     def _interrupt(self, block: Block) -> None:
@@ -370,14 +367,14 @@ class NineSeries(Chain, Control):
         if before.held is not None and not self.entering:
             self.tape.cut(before.rows)
             self.held, self.start, self.standing = before.held, before.start, list(before.standing)
-            self.release_at_end()
+            self.release_square()
         for element in (last, *standing):
             self.straight(element, last.end)
         self.held, self.start, self.standing, self.entering = None, None, [], True
 
     def close(self) -> None:
         """The end of the program cancels compensation."""
-        self.release_at_end()
+        self.release_square()
 
 
 def run(text: bytes, variant: str, tools: ToolTable, unit: Unit | None = None) -> Run:

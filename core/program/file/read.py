@@ -14,8 +14,7 @@ from enum import StrEnum
 from functools import cache, partial
 from typing import Any, Final, TypeVar
 
-from core.program.entries import unread_reason
-from core.program.fields import TABLES, Field, Form, check
+from core.program.fields import NUMBER_FIELDS, TABLES, Field, Form, check, unread_reason
 from core.program.file.faults import KeyPath, cut_off, key_lines, line_of, syntax_fault
 from core.program.file.write import FORMAT, KIND, UNREAD
 from core.program.model import (
@@ -100,7 +99,7 @@ class _Table:
             raise self.fault(key, f"{key} {what}: write one of {', '.join(words)}, in quotes.")
         return choices(value)
 
-    def number(self, key: str, one: Field) -> float:
+    def number(self, key: str, field: Field) -> float:
         """A number a field can hold."""
         value = self.data[key]
         if isinstance(value, str):
@@ -108,9 +107,9 @@ class _Table:
             raise self.fault(key, f"{key} must be a number, and {printable(value)} is text in quotes{mended}.")
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise self.fault(key, f"{key} must be a number, not {_written(value)}.")
-        if _beyond(value, one, self.unit):
+        if _beyond(value, field, self.unit):
             raise self.fault(key, f"{key} is {_written(value)}: no machine has such a number, correct it.")
-        if one.kind is Kind.COUNT and value != int(value):
+        if field.kind is Kind.COUNT and value != int(value):
             raise self.fault(key, f"{key} must be a whole number, not {_written(value)}.")
         return float(value)
 
@@ -124,10 +123,10 @@ class _Table:
     def array(self, key: str) -> Iterator[_Table]:
         """The tables of an array in this one, none if it is absent."""
         value = self.data.get(key, [])
-        if not isinstance(value, list) or not all(isinstance(one, dict) for one in value):
+        if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
             raise self.fault(key, f"{key} must be tables, each headed [[{key}]].")
-        for index, one in enumerate(value):
-            yield _Table(self.file, self.lines, (*self.path, key, index), one, self.unit)
+        for index, item in enumerate(value):
+            yield _Table(self.file, self.lines, (*self.path, key, index), item, self.unit)
 
 
 def _written(value: object) -> str:
@@ -139,11 +138,11 @@ def _written(value: object) -> str:
     return printable(str(value))
 
 
-def _beyond(value: float, one: Field, unit: Unit) -> bool:
+def _beyond(value: float, field: Field, unit: Unit) -> bool:
     """Whether a number is none a machine could have, in either unit."""
     if not abs(value) <= LARGEST:
         return True
-    return one.kind in (Kind.LENGTH, Kind.FEED) and round(to_mm(abs(value), unit), 3) > LARGEST
+    return field.kind in (Kind.LENGTH, Kind.FEED) and round(to_mm(abs(value), unit), 3) > LARGEST
 
 
 Choice = TypeVar("Choice", bound=StrEnum)
@@ -196,36 +195,33 @@ def _parsed(text: str, file: str) -> dict[str, Any]:
 
 def _numbers(table: _Table, form: Form) -> dict[str, Typed]:
     """The typed numbers of a form by name: entries out of the table, texts out of its `unread` table."""
-    fields = _number_fields(form)
-    typed: dict[str, Typed] = {one.name: Entry(table.number(one.name, one)) for one in fields if one.name in table.data}
+    fields = NUMBER_FIELDS[form]
+    typed: dict[str, Typed] = {
+        field.name: Entry(table.number(field.name, field)) for field in fields if field.name in table.data
+    }
     return typed | _unread_numbers(table, fields) if UNREAD in table.data else typed
 
 
 def _unread_numbers(table: _Table, fields: tuple[Field, ...]) -> dict[str, Typed]:
     unread = table.table(UNREAD)
-    unread.only(tuple(one.name for one in fields))
+    unread.only(tuple(field.name for field in fields))
     for key in unread.data:
         if key in table.data:
             raise unread.fault(key, f"{key} stands twice, as a number and as unread text: remove one.")
-    return {one.name: _unread(unread, one) for one in fields if one.name in unread.data}
+    return {field.name: _unread(unread, field) for field in fields if field.name in unread.data}
 
 
-@cache
-def _number_fields(form: Form) -> tuple[Field, ...]:
-    return tuple(one for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT))
-
-
-def _unread(table: _Table, one: Field) -> Unread:
+def _unread(table: _Table, field: Field) -> Unread:
     """Text as it was typed, with the reason found again; text that could be read now waits to be typed again."""
-    text = table.data[one.name]
+    text = table.data[field.name]
     if not isinstance(text, str) or not text.strip():
-        raise table.fault(one.name, f"{one.name} must be the text that was typed, in quotes.")
-    return Unread(text, unread_reason(text, one, table.unit))
+        raise table.fault(field.name, f"{field.name} must be the text that was typed, in quotes.")
+    return Unread(text, unread_reason(text, field, table.unit))
 
 
 @cache
 def _keys(form: Form, *others: str) -> tuple[str, ...]:
-    return (*others, *(one.name for one in TABLES[form]), UNREAD)
+    return (*others, *(field.name for field in TABLES[form]), UNREAD)
 
 
 def _parameters(table: _Table) -> Parameters:
@@ -253,8 +249,8 @@ def _tool(table: _Table) -> Tool:
     table.only(_keys(Form.TOOL))
     typed = _numbers(table, Form.TOOL)
     number = typed.get("number")
-    one = TABLES[Form.TOOL][0]
-    if not isinstance(number, Entry) or check(one, number.value, table.unit):
+    field = TABLES[Form.TOOL][0]
+    if not isinstance(number, Entry) or check(field, number.value, table.unit):
         raise table.fault(
             "number", f"number {'is missing' if number is None else 'is no tool number'}: write 1 to 9999."
         )

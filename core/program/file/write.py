@@ -56,22 +56,22 @@ def _table(header: str, name: str, form: Form, part: Typable, kind: str | None =
 
 
 def _keys(form: Form, part: Typable) -> Iterator[str]:
-    for one in TABLES[form]:
-        value = getattr(part, one.name)
+    for field in TABLES[form]:
+        value = getattr(part, field.name)
         if isinstance(value, Entry):
-            yield f"{one.name} = {_number(value.value, one.kind)}"
-        elif isinstance(value, int | str) and (one.name, value) != ("name", ""):
-            yield f"{one.name} = {_quoted(value) if isinstance(value, str) else value}"
+            yield f"{field.name} = {_number(value.value, field.kind)}"
+        elif isinstance(value, int | str) and (field.name, value) != ("name", ""):
+            yield f"{field.name} = {_quoted(value) if isinstance(value, str) else value}"
     choice = getattr(part, "choice", None)
     if choice is not None:
         yield f"choice = {choice}"
 
 
 def _unread(form: Form, part: Typable) -> Iterator[tuple[str, str]]:
-    for one in TABLES[form]:
-        value = getattr(part, one.name)
+    for field in TABLES[form]:
+        value = getattr(part, field.name)
         if isinstance(value, Unread):
-            yield one.name, value.text
+            yield field.name, value.text
 
 
 def _number(value: float, kind: Kind) -> str:

@@ -1,29 +1,42 @@
 """An ARC from its own fields and its start.
 
-SWEEP ANGLE is the angle turned through in the arc's DIRECTION, always positive; an end on the start is the full
-circle (`core.program.solve.full_circle`).  Order of two solutions: by SWEEP ANGLE, the shorter arc first.
+SWEEP ANGLE is the angle turned through in the arc's DIRECTION, always positive.  Order of two solutions: by SWEEP
+ANGLE, the shorter arc first.
+
+The full circle is an arc about a typed center whose end is typed as its start (`is_start`).  An end that only comes
+within 0.0001 in (0.00254 mm) of the start may be that of the full circle or of an arc of a few millionths: SWEEP ANGLE
+decides, and without it the arc is not determined.  Where the center has to be found from such an end, the rounding of
+the end would decide where it lies: it must be typed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import hypot, tau
-from typing import assert_never
+from decimal import Decimal
+from math import degrees, dist, tau
+from typing import Final, assert_never
 
-from core.finding import Finding
+from core.finding import Finding, Severity
 from core.geometry import construct
 from core.geometry.construct import OnePoint, OutOfReach, TwoPoints
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.program.fields import Form
+from core.program.fields import Form, field_of
 from core.program.model import Direction
-from core.program.solve.full_circle import center_needed, comes_back
-from core.program.solve.line import degrees
-from core.program.solve.rules import Answer, Beside, Known, Rule, Task, wrong
+from core.program.solve.line import shown_angle
+from core.program.solve.rules import Given, Known, Outcome, Rule, Task, contradiction, fault
 from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED
+from core.units import Kind, Unit, convert, decimals_shown, from_mm, to_mm
 
-_END = ("x_end", "y_end")
-_CENTER = ("x_center", "y_center")
-Solver = Callable[[Turn, Point, Known], Answer]
+_END: Final = ("x_end", "y_end")
+_CENTER: Final = ("x_center", "y_center")
+
+DOUBTFUL: Final = 10.0 * CLOSED
+"""An arc whose end is no farther from its start than this may be a full circle that was typed with too few digits."""
+
+MAX_ANGLE_DECIMALS: Final = 12
+"""Decimals that a field of an angle takes."""
+
+ArcSolver = Callable[[Turn, Given], Outcome | None]
 
 
 def turn_of(direction: Direction) -> Turn:
@@ -31,161 +44,220 @@ def turn_of(direction: Direction) -> Turn:
     return Turn.CW if direction is Direction.CW else Turn.CCW
 
 
-def _end(known: Known) -> Point:
-    return known["x_end"], known["y_end"]
+def is_start(value: float, start: float, start_typed: float | None, unit: Unit) -> bool:
+    """Whether a coordinate of an end, typed as `value`, is typed as that of the start.
+
+    Both are compared as typed, in program units.  Where the start is calculated (`start_typed` is None), its own value,
+    `start` in millimeters, decides: it must read like the end in every digit that is typed, at least in those that a
+    form shows.  It may do so in either unit, so that a change of units leaves every part as it was.  What is nearer
+    than two points can be told apart is the start in any case.
+    """
+    if abs(to_mm(value, unit) - start) <= JOINED:
+        return True
+    if start_typed is not None:
+        return value == start_typed
+    return any(_reads_like(convert(value, unit, other), from_mm(start, other), other) for other in Unit)
 
 
-def _center(known: Known) -> Point:
-    return known["x_center"], known["y_center"]
+def _reads_like(value: float, start: float, unit: Unit) -> bool:
+    typed = -int(Decimal(repr(value)).normalize().as_tuple().exponent)
+    return round(start, max(typed, decimals_shown(Kind.LENGTH, unit))) == value
 
 
-def _radius(start: Point, center: Point) -> float | Finding:
-    radius = hypot(start[0] - center[0], start[1] - center[1])
-    if radius > JOINED:
-        return radius
-    return wrong("CONTRADICTION", "X CENTER and Y CENTER are the start itself: an arc needs a radius.", "x_center")
+def _comes_back(start: Point, end: Point) -> bool:
+    """Whether an end is so near to the start, in X and in Y, that it may be the start."""
+    return max(abs(end[0] - start[0]), abs(end[1] - start[1])) <= CLOSED
 
 
-def _ordered(*arcs: Arc) -> tuple[Piece, ...]:
-    return tuple(sorted(arcs, key=lambda arc: abs(arc.sweep)))
+def _point(known: Known, names: tuple[str, str]) -> Point:
+    return known[names[0]], known[names[1]]
 
 
-def _end_and_center(turn: Turn, start: Point, known: Known) -> Answer:
-    end, center = _end(known), _center(known)
-    radius = _radius(start, center)
-    if isinstance(radius, Finding):
-        return radius
-    out = hypot(end[0] - center[0], end[1] - center[1])
+def _ordered(*arcs: Arc) -> Outcome:
+    shortest_first: list[Arc] = sorted(dict.fromkeys(arcs), key=lambda arc: abs(arc.sweep))
+    return Outcome(tuple(shortest_first))
+
+
+def _no_radius() -> Outcome:
+    return contradiction("X CENTER and Y CENTER are the start itself: an arc needs a radius.", "x_center")
+
+
+def _end_and_center(turn: Turn, given: Given) -> Outcome:
+    end, center = _point(given.known, _END), _point(given.known, _CENTER)
+    radius, out = dist(given.start, center), dist(end, center)
+    if radius <= JOINED:
+        return _no_radius()
     if abs(out - radius) > ARC_RADII:
         text = "The arc's radius is {0~1} at its start and {1~0} at its end: correct the end or the center."
-        return wrong("RADII_DIFFER", text, "x_center", radius, out)
-    return (_arc(turn, start, end, known),)
+        return Outcome(finding=fault("RADII_DIFFER", text, "x_center", radius, out))
+    return _about_center(turn, given, end)
 
 
-def _arc(turn: Turn, start: Point, end: Point, known: Known) -> Arc:
-    """The arc about a typed center: back at its start it turns by SWEEP ANGLE, without one fully."""
-    center = _center(known)
-    if not comes_back(start, end):
-        return construct.settled(start, end, center, turn)
-    if "sweep" in known:
-        turned = _turned(turn, start, center, known["sweep"])
-        if comes_back(start, turned.end):
-            return turned
-    return Arc(start, start, center, turn)
-
-
-def _center_and_coordinate(axis: int, turn: Turn, start: Point, known: Known) -> Answer:
-    center, value = _center(known), known[_END[axis]]
-    radius = _radius(start, center)
-    if isinstance(radius, Finding):
-        return radius
+def _center_and_coordinate(axis: int, turn: Turn, given: Given) -> Outcome:
+    center, value = _point(given.known, _CENTER), given.known[_END[axis]]
+    radius = dist(given.start, center)
+    if radius <= JOINED:
+        return _no_radius()
     ends = construct.on_circle(center, radius, axis, value)
     match ends:
         case OnePoint(point):
-            return (_arc(turn, start, point, known),)
+            return _about_center(turn, given, point)
         case TwoPoints(first, second):
-            # at the circle's extreme both may be the start itself
-            return _ordered(*dict.fromkeys(_arc(turn, start, end, known) for end in (first, second)))
+            return _about_center(turn, given, first, second)
         case OutOfReach():
             text = f"The arc's radius is {{0}}: it does not come to {'XY'[axis]} END {{1}}."
-            return wrong("CONTRADICTION", text, _END[axis], radius, value)
+            return contradiction(text, _END[axis], radius, value)
         case _:
             assert_never(ends)
 
 
-def _center_and_sweep(turn: Turn, start: Point, known: Known) -> Answer:
-    center, sweep = _center(known), known["sweep"]
-    radius = _radius(start, center)
-    if isinstance(radius, Finding):
-        return radius
-    return (_turned(turn, start, center, sweep),)
+def _about_center(turn: Turn, given: Given, *ends: Point) -> Outcome:
+    """The arcs about a typed center to each of the ends."""
+    start, center = given.start, _point(given.known, _CENTER)
+    arcs: list[Arc] = []
+    for end in ends:
+        arc = construct.settled(start, end, center, turn)
+        if _comes_back(start, end):
+            full = Arc(start, start, center, turn)
+            decided = _swept_back(full, given) if given.back else _decided(full, arc, given)
+            if decided is None:
+                return _question(arc, dist(start, end), given)
+            arc = decided
+        arcs.append(arc)
+    return _ordered(*arcs)
+
+
+def _swept_back(full: Arc, given: Given) -> Arc:
+    """The arc whose end is typed as its start: as far as SWEEP ANGLE turns if that ends there too, else fully."""
+    if "sweep" in given.known:
+        turned = _turned(full.turn, full.start, full.center, given.known["sweep"])
+        if _comes_back(full.start, turned.end):
+            return turned
+    return full
+
+
+def _decided(full: Arc, arc: Arc, given: Given) -> Arc | None:
+    """Which of the two SWEEP ANGLE means; None without it, or where it is that of neither."""
+    sweep = given.known.get("sweep")
+    if sweep is None:
+        return None
+    fitting = [one for one in (full, arc) if _turns(one, sweep)]
+    return min(fitting, key=lambda one: abs(abs(one.sweep) - sweep), default=None)
+
+
+def _question(arc: Arc, gap: float, given: Given) -> Outcome:
+    """What is asked where an end may be the start; the answer is typed on SWEEP ANGLE."""
+    if arc.start == arc.end:
+        text = "The end is {value~0} from the start. Type SWEEP ANGLE 360 for the full circle."
+    else:
+        short = abs(arc.sweep) < tau / 2.0
+        answers = f"360 or {_angle_to_type(abs(arc.sweep))}"
+        text = f"The end is {{value~0}} from the start: full circle or {'short arc' if short else 'arc to that end'}?"
+        text += f" Type SWEEP ANGLE {answers}."
+    asked = Finding("CIRCLE_OR_ARC", Severity.ERROR, text, field="sweep", value=gap, lengths=(0.0,))
+    return Outcome(missing=() if "sweep" in given.known else ("sweep",), finding=asked)
+
+
+def _angle_to_type(sweep: float) -> str:
+    """An angle in degrees with as many decimals as tell it from nothing and from the full circle."""
+    angle = degrees(sweep)
+    rest = min(angle, 360.0 - angle)
+    enough = (places for places in range(3, MAX_ANGLE_DECIMALS) if abs(round(angle, places) - angle) <= rest / 20.0)
+    return f"{angle:.{next(enough, MAX_ANGLE_DECIMALS)}f}"
+
+
+def _center_and_sweep(turn: Turn, given: Given) -> Outcome:
+    center = _point(given.known, _CENTER)
+    if dist(given.start, center) <= JOINED:
+        return _no_radius()
+    return Outcome((_turned(turn, given.start, center, given.known["sweep"]),))
 
 
 def _turned(turn: Turn, start: Point, center: Point, sweep: float) -> Arc:
     """The arc that turns by `sweep` about `center`; a full turn, as far as anything shows, ends on the very start."""
-    if tau - sweep <= AGREES and (tau - sweep) * hypot(start[0] - center[0], start[1] - center[1]) <= CLOSED:
+    if tau - sweep <= AGREES and (tau - sweep) * dist(start, center) <= CLOSED:
         return Arc(start, start, center, turn)
     return Arc(start, construct.rotated(start, center, turn * sweep), center, turn)
 
 
-def _end_and_radius(turn: Turn, start: Point, known: Known) -> Answer:
-    end, radius = _end(known), known["radius"]
-    if comes_back(start, end):
-        return Beside()
+def _end_and_radius(turn: Turn, given: Given) -> Outcome | None:
+    start, end, radius = given.start, _point(given.known, _END), given.known["radius"]
+    if _comes_back(start, end):
+        return None
     centers = construct.centers(start, end, radius, turn)
     match centers:
         case OnePoint(point):
-            return (Arc(start, end, point, turn),)
+            return Outcome((Arc(start, end, point, turn),))
         case TwoPoints(first, second):
             return _ordered(Arc(start, end, first, turn), Arc(start, end, second, turn))
         case OutOfReach(least):
-            return wrong("CONTRADICTION", "RADIUS {0} does not reach the end: it takes {1}.", "radius", radius, least)
+            return contradiction("RADIUS {0~1} does not reach the end: it takes {1~0}.", "radius", radius, least)
         case construct.NotDetermined():
-            return Beside()
+            return None
         case _:
             assert_never(centers)
 
 
-def _end_and_sweep(turn: Turn, start: Point, known: Known) -> Answer:
-    if comes_back(start, _end(known)):
-        return Beside()
-    center = construct.center_by_sweep(start, _end(known), known["sweep"], turn)
-    return (Arc(start, _end(known), center.point, turn),) if isinstance(center, OnePoint) else Beside()
+def _end_and_sweep(turn: Turn, given: Given) -> Outcome | None:
+    end = _point(given.known, _END)
+    return None if _comes_back(given.start, end) else _by_sweep(turn, given, end)
 
 
-def _end_and_coordinate(axis: int, turn: Turn, start: Point, known: Known) -> Answer:
-    """The end and one coordinate of the center."""
-    if comes_back(start, _end(known)):
-        return Beside()
-    center = construct.center_by_coordinate(start, _end(known), axis, known[_CENTER[axis]])
+def _by_sweep(turn: Turn, given: Given, *ends: Point) -> Outcome | None:
+    """The arcs that turn by SWEEP ANGLE to each of the ends."""
+    found = [(end, construct.center_by_sweep(given.start, end, given.known["sweep"], turn)) for end in ends]
+    arcs = tuple(Arc(given.start, end, center.point, turn) for end, center in found if isinstance(center, OnePoint))
+    return Outcome(arcs) if arcs else None
+
+
+def _end_and_center_coordinate(axis: int, turn: Turn, given: Given) -> Outcome | None:
+    start, end = given.start, _point(given.known, _END)
+    if _comes_back(start, end):
+        return None
+    center = construct.center_by_coordinate(start, end, axis, given.known[_CENTER[axis]])
     if not isinstance(center, OnePoint):
-        return Beside()
-    radius = _radius(start, center.point)
-    return radius if isinstance(radius, Finding) else (Arc(start, _end(known), center.point, turn),)
+        return None
+    return _no_radius() if dist(start, center.point) <= JOINED else Outcome((Arc(start, end, center.point, turn),))
 
 
-def _radius_sweep_center(axis: int, turn: Turn, start: Point, known: Known) -> Answer:
+def _radius_sweep_center(axis: int, turn: Turn, given: Given) -> Outcome:
     """RADIUS, SWEEP ANGLE and one coordinate of the center: its other coordinate greater first."""
-    radius, value = known["radius"], known[_CENTER[axis]]
-    centers = construct.on_circle(start, radius, axis, value)
+    radius, value = given.known["radius"], given.known[_CENTER[axis]]
+    centers = construct.on_circle(given.start, radius, axis, value)
     if isinstance(centers, OutOfReach):
-        text = f"RADIUS {{0}} does not reach {'XY'[axis]} CENTER {{1}}: it takes at least {{2}}."
-        return wrong("CONTRADICTION", text, "radius", radius, value, centers.least)
+        text = f"RADIUS {{0~2}} does not reach {'XY'[axis]} CENTER {{1}}: it takes at least {{2~0}}."
+        return contradiction(text, "radius", radius, value, centers.least)
     points = (centers.point,) if isinstance(centers, OnePoint) else (centers.first, centers.second)
-    return tuple(_turned(turn, start, point, known["sweep"]) for point in points)
+    return Outcome(tuple(_turned(turn, given.start, point, given.known["sweep"]) for point in points))
 
 
-def _radius_sweep_end(axis: int, turn: Turn, start: Point, known: Known) -> Answer:
+def _radius_sweep_end(axis: int, turn: Turn, given: Given) -> Outcome | None:
     """RADIUS, SWEEP ANGLE and one coordinate of the end: its other coordinate greater first."""
-    chord = known["radius"] * construct.chord_factor(known["sweep"])
+    chord = given.known["radius"] * construct.chord_factor(given.known["sweep"])
     if chord <= CLOSED:
-        return Beside()
-    ends = construct.on_circle(start, chord, axis, known[_END[axis]])
+        return None
+    ends = construct.on_circle(given.start, chord, axis, given.known[_END[axis]])
     if isinstance(ends, OutOfReach):
         text = f"RADIUS and SWEEP ANGLE make the end {{0}} from the start: that does not reach {'XY'[axis]} END {{1}}."
-        return wrong("CONTRADICTION", text, _END[axis], chord, known[_END[axis]])
-    points = (ends.point,) if isinstance(ends, OnePoint) else (ends.first, ends.second)
-    arcs = (_by_sweep(turn, start, point, known["sweep"]) for point in points)
-    found = tuple(arc for arc in arcs if arc is not None)
-    return found or Beside()
+        return contradiction(text, _END[axis], chord, given.known[_END[axis]])
+    return _by_sweep(turn, given, *((ends.point,) if isinstance(ends, OnePoint) else (ends.first, ends.second)))
 
 
-def _by_sweep(turn: Turn, start: Point, end: Point, sweep: float) -> Arc | None:
-    center = construct.center_by_sweep(start, end, sweep, turn)
-    return Arc(start, end, center.point, turn) if isinstance(center, OnePoint) else None
+def _turns(arc: Arc, sweep: float) -> bool:
+    """Whether SWEEP ANGLE agrees with an arc."""
+    off = abs(abs(arc.sweep) - sweep)
+    return off <= AGREES or off * arc.radius <= ARC_RADII
 
 
-def _disagrees(piece: Piece, name: str, value: float) -> Finding | None:
+def _disagreement(piece: Piece, name: str, value: float) -> Finding | None:
     assert isinstance(piece, Arc)
     if name == "sweep":
-        off = abs(abs(piece.sweep) - value)
-        if off <= AGREES or off * piece.radius <= ARC_RADII:
-            return None
-        return wrong("CONTRADICTION", f"SWEEP ANGLE is {degrees(value)}, but {degrees(abs(piece.sweep))}", name)
-    found = _measure(piece, name)
-    if abs(found - value) <= ARC_RADII:
+        text = f"SWEEP ANGLE is {shown_angle(value)}, but {shown_angle(abs(piece.sweep))}"
+        return None if _turns(piece, value) else fault("CONTRADICTION", text, name)
+    solved = _measure(piece, name)
+    if abs(solved - value) <= ARC_RADII:
         return None
-    return wrong("CONTRADICTION", f"{_LABELS[name]} is {{0~1}}, but {{1~0}}", name, value, found)
+    return fault("CONTRADICTION", f"{_label(name)} is {{0~1}}, but {{1~0}}", name, value, solved)
 
 
 def _measure(arc: Arc, name: str) -> float:
@@ -195,17 +267,79 @@ def _measure(arc: Arc, name: str) -> float:
     return arc.end[_END.index(name)] if name in _END else arc.center[_CENTER.index(name)]
 
 
-_LABELS = {"x_end": "X END", "y_end": "Y END", "x_center": "X CENTER", "y_center": "Y CENTER", "radius": "RADIUS"}
+def _label(name: str) -> str:
+    return field_of(Form.ARC, name).label
 
-_SOLVERS: tuple[tuple[tuple[str, ...], Solver], ...] = (
+
+def _labels(names: tuple[str, ...]) -> str:
+    return " and ".join(map(_label, names))
+
+
+def _center_needed(given: Given) -> tuple[tuple[str, ...], str] | None:
+    """What is missing of the center of an arc that ends at its start, and the advice; None for another end."""
+    known = given.known
+    end = known.get("x_end", given.start[0]), known.get("y_end", given.start[1])
+    blank = tuple(name for name in _CENTER if name not in known)
+    if not blank or not any(name in known for name in _END) or not _comes_back(given.start, end):
+        return None
+    text = f"the end is at the start. For the full circle type {_labels(blank)}; for a shorter arc the center and "
+    return blank, f"{text}SWEEP ANGLE, with X END and Y END blank."
+
+
+def circle_finding(arc: Arc, known: Known) -> Finding | None:
+    """What is said of an arc that ends at its start or close to it; None where it is typed as it is."""
+    if arc.start == arc.end:
+        return _full_circle_finding(arc.start, known)
+    gap = dist(arc.start, arc.end)
+    if gap > (CLOSED if "sweep" in known else DOUBTFUL) or arc.length <= JOINED:
+        return None
+    text = f"The arc ends only {{value~0}} from its start and turns {shown_angle(abs(arc.sweep))} degrees. "
+    text += "Enter SWEEP ANGLE 360 if the full circle is meant."
+    return Finding("SHORT_ARC", Severity.WARNING, text, field="sweep", value=gap, lengths=(0.0,))
+
+
+def _full_circle_finding(start: Point, known: Known) -> Finding | None:
+    """That the numbers typed make the full circle though they are not exactly those of one."""
+    if "sweep" in known:
+        if known["sweep"] == tau:
+            return None
+        text = f"SWEEP ANGLE {shown_angle(known['sweep'])} ends at the arc's start: it is the full circle. Enter 360."
+        return Finding("FULL_CIRCLE", Severity.WARNING, text, field="sweep")
+    names = tuple(name for name in _END if name in known)
+    if all(abs(known[name] - start[_END.index(name)]) <= JOINED for name in names):
+        return None
+    ends = _labels(names)
+    text = f"{ends} read{'s' if len(names) == 1 else ''} like the arc's start: it is the full circle, and ends where "
+    text += f"it starts. For a shorter arc blank {ends} and enter SWEEP ANGLE."
+    return Finding("FULL_CIRCLE", Severity.INFO, text, field=names[0])
+
+
+def adjustment(arc: Arc, given: Given) -> Finding | None:
+    """That an arc is fitted to typed numbers which are not exactly those of one arc; `value` is what they differ by."""
+    known = given.known
+    if not given.back:
+        center = known.get("x_center", arc.center[0]), known.get("y_center", arc.center[1])
+        end = known.get("x_end", arc.end[0]), known.get("y_end", arc.end[1])
+        radius, out = dist(arc.start, center), dist(end, center)
+        if abs(out - radius) > JOINED:
+            text = "Radius {0~1} at start, {1~0} at end: the arc is fitted to both."
+            return Finding("ARC_ADJUSTED", Severity.INFO, text, value=abs(out - radius), lengths=(radius, out))
+    radius = known.get("radius", arc.radius)
+    if abs(arc.radius - radius) <= JOINED:
+        return None
+    text = "RADIUS {0~1} does not fit the other numbers: {1~0} is used."
+    return Finding("ARC_ADJUSTED", Severity.INFO, text, value=abs(arc.radius - radius), lengths=(radius, arc.radius))
+
+
+_SOLVERS: Final[tuple[tuple[tuple[str, ...], ArcSolver], ...]] = (
     (("x_end", "y_end", "x_center", "y_center"), _end_and_center),
     (("x_center", "y_center", "x_end"), lambda *given: _center_and_coordinate(0, *given)),
     (("x_center", "y_center", "y_end"), lambda *given: _center_and_coordinate(1, *given)),
     (("x_center", "y_center", "sweep"), _center_and_sweep),
     (("x_end", "y_end", "radius"), _end_and_radius),
     (("x_end", "y_end", "sweep"), _end_and_sweep),
-    (("x_end", "y_end", "x_center"), lambda *given: _end_and_coordinate(0, *given)),
-    (("x_end", "y_end", "y_center"), lambda *given: _end_and_coordinate(1, *given)),
+    (("x_end", "y_end", "x_center"), lambda *given: _end_and_center_coordinate(0, *given)),
+    (("x_end", "y_end", "y_center"), lambda *given: _end_and_center_coordinate(1, *given)),
     (("radius", "sweep", "x_center"), lambda *given: _radius_sweep_center(0, *given)),
     (("radius", "sweep", "y_center"), lambda *given: _radius_sweep_center(1, *given)),
     (("radius", "sweep", "x_end"), lambda *given: _radius_sweep_end(0, *given)),
@@ -214,28 +348,24 @@ _SOLVERS: tuple[tuple[tuple[str, ...], Solver], ...] = (
 
 
 def _task(turn: Turn) -> Task:
-    def rule(needs: tuple[str, ...], solver: Solver) -> Rule:
-        return Rule(frozenset(needs), lambda start, known: solver(turn, start, known))
+    def rule(needs: tuple[str, ...], solver: ArcSolver) -> Rule:
+        return Rule(frozenset(needs), lambda given: solver(turn, given))
 
     return Task(
         Form.ARC,
         ("x_end", "y_end", "x_center", "y_center", "radius", "sweep"),
         tuple(rule(needs, solver) for needs, solver in _SOLVERS),
-        _disagrees,
-        "enter the end and the center, the end and RADIUS, or the center and SWEEP ANGLE",
-        center_needed,
+        _disagreement,
+        "type the end and the center, the end and RADIUS, or the center and SWEEP ANGLE.",
+        _center_needed,
     )
 
 
-_CLOCKWISE, _COUNTER = _task(Turn.CW), _task(Turn.CCW)
+ARC_TASKS: Final = {turn: _task(turn) for turn in (Turn.CW, Turn.CCW)}
+"""The rules for an arc of each direction."""
 
 
-def task(turn: Turn) -> Task:
-    """The rules for an arc of this direction."""
-    return _CLOCKWISE if turn is Turn.CW else _COUNTER
-
-
-def sketch(start: Point, known: Known) -> Line | None:
+def arc_sketch(start: Point, known: Known) -> Line | None:
     """What to draw dashed of an arc that is not determined: the chord to its end, or to what is typed of it."""
     end = (known.get("x_end", start[0]), known.get("y_end", start[1]))
     return None if end == start else Line(start, end)

@@ -13,56 +13,63 @@ from core.geometry import construct
 from core.geometry.construct import BehindStart, OnePoint, OutOfReach, TwoPoints
 from core.geometry.piece import Line, Piece, Point
 from core.program.fields import Form
-from core.program.solve.rules import Answer, Beside, Known, Rule, Task, lines_to, wrong
+from core.program.solve.rules import Given, Known, Outcome, Rule, Task, contradiction, fault
 from core.tolerance import AGREES, ARC_RADII
 from core.units import Kind, Unit, from_radians, show
 
 _END = ("x_end", "y_end")
 
 
-def _to_end(start: Point, known: Known) -> Answer:
-    return (Line(start, (known["x_end"], known["y_end"])),)
+def _to_end(given: Given) -> Outcome:
+    return _lines(given.start, (given.known["x_end"], given.known["y_end"]))
 
 
-def _polar(start: Point, known: Known) -> Answer:
-    return (Line(start, construct.polar(start, known["angle"], known["length"])),)
+def _polar(given: Given) -> Outcome:
+    return _lines(given.start, construct.polar(given.start, given.known["angle"], given.known["length"]))
 
 
-def _along(axis: int, start: Point, known: Known) -> Answer:
+def _along(axis: int, given: Given) -> Outcome | None:
     """Along the angle to one end coordinate."""
+    start, known = given.start, given.known
     value, angle = known[_END[axis]], known["angle"]
     end = construct.reach(start, angle, axis, value)
     label = f"{'XY'[axis]} END"
     match end:
-        case OnePoint():
-            return lines_to(start, end)
+        case OnePoint(point):
+            return _lines(start, point)
         case construct.NotDetermined() if "length" in known or abs(value - start[axis]) <= ARC_RADII:
-            return Beside()
+            return None
         case construct.NotDetermined():
-            kept = f"XY ANGLE {degrees(angle)} keeps {'XY'[axis]} at {{0}} and never comes to {label} {{1}}"
-            return wrong("CONTRADICTION", f"{kept}: correct one of them.", "angle", start[axis], value)
+            text = f"XY ANGLE {shown_angle(angle)} keeps {'XY'[axis]} at {{0~1}} and never comes to {label} {{1~0}}"
+            return contradiction(f"{text}: correct one of them.", "angle", start[axis], value)
         case BehindStart():
-            text = f"XY ANGLE {degrees(angle)} leads away from {label} {{0}}: correct one of them."
-            return wrong("CONTRADICTION", text, "angle", value)
+            text = f"XY ANGLE {shown_angle(angle)} leads away from {label} {{0}}: correct one of them."
+            return contradiction(text, "angle", value)
         case _:
             assert_never(end)
 
 
-def _long(axis: int, start: Point, known: Known) -> Answer:
+def _long(axis: int, given: Given) -> Outcome:
     """As long as typed, to one end coordinate."""
-    value, length = known[_END[axis]], known["length"]
-    ends = construct.on_circle(start, length, axis, value)
+    value, length = given.known[_END[axis]], given.known["length"]
+    ends = construct.on_circle(given.start, length, axis, value)
     match ends:
-        case OnePoint() | TwoPoints():
-            return lines_to(start, ends)
+        case OnePoint(point):
+            return _lines(given.start, point)
+        case TwoPoints(first, second):
+            return _lines(given.start, first, second)
         case OutOfReach(least):
-            text = f"XY LENGTH {{0}} does not reach {'XY'[axis]} END {{1}}: it takes at least {{2}}."
-            return wrong("CONTRADICTION", text, "length", length, value, least)
+            text = f"XY LENGTH {{0~2}} does not reach {'XY'[axis]} END {{1}}: it takes at least {{2~0}}."
+            return contradiction(text, "length", length, value, least)
         case _:
             assert_never(ends)
 
 
-def degrees(angle: float) -> str:
+def _lines(start: Point, *ends: Point) -> Outcome:
+    return Outcome(tuple(Line(start, end) for end in ends))
+
+
+def shown_angle(angle: float) -> str:
     """An angle as the form shows it."""
     return show(from_radians(angle), Kind.ANGLE, Unit.IN)
 
@@ -73,41 +80,37 @@ def heading(line: Line) -> float:
     return angle + tau if angle < 0.0 else angle
 
 
-def between(one: float, other: float) -> float:
-    """The angle between two directions, at most half a turn."""
-    return abs((one - other + pi) % tau - pi)
-
-
-def _disagrees(piece: Piece, name: str, value: float) -> Finding | None:
+def _disagreement(piece: Piece, name: str, value: float) -> Finding | None:
     assert isinstance(piece, Line)
     if name == "angle":
-        off = between(heading(piece), value)
-        if off <= AGREES or (piece.length * off <= ARC_RADII):
+        # between two directions, at most half a turn
+        off = abs((heading(piece) - value + pi) % tau - pi)
+        if off <= AGREES or piece.length * off <= ARC_RADII:
             return None
-        return wrong("CONTRADICTION", f"XY ANGLE is {degrees(value)}, but {degrees(heading(piece))}", name)
-    found = piece.length if name == "length" else piece.end[_END.index(name)]
-    if abs(found - value) <= ARC_RADII:
+        return fault("CONTRADICTION", f"XY ANGLE is {shown_angle(value)}, but {shown_angle(heading(piece))}", name)
+    solved = piece.length if name == "length" else piece.end[_END.index(name)]
+    if abs(solved - value) <= ARC_RADII:
         return None
-    return wrong("CONTRADICTION", f"{TASK.label(name)} is {{0~1}}, but {{1~0}}", name, value, found)
+    return fault("CONTRADICTION", f"{LINE_TASK.label(name)} is {{0~1}}, but {{1~0}}", name, value, solved)
 
 
-TASK = Task(
+LINE_TASK = Task(
     Form.LINE,
     ("x_end", "y_end", "length", "angle"),
     (
         Rule(frozenset(("x_end", "y_end")), _to_end),
-        Rule(frozenset(("x_end", "angle")), lambda start, known: _along(0, start, known)),
-        Rule(frozenset(("y_end", "angle")), lambda start, known: _along(1, start, known)),
+        Rule(frozenset(("x_end", "angle")), lambda given: _along(0, given)),
+        Rule(frozenset(("y_end", "angle")), lambda given: _along(1, given)),
         Rule(frozenset(("length", "angle")), _polar),
-        Rule(frozenset(("x_end", "length")), lambda start, known: _long(0, start, known)),
-        Rule(frozenset(("y_end", "length")), lambda start, known: _long(1, start, known)),
+        Rule(frozenset(("x_end", "length")), lambda given: _long(0, given)),
+        Rule(frozenset(("y_end", "length")), lambda given: _long(1, given)),
     ),
-    _disagrees,
-    "enter X END and Y END, or XY LENGTH and XY ANGLE, or one end and one of these",
+    _disagreement,
+    "type X END and Y END, or XY LENGTH and XY ANGLE, or one end and one of these.",
 )
 
 
-def sketch(start: Point, known: Known) -> Line | None:
+def line_sketch(start: Point, known: Known) -> Line | None:
     """What to draw dashed of a line that is not determined: towards what is typed of its end."""
     end = (known.get("x_end", start[0]), known.get("y_end", start[1]))
     if end == start and "length" in known and "angle" in known:

@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import assert_never
+from typing import Final, assert_never
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Arc, Line, Piece, Point
-from core.program.fields import FARTHEST, Form
-from core.program.model import ArcSegment, BlendSegment, Entry, LineSegment, Segment, Unread
-from core.program.solve import arc, line
-from core.program.solve.full_circle import circle_finding
-from core.program.solve.reading import Reading, carry, fill, fill_angle, read
-from core.program.solve.rules import Known, Outcome, Task, solve
+from core.program.fields import FARTHEST, form_of
+from core.program.model import ArcSegment, BlendSegment, Entry, LineSegment, Segment
+from core.program.solve.arc import ARC_TASKS, adjustment, arc_sketch, circle_finding, is_start, turn_of
+from core.program.solve.line import LINE_TASK, heading, line_sketch
+from core.program.solve.reading import Reading, read_form
+from core.program.solve.rules import Given, Outcome, Task, solve
+from core.program.solve.solved import Value
 from core.tolerance import JOINED, LARGEST
-from core.units import Unit
+from core.units import Unit, from_mm, from_radians
 
-_FORMS = {LineSegment: Form.LINE, ArcSegment: Form.ARC, BlendSegment: Form.BLEND}
+_ENDS: Final = ("x_end", "y_end")
 
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A segment's part of the surface, or what is to be told of it instead."""
+    """A segment's part of the surface, or what is to be said of it instead."""
 
     piece: Piece | None = None
     end: Point | None = None
@@ -29,104 +30,113 @@ class Shape:
     choices: tuple[Piece, ...] = ()
     sketch: Piece | None = None
     findings: tuple[Finding, ...] = ()
+    adjustment: Finding | None = None
+    """That an arc was fitted to its numbers; a contour says it once."""
 
 
 @dataclass(frozen=True, slots=True)
-class Here:
+class Carried:
     """What a segment takes over from the one before it: its end, Z and feed, None while not known."""
 
     point: Point | None
+    typed: tuple[float | None, float | None]
+    """X and Y of the end as typed, in program units; None where they are calculated."""
     z: float | None
     feed: float | None
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, slots=True)
 class Draft:
-    """A segment solved by itself, before blending: `here` is what it takes over, `ahead` what it hands on.
+    """A segment solved by itself, before blending, with what it takes over and what it hands on."""
 
-    `z` and `feed` are its own, None where it takes over those of the segment before.
-    """
-
-    segment: Segment
-    unit: Unit
-    z: float | None
-    feed: float | None
     reading: Reading
     shape: Shape
-    here: Here
-    ahead: Here
+    before: Carried
+    after: Carried
 
 
-def drafted(segment: Segment, number: int, here: Here, unit: Unit) -> Draft:
-    """A segment that takes over a point, and Z and feed where its own are blank."""
-    reading = read(_FORMS[type(segment)], segment, unit, number)
-    values, known = reading.values, reading.known
-    own_feed, own_z = known.pop("feed", None), known.pop("z_end", None)
-    shape = _shape(segment, reading, here.point, unit)
-    z, feed = here.z if own_z is None else own_z, here.feed if own_feed is None else own_feed
-    for name, value in (("z_end", z), ("feed", feed)):
-        if name in values:
-            carry(values, name, value, unit)
-    ahead = Here(shape.end or _typed_end(known), z, feed)
-    return Draft(segment, unit, own_z, own_feed, reading, shape, here, ahead)
+def typed_point(values: dict[str, Value], names: tuple[str, str]) -> tuple[float | None, float | None]:
+    """X and Y of a point as typed, in program units; None where they are not typed."""
+    x, y = (values.get(name) for name in names)
+    return x.value if isinstance(x, Entry) else None, y.value if isinstance(y, Entry) else None
 
 
-def carried(draft: Draft, here: Here) -> Draft:
-    """The same segment with Z END and FEED carried over from another one before it."""
-    values = dict(draft.reading.values)
-    z = here.z if draft.z is None else draft.z
-    feed = here.feed if draft.feed is None else draft.feed
-    for name, value in (("z_end", z), ("feed", feed)):
-        if name in values and not isinstance(values[name], Entry | Unread):
-            values[name] = None
-            carry(values, name, value, draft.unit)
-    ahead = Here(draft.ahead.point, z, feed)
-    reading = Reading(values, draft.reading.known, draft.reading.findings)
-    return Draft(draft.segment, draft.unit, draft.z, draft.feed, reading, draft.shape, here, ahead)
+def draft(segment: Segment, number: int, before: Carried, unit: Unit) -> Draft:
+    """A segment that begins where the one before it ends, and takes over its Z and feed where its own are blank."""
+    reading = read_form(form_of(segment), segment, unit, number)
+    known = reading.known
+    z, feed = known.pop("z_end", before.z), known.pop("feed", before.feed)
+    shape = _shape(segment, reading, before, unit)
+    heights = {} if isinstance(segment, BlendSegment) else {"z_end": _shown(z, unit)}
+    reading.fill({**heights, "feed": _shown(feed, unit)})
+    # later segments start at an end that is typed, whether or not this one is determined
+    typed_end = (known["x_end"], known["y_end"]) if "x_end" in known and "y_end" in known else None
+    typed = before.typed if isinstance(segment, BlendSegment) else typed_point(reading.values, _ENDS)
+    return Draft(reading, shape, before, Carried(shape.end or typed_end, typed, z, feed))
 
 
-def _shape(segment: Segment, reading: Reading, start: Point | None, unit: Unit) -> Shape:
+def _shown(value: float | None, unit: Unit) -> float | None:
+    return None if value is None else from_mm(value, unit)
+
+
+def _shape(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Shape:
     match segment:
-        case LineSegment():
-            return _solved(line.TASK, reading, start, segment.choice, unit)
-        case ArcSegment():
-            task = arc.task(arc.turn_of(segment.direction))
-            return _solved(task, reading, start, segment.choice, unit)
         case BlendSegment():
-            return _blend(reading, start)
+            return _blend(reading, before.point)
+        case _ if before.point is None:
+            return Shape()
+        case LineSegment():
+            return _solved(LINE_TASK, reading, Given(before.point, reading.known), segment.choice, unit)
+        case ArcSegment():
+            given = Given(before.point, reading.known, _ends_at_start(reading, before.point, before.typed, unit))
+            return _solved(ARC_TASKS[turn_of(segment.direction)], reading, given, segment.choice, unit)
         case _:
             assert_never(segment)
+
+
+def _ends_at_start(reading: Reading, start: Point, typed: tuple[float | None, float | None], unit: Unit) -> bool:
+    """Whether the end of an arc, as far as it is typed, is typed as its start."""
+    end = typed_point(reading.values, _ENDS)
+    return all(
+        value is None or is_start(value, here, here_typed, unit)
+        for value, here, here_typed in zip(end, start, typed, strict=True)
+    )
 
 
 def _blend(reading: Reading, corner: Point | None) -> Shape:
     if reading.values["radius"] is not None:
         return Shape(end=corner)
-    text = "Not determined yet: enter RADIUS."
+    text = "More data needed: type RADIUS."
     return Shape(end=corner, missing=("radius",), findings=(Finding("MISSING", Severity.ERROR, text, field="radius"),))
 
 
-def _solved(task: Task, reading: Reading, start: Point | None, choice: int | None, unit: Unit) -> Shape:
+def _solved(task: Task, reading: Reading, given: Given, choice: int | None, unit: Unit) -> Shape:
     """A line or an arc: one solution, the picked one, or none with the reason."""
-    if start is None:
-        return Shape()
-    outcome = solve(task, start, reading.known)
+    outcome = solve(task, given)
     pieces = outcome.pieces
     if len(pieces) > 1 and (choice is None or choice >= len(pieces)):
         pick = Finding("PICK_SOLUTION", Severity.ERROR, "Two solutions fit: pick one on SOLUTION.", field="choice")
         return Shape(choices=pieces, sketch=pieces[0], findings=(pick,))
     if not pieces:
-        return _unsolved(task, outcome, reading, start)
+        return _unsolved(task, outcome, reading, given.start)
     piece = pieces[choice or 0] if len(pieces) > 1 else pieces[0]
     if _too_far(piece):
         text = "This segment leads farther than any machine goes: check its numbers."
         return Shape(findings=(Finding("OUT_OF_RANGE", Severity.ERROR, text, field=task.shape[0]),))
-    _calculate(reading, piece, unit)
-    if piece.length > JOINED:
-        said = circle_finding(piece, reading.known, unit) if isinstance(piece, Arc) else None
-        told = () if said is None else (said,)
-        return Shape(piece, piece.end, choices=pieces if len(pieces) > 1 else (), findings=told)
-    text = "This segment has no length: it is passed over."
-    return Shape(end=start, findings=(Finding("ZERO_LENGTH", Severity.WARNING, text),))
+    reading.fill(_calculated(piece, unit))
+    if piece.length <= JOINED:
+        text = "No length: skipped. Type its end, or F1 deletes it."
+        return Shape(end=given.start, findings=(Finding("ZERO_LENGTH", Severity.WARNING, text),))
+    return _whole(piece, given, pieces if len(pieces) > 1 else ())
+
+
+def _whole(piece: Piece, given: Given, choices: tuple[Piece, ...]) -> Shape:
+    """A determined line or arc, with what is to be said of an arc's numbers."""
+    if isinstance(piece, Line):
+        return Shape(piece, piece.end, choices=choices)
+    finding = circle_finding(piece, given.known)
+    findings = () if finding is None else (finding,)
+    return Shape(piece, piece.end, choices=choices, findings=findings, adjustment=adjustment(piece, given))
 
 
 def _too_far(piece: Piece) -> bool:
@@ -138,28 +148,19 @@ def _too_far(piece: Piece) -> bool:
 
 
 def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> Shape:
-    """Nothing fits yet; what is missing is not told while a typed field of the shape is itself at fault."""
+    """Nothing fits yet; what is missing is not said while a typed field of the shape is itself at fault."""
     faulty = any(finding.field in task.shape for finding in reading.findings)
-    told = () if outcome.finding is None or (faulty and outcome.missing) else (outcome.finding,)
-    sketch = line.sketch if task is line.TASK else arc.sketch
-    drawn = sketch(start, reading.known)
-    return Shape(missing=outcome.missing, sketch=drawn, findings=told)
+    findings = () if outcome.finding is None or (faulty and outcome.missing) else (outcome.finding,)
+    sketch = line_sketch if task is LINE_TASK else arc_sketch
+    return Shape(missing=outcome.missing, sketch=sketch(start, reading.known), findings=findings)
 
 
-def _typed_end(known: Known) -> Point | None:
-    """The end where both its coordinates are typed, so that later segments start there all the same."""
-    return (known["x_end"], known["y_end"]) if "x_end" in known and "y_end" in known else None
-
-
-def _calculate(reading: Reading, piece: Piece, unit: Unit) -> None:
-    """Fill the blanks of a determined line or arc."""
-    values = reading.values
+def _calculated(piece: Piece, unit: Unit) -> dict[str, float]:
+    """All fields of a determined line or arc, in program units."""
+    x_end, y_end = (from_mm(value, unit) for value in piece.end)
     if isinstance(piece, Line):
-        fill(values, {"x_end": piece.end[0], "y_end": piece.end[1], "length": piece.length}, unit)
-        fill_angle(values, "angle", line.heading(piece))
-        return
-    assert isinstance(piece, Arc)
-    (x_end, y_end), (x_center, y_center) = piece.end, piece.center
-    places = {"x_end": x_end, "y_end": y_end, "x_center": x_center, "y_center": y_center, "radius": piece.radius}
-    fill(values, places, unit)
-    fill_angle(values, "sweep", abs(piece.sweep))
+        length, angle = from_mm(piece.length, unit), from_radians(heading(piece))
+        return {"x_end": x_end, "y_end": y_end, "length": length, "angle": angle}
+    x_center, y_center = (from_mm(value, unit) for value in piece.center)
+    ends = {"x_end": x_end, "y_end": y_end, "x_center": x_center, "y_center": y_center}
+    return {**ends, "radius": from_mm(piece.radius, unit), "sweep": from_radians(abs(piece.sweep))}

@@ -1,4 +1,4 @@
-"""A block with its blanks calculated: what `core.program.solve.solve` yields.
+"""A block with its blanks calculated: what `core.program.solve.block` yields.
 
 `Solved` is a calculated number and never an `Entry`: the form shows it with the tag CAL and no edit turns
 it into something typed.  Needs no numpy.
@@ -7,17 +7,11 @@ it into something typed.  Needs no numpy.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from itertools import chain
-from operator import attrgetter
-from typing import TYPE_CHECKING, Final
+from dataclasses import dataclass
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Piece, Point
 from core.program.model import Entry, Unread
-
-if TYPE_CHECKING:
-    from core.program.solve.solve import Making
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,8 +23,6 @@ class Solved:
 
 Value = Entry | Solved | Unread | None
 
-_findings: Final = attrgetter("findings")
-
 
 @dataclass(frozen=True, slots=True)
 class SolvedSegment:
@@ -38,7 +30,7 @@ class SolvedSegment:
 
     `piece` is its part of the surface in millimeters, None while it is not determined or has no length;
     neighbors of a BLEND ARC are already shortened.  `missing` names the fields of which one more is needed.
-    `choices` are the pieces between which the operator picks, in assist's order.  `z_start`, `z_end` are
+    `choices` are the pieces between which the operator picks, in the documented order.  `z_start`, `z_end` are
     millimeters, `feed` millimeters a minute.
     """
 
@@ -79,15 +71,13 @@ class SolvedBlock:
     speed: float | None
     peck_depth: float
     findings: tuple[Finding, ...]
-    making: Making = field(compare=False)
-    """What it was made of, for the block that an edit makes of this one."""
     pieces: tuple[tuple[int, Piece], ...] = ()
     """(segment number, piece) of the determined surface from START on; segments without length are passed over."""
 
     @property
     def every_finding(self) -> tuple[Finding, ...]:
         """Findings of START and of all segments."""
-        return (*self.findings, *chain.from_iterable(map(_findings, self.segments)))
+        return (*self.findings, *(finding for segment in self.segments for finding in segment.findings))
 
     @property
     def whole(self) -> bool:

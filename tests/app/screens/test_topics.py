@@ -29,7 +29,7 @@ from app.screens.start import StartPage
 from app.screens.tools import ToolsPage
 from app.screens.topics import TOPICS, topic_of
 from app.session import Session
-from core.program.fields import TABLES, Form, field
+from core.program.fields import TABLES, Form, field_of
 from tests.app.operator import Operator
 
 SESSION = Session.of(load(example("pocket")))
@@ -77,13 +77,13 @@ def test_every_field_has_a_topic_of_plain_signs_in_56_columns(form: Form, name: 
     ],
 )
 def test_pictures_where_words_are_not_enough(form: Form, name: str) -> None:
-    topic = topic_of(field(form, name))
+    topic = topic_of(field_of(form, name))
     assert topic is not None
     assert len(topic.picture) >= 3
 
 
 def test_the_same_name_on_two_forms_has_two_topics() -> None:
-    assert topic_of(field(Form.ARC, "radius")) is not topic_of(field(Form.BLEND, "radius"))
+    assert topic_of(field_of(Form.ARC, "radius")) is not topic_of(field_of(Form.BLEND, "radius"))
 
 
 def test_help_shows_words_range_and_picture_then_the_keys() -> None:
@@ -127,5 +127,5 @@ def test_help_is_one_key_away_even_where_text_is_typed(page: Page) -> None:
 
 
 def test_the_help_of_speed_promises_nothing_that_the_field_refuses() -> None:
-    assert field(Form.START, "speed").low == 1
+    assert field_of(Form.START, "speed").low == 1
     assert "0" not in TOPICS[Form.START, "speed"].words

@@ -7,8 +7,8 @@ import pytest
 from core.advice.field_findings import field_findings, typed_lookahead_warning
 from core.finding import Severity
 from core.program.model import ArcSegment, CutterComp, Entry, LineSegment, Parameters, PartSetup, Unread, changed
-from core.program.shared import shared_findings
-from core.program.solve.solve import solve_block
+from core.program.solve.block import solve_block
+from core.program.solve.reading import shared_findings
 from core.units import Unit, sentence
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, block, program
 

@@ -75,6 +75,20 @@ def test_a_gap_is_told_by_its_size_beside_the_tool(gap: float, closed: bool, cod
     assert [finding.code for finding in open_finding(surface, 5.0, closed=closed)] == ([code] if code else [])
 
 
+@pytest.mark.parametrize(
+    ("gap", "words"),
+    [
+        (0.0005, "it ends at X 0.0000 Y 0.00002, 0.00002 from START."),
+        (0.00001, "it ends at X 0.0000 Y 0.0000004, 0.0000004 from START."),
+        (1.27, "it ends at X 0.0000 Y 0.0500, 0.0500 from START."),
+    ],
+)
+def test_a_gap_is_told_with_the_digits_that_show_it(gap: float, words: str) -> None:
+    surface = Path.from_pieces([Line((0, 0), (20, 0)), Line((20, 0), (20, 20)), Line((20, 20), (0, gap))])
+    (finding,) = open_finding(surface, 5.0, closed=True)
+    assert words in sentence(finding, Unit.IN)
+
+
 def test_a_gap_between_two_segments_is_no_gap_but_an_open_contour() -> None:
     surface = Path.from_pieces([Line((0, 0), (20, 0)), Line((20, 0), (0, 1))])
     assert [finding.code for finding in open_finding(surface, 5.0, closed=False)] == []

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 
 from core.geometry.piece import Arc, Line
 from core.program.model import ArcSegment, BlendSegment, Entry, LineSegment, Program, Unread
-from core.program.solve.solve import solve_block
+from core.program.solve.block import solve_block
 from core.program.solve.solved import Solved, SolvedBlock
 from core.units import Unit, sentence, to_mm
 from tests.core.program.parts import arc, blend, line, number, program, programs, tags
@@ -223,7 +223,7 @@ def test_blocks_do_not_share_tools():
 
 def test_no_numpy_is_loaded():
     """The first screen is painted before the heavy packages are there."""
-    names = ("convert", "edit", "fields", "history", "model", "tools", "solve.solve", "file.read", "file.write")
+    names = ("edit", "fields", "history", "model", "tools", "solve.block", "file.read", "file.write")
     imports = ", ".join(f"core.program.{name}" for name in names)
     script = f"import {imports}, core.units, core.geometry.fillet, sys; print('numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core.program.convert import converted
+from core.program.edit import set_unit
 from core.program.fields import PARAMETERS, SETUP, START, TABLES, Form
 from core.program.file.read import loads
 from core.program.file.write import dumps
@@ -38,7 +38,7 @@ def numbers(form: Form) -> list[tuple[str, Kind]]:
 
 @pytest.mark.parametrize(("name", "kind"), numbers(Form.START))
 def test_start(name, kind):
-    part = converted(Program(Unit.IN, blocks=(changed(Block(), {name: Entry(2.0)}),)), Unit.MM)
+    part = set_unit(Program(Unit.IN, blocks=(changed(Block(), {name: Entry(2.0)}),)), Unit.MM)
     assert getattr(part.blocks[0], name) == expected(kind)
     others = [one.name for one in START if one.kind is not Kind.CHOICE and one.name != name]
     assert all(getattr(part.blocks[0], other) is None for other in others)
@@ -48,13 +48,13 @@ def test_start(name, kind):
 def test_segments(form):
     for name, kind in numbers(form):
         segment = changed(SEGMENTS[form], {name: Entry(2.0)})
-        part = converted(Program(Unit.IN, blocks=(Block(segments=(segment,)),)), Unit.MM)
+        part = set_unit(Program(Unit.IN, blocks=(Block(segments=(segment,)),)), Unit.MM)
         assert part.blocks[0].segments == (changed(SEGMENTS[form], {name: expected(kind)}),)
 
 
 @pytest.mark.parametrize(("name", "kind"), numbers(Form.PARAMETERS))
 def test_parameters(name, kind):
-    part = converted(Program(Unit.IN, changed(Parameters(), {name: Entry(2.0)})), Unit.MM)
+    part = set_unit(Program(Unit.IN, changed(Parameters(), {name: Entry(2.0)})), Unit.MM)
     usual = {
         "blend_offset": Entry(3.175),
         "blend_overlap": Entry(3.175),
@@ -67,42 +67,42 @@ def test_parameters(name, kind):
 
 @pytest.mark.parametrize(("name", "kind"), numbers(Form.SETUP))
 def test_setup(name, kind):
-    part = converted(Program(Unit.IN, setup=changed(PartSetup("A"), {name: Entry(2.0)})), Unit.MM)
+    part = set_unit(Program(Unit.IN, setup=changed(PartSetup("A"), {name: Entry(2.0)})), Unit.MM)
     assert part.setup == changed(PartSetup("A"), {"safe_z": Entry(25.4)} | {name: expected(kind)})
     assert len(numbers(Form.SETUP)) == len(SETUP) - 1
 
 
 def test_tools():
-    part = converted(Program(Unit.IN, tools=(Tool(2, "BALL MILL", Entry(2.0)), Tool(3))), Unit.MM)
+    part = set_unit(Program(Unit.IN, tools=(Tool(2, "BALL MILL", Entry(2.0)), Tool(3))), Unit.MM)
     assert part.tools == (Tool(2, "BALL MILL", Entry(50.8)), Tool(3))
 
 
 def test_what_the_blanks_stood_for_is_blank_again_on_the_way_back():
     part = Program(Unit.IN, changed(Parameters(), {"blend_offset": Entry(0.25)}))
-    there = converted(part, Unit.MM)
+    there = set_unit(part, Unit.MM)
     assert there.parameters.blend_overlap == Entry(3.175)
     assert there.setup.safe_z == Entry(25.4)
-    assert converted(there, Unit.IN) == part
-    assert converted(converted(Program(Unit.MM), Unit.IN), Unit.MM) == Program(Unit.MM)
+    assert set_unit(there, Unit.IN) == part
+    assert set_unit(set_unit(Program(Unit.MM), Unit.IN), Unit.MM) == Program(Unit.MM)
 
 
 def test_a_typed_zero_stays_typed():
     part = Program(Unit.IN, changed(Parameters(), {"blend_offset": Entry(0.0), "finish_xy": Entry(0.0)}))
-    there = converted(part, Unit.MM).parameters
+    there = set_unit(part, Unit.MM).parameters
     assert (there.blend_offset, there.finish_xy) == (Entry(0.0), Entry(0.0))
-    assert converted(converted(part, Unit.MM), Unit.IN) == part
+    assert set_unit(set_unit(part, Unit.MM), Unit.IN) == part
 
 
 def test_the_same_unit_is_the_same_program():
     part = Program(Unit.MM)
-    assert converted(part, Unit.MM) is part
+    assert set_unit(part, Unit.MM) is part
 
 
 def test_what_is_against_a_text_is_said_in_the_new_unit() -> None:
     feed = Unread("0", "FEED must be above 0, at most 10000, not 0.")
     plain = Program(blocks=(Block(segments=(LineSegment(feed=feed),)),))
-    there = converted(plain, Unit.MM)
+    there = set_unit(plain, Unit.MM)
     (segment,) = there.blocks[0].segments
     assert segment.feed == Unread("0", "FEED must be above 0, at most 254000, not 0.")
     assert loads(dumps(there), "part") == there
-    assert converted(there, Unit.IN).blocks == plain.blocks
+    assert set_unit(there, Unit.IN).blocks == plain.blocks

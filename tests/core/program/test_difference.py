@@ -7,7 +7,6 @@ from dataclasses import replace
 import pytest
 from hypothesis import given, settings
 
-from core.program.difference import differences, splice
 from core.program.edit import (
     Where,
     copy_block,
@@ -19,6 +18,7 @@ from core.program.edit import (
     set_unit,
     type_field,
 )
+from core.program.history import differences, splice
 from core.program.model import ArcSegment, CutterComp, Entry, LineSegment, Program, Tool, Unread
 from core.units import Unit
 from tests.core.program.parts import line, program, programs

@@ -9,8 +9,7 @@ from hypothesis import HealthCheck, given, settings
 
 from core.program import edit
 from core.program.edit import Refused, Where
-from core.program.entries import unread_reason
-from core.program.fields import Form, field
+from core.program.fields import Form, field_of, unread_reason
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -255,7 +254,7 @@ def test_set_unit_converts_lengths_and_feeds_and_nothing_else():
 
 
 def test_set_unit_keeps_what_could_not_be_read():
-    unread = Unread("1,5", unread_reason("1,5", field(Form.LINE, "x_end"), Unit.IN))
+    unread = Unread("1,5", unread_reason("1,5", field_of(Form.LINE, "x_end"), Unit.IN))
     given = made(edit.type_field(SQUARE, Where(1, 1), "x_end", unread))
     assert edit.set_unit(given, Unit.IN).blocks[0].segments[0] == LineSegment(x_end=unread, y_end=Entry(0.0))
 

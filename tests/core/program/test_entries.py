@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import pytest
 
-from core.program.entries import AGAIN, misfit, read, unread_reason
-from core.program.fields import Form, field
+from core.program.fields import AGAIN, Form, check_text, field_of, read_typed, unread_reason
 from core.program.model import Entry, Unread
 from core.units import Unit
 
 
 def test_read_keeps_what_it_cannot_read():
-    one = field(Form.LINE, "x_end")
-    assert read("  ", one, Unit.IN) is None
-    assert read("1 1/2", one, Unit.IN) == Entry(1.5)
-    unread = read("1,5", one, Unit.IN)
+    one = field_of(Form.LINE, "x_end")
+    assert read_typed("  ", one, Unit.IN) is None
+    assert read_typed("1 1/2", one, Unit.IN) == Entry(1.5)
+    unread = read_typed("1,5", one, Unit.IN)
     assert isinstance(unread, Unread)
     assert unread.text == "1,5"
 
@@ -28,12 +27,12 @@ def test_read_keeps_what_it_cannot_read():
     ],
 )
 def test_a_number_the_field_does_not_take_is_kept_as_it_was_typed(form: Form, name: str, text: str, why: str) -> None:
-    one = field(form, name)
-    assert read(text, one, Unit.IN) == Unread(text, why)
-    assert misfit(text, one, Unit.IN) == unread_reason(text, one, Unit.IN) == why
+    one = field_of(form, name)
+    assert read_typed(text, one, Unit.IN) == Unread(text, why)
+    assert check_text(text, one, Unit.IN) == unread_reason(text, one, Unit.IN) == why
 
 
 def test_a_text_the_field_would_take_now_waits_to_be_typed_again() -> None:
-    one = field(Form.START, "x_start")
-    assert misfit("99999", one, Unit.MM) is None
+    one = field_of(Form.START, "x_start")
+    assert check_text("99999", one, Unit.MM) is None
     assert unread_reason("99999", one, Unit.MM) == AGAIN

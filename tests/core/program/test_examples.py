@@ -8,7 +8,7 @@ import pytest
 
 from core.program.file.read import loads
 from core.program.model import CutterComp, Entry, Program
-from core.program.solve.solve import solve_block
+from core.program.solve.block import solve_block
 from core.program.solve.solved import SolvedBlock
 from core.units import Unit
 

@@ -7,7 +7,7 @@ from dataclasses import fields as attributes
 import pytest
 
 from core.program import fields
-from core.program.fields import TABLES, Form, check, default, field, form_of
+from core.program.fields import TABLES, Form, check, default, field_of, form_of
 from core.program.model import ArcSegment, BlendSegment, Block, LineSegment, Parameters, PartSetup, Tool
 from core.units import Kind, Unit
 
@@ -26,7 +26,7 @@ PARTS = {
 def test_every_attribute_has_its_field(form):
     part, others = PARTS[form]
     assert {one.name for one in TABLES[form]} | others == {one.name for one in attributes(part)}
-    assert all(field(form, one.name) is one for one in TABLES[form])
+    assert all(field_of(form, one.name) is one for one in TABLES[form])
 
 
 @pytest.mark.parametrize("form", Form)
@@ -51,7 +51,7 @@ def test_start_reads_as_on_the_control():
         "PECK DEPTH",
         "CUTCOMP LOOKAHEAD",
     ]
-    assert field(Form.START, "cutter_comp").choices == ("ON", "LEFT", "RIGHT", "PROFILE LEFT", "PROFILE RIGHT")
+    assert field_of(Form.START, "cutter_comp").choices == ("ON", "LEFT", "RIGHT", "PROFILE LEFT", "PROFILE RIGHT")
 
 
 def test_segments_read_as_on_the_control():
@@ -72,14 +72,14 @@ def test_segments_read_as_on_the_control():
 
 def test_the_lookahead_prompt_says_what_the_control_says():
     words = "Enter a cutter comp lookahead value to override the calculated value. Not recommended unless necessary."
-    assert field(Form.START, "lookahead").prompt.startswith(words)
+    assert field_of(Form.START, "lookahead").prompt.startswith(words)
     assert "1 to 20" in fields.LOOKAHEAD_PROMPT
 
 
 def test_the_field_of_a_solution_is_known_where_there_may_be_two():
-    assert field(Form.ARC, "choice") is field(Form.LINE, "choice") is fields.SOLUTION
+    assert field_of(Form.ARC, "choice") is field_of(Form.LINE, "choice") is fields.SOLUTION
     with pytest.raises(KeyError):
-        field(Form.BLEND, "choice")
+        field_of(Form.BLEND, "choice")
 
 
 def test_form_of():
@@ -105,7 +105,7 @@ def test_form_of():
     ],
 )
 def test_check_refuses(form, name, value, text):
-    assert check(field(form, name), value, Unit.IN) == text
+    assert check(field_of(form, name), value, Unit.IN) == text
 
 
 @pytest.mark.parametrize(
@@ -121,7 +121,7 @@ def test_check_refuses(form, name, value, text):
     ],
 )
 def test_check_takes(form, name, value):
-    assert check(field(form, name), value, Unit.IN) is None
+    assert check(field_of(form, name), value, Unit.IN) is None
 
 
 def test_defaults():
@@ -135,18 +135,18 @@ def test_defaults():
 
 
 def test_a_field_takes_the_same_part_in_both_units():
-    place, feed = field(Form.START, "x_start"), field(Form.LINE, "feed")
+    place, feed = field_of(Form.START, "x_start"), field_of(Form.LINE, "feed")
     assert check(place, 10000.0, Unit.IN) is None
     assert check(place, 254000.0, Unit.MM) is None
     assert check(place, 10000.1, Unit.IN) == "X START must be from -10000 to 10000."
     assert check(place, 254000.1, Unit.MM) == "X START must be from -254000 to 254000."
     assert check(feed, 254000.1, Unit.MM) == "FEED must be above 0, at most 254000."
-    angle = field(Form.LINE, "angle")
+    angle = field_of(Form.LINE, "angle")
     assert check(angle, 360.0, Unit.IN) == check(angle, 360.0, Unit.MM) is None
 
 
 def test_a_standing_spindle_is_refused_where_it_is_typed():
-    speed = field(Form.START, "speed")
+    speed = field_of(Form.START, "speed")
     assert check(speed, 0.0, Unit.MM) == "SPEED (RPM) must be a whole number from 1 to 100000."
     assert check(speed, 1.0, Unit.MM) is None
 

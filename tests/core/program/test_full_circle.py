@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from math import cos, dist, hypot, radians, sin, tau
 
 import pytest
@@ -10,8 +11,9 @@ from hypothesis import strategies as st
 
 from core.finding import Severity
 from core.geometry.piece import Arc
+from core.program.edit import set_unit
 from core.program.model import ArcSegment
-from core.program.solve.solve import solve_block
+from core.program.solve.block import solve_block
 from core.program.solve.solved import SolvedBlock, SolvedSegment
 from core.units import Kind, Unit, sentence, show
 from tests.core.program.parts import arc, line, number, program
@@ -32,7 +34,8 @@ def second(segment: ArcSegment, unit: Unit) -> tuple[SolvedBlock, SolvedSegment]
 
 
 def told(found: SolvedSegment, unit: Unit) -> list[tuple[Severity, str, str]]:
-    return [(one.severity, one.code, sentence(one, unit)) for one in found.findings]
+    """What is said of the segment, but for a radius that was typed with few digits."""
+    return [(one.severity, one.code, sentence(one, unit)) for one in found.findings if one.code != "ARC_ADJUSTED"]
 
 
 def is_full(found: SolvedSegment) -> bool:
@@ -78,15 +81,92 @@ def test_with_sweep_angle_360_there_is_nothing_to_tell(unit, direction):
 
 @UNITS
 @DIRECTIONS
-def test_an_end_a_digit_or_two_beside_the_start_is_the_full_circle_with_a_warning(unit, direction):
+@pytest.mark.parametrize("off", [1.0, -1.0])
+def test_an_end_a_digit_or_two_from_the_start_is_asked_about_and_sweep_angle_answers(unit, direction, off):
     x, y, above = SHOWN[unit]
     step = {Unit.IN: 0.00008, Unit.MM: 0.002}[unit]
-    for off in (step, -step):
-        _, found = second(arc(direction, x_end=x + off, y_end=y, x_center=x, y_center=above), unit)
-        assert is_full(found)
-        ((severity, code, text),) = told(found, unit)
-        assert (severity, code) == (Severity.WARNING, "FULL_CIRCLE")
-        assert text.endswith(f"it is the full circle, and ends where it starts. {LESS}")
+    end = {"x_end": x + off * step, "y_end": y, "x_center": x, "y_center": above}
+    _, found = second(arc(direction, **end), unit)
+    assert found.piece is None
+    assert found.missing == ("sweep",)
+    ((severity, code, text),) = told(found, unit)
+    assert (severity, code) == (Severity.ERROR, "CIRCLE_OR_ARC")
+    question = re.fullmatch(
+        r"The end is (0\.\d+) from the start: full circle or (short arc|arc to that end)\? "
+        r"Type SWEEP ANGLE 360 or (\d+\.\d+)\.",
+        text,
+    )
+    assert question
+    assert (question[2] == "short arc") is (float(question[3]) < 180.0)
+    _, full = second(arc(direction, **end, sweep=360.0), unit)
+    assert is_full(full)
+    assert full.end == full.start
+    assert told(full, unit) == []
+    _, part = second(arc(direction, **end, sweep=float(question[3])), unit)
+    assert isinstance(part.piece, Arc)
+    scale = INCH if unit is Unit.IN else 1.0
+    # on the circle, where its end is as near as radii may differ
+    assert dist(part.piece.end, ((x + off * step) * scale, y * scale)) < 0.00254
+    assert [code for _, code, _ in told(part, unit)] == ["SHORT_ARC"]
+    _, neither = second(arc(direction, **end, sweep=90.0), unit)
+    assert told(neither, unit) == told(found, unit)
+
+
+def test_an_arc_of_93_nanometers_is_no_circle_of_52_meters():
+    end = {"x_end": 100.000093, "y_end": 50.0, "x_center": 100.0, "y_center": 8326.0}
+    given_program = program(arc("CCW", **end), x=100.0, y=50.0)
+    (found,) = solve_block(given_program.blocks[0], given_program).segments
+    assert found.piece is None
+    ((_, code, text),) = told(found, Unit.MM)
+    assert code == "CIRCLE_OR_ARC"
+    assert text == "The end is 0.0001 from the start: full circle or short arc? Type SWEEP ANGLE 360 or 0.00000064."
+    given_program = program(arc("CCW", **end, sweep=0.00000064), x=100.0, y=50.0)
+    (found,) = solve_block(given_program.blocks[0], given_program).segments
+    assert isinstance(found.piece, Arc)
+    assert found.piece.length == pytest.approx(0.000093, rel=1e-3)
+
+
+@UNITS
+@pytest.mark.parametrize("digit", [1e-9, 2e-7, 1e-6, 1e-5])
+def test_a_typed_end_equals_a_typed_start_to_the_last_digit_or_is_asked_about(unit, digit):
+    """What is nearer than two points can be told apart, 0.1 nm, is the start."""
+    for off in (digit, -digit):
+        segment = arc("CW", x_end=0.5 + off, y_end=0.25, x_center=0.5, y_center=1.0)
+        given_program = program(segment, unit=unit, x=0.5, y=0.25)
+        (found,) = solve_block(given_program.blocks[0], given_program).segments
+        if digit == 1e-9:
+            assert is_full(found)
+            assert found.findings == ()
+        else:
+            assert [one.code for one in found.findings] == ["CIRCLE_OR_ARC"]
+
+
+@UNITS
+def test_more_digits_than_the_screen_shows_of_a_calculated_start_count(unit):
+    """The start is 1.41421356...: 1.41421 is the start as it would be typed with one digit more, 1.41424 is not."""
+    x, y, above = SHOWN[unit]
+    _, found = second(arc("CW", x_end=1.41421, y_end=1.4142136, x_center=x, y_center=above), unit)
+    assert is_full(found)
+    assert [code for _, code, _ in told(found, unit)] == ["FULL_CIRCLE"]
+    _, found = second(arc("CW", x_end=1.41424, y_end=y, x_center=x, y_center=above), unit)
+    assert [code for _, code, _ in told(found, unit)] == ["CIRCLE_OR_ARC"]
+
+
+@UNITS
+@DIRECTIONS
+def test_a_change_of_units_leaves_a_full_circle_one(unit, direction):
+    x, y, above = SHOWN[unit]
+    segment = arc(direction, x_end=x, y_end=y, x_center=x, y_center=above)
+    given_program = program(line(length=2.0, angle=45.0, feed=5.0), segment, unit=unit)
+    turned = set_unit(given_program, Unit.MM if unit is Unit.IN else Unit.IN)
+    assert is_full(solve_block(turned.blocks[0], turned).segments[1])
+
+
+def test_an_end_in_x_alone_is_asked_about_too():
+    """Of an end a little beside the start only X is typed: it may be the start, or as near to it."""
+    given_program = program(arc("CW", x_end=0.001, x_center=3.0, y_center=4.0))
+    (found,) = solve_block(given_program.blocks[0], given_program).segments
+    assert [one.code for one in found.findings] == ["CIRCLE_OR_ARC"]
 
 
 @UNITS
@@ -140,7 +220,7 @@ def test_an_end_at_the_start_needs_the_center(unit, direction, typed, off):
     assert (severity, code) == (Severity.ERROR, "MISSING")
     blank = [label for name, label in (("x_center", "X CENTER"), ("y_center", "Y CENTER")) if name not in typed]
     assert text == (
-        f"Not determined yet: the end is at the start. For the full circle enter {' and '.join(blank)}; for a shorter "
+        f"More data needed: the end is at the start. For the full circle type {' and '.join(blank)}; for a shorter "
         "arc the center and SWEEP ANGLE, with X END and Y END blank."
     )
     assert set(found.missing) == {label.lower().replace(" ", "_") for label in blank}

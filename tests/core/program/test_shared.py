@@ -6,7 +6,7 @@ import pytest
 
 from core.program.fields import PARAMETERS, SETUP
 from core.program.model import Entry, Program, Unread, changed
-from core.program.shared import shared_findings
+from core.program.solve.reading import shared_findings
 from core.units import Kind, Unit
 
 

@@ -8,9 +8,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from core.finding import Severity
 from core.geometry.piece import Arc, Turn
 from core.program.model import ArcSegment
-from core.program.solve.solve import solve_block
+from core.program.solve.block import solve_block
 from core.program.solve.solved import SolvedSegment
 from core.units import Unit, sentence
 from tests.core.program.parts import arc, number, program, tags
@@ -133,12 +134,36 @@ def test_radii_that_differ_at_the_limit_are_shown_with_the_digits_that_differ():
     assert text(found).split(": ")[1] == "The arc's radius is 5.0000 at its start and 5.0026 at its end"
 
 
-def test_radii_that_differ_by_rounding_give_an_exact_arc():
+def test_radii_that_differ_by_rounding_give_an_exact_arc_and_are_told():
     found = solved(arc("CCW", x_end=0.0, y_end=5.0025, x_center=0.0, y_center=0.0), 5.0, 0.0)
-    assert found.findings == ()
+    assert text(found) == "ARC_ADJUSTED None: Radius 5.0000 at start, 5.0025 at end: the arc is fitted to both."
+    assert found.findings[0].severity is Severity.INFO
     assert isinstance(found.piece, Arc)
     assert dist(found.piece.center, found.piece.start) == pytest.approx(dist(found.piece.center, found.piece.end))
     assert number(found, "x_center") == 0.0
+
+
+def test_a_radius_that_does_not_fit_the_end_by_rounding_is_told():
+    found = solved(arc("CCW", x_end=-5.0, y_end=0.0, radius=4.999), 5.0, 0.0)
+    assert text(found) == "ARC_ADJUSTED None: RADIUS 4.999 does not fit the other numbers: 5.000 is used."
+    assert isinstance(found.piece, Arc)
+    assert found.piece.radius == 5.0
+
+
+def test_arcs_that_are_fitted_are_told_once_where_the_numbers_differ_most():
+    ends = [(0.0, 5.0001), (-5.0, 0.002), (0.0, -5.0)]
+    arcs = [arc("CCW", x_end=x, y_end=y, x_center=0.0, y_center=0.0) for x, y in ends]
+    part = program(*arcs, x=5.0)
+    findings = solve_block(part.blocks[0], part).every_finding
+    assert [(one.code, one.segment) for one in findings] == [("ARC_ADJUSTED", 1)]
+    assert sentence(findings[0], Unit.MM) == (
+        "Radius 5.0000 at start, 5.0001 at end: the arc is fitted to both. 2 more arcs differ by less."
+    )
+
+
+def test_exact_arcs_are_fitted_to_nothing():
+    found = solved(arc("CCW", x_end=3.0, y_end=4.0, x_center=0.0, y_center=0.0, radius=5.0, sweep=53.130102), 5.0, 0.0)
+    assert found.findings == ()
 
 
 @pytest.mark.parametrize(
@@ -193,19 +218,19 @@ def test_contradictions_name_both_sides(typed, words):
         (
             {},
             ("x_end", "y_end", "x_center", "y_center", "radius", "sweep"),
-            "enter the end and the center, the end and RADIUS, or the center and SWEEP ANGLE.",
+            "type the end and the center, the end and RADIUS, or the center and SWEEP ANGLE.",
         ),
-        ({"x_center": 0.0, "y_center": 0.0}, ("x_end", "y_end", "sweep"), "enter X END, Y END or SWEEP ANGLE."),
+        ({"x_center": 0.0, "y_center": 0.0}, ("x_end", "y_end", "sweep"), "type X END, Y END or SWEEP ANGLE."),
         (
             {"x_end": 0.0, "y_end": 5.0},
             ("x_center", "y_center", "radius", "sweep"),
-            "enter X CENTER, Y CENTER, RADIUS or SWEEP ANGLE.",
+            "type X CENTER, Y CENTER, RADIUS or SWEEP ANGLE.",
         ),
-        ({"x_end": 0.0, "radius": 5.0}, ("y_end", "sweep"), "enter Y END or SWEEP ANGLE."),
+        ({"x_end": 0.0, "radius": 5.0}, ("y_end", "sweep"), "type Y END or SWEEP ANGLE."),
         (
             {"x_end": 5.0, "y_end": 0.0, "radius": 5.0},
             ("x_center", "y_center"),
-            "the end is at the start. For the full circle enter X CENTER and Y CENTER; for a shorter arc the center "
+            "the end is at the start. For the full circle type X CENTER and Y CENTER; for a shorter arc the center "
             "and SWEEP ANGLE, with X END and Y END blank.",
         ),
     ],
@@ -214,7 +239,7 @@ def test_says_what_is_missing(typed, missing, words):
     found = solved(arc("CCW", **typed), 5.0, 0.0)
     assert found.piece is None
     assert found.missing == missing
-    assert text(found) == f"MISSING {missing[0]}: Not determined yet: {words}"
+    assert text(found) == f"MISSING {missing[0]}: More data needed: {words}"
 
 
 coordinates = st.floats(-50, 50).map(lambda value: round(value, 4))

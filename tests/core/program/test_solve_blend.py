@@ -6,7 +6,7 @@ import pytest
 
 from core.geometry.piece import Arc, Line
 from core.program.model import BlendSegment, LineSegment, Segment, Unread
-from core.program.solve.solve import solve_block
+from core.program.solve.block import solve_block
 from core.program.solve.solved import Solved, SolvedBlock
 from core.units import Unit, sentence
 from tests.core.program.parts import arc, blend, line, program
@@ -64,11 +64,11 @@ def test_blends_of_arcs_keep_their_centers():
     ("segments", "at", "words"),
     [
         ((blend(1.0), RIGHT), 1, "cannot be the first segment: put a LINE or an ARC before it."),
-        ((RIGHT, blend(1.0)), 2, "cannot be the last segment: add the LINE or ARC behind it."),
+        ((RIGHT, blend(1.0)), 2, "cannot be the last segment: add the LINE or ARC after it."),
         (
             (RIGHT, blend(1.0), blend(1.0), UP),
             3,
-            "cannot stand beside another BLEND ARC: delete one or put a segment between.",
+            "cannot follow another BLEND ARC: delete one or put a segment between.",
         ),
     ],
 )
@@ -113,7 +113,7 @@ def test_beside_a_segment_without_length():
 
 def test_without_a_radius():
     block = solved(RIGHT, BlendSegment(), UP)
-    assert texts(block) == ["MISSING 2 radius: Not determined yet: enter RADIUS."]
+    assert texts(block) == ["MISSING 2 radius: More data needed: type RADIUS."]
     assert block.segments[1].missing == ("radius",)
     assert block.segments[2].piece == Line((10.0, 0.0), (10.0, 10.0))
     unread = solved(RIGHT, BlendSegment(radius=Unread("x", "Type a number.")), UP)

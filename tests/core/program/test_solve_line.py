@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from core.geometry.piece import Line
 from core.program.model import LineSegment
-from core.program.solve.solve import solve_block
+from core.program.solve.block import solve_block
 from core.program.solve.solved import SolvedSegment
 from core.units import Unit, sentence
 from tests.core.program.parts import line, number, program, tags
@@ -95,20 +95,20 @@ def test_a_picked_solution_still_shows_both():
         (
             {},
             ("x_end", "y_end", "length", "angle"),
-            "enter X END and Y END, or XY LENGTH and XY ANGLE, or one end and one of these.",
+            "type X END and Y END, or XY LENGTH and XY ANGLE, or one end and one of these.",
         ),
-        ({"x_end": 3.0}, ("y_end", "length", "angle"), "enter Y END, XY LENGTH or XY ANGLE."),
-        ({"y_end": 3.0}, ("x_end", "length", "angle"), "enter X END, XY LENGTH or XY ANGLE."),
-        ({"length": 3.0}, ("x_end", "y_end", "angle"), "enter X END, Y END or XY ANGLE."),
-        ({"angle": 3.0}, ("x_end", "y_end", "length"), "enter X END, Y END or XY LENGTH."),
-        ({"x_end": 1.0, "angle": 90.0}, ("y_end", "length"), "enter Y END or XY LENGTH."),
+        ({"x_end": 3.0}, ("y_end", "length", "angle"), "type Y END, XY LENGTH or XY ANGLE."),
+        ({"y_end": 3.0}, ("x_end", "length", "angle"), "type X END, XY LENGTH or XY ANGLE."),
+        ({"length": 3.0}, ("x_end", "y_end", "angle"), "type X END, Y END or XY ANGLE."),
+        ({"angle": 3.0}, ("x_end", "y_end", "length"), "type X END, Y END or XY LENGTH."),
+        ({"x_end": 1.0, "angle": 90.0}, ("y_end", "length"), "type Y END or XY LENGTH."),
     ],
 )
 def test_says_what_is_missing(typed, missing, words):
     found = solved(line(**typed), 1.0, 1.0)
     assert found.piece is None
     assert found.missing == missing
-    assert text(found) == f"MISSING {missing[0]}: Not determined yet: {words}"
+    assert text(found) == f"MISSING {missing[0]}: More data needed: {words}"
 
 
 @pytest.mark.parametrize(
@@ -142,7 +142,7 @@ def test_contradictions_name_both_sides(typed, words):
 
 def test_a_line_without_length_is_passed_over():
     found = solved(line(x_end=1.0, y_end=1.0), 1.0, 1.0)
-    assert text(found) == "ZERO_LENGTH None: This segment has no length: it is passed over."
+    assert text(found) == "ZERO_LENGTH None: No length: skipped. Type its end, or F1 deletes it."
     assert found.piece is None
     assert found.end == (1.0, 1.0)
 
@@ -183,6 +183,4 @@ def test_an_angle_beside_an_end_that_it_never_comes_to_is_a_contradiction(typed:
 
 
 def test_an_angle_along_the_end_that_start_has_already_still_needs_the_other_end_or_a_length() -> None:
-    assert text(solved(line(x_end=1.0, angle=90.0), 1.0, 1.0)).startswith(
-        "MISSING y_end: Not determined yet: enter Y END"
-    )
+    assert text(solved(line(x_end=1.0, angle=90.0), 1.0, 1.0)).startswith("MISSING y_end: More data needed: type Y END")

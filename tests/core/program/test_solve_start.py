@@ -8,9 +8,8 @@ import pytest
 
 from core.finding import Severity
 from core.program.model import CutterComp, Entry, Tool, Unread
-from core.program.solve.solve import solve_block
+from core.program.solve.block import NEEDED, solve_block
 from core.program.solve.solved import Solved
-from core.program.solve.start import NEEDED
 from core.units import Unit, sentence
 from tests.core.program.parts import line, program
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from core.controls.control_tools import read_table
 from core.finding import Finding, Severity
 from core.program.model import Entry, Tool
-from core.program.tool_table import MOST_LINES, Imported, decoded, read_tool_table
+from core.program.tools import MAX_TABLE_LINES, ImportedTools, decode_table, read_tool_table
 from core.units import Unit
 
 TABLE = """\
@@ -21,7 +21,7 @@ t10 p3 x0 y0 d+1. i90 j-90;  FACE MILL
 """
 
 
-def read(text: str, unit: Unit = Unit.IN, program: Unit = Unit.IN) -> Imported:
+def read(text: str, unit: Unit = Unit.IN, program: Unit = Unit.IN) -> ImportedTools:
     return read_tool_table(text, unit, program)
 
 
@@ -97,13 +97,13 @@ def test_a_remark_becomes_a_type_without_control_signs():
 
 
 def test_a_file_that_is_no_table_is_refused_for_its_length():
-    assert "more than" in refused("T1 D.5\n" + ";\n" * MOST_LINES).text
+    assert "more than" in refused("T1 D.5\n" + ";\n" * MAX_TABLE_LINES).text
 
 
 def test_line_ends_and_encodings():
     assert len(read("T1 D1\rT2 D2\r\nT3 D3\n").tools) == 3
-    assert decoded(b"\xef\xbb\xbfT1 ;\xc3\xb8") == "T1 ;\u00f8"
-    assert decoded(b"T1 ;\xf8") == "T1 ;\u00f8"
+    assert decode_table(b"\xef\xbb\xbfT1 ;\xc3\xb8") == "T1 ;\u00f8"
+    assert decode_table(b"T1 ;\xf8") == "T1 ;\u00f8"
 
 
 @given(st.text(alphabet="TDPZQ ;.-+0123456789\nex{\x1b", max_size=60))

@@ -1,0 +1,176 @@
+"""A block solved: START read, and every blank of its segments calculated that the typed fields determine.
+
+A segment starts where the one before it ends.  Of its own fields those that are blank are calculated as
+`Solved`; Z END and FEED carry over from the segment before, on the first from Z BOTTOM and PLUNGE FEED.  A blank
+X END or Y END does not carry over: the line or arc then is not determined, and says what is missing.  Where two
+solutions fit, `line` and `arc` document their order, and the segment's `choice` picks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import takewhile
+from math import dist
+from typing import Final
+
+from core.finding import Finding, Severity
+from core.geometry.piece import Point
+from core.program.fields import Form, field_of
+from core.program.model import BlendSegment, Block, CutterComp, Program
+from core.program.solve.blend import Blends, blended
+from core.program.solve.reading import Reading, read_form
+from core.program.solve.segment import Carried, Draft, draft, typed_point
+from core.program.solve.solved import SolvedBlock, SolvedSegment, Value
+from core.program.tools import CalledTool, called_tool
+from core.tolerance import CLOSED
+from core.units import Unit
+
+NEEDED: Final = ("tool", "x_start", "y_start", "z_start", "z_bottom", "plunge_feed", "speed")
+"""The fields of START that must be typed."""
+
+ZERO_IF_BLANK: Final = ("finish_tool", "peck_depth")
+"""The fields of START whose blank means 0: no finish tool, full depth in one pass."""
+
+
+def solve_block(block: Block, program: Program) -> SolvedBlock:
+    """The block with its blanks calculated; trouble is in its findings, never raised."""
+    start = _start(block, program)
+    drafts = _drafts(block, program.unit, start)
+    segments = _segments(block, drafts)
+    determined = list(takewhile(lambda segment: segment.start is not None and segment.end is not None, segments))
+    known = start.known
+    return SolvedBlock(
+        values=start.values,
+        segments=segments,
+        closed=len(determined) == len(segments) and _closed(segments),
+        determined=len(determined),
+        tool_diameter=start.tool.diameter,
+        tool_type=start.tool.type,
+        finish_diameter=start.finish.diameter,
+        z_start=known.get("z_start"),
+        z_bottom=known.get("z_bottom"),
+        plunge_feed=known.get("plunge_feed"),
+        speed=known.get("speed"),
+        peck_depth=known.get("peck_depth", 0.0),
+        findings=start.findings,
+        pieces=tuple((segment.number, segment.piece) for segment in determined if segment.piece is not None),
+    )
+
+
+def _closed(segments: Sequence[SolvedSegment]) -> bool:
+    """Whether the last programmed end is START again; a contour without any length is not closed."""
+    if not any(segment.piece for segment in segments):
+        return False
+    first, last = segments[0].start, segments[-1].end
+    return first is not None and last is not None and dist(first, last) <= CLOSED
+
+
+def _drafts(block: Block, unit: Unit, start: _Start) -> list[Draft]:
+    """Every segment solved by itself, each from where the one before it ends."""
+    typed = typed_point(start.values, ("x_start", "y_start"))
+    carried = Carried(start.point, typed, start.known.get("z_bottom"), start.known.get("plunge_feed"))
+    drafts: list[Draft] = []
+    for number, segment in enumerate(block.segments, 1):
+        drafts.append(draft(segment, number, carried, unit))
+        carried = drafts[-1].after
+    return drafts
+
+
+def _segments(block: Block, drafts: Sequence[Draft]) -> tuple[SolvedSegment, ...]:
+    """Every segment, blends put in."""
+    blends = _blends(block, drafts)
+    adjusted = _adjustment(drafts)
+    return tuple(_segment(index, draft, blends, adjusted.get(index)) for index, draft in enumerate(drafts))
+
+
+def _blends(block: Block, drafts: Sequence[Draft]) -> Blends:
+    """The surface with its blends."""
+    blends = [index for index, segment in enumerate(block.segments) if isinstance(segment, BlendSegment)]
+    radii = {index: known["radius"] for index in blends if "radius" in (known := drafts[index].reading.known)}
+    shapes = [draft.shape for draft in drafts]
+    lengthless = {index for index, shape in enumerate(shapes) if shape.piece is None and shape.end is not None}
+    return blended(block.segments, [shape.piece for shape in shapes], radii, lengthless.difference(blends))
+
+
+def _adjustment(drafts: Sequence[Draft]) -> dict[int, Finding]:
+    """That arcs were fitted to their numbers: once, by index of the segment whose numbers differ most."""
+    adjusted = {index: finding for index, one in enumerate(drafts) if (finding := one.shape.adjustment) is not None}
+    if not adjusted:
+        return {}
+    worst = max(adjusted, key=lambda index: adjusted[index].value or 0.0)
+    finding = adjusted[worst]
+    others = len(adjusted) - 1
+    more = f" {others} more {'arc differs' if others == 1 else 'arcs differ'} by less." if others else ""
+    return {worst: replace(finding, text=finding.text + more)}
+
+
+def _segment(index: int, draft: Draft, blends: Blends, adjusted: Finding | None) -> SolvedSegment:
+    shape, before, after = draft.shape, draft.before, draft.after
+    findings = (*shape.findings, *(finding for finding in (blends.faults.get(index), adjusted) if finding is not None))
+    return SolvedSegment(
+        number=index + 1,
+        values=draft.reading.values,
+        piece=blends.pieces[index],
+        missing=shape.missing,
+        choices=shape.choices,
+        start=before.point,
+        end=None if index in blends.waiting else shape.end,
+        sketch=shape.sketch,
+        z_start=before.z or 0.0,
+        z_end=after.z or 0.0,
+        feed=after.feed,
+        findings=(*draft.reading.findings, *(replace(finding, segment=index + 1) for finding in findings)),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Start:
+    """START in millimeters, with its values as the form shows them."""
+
+    values: dict[str, Value]
+    point: Point | None
+    known: dict[str, float]
+    tool: CalledTool
+    finish: CalledTool
+    findings: tuple[Finding, ...]
+
+
+def _start(block: Block, program: Program) -> _Start:
+    """START of a block as typed."""
+    reading = read_form(Form.START, block, program.unit, 0)
+    severity = Severity.WARNING if block.cutter_comp is CutterComp.ON else Severity.ERROR
+    tool = called_tool(program, block.tool, "tool", severity)
+    finish = called_tool(program, block.finish_tool, "finish_tool", severity)
+    reading.fill(dict.fromkeys(ZERO_IF_BLANK, 0.0))
+    known = reading.known
+    point = (known["x_start"], known["y_start"]) if "x_start" in known and "y_start" in known else None
+    # what was typed and is wrong comes before what is still to be typed: few of them are seen at once
+    trouble = (*tool.findings, *finish.findings, *_depths(known), *_missing(reading), *_empty(block))
+    return _Start(reading.values, point, known, tool, finish, reading.findings + trouble)
+
+
+def _missing(reading: Reading) -> tuple[Finding, ...]:
+    blanks = (name for name in NEEDED if reading.values[name] is None)
+    return tuple(
+        Finding("MISSING", Severity.ERROR, f"{field_of(Form.START, name).label} is blank: enter it on START.", 0, name)
+        for name in blanks
+    )
+
+
+def _depths(known: dict[str, float]) -> tuple[Finding, ...]:
+    top, bottom = known.get("z_start"), known.get("z_bottom")
+    if top is None or bottom is None or bottom < top:
+        return ()
+    if bottom > top:
+        text = "Z BOTTOM {0~1} is above Z START {1~0}: it must be below."
+        return (Finding("Z_ORDER", Severity.ERROR, text, 0, "z_bottom", lengths=(bottom, top)),)
+    text = "Z BOTTOM is at Z START: nothing is cut."
+    return (Finding("Z_ORDER", Severity.WARNING, text, 0, "z_bottom"),)
+
+
+def _empty(block: Block) -> tuple[Finding, ...]:
+    if block.segments:
+        return ()
+    text = "The contour has no segment yet: right arrow or Page Down on SEGMENT adds a LINE or an ARC."
+    return (Finding("NO_SEGMENTS", Severity.ERROR, text, 0),)
