@@ -14,7 +14,9 @@ from typing import Final
 
 from core.controls.control_run import Run
 from core.controls.control_tools import ToolTable
+from core.controls.iso.arcs import ArcRadii
 from core.controls.klartext import control as klartext
+from core.controls.klartext import path_functions
 from core.controls.makers import linuxcnc, nine_series, rosettacnc, threeblock
 from core.controls.program_text import lines_of
 from core.finding import Finding, Severity
@@ -43,9 +45,12 @@ class UnknownControl:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One control: what runs it, its variants (the first is the default) and those a comparison shows."""
+    """One control: what runs it, how far the radii of an arc may differ on it, its variants (the first is the default)
+    and those a comparison shows.
+    """
 
     control: Control
+    arc_radii: ArcRadii
     variants: tuple[str, ...] = ("",)
     compared: tuple[str, ...] = ("",)
 
@@ -57,14 +62,19 @@ def _klartext(text: bytes, variant: str, tools: ToolTable, _: Unit | None) -> Ru
 
 CONTROLS: Final[Mapping[str, Entry]] = MappingProxyType(
     {
-        "threeblock": Entry(threeblock.run),
-        "rosettacnc": Entry(rosettacnc.run, ("nist", "easy", "normal"), ("nist", "easy", "normal")),
-        "nine-series": Entry(nine_series.run, ("a", "a-g39", "a-g39.1", "b", "b-g39", "b-g39.1"), ("a", "b")),
-        "klartext": Entry(_klartext),
-        "linuxcnc": Entry(linuxcnc.run),
+        "threeblock": Entry(threeblock.run, threeblock.DIALECT.arc_radii),
+        "rosettacnc": Entry(rosettacnc.run, rosettacnc.DIALECT.arc_radii, rosettacnc.ENTRIES, rosettacnc.ENTRIES),
+        "nine-series": Entry(nine_series.run, nine_series.DIALECT.arc_radii, nine_series.VARIANTS, ("a", "b")),
+        "klartext": Entry(_klartext, path_functions.ARC_RADII),
+        "linuxcnc": Entry(linuxcnc.run, linuxcnc.DIALECT.arc_radii),
     }
 )
 """The controls, in the order a comparison shows them."""
+
+
+def arc_radii(control: str) -> ArcRadii:
+    """How far the radii of an arc may differ on a control, by its full or short name."""
+    return CONTROLS[control.partition(":")[0]].arc_radii
 
 
 def names() -> tuple[str, ...]:

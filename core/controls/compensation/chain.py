@@ -11,14 +11,7 @@ from math import hypot, tau
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.compensation.corners import (
-    Element,
-    element_sweep,
-    fits,
-    runs_back,
-    square_end,
-    sweep,
-)
+from core.controls.compensation.corners import Element, element_sweep, fits, offset_end, runs_back, sweep
 from core.controls.compensation.joint import Corner, CornerRules, Inside, Joint, join
 from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
@@ -93,10 +86,10 @@ class Chain(Recorder):
         for element in standing:
             self.straight(element, end)
 
-    def release_square(self) -> None:
+    def release_at_end(self) -> None:
         """Runs what is held to the offset point at its end."""
         if self.held is not None:
-            self.release(square_end(self.held, self.offset))
+            self.release(offset_end(self.held, self.offset))
         self.start = None
 
 
@@ -155,7 +148,7 @@ class OneMoveQueue(Chain):
 
     def _run_out(self, line: int) -> None:
         if self.held is not None:
-            end = square_end(self.held, self.offset)
+            end = offset_end(self.held, self.offset)
             self._check(self.held, end, line)
             self.run_held(end)
 
@@ -174,7 +167,7 @@ class OneMoveQueue(Chain):
         """Under compensation where the held move would end, were it not changed by the next one."""
         if not self.active or self.held is None:
             return programmed
-        first, second = square_end(self.held, self.offset)
+        first, second = offset_end(self.held, self.offset)
         return solid(first, second, flat(programmed, self.plane)[2], self.plane)
 
     def travel(self, element: Element) -> None:
@@ -215,7 +208,7 @@ class OneMoveQueue(Chain):
 
     def _entry_center(self, element: Element) -> Point:
         """The center of the entry arc: to the offset point at its end, with the programmed tangent there."""
-        (sx, sy), (ex, ey), (cx, cy) = element.start, square_end(element, self.offset), element.center
+        (sx, sy), (ex, ey), (cx, cy) = element.start, offset_end(element, self.offset), element.center
         half = hypot(sx - ex, sy - ey) / 2
         reach = hypot(cx - ex, cy - ey) or 1.0
         way = ((cx - ex) / reach, (cy - ey) / reach)

@@ -1,13 +1,11 @@
-"""Where two compensated elements meet: the corner points every control builds its own rules from.
+"""Corners: elements of a plane, their offset points, and where the offsets of two elements meet.
 
-All of it lies in one plane.  An element's tool radius comes signed: positive with the tool on the left.  P is the
-programmed corner, E1 the point square to P on the tool's side at the end of the first element, E2 the same at the
-start of the second.  A corner is outside where the path turns away from the tool, inside where it turns to it.
+The tool radius comes signed: positive with the tool on the left.  P is the programmed corner, E1 the offset point at
+the end of the first element, E2 that at the start of the second, both at right angles to their element.
 """
 
 from __future__ import annotations
 
-from functools import partial
 from math import atan2, cos, hypot, pi, sin, sqrt, tan, tau
 from typing import Final, NamedTuple
 
@@ -48,10 +46,6 @@ class Element(NamedTuple):
         return self.turn != 0 or self.start != self.end
 
 
-_element: Final = partial(tuple.__new__, Element)
-"""An element of twelve values at once: naming them takes longer than working them out."""
-
-
 def line_element(
     start: Point, end: Point, low: float, high: float, rapid: bool, feed: float, line: int, column: int = 1
 ) -> Element:  # fmt: skip
@@ -59,7 +53,7 @@ def line_element(
     dx, dy = end[0] - start[0], end[1] - start[1]
     size = hypot(dx, dy)
     way = (dx / size, dy / size) if size else (0.0, 0.0)
-    return _element((start, end, start, 0, way, way, low, high, rapid, feed, line, column))
+    return Element(start, end, start, 0, way, way, low, high, rapid, feed, line, column)
 
 
 def arc_element(
@@ -67,7 +61,7 @@ def arc_element(
 ) -> Element:  # fmt: skip
     """A circular element; equal ends are the full circle."""
     leaving, arriving = tangent(start, center, turn), tangent(end, center, turn)
-    return _element((start, end, center, turn, leaving, arriving, low, high, False, feed, line, column))
+    return Element(start, end, center, turn, leaving, arriving, low, high, False, feed, line, column)
 
 
 def tangent(at: Point, center: Point, turn: int) -> Point:
@@ -78,28 +72,28 @@ def tangent(at: Point, center: Point, turn: int) -> Point:
 
 
 def square(at: Point, way: Point, offset: float) -> Point:
-    """The point beside `at`, `offset` to the left of a direction."""
+    """The offset point of `at`: `offset` to the left of a direction."""
     return at[0] - offset * way[1], at[1] + offset * way[0]
 
 
-def square_start(element: Element, offset: float) -> Point:
-    """E2: beside an element's start."""
+def offset_start(element: Element, offset: float) -> Point:
+    """E2: the offset point at an element's start."""
     return square(element.start, element.leaving, offset)
 
 
-def square_end(element: Element, offset: float) -> Point:
-    """E1: beside an element's end."""
+def offset_end(element: Element, offset: float) -> Point:
+    """E1: the offset point at an element's end."""
     return square(element.end, element.arriving, offset)
 
 
-def turning(first: Element, second: Element) -> float:
+def turn_angle(first: Element, second: Element) -> float:
     """The angle from the end of one element to the start of the next, radians, positive to the left."""
     (ax, ay), (bx, by) = first.arriving, second.leaving
     return atan2(ax * by - ay * bx, ax * bx + ay * by)
 
 
 def miter(corner: Point, way: Point, angle: float, offset: float) -> Point:
-    """M: where the offsets of two straight directions meet outside the corner; `angle` as by `turning`."""
+    """M: where the offsets of two straight directions meet outside the corner; `angle` as by `turn_angle`."""
     x, y = square(corner, way, offset)
     reach = abs(offset) * tan(abs(angle) / 2)
     return x + reach * way[0], y + reach * way[1]
@@ -116,7 +110,7 @@ def offset_radius(element: Element, offset: float) -> float:
 
 
 def meeting(first: Element, second: Element, offset: float, other: float | None = None) -> Point | None:
-    """The inside corner: where the offsets of two elements meet, the meeting nearest to P; None if nowhere.
+    """Where the offsets of two elements meet nearest to P; None if nowhere.
 
     Lines count beyond their ends and arcs as whole circles: whether the point lies on what is left of the elements
     is for the control to say.  `other` is the second element's offset where it is not the first one's.
@@ -131,12 +125,12 @@ def meetings(first: Element, second: Element, offset: float, other: float) -> tu
     if not fits(first, offset) or not fits(second, other):
         return ()
     if not first.turn and not second.turn:
-        return _line_line(square_end(first, offset), first.arriving, square_start(second, other), second.leaving)
+        return _line_line(offset_end(first, offset), first.arriving, offset_start(second, other), second.leaving)
     if not first.turn:
-        at = square_end(first, offset)
+        at = offset_end(first, offset)
         return _line_circle(at, first.arriving, second.center, offset_radius(second, other))
     if not second.turn:
-        at = square_start(second, other)
+        at = offset_start(second, other)
         return _line_circle(at, second.leaving, first.center, offset_radius(first, offset))
     return _circle_circle(first.center, offset_radius(first, offset), second.center, offset_radius(second, other))
 

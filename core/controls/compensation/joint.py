@@ -20,9 +20,9 @@ from core.controls.compensation.corners import (
     meeting,
     meetings,
     miter,
-    square_end,
-    square_start,
-    turning,
+    offset_end,
+    offset_start,
+    turn_angle,
 )
 from core.geometry.piece import Point
 
@@ -106,7 +106,7 @@ class Joint(NamedTuple):
 
 def inward_turn(first: Element, second: Element, offset: float) -> float:
     """The turn at a corner, radians, positive toward the tool; a reversal turns away from it."""
-    angle = turning(first, second) * (1 if offset > 0.0 else -1)
+    angle = turn_angle(first, second) * (1 if offset > 0.0 else -1)
     return -pi if abs(angle) > pi - WHOLE else angle
 
 
@@ -124,14 +124,14 @@ def corner(first: Element, second: Element, offset: float, rules: CornerRules) -
 
 
 def _touch(first: Element, second: Element, offset: float, within: float) -> bool:
-    (ax, ay), (bx, by) = square_end(first, offset), square_start(second, offset)
+    (ax, ay), (bx, by) = offset_end(first, offset), offset_start(second, offset)
     return within > 0.0 and hypot(ax - bx, ay - by) <= within
 
 
 def join(first: Element, second: Element, offset: float, rules: CornerRules) -> Joint:
     """The joint of two elements that follow each other, the tool `offset` millimeters to their left."""
     kind = corner(first, second, offset, rules)
-    end, start = square_end(first, offset), square_start(second, offset)
+    end, start = offset_end(first, offset), offset_start(second, offset)
     if kind is Corner.TANGENT:
         return Joint(end, end)
     if kind is Corner.INSIDE and rules.inside is Inside.OPEN:
@@ -158,8 +158,8 @@ def _by_side(first: Element, second: Element, offset: float) -> int:
 
 
 def _outside(first: Element, second: Element, offset: float, rules: CornerRules) -> Joint:
-    end, start = square_end(first, offset), square_start(second, offset)
-    angle = turning(first, second)
+    end, start = offset_end(first, offset), offset_start(second, offset)
+    angle = turn_angle(first, second)
     if rules.outside is Outside.ARC:
         straight = rules.rapid_straight and second.rapid
         return Joint(end, start, (start,)) if straight else Joint(end, start, center=second.start)
@@ -174,7 +174,7 @@ def _outside(first: Element, second: Element, offset: float, rules: CornerRules)
 
 def _prolonged(first: Element, second: Element, offset: float) -> tuple[Point, Point]:
     """Q1 and Q2."""
-    end, start, reach = square_end(first, offset), square_start(second, offset), abs(offset)
+    end, start, reach = offset_end(first, offset), offset_start(second, offset), abs(offset)
     return beyond(end, first.arriving, reach), beyond(start, second.leaving, -reach)
 
 
@@ -195,10 +195,10 @@ def entry(first: Element, second: Element, offset: float, rule: Outside, *, dire
 
     The polylines of type B are read from figures and agree with those of other makers: an interpretation.
     """
-    start = square_start(second, offset)
+    start = offset_start(second, offset)
     if direct or inward_turn(first, second, offset) >= 0.0:
         return Joint(start, start)
-    end, angle = square_end(first, offset), turning(first, second)
+    end, angle = offset_end(first, offset), turn_angle(first, second)
     if abs(angle) <= RIGHT_ANGLE:
         return Joint(miter(first.end, first.arriving, angle, offset), start)
     if rule is Outside.MITER_OR_ARC and not second.turn:
@@ -208,13 +208,13 @@ def entry(first: Element, second: Element, offset: float, rule: Outside, *, dire
 
 def departure(last: Element, leaving: Element, offset: float, rule: Outside) -> Joint:
     """Type B's way from the last element to where the exit move starts: the mirror image of the entry."""
-    end = square_end(last, offset)
+    end = offset_end(last, offset)
     if inward_turn(last, leaving, offset) >= 0.0:
         return Joint(end, end)
-    angle = turning(last, leaving)
+    angle = turn_angle(last, leaving)
     if abs(angle) <= RIGHT_ANGLE:
         return Joint(end, miter(last.end, last.arriving, angle, offset))
-    start = square_start(leaving, offset)
+    start = offset_start(leaving, offset)
     if rule is Outside.MITER_OR_ARC and not last.turn:
         return Joint(end, start, center=leaving.start)
     return Joint(end, start, _prolonged(last, leaving, offset))
@@ -229,7 +229,7 @@ def change(first: Element, second: Element, old: float, new: float) -> Joint:
         point = meeting(first, second, old, new)
         if point is not None:
             return Joint(point, point)
-    return Joint(square_end(first, old), square_start(second, new))
+    return Joint(offset_end(first, old), offset_start(second, new))
 
 
 def vector_end(last: Element, vector: Point, offset: float) -> Point:
@@ -238,7 +238,7 @@ def vector_end(last: Element, vector: Point, offset: float) -> Point:
     The vector's line through the programmed end is offset to the tool's side; where it meets the offset path is the new
     point.  A vector along the path shifts the point against the vector by the radius.
     """
-    end, reach, size = square_end(last, offset), abs(offset), hypot(*vector)
+    end, reach, size = offset_end(last, offset), abs(offset), hypot(*vector)
     if not size:
         return end
     towards = beyond(last.end, vector, 1.0)

@@ -58,7 +58,7 @@ def drill(state: ModalState, block: Block) -> Iterator[Leg]:
         first, second, _ = flat(state.target(block.words), state.plane)
         yield solid(first, second, flat(state.position, state.plane)[2], state.plane), True
         return
-    if state.rates.mode == INVERSE:
+    if state.rate == INVERSE:
         _stop(state, "A drilling cycle does not go with G93; write G94.", block)
     if not state.feed:
         state.no_feed(block)
@@ -149,7 +149,7 @@ def _check_spindle(state: ModalState, code: int, block: Block) -> None:
     if code in _TAPS and state.plane is not Plane.XY:
         _stop(state, "In this plane the control taps along the wrong axes; write G17.", block)
     wanted = {740: -1, 840: 1}.get(code)
-    turning = state.rates.turning
+    turning = state.turning
     if turning != wanted if wanted else code == 860 and not turning:
         way = {-1: "with M4", 1: "with M3", None: "with M3 or M4"}[wanted]
         _stop(state, f"G{code // 10} needs a spindle that turns; start it {way}.", block)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple, NoReturn
 
@@ -136,9 +136,9 @@ class OWords:
             "ENDSUB": self._end,
             "RETURN": self._end,
             "IF": self._if,
-            "ELSEIF": self._else,
-            "ELSE": self._else,
-            "ENDIF": self._endif,
+            "ELSEIF": self._end_branch,
+            "ELSE": self._end_branch,
+            "ENDIF": self._end_branch,
             "WHILE": self._while,
             "ENDWHILE": self._again,
             "DO": self._do,
@@ -267,16 +267,11 @@ class OWords:
                 self._opened[word.label] = OpenBlock("IF", word.row)
                 return word.row + 1
 
-    def _else(self, word: OWord) -> int:
+    def _end_branch(self, word: OWord) -> int:
         """The end of a branch that ran."""
         self._open(word, "IF")
         del self._opened[word.label]
-        return self._seek(word, "ENDIF").row + 1
-
-    def _endif(self, word: OWord) -> int:
-        self._open(word, "IF")
-        del self._opened[word.label]
-        return word.row + 1
+        return (word if word.word == "ENDIF" else self._seek(word, "ENDIF")).row + 1
 
     def _fresh(self, word: OWord) -> None:
         """A label that began something once cannot begin anything else in its subprogram."""
@@ -343,6 +338,16 @@ GIVEN_UP: Final = "The run is given up here and not judged: end the loop, or let
 _LABEL: Final = re.compile(r"[ \t]*+(?:[Nn][ \t]*+[0-9]++)?[ \t]*+[Oo][ \t]*+([0-9]{1,9})(?![0-9])")
 
 
+def _labels_of(lines: Sequence[str], words: Mapping[int, OWord]) -> dict[int, int]:
+    """The subprograms for M98 by number: the index of the first line with that O, the O-words left out."""
+    labels: dict[int, int] = {}
+    for index, line in enumerate(lines):
+        label = None if index in words else _LABEL.match(line)
+        if label:
+            labels.setdefault(int(label[1]), index)
+    return labels
+
+
 class Flow:
     """The lines of a program and the one to run next, `at` from 0; `values` are its parameters, if it has any."""
 
@@ -351,15 +356,17 @@ class Flow:
         self.dialect = dialect
         self.log = log
         self.at = 0
+        code = (index for index, line in enumerate(lines) if line.strip() and line.strip()[0] not in "(;%")
+        self.first_code = next(code, len(lines))
         self.calls = [Call(len(lines), Scope())]
         self.budget = dialect.max_repeated_blocks
         self.ran = bytearray(len(lines))
         self.o_words_left = dialect.max_o_words
-        self.labels: dict[int, int] | None = None
         self.percents = 0
         self.values = Parameters(dialect.parameters, machine.value_of) if dialect.parameters else None
         words = o_words_of(lines) if dialect.parameters is Kept.NGC else {}
         self.o_words = OWords(words, self.values, log, self.calls) if words and self.values else None
+        self.labels = _labels_of(lines, words)
 
     def follow_o_word(self, index: int) -> bool:
         """Follows the O-word of a line, if it has one."""
@@ -382,7 +389,7 @@ class Flow:
             self._call(block)
         elif 990 in block.m:
             return self._return(block)
-        elif "O" in block.words and not self._numbers() and self.at > 1 and self._code_before():
+        elif "O" in block.words and not self._numbers() and self.first_code < self.at - 1:
             text = "The program runs into a subprogram; end it with M30 or M2 before the subprograms."
             self.log.tell(Severity.WARNING, "SUBPROGRAM", text, block.line, block.column("O"))
         return True
@@ -390,9 +397,6 @@ class Flow:
     def _numbers(self) -> set[int]:
         """Of the subprograms that M98 called."""
         return {call.number for call in self.calls if call.number is not None}
-
-    def _code_before(self) -> bool:
-        return any(line.strip() and line.strip()[0] not in "(;%" for line in self.lines[: self.at - 1])
 
     def _call(self, block: Block) -> None:
         number = whole(block.words.get("P", -1.0))
@@ -403,7 +407,7 @@ class Flow:
             self.log.stop("SUBPROGRAM", "M98 needs P and the number of a subprogram.", block.line, column)
         if number in self._numbers():
             self.log.stop("SUBPROGRAM", f"Subprogram O{number} calls itself without end.", block.line, column)
-        start = self._labels().get(number)
+        start = self.labels.get(number)
         if start is None:
             text = f"There is no subprogram O{number} in this file; write it behind the end of the program."
             self.log.stop("SUBPROGRAM", text, block.line, column)
@@ -434,16 +438,6 @@ class Flow:
             self.calls.pop()
             self.at = call.back
         return True
-
-    def _labels(self) -> dict[int, int]:
-        if self.labels is None:
-            words = self.o_words.words if self.o_words else {}
-            self.labels = {}
-            for index, line in enumerate(self.lines):
-                label = None if index in words else _LABEL.match(line)
-                if label:
-                    self.labels.setdefault(int(label[1]), index)
-        return self.labels
 
     def count_repeat(self, line: int) -> None:
         """Counts a line that is about to run, if it ran before: a plain one as one block, any other as more."""

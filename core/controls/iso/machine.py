@@ -34,6 +34,7 @@ _ORDER: Final = {Do.MOTION: 0, Do.PLANE: 1, Do.UNITS: 2, Do.DISTANCE: 3, Do.OWN:
 _LATEST: Final = 9
 _G53: Final = 530
 _SURFACE: Final = 960
+_TOOL_CHANGE: Final = 60
 _LINES: Final = (0, 10)
 _MOVES: Final = frozenset((0, 10, 20, 30))
 _ENDS: Final = frozenset((20, 300))
@@ -149,7 +150,7 @@ class Machine(ModalState):
             case Do.CENTERS:
                 self.absolute_centers = code.value == 901
             case Do.SPINDLE:
-                self.rates.surface = code.value == _SURFACE
+                self.surface_speed = code.value == _SURFACE
             case Do.RETRACT:
                 self.cycle.to_r = code.value == 990
             case _:
@@ -181,7 +182,8 @@ class Machine(ModalState):
         if number is not None:
             self.control.tool_called(number, block)
             self.select_tool(number, block)
-        self.change_tool(block)
+        if _TOOL_CHANGE in block.m:
+            self.tool = self.next_tool
 
     def _warn_of_axes(self, block: Block) -> None:
         for letter in _OTHER_AXES:
@@ -210,11 +212,11 @@ class Machine(ModalState):
         if self.mode in _TURNS:
             text = "The arc has neither end point nor center; write them."
             self.log.stop("ARC", text, block.line, block.column("G", self.mode))
-        self.straight(block, self.position)
+        self._straight(block, self.position, rapid=self.mode == 0)
 
     def _travel(self, block: Block, mode: int | None) -> None:
         if mode in _LINES:
-            self.straight(block, self.target(block.words))
+            self._straight(block, self.target(block.words), rapid=mode == 0)
         elif mode in _TURNS:
             self._arc(block, _TURNS[mode])
         elif mode is None or mode == 800:
@@ -223,13 +225,9 @@ class Machine(ModalState):
         else:
             self._drill(block)
 
-    def straight(self, block: Block, end: Point3) -> None:
-        """A straight move of a block, a rapid under G0."""
-        self._straight(block, end, rapid=self.mode == 0)
-
     def _straight(self, block: Block, end: Point3, *, rapid: bool) -> None:
         feed = self.feed
-        if not rapid and self.rates.mode != PER_MINUTE:
+        if not rapid and self.rate != PER_MINUTE:
             feed = self.feed_over(block, dist(self.position, end))
         elif not rapid and not feed:
             self.no_feed(block)
@@ -249,7 +247,7 @@ class Machine(ModalState):
             self.log.tell(Severity.INFO, "UNIT", text, block.line, block.column("XYZ"))
 
     def _arc(self, block: Block, turn: int) -> None:
-        if not self.feed and self.rates.mode == PER_MINUTE:
+        if not self.feed and self.rate == PER_MINUTE:
             self.no_feed(block)
         self._first_motion(block)
         end = self.target(block.words)
@@ -265,7 +263,7 @@ class Machine(ModalState):
 
     def _timed(self, element: Element, block: Block) -> Element:
         """An arc with the feed that F means for its length."""
-        if self.rates.mode == PER_MINUTE:
+        if self.rate == PER_MINUTE:
             return element
         length = hypot(element_sweep(element) * element.radius, element.high - element.low)
         return element._replace(feed=self.feed_over(block, length))
@@ -363,4 +361,4 @@ class Machine(ModalState):
         if self.mode not in _LINES or self.incremental:
             text = "G53 goes with G0 or G1 in absolute positions; write G90 G0 G53."
             self.log.stop("MOTION", text, block.line, block.column("G", _G53))
-        self.straight(block, self.axis_words(block, self.position))
+        self._straight(block, self.axis_words(block, self.position), rapid=self.mode == 0)

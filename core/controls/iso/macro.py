@@ -386,19 +386,15 @@ class Squeezed(NamedTuple):
         return self.columns[min(at, len(self.columns) - 1)] + 1 if self.columns else 1
 
 
-class WorkedOut(NamedTuple):
-    """The words of a line as plain text, and the column of each."""
-
-    text: str
-    columns: tuple[int, ...]
-
-
 Setting = tuple[int | str, float]
 """A parameter's number or name, and the value it gets."""
 
 
-def worked_out(line: Squeezed, number: int, values: Parameters, log: Log) -> WorkedOut:
-    """Works a line out and then sets what it sets; what cannot be worked out stops the run at its place."""
+def worked_out(line: Squeezed, number: int, values: Parameters, log: Log) -> tuple[str, tuple[int, ...]]:
+    """The words of a line as plain text, and the column of each; what the line sets is set.
+
+    What cannot be worked out stops the run at its place.
+    """
     reader = ExpressionReader(line.text, values)
     words: list[str] = []
     columns: list[int] = []
@@ -411,7 +407,7 @@ def worked_out(line: Squeezed, number: int, values: Parameters, log: Log) -> Wor
     tell_unset(reader, line, number, log)
     for key, value in settings:
         values.set(key, value)
-    return WorkedOut(" ".join(words), tuple(columns))
+    return " ".join(words), tuple(columns)
 
 
 def _item(

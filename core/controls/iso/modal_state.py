@@ -27,7 +27,6 @@ PER_MINUTE: Final = 940
 RADIUS_ZERO: Final = frozenset(("RADIUS0", "B3-DIA0"))
 """Rules that tell of compensation that is asked for and moves nothing."""
 
-_CHANGE: Final = 60
 _SPINDLE: Final = {30: 1, 40: -1, 50: 0, 190: 0}
 _METRIC: Final = (210, 710)
 _PLANE_CODES: Final = {Plane.XY: 170.0, Plane.ZX: 180.0, Plane.YZ: 190.0}
@@ -55,20 +54,6 @@ class Origin:
 
 
 @dataclass(slots=True)
-class Rates:
-    """What an F word means (G93, G94, G95) and the spindle that it may go by.
-
-    `speed` in turns a minute, with `surface` (G96) that of the cutter's edge; `turning` +1 for M3, -1 for M4, 0 for
-    none.
-    """
-
-    mode: int = PER_MINUTE
-    speed: float = 0.0
-    turning: int = 0
-    surface: bool = False
-
-
-@dataclass(slots=True)
 class Cycle:
     """What stays from hole to hole: the cycle, the height its row began at, R, depth and peck, in millimeters.
 
@@ -88,7 +73,8 @@ class ModalState:
 
     `position` is the programmed point and `shift` the origin the program works from, x, y, z in millimeters; `tool`
     the number in force for compensation, 0 for none; `unit` that of the words, `first_unit` that of the first motion;
-    `feed` in millimeters a minute.
+    `feed` in millimeters a minute, unless `rate` (G93, G94, G95) gives F another meaning; `speed` in turns a minute,
+    under `surface_speed` (G96) that of the cutter's edge; `turning` +1 for M3, -1 for M4, 0 for none.
     """
 
     def __init__(self, dialect: Dialect, tools: ToolTable, log: Log) -> None:
@@ -107,7 +93,10 @@ class ModalState:
         self.incremental = False
         self.absolute_centers = dialect.absolute_centers
         self.feed = 0.0
-        self.rates = Rates()
+        self.rate = PER_MINUTE
+        self.speed = 0.0
+        self.surface_speed = False
+        self.turning = 0
         self.cycle = Cycle(to_r=dialect.returns_to_r)
         self.tool = 0
         self.next_tool = 0
@@ -150,33 +139,33 @@ class ModalState:
 
     def set_rate(self, code: int) -> None:
         """G93, G94 or G95; where the meaning of F changes there is no feed any more."""
-        if code != self.rates.mode:
+        if code != self.rate:
             self.feed = 0.0
-        self.rates.mode = code
+        self.rate = code
 
     def take_spindle(self, block: Block) -> None:
         """S, M3, M4 and M5."""
         if "S" in block.words:
-            self.rates.speed = abs(block.words["S"])
+            self.speed = abs(block.words["S"])
         for code in block.m:
-            self.rates.turning = _SPINDLE.get(code, self.rates.turning)
+            self.turning = _SPINDLE.get(code, self.turning)
 
     def feed_over(self, block: Block, length: float) -> float:
         """The feed of a move of this length, millimeters a minute; 0 where it is not known."""
-        rates, column = self.rates, block.column("FXYZIJ")
-        if rates.mode == INVERSE:
+        column = block.column("FXYZIJ")
+        if self.rate == INVERSE:
             if "F" not in block.words:
                 text = "Under G93 every move at feed needs its own F; write it in this block."
                 self.log.stop("FEED", text, block.line, column)
             return block.words["F"] * length
         if not self.feed:
             return 0.0
-        if not rates.speed or rates.surface:
+        if not self.speed or self.surface_speed:
             text = "Under G95 the feed goes with the spindle, whose speed is not known here; write S in turns a minute."
-            if self.dialect.feed_needed and not rates.surface:
+            if self.dialect.feed_needed and not self.surface_speed:
                 self.log.stop("FEED", text, block.line, column)
             self.log.tell(Severity.WARNING, "FEED", text, block.line, column)
-        return 0.0 if rates.surface else self.feed * rates.speed
+        return 0.0 if self.surface_speed else self.feed * self.speed
 
     def no_feed(self, block: Block) -> None:
         """A move at feed without a feed."""
@@ -216,11 +205,6 @@ class ModalState:
         if data.length is None and data.diameter is None:
             text = "This tool data sets neither length nor diameter; both stay as they are."
             self.log.tell(Severity.INFO, "TOOL", text, block.line, block.column("T"))
-
-    def change_tool(self, block: Block) -> None:
-        """M6."""
-        if _CHANGE in block.m:
-            self.tool = self.next_tool
 
     def nothing_compensated(
         self, why: str, line: int, column: int, *, code: str = "RADIUS0", severity: Severity = Severity.WARNING

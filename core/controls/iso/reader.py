@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from enum import Enum, auto
 from types import MappingProxyType
 from typing import Final
 
@@ -47,26 +46,17 @@ SWITCHES: Final = frozenset((410, 420, 411, 421))
 """The codes that turn compensation on."""
 
 
-class Semicolon(Enum):
-    """What a semicolon is to a control: the beginning of a comment, or the end of a block."""
-
-    COMMENT = auto()
-    END = auto()
-
-
-class Slash(Enum):
-    """What a slash is to a control: a block that a switch can skip, or tool data as in T4/.75/.2."""
-
-    SKIP = auto()
-    DATA = auto()
-
-
 @dataclass(frozen=True, slots=True)
 class Syntax:
-    """How a control writes blocks; `blanks`: whether a blank parts words, rather than being nothing anywhere."""
+    """How a control writes blocks.
 
-    semicolon: Semicolon = Semicolon.COMMENT
-    slash: Slash = Slash.SKIP
+    `semicolon_ends`: a semicolon is the end of a block, not the beginning of a comment.  `tool_data`: a slash stands in
+    tool data as in T4/.75/.2, not before a block that a switch can skip.  `blanks`: a blank parts words, rather than
+    being nothing anywhere.
+    """
+
+    semicolon_ends: bool = False
+    tool_data: bool = False
     blanks: bool = True
 
 
@@ -154,7 +144,7 @@ def read_line(
     upper = capitals(text)
     if _CLEAN.fullmatch(upper):
         return [_filled(Block(line, text), upper, log)] if upper and not upper.isspace() else []
-    if syntax.semicolon is Semicolon.END and ";" in upper:
+    if syntax.semicolon_ends and ";" in upper:
         return list(_pieces(text, line, log, syntax))
     return _closer(Block(line, text), _bare(upper), log, syntax, values)
 
@@ -178,7 +168,7 @@ def _closer(
     block: Block, bare: str, log: Log, syntax: Syntax, values: Parameters | None = None
 ) -> list[Block]:  # fmt: skip
     """The block of a line that has signs besides words: tool data, block skip, the percent sign."""
-    if syntax.slash is Slash.DATA and (data := _DATA.search(bare)):
+    if syntax.tool_data and (data := _DATA.search(bare)):
         block.data = _tool_data(data)
         bare = bare[: data.start()] + " " * len(data[0]) + bare[data.end() :]
     if not syntax.blanks and block.text.count("(") > 1:
@@ -210,10 +200,9 @@ def _worked_out(block: Block, log: Log, values: Parameters) -> list[Block]:
     """The block of a line with parameters or expressions; none of one that only sets them."""
     marked = _bare(capitals(block.text), GAP)
     skip = len(marked) - len(marked.lstrip()) + 1 if marked.lstrip().startswith("/") else 0
-    done = worked_out(Squeezed.of(marked[skip:], block.start + skip), block.line, values, log)
-    if not done.columns:
+    block.text, block.columns = worked_out(Squeezed.of(marked[skip:], block.start + skip), block.line, values, log)
+    if not block.columns:
         return []
-    block.text, block.columns = done
     return [_filled(block, block.text, log)]
 
 

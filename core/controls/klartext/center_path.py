@@ -197,7 +197,7 @@ class CenterPath:
                 self._contour(step)
             case Role.FREE:
                 if self.entry:  # an approach without compensation
-                    goal = corners.square_start(step.element, self.entry.offset)
+                    goal = corners.offset_start(step.element, self.entry.offset)
                     self._arrive(self.entry, goal, step.element.leaving)
                     self.record.close()
                 self.record.plain(step, step.element.end)
@@ -241,7 +241,7 @@ class CenterPath:
         """Finish what waits: nothing follows it."""
         self._run_ahead(goes_on=False)
         if self.held:
-            self._finish(self.held, corners.square_end(self.held.element, self.held.offset))
+            self._finish(self.held, corners.offset_end(self.held.element, self.held.offset))
         if self.entry:
             self._stop("HE7", NO_CONTOUR, self.entry)
 
@@ -295,7 +295,7 @@ class CenterPath:
         if element.turn and corners.offset_radius(element, step.offset) <= JOINED:
             why = "the tool of radius {0} cannot run inside this arc of radius {1}"
             self._stop_too_large(step, why, abs(step.offset), element.radius)
-        begin = corners.square_start(element, step.offset)
+        begin = corners.offset_start(element, step.offset)
         if self.entry:
             self._arrive(self.entry, begin, element.leaving)
         elif self.held:
@@ -324,8 +324,8 @@ class CenterPath:
         """Whether two offsets meet beyond what there is of them."""
         if joint.start != joint.end:
             return False
-        slack = max(JOINED, ROUNDED / max(abs(corners.turning(first, second)), corners.WHOLE))
-        end, begin = corners.square_end(first, offset), corners.square_start(second, offset)
+        slack = max(JOINED, ROUNDED / max(abs(corners.turn_angle(first, second)), corners.WHOLE))
+        end, begin = corners.offset_end(first, offset), corners.offset_start(second, offset)
         return min(advance(first, joint.end, end), advance(second, begin, joint.end)) < -slack
 
     def _finish(self, step: Step, end: Point) -> None:
@@ -429,5 +429,5 @@ def remaining(element: Element, begin: Point, end: Point, offset: float) -> floa
     if not element.turn:
         return advance(element, begin, end)
     whole = corners.element_sweep(element) * corners.offset_radius(element, offset)
-    first, last = corners.square_start(element, offset), corners.square_end(element, offset)
+    first, last = corners.offset_start(element, offset), corners.offset_end(element, offset)
     return whole - advance(element, first, begin) - advance(element, end, last)

@@ -85,7 +85,7 @@ Blended = tuple[Element, Element, Element]
 
 def rounding(first: Element, second: Element, radius: float) -> Blended | NoRoom:
     """An arc of `radius` millimeters tangent to both elements; the arc has the first one's feed, line and column."""
-    angle = corners.turning(first, second)
+    angle = corners.turn_angle(first, second)
     if abs(angle) < corners.WHOLE or not _level(first, second):
         return NoRoom("There is no corner to round. Both blocks must lie in the working plane and meet at an angle.")
     offset = radius if angle > 0.0 else -radius

@@ -89,7 +89,7 @@ def _checked(
     runs = tuple(_runs(path))
     if runs[0].row != 0 or runs[0].corner:
         return Unreached(0, "the tool of radius {0} reaches nothing of this block, the first one that M120 looks at")
-    if not _near(runs[-1].end, corners.square_end(elements[-1], offset)) or runs[-1].row != last:
+    if not _near(runs[-1].end, corners.offset_end(elements[-1], offset)) or runs[-1].row != last:
         return Unreached(
             last, "the tool of radius {0} does not reach the end of this block, the last one before M120 ends"
         )

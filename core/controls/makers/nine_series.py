@@ -12,7 +12,7 @@ from math import radians
 from typing import Final, NamedTuple
 
 from core.controls.compensation.chain import Chain
-from core.controls.compensation.corners import Element, fits, offset_radius, square_end, square_start
+from core.controls.compensation.corners import Element, fits, offset_end, offset_radius, offset_start
 from core.controls.compensation.joint import (
     Corner,
     CornerRules,
@@ -30,7 +30,7 @@ from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import PLANES, Dialect, Do, codes
 from core.controls.iso.flow import execute
 from core.controls.iso.machine import Control
-from core.controls.iso.reader import SWITCHES, Block, Semicolon, Syntax, whole
+from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
 from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.units import Unit
@@ -49,7 +49,7 @@ DIALECT: Final = Dialect(
         ("once", Do.UNSHIFT, (921,)),
     ),
     Unit.IN,
-    syntax=Syntax(Semicolon.END),
+    syntax=Syntax(semicolon_ends=True),
     d_anywhere=True,
 )
 
@@ -58,6 +58,9 @@ TANGENT: Final = radians(0.05)
 
 OUTSIDE: Final = {"g39": Outside.LINES, "g39.1": Outside.MITER_OR_ARC}
 """How sharp outside corners are gone round: generated lines (G39) or an arc (G39.1)."""
+
+VARIANTS: Final = ("a", "a-g39", "a-g39.1", "b", "b-g39", "b-g39.1")
+"""Type A or B, and the corners in force at the start."""
 
 NON_MOTION: Final = 10
 """Blocks without motion in the plane that compensation looks across; the machine builder sets it, this is assumed."""
@@ -210,7 +213,7 @@ class NineSeries(Chain, Control):
             "ends square and may cut too far; take some of them out."
         )
         self.log.tell(Severity.WARNING, "R5", text, block.line, 1)
-        self.release_square()
+        self.release_at_end()
         self.entering = True
 
     def travel(self, element: Element) -> None:
@@ -293,12 +296,12 @@ class NineSeries(Chain, Control):
 
     def _missed(self, first: Element, second: Element) -> Joint:
         """The offsets of an inside corner do not meet: tangent, or an alarm."""
-        end = square_end(first, self.offset)
+        end = offset_end(first, self.offset)
         if inward_turn(first, second, self.offset) < TANGENT:
             return Joint(end, end)
         text = "The offset paths do not meet at this inside corner: the compensation vectors cross."
         self._interference("R10", text, second.line)
-        return Joint(end, square_start(second, self.offset))
+        return Joint(end, offset_start(second, self.offset))
 
     def backwards(self, element: Element) -> None:
         """A line that would run backwards, or an arc whose ends have crossed."""
@@ -335,7 +338,7 @@ class NineSeries(Chain, Control):
         if not {"I", "J", "K"}.isdisjoint(block.words):
             self.release(vector_end(held, self._vector(block), self.offset))
         elif self.type_a or self.offset == 0.0:
-            self.release_square()
+            self.release_at_end()
         else:
             joint = self._with_notice(departure(held, element, self.offset, self.rules.outside), element)
             self.release(joint.end)
@@ -354,7 +357,7 @@ class NineSeries(Chain, Control):
         self.leave()
 
     def _leave_square(self) -> None:
-        self.release_square()
+        self.release_at_end()
         self._cancel()
 
     def _interrupt(self, block: Block) -> None:
@@ -367,14 +370,14 @@ class NineSeries(Chain, Control):
         if before.held is not None and not self.entering:
             self.tape.cut(before.rows)
             self.held, self.start, self.standing = before.held, before.start, list(before.standing)
-            self.release_square()
+            self.release_at_end()
         for element in (last, *standing):
             self.straight(element, last.end)
         self.held, self.start, self.standing, self.entering = None, None, [], True
 
     def close(self) -> None:
         """The end of the program cancels compensation."""
-        self.release_square()
+        self.release_at_end()
 
 
 def run(text: bytes, variant: str, tools: ToolTable, unit: Unit | None = None) -> Run:

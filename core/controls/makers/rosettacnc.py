@@ -12,7 +12,7 @@ from math import acos, atan2, cos, hypot, pi, sin
 from typing import Final, NoReturn
 
 from core.controls.compensation.chain import AlarmCodes, Chain, OneMoveQueue
-from core.controls.compensation.corners import Element, fits, square_end, square_start
+from core.controls.compensation.corners import Element, fits, offset_end, offset_start
 from core.controls.compensation.joint import Corner, CornerRules
 from core.controls.control_run import Log, Run
 from core.controls.control_tools import ToolTable, not_there
@@ -47,6 +47,8 @@ DIALECT: Final = Dialect(
     parameters=Kept.MACRO_B,
     cycle_rule="C8",
 )
+
+ENTRIES: Final = ("nist", "easy", "normal")
 
 CORNERS: Final = CornerRules(tangent=0.01, reversal=0.01, rapid_straight=True)
 """The corners of NIST: under 0.01 radians a corner is none."""
@@ -229,7 +231,7 @@ class Nist(Chain, Switch):
             self.log.stop("C7", text, element.line, 1, lengths=(element.radius, abs(self.offset)))
         self.note(element)
         self.held = self.before = element
-        self.run_held(square_end(element, self.offset))
+        self.run_held(offset_end(element, self.offset))
 
 
 class Easy(Nist):
@@ -247,7 +249,7 @@ class Easy(Nist):
             self.note(element)
             self.standing.append(element)
         else:
-            self._end_entry(square_start(element, self.offset))
+            self._end_entry(offset_start(element, self.offset))
             self.follow(element)
 
     def _end_entry(self, point: Point) -> None:
@@ -262,7 +264,7 @@ class Easy(Nist):
     def close(self) -> None:
         """The end of the program."""
         if self.held is not None:
-            self._end_entry(square_end(self.held, self.offset))
+            self._end_entry(offset_end(self.held, self.offset))
 
 
 def run(text: bytes, variant: str, tools: ToolTable, unit: Unit | None = None) -> Run:

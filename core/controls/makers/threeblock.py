@@ -13,14 +13,14 @@ from math import hypot, radians
 from typing import Final, NoReturn
 
 from core.controls.compensation.chain import Chain
-from core.controls.compensation.corners import Element, element_sweep, fits, offset_radius, square_end, square_start
+from core.controls.compensation.corners import Element, element_sweep, fits, offset_end, offset_radius, offset_start
 from core.controls.compensation.joint import Corner, CornerRules, Joint
 from core.controls.control_run import Log, Run
 from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect, Do, codes
 from core.controls.iso.flow import execute
 from core.controls.iso.machine import Control
-from core.controls.iso.reader import Block, Semicolon, Slash, Syntax
+from core.controls.iso.reader import Block, Syntax
 from core.controls.moves import Plane
 from core.finding import Severity
 from core.geometry.piece import Point, Side
@@ -35,7 +35,7 @@ DIALECT: Final = Dialect(
     ),
     Unit.IN,
     absolute_centers=True,
-    syntax=Syntax(Semicolon.END, Slash.DATA),
+    syntax=Syntax(semicolon_ends=True, tool_data=True),
     loads_at_t=True,
     subprograms=False,
     cycles=False,
@@ -226,7 +226,7 @@ class ThreeBlock(Chain, Control):
     def joint(self, first: Element, second: Element) -> Joint:
         """The approach ends square to the next; then offsets meet inside, an arc goes round outside."""
         if self.elements == 1:
-            start = square_start(second, self.offset)
+            start = offset_start(second, self.offset)
             return Joint(start, start)
         joint = super().joint(first, second)
         if joint.corner is Corner.TANGENT:
@@ -251,7 +251,7 @@ class ThreeBlock(Chain, Control):
         """Runs the held element; whether its two ends were trimmed tells a narrow feature from a step."""
         held = self.held
         if held is not None and self.start is not None:
-            square = square_start(held, self.offset), square_end(held, self.offset)
+            square = offset_start(held, self.offset), offset_end(held, self.offset)
             self.narrow = self.start != square[0] and end != square[1]
             self._quick(held, self.start, end)
         super().release(end)
@@ -286,7 +286,7 @@ class ThreeBlock(Chain, Control):
             if rises:
                 text = "No Z in the last three compensated blocks; move Z before them or after G40."
                 self.log.stop("B12-ZENDS", text, line, 1, stops_at=block.line)
-        self.release_square()
+        self.release_at_end()
         self.leave()
         self.active = False
 
@@ -300,7 +300,7 @@ class ThreeBlock(Chain, Control):
             text = "The program ends with compensation on; write a block with G40. That is an interpretation."
             line = self.blocks[-1][0] if self.blocks else self.turned_on
             self.log.tell(Severity.ERROR, "B21-NOG40", text, line, 1)
-        self.release_square()
+        self.release_at_end()
 
 
 def run(text: bytes, _: str, tools: ToolTable, unit: Unit | None = None) -> Run:

@@ -7,20 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from core.controls.iso.arcs import ArcRadii
-from core.controls.makers import linuxcnc, nine_series, rosettacnc, threeblock
+from core.controls.registry import arc_radii
 from core.finding import Severity
 from core.units import Unit
 from tests.core.controls.hand import ran, told
 from tests.core.controls.rs274 import witness
 from tests.rs274 import WITNESS
 
-ACCEPTED: dict[str, ArcRadii] = {
-    "threeblock": threeblock.DIALECT.arc_radii,
-    "rosettacnc": rosettacnc.DIALECT.arc_radii,
-    "nine-series": nine_series.DIALECT.arc_radii,
-    "linuxcnc": linuxcnc.DIALECT.arc_radii,
-}
+CONTROLS = ("threeblock", "rosettacnc", "nine-series", "linuxcnc")
 CASES = [(unit, radius) for unit in Unit for radius in (1.0, 40.0, 3000.0)]
 SCALE = {Unit.MM: 1.0, Unit.IN: 25.4}
 
@@ -40,11 +34,11 @@ def program(control: str, unit: Unit, radius: float, difference: float) -> str:
 
 
 @pytest.mark.parametrize(("unit", "radius"), CASES)
-@pytest.mark.parametrize("control", ACCEPTED)
+@pytest.mark.parametrize("control", CONTROLS)
 def test_a_difference_is_run_up_to_the_control_s_limit_and_an_alarm_beyond_it(
     control: str, unit: Unit, radius: float
 ) -> None:
-    limit = ACCEPTED[control].largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
+    limit = arc_radii(control).largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
     within, beyond = (ran(program(control, unit, radius, share * limit), control) for share in (0.99, 1.01))
     assert within.stopped_at is None
     assert not told(within, "ARC")
@@ -60,13 +54,20 @@ def test_a_difference_is_run_up_to_the_control_s_limit_and_an_alarm_beyond_it(
 def test_linuxcnc_s_limit_is_that_of_the_interpreter_itself(
     unit: Unit, radius: float, share: float, tmp_path: Path
 ) -> None:
-    limit = ACCEPTED["linuxcnc"].largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
+    limit = arc_radii("linuxcnc").largest_difference(radius * SCALE[unit], unit) / SCALE[unit]
     text = program("linuxcnc", unit, radius, share * limit)
     assert bool(witness(text, tmp_path, {1: 0.5}, unit).refusal) is (share > 1.0)
 
 
 def test_the_limit_of_linuxcnc_is_its_own_figure() -> None:
-    limit = ACCEPTED["linuxcnc"]
+    limit = arc_radii("linuxcnc")
     assert limit.largest_difference(1.0, Unit.MM) == pytest.approx(0.01 * 2 * sqrt(2))
     assert limit.largest_difference(1.0, Unit.IN) == pytest.approx(0.001 * 2 * sqrt(2) * 25.4)
     assert limit.largest_difference(100.0, Unit.MM) == pytest.approx(0.1)
+
+
+def test_klartext_takes_sixteen_thousandths_whatever_the_radius() -> None:
+    limit = arc_radii("klartext")
+    assert [limit.largest_difference(radius, unit) for radius in (1.0, 1e4) for unit in Unit] == pytest.approx(
+        [0.016] * 4
+    )

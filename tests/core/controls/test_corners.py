@@ -1,8 +1,8 @@
-"""Corner constructions by hand; the tool's radius is 1 on the left unless said."""
+"""Corner constructions and joints by hand; the tool's radius is 1 on the left unless said."""
 
 from __future__ import annotations
 
-from math import pi, sqrt
+from math import cos, pi, radians, sin, sqrt, tan
 
 import pytest
 
@@ -15,13 +15,14 @@ from core.controls.compensation.corners import (
     meeting,
     meetings,
     miter,
+    offset_end,
     offset_radius,
+    offset_start,
     runs_back,
-    square_end,
-    square_start,
+    turn_angle,
     turned,
-    turning,
 )
+from core.controls.compensation.joint import Corner, CornerRules, Inside, Joint, Outside, join
 
 
 def line(ax: float, ay: float, bx: float, by: float) -> Element:
@@ -36,14 +37,14 @@ EAST, NORTH, SOUTH = line(0, 0, 4, 0), line(4, 0, 4, 4), line(4, 0, 4, -4)
 
 
 def test_square_points_stand_on_the_tool_s_side() -> None:
-    assert square_end(EAST, 1) == (4, 1)
-    assert square_start(NORTH, 1) == (3, 0)
-    assert square_start(NORTH, -1) == (5, 0)
+    assert offset_end(EAST, 1) == (4, 1)
+    assert offset_start(NORTH, 1) == (3, 0)
+    assert offset_start(NORTH, -1) == (5, 0)
 
 
 def test_turns_are_positive_to_the_left() -> None:
-    assert turning(EAST, NORTH) == pytest.approx(pi / 2)
-    assert turning(EAST, SOUTH) == pytest.approx(-pi / 2)
+    assert turn_angle(EAST, NORTH) == pytest.approx(pi / 2)
+    assert turn_angle(EAST, SOUTH) == pytest.approx(-pi / 2)
 
 
 def test_the_miter_is_where_prolonged_offsets_meet() -> None:
@@ -89,3 +90,82 @@ def test_backwards_is_told_of_lines_and_arcs() -> None:
     quarter = arc(2, 0, 0, 2, 0, 0, 1)
     assert runs_back(quarter, turned((1, 0), (0, 0), 1.0), turned((1, 0), (0, 0), 0.9))
     assert not runs_back(quarter, turned((1, 0), (0, 0), 0.9), turned((1, 0), (0, 0), 1.0))
+
+
+def round_corner(angle: float, offset: float, rules: CornerRules, *, rapid: bool = False) -> Joint:
+    """The joint of a line east to 4, 0 and one that goes on in a direction."""
+    second = line_element((4, 0), (4 + 4 * cos(angle), 4 * sin(angle)), 0.0, 0.0, rapid=rapid, feed=1.0, line=2)
+    return join(EAST, second, offset, rules)
+
+
+@pytest.mark.parametrize("angle", [radians(degrees) for degrees in (-175, -120, -90, -30, 30, 90, 120, 175)])
+@pytest.mark.parametrize("offset", [-1.0, 1.0])
+def test_the_default_rules_go_round_outside_corners_and_meet_at_inside_ones(angle: float, offset: float) -> None:
+    joint = round_corner(angle, offset, CornerRules())
+    if angle * offset > 0.0:
+        reach = tan(abs(angle) / 2)
+        assert joint.corner is Corner.INSIDE
+        assert joint.end == joint.start == pytest.approx((4 - reach, offset))
+    else:
+        assert joint.corner is Corner.OUTSIDE
+        assert joint.center == (4, 0)
+        assert joint.end == pytest.approx((4, offset))
+        assert joint.start == pytest.approx((4 - offset * sin(angle), offset * cos(angle)))
+        assert joint.moves == 1
+
+
+@pytest.mark.parametrize(("angle", "moves"), [(-60, 0), (-90, 0), (-120, 1)])
+def test_generated_lines_prolong_both_offsets(angle: float, moves: int) -> None:
+    joint = round_corner(radians(angle), 1.0, CornerRules(outside=Outside.LINES))
+    assert joint.end == pytest.approx((4 + (tan(radians(-angle) / 2) if angle >= -90 else 1.0), 1.0))
+    assert joint.moves == moves
+    assert joint.center is None
+
+
+def test_an_arc_instead_of_generated_lines_is_made_between_lines_only() -> None:
+    rules = CornerRules(outside=Outside.MITER_OR_ARC)
+    assert round_corner(radians(-120), 1.0, rules).center == (4, 0)
+    assert round_corner(radians(-60), 1.0, rules).center is None
+    sharp = join(EAST, arc(4, 0, 4, 2, 4, 1, 1), -1.0, rules)
+    assert sharp.center is None
+    assert join(EAST, arc(4, 0, 0, 0, 2, -2, -1), 1.0, rules).center is None
+
+
+def test_an_outside_corner_may_be_run_to_the_meeting_and_an_inside_one_be_left_open() -> None:
+    met = round_corner(radians(-60), 1.0, CornerRules(outside=Outside.MEETING))
+    assert met.end == met.start == pytest.approx((4 + tan(radians(30)), 1.0))
+    opened = round_corner(radians(60), 1.0, CornerRules(inside=Inside.OPEN))
+    assert opened.end == (4, 1)
+    assert opened.start == pytest.approx((4 - sin(radians(60)), 0.5))
+    assert opened.moves == 1
+
+
+def test_a_rapid_may_go_straight_round_an_outside_corner() -> None:
+    rules = CornerRules(rapid_straight=True)
+    assert round_corner(radians(-90), 1.0, rules, rapid=True).center is None
+    assert round_corner(radians(-90), 1.0, rules, rapid=True).moves == 1
+    assert round_corner(radians(-90), 1.0, rules).center == (4, 0)
+
+
+@pytest.mark.parametrize(("angle", "kind"), [(0.04, Corner.TANGENT), (-0.04, Corner.TANGENT), (0.06, Corner.INSIDE)])
+def test_under_the_tangent_angle_a_corner_is_none(angle: float, kind: Corner) -> None:
+    joint = round_corner(angle, 1.0, CornerRules(tangent=0.05))
+    assert joint.corner is kind
+    assert joint.end == joint.start
+
+
+def test_a_reversal_is_outside_but_inside_off_an_arc_with_hooks() -> None:
+    back = line(4, 0, 0, 0)
+    assert [join(EAST, back, offset, CornerRules()).corner for offset in (1.0, -1.0)] == [Corner.OUTSIDE] * 2
+    onto = arc(4, 0, 3, 1, 4, 1, -1)
+    hooks = CornerRules(reversal=0.05, hooks=True, inside=Inside.BY_SIDE)
+    assert join(EAST, onto, 1.0, hooks).corner is Corner.INSIDE
+    assert join(EAST, onto, 1.0, hooks._replace(hooks=False)).corner is Corner.OUTSIDE
+
+
+def test_offsets_that_miss_each_other_at_an_inside_corner_are_said_to() -> None:
+    joint = join(EAST, arc(4, 0, 4, 1, 4, 0.5, 1), 1.0, CornerRules(tangent=0.0))
+    assert joint.corner is Corner.TANGENT
+    missed = join(EAST, arc(4, 0, 4, 1, 3.9, 0.5, 1), 1.0, CornerRules())
+    assert missed.missed
+    assert missed.end == (4, 1)

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.controls.control_run import AlarmError, Log
-from core.controls.iso.reader import PLAIN, Block, Semicolon, Slash, Syntax, ToolData, read_line, tenths, whole
+from core.controls.iso.reader import PLAIN, Block, Syntax, ToolData, read_line, tenths, whole
 from core.controls.program_text import lines_of, quoted
 from core.finding import Finding
 
@@ -19,7 +19,7 @@ def block(text: str, syntax: Syntax = PLAIN) -> Block:
 
 def alarm(text: str) -> Finding | None:
     try:
-        read_line(text, 1, Log(), Syntax(Semicolon.END, Slash.DATA))
+        read_line(text, 1, Log(), Syntax(semicolon_ends=True, tool_data=True))
     except AlarmError as caught:
         return caught.finding
     return None
@@ -90,19 +90,19 @@ def test_blanks_may_be_nothing_anywhere() -> None:
 
 
 def test_tool_data_behind_slashes() -> None:
-    assert block("T4/.75/.2", Syntax(slash=Slash.DATA)).data == ToolData(4, 0.75, 0.2)
-    assert block("T5//-.5", Syntax(slash=Slash.DATA)).data == ToolData(5, None, -0.5)
+    assert block("T4/.75/.2", Syntax(tool_data=True)).data == ToolData(4, 0.75, 0.2)
+    assert block("T5//-.5", Syntax(tool_data=True)).data == ToolData(5, None, -0.5)
 
 
 def test_a_semicolon_may_end_a_block() -> None:
-    found = read_line("G1X1;X2;Y3.", 1, Log(), Syntax(Semicolon.END, Slash.DATA))
+    found = read_line("G1X1;X2;Y3.", 1, Log(), Syntax(semicolon_ends=True, tool_data=True))
     assert [one.words for one in found] == [{"X": 1.0}, {"X": 2.0}, {"Y": 3.0}]
     assert [one.column("XY") for one in found] == [3, 6, 9]
 
 
 def test_prose_behind_the_end_of_a_block_is_told() -> None:
     log = Log()
-    (found,) = read_line("T5//-.5;        For tool 5, DIA=-.5", 1, log, Syntax(Semicolon.END, Slash.DATA))
+    (found,) = read_line("T5//-.5;        For tool 5, DIA=-.5", 1, log, Syntax(semicolon_ends=True, tool_data=True))
     assert found.data == ToolData(5, None, -0.5)
     assert [(one.code, one.column) for one in log.findings] == [("TEXT", 17)]
 
