@@ -16,8 +16,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, coordinates, pieces_of
-from core.geometry.piece import SLIVER
+from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, coordinates, pieces_of, swept
 from core.tolerance import JOINED, ON_PATH
 
 _ROOM: Final = 1e-6
@@ -232,7 +231,7 @@ def _overlap(a: Pieces, b: Pieces) -> Flags:
 
 def _middle(arc: Pieces) -> Points:
     """The point half way along each arc."""
-    middle: Points = arc.center + (arc.start - arc.center) * np.exp(1j * _sweep(arc) / 2.0 * arc.turn)
+    middle: Points = arc.center + (arc.start - arc.center) * np.exp(1j * swept(arc) / 2.0 * arc.turn)
     return middle
 
 
@@ -240,14 +239,6 @@ def _inside(arc: Pieces, point: Points) -> Flags:
     """Does a point of the arc's circle lie on the arc, off its ends?"""
     run, rest = _along_arc(point, arc, np.abs(arc.start - arc.center))
     return (run > ON_PATH) & (rest > ON_PATH)
-
-
-def _sweep(arc: Pieces) -> Floats:
-    """Angle traveled, 0 ... a full turn: equal ends are the full circle, rounding past the start is nothing."""
-    swept = _turned(arc, arc.end)
-    swept[swept > tau - SLIVER] = 0.0
-    swept[arc.start == arc.end] = tau
-    return swept
 
 
 def _turned(arc: Pieces, point: Points) -> Floats:
@@ -264,7 +255,7 @@ def _along_arc(point: Points, arc: Pieces, radius: Floats) -> tuple[Floats, Floa
     A point off the arc is on the nearer end's side: the one distance is below 0 before the start, the other behind
     the end.
     """
-    run, length, whole = _turned(arc, point) * radius, _sweep(arc) * radius, tau * radius
+    run, length, whole = _turned(arc, point) * radius, swept(arc) * radius, tau * radius
     run = np.where((run > length) & (whole - run < run - length), run - whole, run)
     return run, length - run
 

@@ -12,16 +12,23 @@ from core.comp.result import Compensated
 from core.comp.table import compensate_all
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from tests.core.comp.golden import HALF, MISSED, RADIUS, Expected
-from tests.core.comp.golden_closed import (
+from tests.core.comp.golden import (
     CHAMFER_AT_THE_SEAM,
     CHAMFER_FROM_MID_SIDE,
+    HALF,
     INSIDE_FROM_A_CORNER,
     INSIDE_FROM_MID_SIDE,
+    MISSED,
+    NARROW_NOTCH,
     OUTSIDE_FROM_A_CORNER,
+    OVERRUN_L,
+    OVERRUN_SQUARE,
+    RADIUS,
+    SHORT_CHAMFER,
+    SMALL_STEP,
     TRIANGLE,
+    Expected,
 )
-from tests.core.comp.golden_open import NARROW_NOTCH, OVERRUN_L, OVERRUN_SQUARE, SHORT_CHAMFER, SMALL_STEP
 
 NEAR = 1e-9
 
