@@ -1,4 +1,4 @@
-"""Two programs compared by the contours they describe, whatever their languages: Klartext beside ISO."""
+"""Compared contours: two programs compared by the contours they describe, whatever their languages."""
 
 from __future__ import annotations
 
@@ -13,13 +13,14 @@ from core.controls.control_run import Run, Stretch
 from core.controls.judged_runs import surface_of
 from core.geometry.distance import distance
 from core.geometry.path import Path
-from core.geometry.piece_arrays import piece_arrays
+from core.geometry.piece_arrays import at, piece_arrays
+from core.tolerance import ON_PATH
 
 APART: Final = 0.0005
-"""Millimeters from which on two contours are told to part."""
+"""Millimeters from which on two contours differ."""
 
-MOST_PAIRS: Final = 20_000_000
-"""Places times pieces that are worked out; of longer contours only every so manyth place is."""
+MAX_PAIRS: Final = 20_000_000
+"""Places times pieces that are measured; of longer contours fewer places are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +34,7 @@ class Parting:
 
 @dataclass(frozen=True, slots=True)
 class ContourParting:
-    """How far one contour is from another at most, and at which line of its program; `sides` and planes may differ."""
+    """How far one contour is from another at most, and at which line of its program."""
 
     line: int
     distance: float
@@ -41,7 +42,7 @@ class ContourParting:
 
 @dataclass(frozen=True, slots=True)
 class ContourPair:
-    """One compensated stretch of each program, counted from 1: what differs, None where nothing does."""
+    """One compensated stretch of each program, counted from 1: where each leaves the other, None where nowhere."""
 
     number: int
     first: ContourParting | None
@@ -55,15 +56,15 @@ class ContourPair:
 
 
 def contours(first: Run, second: Run) -> tuple[ContourPair, ...]:
-    """The compensated stretches of two runs in pairs; leads that are told from the contour are left out."""
+    """The compensated stretches of two runs in pairs, without their leads."""
     pairs = zip(first.stretches, second.stretches, strict=False)
-    return tuple(_pair(number, one, other) for number, (one, other) in enumerate(pairs, 1))
+    return tuple(_pair(number, *pair) for number, pair in enumerate(pairs, 1))
 
 
 def _pair(number: int, first: Stretch, second: Stretch) -> ContourPair:
-    one, other = _contour(first), _contour(second)
+    ours, theirs = _contour(first), _contour(second)
     same_side = first.side is second.side and first.plane is second.plane
-    return ContourPair(number, _parting(one, other), _parting(other, one), same_side)
+    return ContourPair(number, _parting(ours, theirs), _parting(theirs, ours), same_side)
 
 
 def _contour(stretch: Stretch) -> Path:
@@ -72,42 +73,32 @@ def _contour(stretch: Stretch) -> Path:
 
 
 def _parting(path: Path, other: Path) -> ContourParting | None:
-    """The place of a path that is farthest from the other one, None where they are one."""
-    found = apart(path, other, APART)
-    return None if found is None else ContourParting(found.farthest, found.distance)
+    """The place of a path that is farthest from the other one, None where they are the same."""
+    parting = apart(path, other, APART)
+    return None if parting is None else ContourParting(parting.farthest, parting.distance)
 
 
 def apart(path: Path, other: Path, tolerance: float) -> Parting | None:
     """Where a path is further than `tolerance` from another one, by its lines; None if nowhere."""
-    if not len(path):
+    if not path.lengths.any():
         return None
-    if not len(other):
+    if not other.lengths.any():
         line = int(path.numbers[0])
         return Parting(line, line, float("inf"))
-    places, rows = _places(path)
-    step = max(1, len(places) * len(other) // MOST_PAIRS)
-    places, rows = places[::step], rows[::step]
-    pieces = piece_arrays(other)
-    least = np.array([float(np.min(distance(pieces, np.full(len(other), place)))) for place in places])
-    first, worst = int(np.argmax(least > tolerance)), int(np.argmax(least))
-    if least[worst] <= tolerance:
+    off, rows = distances(path, other, (0.0, 0.5, 1.0))
+    if off.max() <= tolerance:
         return None
-    return Parting(int(path.numbers[rows[first]]), int(path.numbers[rows[worst]]), float(least[worst]))
+    first, worst = int(rows[off > tolerance].min()), int(rows[off >= off.max() - ON_PATH].min())
+    return Parting(int(path.numbers[first]), int(path.numbers[worst]), float(off.max()))
 
 
-def _places(path: Path) -> tuple[NDArray[np.complex128], NDArray[np.intp]]:
-    """Start, middle and end of every piece as x + iy, and the rows they belong to."""
-    middles = (path.starts + path.ends) / 2
-    bent = path.turns != 0
-    radial = path.starts - path.centers
-    half = path.sweeps / 2
-    turned = np.stack(
-        (
-            radial[:, 0] * np.cos(half) - radial[:, 1] * np.sin(half),
-            radial[:, 0] * np.sin(half) + radial[:, 1] * np.cos(half),
-        ),
-        axis=1,
-    )
-    middles = np.where(bent[:, None], path.centers + turned, middles)
-    points = np.stack((path.starts, middles, path.ends), axis=1).reshape(-1, 2)
-    return points[:, 0] + 1j * points[:, 1], np.repeat(np.arange(len(path)), 3)
+def distances(path: Path, other: Path, shares: tuple[float, ...]) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+    """(k,) how far places at these shares of a path's pieces are from another path, and (k,) the rows of the pieces.
+
+    Both paths have pieces; of long ones only every so many places are measured.
+    """
+    pieces, onto = piece_arrays(path), piece_arrays(other)
+    places = np.concatenate([at(pieces, np.full(len(pieces), share)) for share in shares])
+    step = max(1, len(places) * len(onto) // MAX_PAIRS)
+    off = [float(np.min(distance(onto, np.full(len(onto), place)))) for place in places[::step]]
+    return np.array(off), np.tile(pieces.rows, len(shares))[::step]

@@ -14,7 +14,7 @@ from core.controls.judged_runs import Judged, depth, judged
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, compared, programmed, reads, run
 from core.controls.translated_contours import run_by_contour
-from core.controls.write.traced import Untold
+from core.controls.write.programmed_stretch import NotTranslated
 from core.geometry.path import EMPTY, Path
 from core.units import Unit
 
@@ -86,7 +86,7 @@ def _by_contour(control: str, first: Run | None, *, paths: bool) -> Compared | O
     if first is None:
         return OtherLanguage(control, "no control that reads the program runs it to its end")
     made = run_by_contour(first, control)
-    if isinstance(made, Untold):
+    if isinstance(made, NotTranslated):
         return OtherLanguage(control, made.text)
     done, digit = made
     parts = _centers_part(first, done, max(LEAST, 2 * digit)) if paths else None

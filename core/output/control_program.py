@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from core.controls.write.iso_program import Frame, offsets
 from core.controls.write.iso_style import STYLES, Radius
-from core.controls.write.own_program import NotWritten, write_own
 from core.controls.write.programmed_contour import Cut, Plain
+from core.controls.write.written_program import NotWritten, write_program
 from core.finding import Finding, Severity
 from core.output.grid import Grid, length_text
 from core.output.nc import Posted, Refusal, comments, titles
@@ -53,7 +53,7 @@ def control_program(
         return [line for text in told for line in comments(text)]
 
     frame = Frame(unit, jobs[0].work_offset)
-    written = write_own(cuts, control, frame, _short(name), remarks)
+    written = write_program(cuts, control, frame, _short(name), remarks)
     if isinstance(written, NotWritten):
         return Refusal(written.findings, unit)
     return Posted(written.text, notes=(*_beside(jobs, control), *_nameless(part, control), *written.notes))

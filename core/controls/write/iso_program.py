@@ -1,27 +1,27 @@
-"""Compensated contours written as a word-address control's own program with G41 or G42.
+"""ISO program: compensated contours written for a word-address control's own G41 or G42.
 
-The contour is written as typed, the control offsets it.  The tool goes down away from the part, is led in along a
-straight line onto the blend, and leaves the same way; where there is no blend the line itself ends on the path.
+The contour is written as typed, the control offsets it.  The tool goes down away from the part, enters along a straight
+line onto the blend, and leaves the same way; where there is no blend the line itself ends on the path.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import count
 from typing import Final
 
 from core.controls.compensation.corners import Element
 from core.controls.control_tools import CutterTool, ToolTable
-from core.controls.write.iso_leads import Ready
 from core.controls.write.iso_style import IsoStyle, Radius
-from core.controls.write.programmed_contour import Line, Plain, Terms, Travel, number_text
+from core.controls.write.programmed_contour import Led, Line, Plain, Terms, Travel, number_text
 from core.geometry.piece import Point, Side
 from core.units import Unit, from_mm
 
-SPARE: Final = 51
+FIRST_STOCK_OFFSET: Final = 51
 """Offsets from this number on hold the radii of runs that leave stock."""
 
-ROUNDING: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
+CORNER_TOLERANCE: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
 """How far the machine may leave the path at a corner, in program units."""
 
 
@@ -36,19 +36,17 @@ class Frame:
 
 def offsets(cuts: Sequence[Terms], style: IsoStyle) -> dict[tuple[int, float], int]:
     """The number under which a control finds the radius of a tool that leaves a stock."""
-    found: dict[tuple[int, float], int] = {}
-    spare = SPARE
+    numbers: dict[tuple[int, float], int] = {}
+    free = count(FIRST_STOCK_OFFSET)
     for cut in cuts:
         key = (cut.tool, cut.stock)
-        if key not in found:
-            own = cut.stock == 0.0 or style.radius is not Radius.OFFSET
-            found[key] = cut.tool if own else spare
-            spare += 0 if own else 1
-    return found
+        if key not in numbers:
+            numbers[key] = next(free) if cut.stock and style.radius is Radius.OFFSET else cut.tool
+    return numbers
 
 
 def tools_of(cuts: Sequence[Terms], style: IsoStyle) -> ToolTable:
-    """The tool or offset table the program counts on, in millimeters; of a control that is told, nothing."""
+    """The tool or offset table the program counts on, in millimeters; none where the text itself has the diameters."""
     if style.radius is Radius.DATA:
         return ToolTable()
     numbers = offsets(cuts, style)
@@ -61,9 +59,7 @@ def tools_of(cuts: Sequence[Terms], style: IsoStyle) -> ToolTable:
     )
 
 
-def write(
-    cuts: Sequence[Ready | Plain], style: IsoStyle, frame: Frame, remarks: Sequence[str] = ()
-) -> tuple[Line, ...]:
+def write(cuts: Sequence[Led | Plain], style: IsoStyle, frame: Frame, remarks: Sequence[str] = ()) -> tuple[Line, ...]:
     """The lines of the program; `remarks` are ready comment lines and stand first."""
     return tuple(_Writer(style, frame).program(cuts, remarks))
 
@@ -78,18 +74,18 @@ class _Writer:
         self.height = ""
         self.at: tuple[str, str] = ("", "")
 
-    def program(self, cuts: Sequence[Ready | Plain], remarks: Sequence[str]) -> Iterator[Line]:
+    def program(self, cuts: Sequence[Led | Plain], remarks: Sequence[str]) -> Iterator[Line]:
         """Everything from the first line to the end."""
         yield from (Line(remark) for remark in remarks if self.style.comments)
         unit = self.style.inch if self.frame.unit is Unit.IN else self.style.metric
         offset = f"G{self.frame.work_offset}"
         for safe in self.style.safe:
-            yield Line(safe.format(unit=unit, offset=offset, rounding=ROUNDING[self.frame.unit]))
+            yield Line(safe.format(unit=unit, offset=offset, rounding=CORNER_TOLERANCE[self.frame.unit]))
         if self.frame.corners:
             yield Line(self.frame.corners)
         before: Terms | None = None
         for one in cuts:
-            terms = one if isinstance(one, Plain) else one.cut
+            terms = one if isinstance(one, Plain) else one.terms
             yield from self.tool(terms, before)
             yield from self.plain(one) if isinstance(one, Plain) else self.cut(one)
             before = terms
@@ -114,17 +110,17 @@ class _Writer:
         elif before is not None and before.speed != cut.speed:
             yield Line(speed)
 
-    def cut(self, one: Ready) -> Iterator[Line]:
-        """One run: down beside the part, in, along, out, up."""
-        cut, shape = one.cut, one.shape
-        own_block = self.style.radius is Radius.DATA
-        down = ("G1", *((self.code(one),) if own_block else ()))
+    def cut(self, one: Led) -> Iterator[Line]:
+        """One run: down away from the part, in, along, out, up."""
+        cut, shape = one.terms, one.shape
+        in_plunge = self.style.radius is Radius.DATA
+        down = ("G1", *((self.code(one),) if in_plunge else ()))
         yield from self.rapid(cut.travel)
         yield self.words("G0", *self.place(one.start))
         yield from self.rapid(cut.near)
         yield self.words(*down, f"Z{self.length(cut.depth)}", *self.feed_word(cut.plunge_feed))
         feeds = [cut.feeds[int(number)] for number in shape.segments]
-        words = ("G1",) if own_block else (*self.switch(one), "G1")
+        words = ("G1",) if in_plunge else (*self.switch(one), "G1")
         into = self.words(*words, *self.place(one.to), *self.feed_word(feeds[0]), segment=shape.segments[0])
         yield into._replace(lead=True)
         for element, feed, segment in zip(shape.elements, feeds, shape.segments, strict=True):
@@ -161,13 +157,13 @@ class _Writer:
             self.height = text
             yield self.words("G0", text)
 
-    def code(self, one: Ready) -> str:
+    def code(self, one: Led) -> str:
         """G41 with the tool on the left."""
         return "G41" if one.side is Side.LEFT else "G42"
 
-    def switch(self, one: Ready) -> tuple[str, ...]:
+    def switch(self, one: Led) -> tuple[str, ...]:
         """What turns compensation on in the block of the entry."""
-        code, cut = self.code(one), one.cut
+        code, cut = self.code(one), one.terms
         if cut.stock and self.style.radius is Radius.DIAMETER:
             return f"{code}.1", f"D{self.length(cut.diameter + 2 * cut.stock)}"
         if cut.stock and self.style.radius is Radius.REDUCED:

@@ -14,11 +14,11 @@ from core.units import Unit
 class Entry(Enum):
     """Where the first compensated move ends, which decides where it has to start from."""
 
-    NEXT = auto()
+    SQUARE_TO_NEXT = auto()
     """Square to the start of the next element: it may come from anywhere."""
     TANGENT = auto()
     """On the tangent to the tool where it stands: it has to come along the tool's path."""
-    OWN = auto()
+    SQUARE_TO_ITSELF = auto()
     """Square to itself: it has to run as the next element does."""
 
 
@@ -65,8 +65,8 @@ class IsoStyle:
 _NIST: Final = ("G17 {unit} G40 G49 {offset} G50 G69 G90",)
 _NINE: Final = ("G17 {unit} G40 G49 {offset} G80 G90 G94",)
 
-_ROSETTA: Final = IsoStyle("G20", "G21", _NIST, (6, 5), Entry.NEXT, Radius.REDUCED)
-_NINE_SERIES: Final = IsoStyle("G20", "G21", _NINE, (4, 3), Entry.NEXT, Radius.OFFSET)
+_ROSETTA: Final = IsoStyle("G20", "G21", _NIST, (6, 5), Entry.SQUARE_TO_NEXT, Radius.REDUCED)
+_NINE_SERIES: Final = IsoStyle("G20", "G21", _NINE, (4, 3), Entry.SQUARE_TO_NEXT, Radius.OFFSET)
 
 STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
     {
@@ -75,7 +75,7 @@ STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
             "G71",
             ("G17{unit}G40G90",),
             (4, 3),
-            Entry.NEXT,
+            Entry.SQUARE_TO_NEXT,
             Radius.DATA,
             absolute=True,
             merged=True,
@@ -85,14 +85,14 @@ STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
         ),
         "rosettacnc:nist": IsoStyle("G20", "G21", _NIST, (6, 5), Entry.TANGENT, Radius.REDUCED),
         "rosettacnc:easy": _ROSETTA,
-        "rosettacnc:normal": IsoStyle("G20", "G21", _NIST, (6, 5), Entry.OWN, Radius.REDUCED),
+        "rosettacnc:normal": IsoStyle("G20", "G21", _NIST, (6, 5), Entry.SQUARE_TO_ITSELF, Radius.REDUCED),
         **{f"nine-series:{kind}{corners}": _NINE_SERIES for kind in ("a", "b") for corners in ("", "-g39", "-g39.1")},
         "linuxcnc": IsoStyle(
             "G20",
             "G21",
             ("G17 {unit} G40 G49 {offset} G80 G90 G91.1 G94", "G64 P{rounding}"),
             (6, 5),
-            Entry.OWN,
+            Entry.SQUARE_TO_ITSELF,
             Radius.DIAMETER,
         ),
     }

@@ -1,4 +1,4 @@
-"""Compensated contours written as a Klartext program with RL and RR.
+"""Klartext program: compensated contours written with RL and RR.
 
 The contour is written, not the tool's path: the control offsets it.  Blend moves become APPR CT and DEP CT over 90
 degrees; without them the tool goes down on the path's first point and RL takes effect there.
@@ -12,8 +12,17 @@ from math import degrees, hypot, tau
 from typing import Final
 
 from core.controls.compensation.corners import Element, sweep
-from core.controls.write.iso_leads import Ready
-from core.controls.write.programmed_contour import Cut, Line, Plain, Programmed, Terms, Travel, blend_of, programmed
+from core.controls.write.programmed_contour import (
+    Cut,
+    Led,
+    Line,
+    Plain,
+    Programmed,
+    Terms,
+    Travel,
+    blend_of,
+    programmed,
+)
 from core.finding import Finding
 from core.geometry.piece import Point, Side
 from core.units import Unit, from_mm, to_mm
@@ -41,7 +50,7 @@ def write(
     return tuple(line._replace(text=f"{number} {line.text}") for number, line in enumerate(lines))
 
 
-def write_led(runs: Sequence[Ready], unit: Unit) -> tuple[Line, ...]:
+def write_led(runs: Sequence[Led], unit: Unit) -> tuple[Line, ...]:
     """The lines of a program that comes to each contour square to it and leaves it so, with APPR LN and DEP LN."""
     return tuple(_Writer(unit).led_program(runs))
 
@@ -52,22 +61,22 @@ class _Writer:
 
     unit: Unit
 
-    def led_program(self, runs: Sequence[Ready]) -> Iterator[Line]:
-        """The same frame about runs with straight leads."""
+    def led_program(self, runs: Sequence[Led]) -> Iterator[Line]:
+        """Runs with straight leads, from BEGIN PGM to END PGM."""
         frame = f"PGM CONTOUR {'INCH' if self.unit is Unit.IN else 'MM'}"
         yield Line(f"BEGIN {frame}")
-        yield from self.tools([one.cut for one in runs])
+        yield from self.tools([one.terms for one in runs])
         before: Terms | None = None
         for one in runs:
-            yield from self.tool(one.cut, before)
+            yield from self.tool(one.terms, before)
             yield from self.led(one)
-            before = one.cut
+            before = one.terms
         yield Line("M30")
         yield Line(f"END {frame}")
 
-    def led(self, one: Ready) -> Iterator[Line]:
+    def led(self, one: Led) -> Iterator[Line]:
         """One run: down away from the contour, square to it, along, square away, up."""
-        cut, shape = one.cut, one.shape
+        cut, shape = one.terms, one.shape
         (x, y), (cx, cy) = one.start, one.to
         length = self.length(hypot(x - cx, y - cy) - cut.diameter / 2)
         feeds = [cut.feeds[int(number)] for number in shape.segments]
@@ -82,7 +91,7 @@ class _Writer:
         yield Line(f"L Z{self.length(cut.leave)} R0 FMAX")
 
     def program(self, cuts: Sequence[_Shaped], name: str, remarks: Sequence[str]) -> Iterator[Line]:
-        """Everything from BEGIN PGM to END PGM; remarks behind a semicolon."""
+        """Everything from BEGIN PGM to END PGM; remarks after a semicolon."""
         frame = f"PGM {name} {'INCH' if self.unit is Unit.IN else 'MM'}"
         yield Line(f"BEGIN {frame}")
         yield from (Line(f"; {remark}") for remark in remarks)

@@ -1,9 +1,8 @@
-"""A compensated contour as what a control's own compensation runs along: programmed elements with leads for them.
+"""Programmed contour: a compensated contour as the elements that a control's own compensation runs along.
 
-Words: E is the first point of the tool's path, t its direction there, n the direction away from the part; G is where
-the blend-in begins.  A blend arc of radius B on the tool's path is programmed as an arc of radius B + r about the same
-center: the tool inside of it runs the blend.  A is where that programmed arc begins.  What the look-ahead deleted is
-left out, and its neighbors meet where their own lines and arcs do.
+What the look-ahead deleted is left out, and its neighbors meet where their own lines and arcs do.  A blend arc on the
+tool's path is programmed as an arc about the same center, larger by the tool's radius: the tool inside of it runs the
+blend.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from core.controls.compensation import corners
 from core.controls.compensation.corners import Element, arc_element, line_element
 from core.finding import Finding, Severity
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Piece, Point
+from core.geometry.piece import Arc, Piece, Point, Side
 from core.tolerance import CLOSED
 from core.units import Unit, from_mm
 
@@ -91,11 +90,27 @@ class Programmed:
     segments: tuple[float, ...]
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Led:
+    """A run with its leads: the elements, the points it is entered from and left to, and its offset's number.
+
+    The entry ends at the programmed point `to`.
+    """
+
+    terms: Terms
+    side: Side
+    shape: Programmed
+    start: Point
+    to: Point
+    out: Point
+    offset: int
+
+
 @dataclass(frozen=True, slots=True)
 class End:
-    """One end of the tool's path: `at` on it (G, or E without a blend), `way` along it and `off` away from the part.
+    """One end of the tool's path: `at` on it, the direction `way` along it and `off` away from the part.
 
-    `corner` is the programmed point beside `at`.  With a blend the path is entered and left along `off`.
+    `corner` is the programmed point that belongs to `at`.  With a blend the path is entered and left along `off`.
     """
 
     at: Point
@@ -116,10 +131,10 @@ def programmed(compensated: Compensated) -> Programmed | Finding:
         return refusal("There is no path to write.")
     if bool(compensated.bridged.any()):
         number = float(compensated.path.numbers[compensated.bridged][0])
-        return refusal("Part of the path is a bridge the tool cannot run; the control would stop there.", number)
+        return refusal("Part of the path is a bridge the tool cannot run: the control would stop there.", number)
     rows = _rows(compensated)
     offset = compensated.side.sign * compensated.radius
-    elements = [_element(compensated.contour[row]) for row in rows]
+    elements = [element_of(compensated.contour[row]) for row in rows]
     numbers = compensated.contour.numbers[rows].tolist()
     for index in range(len(rows) - 1):
         first, second = elements[index], elements[index + 1]
@@ -127,13 +142,13 @@ def programmed(compensated: Compensated) -> Programmed | Finding:
             continue
         corner = corners.meeting(first, second, 0.0)
         if corner is None:
-            text = "The look-ahead deletes what follows; no control does that by itself. Post the center path instead."
+            text = "The look-ahead deletes what follows, which no control does by itself. Post the center path instead."
             return refusal(text, numbers[index])
         elements[index], elements[index + 1] = first._replace(end=corner), second._replace(start=corner)
     first_run, last_run = _run_of(compensated)
-    elements[0] = _held(elements[0], elements[0]._replace(start=_surface(elements[0], first_run, offset)))
-    elements[-1] = _held(elements[-1], elements[-1]._replace(end=_surface(elements[-1], last_run, offset)))
-    return Programmed(tuple(map(_again, elements)), tuple(numbers))
+    elements[0] = _whole(elements[0], elements[0]._replace(start=_surface(elements[0], first_run, offset)))
+    elements[-1] = _whole(elements[-1], elements[-1]._replace(end=_surface(elements[-1], last_run, offset)))
+    return Programmed(tuple(map(_rebuilt, elements)), tuple(numbers))
 
 
 def _rows(compensated: Compensated) -> list[int]:
@@ -163,32 +178,43 @@ def _run_of(compensated: Compensated) -> tuple[Point, Point]:
     return (bx, by), (ex, ey)
 
 
-def _element(piece: Piece) -> Element:
+def element_of(piece: Piece) -> Element:
+    """A line or an arc of a path as an element."""
     if isinstance(piece, Arc):
-        return arc_element(piece.start, piece.end, piece.center, int(piece.turn), 0.0, 0.0, 0.0, 0)
-    return line_element(piece.start, piece.end, 0.0, 0.0, rapid=False, feed=0.0, line=0)
+        return flat_arc(piece.start, piece.end, piece.center, int(piece.turn))
+    return flat_line(piece.start, piece.end)
 
 
-def _held(whole: Element, cut: Element) -> Element:
-    """A full circle stays one where rounding has moved an end."""
+def flat_line(start: Point, end: Point) -> Element:
+    """A straight element without height, feed and line."""
+    return line_element(start, end, 0.0, 0.0, rapid=False, feed=0.0, line=0)
+
+
+def flat_arc(start: Point, end: Point, center: Point, turn: int) -> Element:
+    """A circular element without height, feed and line."""
+    return arc_element(start, end, center, turn, 0.0, 0.0, 0.0, 0)
+
+
+def _whole(whole: Element, cut: Element) -> Element:
+    """A full circle stays a full circle where rounding has moved an end."""
     apart = hypot(cut.start[0] - cut.end[0], cut.start[1] - cut.end[1])
     return cut._replace(start=cut.end) if whole.turn and whole.start == whole.end and apart < APART / 1000 else cut
 
 
-def _again(element: Element) -> Element:
-    """The element with the directions its ends have now; a line for an arc that ends beside its start.
+def _rebuilt(element: Element) -> Element:
+    """The element with the directions its ends have now; a line for an arc that ends next to its start.
 
     The digits of most controls cannot tell such an end from the start, and some take the arc for the full circle.
     """
     (x, y), (ex, ey) = element.start, element.end
-    beside = (x, y) != (ex, ey) and max(abs(ex - x), abs(ey - y)) <= CLOSED
-    if element.turn and not (beside and corners.element_sweep(element) < pi):
-        return arc_element(element.start, element.end, element.center, element.turn, 0.0, 0.0, 0.0, 0)
-    return line_element(element.start, element.end, 0.0, 0.0, rapid=False, feed=0.0, line=0)
+    short = (x, y) != (ex, ey) and max(abs(ex - x), abs(ey - y)) <= CLOSED
+    if element.turn and not (short and corners.element_sweep(element) < pi):
+        return flat_arc(element.start, element.end, element.center, element.turn)
+    return flat_line(element.start, element.end)
 
 
 def _surface(element: Element, point: Point, offset: float) -> Point:
-    """The point of an element that a point of its offset lies beside."""
+    """The point of an element that belongs to a point of its offset."""
     if not element.turn:
         return corners.square(point, element.leaving, -offset)
     share = element.radius / corners.offset_radius(element, offset)

@@ -10,8 +10,8 @@ from core.controls.control_run import Run
 from core.controls.registry import names, run
 from core.controls.write.iso_program import Frame, tools_of
 from core.controls.write.iso_style import STYLES
-from core.controls.write.own_program import NotWritten, Own, write_own
 from core.controls.write.programmed_contour import Cut
+from core.controls.write.written_program import NotWritten, WrittenProgram, write_program
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Line as Straight
@@ -47,14 +47,14 @@ def cut(one: Compensated, *, tool: int = 1, stock: float = 0.0, depth: float = -
     )  # fmt: skip
 
 
-def write(control: str, *cuts: Cut) -> Own | NotWritten:
+def write(control: str, *cuts: Cut) -> WrittenProgram | NotWritten:
     """The program in inches, without remarks."""
-    return write_own(cuts, control, Frame(Unit.IN), "PART", lambda _: ())
+    return write_program(cuts, control, Frame(Unit.IN), "PART", lambda _: ())
 
 
 def text_of(control: str, *cuts: Cut) -> str:
     found = write(control, *cuts)
-    assert isinstance(found, Own), found
+    assert isinstance(found, WrittenProgram), found
     return found.text
 
 

@@ -14,7 +14,7 @@ from core.controls.control_tools import ToolTable
 from core.controls.moves import Move
 from core.controls.registry import UnknownControl, run
 from core.controls.translated_contours import run_by_contour, translated
-from core.controls.write.traced import Untold
+from core.controls.write.programmed_stretch import NotTranslated
 from core.finding import Severity
 from core.geometry.piece import Side
 from core.units import Unit, from_mm
@@ -45,7 +45,7 @@ def rows(text: bytes, tools: ToolTable | None = None) -> dict[str, Compared | Ot
 
 def by_contour(source: Run, control: str) -> Run:
     made = run_by_contour(source, control)
-    assert not isinstance(made, Untold), made.text
+    assert not isinstance(made, NotTranslated), made.text
     return made[0]
 
 
@@ -139,7 +139,7 @@ def test_the_path_is_that_of_klartext(legs: list[tuple[float, float, int, float]
     if source.stopped_at is not None or not source.stretches:
         return
     found = translated(source, control)
-    if isinstance(found, Untold):
+    if isinstance(found, NotTranslated):
         assert "no room" in found.text
         return
     made = by_contour(source, control)

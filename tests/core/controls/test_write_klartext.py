@@ -15,9 +15,9 @@ from core.comp.result import Compensated
 from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run
 from core.controls.write.iso_program import Frame
-from core.controls.write.own_program import NotWritten, Own, write_own
 from core.controls.write.programmed_contour import Cut
-from core.controls.write.read_back import LEAST
+from core.controls.write.read_back import MIN_TOLERANCE
+from core.controls.write.written_program import NotWritten, WrittenProgram, write_program
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.units import Unit
@@ -40,8 +40,8 @@ def write(compensated: Compensated, unit: Unit = Unit.MM) -> str | NotWritten:
 
 def written(cuts: list[Cut], unit: Unit = Unit.MM) -> str | NotWritten:
     """The program of some runs."""
-    found = write_own(cuts, "klartext", Frame(unit), "PART", lambda _: ())
-    return found.text if isinstance(found, Own) else found
+    found = write_program(cuts, "klartext", Frame(unit), "PART", lambda _: ())
+    return found.text if isinstance(found, WrittenProgram) else found
 
 
 def outline(*points: Point) -> Path:
@@ -58,12 +58,12 @@ def made_of(text: str, stretch: int = 0) -> Path:
     return made.moves.part(one.first, one.last).path()
 
 
-def same(text: str, compensated: Compensated) -> bool:
+def same_pieces(text: str, compensated: Compensated) -> bool:
     """Piece by piece the same path, but for entries of no length that rounding makes."""
     path, whole = made_of(text), compensated.whole
-    kept = path.lengths > LEAST
+    kept = path.lengths > MIN_TOLERANCE
     assert path.turns[kept].tolist() == whole.turns.tolist()
-    return float(np.abs(path.ends[kept] - whole.ends).max()) < LEAST
+    return float(np.abs(path.ends[kept] - whole.ends).max()) < MIN_TOLERANCE
 
 
 SQUARE = outline((30.0, 0.0), (60.0, 0.0), (60.0, 60.0), (0.0, 60.0), (0.0, 0.0), (30.0, 0.0))
@@ -101,7 +101,7 @@ def test_a_square_reads_back_on_both_sides(side: Side, blend: float, overlap: fl
     compensated = compensate(SQUARE, side, 5.0, 4, closed=True, blend=blend, overlap=overlap)
     text = write(compensated)
     assert isinstance(text, str)
-    assert same(text, compensated)
+    assert same_pieces(text, compensated)
 
 
 def test_arcs_and_a_full_circle_read_back() -> None:
@@ -115,12 +115,12 @@ def test_arcs_and_a_full_circle_read_back() -> None:
         compensated = compensate(Path.from_pieces(pieces), side, 5.0, 2, closed=False, blend=2.0)
         text = write(compensated)
         assert isinstance(text, str)
-        assert same(text, compensated)
+        assert same_pieces(text, compensated)
     circle = Path.from_pieces([Arc((20.0, 0.0), (20.0, 0.0), (0.0, 0.0), Turn.CCW)])
     compensated = compensate(circle, Side.LEFT, 5.0, 3, closed=True, blend=2.0, overlap=4.0)
     text = write(compensated)
     assert isinstance(text, str)
-    assert same(text, compensated)
+    assert same_pieces(text, compensated)
 
 
 def test_inches_read_back() -> None:
@@ -133,7 +133,7 @@ def test_inches_read_back() -> None:
     made = run(text.encode(), "", ToolTable())
     (stretch,) = made.stretches
     path = made.moves.part(stretch.first, stretch.last).path()
-    assert float(np.abs(path.points - compensated.whole.points).max()) < LEAST
+    assert float(np.abs(path.points - compensated.whole.points).max()) < MIN_TOLERANCE
 
 
 def test_deleted_segments_are_left_out_where_their_neighbors_meet() -> None:
@@ -144,7 +144,7 @@ def test_deleted_segments_are_left_out_where_their_neighbors_meet() -> None:
     text = write(compensated)
     assert isinstance(text, str)
     assert "L X+52.07 Y+0 " in text
-    assert same(text, compensated)
+    assert same_pieces(text, compensated)
 
 
 def test_every_pass_goes_along_the_same_path() -> None:
@@ -178,7 +178,7 @@ def test_what_is_written_is_what_is_run(legs: list[tuple[float, float]], side: S
     text = write(compensated)
     if isinstance(text, str):
         path, whole = made_of(text), compensated.whole
-        assert float(np.hypot(*(path.points[0] - whole.points[0]))) < LEAST
+        assert float(np.hypot(*(path.points[0] - whole.points[0]))) < MIN_TOLERANCE
         assert float(path.lengths.sum()) == pytest.approx(float(whole.lengths.sum()), abs=0.01)
     else:
         assert [finding.code for finding in text.findings] == ["NOTWRITTEN"]

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from core.comp.compensate import compensate
-from core.controls.write.own_program import Own
 from core.controls.write.programmed_contour import begin, finish, programmed
+from core.controls.write.written_program import WrittenProgram
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Side, Turn
@@ -102,7 +102,7 @@ def test_without_a_blend_an_entry_square_to_itself_would_cut(control: str) -> No
     found = refused(control, cut(squared(Side.LEFT, blend=0.0)))
     assert "BLEND OFFSET" in found.text
     assert found.lengths[0] > 0.0
-    assert isinstance(write("threeblock", cut(squared(Side.LEFT, blend=0.0))), Own)
+    assert isinstance(write("threeblock", cut(squared(Side.LEFT, blend=0.0))), WrittenProgram)
 
 
 def test_a_small_pocket_gets_a_shorter_entry() -> None:

@@ -12,12 +12,11 @@ from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
 from core.controls.registry import names
-from core.controls.write import read_back as reading
 from core.controls.write.iso_program import Frame, tools_of
 from core.controls.write.iso_style import STYLES
-from core.controls.write.own_program import NotWritten, Own, write_own
 from core.controls.write.programmed_contour import Cut, Line, Travel
-from core.controls.write.read_back import Meant, Told, _compared, _other_move, farthest, read_back, same
+from core.controls.write.read_back import Intended, compare_path, different_move, farthest, read_back, same_pieces
+from core.controls.write.written_program import NotWritten, WrittenProgram, write_program
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Side, Turn
 from core.geometry.piece import Line as Straight
@@ -47,7 +46,7 @@ def test_a_square_reads_back_or_its_corners_are_the_reason(control: str, side: S
         assert "rule C6" in found.findings[0].text
         assert found.findings[0].segment == 2.0
         return
-    assert isinstance(found, Own), found
+    assert isinstance(found, WrittenProgram), found
     made = made_by(control, found.text, one)
     (stretch,) = made.stretches
     path = made.moves.part(stretch.first, stretch.last).path()
@@ -56,13 +55,13 @@ def test_a_square_reads_back_or_its_corners_are_the_reason(control: str, side: S
     whole = one.compensated.whole
     apart = max(farthest(own, whole)[0], farthest(whole, own)[0])
     assert (apart > 1e-3) is mitred
-    assert same(own, whole, 1e-3) is not (mitred or (control == "threeblock" and overlap > 0.0))
+    assert same_pieces(own, whole, 1e-3) is not (mitred or (control == "threeblock" and overlap > 0.0))
     assert [note.code for note in found.notes] == (["DIFFERS"] if mitred else [])
 
 
 def test_how_far_mitred_corners_are_off_is_told() -> None:
     found = write("nine-series:a", cut(squared(Side.RIGHT)))
-    assert isinstance(found, Own)
+    assert isinstance(found, WrittenProgram)
     assert found.notes[0].lengths[0] / INCH == pytest.approx(0.25 * (sqrt(2) - 1), abs=1e-4)
     assert found.notes[0].segment in (1.0, 2.0, 3.0, 4.0)
 
@@ -81,8 +80,8 @@ def test_arcs_and_a_full_circle_read_back(control: str, side: Side) -> None:
         compensate(Path.from_pieces(pieces), side, 5.0, 2, closed=False, blend=2.0),
         compensate(circle, side, 5.0, 3, closed=True, blend=2.0, overlap=4.0),
     ):
-        found = write_own([cut(one)], control, Frame(Unit.MM), "PART", lambda _: ())
-        assert isinstance(found, Own), found
+        found = write_program([cut(one)], control, Frame(Unit.MM), "PART", lambda _: ())
+        assert isinstance(found, WrittenProgram), found
         assert not found.notes
 
 
@@ -97,14 +96,14 @@ def test_passes_and_stock_are_runs_of_their_own(control: str) -> None:
     assert depths == pytest.approx([-0.1, -0.1, -0.25])
 
 
-def meant(control: str = "linuxcnc") -> Meant:
+def meant(control: str = "linuxcnc") -> Intended:
     """A program that is right."""
     one = cut(squared(Side.RIGHT))
     lines = tuple(Line(text, 3.0) for text in text_of(control, one).splitlines())
-    return Meant(control, lines, (one,), tools_of((one,), STYLES[control]), Unit.IN, 1e-6 * INCH, leads=True)
+    return Intended(control, lines, (one,), tools_of((one,), STYLES[control]), Unit.IN, 1e-6 * INCH, leads=True)
 
 
-def changed(old: str, new: str) -> Meant:
+def changed(old: str, new: str) -> Intended:
     """The right program with one text changed in it."""
     right = meant()
     lines = tuple(line._replace(text=line.text.replace(old, new)) for line in right.lines)
@@ -149,26 +148,14 @@ def test_what_is_no_number_is_never_near(row: int, end: int) -> None:
     points = SQUARE.points.copy()
     points[row, end] = nan
     bad = Path.of(points, SQUARE.centers, SQUARE.turns)
-    assert not same(bad, SQUARE, 1e-3)
+    assert not same_pieces(bad, SQUARE, 1e-3)
     assert not farthest(bad, SQUARE)[0] <= 1e-3
     assert not farthest(SQUARE, bad)[0] <= 1e-3
     assert farthest(bad, SQUARE)[1] in (row, row + 1)
     given = meant()
     (one,) = given.cuts
     assert isinstance(one, Cut)
-    assert _compared(bad, one, replace(given, leads=False)).errors
-
-
-@pytest.mark.parametrize("found", [((0.0, 1.0), (nan, 1.0)), ((nan, 1.0), (0.0, 1.0))])
-def test_a_distance_that_is_no_number_in_one_direction_is_not_near(
-    found: tuple[tuple[float, float], ...], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    given, rest = meant(), iter(found)
-    monkeypatch.setattr(reading, "same", lambda *_: False)
-    monkeypatch.setattr(reading, "farthest", lambda *_: next(rest))
-    (one,) = given.cuts
-    assert isinstance(one, Cut)
-    assert _compared(one.compensated.whole, one, replace(given, leads=False)) != Told()
+    assert compare_path(bad, one, replace(given, leads=False)).errors
 
 
 UNCOMPENSATED = (
@@ -188,11 +175,11 @@ UNCOMPENSATED = (
 def test_a_move_that_ends_at_no_number_is_another_one(array: str, line: int, axis: int, bad: float) -> None:
     plain = replace(meant(), lines=UNCOMPENSATED)
     made = made_by("linuxcnc", plain.text)
-    assert _other_move(made, plain) is None
+    assert different_move(made, plain) is None
     values = getattr(made.moves, array).copy()
     values[np.flatnonzero(made.moves.lines == line), axis] += bad
     spoilt = replace(made, moves=replace(made.moves, **{array: values}))
-    found = _other_move(spoilt, plain)
+    found = different_move(spoilt, plain)
     assert found is not None
     assert f"ends line {line} " in found.text
 

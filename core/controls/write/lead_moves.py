@@ -1,0 +1,108 @@
+"""Lead moves: the straight moves into a compensated contour and out of it, as each word-address control needs them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import hypot
+from typing import Final
+
+from core.controls.compensation.corners import Element, beyond
+from core.controls.write.iso_style import Entry, IsoStyle
+from core.controls.write.programmed_contour import End, Programmed, flat_arc, flat_line
+from core.geometry.path import Path
+from core.geometry.piece import Line, Piece, Point, Side
+from core.tolerance import GOUGE
+from core.verify.judge import judge
+
+LEAD_LENGTHS: Final = (2.0, 1.25, 1.05, 0.5, 0.25, 0.1)
+"""Lengths of the straight leads in radii, longest first; the first that cuts nothing is taken."""
+
+MIN_SQUARE_LENGTH: Final = 1.0
+"""Radii that the entry has to be longer than where it ends square to itself."""
+
+ON_LINE: Final = 1e-6
+"""Millimeters by which the joint of two lines may lie off the line they are merged to."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Surface:
+    """The contour that leads must not cut, with the side and the radius of the cutter."""
+
+    path: Path
+    side: Side
+    radius: float
+
+    def gouge(self, lead: Sequence[Piece]) -> float:
+        """How deep a lead cuts; the whole cutter where that cannot be judged."""
+        verdict = judge(self.path, self.side, self.radius, Path.from_pieces(list(lead)))
+        return verdict.depth if verdict.judged else 2.0 * self.radius
+
+
+def clear_leads(
+    first: End,
+    last: End,
+    style: IsoStyle,
+    radius: float,
+    surface: Surface,
+    into: Sequence[Piece] = (),
+    off: Sequence[Piece] = (),
+) -> tuple[Point, Point] | float:
+    """Where the longest leads that cut nothing start and end; or how deep the shortest ones cut.
+
+    Lengths are in this radius.  `into` follows the lead in, `off` comes before the lead out.
+    """
+    depth = 0.0
+    for length in LEAD_LENGTHS:
+        if style.entry is Entry.SQUARE_TO_ITSELF and length <= MIN_SQUARE_LENGTH:
+            continue
+        start, out = _start(first, style, length * radius), beyond(last.at, last.off, length * radius)
+        leads = (Line(start, first.at), *into), (*off, Line(last.at, out))
+        depth = max(map(surface.gouge, leads))
+        if depth <= GOUGE:
+            return start, out
+    return depth
+
+
+def _start(end: End, style: IsoStyle, length: float) -> Point:
+    """Where the entry starts: `length` away from where it ends, on the line the control needs it on."""
+    at = end.corner if style.entry is Entry.SQUARE_TO_ITSELF else end.at
+    if end.blend:
+        return beyond(at, end.off, length)
+    if style.entry is Entry.SQUARE_TO_NEXT:
+        return beyond(end.at, end.off, length)
+    return beyond(at, end.way, -length)
+
+
+def with_blends(shape: Programmed, first: End, last: End, radius: float, segments: tuple[float, float]) -> Programmed:
+    """With the blends as programmed arcs, a tool's radius larger than those of the center: the tool runs inside them.
+
+    `segments` are the numbers of both arcs.
+    """
+    if not first.blend:
+        return shape
+    elements, size = shape.elements, first.blend + radius
+    turn = 1 if first.off[1] * first.way[0] - first.off[0] * first.way[1] > 0.0 else -1
+    into = flat_arc(first.corner, elements[0].start, beyond(first.corner, first.way, size), turn)
+    off = flat_arc(elements[-1].end, last.corner, beyond(last.corner, last.way, -size), turn)
+    return Programmed((into, *elements, off), (segments[0], *shape.segments, segments[1]))
+
+
+def merged(shape: Programmed) -> Programmed:
+    """With lines that continue one another as one, under the first one's segment."""
+    elements, segments = [shape.elements[0]], [shape.segments[0]]
+    for element, segment in zip(shape.elements[1:], shape.segments[1:], strict=True):
+        if _continues(elements[-1], element):
+            elements[-1] = flat_line(elements[-1].start, element.end)
+        else:
+            elements.append(element)
+            segments.append(segment)
+    return Programmed(tuple(elements), tuple(segments))
+
+
+def _continues(first: Element, second: Element) -> bool:
+    if first.turn or second.turn:
+        return False
+    (ax, ay), (bx, by) = first.leaving, second.leaving
+    length = min(hypot(line.end[0] - line.start[0], line.end[1] - line.start[1]) for line in (first, second))
+    return ax * bx + ay * by > 0.0 and abs(ax * by - ay * bx) * length <= ON_LINE

@@ -1,0 +1,145 @@
+"""Programmed stretch: a compensated stretch of a run as elements to be written anew, with leads that cut nothing.
+
+Elements are numbered from 1 in their order; the lead in has the number 0, the lead out one more than the last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.controls.compensation.corners import Element, beyond, square
+from core.controls.contours_and_leads import contour_of
+from core.controls.control_run import Run, Stretch
+from core.controls.moves import Moves, Plane
+from core.controls.write.iso_style import IsoStyle
+from core.controls.write.lead_moves import Surface, clear_leads, merged, with_blends
+from core.controls.write.programmed_contour import End, Led, Programmed, Terms, flat_arc, flat_line
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Piece, Point, Turn
+from core.tolerance import JOINED
+
+BLEND_RADII: Final = (0.0, 1.0, 0.5, 0.25, 0.1)
+"""Radii, in radii of the tool, of the quarter arcs between a straight lead and the contour; none is tried first."""
+
+MIN_LIFT: Final = 10.0
+"""Millimeters from a contour's depth up to where the tool travels, at least."""
+
+DEFAULT_FEED: Final = 100.0
+"""Millimeters a minute where the program gives no feed."""
+
+
+@dataclass(frozen=True, slots=True)
+class NotTranslated:
+    """Why a run's contours cannot be written for another control; the end of a sentence."""
+
+    text: str
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ProgrammedStretch:
+    """A stretch's programmed elements, their lines in the program, its surface, and how it is run."""
+
+    shape: Programmed
+    lines: tuple[int, ...]
+    stretch: Stretch
+    terms: Terms
+    surface: Path
+
+    def end(self, corner: Point, way: Point, blend: float, sense: int) -> End:
+        """The path's begin (`sense` 1) or its end (-1), with a quarter arc of radius `blend` or 0."""
+        radius, off = self.stretch.radius, square((0.0, 0.0), way, self.stretch.side.sign)
+        at = beyond(beyond(corner, off, radius + blend), way, -sense * blend)
+        if not blend:
+            return End(at, corner, way, off, 0.0)
+        return End(at, beyond(at, way, -sense * radius), way, off, blend)
+
+
+def programmed_stretch(source: Run, stretch: Stretch, tool: int) -> ProgrammedStretch | NotTranslated:
+    """A stretch of a run, with a tool's number; or why it cannot be written for another control."""
+    moves = stretch.programmed
+    line = int(moves.lines[min(1, len(moves) - 1)])
+    if stretch.plane is not Plane.XY:
+        return NotTranslated(f"line {line} is compensated in another plane than XY")
+    if stretch.radius <= JOINED:
+        return NotTranslated(f"the tool at line {line} has no radius")
+    rows = _surface_rows(stretch)
+    if not len(rows):
+        return NotTranslated(f"there is no contour after line {line}")
+    heights = np.stack((moves.points[rows, 2], moves.points[rows - 1, 2]), axis=1)
+    uneven = np.flatnonzero((np.abs(heights - heights[0, 0]) > JOINED).any(axis=1))
+    if len(uneven):
+        return NotTranslated(f"the tool axis moves under compensation at line {int(moves.lines[rows[uneven[0]]])}")
+    shape = Programmed(tuple(_element(moves, row) for row in rows.tolist()), tuple(map(float, range(1, len(rows) + 1))))
+    whole = moves.part(int(rows[0]) - 1, int(rows[-1]) + 1).path()
+    surface = whole.part(*contour_of(whole))
+    lines = tuple(moves.lines[rows].tolist())
+    return ProgrammedStretch(shape, lines, stretch, _terms(source, stretch, rows, tool), surface)
+
+
+def _surface_rows(stretch: Stretch) -> NDArray[np.intp]:
+    """Rows of the programmed moves that are the contour; an entry or exit along an arc counts, as not all have that."""
+    moves, entry, end = stretch.programmed, stretch.entry, len(stretch.programmed) - stretch.exit
+    if entry == 1 and moves.turns[1]:
+        entry = 0
+    if stretch.exit == 1 and moves.turns[-1]:
+        end += 1
+    rows: NDArray[np.intp] = np.arange(entry + 1, end, dtype=np.intp)
+    moving = (moves.turns[rows] != 0) | np.any(moves.points[rows, :2] != moves.points[rows - 1, :2], axis=1)
+    contour: NDArray[np.intp] = rows[moving]
+    return contour
+
+
+def _element(moves: Moves, row: int) -> Element:
+    (ax, ay), (bx, by) = moves.points[row - 1, :2].tolist(), moves.points[row, :2].tolist()
+    if not moves.turns[row]:
+        return flat_line((ax, ay), (bx, by))
+    cx, cy = moves.centers[row, :2].tolist()
+    return flat_arc((ax, ay), (bx, by), (cx, cy), int(moves.turns[row]))
+
+
+def _terms(source: Run, stretch: Stretch, rows: NDArray[np.intp], tool: int) -> Terms:
+    moves = stretch.programmed
+    depth = float(moves.points[rows[0], 2])
+    up = max(float(source.moves.points[:, 2].max()), depth + MIN_LIFT)
+    given = [float(feed) or DEFAULT_FEED for feed in moves.feeds[rows].tolist()]
+    feeds = dict(enumerate((given[0], *given, given[-1])))
+    return Terms(
+        tool=tool, diameter=2 * stretch.radius, stock=0.0, speed=1000.0, feeds=feeds, plunge_feed=DEFAULT_FEED,
+        travel=up, near=up, depth=depth, leave=up,
+    )  # fmt: skip
+
+
+def led(source: ProgrammedStretch, style: IsoStyle, *, blends: bool) -> Led | NotTranslated:
+    """The stretch with the first leads that cut nothing, in a control's style; `blends`: with quarter arcs too."""
+    stretch, shape = source.stretch, source.shape
+    if style.merged:
+        shape = merged(shape)
+    radius, (first, *_, last) = stretch.radius, (shape.elements[0], *shape.elements)
+    surface = Surface(source.surface, stretch.side, radius)
+    for blend in BLEND_RADII if blends else BLEND_RADII[:1]:
+        begin = source.end(first.start, first.leaving, blend * radius, 1)
+        finish = source.end(last.end, last.arriving, blend * radius, -1)
+        into, off = _blend_in(begin, stretch.side.sign), _blend_out(finish, stretch.side.sign)
+        leads = clear_leads(begin, finish, style, radius, surface, tuple(into), tuple(off))
+        if not isinstance(leads, float):
+            shape = with_blends(shape, begin, finish, radius, (0.0, max(shape.segments) + 1.0))
+            return Led(source.terms, stretch.side, shape, leads[0], begin.corner, leads[1], source.terms.tool)
+    return NotTranslated(f"at line {source.lines[0]} there is no room for a straight move into the cut and out of it")
+
+
+def _blend_in(begin: End, sense: int) -> Iterator[Piece]:
+    """The quarter arc from a straight lead onto the tool's path."""
+    if begin.blend:
+        center = beyond(begin.at, begin.way, begin.blend)
+        yield Arc(begin.at, beyond(center, begin.off, -begin.blend), center, Turn(sense))
+
+
+def _blend_out(finish: End, sense: int) -> Iterator[Piece]:
+    if finish.blend:
+        center = beyond(finish.at, finish.way, -finish.blend)
+        yield Arc(beyond(center, finish.off, -finish.blend), finish.at, center, Turn(sense))

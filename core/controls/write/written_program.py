@@ -1,0 +1,134 @@
+"""Written program: contours as the program of a control that compensates by itself, confirmed by reading it back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+from core.comp.result import Compensated
+from core.controls.control_tools import ToolTable
+from core.controls.write import iso_program, klartext_program
+from core.controls.write.iso_program import Frame, offsets, tools_of
+from core.controls.write.iso_style import STYLES, IsoStyle
+from core.controls.write.lead_moves import Surface, clear_leads, merged, with_blends
+from core.controls.write.programmed_contour import Cut, Led, Line, Plain, begin, finish, programmed, refusal
+from core.controls.write.read_back import Intended, read_back
+from core.finding import Finding
+from core.units import to_mm
+
+Remarks = Callable[[Sequence[Finding]], Sequence[str]]
+"""From the notes on a program to its first lines."""
+
+WRITTEN_AGAIN: Final = 2
+"""How often a program is written, since notes on it stand in its own first lines."""
+
+
+@dataclass(frozen=True, slots=True)
+class WrittenProgram:
+    """A program that its control has confirmed, and the notes on it."""
+
+    text: str
+    notes: tuple[Finding, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class NotWritten:
+    """Why there is no program."""
+
+    findings: tuple[Finding, ...]
+
+
+def write_program(
+    cuts: Sequence[Cut | Plain], control: str, frame: Frame, name: str, remarks: Remarks
+) -> WrittenProgram | NotWritten:
+    """The program of a control by its full name; `remarks` makes its first lines of the notes on it."""
+    if control == "klartext":
+        return _klartext(cuts, frame, name, remarks)
+    return _iso(cuts, control, frame, remarks)
+
+
+def _klartext(cuts: Sequence[Cut | Plain], frame: Frame, name: str, remarks: Remarks) -> WrittenProgram | NotWritten:
+    decimals = klartext_program.DECIMALS[frame.unit]
+
+    def write(notes: Sequence[Finding]) -> Intended | Finding:
+        lines = klartext_program.write(cuts, name, frame.unit, remarks(notes))
+        if isinstance(lines, Finding):
+            return lines
+        return _intended(lines, "klartext", cuts, ToolTable(), frame, decimals)
+
+    return _confirmed(write)
+
+
+def _iso(cuts: Sequence[Cut | Plain], control: str, frame: Frame, remarks: Remarks) -> WrittenProgram | NotWritten:
+    style = STYLES[control]
+    numbers = offsets(cuts, style)
+    led: dict[Compensated, Led | Finding] = {}
+    for cut in cuts:
+        if isinstance(cut, Cut) and cut.compensated not in led:
+            led[cut.compensated] = _led(cut, style, numbers[cut.tool, cut.stock])
+    refusals = tuple(dict.fromkeys(run for run in led.values() if isinstance(run, Finding)))
+    if refusals:
+        return NotWritten(refusals)
+    runs = [cut if isinstance(cut, Plain) else _run(cut, led, numbers[cut.tool, cut.stock]) for cut in cuts]
+    frame = replace(frame, corners=_corners(control))
+
+    def write(notes: Sequence[Finding]) -> Intended:
+        lines = iso_program.write(runs, style, frame, remarks(notes))
+        return _intended(lines, control, cuts, tools_of(cuts, style), frame, style.digits(frame.unit))
+
+    return _confirmed(write)
+
+
+def _run(cut: Cut, led: dict[Compensated, Led | Finding], offset: int) -> Led:
+    """A cut with the leads that all cuts of its contour have."""
+    run = led[cut.compensated]
+    assert isinstance(run, Led)
+    return replace(run, terms=cut, offset=offset)
+
+
+def _corners(control: str) -> str:
+    """G39 or G39.1, where a control has them: what was in force before does not count then."""
+    if not control.startswith("nine-series"):
+        return ""
+    return "G39.1" if control.endswith("g39.1") else "G39"
+
+
+def _led(cut: Cut, style: IsoStyle, offset: int) -> Led | Finding:
+    """The cut with the longest leads that cut nothing."""
+    compensated, radius = cut.compensated, cut.compensated.radius
+    first, last = begin(compensated), finish(compensated)
+    leads = clear_leads(first, last, style, radius, Surface(compensated.contour, compensated.side, cut.diameter / 2))
+    if isinstance(leads, float):
+        text = "There is no room for the straight move into the cut and out of it: it gouges by {0}."
+        text += " Start elsewhere." if first.blend else " Enter BLEND OFFSET, or start elsewhere."
+        return refusal(text, lengths=(leads,))
+    shape = programmed(compensated)
+    if isinstance(shape, Finding):
+        return shape
+    ends = shape.segments[0], shape.segments[-1]
+    shape = with_blends(merged(shape) if style.merged else shape, first, last, radius, ends)
+    return Led(cut, compensated.side, shape, leads[0], first.corner, leads[1], offset)
+
+
+def _intended(
+    lines: tuple[Line, ...], control: str, cuts: Sequence[Cut | Plain], tools: ToolTable, frame: Frame, decimals: int
+) -> Intended:
+    digit = to_mm(10.0**-decimals, frame.unit)
+    return Intended(control, lines, tuple(cuts), tools, frame.unit, digit, leads=control != "klartext")
+
+
+def _confirmed(write: Callable[[Sequence[Finding]], Intended | Finding]) -> WrittenProgram | NotWritten:
+    """The program once its control confirms it, with the notes in it."""
+    notes: tuple[Finding, ...] = ()
+    for _ in range(WRITTEN_AGAIN):
+        intended = write(notes)
+        if isinstance(intended, Finding):
+            return NotWritten((intended,))
+        answer = read_back(intended)
+        if answer.errors:
+            return NotWritten(answer.errors)
+        if answer.notes == notes:
+            break
+        notes = answer.notes
+    return WrittenProgram(intended.text, notes)
