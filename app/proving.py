@@ -49,12 +49,12 @@ class Question:
         """The answer; may take long, for a thread."""
         from app.checking import Asked, answer_all
         from core.controls.registry import UnknownControl
-        from core.pipeline.proof import ran
+        from core.pipeline.proof import run_program
 
         data = self.listing.data
         if self.control is None:
             return Told(self, rows=answer_all(data, Asked("all", self.tools, shop=False, unit=self.unit)))
-        proof = ran(data, self.control, self.tools, self.unit)
+        proof = run_program(data, self.control, self.tools, self.unit)
         assert not isinstance(proof, UnknownControl), proof.text
         rest = Rest(self, proof)
         return rest.answer() if self.small else _told(self, proof, rest)
@@ -74,16 +74,16 @@ class Rest:
 
     def answer(self) -> Told:
         """The whole answer."""
-        from core.pipeline.proof import judged_fully
+        from core.pipeline.proof import with_verdicts
 
-        return _told(self.question, judged_fully(self.proof), None)
+        return _told(self.question, with_verdicts(self.proof), None)
 
 
 def _told(question: Question, proof: Proof, rest: Rest | None) -> Told:
     from app.checking import answered
-    from core.pipeline.proof import ground_of
+    from core.pipeline.proof import fixed_scene
 
-    return Told(question, answered(proof.run, proof.results, question.listing.data), proof, ground_of(proof), rest)
+    return Told(question, answered(proof.run, proof.results, question.listing.data), proof, fixed_scene(proof), rest)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

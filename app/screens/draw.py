@@ -116,9 +116,9 @@ def _cutter_note(session: Session) -> str:
         return f"Segment {segment} is not determined yet: no cutter is drawn."
     if not segment or not found.known or found.work is None:
         return ""
-    from core.pipeline.plot import cutter_at
+    from core.pipeline.plot import cutter_place
 
-    place = cutter_at(found, segment)
+    place = cutter_place(found, segment)
     if place is None:
         return f"No path runs along segment {segment}: no cutter is drawn."
     if place.by is None:

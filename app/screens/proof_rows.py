@@ -204,8 +204,8 @@ def _drawn(page: ProofPage) -> Drawn:
 
 def _scene(told: Told | None, line: int) -> Scene:
     from core.draw.scene import Scene
-    from core.pipeline.proof import scene_of
+    from core.pipeline.proof import scene_at_line
 
     if told is None or told.proof is None or told.ground is None:
         return Scene()
-    return scene_of(told.ground, told.proof, line)
+    return scene_at_line(told.ground, told.proof, line)

@@ -74,12 +74,12 @@ def _blank_feeds(block: Block, solved: SolvedBlock, program: Program) -> Iterato
     if not solved.determined or solved.plunge_feed is None:
         return
     count = len(block.segments)
-    blank = next((index for index, one in enumerate(block.segments) if one.feed is not None), count)
+    blank = next((index for index, segment in enumerate(block.segments) if segment.feed is not None), count)
     if not blank:
         return
-    who = "the contour is" if blank == count else "it is" if blank == 1 else f"segments 1 to {blank} are"
+    subject = "the contour is" if blank == count else "it is" if blank == 1 else f"segments 1 to {blank} are"
     feed = show(from_mm(solved.plunge_feed, program.unit), Kind.FEED, program.unit)
-    text = f"FEED is blank: {who} milled with PLUNGE FEED {feed}. Enter FEED."
+    text = f"FEED is blank: {subject} milled with PLUNGE FEED {feed}. Enter FEED."
     yield Finding("PLUNGE_FED", Severity.WARNING, text, 1, "feed")
 
 
@@ -100,15 +100,15 @@ def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[
 
 def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
     """Clearances that a field shows as 0: a rapid then ends on material."""
-    onto = {"retract_clearance": "the tool comes by rapid onto the top of the material"}
+    consequences = {"retract_clearance": "the tool comes by rapid onto the top of the material"}
     if _pecks(solved):
-        onto["peck_clearance"] = "between pecks the tool comes down by rapid onto the floor it has just cut"
-    for name, what in onto.items():
+        consequences["peck_clearance"] = "between pecks the tool comes down by rapid onto the floor it has just cut"
+    for name, consequence in consequences.items():
         value = _parameter(name, program)
         if value is None or value > SHOWN or show(from_mm(value, program.unit), Kind.LENGTH, program.unit).strip("0."):
             continue
         label = field_of(Form.PARAMETERS, name).label
-        text = f"{label} is {{value}}: {what}. Enter {label} on PROGRAM PARAMETERS."
+        text = f"{label} is {{value}}: {consequence}. Enter {label} on PROGRAM PARAMETERS."
         yield Finding("NO_CLEARANCE", Severity.WARNING, text, field=name, value=value)
 
 

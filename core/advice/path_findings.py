@@ -9,7 +9,8 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from core.advice.work import Loop, RoughPass, Work
-from core.comp.best_path.best_path import BestPath, Separation
+from core.comp.best_path.best_path import BestPath
+from core.comp.best_path.separation import Separation
 from core.comp.result import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, next_in_ring
@@ -130,33 +131,33 @@ def _blend_crosses_wall(loop: Loop, name: str) -> Finding:
 
 def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> Iterator[Finding]:
     """What is wrong with each roughing pass: gouges, stock that is not left, no room, segments it skips."""
-    for one in rough:
-        yield from _rough_errors(one)
-        skipped = _deleted(one.compensated) - (set() if finish is None else _deleted(finish))
+    for rough_pass in rough:
+        yield from _rough_errors(rough_pass)
+        skipped = _deleted(rough_pass.compensated) - (set() if finish is None else _deleted(finish))
         if skipped and finish is not None:
             numbers = ", ".join(f"{number:g}" for number in sorted(skipped))
             which = f"segment{'s' if len(skipped) > 1 else ''} {numbers}"
             text = f"Roughing that leaves {{0}} skips {which}. The next pass meets solid there."
-            yield Finding("ROUGH_DELETES", Severity.WARNING, text, min(skipped), lengths=(one.stock,))
+            yield Finding("ROUGH_DELETES", Severity.WARNING, text, min(skipped), lengths=(rough_pass.stock,))
 
 
-def _rough_errors(one: RoughPass) -> Iterator[Finding]:
-    for gouge in one.verdict.gouges[:1]:
-        left = one.stock - gouge.depth
-        where = gouge.surface_number, None, gouge.surface_at, abs(left), (one.stock,)
+def _rough_errors(rough_pass: RoughPass) -> Iterator[Finding]:
+    for gouge in rough_pass.verdict.gouges[:1]:
+        left = rough_pass.stock - gouge.depth
+        where = gouge.surface_number, None, gouge.surface_at, abs(left), (rough_pass.stock,)
         if left < -GOUGE:
             text = "Roughing that leaves {0} gouges {value} deep at X {x} Y {y}."
             yield Finding("ROUGH_GOUGES", Severity.ERROR, text, *where)
         else:
             text = "Roughing that should leave {0~value} leaves only {value~0} at X {x} Y {y}."
             yield Finding("ROUGH_STOCK", Severity.WARNING, text, *where)
-    if one.verdict.wrong_side or not one.verdict.judged:
-        what = "runs on the wrong side of the contour" if one.verdict.judged else "cannot be judged"
+    if rough_pass.verdict.wrong_side or not rough_pass.verdict.judged:
+        what = "runs on the wrong side of the contour" if rough_pass.verdict.judged else "cannot be judged"
         text = f"Roughing that leaves {{0}} {what}."
-        yield Finding("ROUGH_GOUGES", Severity.ERROR, text, lengths=(one.stock,))
-    if not one.loops:
+        yield Finding("ROUGH_GOUGES", Severity.ERROR, text, lengths=(rough_pass.stock,))
+    if not rough_pass.loops:
         text = "No room for the {0} roughing pass: skipped."
-        yield Finding("ROUGH_EMPTY", Severity.WARNING, text, lengths=(one.stock,))
+        yield Finding("ROUGH_EMPTY", Severity.WARNING, text, lengths=(rough_pass.stock,))
 
 
 def _deleted(compensated: Compensated) -> set[float]:

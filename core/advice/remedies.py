@@ -7,14 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import cos, sin
 from typing import Final
 
 import numpy as np
 
 from core.advice.trials import Trial, table_of
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Piece, Point
+from core.geometry.piece import Point
 from core.tolerance import CLOSED
 from core.verify.judge import judge
 
@@ -141,7 +140,7 @@ def start_mid_side(
     for row in longest_segments(trial.surface)[:max_starts]:
         value = _recommended(replace(trial, surface=started(trial.surface, row)), wanted)
         if value is not None:
-            return StartMoved(float(trial.surface.numbers[row]), middle(trial.surface[row]), value)
+            return StartMoved(float(trial.surface.numbers[row]), trial.surface[row].point_at(0.5), value)
     return None
 
 
@@ -176,19 +175,9 @@ def longest_segments(contour: Path) -> list[int]:
     return rows
 
 
-def middle(piece: Piece) -> Point:
-    """The point half way along a piece."""
-    (x0, y0), (x1, y1) = piece.start, piece.end
-    if not isinstance(piece, Arc):
-        return (x0 + x1) / 2.0, (y0 + y1) / 2.0
-    (cx, cy), half = piece.center, piece.sweep / 2.0
-    dx, dy = x0 - cx, y0 - cy
-    return cx + dx * cos(half) - dy * sin(half), cy + dx * sin(half) + dy * cos(half)
-
-
 def started(contour: Path, row: int) -> Path:
     """A closed contour of n segments started in the middle of segment `row`, from 0: n + 1 segments, numbered anew."""
-    at = np.array([middle(contour[row])])
+    at = np.array([contour[row].point_at(0.5)])
     points = np.concatenate((at, contour.points[row + 1 :], contour.points[1 : row + 1], at))
     turns = np.concatenate((contour.turns[row:], contour.turns[: row + 1]))
     centers = np.concatenate((contour.centers[row:], contour.centers[: row + 1]))

@@ -6,14 +6,14 @@ its center at E + B n; it comes from E + B n - B t (the plunge point), or leaves
 
 from __future__ import annotations
 
-from cmath import rect
+from dataclasses import replace
 from math import inf
 from typing import Final
 
 import numpy as np
 
 from core.geometry.path import EMPTY, Floats, Path, joined
-from core.geometry.piece import Arc, Line, Piece, Point, Side
+from core.geometry.piece import Line, Piece, Point, Side
 from core.tolerance import CLOSED, JOINED
 
 _AT_ITS_START: Final = 2.0 * CLOSED
@@ -25,7 +25,7 @@ def blend_in(path: Path, side: Side, blend: float) -> Path:
     if not len(path) or blend <= 0.0:
         return EMPTY
     first = path[0]
-    along = direction(first, first.start)
+    along = complex(*first.direction_at(first.start))
     start, center = _quarter(first.start, -along, along, side, blend)
     return _arc(start, first.start, center, side, path.numbers[:1])
 
@@ -41,7 +41,7 @@ def blend_out(path: Path, side: Side, blend: float, overlap: float, *, closed: b
     if not len(whole) or blend <= 0.0:
         return again
     last = whole[-1]
-    along = direction(last, last.end)
+    along = complex(*last.direction_at(last.end))
     end, center = _quarter(last.end, along, along, side, blend)
     return joined((again, _arc(last.end, end, center, side, whole.numbers[-1:])))
 
@@ -79,29 +79,12 @@ def _gap(path: Path) -> complex:
 
 def _from(start: Point, piece: Piece) -> Piece:
     """The same piece from a start that is the same point."""
-    end = start if piece.end == piece.start else piece.end
-    if isinstance(piece, Line):
-        return Line(start, end)
-    return Arc(start, end, piece.center, piece.turn)
+    return replace(piece, start=start, end=start if piece.end == piece.start else piece.end)
 
 
 def _beginning(piece: Piece, length: float) -> Piece:
     """The first `length` millimeters of a piece that is longer."""
-    start, end = complex(*piece.start), complex(*piece.end)
-    part = length / piece.length
-    if isinstance(piece, Line):
-        return Line(piece.start, _point(start + part * (end - start)))
-    center, turned = complex(*piece.center), part * piece.sweep
-    return Arc(piece.start, _point(center + (start - center) * rect(1.0, turned)), piece.center, piece.turn)
-
-
-def direction(piece: Piece, at: Point) -> complex:
-    """The unit tangent of a piece at one of its ends."""
-    if isinstance(piece, Line):
-        along = complex(*piece.end) - complex(*piece.start)
-    else:
-        along = 1j * int(piece.turn) * (complex(*at) - complex(*piece.center))
-    return along / abs(along)
+    return replace(piece, end=piece.point_at(length / piece.length))
 
 
 def _quarter(at: Point, outer: complex, along: complex, side: Side, blend: float) -> tuple[Point, Point]:

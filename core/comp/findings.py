@@ -9,7 +9,6 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.comp.blend import direction
 from core.comp.offset import Chain, Part
 from core.comp.prune import Pruned
 from core.finding import Finding, Severity
@@ -95,7 +94,7 @@ def zero_length(contour: Path, rows: Rows) -> list[Finding]:
 def inside_start(contour: Path, side: Side, radius: float) -> list[Finding]:
     """A closed contour that starts at an inside corner: the cutter comes down in the other wall."""
     first, last = contour[0], contour[-1]
-    bend = direction(last, last.end).conjugate() * direction(first, first.start)
+    bend = complex(*last.direction_at(last.end)).conjugate() * complex(*first.direction_at(first.start))
     if side.sign * bend.imag <= 0.0 or radius * (1.0 - bend.real) <= GOUGE:
         return []
     text = "START is in an inside corner: gouges the last wall. Start mid-side."

@@ -17,7 +17,7 @@ _LARGEST_CALCULATED: Final = 8
 
 
 def calculated(count: int, *, closed: bool) -> int:
-    """The CAL value for `count` segments, START not counted (LOOKAHEAD.md).
+    """The CAL value for `count` segments, START not counted (LOOK_AHEAD.md).
 
     Closed: count - 1, at least 3.  Open: count - 3, at least 2.  Never more than 8.
     """

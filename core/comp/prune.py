@@ -2,7 +2,7 @@
 
 The pieces b come one after the other.  Each is first joined to its predecessor; then it is tested against what is
 left of earlier pieces a within the look-ahead, and the earliest that crosses it wins: a ends there, b starts there,
-everything between is deleted (LOOKAHEAD.md).  What is left of a piece is a range of distances along it and all
+everything between is deleted (LOOK_AHEAD.md).  What is left of a piece is a range of distances along it and all
 crossings are known, so that the walk compares numbers and visits only pieces at which something is not settled.
 """
 

@@ -55,8 +55,8 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
     look = cells(mode)
     layers = scene.outlined
     axes = _axes(view, look, columns, rows) if scene.axes else NO_AXES
-    found = _clipped(chords(layers, view, columns, rows), columns / 2, rows * TALL / 2)
-    lit, styles, strong, struck = _light(found, layers, axes, look, columns, rows)
+    visible = _clipped(chords(layers, view, columns, rows), columns / 2, rows * TALL / 2)
+    lit, styles, strong, struck = _light(visible, layers, axes, look, columns, rows)
     codes = np.packbits(lit, bitorder="little")
     characters = look.table[codes]
     if look.faint is not None:
@@ -84,24 +84,24 @@ def _axes(view: View, look: Cells, columns: int, rows: int) -> Rows:
 def _crossing(look: Cells, columns: int, rows: int, level: int | None, upright: int | None) -> Rows:
     """The bits of dashed lines along one row of dots, from left to right, and one column, from top to bottom."""
     (wide, high), half_width, half_height = look.dot, columns / 2, rows * TALL / 2
-    found: list[tuple[complex, complex]] = []
+    axes: list[tuple[complex, complex]] = []
     if level is not None:
-        found.append((complex(-half_width, half_height - (level + 0.5) * high), complex(2.0 * half_width, 0.0)))
+        axes.append((complex(-half_width, half_height - (level + 0.5) * high), complex(2.0 * half_width, 0.0)))
     if upright is not None:
-        found.append((complex((upright + 0.5) * wide - half_width, half_height), complex(0.0, -2.0 * half_height)))
-    starts, runs = np.array(found, np.complex128).reshape(-1, 2).T
-    lines = Chords(starts, runs, np.zeros(len(found), np.intp), np.zeros(len(found)))
+        axes.append((complex((upright + 0.5) * wide - half_width, half_height), complex(0.0, -2.0 * half_height)))
+    starts, runs = np.array(axes, np.complex128).reshape(-1, 2).T
+    lines = Chords(starts, runs, np.zeros(len(axes), np.intp), np.zeros(len(axes)))
     chord, part, bits = _dots(lines, look, columns, rows)
     return bits[np.mod(part * np.abs(runs)[chord] + PHASE, AXIS_DASH[0]) < AXIS_DASH[1]]
 
 
-def _clipped(found: Chords, half_width: float, half_height: float) -> Chords:
+def _clipped(lines: Chords, half_width: float, half_height: float) -> Chords:
     """What of the chords lies inside the window (Liang and Barsky's parameters)."""
-    starts, run = found.starts, found.runs
+    starts, run = lines.starts, lines.runs
     ends = starts + run
     if _inside(np.concatenate((starts, ends)), half_width, half_height):
         # as below, to the last digit
-        return Chords(starts, ends - starts, found.layers, found.along)
+        return Chords(starts, ends - starts, lines.layers, lines.along)
     enter, leave = np.zeros(len(run)), np.ones(len(run))
     for start, step, limit in (
         (starts.real, run.real, half_width),
@@ -112,9 +112,9 @@ def _clipped(found: Chords, half_width: float, half_height: float) -> Chords:
         np.minimum(leave, high, out=leave)
     keep = (enter <= leave).nonzero()[0]
     starts, run, enter, leave = starts[keep], run[keep], enter[keep], leave[keep]
-    along, ends = found.along[keep] + enter * np.abs(run), starts + leave * run
+    along, ends = lines.along[keep] + enter * np.abs(run), starts + leave * run
     starts = starts + enter * run
-    return Chords(starts, ends - starts, found.layers[keep], along)
+    return Chords(starts, ends - starts, lines.layers[keep], along)
 
 
 def _inside(points: Points, half_width: float, half_height: float) -> bool:
@@ -126,8 +126,8 @@ def _inside(points: Points, half_width: float, half_height: float) -> bool:
 def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]:
     """The parameters between which start + t * step lies in -limit ... limit; from infinity on where it never does."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        one, other = (-limit - start) / step, (limit - start) / step
-    low, high = np.minimum(one, other), np.maximum(one, other)
+        first, second = (-limit - start) / step, (limit - start) / step
+    low, high = np.minimum(first, second), np.maximum(first, second)
     still = step == 0.0
     if still.any():
         inside = np.abs(start) <= limit
@@ -137,17 +137,17 @@ def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]
 
 
 def _light(
-    found: Chords, layers: Sequence[Layer], axes: Rows, look: Cells, columns: int, rows: int
+    lines: Chords, layers: Sequence[Layer], axes: Rows, look: Cells, columns: int, rows: int
 ) -> tuple[Bits, Styles, Bits | None, Rows]:
     """Bits lit (rows x columns x 8,), styles (rows x columns,), which cells more than center paths are in where that is
     asked for, and cells that have deleted surface.  The bits of the `axes` lie under all layers."""
-    chord, part, bits = _dots(found, look, columns, rows)
+    chord, part, bits = _dots(lines, look, columns, rows)
     # the last style is no layer's: there may be no layers
     roles = np.frombuffer(bytes((*(layer.style for layer in layers), Style.AXIS)), np.uint8)
-    role = roles[found.layers][chord]
+    role = roles[lines.layers][chord]
     dashed = [layer.dashed and layer.style is not Style.DELETED for layer in layers]
     if any(dashed):
-        shown = _dashes(found, np.array(dashed)[found.layers][chord].nonzero()[0], chord, part)
+        shown = _dashes(lines, np.array(dashed)[lines.layers][chord].nonzero()[0], chord, part)
         bits, role = bits[shown], role[shown]
     cell = bits >> 3
     lit, styles = np.zeros(rows * columns * 8, np.bool_), np.zeros(rows * columns, np.uint8)
@@ -168,9 +168,9 @@ def _bits(look: Cells, columns: int, rows: int) -> Rows:
     return bits
 
 
-def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Floats, Rows]:
+def _dots(lines: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Floats, Rows]:
     """Chord, part of it that lies before the dot, and bit (m,) that it lights, of every dot in order of chords."""
-    (wide, high), start, run = look.dot, found.starts, found.runs
+    (wide, high), start, run = look.dot, lines.starts, lines.runs
     x, y = (start.real + columns / 2) / wide + NUDGE, (rows * TALL / 2 - start.imag) / high + NUDGE
     over, under = run.real / wide, run.imag / -high
     steps = np.ceil(np.maximum(np.abs(over), np.abs(under))).astype(np.intp)
@@ -183,21 +183,21 @@ def _dots(found: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Fl
     width, height = columns * look.across, rows * look.down
     across, down = np.minimum(across, width - 1), np.minimum(down, height - 1)
     dot = np.maximum(down, 0) * width + np.maximum(across, 0)
-    return chord, part, _bits(look, columns, rows)[dot] if look.by_dot else dot * 8 + _slants(found)[chord]
+    return chord, part, _bits(look, columns, rows)[dot] if look.by_dot else dot * 8 + _slants(lines)[chord]
 
 
-def _dashes(found: Chords, rows: Rows, chord: Rows, part: Floats) -> Bits:
+def _dashes(lines: Chords, rows: Rows, chord: Rows, part: Floats) -> Bits:
     """Which dots (m,) are lit: all of a whole line, part of each period of a dashed one, which has the dots `rows`."""
     shown = np.ones(len(chord), np.bool_)
-    own = chord[rows]
-    along = found.along[own] + part[rows] * np.abs(found.runs[own])
+    owners = chord[rows]
+    along = lines.along[owners] + part[rows] * np.abs(lines.runs[owners])
     shown[rows] = np.mod(along, DASH[0]) < DASH[1]
     return shown
 
 
-def _slants(found: Chords) -> Rows:
+def _slants(lines: Chords) -> Rows:
     """The line character's bit of each chord: 0 level, 1 rising, 2 upright, 3 falling, as it looks in tall cells."""
-    across, up = found.runs.real, found.runs.imag
+    across, up = lines.runs.real, lines.runs.imag
     steep = np.abs(up) / TALL
     slants = np.where(across * up > 0.0, 1, 3)
     slants[steep > np.abs(across) * np.tan(3 * np.pi / 8)] = 2

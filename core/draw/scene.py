@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum, IntEnum, auto
-from math import cos, sin
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -125,15 +124,15 @@ class Scene:
 def _outline(circle: Circle) -> Layer:
     """The whole circle as a layer."""
     (x, y), radius = circle.center, circle.radius
-    rim = np.array([[x + radius, y], [x + radius, y]])
-    return Layer(Path(rim, np.array([[x, y]]), np.ones(1, np.int8), np.ones(1)), circle.style)
+    rim = np.array([[x + radius, y], [x + radius, y]], float)
+    return Layer(Path(rim, np.array([[x, y]], float), np.ones(1, np.int8), np.ones(1)), circle.style)
 
 
 def _around(boxes: Sequence[Floats]) -> Box | None:
     """The box around those of the boxes (n, 4) that can be drawn."""
-    every = np.concatenate([np.empty((0, 4)), *boxes])
+    rows = np.concatenate([np.empty((0, 4)), *boxes])
     # a comparison with what is not a number is false
-    drawn = every[(np.abs(every) <= BEYOND).all(axis=1)]
+    drawn = rows[(np.abs(rows) <= BEYOND).all(axis=1)]
     if not len(drawn):
         return None
     (left, low), (right, high) = drawn[:, :2].min(axis=0).tolist(), drawn[:, 2:].max(axis=0).tolist()
@@ -222,20 +221,17 @@ def _travel(path: Path) -> Iterator[Mark]:
 
 def _middle(piece: Piece) -> tuple[Point, Point]:
     """The middle of a piece and the direction of travel there."""
-    (x0, y0), (x1, y1) = piece.start, piece.end
+    x, y = piece.point_at(0.5)
     if isinstance(piece, Line):
-        return ((x0 + x1) / 2, (y0 + y1) / 2), (x1 - x0, y1 - y0)
-    (cx, cy), half = piece.center, piece.sweep / 2
-    dx, dy = x0 - cx, y0 - cy
-    dx, dy = dx * cos(half) - dy * sin(half), dx * sin(half) + dy * cos(half)
-    return (cx + dx, cy + dy), (-dy * int(piece.turn), dx * int(piece.turn))
+        return (x, y), (piece.end[0] - piece.start[0], piece.end[1] - piece.start[1])
+    return (x, y), ((piece.center[1] - y) * int(piece.turn), (x - piece.center[0]) * int(piece.turn))
 
 
 def _plunge(leads: Sequence[Path], path: Path) -> Iterator[Mark]:
     """Where the cutter goes down: the first lead's beginning, or the path's."""
-    for one in [*(lead for lead in leads if len(lead)), path][:1]:
-        if len(one):
-            yield Mark(_point(one.points[0]), Style.LEAD, Symbol.PLUNGE)
+    first = next((lead for lead in leads if len(lead)), path)
+    if len(first):
+        yield Mark(_point(first.points[0]), Style.LEAD, Symbol.PLUNGE)
 
 
 def _point(row: Floats) -> Point:

@@ -6,9 +6,11 @@ for an arc traveled counter-clockwise, on the right for a clockwise one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from cmath import phase, rect
+from dataclasses import dataclass, replace
 from enum import Enum, auto
-from math import acos, atan2, cos, hypot, inf, sin, sqrt, tan, tau
+from math import acos, inf, sqrt, tan, tau
+from typing import NamedTuple
 
 from core.geometry.piece import SLIVER, Arc, Line, Piece, Point, Turn
 from core.tolerance import JOINED, ON_PATH
@@ -20,7 +22,7 @@ class Fillet:
 
     before: Piece | None
     arc: Arc
-    behind: Piece | None
+    after: Piece | None
 
 
 class Reason(Enum):
@@ -42,158 +44,117 @@ class NoFillet:
     largest: float | None = None
 
 
-def direction(piece: Piece, at: Point) -> Point:
-    """Unit vector of travel at a point of a piece."""
-    if isinstance(piece, Line):
-        (x0, y0), (x1, y1) = piece.start, piece.end
-        return (x1 - x0) / piece.length, (y1 - y0) / piece.length
-    dx, dy = at[0] - piece.center[0], at[1] - piece.center[1]
-    size = hypot(dx, dy)
-    return -dy / size * piece.turn, dx / size * piece.turn
-
-
-def fillet(before: Piece, behind: Piece, radius: float) -> Fillet | NoFillet:
-    """The blend nearest to the corner where `before` ends and `behind` starts, which must have length.
+def fillet(before: Piece, after: Piece, radius: float) -> Fillet | NoFillet:
+    """The blend nearest to the corner where `before` ends and `after` starts, which must have length.
 
     Nearest is the one that takes the least off both pieces together.
     """
-    corner = behind.start
-    (ax, ay), (bx, by) = direction(before, before.end), direction(behind, corner)
-    turned = atan2(ax * by - ay * bx, ax * bx + ay * by)
+    arriving, leaving = complex(*before.direction_at(before.end)), complex(*after.direction_at(after.start))
+    turned = phase(leaving * arriving.conjugate())
     if abs(turned) * radius <= JOINED:
         return NoFillet(Reason.TANGENT)
-    lines = isinstance(before, Line) and isinstance(behind, Line)
+    lines = isinstance(before, Line) and isinstance(after, Line)
     if lines and abs(turned) > tau / 2 - SLIVER:
         return NoFillet(Reason.REVERSAL)
-    ways = (Turn.CCW if turned > 0 else Turn.CW,) if lines else (Turn.CCW, Turn.CW)
-    fits = [found for turn in ways for found in _touching(before, behind, radius, turn)]
+    turns = (Turn.CCW if turned > 0 else Turn.CW,) if lines else (Turn.CCW, Turn.CW)
+    fits = [fit for turn in turns for fit in _touching(before, after, radius, turn)]
     if fits:
-        return _cut(before, behind, min(fits, key=lambda fit: fit.taken))
-    largest = min(before.length, behind.length) / tan(abs(turned) / 2) if lines else None
+        return _cut(before, after, min(fits, key=lambda fit: fit.removed).arc)
+    largest = min(before.length, after.length) / tan(abs(turned) / 2) if lines else None
     return NoFillet(Reason.TOO_LARGE, largest)
 
 
-@dataclass(frozen=True, slots=True)
-class _Fit:
+class _Fit(NamedTuple):
     """A blend arc that touches within both pieces, and the length it takes off them together."""
 
     arc: Arc
-    taken: float
+    removed: float
 
 
-def _touching(before: Piece, behind: Piece, radius: float, turn: Turn) -> list[_Fit]:
-    fits = []
-    for center in _meetings(_shifted(before, turn * radius), _shifted(behind, turn * radius)):
-        first, last = _foot(before, center, turn * radius), _foot(behind, center, turn * radius)
-        if first is None or last is None:
+def _touching(before: Piece, after: Piece, radius: float, turn: Turn) -> list[_Fit]:
+    fits, left = [], turn * radius
+    for center in _meetings(_shifted(before, left), _shifted(after, left)):
+        first, last = _foot(before, center, left), _foot(after, center, left)
+        if first is None or last is None or abs(first - last) <= JOINED:
             continue
-        kept, taken = _travel(before, first), _travel(behind, last)
-        if kept < -ON_PATH or kept > before.length + ON_PATH or taken < -ON_PATH or taken > behind.length + ON_PATH:
-            continue
-        if hypot(first[0] - last[0], first[1] - last[1]) > JOINED:
-            fits.append(_Fit(Arc(first, last, center, turn), before.length - kept + taken))
+        kept, removed = _travel(before, first), _travel(after, last)
+        if -ON_PATH <= kept <= before.length + ON_PATH and -ON_PATH <= removed <= after.length + ON_PATH:
+            arc = Arc(_point(first), _point(last), _point(center), turn)
+            fits.append(_Fit(arc, before.length - kept + removed))
     return fits
 
 
-@dataclass(frozen=True, slots=True)
-class _Straight:
-    """An endless line through a point in a unit direction."""
+class _Carrier(NamedTuple):
+    """A point of an endless line and its direction, or the center of a whole circle, direction 0, and its radius."""
 
-    point: Point
-    along: Point
-
-
-@dataclass(frozen=True, slots=True)
-class _Round:
-    """A whole circle."""
-
-    center: Point
+    at: complex
+    along: complex
     radius: float
 
 
-def _shifted(piece: Piece, left: float) -> _Straight | _Round:
+def _shifted(piece: Piece, left: float) -> _Carrier:
     """The carrier of a piece moved by `left` to its left."""
-    if isinstance(piece, Line):
-        dx, dy = direction(piece, piece.start)
-        return _Straight((piece.start[0] - dy * left, piece.start[1] + dx * left), (dx, dy))
-    return _Round(piece.center, abs(piece.radius - piece.turn * left))
+    if isinstance(piece, Arc):
+        return _Carrier(complex(*piece.center), 0j, abs(piece.radius - piece.turn * left))
+    along = complex(*piece.direction_at(piece.start))
+    return _Carrier(complex(*piece.start) + 1j * along * left, along, 0.0)
 
 
-def _foot(piece: Piece, center: Point, left: float) -> Point | None:
+def _foot(piece: Piece, center: complex, left: float) -> complex | None:
     """Where a circle about `center`, `left` to the left of a piece's carrier, touches it; None about its own center."""
     if isinstance(piece, Line):
-        dx, dy = direction(piece, piece.start)
-        return center[0] + dy * left, center[1] - dx * left
-    shifted = piece.radius - piece.turn * left
-    if abs(shifted) <= JOINED:
-        return None
-    scale = piece.radius / shifted
-    (ox, oy), (cx, cy) = piece.center, center
-    return ox + (cx - ox) * scale, oy + (cy - oy) * scale
+        return center - 1j * complex(*piece.direction_at(piece.start)) * left
+    shifted, middle = piece.radius - piece.turn * left, complex(*piece.center)
+    return None if abs(shifted) <= JOINED else middle + (center - middle) * (piece.radius / shifted)
 
 
-def _travel(piece: Piece, at: Point) -> float:
+def _travel(piece: Piece, at: complex) -> float:
     """Length traveled from a piece's start to a point of its carrier; of an arc's two ways to it, the one on it."""
+    start = complex(*piece.start)
     if isinstance(piece, Line):
-        dx, dy = direction(piece, piece.start)
-        return (at[0] - piece.start[0]) * dx + (at[1] - piece.start[1]) * dy
-    (cx, cy), (sx, sy) = piece.center, piece.start
-    angle = piece.turn * (atan2(at[1] - cy, at[0] - cx) - atan2(sy - cy, sx - cx)) % tau
+        return ((at - start) * complex(*piece.direction_at(piece.start)).conjugate()).real
+    center = complex(*piece.center)
+    angle = piece.turn * phase((at - center) * (start - center).conjugate()) % tau
     return piece.radius * (angle - tau if angle > tau - JOINED / piece.radius else angle)
 
 
-def _meetings(one: _Straight | _Round, other: _Straight | _Round) -> list[Point]:
+def _meetings(one: _Carrier, other: _Carrier) -> list[complex]:
     """Where two carriers meet: none, one or two points."""
-    if isinstance(one, _Straight) and isinstance(other, _Straight):
-        return _lines_meet(one, other)
-    if isinstance(one, _Straight):
-        assert isinstance(other, _Round)
-        return _line_meets_circle(one, other)
-    if isinstance(other, _Straight):
+    if one.along and other.along:
+        cross = (one.along.conjugate() * other.along).imag
+        reach = ((other.at - one.at).conjugate() * other.along).imag
+        return [] if abs(cross) < SLIVER else [one.at + one.along * reach / cross]
+    if other.along:
         return _line_meets_circle(other, one)
-    return _circles_meet(one, other)
+    return _line_meets_circle(one, other) if one.along else _circles_meet(one, other)
 
 
-def _lines_meet(one: _Straight, other: _Straight) -> list[Point]:
-    (ax, ay), (bx, by) = one.along, other.along
-    cross = ax * by - ay * bx
-    if abs(cross) < SLIVER:
+def _line_meets_circle(line: _Carrier, circle: _Carrier) -> list[complex]:
+    seen = (circle.at - line.at) * line.along.conjugate()
+    height = abs(seen.imag)
+    if height > circle.radius:
         return []
-    dx, dy = other.point[0] - one.point[0], other.point[1] - one.point[1]
-    travel = (dx * by - dy * bx) / cross
-    return [(one.point[0] + ax * travel, one.point[1] + ay * travel)]
+    half = sqrt((circle.radius - height) * (circle.radius + height))
+    return [line.at + line.along * (seen.real + way) for way in (-half, half)]
 
 
-def _line_meets_circle(line: _Straight, circle: _Round) -> list[Point]:
-    (px, py), (dx, dy) = line.point, line.along
-    ahead = (circle.center[0] - px) * dx + (circle.center[1] - py) * dy
-    fx, fy = px + ahead * dx, py + ahead * dy
-    beside = hypot(fx - circle.center[0], fy - circle.center[1])
-    if beside > circle.radius:
-        return []
-    half = sqrt((circle.radius - beside) * (circle.radius + beside))
-    return [(fx + dx * way, fy + dy * way) for way in (-half, half)]
-
-
-def _circles_meet(one: _Round, other: _Round) -> list[Point]:
-    dx, dy = other.center[0] - one.center[0], other.center[1] - one.center[1]
-    apart = hypot(dx, dy)
+def _circles_meet(one: _Carrier, other: _Carrier) -> list[complex]:
+    apart = abs(other.at - one.at)
     if apart <= JOINED or apart > one.radius + other.radius or apart < abs(one.radius - other.radius):
         return []
     ratio = (apart * apart + one.radius * one.radius - other.radius * other.radius) / (2 * apart * (one.radius or inf))
-    angle, base = acos(max(-1.0, min(1.0, ratio))), atan2(dy, dx)
-    ways = (base + angle, base - angle)
-    return [(one.center[0] + one.radius * cos(way), one.center[1] + one.radius * sin(way)) for way in ways]
+    base, angle = phase(other.at - one.at), acos(max(-1.0, min(1.0, ratio)))
+    return [one.at + rect(one.radius, base + way) for way in (angle, -angle)]
 
 
-def _cut(before: Piece, behind: Piece, fit: _Fit) -> Fillet:
-    first, last = fit.arc.start, fit.arc.end
+def _cut(before: Piece, after: Piece, arc: Arc) -> Fillet:
+    kept, removed = _travel(before, complex(*arc.start)), _travel(after, complex(*arc.end))
     return Fillet(
-        _between(before, before.start, first) if _travel(before, first) > JOINED else None,
-        fit.arc,
-        _between(behind, last, behind.end) if behind.length - _travel(behind, last) > JOINED else None,
+        replace(before, end=arc.start) if kept > JOINED else None,
+        arc,
+        replace(after, start=arc.end) if after.length - removed > JOINED else None,
     )
 
 
-def _between(piece: Piece, start: Point, end: Point) -> Piece:
-    return Line(start, end) if isinstance(piece, Line) else Arc(start, end, piece.center, piece.turn)
+def _point(place: complex) -> Point:
+    return place.real, place.imag

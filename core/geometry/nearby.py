@@ -27,6 +27,9 @@ from core.geometry.piece_arrays import PieceArrays
 FAN: Final = 4
 """Consecutive chords, or runs of them, in one run."""
 
+RUN: Final = 8
+"""Consecutive boxes that the tree is asked about at once."""
+
 MAX_COARSE_RUNS: Final = 32
 """Runs on the coarsest level, which the tree of boxes holds against each other."""
 
@@ -66,10 +69,31 @@ def near_pairs(first: Floats, second: Floats, reach: float) -> Batches:
 
 
 def near_pairs_within(boxes: Floats, reach: float) -> Batches:
-    """All pairs (i, j), i < j, of these boxes no farther apart than `reach`, in rising order of i; exact as above."""
-    for i, j in near_pairs(boxes, boxes, reach):
-        once = i < j
-        yield i[once], j[once]
+    """All pairs (i, j), i < j, of these boxes no farther apart than `reach`, in no order; exact as above.
+
+    The tree is asked about runs of consecutive boxes, which along a path lie together: a quarter of the time.
+    """
+    if not boxes.shape[1]:
+        return
+    begins = np.arange(0, boxes.shape[1], RUN)
+    corners = np.minimum.reduceat(boxes[:2], begins, axis=1), np.maximum.reduceat(boxes[2:], begins, axis=1)
+    runs = np.concatenate(corners)
+    for a, b in near_pairs(runs, runs, reach):
+        once = a <= b
+        a, b = a[once], b[once]
+        for first in range(0, len(a), BATCH_PAIRS // RUN):
+            part = slice(first, first + BATCH_PAIRS // RUN)
+            i, j = _members_of_runs(a[part], b[part], boxes.shape[1])
+            near = ~(_apart(boxes.take(i, axis=1), boxes.take(j, axis=1)) > reach)
+            yield i[near], j[near]
+
+
+def _members_of_runs(a: Rows, b: Rows, count: int) -> tuple[Rows, Rows]:
+    """All pairs i < j of the boxes in paired runs, of `count` boxes in all."""
+    i, j = np.divmod(np.arange(RUN * RUN), RUN)
+    i, j = (a[:, None] * RUN + i).ravel(), (b[:, None] * RUN + j).ravel()
+    once = (i < j) & (j < count)
+    return i[once], j[once]
 
 
 def gathered(batches: Iterable[tuple[Rows, Rows]]) -> tuple[Rows, Rows]:

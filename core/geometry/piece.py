@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum, StrEnum
-from math import atan2, hypot, tau
+from math import atan2, cos, hypot, sin, tau
 from typing import Final
 
 Point = tuple[float, float]
@@ -36,6 +36,16 @@ class Line:
     def length(self) -> float:
         """Length in millimeters."""
         return hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
+
+    def point_at(self, part: float) -> Point:
+        """The point after a part of the length, 0 to 1."""
+        (x0, y0), (x1, y1) = self.start, self.end
+        return x0 + part * (x1 - x0), y0 + part * (y1 - y0)
+
+    def direction_at(self, _at: Point) -> Point:
+        """The unit vector of travel, at any point of a line that has a length."""
+        size = self.length
+        return (self.end[0] - self.start[0]) / size, (self.end[1] - self.start[1]) / size
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +76,18 @@ class Arc:
     def length(self) -> float:
         """Length in millimeters."""
         return self.radius * abs(self.sweep)
+
+    def point_at(self, part: float) -> Point:
+        """The point after a part of the length, 0 to 1."""
+        (cx, cy), angle = self.center, part * self.sweep
+        dx, dy = self.start[0] - cx, self.start[1] - cy
+        return cx + dx * cos(angle) - dy * sin(angle), cy + dx * sin(angle) + dy * cos(angle)
+
+    def direction_at(self, at: Point) -> Point:
+        """The unit vector of travel at one of the arc's points."""
+        dx, dy = at[0] - self.center[0], at[1] - self.center[1]
+        size = hypot(dx, dy)
+        return -dy / size * self.turn, dx / size * self.turn
 
 
 Piece = Line | Arc

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import atan2, cos, hypot, pi, sin, tau
+from math import atan2, cos, hypot, pi, tau
 from typing import Final
 
 from core.geometry.piece import Arc, Point, Turn
@@ -100,11 +100,7 @@ def _parts(arc: Arc, grid: Grid, first: float, last: float) -> Iterator[Chord | 
 
 
 def _at(arc: Arc, part: float) -> Point:
-    if part in (0.0, 1.0):
-        return arc.start if part == 0.0 else arc.end
-    (x, y), (cx, cy) = arc.start, arc.center
-    angle = atan2(y - cy, x - cx) + part * arc.sweep
-    return cx + arc.radius * cos(angle), cy + arc.radius * sin(angle)
+    return {0.0: arc.start, 1.0: arc.end}.get(part) or arc.point_at(part)
 
 
 def _center(start: Point, center: Point, grid: Grid) -> Steps:

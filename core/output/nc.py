@@ -19,7 +19,7 @@ from typing import Final
 from core.finding import Finding, Severity
 from core.geometry.piece import Arc, Turn
 from core.output.grid import FINER, Bow, Grid, feed_text, length_text, turn_word, written
-from core.output.objections import OVERRIDE, forbidding, overridden
+from core.output.objections import OVERRIDE, overridden_errors, posting_errors
 from core.output.passes import Cutter, Job, Motion, Pass, clear_height, passes
 from core.units import Unit, sentence
 
@@ -172,17 +172,21 @@ def center_path_program(
     grid = Grid(unit)
     if not jobs:
         return Refusal((Finding("NO_BLOCK", Severity.ERROR, "There is no block to post."),), unit)
-    against = forbidding(jobs, grid, override=override)
+    against = posting_errors(jobs, grid, override=override)
     if against:
         return Refusal(against, unit)
     safe, highest = max(job.safe_z for job in jobs), max(jobs, key=clear_height)
     level = [replace(job, safe_z=max(safe, clear_height(highest))) for job in jobs]
-    waived = overridden(jobs)
-    lines = (*_header(jobs, unit, titles(name, part), waived), *_raised(safe, highest, unit), *_body(level, grid))
+    waived = overridden_errors(jobs)
+    lines = (
+        *_header(jobs, unit, program_titles(name, part), waived),
+        *_raised_safe_z(safe, highest, unit),
+        *_body(level, grid),
+    )
     return Posted("\n".join(lines) + "\n", waived)
 
 
-def titles(name: str, part: str) -> tuple[str, ...]:
+def program_titles(name: str, part: str) -> tuple[str, ...]:
     """What stands at the head of every NC file: the program's name, and the part's where it has one."""
     return (f"PROGRAM {name}", f"PART {part}") if part.strip() else (f"PROGRAM {name}",)
 
@@ -193,9 +197,9 @@ def _header(jobs: Sequence[Job], unit: Unit, head: tuple[str, ...], waived: tupl
     yield from comments("WRITTEN BY CUTCOMP.  THE PATH IS THAT OF THE TOOL CENTER: NO G41 OR G42")
     yield from comments(f"UNITS {'INCH' if unit is Unit.IN else 'MM'}")
     for cutter, role in _cutters(jobs).items():
-        yield from comments(_told(cutter, role, unit))
+        yield from comments(_tool_line(cutter, role, unit))
     for job in jobs:
-        yield from _about(job, unit)
+        yield from _block_lines(job, unit)
     if waived:
         yield from comments(f"OVERRIDDEN BY THE OPERATOR: {OVERRIDE}")
     for finding in waived:
@@ -210,19 +214,19 @@ def _sentence(finding: Finding, unit: Unit) -> str:
 
 def _cutters(jobs: Sequence[Job]) -> dict[Cutter, str]:
     """Every tool once, in order of use, with what it does."""
-    found: dict[Cutter, str] = {}
+    roles: dict[Cutter, str] = {}
     for job in jobs:
         for cutter, role in ((job.cutter, "" if job.finisher is None else "ROUGH"), (job.finisher, "FINISH")):
             if cutter is not None:
-                found.setdefault(cutter, role)
-    return found
+                roles.setdefault(cutter, role)
+    return roles
 
 
-def _told(cutter: Cutter, role: str, unit: Unit) -> str:
+def _tool_line(cutter: Cutter, role: str, unit: Unit) -> str:
     return f"TOOL {cutter.number} {cutter.type} DIAMETER {length_text(cutter.diameter, unit)} {role}".rstrip()
 
 
-def _about(job: Job, unit: Unit) -> Iterator[str]:
+def _block_lines(job: Job, unit: Unit) -> Iterator[str]:
     comp = f"CUTTER COMP. {job.comp}" + (f" LOOKAHEAD {job.lookahead}" if job.lookahead else "")
     depth = f"Z {length_text(job.z_start, unit)} TO {length_text(job.z_bottom, unit)}"
     peck = f" PECK {length_text(job.peck_depth, unit)}" if job.peck_depth > 0.0 else ""
@@ -231,7 +235,7 @@ def _about(job: Job, unit: Unit) -> Iterator[str]:
         yield from comments(note)
 
 
-def _raised(safe: float, highest: Job, unit: Unit) -> Iterator[str]:
+def _raised_safe_z(safe: float, highest: Job, unit: Unit) -> Iterator[str]:
     """Say so, and why, where SAFE Z alone would not clear every block; `highest` is the one that needs most."""
     clear = clear_height(highest)
     if clear > safe:
@@ -246,41 +250,41 @@ def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
     yield f"G64 P{ROUNDING[grid.unit]}"
     place, tool, speed = Place(), None, 0.0
     for job in jobs:
-        for one in passes(job):
-            if one.cutter.number != tool:
-                yield from _change(one, first=tool is None)
-                tool, speed, place = one.cutter.number, one.speed, Place()
-            elif one.speed != speed:
-                yield f"S{_speed(one.speed)}"
-                speed = one.speed
-            yield from comments(_title(one, grid.unit))
-            found = nc_lines(one.motions, place, grid)
-            yield from found.lines
-            place = found.place
+        for a_pass in passes(job):
+            if a_pass.cutter.number != tool:
+                yield from _tool_change(a_pass, first=tool is None)
+                tool, speed, place = a_pass.cutter.number, a_pass.speed, Place()
+            elif a_pass.speed != speed:
+                yield f"S{_speed(a_pass.speed)}"
+                speed = a_pass.speed
+            yield from comments(_title(a_pass, grid.unit))
+            written = nc_lines(a_pass.motions, place, grid)
+            yield from written.lines
+            place = written.place
     yield "M5"
     yield "M30"
 
 
-def _change(one: Pass, *, first: bool) -> Iterator[str]:
+def _tool_change(a_pass: Pass, *, first: bool) -> Iterator[str]:
     if not first:
         yield "M5"
-    yield f"T{one.cutter.number} M6"
-    yield f"G43 H{one.cutter.number}"
-    yield f"S{_speed(one.speed)} M3"
+    yield f"T{a_pass.cutter.number} M6"
+    yield f"G43 H{a_pass.cutter.number}"
+    yield f"S{_speed(a_pass.speed)} M3"
 
 
 def _speed(speed: float) -> str:
     return f"{speed:.1f}".removesuffix(".0")
 
 
-def _title(one: Pass, unit: Unit) -> str:
-    stock = f" LEAVES {length_text(one.stock, unit)} ON SIDE" if one.stock > 0.0 else ""
-    kind = " FINISH" if one.finishing else ""
-    return f"BLOCK {one.block}{kind} {_which(one)} Z {length_text(one.level, unit)}{stock}"
+def _title(a_pass: Pass, unit: Unit) -> str:
+    stock = f" LEAVES {length_text(a_pass.stock, unit)} ON SIDE" if a_pass.stock > 0.0 else ""
+    kind = " FINISH" if a_pass.finishing else ""
+    return f"BLOCK {a_pass.block}{kind} {_pass_number(a_pass)} Z {length_text(a_pass.level, unit)}{stock}"
 
 
-def _which(one: Pass) -> str:
+def _pass_number(a_pass: Pass) -> str:
     """Which side pass, and which peck of it, where there are several."""
-    side = (f"SIDE PASS {one.side} OF {one.sides}",) if one.sides > 1 else ()
-    peck = (f"PECK {one.number} OF {one.count}",) if one.count > 1 else ()
+    side = (f"SIDE PASS {a_pass.side} OF {a_pass.sides}",) if a_pass.sides > 1 else ()
+    peck = (f"PECK {a_pass.number} OF {a_pass.count}",) if a_pass.count > 1 else ()
     return " ".join((*side, *peck)) or "PASS 1 OF 1"

@@ -17,7 +17,7 @@ OVERRIDE: Final = "POST WITH GOUGE"
 """What an operator must say, word for word, to have a path posted that the verdict is against."""
 
 OVERRIDABLE: Final = frozenset({"GOUGE", "BLEND_GOUGES", "ROUGH_GOUGES", "WRONG_SIDE"})
-"""Findings on a path that is whole and known; whatever is unread, missing or undetermined can never be overridden."""
+"""Findings on a path that is whole and known; whatever is unread, missing or undetermined can not be overridden."""
 
 MAX_LISTED: Final = 6
 """Segments named in one sentence."""
@@ -26,29 +26,29 @@ MAX_PECKS: Final = 2000
 """More depths than this are a slip of the finger in PECK DEPTH."""
 
 
-def forbidding(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> tuple[Finding, ...]:
+def posting_errors(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> tuple[Finding, ...]:
     """The errors that stand against posting, each named once; those the operator overrode are left out."""
-    found: list[Finding] = []
+    errors: list[Finding] = []
     for job in jobs:
-        found += (*job.errors, *objections(job, grid))
+        errors += (*job.errors, *job_errors(job, grid))
     if len({job.work_offset for job in jobs}) > 1:
-        found.append(Finding("WORK_OFFSET", Severity.ERROR, "The blocks name different work offsets."))
+        errors.append(Finding("WORK_OFFSET", Severity.ERROR, "The blocks name different work offsets."))
     if override == OVERRIDE:
-        found = [finding for finding in found if finding.code not in OVERRIDABLE]
-    return tuple(dict.fromkeys(found))
+        errors = [finding for finding in errors if finding.code not in OVERRIDABLE]
+    return tuple(dict.fromkeys(errors))
 
 
-def objections(job: Job, grid: Grid) -> Iterator[Finding]:
+def job_errors(job: Job, grid: Grid) -> Iterator[Finding]:
     """What is wrong with a job and none of its errors tells: about a field that has none, and a path that is due."""
     errors = job.errors
-    told = {finding.field for finding in errors}
-    for one in _objections(job, grid):
-        due = one.code == "NO_PATH" and any(finding.code not in OVERRIDABLE for finding in errors)
-        if not due and (one.field is None or one.field not in told) and one not in errors:
-            yield one
+    named = {finding.field for finding in errors}
+    for objection in _objections(job, grid):
+        due = objection.code == "NO_PATH" and any(finding.code not in OVERRIDABLE for finding in errors)
+        if not due and (objection.field is None or objection.field not in named) and objection not in errors:
+            yield objection
 
 
-def overridden(jobs: Iterable[Job]) -> tuple[Finding, ...]:
+def overridden_errors(jobs: Iterable[Job]) -> tuple[Finding, ...]:
     """The errors that stand and may be overridden."""
     return tuple(finding for job in jobs for finding in job.errors if finding.code in OVERRIDABLE)
 
@@ -87,8 +87,8 @@ def _depths(job: Job) -> Iterator[_Check]:
     yield job.retract_clearance <= 0.0, "CLEARANCE", "RETRACT CLEARANCE must be above 0.", "retract_clearance"
     yield job.peck_clearance < 0.0, "CLEARANCE", "PECK CLEARANCE must not be below 0.", "peck_clearance"
     yield job.peck_depth < 0.0, "PECK_DEPTH", "PECK DEPTH must not be below 0.", "peck_depth"
-    many = job.peck_depth > 0.0 and deep > MAX_PECKS * job.peck_depth
-    yield many, "PECK_DEPTH", f"PECK DEPTH makes more than {MAX_PECKS} passes.", "peck_depth"
+    too_many = job.peck_depth > 0.0 and deep > MAX_PECKS * job.peck_depth
+    yield too_many, "PECK_DEPTH", f"PECK DEPTH makes more than {MAX_PECKS} passes.", "peck_depth"
 
 
 def _numbers(job: Job) -> Iterator[_Check]:

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import atan2, ceil, cos, sin, tau
+from math import ceil, tau
 from typing import Final, Protocol
 
 import numpy as np
@@ -193,9 +193,9 @@ def heights(job: Job, run: Run) -> Floats:
     """
     if level_floor(job):
         return np.full((len(run.whole), 2), job.z_bottom)
-    path = _along(job, run.path)
+    path = _floor_heights(job, run.path)
     lead_in = np.full((len(run.lead_in), 2), path[0, 0])
-    lead_out = np.maximum(_along(job, run.lead_out), path[-1, 1])
+    lead_out = np.maximum(_floor_heights(job, run.lead_out), path[-1, 1])
     return np.concatenate((lead_in, path, lead_out))
 
 
@@ -219,7 +219,7 @@ def z_steps(job: Job) -> list[ZStep]:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Ground:
+class _Floors:
     """The programmed contour: its floors and the row of each segment by number, and the arcs' angles."""
 
     surface: Path
@@ -228,37 +228,37 @@ class _Ground:
     sweeps: Floats
 
 
-def _along(job: Job, path: Path) -> Floats:
+def _floor_heights(job: Job, path: Path) -> Floats:
     rows = {int(number): row for row, number in enumerate(job.surface.numbers.tolist())}
-    ground = _Ground(job.surface, {floor.number: floor for floor in job.floors}, rows, np.abs(job.surface.sweeps))
+    floors = _Floors(job.surface, {floor.number: floor for floor in job.floors}, rows, np.abs(job.surface.sweeps))
     sweeps = np.abs(path.sweeps).tolist()
-    found = [_ends(path, piece, sweep, ground) for piece, sweep in enumerate(sweeps)]
-    return np.array(found).reshape(-1, 2)
+    ends = [_ends(path, piece, sweep, floors) for piece, sweep in enumerate(sweeps)]
+    return np.array(ends).reshape(-1, 2)
 
 
-def _ends(path: Path, piece: int, sweep: float, ground: _Ground) -> tuple[float, float]:
+def _ends(path: Path, piece: int, sweep: float, floors: _Floors) -> tuple[float, float]:
     """Heights at a piece's two ends; no height at all for a piece of no segment."""
     number = float(path.numbers[piece])
-    floor, row = ground.floors.get(int(number)), ground.rows.get(int(number))
+    floor, row = floors.floors.get(int(number)), floors.rows.get(int(number))
     if floor is None:
         return -np.inf, -np.inf
     if number != int(number) or row is None:
         return floor.z_end, floor.z_end
-    first, last = _fractions(path.points[piece : piece + 2], sweep, ground, row)
+    first, last = _fractions(path.points[piece : piece + 2], sweep, floors, row)
     rise = floor.z_end - floor.z_start
     return floor.z_start + first * rise, floor.z_start + last * rise
 
 
-def _fractions(ends: Floats, sweep: float, ground: _Ground, row: int) -> tuple[float, float]:
+def _fractions(ends: Floats, sweep: float, floors: _Floors, row: int) -> tuple[float, float]:
     """Which part of the segment has been traveled at a piece's two ends, 0 to 1; `sweep` is the piece's own angle."""
-    surface = ground.surface
+    surface = floors.surface
     if surface.turns[row] == 0:
         run = surface.ends[row] - surface.starts[row]
         square = max(float(run @ run), np.finfo(float).tiny)
         first, last = ((ends - surface.starts[row]) @ run / square).tolist()
-        return _held(first), _held(last)
-    whole, begun = float(ground.sweeps[row]), _turned(surface, row, ends[0])
-    return _held(begun / whole), _held((begun + sweep) / whole)
+        return _clamped(first), _clamped(last)
+    whole, begun = float(floors.sweeps[row]), _turned(surface, row, ends[0])
+    return _clamped(begun / whole), _clamped((begun + sweep) / whole)
 
 
 def _turned(surface: Path, row: int, point: Floats) -> float:
@@ -269,7 +269,7 @@ def _turned(surface: Path, row: int, point: Floats) -> float:
     return 0.0 if turned > tau - WRAPPED else turned
 
 
-def _held(part: float) -> float:
+def _clamped(part: float) -> float:
     return min(max(part, 0.0), 1.0)
 
 
@@ -297,7 +297,7 @@ class _Stage:
 
 def passes(job: Job) -> tuple[Pass, ...]:
     """All passes of a block, in order.  The job must be one that `objections` finds nothing against."""
-    return tuple(one for stage in _stages(job) for one in _cut(job, stage))
+    return tuple(a_pass for stage in _stages(job) for a_pass in _cut(job, stage))
 
 
 def rough_runs(job: Job) -> tuple[Run, ...]:
@@ -351,7 +351,7 @@ def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:
                 *_down(job, run, max(level, float(floor[0, 0])), before, safe if done == 0 else clear_height(job)),
                 *_milled(job, run, floor, level),
             )
-            up = _over(motions[-1], safe if done == last else clear_height(job))
+            up = _retract(motions[-1], safe if done == last else clear_height(job))
             yield Pass(
                 block=job.block,
                 cutter=stage.cutter,
@@ -378,7 +378,7 @@ def _down(job: Job, run: Run, depth: float, before: float | None, height: float)
     yield Motion(x, y, depth, job.plunge_feed)
 
 
-def _over(motion: Motion, height: float) -> Motion:
+def _retract(motion: Motion, height: float) -> Motion:
     return Motion(motion.x, motion.y, height)
 
 
@@ -390,7 +390,7 @@ def _milled(job: Job, run: Run, floors: Floats, level: float) -> Iterator[Motion
     for piece, feed, (low, high) in zip(whole, feeds, floors.tolist(), strict=True):
         if abs(max(low, level) - z) > JOINED:
             yield Motion(*piece.start, max(low, level), job.plunge_feed if max(low, level) < z else feed)
-        yield from _leveled(piece, feed, (low, high), level)
+        yield from _piece_at_level(piece, feed, (low, high), level)
         z = max(high, level)
 
 
@@ -401,12 +401,12 @@ def _feeds(job: Job, run: Run) -> list[float]:
     return [path[0]] * len(run.lead_in) + path + [path[-1]] * len(run.lead_out)
 
 
-def _leveled(piece: Piece, feed: float, floor: tuple[float, float], level: float) -> Iterator[Motion]:
+def _piece_at_level(piece: Piece, feed: float, floor: tuple[float, float], level: float) -> Iterator[Motion]:
     """One piece over a floor from `floor[0]` to `floor[1]`, never below `level`: in two where the floor meets it."""
     low, high = floor
     if (low - level) * (high - level) < 0.0:
         part = (level - low) / (high - low)
-        yield _motion(piece, feed, _point(piece, part), level)
+        yield _motion(piece, feed, piece.point_at(part), level)
     yield _motion(piece, feed, piece.end, max(high, level))
 
 
@@ -414,13 +414,3 @@ def _motion(piece: Piece, feed: float, end: Point, z: float) -> Motion:
     if isinstance(piece, Line):
         return Motion(*end, z, feed)
     return Motion(*end, z, feed, piece.turn, piece.center)
-
-
-def _point(piece: Piece, part: float) -> Point:
-    """The point of a piece after a part of its length, 0 to 1."""
-    (x0, y0), (x1, y1) = piece.start, piece.end
-    if isinstance(piece, Line):
-        return x0 + part * (x1 - x0), y0 + part * (y1 - y0)
-    (cx, cy), radius = piece.center, piece.radius
-    angle = atan2(y0 - cy, x0 - cx) + part * piece.sweep
-    return cx + radius * cos(angle), cy + radius * sin(angle)

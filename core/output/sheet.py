@@ -18,7 +18,7 @@ import numpy as np
 from core.finding import Finding, Severity
 from core.geometry.piece import Arc, Line, Turn
 from core.output.grid import Grid, length_text
-from core.output.objections import OVERRIDE, forbidding
+from core.output.objections import OVERRIDE, posting_errors
 from core.output.passes import Cutter, Job, Motion, Pass, passes, rough_runs
 from core.units import Kind, Unit, from_mm, sentence, show
 
@@ -78,7 +78,7 @@ class About:
 
 def sheet(jobs: Sequence[Job], unit: Unit, about: About) -> Sheet:
     """The sheet of a program's jobs; lengths on it are in program units."""
-    against = forbidding(jobs, Grid(unit), override=None)
+    against = posting_errors(jobs, Grid(unit), override=None)
     head = (
         ("PROGRAM", about.program),
         ("PART NAME", about.part or "-"),
@@ -123,12 +123,12 @@ def _tools(jobs: Sequence[Job], unit: Unit) -> Section:
 
 
 def _block(job: Job, unit: Unit) -> Section:
-    known = not forbidding([job], Grid(unit), override=OVERRIDE)
-    every = passes(job) if known else ()
+    known = not posting_errors([job], Grid(unit), override=OVERRIDE)
+    all_passes = passes(job) if known else ()
     return Section(
         f"BLOCK {job.block}  MILL CONTOUR",
-        (*_set_up(job, unit), *_cut(job, every, unit)),
-        _pass_table(every, unit),
+        (*_set_up(job, unit), *_cut(job, all_passes, unit)),
+        _pass_table(all_passes, unit),
         tuple(f"{_MARK[finding.severity]} {_finding_text(finding, unit)}" for finding in job.findings),
     )
 
@@ -149,12 +149,12 @@ def _set_up(job: Job, unit: Unit) -> Iterator[Pair]:
     yield "PECK DEPTH", length_text(job.peck_depth, unit) if job.peck_depth else "none: full depth in one pass"
 
 
-def _cut(job: Job, every: Sequence[Pass], unit: Unit) -> Iterator[Pair]:
+def _cut(job: Job, all_passes: Sequence[Pass], unit: Unit) -> Iterator[Pair]:
     yield "SPEED", f"{job.speed:g} RPM"
     yield "PLUNGE FEED", _feed(job.plunge_feed, unit)
     yield "FEEDS", _feeds(job, unit)
-    if every:
-        yield "CUTTING TIME", f"about {_cutting_time(every)}, rapids not counted"
+    if all_passes:
+        yield "CUTTING TIME", f"about {_cutting_time(all_passes)}, rapids not counted"
 
 
 def _cutter(cutter: Cutter | None) -> str:
@@ -176,8 +176,8 @@ def _reach(job: Job, unit: Unit) -> str:
     ]
     if not swept:
         return ""
-    every = np.concatenate(swept)
-    (x0, y0), (x1, y1) = every[:, :2].min(axis=0).tolist(), every[:, 2:].max(axis=0).tolist()
+    boxes = np.concatenate(swept)
+    (x0, y0), (x1, y1) = boxes[:, :2].min(axis=0).tolist(), boxes[:, 2:].max(axis=0).tolist()
     return f"X {length_text(x0, unit)} to {length_text(x1, unit)}  Y {length_text(y0, unit)} to {length_text(y1, unit)}"
 
 
@@ -191,26 +191,26 @@ def _feeds(job: Job, unit: Unit) -> str:
     return ", ".join(parts) or "-"
 
 
-def _pass_table(every: Sequence[Pass], unit: Unit) -> tuple[tuple[str, ...], ...]:
+def _pass_table(all_passes: Sequence[Pass], unit: Unit) -> tuple[tuple[str, ...], ...]:
     rows = [
         (
             str(number),
-            str(one.cutter.number),
-            "FINISH" if one.finishing else "PASS",
-            f"{one.number} of {one.count}",
-            length_text(one.level, unit),
-            length_text(one.stock, unit),
+            str(a_pass.cutter.number),
+            "FINISH" if a_pass.finishing else "PASS",
+            f"{a_pass.number} of {a_pass.count}",
+            length_text(a_pass.level, unit),
+            length_text(a_pass.stock, unit),
         )
-        for number, one in enumerate(every, 1)
+        for number, a_pass in enumerate(all_passes, 1)
     ]
     return (("NO.", "TOOL", "KIND", "DEPTH", "Z", "LEAVES ON SIDE"), *rows) if rows else ()
 
 
-def _cutting_time(every: Sequence[Pass]) -> str:
+def _cutting_time(all_passes: Sequence[Pass]) -> str:
     """Length over feed, all feeds at their programmed value."""
     time = 0.0
-    for one in every:
-        for before, motion in zip(one.motions, one.motions[1:], strict=False):
+    for a_pass in all_passes:
+        for before, motion in zip(a_pass.motions, a_pass.motions[1:], strict=False):
             if motion.feed:
                 time += _travel(before, motion) / motion.feed
     if not isfinite(time):

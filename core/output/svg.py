@@ -85,9 +85,7 @@ def outline(piece: Piece) -> str:
         return f"L{_at(piece.end)}"
     if abs(piece.sweep) <= pi:
         return _arc(piece, piece.end)
-    (x, y), (cx, cy) = piece.start, piece.center
-    half = complex(x - cx, y - cy) * np.exp(0.5j * piece.sweep)
-    middle = (cx + float(half.real), cy + float(half.imag))
+    middle = piece.point_at(0.5)
     return f"{_arc(piece, middle)} {_arc(piece, piece.end)}"
 
 
@@ -172,9 +170,9 @@ def _mark(mark: Mark, size: float) -> str:
     here, half = complex(*mark.at), size * 0.35
     if mark.symbol is Symbol.ARROW:
         wings = (here + ahead * 0.5 + ahead * turn for turn in (-0.8 + 0.45j, -0.8 - 0.45j))
-        one, other = (_at((wing.real, wing.imag)) for wing in wings)
+        left, right = (_at((wing.real, wing.imag)) for wing in wings)
         tip = here + ahead * 0.5
-        return _drawn(mark.style, f"M{one} L{_at((tip.real, tip.imag))} L{other}")
+        return _drawn(mark.style, f"M{left} L{_at((tip.real, tip.imag))} L{right}")
     if mark.symbol in (Symbol.GOUGE, Symbol.DELETED, Symbol.CENTER):
         x, y = mark.at
         first = f"M{_at((x - half, y - half))} L{_at((x + half, y + half))}"

@@ -14,7 +14,8 @@ from core.advice.path_findings import (
     z_step_findings,
 )
 from core.advice.work import Loop, RoughPass, Work
-from core.comp.best_path.best_path import BestPath, best_path, separation
+from core.comp.best_path.best_path import BestPath, best_path
+from core.comp.best_path.separation import separation
 from core.comp.blend import blend_in, blend_out
 from core.comp.compensate import compensate
 from core.comp.result import Compensated
@@ -22,7 +23,7 @@ from core.finding import Finding
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Side
 from core.output.grid import Grid
-from core.output.objections import objections
+from core.output.objections import job_errors
 from core.output.passes import z_steps
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.jobs import job
@@ -142,5 +143,5 @@ def _with_findings(block: DerivedBlock, work: Work, program: Program) -> Derived
     findings = by_severity((*back, *block.findings, *trouble))
     block = replace(block, work=work, known=True, findings=findings)
     due = job(block, program)
-    further = (*dict.fromkeys(objections(due, Grid(program.unit))), *z_step_findings(z_steps(due)))
+    further = (*dict.fromkeys(job_errors(due, Grid(program.unit))), *z_step_findings(z_steps(due)))
     return replace(block, findings=by_severity((*findings, *further)))

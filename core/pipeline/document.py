@@ -10,6 +10,7 @@ from core.advice.path_findings import nearest_place
 from core.advice.trials import Row, Table
 from core.finding import Finding
 from core.geometry.path import Path
+from core.geometry.piece import Point
 from core.pipeline.derived import Derived, DerivedBlock
 from core.units import Kind, Unit, from_mm, sentence, show
 
@@ -52,7 +53,7 @@ def _clearance_at(block: DerivedBlock, unit: Unit) -> Document | None:
     if place is None:
         return None
     x, y = place.surface_at
-    return {"segment": plain(place.surface_number), "x": from_mm(x, unit), "y": from_mm(y, unit)}
+    return {"segment": segment_number(place.surface_number), "x": from_mm(x, unit), "y": from_mm(y, unit)}
 
 
 def _block_moves(block: DerivedBlock, unit: Unit) -> Iterator[Document]:
@@ -71,7 +72,7 @@ def _moves(path: Path, part: str, unit: Unit) -> Iterator[Document]:
     for row, turn in enumerate(turns):
         (x0, y0), (x, y) = points[row], points[row + 1]
         ends = {"x0": from_mm(x0, unit), "y0": from_mm(y0, unit), "x": from_mm(x, unit), "y": from_mm(y, unit)}
-        move = {"type": "arc" if turn else "line", "part": part, "segment": plain(numbers[row]), **ends}
+        move = {"type": "arc" if turn else "line", "part": part, "segment": segment_number(numbers[row]), **ends}
         if turn:
             cx, cy = centers[row]
             move |= {"cx": from_mm(cx, unit), "cy": from_mm(cy, unit), "ccw": turn > 0}
@@ -83,12 +84,12 @@ def _deleted(block: DerivedBlock, unit: Unit) -> list[Document]:
         return []
     return [
         {
-            "segment": plain(one.segment),
-            "by": [plain(one.by[0]), plain(one.by[1])],
-            "x": from_mm(one.at[0], unit),
-            "y": from_mm(one.at[1], unit),
+            "segment": segment_number(deletion.segment),
+            "by": [segment_number(deletion.by[0]), segment_number(deletion.by[1])],
+            "x": from_mm(deletion.at[0], unit),
+            "y": from_mm(deletion.at[1], unit),
         }
-        for one in block.work.compensated.deleted
+        for deletion in block.work.compensated.deleted
     ]
 
 
@@ -98,7 +99,7 @@ def finding_document(finding: Finding, unit: Unit) -> Document:
     return {
         "code": finding.code,
         "severity": str(finding.severity),
-        "segment": None if finding.segment is None else plain(finding.segment),
+        "segment": None if finding.segment is None else segment_number(finding.segment),
         "field": finding.field,
         "x": at[0],
         "y": at[1],
@@ -120,7 +121,7 @@ def table_document(block: DerivedBlock, table: Table | None, unit: Unit) -> Docu
                 "clean": row.clean,
                 "gouge": from_mm(row.gouge, unit),
                 "uncut": from_mm(row.uncut, unit),
-                "deleted": [plain(number) for number in row.deleted],
+                "deleted": [segment_number(number) for number in row.deleted],
             }
             for row in rows
         ],
@@ -130,7 +131,7 @@ def table_document(block: DerivedBlock, table: Table | None, unit: Unit) -> Docu
     }
 
 
-def plain(number: float) -> int | float:
+def segment_number(number: float) -> int | float:
     """A segment's number as an integer where it is one."""
     return int(number) if number == int(number) else number
 
@@ -145,9 +146,9 @@ def path_listing(derived: Derived, number: int | None = None) -> Iterator[str]:
         yield f"BLOCK {document['block']}  CUTTER COMP. {document['comp']}  {kind}  LOOKAHEAD {value}  {unit}"
         for move in document["moves"]:
             yield _move_line(move, unit)
-        for one in document["deleted"]:
-            x, y = _length(one["x"], unit), _length(one["y"], unit)
-            yield f"  DELETED {one['segment']} by {one['by'][0]} and {one['by'][1]} at X {x} Y {y}"
+        for deletion in document["deleted"]:
+            x, y = _length(deletion["x"], unit), _length(deletion["y"], unit)
+            yield f"  DELETED {deletion['segment']} by {deletion['by'][0]} and {deletion['by'][1]} at X {x} Y {y}"
         yield from verdict_listing(block, unit)
 
 
@@ -155,18 +156,23 @@ def verdict_listing(block: DerivedBlock, unit: Unit) -> Iterator[str]:
     """What the cutter does to the surface: the least distance and its place, and every stretch that is not reached."""
     place = nearest_place(block.work)
     if place is not None and block.radius is not None:
-        x, y = (_length(from_mm(value, unit), unit) for value in place.surface_at)
         distance, radius = (_length(from_mm(value, unit), unit) for value in (place.distance, block.radius))
-        yield f"  NEAREST {distance}  TOOL RADIUS {radius}  at X {x} Y {y} on segment {place.surface_number:g}"
+        at = _place(place.surface_at, place.surface_number, unit)
+        yield f"  NEAREST {distance}  TOOL RADIUS {radius}  at {at}"
     verdict = None if block.work is None else block.work.verdict
     if verdict is None or not verdict.judged:
         return
     left, whole = (_length(from_mm(value, unit), unit) for value in (verdict.uncut_length, verdict.surface_length))
     yield f"  UNCUT {left} of {whole}"
-    for one in verdict.uncut:
-        (x0, y0), (x1, y1) = ([_length(from_mm(value, unit), unit) for value in at] for at in (one.start, one.end))
-        told = f"from X {x0} Y {y0} on segment {one.first_number:g} to X {x1} Y {y1} on segment {one.last_number:g}"
-        yield f"    {_length(from_mm(one.length, unit), unit)} {told}"
+    for stretch in verdict.uncut:
+        start = _place(stretch.start, stretch.first_number, unit)
+        end = _place(stretch.end, stretch.last_number, unit)
+        yield f"    {_length(from_mm(stretch.length, unit), unit)} from {start} to {end}"
+
+
+def _place(point: Point, segment: float, unit: Unit) -> str:
+    x, y = (_length(from_mm(value, unit), unit) for value in point)
+    return f"X {x} Y {y} on segment {segment:g}"
 
 
 def _length(value: float, unit: Unit) -> str:
@@ -204,6 +210,6 @@ def table_listing(block: DerivedBlock, table: Table | None, unit: Unit) -> Itera
 
 def _row_line(row: Row, table: Table, unit: Unit) -> str:
     gouge = "clean" if row.clean else _length(from_mm(row.gouge, unit), unit)
-    deleted = " ".join(str(plain(number)) for number in row.deleted) or "-"
+    deleted = " ".join(str(segment_number(number)) for number in row.deleted) or "-"
     mark = "<" if row.value == table.recommended else " "
     return f"  {row.value:>4} {mark} {gouge:>11} {_length(from_mm(row.uncut, unit), unit):>12}  {deleted}"

@@ -1,4 +1,4 @@
-"""What is drawn of a block: surface, center path, blends, what was deleted, gouged and left, and the cutter."""
+"""Plot: a derived block as a drawing: surface, paths, blends, what is deleted, gouged and left, and the cutter."""
 
 from __future__ import annotations
 
@@ -22,84 +22,88 @@ from core.units import Unit
 
 def svg_of(derived: Derived, *, title: str) -> str:
     """The whole program as one SVG drawing."""
-    scenes = [block_scene(found, None, derived.program.unit) for found in derived.blocks]
+    scenes = [block_scene(block, None, derived.program.unit) for block in derived.blocks]
     return svg(joined_scenes(scenes), title=title)
 
 
-def block_scene(found: DerivedBlock, segment: int | None, unit: Unit, row: Row | None = None) -> Scene:
+def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row | None = None) -> Scene:
     """The block with the cursor on `segment` (0 is START, None nowhere), or with the path of a row of the table."""
-    work, solved = found.work, found.solved
-    loops, one, verdict = ((), None, None) if work is None else (work.loops, _shown(work), work.verdict)
+    work, solved = block.work, block.solved
+    loops, control, verdict = (
+        ((), None, None) if work is None else (work.loops, _posted_control_path(work), work.verdict)
+    )
     if row is not None:
-        one, verdict = row.compensated, row.verdict
-        loops = (Loop(one.path, one.lead_in, one.lead_out),)
-    surface, first = _surface(found), loops[0] if loops else Loop(EMPTY, EMPTY, EMPTY)
+        control, verdict = row.compensated, row.verdict
+        loops = (Loop(control.path, control.lead_in, control.lead_out),)
+    surface, first = _surface(block), loops[0] if loops else Loop(EMPTY, EMPTY, EMPTY)
     return contour_scene(
         surface,
         unit=unit,
-        sketches=_sketches(found),
+        sketches=_sketches(block),
         path=first.path,
         further=[loop.path for loop in loops[1:]],
         leads=[lead for loop in loops for lead in (loop.lead_in, loop.lead_out)],
-        rough=() if row is not None else _behind(work),
-        deleted=NO_PARTS if one is None else _deleted(one),
-        meetings=() if one is None else list(dict.fromkeys(zip(*one.deleted.at.T.tolist(), strict=True))),
+        rough=() if row is not None else _dashed_paths(work),
+        deleted=NO_PARTS if control is None else _deleted(control),
+        meetings=() if control is None else list(dict.fromkeys(zip(*control.deleted.at.T.tolist(), strict=True))),
         gouges=() if verdict is None else [gouge.surface_at for gouge in verdict.gouges],
         uncut=NO_PARTS if verdict is None or not verdict.uncut else stretches(surface, verdict.uncut.ends),
-        cutter=_cutter(found, loops, one, segment),
-        current=_current(found, segment),
+        cutter=_cutter(block, loops, control, segment),
+        current=_current(block, segment),
         start=solved.segments[0].start if solved.segments else None,
     )
 
 
-def _shown(work: Work) -> Compensated | None:
-    """The control's path where it is the one that is posted: only then have its deletions a meaning."""
+def _posted_control_path(work: Work) -> Compensated | None:
+    """The control's path where it is the one that is posted: only then do its deletions mean anything."""
     return work.compensated if work.best is None else None
 
 
-def _behind(work: Work | None) -> list[Path]:
+def _dashed_paths(work: Work | None) -> list[Path]:
     """The roughing passes, and the control's path where another one is posted."""
     if work is None:
         return []
-    rough = [loop.whole for one in work.rough for loop in one.loops]
-    return rough if work.compensated is None or _shown(work) is not None else [*rough, work.compensated.path]
+    passes = [loop.whole for rough in work.rough for loop in rough.loops]
+    return passes if work.best is None or work.compensated is None else [*passes, work.compensated.path]
 
 
-def _surface(found: DerivedBlock) -> Path:
-    if found.work is not None:
-        return found.work.surface
-    pieces = found.solved.pieces
+def _surface(block: DerivedBlock) -> Path:
+    if block.work is not None:
+        return block.work.surface
+    pieces = block.solved.pieces
     return Path.from_pieces([piece for _, piece in pieces], [float(number) for number, _ in pieces])
 
 
-def _sketches(found: DerivedBlock) -> Parts:
+def _sketches(block: DerivedBlock) -> Parts:
     """Segments not determined yet: what is known of them, or the solutions the operator picks from."""
     pieces: list[Piece] = []
-    for one in found.solved.segments[found.solved.determined :]:
-        if one.piece is not None:
-            pieces.append(one.piece)
+    for segment in block.solved.segments[block.solved.determined :]:
+        if segment.piece is not None:
+            pieces.append(segment.piece)
         else:
-            pieces += one.choices or ((one.sketch,) if one.sketch is not None else ())
+            pieces += segment.choices or ((segment.sketch,) if segment.sketch is not None else ())
     if not pieces:
         return NO_PARTS
-    # a line between each and the next, which is not drawn: behind a number of one digit there may be a hundred
-    parts = [part for one, behind in pairwise(pieces) for part in (one, Line(one.end, behind.start))] + pieces[-1:]
+    # between each and the next a line that is not drawn
+    parts = [
+        part for piece, following in pairwise(pieces) for part in (piece, Line(piece.end, following.start))
+    ] + pieces[-1:]
     return Parts(Path.from_pieces(parts), np.arange(len(parts)) % 2 == 0)
 
 
-def _deleted(one: Compensated) -> Parts:
-    if not len(one.deleted):
+def _deleted(control: Compensated) -> Parts:
+    if not len(control.deleted):
         return NO_PARTS
-    sought, numbers = one.deleted.segments.copy(), one.contour.numbers
+    sought, numbers = control.deleted.segments.copy(), control.contour.numbers
     sought.sort()
     nearest = sought.take(sought.searchsorted(numbers), mode="clip")
-    return pieces_joined(one.contour, (nearest == numbers).nonzero()[0])
+    return pieces_joined(control.contour, (nearest == numbers).nonzero()[0])
 
 
-def _current(found: DerivedBlock, segment: int | None) -> Path | None:
-    if not segment or segment > len(found.solved.segments):
+def _current(block: DerivedBlock, segment: int | None) -> Path | None:
+    if not segment or segment > len(block.solved.segments):
         return None
-    piece = found.solved.segments[segment - 1].piece
+    piece = block.solved.segments[segment - 1].piece
     return None if piece is None else Path.from_pieces([piece])
 
 
@@ -110,20 +114,20 @@ class Place(NamedTuple):
     by: tuple[float, float] | None = None
 
 
-def cutter_at(found: DerivedBlock, segment: int) -> Place | None:
+def cutter_place(block: DerivedBlock, segment: int) -> Place | None:
     """Where the cutter is drawn for a segment of the block's own path; None where no path belongs to the segment."""
-    work = found.work
-    return None if work is None else _place(work.loops, _shown(work), segment)
+    work = block.work
+    return None if work is None else _place(work.loops, _posted_control_path(work), segment)
 
 
 def _cutter(
-    found: DerivedBlock, loops: Sequence[Loop], one: Compensated | None, segment: int | None
+    block: DerivedBlock, loops: Sequence[Loop], control: Compensated | None, segment: int | None
 ) -> tuple[Point, float] | None:
-    place = None if segment is None else _place(loops, one, segment)
-    return None if place is None or found.radius is None else (place.at, found.radius)
+    place = None if segment is None else _place(loops, control, segment)
+    return None if place is None or block.radius is None else (place.at, block.radius)
 
 
-def _place(loops: Sequence[Loop], one: Compensated | None, segment: int) -> Place | None:
+def _place(loops: Sequence[Loop], control: Compensated | None, segment: int) -> Place | None:
     """The end of a segment's path, the path's start for START, or where the path passes what was deleted."""
     for loop in loops:
         parts = [part for part in (loop.lead_in, loop.path, loop.lead_out) if len(part)]
@@ -132,7 +136,7 @@ def _place(loops: Sequence[Loop], one: Compensated | None, segment: int) -> Plac
         for part in reversed(parts):
             if len(rows := (part.numbers == segment).nonzero()[0]):
                 return Place(_point(part.ends[rows[-1]]))
-    return None if one is None else _passed(one, segment)
+    return None if control is None else _meeting(control, segment)
 
 
 def _point(row: Floats) -> Point:
@@ -140,11 +144,11 @@ def _point(row: Floats) -> Point:
     return x, y
 
 
-def _passed(one: Compensated, segment: float) -> Place | None:
+def _meeting(control: Compensated, segment: float) -> Place | None:
     """The meeting that deleted a segment; where a later one has deleted a piece of that pair too, the later one."""
-    deleted = {each.segment: each for each in one.deleted}
-    found = last = deleted.get(segment)
-    while found is not None:
-        last = found
-        found = next((deleted[number] for number in found.by if number in deleted), None)
+    deleted = {deletion.segment: deletion for deletion in control.deleted}
+    later = last = deleted.get(segment)
+    while later is not None:
+        last = later
+        later = next((deleted[number] for number in later.by if number in deleted), None)
     return None if last is None else Place(last.at, last.by)

@@ -27,13 +27,13 @@ def post_center_path(derived: Derived, *, name: str, override: str | None = None
 
 def post_control_program(derived: Derived, *, name: str, control: str) -> Posted | Refusal:
     """The program of a control by its full name, as the registry has it, or why there is none."""
-    unit, every = derived.program.unit, jobs(derived)
-    best = _best_path_refused(derived) if any(job.comp != "ON" for job in every) else ()
-    against = (*control_program_errors(every, unit), *best)
+    unit, all_jobs = derived.program.unit, jobs(derived)
+    best = _best_path_refused(derived) if any(job.comp != "ON" for job in all_jobs) else ()
+    against = (*control_program_errors(all_jobs, unit), *best)
     if against:
         return Refusal(against, unit)
-    cuts = [cut for block, job in zip(derived.blocks, every, strict=True) for cut in _cuts(block, job)]
-    return control_program(every, cuts, unit, name=name, control=control, part=derived.program.setup.name)
+    cuts = [cut for block, job in zip(derived.blocks, all_jobs, strict=True) for cut in _cuts(block, job)]
+    return control_program(all_jobs, cuts, unit, name=name, control=control, part=derived.program.setup.name)
 
 
 def _best_path_refused(derived: Derived) -> tuple[Finding, ...]:
@@ -46,20 +46,20 @@ def _best_path_refused(derived: Derived) -> tuple[Finding, ...]:
 
 def _cuts(block: DerivedBlock, job: Job) -> list[Cut | Plain]:
     if job.comp == "ON":
-        return [_plain(one, job) for one in passes(job)]
+        return [_uncompensated(a_pass, job) for a_pass in passes(job)]
     feeds = {floor.number: floor.feed or 0.0 for floor in job.floors}
-    return [_cut(one, _compensated(block, job, one), feeds, job) for one in passes(job)]
+    return [_cut(a_pass, _compensated(block, job, a_pass), feeds, job) for a_pass in passes(job)]
 
 
-def _plain(one: Pass, job: Job) -> Plain:
+def _uncompensated(a_pass: Pass, job: Job) -> Plain:
     """A pass with nothing to compensate: the tool's center runs on the contour."""
-    heights = [motion.z for motion in one.motions]
+    heights = [motion.z for motion in a_pass.motions]
     return Plain(
-        travels=tuple(_travels(one.motions)),
-        tool=one.cutter.number,
-        diameter=one.cutter.diameter,
+        travels=tuple(_travels(a_pass.motions)),
+        tool=a_pass.cutter.number,
+        diameter=a_pass.cutter.diameter,
         stock=0.0,
-        speed=one.speed,
+        speed=a_pass.speed,
         feeds={},
         plunge_feed=job.plunge_feed,
         travel=heights[0],
@@ -88,28 +88,28 @@ def _travels(motions: Sequence[Motion]) -> Iterator[Travel]:
         before = motion
 
 
-def _compensated(block: DerivedBlock, job: Job, one: Pass) -> Compensated:
+def _compensated(block: DerivedBlock, job: Job, a_pass: Pass) -> Compensated:
     """The compensated run that a pass goes along."""
     work = block.work
     assert work is not None
     assert work.compensated is not None
-    if one.finishing or (job.finisher is None and one.stock == 0.0):
+    if a_pass.finishing or (job.finisher is None and a_pass.stock == 0.0):
         return work.compensated
-    return next(rough.compensated for rough in work.rough if rough.stock == one.stock)
+    return next(rough.compensated for rough in work.rough if rough.stock == a_pass.stock)
 
 
-def _cut(one: Pass, run: Compensated, feeds: dict[int, float], job: Job) -> Cut:
-    first_feed = next(index for index, motion in enumerate(one.motions) if not motion.rapid)
+def _cut(a_pass: Pass, run: Compensated, feeds: dict[int, float], job: Job) -> Cut:
+    first_feed = next(index for index, motion in enumerate(a_pass.motions) if not motion.rapid)
     return Cut(
         compensated=run,
-        tool=one.cutter.number,
-        diameter=one.cutter.diameter,
-        stock=one.stock,
-        speed=one.speed,
+        tool=a_pass.cutter.number,
+        diameter=a_pass.cutter.diameter,
+        stock=a_pass.stock,
+        speed=a_pass.speed,
         feeds=feeds,
         plunge_feed=job.plunge_feed,
-        travel=one.motions[0].z,
-        near=one.motions[first_feed - 1].z,
-        depth=one.motions[first_feed].z,
-        leave=one.motions[-1].z,
+        travel=a_pass.motions[0].z,
+        near=a_pass.motions[first_feed - 1].z,
+        depth=a_pass.motions[first_feed].z,
+        leave=a_pass.motions[-1].z,
     )

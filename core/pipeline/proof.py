@@ -1,4 +1,4 @@
-"""An NC program as a control runs it: moves, findings and verdict in one value, and what is drawn of it."""
+"""Proof: an NC program as a control runs it, with its moves, findings and verdicts, and how it is drawn."""
 
 from __future__ import annotations
 
@@ -33,24 +33,24 @@ class Proof:
         return self.run.stretches[0].plane if self.run.stretches else Plane.XY
 
 
-def ran(text: bytes, control: str, tools: ToolTable, unit: Unit | None = None) -> Proof | UnknownControl:
+def run_program(text: bytes, control: str, tools: ToolTable, unit: Unit | None = None) -> Proof | UnknownControl:
     """The program on a control, without the verdicts, which take longer than the run."""
-    done = run(text, control, tools, unit)
-    return done if isinstance(done, UnknownControl) else Proof(done, ())
+    result = run(text, control, tools, unit)
+    return result if isinstance(result, UnknownControl) else Proof(result, ())
 
 
-def judged_fully(proof: Proof) -> Proof:
+def with_verdicts(proof: Proof) -> Proof:
     """The same with its verdicts."""
     return Proof(proof.run, judged(proof.run))
 
 
 def prove(text: bytes, control: str, tools: ToolTable, unit: Unit | None = None) -> Proof | UnknownControl:
     """The program on a control; never raises for any text."""
-    found = ran(text, control, tools, unit)
-    return found if isinstance(found, UnknownControl) else judged_fully(found)
+    proof = run_program(text, control, tools, unit)
+    return proof if isinstance(proof, UnknownControl) else with_verdicts(proof)
 
 
-def ground_of(proof: Proof) -> Scene:
+def fixed_scene(proof: Proof) -> Scene:
     """All that does not depend on the cursor: rapids, other moves, surfaces, center paths, gouges, what is uncut."""
     moves, plane = proof.run.moves, proof.plane
     feeds = ~moves.rapid
@@ -82,15 +82,15 @@ def _stretch_scene(result: Judged) -> Scene:
     )
 
 
-def scene_of(ground: Scene, proof: Proof, line: int) -> Scene:
-    """The ground with the moves of a line and the cutter where they end, or where the line before left it."""
+def scene_at_line(fixed: Scene, proof: Proof, line: int) -> Scene:
+    """The fixed scene with the moves of a line and the cutter where they end, or where the line before left it."""
     moves, plane = proof.run.moves, proof.plane
     layers = [Layer(path, Style.CURRENT) for path in _moves_of(moves, plane, line)]
-    at, row = place_of(proof, line)
+    at, row = cutter_place(proof, line)
     held = _stretch_at(proof, row)
     circles = () if held is None else (Circle(at, held.radius),)
     marks = (Mark(at, Style.CUTTER, Symbol.CENTER),)
-    return Scene((*ground.layers, *layers), circles, (*ground.marks, *marks), ground.unit)
+    return Scene((*fixed.layers, *layers), circles, (*fixed.marks, *marks), fixed.unit)
 
 
 def _moves_of(moves: Moves, plane: Plane, line: int) -> Iterator[Path]:
@@ -101,7 +101,7 @@ def _moves_of(moves: Moves, plane: Plane, line: int) -> Iterator[Path]:
         yield moves.part(max(int(part[0]) - 1, 0), int(part[-1]) + 1).path(plane)
 
 
-def place_of(proof: Proof, line: int) -> tuple[Point, int]:
+def cutter_place(proof: Proof, line: int) -> tuple[Point, int]:
     """Where the cutter is after a line, on the plane drawn, and the row of the move that brought it there.
 
     A line without moves leaves it where the last move of a line above it did.
@@ -118,5 +118,5 @@ def place_of(proof: Proof, line: int) -> tuple[Point, int]:
 
 def _stretch_at(proof: Proof, row: int) -> Stretch | None:
     """The compensated stretch a move belongs to, the nearest one below it, or the last one."""
-    behind = [one for one in proof.run.stretches if row < one.last]
-    return behind[0] if behind else proof.run.stretches[-1] if proof.run.stretches else None
+    later = [stretch for stretch in proof.run.stretches if row < stretch.last]
+    return later[0] if later else proof.run.stretches[-1] if proof.run.stretches else None

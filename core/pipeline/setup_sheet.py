@@ -23,5 +23,5 @@ def sheet_text(derived: Derived, *, name: str, day: str) -> str:
 def sheet_page(derived: Derived, *, name: str, day: str) -> str:
     """The sheet as an HTML page, with the exact drawing of every block."""
     unit = derived.program.unit
-    drawings = [svg(block_scene(found, None, unit), title=f"BLOCK {found.number}") for found in derived.blocks]
+    drawings = [svg(block_scene(block, None, unit), title=f"BLOCK {block.number}") for block in derived.blocks]
     return as_page(sheet_of(derived, name=name, day=day), drawings)

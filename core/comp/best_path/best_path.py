@@ -1,8 +1,7 @@
-"""The best path: the true offset of a whole contour, every place its cutter can reach and nothing it cannot.
+"""Best path: the true offset of a whole contour, every place its cutter can reach and nothing it cannot.
 
 The control's look-ahead rule does not bind it: it is trimmed globally, across the start too, in one or several loops.
-It is made of the raw chain's pieces, cut wherever they meet: a slice belongs to the path where the cutter is clear of
-every segment, whatever that segment's number.  So the best path is exact wherever the raw chain is.
+The stages: surface, raw offset, trim, slices, clearance, stitch.  BEST_PATH.md explains them with a picture.
 
 Two things count as surface on both sides: an open contour, about whose ends the cutter could go, and a contour that
 crosses itself, where over-run lead-ins are walls like any other segment; a finding says so.
@@ -10,29 +9,38 @@ crosses itself, where over-run lead-ins are walls like any other segment; a find
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
-from core.comp.best_path.fate import clear_slices
-from core.comp.best_path.loops import loop_of
-from core.comp.best_path.meetings import events
-from core.comp.best_path.raw_offset import Raw, untrimmed
-from core.comp.best_path.result import BestPath
-from core.comp.best_path.separation import Separation, separation
-from core.comp.best_path.slices import sliced
-from core.comp.best_path.stitch import Stitched, chains, stitch
+from core.comp.best_path.clearance import clear_slices
+from core.comp.best_path.raw_offset import RawOffset, raw_offset
+from core.comp.best_path.slices import self_intersections, sliced
+from core.comp.best_path.stitch import Stitched, chains, loop_of, stitch
 from core.comp.best_path.surface import Surface, crosses_itself, surface_of
 from core.comp.best_path.trim import trimmed
 from core.finding import Finding, Severity
-from core.geometry.path import Path
+from core.geometry.path import Path, Rows
 from core.geometry.piece import Side
-from core.tolerance import GOUGE
+from core.tolerance import GOUGE, JOINED, WHISKER
 
-__all__ = ["BestPath", "Separation", "best_path", "separation"]
-
-MOST_LOOPS: Final = 10_000
+MAX_LOOPS: Final = 10_000
 """More loops than any part has: such a scribble is refused."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class BestPath:
+    """The loops of the best path in the contour's direction and the order of its segments; `closed` tells which are.
+
+    A closed loop starts at the image of START if that is on it, else with the first segment of the contour it follows.
+    An open contour has open chains too.  Pieces bear the programmed number k, corner arcs k + 1/2.
+    Without loops, a finding says why.
+    """
+
+    loops: tuple[Path, ...]
+    closed: tuple[bool, ...]
+    findings: tuple[Finding, ...]
 
 
 def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> BestPath:
@@ -44,30 +52,34 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     surface = surface_of(contour, radius, closed=closed)
     if not len(surface.path):
         return BestPath((), (), surface.findings)
-    crossing = crosses_itself(surface, closed=closed)
+    crossing = crosses_itself(surface.path, closed=closed)
     findings = surface.findings if crossing is None else (*surface.findings, _crossing(crossing))
-    chain = untrimmed(surface.path, side, radius, closed=closed, crossing=crossing is not None)
-    raw = trimmed(chain, side.sign, radius)
-    del chain
-    found = events(raw, side.sign)
-    if found is None:
+    untrimmed = raw_offset(surface.path, side, radius, closed=closed, crossing=crossing is not None)
+    raw = trimmed(untrimmed, side.sign, radius)
+    del untrimmed
+    met = self_intersections(raw, side.sign)
+    if met is None:
         return BestPath((), (), (*findings, _tangled()))
-    made = stitch(raw, clear_slices(raw, sliced(raw, found), surface, radius), side.sign)
+    made = stitch(raw, clear_slices(raw, sliced(raw, met), surface.path, radius), side.sign, radius)
     return _best(raw, made, surface, findings)
 
 
-def _best(raw: Raw, made: Stitched, surface: Surface, findings: tuple[Finding, ...]) -> BestPath:
+def _best(raw: RawOffset, made: Stitched, surface: Surface, findings: tuple[Finding, ...]) -> BestPath:
     """The loops longer than rounding, and what is to be said of them."""
-    walked = [(rows, ring) for rows, ring in chains(made) if made.cut.size[rows].sum() > GOUGE]
-    if len(walked) > MOST_LOOPS:
+    walked = [(rows, ring) for rows, ring in chains(made) if not _is_rounding(made, rows)]
+    if len(walked) > MAX_LOOPS:
         return BestPath((), (), (*findings, _tangled()))
-    loops = tuple(loop_of(raw, made.cut, rows, surface.origin) for rows, _ in walked)
+    loops = tuple(loop_of(raw, made, rows, surface.origin) for rows, _ in walked)
     if not loops:
-        findings = (*findings, _no_path())
-    loose = np.concatenate([rows[made.loose[rows]] for rows, _ in walked] or [np.empty(0, np.intp)])
-    if len(loose):
-        findings = (*findings, _broken(raw, made, int(loose[0]), surface))
-    return BestPath(loops, tuple(ring for _, ring in walked), findings)
+        return BestPath((), (), (*findings, _no_path()))
+    rows = np.concatenate([rows for rows, _ in walked])
+    said = (*_joined(raw, made, rows, surface), *_broken(raw, made, rows, surface))
+    return BestPath(loops, tuple(ring for _, ring in walked), (*findings, *said))
+
+
+def _is_rounding(made: Stitched, rows: Rows) -> bool:
+    """Are these slices no longer than what rounding leaves, which is more where it has parted them?"""
+    return float(made.cut.size[rows].sum()) <= (WHISKER if (made.gaps[rows] > JOINED).any() else GOUGE)
 
 
 def _no_path() -> Finding:
@@ -81,13 +93,39 @@ def _tangled() -> Finding:
 
 
 def _crossing(numbers: tuple[float, float]) -> Finding:
-    one, other = numbers
-    text = f"Segments {one:g} and {other:g} cross or touch: the best path takes every segment as a wall on both sides."
-    return Finding("CROSSES_ITSELF", Severity.WARNING, text, one)
+    a, b = numbers
+    text = f"Segments {a:g} and {b:g} cross or touch: the best path takes every segment as a wall on both sides."
+    return Finding("CROSSES_ITSELF", Severity.WARNING, text, a)
 
 
-def _broken(raw: Raw, made: Stitched, row: int, surface: Surface) -> Finding:
-    place = complex(made.cut.points[made.cut.last[row]])
+def _joined(raw: RawOffset, made: Stitched, rows: Rows, surface: Surface) -> tuple[Finding, ...]:
+    """The largest gap that rounding has left between neighbors' offsets and that was closed on the path."""
+    cut, bridges = made.cut, made.gaps[rows]
+    until = cut.until[rows]
+    passed = np.zeros(len(raw) + 1)
+    np.add.at(passed, cut.piece[rows], 1.0)
+    np.add.at(passed, until + (cut.end[rows] >= raw.lengths[until] - JOINED), -1.0)
+    joints = np.where(np.cumsum(passed)[:-1] > 0.0, raw.gaps, 0.0)
+    joints[until] = np.maximum(joints[until], bridges)
+    piece = int(np.argmax(joints))
+    if joints[piece] <= JOINED:
+        return ()
+    end = complex(raw.end[piece])
+    at = (end.real + float(surface.origin[0]), end.imag + float(surface.origin[1]))
+    text = "Neighbors' offsets that miss each other by rounding are joined; the largest gap is {0~1}."
+    number, gap = float(raw.numbers[piece]), float(joints[piece])
+    return (Finding("BEST_JOINED", Severity.INFO, text, number, at=at, lengths=(gap, 0.0)),)
+
+
+def _broken(raw: RawOffset, made: Stitched, rows: Rows, surface: Surface) -> tuple[Finding, ...]:
+    """The first place where the path ends or begins though the cutter could go on."""
+    cut = made.cut
+    loose = rows[made.loose_end[rows] | made.loose_begin[rows]]
+    if not len(loose):
+        return ()
+    row = int(loose[0])
+    node, piece = (cut.last[row], cut.until[row]) if made.loose_end[row] else (cut.first[row], cut.piece[row])
+    place = complex(cut.points[node])
     at = (place.real + float(surface.origin[0]), place.imag + float(surface.origin[1]))
-    number = float(raw.numbers[made.cut.until[row]])
-    return Finding("BEST_BROKEN", Severity.WARNING, "The best path does not close near X {x} Y {y}.", number, at=at)
+    text = "The best path does not close near X {x} Y {y}."
+    return (Finding("BEST_BROKEN", Severity.WARNING, text, float(raw.numbers[piece]), at=at),)

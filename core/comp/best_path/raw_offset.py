@@ -1,4 +1,4 @@
-"""The raw chain of the best path: what may be left of the offset, joined across the start, and what else cuts it.
+"""Raw offset: the offset curve of a whole contour before trimming, joined across the start, and what else cuts it.
 
 Words: the SIDE pieces are the offset segments and corner arcs on the cutter's side; of a closed contour they are
 joined across its start.  The OUTLINE pieces are the rest of the outline of all places nearer than the radius: the
@@ -7,26 +7,28 @@ other side, and the half circles about an open contour's two ends.  They only cu
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from math import tau
 
 import numpy as np
 
-from core.comp.best_path.winding import winds
+from core.comp.best_path.surface import winds
 from core.comp.offset import Chain, Part, offset
 from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, Turns, as_complex, joined
 from core.geometry.piece import SLIVER, Side
-from core.tolerance import JOINED
+from core.geometry.piece_arrays import PieceArrays, boxes
+from core.tolerance import CROWDED, JOINED, ON_PATH
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Raw:
+class RawOffset:
     """m raw pieces in order of travel; the side pieces follow each other without a gap.
 
     `start`, `end`, `center` (m,) complex; `turns` (m,); `numbers` (m,) programmed; `lengths` (m,) mm.  `following`
     (m,) is the piece whose start is this one's end, -1 where none is; `smooth` (m,) marks those joined so that nothing
-    vanished between.  `side` (m,) marks the side pieces, which belong to the surface's `segment` (m,), from 0, or to
-    the corner behind it.  `blunt_start`, `blunt_end` (m,) mark pieces cut off inside a wall there.
+    vanished between; `gaps` (m,) is by how much they missed each other before they were joined, 0 for most.  `side`
+    (m,) marks the side pieces, which belong to the surface's `segment` (m,), from 0, or to the corner behind it.
+    `blunt_start`, `blunt_end` (m,) mark pieces cut off inside a wall there.
     """
 
     start: Points
@@ -37,6 +39,7 @@ class Raw:
     lengths: Floats
     following: Rows
     smooth: Flags
+    gaps: Floats
     side: Flags
     segment: Rows
     blunt_start: Flags
@@ -50,52 +53,109 @@ class Raw:
         """All pieces, without a copy."""
         return Pieces(self.start, self.end, self.center, self.turns)
 
+    @property
+    def boxes(self) -> Floats:
+        """(4, m) exact bounding boxes."""
+        arcs = self.turns != 0
+        arm = np.where(arcs, self.start - self.center, 1.0)
+        radius = np.where(arcs, np.abs(arm), 0.0)
+        angle = np.where(arcs, self.lengths, 0.0) / np.where(arcs, radius, 1.0)
+        rows, none = np.arange(len(self)), np.zeros(len(self))
+        turn = self.turns.astype(np.float64)
+        return boxes(PieceArrays(rows, self.start, self.end - self.start, arm, turn, angle, radius, self.lengths, none))
+
+    @property
+    def next_in_row(self) -> Flags:
+        """(m,) which pieces are followed by the next one in number."""
+        next_row: Flags = self.following == np.arange(1, len(self) + 1)
+        return next_row
+
+    def kept(self, keep: Flags) -> RawOffset:
+        """Some pieces (m,); those that followed a piece that is gone follow none."""
+        columns = {field.name: getattr(self, field.name)[keep] for field in fields(self)}
+        return RawOffset(**{**columns, "following": renumbered(columns["following"], keep)})
+
+    def directions(self, rows: Rows, points: Points) -> Points:
+        """(k,) directions of travel of pieces at points on them, not of unit length."""
+        turns, span = self.turns[rows], self.end[rows] - self.start[rows]
+        along: Points = np.where(turns == 0, span, 1j * turns * (points - self.center[rows]))
+        return along
+
+    def along(self, rows: Rows, points: Points) -> Floats:
+        """(k,) distances from the pieces' starts of the places abreast of points."""
+        start, center, turns = self.start[rows], self.center[rows], self.turns[rows]
+        straight = turns == 0
+        span = self.end[rows] - start
+        line = (span.conj() * (points - start)).real / np.where(straight, np.abs(span), 1.0)
+        arm = start - center
+        angle = np.mod(np.angle(arm.conj() * (points - center)) * turns, tau)
+        angle = np.where((tau - angle) * np.abs(arm) <= JOINED, angle - tau, angle)
+        along: Floats = np.where(straight, line, angle * np.abs(arm))
+        return along
+
+    def at(self, rows: Rows, along: Floats) -> Points:
+        """(k,) points at distances from the pieces' starts."""
+        start, turns = self.start[rows], self.turns[rows]
+        arm = np.where(turns == 0, start - self.end[rows], start - self.center[rows])
+        size = np.abs(arm)
+        straight = start - arm * (along / size)
+        curved = start - arm + arm * np.exp(1j * turns * (along / size))
+        points: Points = np.where(turns == 0, straight, curved)
+        return points
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Untrimmed:
-    """The raw chain before its inside corners are cut, and the surface's `joints`: those of row k are k and k + 1.
+    """The raw offset before its inside corners are cut, and the surface's `vertices`: those of row k are k and k + 1.
 
     `order` (m,) is each piece's next in its ring, -1 at an open end; `inside` (m,) marks an inside corner between
     them, `corner` (m,) the corner arcs.
     """
 
-    raw: Raw
+    raw: RawOffset
     order: Rows
     inside: Flags
     corner: Flags
-    joints: Points
+    vertices: Points
 
 
-def untrimmed(surface: Path, side: Side, radius: float, *, closed: bool, crossing: bool) -> Untrimmed:
-    """The raw chain of a surface; of a closed one that crosses itself also the outline of its other side.
+def renumbered(rows: Rows, keep: Flags) -> Rows:
+    """Rows as they are called among those that are kept; -1 stays, and is what a lost row becomes."""
+    place = np.append(np.where(keep, np.cumsum(keep) - 1, -1), -1)
+    return place[rows]
+
+
+def raw_offset(surface: Path, side: Side, radius: float, *, closed: bool, crossing: bool) -> Untrimmed:
+    """The raw offset of a surface; of a closed one that crosses itself also the outline of its other side.
 
     An open contour that winds or crosses itself is taken there and back, as a closed one without width: the way back
     is its other side.  Of another open contour the half circles about its ends are all the outline that can cut.
     """
     if closed:
-        return _closed(surface, side, radius, crossing=crossing)
+        return _around_closed(surface, side, radius, crossing=crossing)
     if crossing or winds(surface, radius):
-        both = joined((surface, surface.reversed()))
-        chain = _around(both, side, radius)
-        return _untrimmed(chain, 2 * len(surface) - 1, as_complex(both.points), rings=(len(chain),))
+        chain = _ring(joined((surface, surface.reversed())), side, radius)
+        vertices = as_complex(joined((surface, surface.reversed())).points)
+        return _raw(chain, radius, 2 * len(surface) - 1, vertices, rings=(len(chain),))
     whole = joined((surface.part(0, 1).reversed(), surface, surface.part(len(surface) - 1, len(surface)).reversed()))
     chain = _without_cusps(offset(whole, side, radius), whole, side)
     chain = Chain(chain.raw, chain.parts, chain.places - 2)
-    return _untrimmed(chain, 2 * len(surface) - 1, as_complex(surface.points), rings=())
+    return _raw(chain, radius, 2 * len(surface) - 1, as_complex(surface.points), rings=())
 
 
-def _closed(surface: Path, side: Side, radius: float, *, crossing: bool) -> Untrimmed:
-    chain = _around(surface, side, radius)
-    joints = as_complex(surface.points)
+def _around_closed(surface: Path, side: Side, radius: float, *, crossing: bool) -> Untrimmed:
+    chain = _ring(surface, side, radius)
+    vertices = as_complex(surface.points)
     if not crossing:
-        return _untrimmed(chain, 2 * len(surface), joints, rings=(len(chain),))
-    back = _around(surface.reversed(), side, radius)
-    chain, ring = _both(chain, back, 2 * len(joints)), len(chain)
-    return _untrimmed(chain, 2 * len(surface), np.concatenate((joints, joints[::-1])), rings=(ring, len(chain)))
+        return _raw(chain, radius, 2 * len(surface), vertices, rings=(len(chain),))
+    back = _ring(surface.reversed(), side, radius)
+    chain, ring = _both_sides(chain, back, 2 * len(vertices)), len(chain)
+    vertices = np.concatenate((vertices, vertices[::-1]))
+    return _raw(chain, radius, 2 * len(surface), vertices, rings=(ring, len(chain)))
 
 
-def _around(surface: Path, side: Side, radius: float) -> Chain:
-    """The raw chain of a closed surface with the joint at its start: traveled on over the first segment."""
+def _ring(surface: Path, side: Side, radius: float) -> Chain:
+    """The offset of a closed surface with the joint at its start: traveled on over the first segment."""
     chain = offset(joined((surface, surface.part(0, 1))), side, radius)
     last = int(np.searchsorted(chain.places, 2 * len(surface)))
     chain = Chain(chain.raw.part(0, last), chain.parts[:last], chain.places[:last])
@@ -118,42 +178,34 @@ def _without_cusps(chain: Chain, surface: Path, side: Side) -> Chain:
     back = (there + 1) % len(surface)
     first, last = points[corners] - centers[corners], points[corners + 1] - centers[corners]
     bend = first.conj() * last
-    before = np.minimum(_lengths(surface, there), _lengths(surface, back)) / 4.0
-    aside = (
-        bend.imag / np.abs(bend) * before - (_curvature(surface, there) + _curvature(surface, back)) * before**2 / 2.0
-    )
+    sizes, curvature = surface.lengths, _curvature(surface)
+    before = np.minimum(sizes[there], sizes[back]) / 4.0
+    aside = bend.imag / np.abs(bend) * before - (curvature[there] + curvature[back]) * before**2 / 2.0
     parts = chain.parts.copy()
     parts[corners[side.sign * aside > JOINED]] = Part.BRIDGE.value
     return Chain(chain.raw, parts, chain.places)
 
 
-def _lengths(path: Path, rows: Rows) -> Floats:
-    points = as_complex(path.points)
-    return lengths(points[rows], points[rows + 1], as_complex(path.centers)[rows], path.turns[rows])
-
-
-def _curvature(path: Path, rows: Rows) -> Floats:
+def _curvature(path: Path) -> Floats:
     """Curvatures of pieces, positive to the left, 0 of a line."""
-    radii = np.abs(as_complex(path.points)[rows] - as_complex(path.centers)[rows])
-    curvature: Floats = path.turns[rows] / np.where(path.turns[rows] == 0, 1.0, radii)
+    curvature: Floats = path.turns / np.where(path.turns == 0, 1.0, path.radii)
     return curvature
 
 
-def _both(one: Chain, two: Chain, places: int) -> Chain:
+def _both_sides(there: Chain, back: Chain, places: int) -> Chain:
     """Two chains as one, a bridge between them; the second one's places begin at `places`."""
-    points = np.concatenate((one.raw.points, two.raw.points))
     path = Path.of(
-        points,
-        np.concatenate((one.raw.centers, one.raw.points[-1:], two.raw.centers)),
-        np.concatenate((one.raw.turns, np.zeros(1, np.int8), two.raw.turns)),
-        np.concatenate((one.raw.numbers, np.zeros(1), two.raw.numbers)),
+        np.concatenate((there.raw.points, back.raw.points)),
+        np.concatenate((there.raw.centers, there.raw.points[-1:], back.raw.centers)),
+        np.concatenate((there.raw.turns, np.zeros(1, np.int8), back.raw.turns)),
+        np.concatenate((there.raw.numbers, np.zeros(1), back.raw.numbers)),
     )
     bridge = np.full(1, Part.BRIDGE.value, np.uint8)
-    parts = np.concatenate((one.parts, bridge, two.parts))
-    return Chain(path, parts, np.concatenate((one.places, one.places[-1:] + 1, two.places + places)))
+    parts = np.concatenate((there.parts, bridge, back.parts))
+    return Chain(path, parts, np.concatenate((there.places, there.places[-1:] + 1, back.places + places)))
 
 
-def _untrimmed(chain: Chain, sides: int, joints: Points, *, rings: tuple[int, ...]) -> Untrimmed:
+def _raw(chain: Chain, radius: float, sides: int, vertices: Points, *, rings: tuple[int, ...]) -> Untrimmed:
     """The pieces of a chain that have a geometry of their own, joined over provisional bridges of no length.
 
     Side pieces have places 0 ... `sides` - 1.  Before each of the rows `rings` a ring ends, whose last piece is joined
@@ -167,7 +219,7 @@ def _untrimmed(chain: Chain, sides: int, joints: Points, *, rings: tuple[int, ..
     onward, order = _onward(rows, len(chain), rings)
     gapless = (order >= 0) & (np.abs(start[order] - end) <= JOINED)
     bridged = (order >= 0) & ~gapless & (chain.parts[onward[rows]] == Part.BRIDGE.value)
-    raw = Raw(
+    raw = RawOffset(
         start,
         end,
         center,
@@ -176,13 +228,14 @@ def _untrimmed(chain: Chain, sides: int, joints: Points, *, rings: tuple[int, ..
         lengths(start, end, center, turns),
         np.where(gapless, order, -1),
         gapless & (rows[order] == onward[rows]),
+        np.zeros(len(rows)),
         (chain.places[rows] >= 0) & (chain.places[rows] < sides),
         chain.places[rows].astype(np.intp) // 2,
         np.zeros(len(rows), np.bool_),
         np.zeros(len(rows), np.bool_),
     )
     inside = bridged & (rows[order] == onward[onward[rows]])
-    return Untrimmed(raw, order, inside, chain.parts[rows] == Part.CORNER.value, joints)
+    return _smoothed(Untrimmed(raw, order, inside, chain.parts[rows] == Part.CORNER.value, vertices), radius)
 
 
 def _onward(rows: Rows, count: int, rings: tuple[int, ...]) -> tuple[Rows, Rows]:
@@ -199,14 +252,58 @@ def _onward(rows: Rows, count: int, rings: tuple[int, ...]) -> tuple[Rows, Rows]
     return onward, order
 
 
+def _smoothed(chain: Untrimmed, radius: float) -> Untrimmed:
+    """The chain with neighbors that miss tangency by the rounding of typed numbers joined half way between their ends.
+
+    Their circles cross there at so small an angle that no formula finds where.  The middle of the gap lies off either
+    offset by its square over eight radii: no more than ON_PATH (BEST_PATH.md, "Near-tangent joints").
+    """
+    before, between, behind = _near_tangent(chain)
+    raw = chain.raw
+    gaps = np.abs(raw.start[behind] - raw.end[before])
+    bend = np.where(raw.turns == 0, radius, np.minimum(np.abs(raw.start - raw.center), radius))
+    long = (raw.lengths > 4.0 * CROWDED) & ~chain.corner & (raw.start != raw.end)
+    fits = long[before] & long[behind] & (gaps**2 <= 8.0 * ON_PATH * np.minimum(bend[before], bend[behind]))
+    before, between, behind, gaps = before[fits], between[fits], behind[fits], gaps[fits]
+    if not len(before):
+        return chain
+    start, end, size = raw.start.copy(), raw.end.copy(), raw.lengths.copy()
+    start[behind] = end[before] = (raw.end[before] + raw.start[behind]) / 2.0
+    moved = np.concatenate((before, behind))
+    size[moved] = lengths(start[moved], end[moved], raw.center[moved], raw.turns[moved])
+    missed, following, smooth = raw.gaps.copy(), raw.following.copy(), raw.smooth.copy()
+    missed[before], following[before], smooth[before] = gaps, behind, True
+    order, inside = chain.order.copy(), chain.inside.copy()
+    order[before], inside[before] = behind, False
+    keep = np.ones(len(raw), np.bool_)
+    keep[between[between >= 0]] = False
+    raw = replace(raw, start=start, end=end, lengths=size, following=following, smooth=smooth, gaps=missed)
+    return Untrimmed(raw.kept(keep), renumbered(order[keep], keep), inside[keep], chain.corner[keep], chain.vertices)
+
+
+def _near_tangent(chain: Untrimmed) -> tuple[Rows, Rows, Rows]:
+    """Pieces that end within CROWDED of the next one's start, the tiny corner arc between or -1, and the next ones."""
+    raw, order = chain.raw, chain.order
+    inside = (chain.inside & (np.abs(raw.start[order] - raw.end) <= CROWDED)).nonzero()[0]
+    corners = (chain.corner & raw.smooth & (raw.lengths <= CROWDED)).nonzero()[0]
+    previous = np.full(len(raw), -1)
+    previous[order[order >= 0]] = (order >= 0).nonzero()[0]
+    corners = corners[(previous[corners] >= 0) & raw.smooth[previous[corners]]]
+    before = np.concatenate((previous[corners], inside))
+    between = np.concatenate((corners, np.full(len(inside), -1)))
+    behind = np.concatenate((order[corners], order[inside]))
+    apart = before != behind
+    return before[apart], between[apart], behind[apart]
+
+
 def lengths(start: Points, end: Points, center: Points, turns: Turns) -> Floats:
     """(n,) lengths of pieces; an arc whose ends are equal is a full circle."""
-    found: Floats = np.abs(end - start)
+    size: Floats = np.abs(end - start)
     arcs = turns.nonzero()[0]
     first, last, turn = start[arcs] - center[arcs], end[arcs] - center[arcs], turns[arcs]
     angle = np.angle(first.conj() * last) * turn
     angle[angle < 0.0] += tau
     angle[angle > tau - SLIVER] = 0.0
-    angle[found[arcs] == 0.0] = tau
-    found[arcs] = angle * np.abs(first)
-    return found
+    angle[size[arcs] == 0.0] = tau
+    size[arcs] = angle * np.abs(first)
+    return size

@@ -13,11 +13,11 @@ from math import tau
 
 import numpy as np
 
-from core.comp.best_path.clear import distances
-from core.comp.best_path.raw_offset import lengths
-from core.comp.best_path.result import BestPath
-from core.comp.best_path.tree import Tree, near, piece_boxes, tree
-from core.geometry.path import Flags, Floats, Path, Points, Rows, as_complex, coordinates
+from core.comp.best_path.best_path import BestPath
+from core.geometry.distance import distance
+from core.geometry.nearby import near_pairs
+from core.geometry.path import Floats, Path, coordinates
+from core.geometry.piece_arrays import PieceArrays, at, boxes, piece_arrays, traveled
 from core.tolerance import GOUGE
 
 
@@ -38,26 +38,30 @@ def separation(control: Path, best: BestPath, radius: float) -> Separation:
     """
     limit = min(GOUGE, radius / 1000.0)
     stretches = []
-    length = 0.0
-    for loop in best.loops:
-        for first, last in _unfollowed(control, loop, limit):
-            stretches.append(_part(loop, first, last))
+    length = whole = 0.0
+    moves = piece_arrays(control)
+    for path in best.loops:
+        loop = piece_arrays(path)
+        whole += float(loop.length.sum())
+        for first, last in _unfollowed(moves, loop, limit):
+            stretches.append(_part(path, loop, first, last))
             length += last - first
-    whole = sum(float(loop.lengths.sum()) for loop in best.loops)
     return Separation(length, whole, tuple(stretches))
 
 
-def _unfollowed(control: Path, loop: Path, limit: float) -> list[tuple[float, float]]:
+def _unfollowed(control: PieceArrays, loop: PieceArrays, limit: float) -> list[tuple[float, float]]:
     """The gaps between the intervals in which the control's path follows the loop, as millimeters traveled on it."""
-    size = loop.lengths
-    stations = np.concatenate((np.zeros(1), np.cumsum(size)))
+    stations = loop.stations
     first, last = [np.zeros(1), stations[-1:]], [np.zeros(1), stations[-1:]]
-    for i, j in _near(loop, control, limit):
-        if not len(i):
-            continue
-        for begin, end in _along(loop, i, control, j):
-            begin, end = (np.minimum(np.maximum(one, 0.0), size[i]) for one in (begin, end))
-            on = _follows(loop, i, control, j, (begin, (begin + end) / 2.0, end), limit) & (end > begin)
+    for i, j in near_pairs(boxes(loop), boxes(control), 2.0 * limit):
+        alike = loop.arcs[i] == control.arcs[j]
+        i, j = i[alike], j[alike]
+        piece, move = loop.take(i), control.take(j)
+        for begin, end in _abreast(piece, move):
+            begin, end = (np.minimum(np.maximum(along, 0.0), piece.length) for along in (begin, end))
+            on = end > begin
+            for along in (begin, (begin + end) / 2.0, end):
+                on &= distance(move, at(piece, along / piece.length)) <= limit
             first.append((stations[i] + begin)[on])
             last.append((stations[i] + end)[on])
     begin, end = np.concatenate(first), np.concatenate(last)
@@ -67,64 +71,26 @@ def _unfollowed(control: Path, loop: Path, limit: float) -> list[tuple[float, fl
     return list(zip(reached[gaps].tolist(), begin[gaps + 1].tolist(), strict=True))
 
 
-def _near(loop: Path, control: Path, limit: float) -> Iterator[tuple[Rows, Rows]]:
-    """Pairs of pieces of the same kind near each other."""
-    for i, j in near(_boxes(loop, limit), _boxes(control, limit), 0.0):
-        same = (loop.turns[i] != 0) == (control.turns[j] != 0)
-        yield i[same], j[same]
+def _abreast(piece: PieceArrays, move: PieceArrays) -> Iterator[tuple[Floats, Floats]]:
+    """From where to where on each piece the ends of its move project; twice, for an arc may run over the start."""
+    ends = [(piece.unit.conj() * (point - piece.start)).real for point in (move.start, move.end)]
+    entry = np.where(move.turn == piece.turn, move.start, move.end)
+    begin = traveled(piece, entry - piece.center) * piece.radius
+    end = begin + move.angle * piece.radius
+    once = np.where(piece.arcs, tau * piece.radius, 0.0)
+    begin, end = np.where(piece.arcs, begin, np.minimum(*ends)), np.where(piece.arcs, end, np.maximum(*ends))
+    yield begin, end
+    yield begin - once, end - once
 
 
-def _boxes(path: Path, limit: float) -> Tree:
-    points = as_complex(path.points)
-    return tree(piece_boxes(points[:-1], points[1:], as_complex(path.centers), path.turns, limit))
-
-
-def _along(loop: Path, i: Rows, control: Path, j: Rows) -> Iterator[tuple[Floats, Floats]]:
-    """From where to where on pieces i the ends of pieces j project; twice, because an arc may run over the start."""
-    points, ends = as_complex(loop.points), as_complex(control.points)
-    start, turns = points[i], loop.turns[i]
-    straight = turns == 0
-    chord = points[i + 1] - start
-    unit = chord / np.where(straight & (chord != 0.0), np.abs(chord), 1.0)
-    one, two = (unit.conj() * (ends[j] - start)).real, (unit.conj() * (ends[j + 1] - start)).real
-    arm = start - as_complex(loop.centers)[i]
-    radius = np.abs(arm)
-    other = control.turns[j] != turns
-    entry = np.where(other, ends[j + 1], ends[j]) - as_complex(loop.centers)[i]
-    begin = np.mod(np.angle(arm.conj() * entry) * turns, tau) * radius
-    centers = as_complex(control.centers)
-    swept = lengths(ends[j], ends[j + 1], centers[j], control.turns[j])
-    scale = np.abs(ends[j] - centers[j])
-    end = begin + swept * radius / np.where(scale == 0.0, 1.0, scale)
-    yield np.where(straight, np.minimum(one, two), begin), np.where(straight, np.maximum(one, two), end)
-    yield np.where(straight, 0.0, begin - tau * radius), np.where(straight, 0.0, end - tau * radius)
-
-
-def _follows(loop: Path, i: Rows, control: Path, j: Rows, along: tuple[Floats, ...], limit: float) -> Flags:
-    """Which pieces i are at all of these places along them within the limit of pieces j."""
-    near = np.ones(len(i), np.bool_)
-    for at in along:
-        near &= distances(control, j, _places(loop, i, at)) <= limit
-    return near
-
-
-def _places(path: Path, rows: Rows, along: Floats) -> Points:
-    """(k,) points at distances from the starts of pieces."""
-    start, turns = as_complex(path.points)[rows], path.turns[rows]
-    arm = np.where(turns == 0, start - as_complex(path.points)[rows + 1], start - as_complex(path.centers)[rows])
-    size = np.abs(arm)
-    part = along / np.where(size == 0.0, 1.0, size)
-    points: Points = np.where(turns == 0, start - arm * part, start - arm + arm * np.exp(1j * turns * part))
-    return points
-
-
-def _part(path: Path, first: float, last: float) -> Path:
+def _part(path: Path, loop: PieceArrays, first: float, last: float) -> Path:
     """The stretch of a path between two lengths traveled."""
-    stations = np.cumsum(path.lengths)
-    low = int(np.searchsorted(stations, first, side="right"))
-    high = min(int(np.searchsorted(stations, last, side="left")), len(path) - 1)
-    part = path.part(low, high + 1)
-    ends = _places(path, np.array([low, high]), np.array([first, last]) - (stations - path.lengths)[[low, high]])
+    stations = loop.stations
+    low = int(np.searchsorted(stations[1:], first, side="right"))
+    high = min(int(np.searchsorted(stations[1:], last, side="left")), len(loop) - 1)
+    part = path.part(int(loop.rows[low]), int(loop.rows[high]) + 1)
+    rows = np.array([low, high])
+    ends = at(loop.take(rows), (np.array([first, last]) - stations[rows]) / loop.length[rows])
     points = part.points.copy()
     points[[0, -1]] = coordinates(ends)
     return Path.of(points, part.centers, part.turns, part.numbers)

@@ -1,22 +1,126 @@
-"""Slices: the side pieces cut at every event, and which of them the cutter can run along.
+"""Slices: the side pieces of the raw offset cut at every self-intersection.
 
-Whether the cutter is clear of the part changes only at events, and at a crossing the slice before it and the one behind
-it that turns to the cutter's side are clear or not together.  So a slice runs from one event to the next, over as many
-pieces as are joined smoothly.  Nodes are the points where slices begin and end; points within JOINED of each other on
-a piece are one node.
+Whether the cutter is clear of the part changes only where raw pieces meet.  Where two properly cross, the cutter may
+only come along the one and leave along the other so that it turns towards its free side; the two other stretches lie,
+next to the point, nearer to a wall than the radius.  So a slice runs from one meeting to the next, over as many pieces
+as are joined smoothly, and at a crossing two slices are clear or not together.  Nodes are the points where slices
+begin and end; points within JOINED of each other on a piece are one node.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import NamedTuple
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from core.comp.best_path.meetings import Events, places
-from core.comp.best_path.raw_offset import Raw
-from core.geometry.path import Flags, Floats, Points, Rows, next_in_ring
-from core.tolerance import CROWDED, JOINED
+from core.comp.best_path.raw_offset import RawOffset, renumbered
+from core.geometry.intersect import Meeting, Meetings, meet_pieces
+from core.geometry.nearby import near_pairs, near_pairs_within
+from core.geometry.path import Flags, Floats, Points, Rows, as_complex, next_in_ring
+from core.tolerance import CROWDED, JOINED, ON_PATH
+
+MAX_PAIRS: Final = 8_000_000
+"""More pairs of pieces near one another than any part has: such a scribble is refused."""
+
+MAX_INTERSECTIONS: Final = 2_000_000
+"""More meetings than any part has, likewise."""
+
+_ALMOST_FULL_TURN: Final = 6.28
+"""Radians, a little less than a full turn."""
+
+_NOT_WHOLE_TURN: Final = 6.0
+"""Radians; an arc that turns through less ends well away from its start."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Intersections:
+    """e meetings of raw pieces `a` and `b` (e,) at `points` (e,), `along_a` and `along_b` mm along them.
+
+    `turn` (e,) is positive where they cross off their ends and the way from a to b turns to the cutter's side,
+    negative where the way from b to a does, 0 where they touch, overlap, or meet at an end.
+    """
+
+    a: Rows
+    b: Rows
+    along_a: Floats
+    along_b: Floats
+    points: Points
+    turn: Floats
+
+    def __len__(self) -> int:
+        return len(self.a)
+
+
+def self_intersections(raw: RawOffset, sign: int) -> Intersections | None:
+    """All meetings of side pieces with raw pieces but at their joints; None if there are too many to be a part's."""
+    parts, pairs, count = [], 0, 0
+    for i, j in _pairs(raw):
+        pairs += len(i)
+        if pairs > MAX_PAIRS or count > MAX_INTERSECTIONS:
+            return None
+        met = meet_pieces(raw.pieces, i, raw.pieces, j)
+        count += len(met.pair)
+        parts.append(_intersections(raw, i, j, met, sign))
+        overlap = (met.kinds == Meeting.OVERLAP).nonzero()[0]
+        if len(overlap):
+            parts.append(_overlaps(raw, i[overlap], j[overlap]))
+    return _concatenated(parts)
+
+
+def _pairs(raw: RawOffset) -> Iterator[tuple[Rows, Rows]]:
+    """Pairs of side pieces, and of side and outline pieces, that lie near each other and may meet off their joint.
+
+    Pieces joined smoothly meet only at their joint, unless together they go once around one way.
+    """
+    box, side, outline = raw.boxes, raw.side.nonzero()[0], (~raw.side).nonzero()[0]
+    apart = _meet_next_only_at_joint(raw)
+    for i, j in near_pairs_within(box[:, side], 4.0 * ON_PATH):
+        i, j = side[i], side[j]
+        keep = ~((apart[i] & (raw.following[i] == j)) | (apart[j] & (raw.following[j] == i)))
+        yield i[keep], j[keep]
+    for i, j in near_pairs(box[:, side], box[:, outline], 4.0 * ON_PATH):
+        i, j = side[i], outline[j]
+        keep = ~((apart[i] & (raw.following[i] == j)) | (apart[j] & (raw.following[j] == i)))
+        yield i[keep], j[keep]
+
+
+def _meet_next_only_at_joint(raw: RawOffset) -> Flags:
+    """(m,) which pieces meet the one that follows nowhere but at their joint."""
+    arm = np.abs(raw.start - raw.center)
+    swept = np.where(raw.turns == 0, 0.0, raw.lengths / np.where(raw.turns == 0, 1.0, arm))
+    behind = raw.following
+    apart = swept + swept[behind] < _ALMOST_FULL_TURN
+    apart |= (raw.turns * raw.turns[behind] <= 0) & (np.maximum(swept, swept[behind]) < _NOT_WHOLE_TURN)
+    apart &= raw.smooth
+    return apart
+
+
+def _concatenated(parts: list[Intersections]) -> Intersections:
+    none = np.empty(0, np.intp)
+    empty = Intersections(none, none, np.empty(0), np.empty(0), np.empty(0, np.complex128), np.empty(0))
+    names = [field.name for field in fields(Intersections)]
+    return Intersections(*(np.concatenate([getattr(part, name) for part in [empty, *parts]]) for name in names))
+
+
+def _intersections(raw: RawOffset, i: Rows, j: Rows, met: Meetings, sign: int) -> Intersections:
+    a, b, points = i[met.pair], j[met.pair], as_complex(met.points)
+    bend = raw.directions(a, points).conj() * raw.directions(b, points)
+    ends = np.minimum(np.minimum(met.along_a, met.rest_a), np.minimum(met.along_b, met.rest_b))
+    proper = (met.kinds[met.pair] == Meeting.CROSS) & (ends > JOINED)
+    return Intersections(a, b, met.along_a, met.along_b, points, np.where(proper, sign * bend.imag, 0.0))
+
+
+def _overlaps(raw: RawOffset, i: Rows, j: Rows) -> Intersections:
+    """Of pieces that run along each other, each end that lies on the other piece."""
+    parts = []
+    for a, b in ((i, j), (j, i)):
+        for ends, along in ((raw.start[b], np.zeros(len(b))), (raw.end[b], raw.lengths[b])):
+            at = raw.along(a, ends)
+            on = ((at >= -JOINED) & (at <= raw.lengths[a] + JOINED)).nonzero()[0]
+            parts.append(Intersections(a[on], b[on], at[on], along[on], ends[on], np.zeros(len(on))))
+    return _concatenated(parts)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -45,11 +149,25 @@ class Slices:
 
     def take(self, rows: Rows) -> Slices:
         """Some slices, with all nodes."""
-        place = np.full(len(self) + 1, -1)
-        place[rows] = np.arange(len(rows))
+        keep = np.zeros(len(self), np.bool_)
+        keep[rows] = True
         names = ("piece", "until", "begin", "end", "size", "first", "last", "dead")
-        some = {name: getattr(self, name)[rows] for name in names}
-        return Slices(**some, turning=place[self.turning[rows]], points=self.points, outer=self.outer)
+        columns = {name: getattr(self, name)[rows] for name in names}
+        turning = renumbered(self.turning[rows], keep)
+        return Slices(**columns, turning=turning, points=self.points, outer=self.outer)
+
+    def middles(self, raw: RawOffset, rows: Rows) -> Points:
+        """The points half way along slices."""
+        piece, along = self.piece[rows], (self.begin[rows] + self.end[rows]) / 2.0
+        several = (piece != self.until[rows]).nonzero()[0]
+        if len(several):
+            part = rows[several]
+            traveled = np.cumsum(raw.lengths)
+            half = traveled[piece[several]] - raw.lengths[piece[several]] + self.begin[part] + self.size[part] / 2.0
+            inner = np.clip(np.searchsorted(traveled, half), piece[several], self.until[part])
+            piece[several] = inner
+            along[several] = np.clip(half - traveled[inner] + raw.lengths[inner], 0.0, raw.lengths[inner])
+        return raw.at(piece, along)
 
 
 class _Strands(NamedTuple):
@@ -65,21 +183,21 @@ class _Strands(NamedTuple):
 
 
 class _Stations(NamedTuple):
-    """Every event on both its pieces, by piece and as traveled: piece, distance along it, event, node, and turn.
+    """Every intersection on both its pieces, by piece and as traveled: piece, distance along it, its row, node, turn.
 
-    `turn` is positive where the piece ends its clear stretch at the event, negative where it begins it.
+    `turn` is positive where the piece ends its clear stretch there, negative where it begins it.
     """
 
     piece: Rows
     along: Floats
-    event: Rows
+    row: Rows
     node: Rows
     turn: Floats
 
     def of(self, pieces: Flags) -> _Stations:
         """Those on some pieces."""
         rows = pieces[self.piece].nonzero()[0]
-        return _Stations(self.piece[rows], self.along[rows], self.event[rows], self.node[rows], self.turn[rows])
+        return _Stations._make(column[rows] for column in self)
 
     def twins(self) -> tuple[Rows, Rows]:
         """The nodes of stations that follow each other on one piece within JOINED."""
@@ -87,11 +205,11 @@ class _Stations(NamedTuple):
         return self.node[:-1][same], self.node[1:][same]
 
 
-def sliced(raw: Raw, found: Events) -> Slices:
-    """The side pieces cut at all events."""
+def sliced(raw: RawOffset, met: Intersections) -> Slices:
+    """The side pieces cut at all intersections."""
     strands = _strands(raw)
-    stations = _stations(raw, found, strands.nodes)
-    one, other = stations.of(~raw.side).twins()
+    stations = _stations(raw, met, strands.nodes)
+    twin, other = stations.of(~raw.side).twins()
     stations = stations.of(raw.side)
     head = np.arange(len(strands.heads)) + np.searchsorted(stations.piece, strands.heads)
     at = np.arange(len(stations.piece)) + np.searchsorted(strands.heads, stations.piece, side="right")
@@ -103,23 +221,22 @@ def sliced(raw: Raw, found: Events) -> Slices:
     until, end, last = next_in_ring(piece), next_in_ring(begin), next_in_ring(first)
     until[tail], end[tail], last[tail] = strands.tails, raw.lengths[strands.tails], strands.ends
     dead, turning = _turns(stations, at - 1, _alone(raw, stations), count)
-    del stations, at
     dead[head] |= raw.blunt_start[strands.heads]
     dead[tail] |= raw.blunt_end[strands.tails]
     size = _sizes(raw, piece, begin, until, end)
-    points, outer = _nodes(raw, found, strands)
+    points, outer = _nodes(raw, met, strands)
     cut = Slices(piece, until, begin, end, size, first, last, dead, turning, points, outer)
     whole = (raw.start[strands.heads] == raw.end[strands.tails]).nonzero()[0]
-    return _welded(cut, np.concatenate((one, whole)), np.concatenate((other, strands.ends[whole])))
+    return _welded(cut, np.concatenate((twin, whole)), np.concatenate((other, strands.ends[whole])))
 
 
-def _strands(raw: Raw) -> _Strands:
-    """The strands of a raw chain; full circles are strands of their own."""
+def _strands(raw: RawOffset) -> _Strands:
+    """The strands of a raw offset; full circles are strands of their own."""
     pieces = raw.side.nonzero()[0]
-    next_in_ring = raw.smooth & (raw.following == np.arange(1, len(raw) + 1)) & (raw.start != raw.end)
-    next_in_ring[:-1] &= raw.start[1:] != raw.end[1:]
+    goes_on = raw.smooth & raw.next_in_row & (raw.start != raw.end)
+    goes_on[:-1] &= raw.start[1:] != raw.end[1:]
     begins = np.ones(len(pieces), np.bool_)
-    begins[1:] = ~next_in_ring[pieces[:-1]]
+    begins[1:] = ~goes_on[pieces[:-1]]
     heads = pieces[begins]
     tails = pieces[np.append(begins[1:], True)[: len(pieces)]]
     count = len(heads)
@@ -129,33 +246,23 @@ def _strands(raw: Raw) -> _Strands:
     return _Strands(heads, tails, ends, 2 * count)
 
 
-def _stations(raw: Raw, found: Events, nodes: int) -> _Stations:
-    piece = np.concatenate((found.one, found.other))
-    along = np.concatenate((found.along_one, found.along_other))
-    event = np.tile(np.arange(len(found.one)), 2)
-    turn = np.concatenate((found.turn, -found.turn))
-    order = _sorted(piece, along)
-    piece, event = piece[order], event[order]
-    return _Stations(
-        piece, np.minimum(np.maximum(along[order], 0.0), raw.lengths[piece]), event, nodes + event, turn[order]
-    )
+def _stations(raw: RawOffset, met: Intersections, nodes: int) -> _Stations:
+    piece, along = np.concatenate((met.a, met.b)), np.concatenate((met.along_a, met.along_b))
+    row, turn = np.tile(np.arange(len(met)), 2), np.concatenate((met.turn, -met.turn))
+    order = np.lexsort((along, piece))
+    piece, row = piece[order], row[order]
+    along = np.minimum(np.maximum(along[order], 0.0), raw.lengths[piece])
+    return _Stations(piece, along, row, nodes + row, turn[order])
 
 
-def _sorted(piece: Rows, along: Floats) -> Rows:
-    """The order by piece and then along it: ranks along everything are whole numbers, and sort faster together."""
-    rank = np.empty(len(along), np.int64)
-    rank[np.argsort(along)] = np.arange(len(along))
-    return np.argsort(piece * len(along) + rank)
-
-
-def _sizes(raw: Raw, piece: Rows, begin: Floats, until: Rows, end: Floats) -> Floats:
+def _sizes(raw: RawOffset, piece: Rows, begin: Floats, until: Rows, end: Floats) -> Floats:
     """(s,) lengths of slices, by differences on one piece where they can be."""
     traveled = np.cumsum(raw.lengths) - raw.lengths
     size: Floats = np.where(piece == until, end - begin, (traveled[until] + end) - (traveled[piece] + begin))
     return size
 
 
-def _alone(raw: Raw, stations: _Stations) -> Flags:
+def _alone(raw: RawOffset, stations: _Stations) -> Flags:
     """The stations with no other, and no joint beyond which another may be, within CROWDED on their piece."""
     piece, along = stations.piece, stations.along
     joined = np.zeros(len(raw), np.bool_)
@@ -175,40 +282,40 @@ def _turns(stations: _Stations, at: Rows, alone: Flags, count: int) -> tuple[Fla
     dead[at[ending] + 1] = True
     dead[at[beginning]] = True
     ending, beginning = ending & alone, beginning & alone
-    next_in_ring = np.full(int(stations.event.max(initial=-1)) + 1, -1)
-    next_in_ring[stations.event[beginning]] = at[beginning] + 1
-    turning[at[ending]] = next_in_ring[stations.event[ending]]
+    turn_to = np.full(int(stations.row.max(initial=-1)) + 1, -1)
+    turn_to[stations.row[beginning]] = at[beginning] + 1
+    turning[at[ending]] = turn_to[stations.row[ending]]
     return dead, turning
 
 
-def _nodes(raw: Raw, found: Events, strands: _Strands) -> tuple[Points, Flags]:
-    """All nodes before welding: the strands' starts and ends, then the events; and where the outline takes part."""
+def _nodes(raw: RawOffset, met: Intersections, strands: _Strands) -> tuple[Points, Flags]:
+    """All nodes before welding: the strands' starts and ends, then the meetings; and where the outline takes part."""
     count = len(strands.heads)
-    points = np.concatenate((raw.start[strands.heads], raw.end[strands.tails], found.points))
+    points = np.concatenate((raw.start[strands.heads], raw.end[strands.tails], met.points))
     outer = np.zeros(len(points), np.bool_)
     behind = raw.following[strands.tails]
     outer[count : 2 * count] = (behind >= 0) & ~raw.side[behind]
     before = np.zeros(len(raw), np.bool_)
     before[raw.following[~raw.side & (raw.following >= 0)]] = True
     outer[:count] = before[strands.heads]
-    outer[2 * count :] = ~(raw.side[found.one] & raw.side[found.other])
+    outer[2 * count :] = ~(raw.side[met.a] & raw.side[met.b])
     return points, outer
 
 
-def _welded(cut: Slices, one: Rows, other: Rows) -> Slices:
-    """Slices no longer than JOINED dropped, their two nodes made one; so are nodes `one` and `other`."""
+def _welded(cut: Slices, node: Rows, other: Rows) -> Slices:
+    """Slices no longer than JOINED dropped, their two nodes made one; so are nodes `node` and `other`."""
     short = cut.size <= JOINED
-    if not short.any() and not len(one):
+    if not short.any() and not len(node):
         return cut
-    one, other = np.concatenate((one, cut.first[short])), np.concatenate((other, cut.last[short]))
-    same = merged(len(cut.points), one, other)
+    node, other = np.concatenate((node, cut.first[short])), np.concatenate((other, cut.last[short]))
+    same = least_of_connected(len(cut.points), node, other)
     outer = cut.outer.copy()
     outer[same[cut.outer]] = True
     joined = replace(cut, first=same[cut.first], last=same[cut.last], outer=outer)
     return joined.take((~short).nonzero()[0])
 
 
-def merged(count: int, one: Rows, other: Rows) -> Rows:
+def least_of_connected(count: int, one: Rows, other: Rows) -> Rows:
     """(count,) the least number among all numbers that pairs one, other (p,) connect with each."""
     same = np.arange(count)
     while True:
@@ -221,17 +328,3 @@ def merged(count: int, one: Rows, other: Rows) -> Rows:
         same = same[same]
         if np.array_equal(same, before):
             return same
-
-
-def middles(raw: Raw, cut: Slices, rows: Rows) -> tuple[Points, Rows]:
-    """The points half way along slices, and the pieces they lie on."""
-    piece, along = cut.piece[rows], (cut.begin[rows] + cut.end[rows]) / 2.0
-    several = (piece != cut.until[rows]).nonzero()[0]
-    if len(several):
-        some = rows[several]
-        traveled = np.cumsum(raw.lengths)
-        half = traveled[piece[several]] - raw.lengths[piece[several]] + cut.begin[some] + cut.size[some] / 2.0
-        inner = np.clip(np.searchsorted(traveled, half), piece[several], cut.until[some])
-        piece[several] = inner
-        along[several] = np.clip(half - traveled[inner] + raw.lengths[inner], 0.0, raw.lengths[inner])
-    return places(raw, piece, along), piece

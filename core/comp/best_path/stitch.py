@@ -1,20 +1,23 @@
 """Stitch: clear slices joined to loops, at their nodes and in the contour's order.
 
 At a node where several slices begin and end, a slice goes on along its own piece or over the joint to the next one;
-otherwise it turns as far to the cutter's side as it can, which keeps loops apart that only touch.
+otherwise it turns as far to the cutter's side as it can, which keeps loops apart that only touch.  Where rounding has
+parted an end from the beginning it belongs to, a straight line bridges the gap: between two clear places as near as
+`bridge_limit` it is clear by itself (BEST_PATH.md, "Bridges").
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import sqrt
 
 import numpy as np
 
-from core.comp.best_path.meetings import directions
-from core.comp.best_path.raw_offset import Raw
-from core.comp.best_path.slices import Slices, middles
-from core.geometry.path import Flags, Rows, next_in_ring
-from core.tolerance import GOUGE, WHISKER
+from core.comp.best_path.raw_offset import RawOffset, lengths
+from core.comp.best_path.slices import Slices
+from core.geometry.nearby import gathered, near_pairs
+from core.geometry.path import Flags, Floats, Path, Points, Rows, coordinates, next_in_ring
+from core.tolerance import CLEAR, CROWDED, GOUGE, JOINED, WHISKER
 
 _ROUNDS = 32
 """How often slices are taken away that lead nowhere; near-tangent joints leave one or two in a row."""
@@ -22,51 +25,74 @@ _ROUNDS = 32
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Stitched:
-    """Slices `cut`, for each the one that follows it or -1, and which are `loose`: an end leads nowhere."""
+    """Slices `cut`, for each the one that follows it or -1, and which lead nowhere or come from nowhere.
+
+    `gaps` (s,) is the length of the bridge behind each slice, 0 where none is.
+    """
 
     cut: Slices
     following: Rows
-    loose: Flags
+    loose_end: Flags
+    loose_begin: Flags
+
+    @property
+    def gaps(self) -> Floats:
+        """(s,) how far each slice's end is from where the following one begins."""
+        gaps = np.abs(self.cut.points[self.cut.last] - self.cut.points[self.cut.first[self.following]])
+        return np.where(self.following >= 0, gaps, 0.0)
 
 
-def stitch(raw: Raw, cut: Slices, sign: int) -> Stitched:
+def bridge_limit(radius: float) -> float:
+    """The longest straight line between two clear places of the cutter that comes no nearer to a wall than CLEAR."""
+    return min(WHISKER, sqrt(8.0 * radius * CLEAR))
+
+
+def stitch(raw: RawOffset, cut: Slices, sign: int, radius: float) -> Stitched:
     """Each clear slice with the one that follows it."""
-    cut = _without_whiskers(_without_doubles(raw, cut))
-    following = _straight_on(cut)
-    if len(cut):
-        _across(raw, cut, following, sign)
-    ends = following < 0
-    begins = np.ones(len(cut), np.bool_)
-    begins[following[~ends]] = False
-    loose = (ends & ~cut.outer[cut.last]) | (begins & ~cut.outer[cut.first])
-    return Stitched(cut, following, loose)
+    cut = _without_dead_ends(_without_doubles(raw, cut))
+    for _ in range(_ROUNDS):
+        following = _straight_on(cut)
+        _turn_at_nodes(raw, cut, following, sign)
+        _bridge(cut, following, bridge_limit(radius))
+        end, begin = following < 0, _not_followed_onto(following)
+        end &= ~cut.outer[cut.last]
+        begin &= ~cut.outer[cut.first]
+        whisker = (end | begin) & (cut.size < WHISKER)
+        if not whisker.any():
+            break
+        cut = cut.take((~whisker).nonzero()[0])
+    return Stitched(_without_overlaps(raw, cut, following, bridge_limit(radius)), following, end, begin)
 
 
-def _without_doubles(raw: Raw, cut: Slices) -> Slices:
+def _not_followed_onto(following: Rows) -> Flags:
+    free = np.ones(len(following), np.bool_)
+    free[following[following >= 0]] = False
+    return free
+
+
+def _without_doubles(raw: RawOffset, cut: Slices) -> Slices:
     """Of slices that run along each other the same way, the earliest: contours that touch themselves have them."""
     crowded = (np.bincount(cut.first, minlength=1)[cut.first] > 1).nonzero()[0]
     order = crowded[np.lexsort((cut.last[crowded], cut.first[crowded]))]
-    one, two = order[:-1], order[1:]
-    same = (cut.first[one] == cut.first[two]) & (cut.last[one] == cut.last[two])
-    same &= np.abs(middles(raw, cut, one)[0] - middles(raw, cut, two)[0]) <= GOUGE
-    if not same.any():
-        return cut
+    early, late = order[:-1], order[1:]
+    same = (cut.first[early] == cut.first[late]) & (cut.last[early] == cut.last[late])
+    same &= np.abs(cut.middles(raw, early) - cut.middles(raw, late)) <= GOUGE
     keep = np.ones(len(cut), np.bool_)
-    keep[two[same]] = False
+    keep[late[same]] = False
     return cut.take(keep.nonzero()[0])
 
 
-def _without_whiskers(cut: Slices) -> Slices:
-    """Slices taken away that lead nowhere and are so short that they are rounding at a near-tangent joint."""
+def _without_dead_ends(cut: Slices) -> Slices:
+    """Slices taken away that lead nowhere, are shorter than WHISKER, and branch off where another slice goes on."""
     size = len(cut.points)
     for _ in range(_ROUNDS):
-        begins, ends = np.zeros(size, np.bool_), np.zeros(size, np.bool_)
-        begins[cut.first], ends[cut.last] = True, True
-        nowhere = ~(begins[cut.last] | cut.outer[cut.last]) | ~(ends[cut.first] | cut.outer[cut.first])
-        nowhere &= cut.size < WHISKER
-        if not nowhere.any():
+        begins, ends = np.bincount(cut.first, minlength=size), np.bincount(cut.last, minlength=size)
+        ahead = (begins[cut.last] == 0) & ~cut.outer[cut.last] & (begins[cut.first] > 1)
+        behind = (ends[cut.first] == 0) & ~cut.outer[cut.first] & (ends[cut.last] > 1)
+        dead = (ahead | behind) & (cut.size < WHISKER)
+        if not dead.any():
             break
-        cut = cut.take((~nowhere).nonzero()[0])
+        cut = cut.take((~dead).nonzero()[0])
     return cut
 
 
@@ -77,11 +103,9 @@ def _straight_on(cut: Slices) -> Rows:
     return following
 
 
-def _across(raw: Raw, cut: Slices, following: Rows, sign: int) -> None:
+def _turn_at_nodes(raw: RawOffset, cut: Slices, following: Rows, sign: int) -> None:
     """Fill in what follows the slices that end at a node where another piece takes over."""
-    taken = np.zeros(len(cut), np.bool_)
-    taken[following[following >= 0]] = True
-    ends, begins = (following < 0).nonzero()[0], (~taken).nonzero()[0]
+    ends, begins = (following < 0).nonzero()[0], _not_followed_onto(following).nonzero()[0]
     begins = begins[np.argsort(cut.first[begins], kind="stable")]
     low = np.searchsorted(cut.first[begins], cut.last[ends], side="left")
     high = np.searchsorted(cut.first[begins], cut.last[ends], side="right")
@@ -89,24 +113,60 @@ def _across(raw: Raw, cut: Slices, following: Rows, sign: int) -> None:
     simple = (high - low == 1) & (rivals == 1)
     following[ends[simple]] = begins[low[simple]]
     several = ((high > low) & ~simple).nonzero()[0]
-    if len(several):
-        _by_turn(raw, cut, following, sign, ends[several], [begins[low[k] : high[k]] for k in several.tolist()])
+    counts = (high - low)[several]
+    end = np.repeat(ends[several], counts)
+    begin = begins[np.repeat(low[several] - np.cumsum(counts) + counts, counts) + np.arange(counts.sum())]
+    # the slice that turns most to the cutter's side first
+    nodes = cut.points[cut.last[end]]
+    turned = raw.directions(cut.until[end], nodes).conj() * raw.directions(cut.piece[begin], nodes)
+    _pair_up(following, end, begin, -sign * np.angle(turned))
 
 
-def _by_turn(raw: Raw, cut: Slices, following: Rows, sign: int, ends: Rows, begins: list[Rows]) -> None:
-    """At crowded nodes, the slice that turns most to the cutter's side first."""
-    pairs = np.array([(end, begin) for end, some in zip(ends.tolist(), begins, strict=True) for begin in some.tolist()])
-    nodes = cut.points[cut.last[pairs[:, 0]]]
-    before = directions(raw, cut.until[pairs[:, 0]], nodes)
-    behind = directions(raw, cut.piece[pairs[:, 1]], nodes)
-    turns = sign * np.angle(before.conj() * behind)
-    free, taken = set(pairs[:, 0].tolist()), set(pairs[:, 1].tolist())
-    for row in np.argsort(-turns, kind="stable").tolist():
-        end, begin = pairs[row].tolist()
-        if end in free and begin in taken:
+def _bridge(cut: Slices, following: Rows, limit: float) -> None:
+    """Fill in what follows the slices that end a little off the beginning they belong to, the nearest first."""
+    ends = ((following < 0) & ~cut.outer[cut.last]).nonzero()[0]
+    begins = (_not_followed_onto(following) & ~cut.outer[cut.first]).nonzero()[0]
+    end, begin = cut.points[cut.last[ends]], cut.points[cut.first[begins]]
+    i, j = gathered(near_pairs(_point_boxes(end), _point_boxes(begin), limit))
+    _pair_up(following, ends[i], begins[j], np.abs(end[i] - begin[j]))
+
+
+def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, limit: float) -> Slices:
+    """The slices with those that a bridge joins cut off abreast of each other, where they run on past each other."""
+    rows = (following >= 0).nonzero()[0]
+    rows = rows[np.abs(cut.points[cut.last[rows]] - cut.points[cut.first[following[rows]]]) > JOINED]
+    if not len(rows):
+        return cut
+    behind = following[rows]
+    begin, end, first, last = cut.begin.copy(), cut.end.copy(), cut.first.copy(), cut.last.copy()
+    piece, until, nodes = cut.piece[behind], cut.until[rows], len(cut.points) + np.arange(len(rows))
+    room = np.minimum(limit, cut.size / 2.0)
+    over = raw.along(piece, cut.points[last[rows]]) - begin[behind]
+    over[(over < 0.0) | (over > room[behind])] = 0.0
+    begin[behind] += over
+    starts = np.where(over > 0.0, raw.at(piece, begin[behind]), cut.points[first[behind]])
+    over = end[rows] - raw.along(until, starts)
+    over[(over < 0.0) | (over > room[rows])] = 0.0
+    end[rows] -= over
+    stops = np.where(over > 0.0, raw.at(until, end[rows]), cut.points[last[rows]])
+    last[rows], first[behind] = nodes, nodes + len(rows)
+    points, outer = np.concatenate((cut.points, stops, starts)), np.append(cut.outer, np.zeros(2 * len(rows), np.bool_))
+    return replace(cut, begin=begin, end=end, first=first, last=last, points=points, outer=outer)
+
+
+def _point_boxes(points: Points) -> Floats:
+    return np.array((points.real, points.imag, points.real, points.imag))
+
+
+def _pair_up(following: Rows, ends: Rows, begins: Rows, rank: Floats) -> None:
+    """Let each of the slices `ends` be followed by one of `begins` (p,), pairs of least rank first."""
+    free, taken = set(ends.tolist()), set[int]()
+    for row in np.argsort(rank, kind="stable").tolist():
+        end, begin = int(ends[row]), int(begins[row])
+        if end in free and begin not in taken:
             following[end] = begin
             free.remove(end)
-            taken.remove(begin)
+            taken.add(begin)
 
 
 def chains(made: Stitched) -> list[tuple[Rows, bool]]:
@@ -118,26 +178,56 @@ def chains(made: Stitched) -> list[tuple[Rows, bool]]:
     count = len(following)
     if not count:
         return []
-    rows = np.arange(count)
-    breaks = (following[:-1] != rows[1:]).nonzero()[0]
+    breaks = (following[:-1] != np.arange(1, count)).nonzero()[0]
     heads = np.concatenate(([0], breaks + 1))
     tails = np.concatenate((breaks, [count - 1]))
     entry = np.searchsorted(heads, following[tails], side="right") - 1
-    return _walk(following, heads, tails, entry)
+    return _walk(heads, tails, np.where(following[tails] < 0, -1, entry).tolist())
 
 
-def _walk(following: Rows, heads: Rows, tails: Rows, entry: Rows) -> list[tuple[Rows, bool]]:
+def _walk(heads: Rows, tails: Rows, entry: list[int]) -> list[tuple[Rows, bool]]:
     """Runs heads[k] ... tails[k], run entry[k] behind run k, put together; open chains from their beginning."""
-    next_in_ring = np.where(following[tails] < 0, -1, entry).tolist()
-    reached = set(next_in_ring)
-    unwalked = dict.fromkeys(range(len(next_in_ring)))
-    found = []
-    for first in [k for k in unwalked if k not in reached] + list(unwalked):
-        walk, run = [], first
+    entered = set(entry)
+    unwalked = dict.fromkeys(range(len(entry)))
+    walked = []
+    for first in [run for run in unwalked if run not in entered] + list(unwalked):
+        rows, run = [], first
         while run in unwalked:
             del unwalked[run]
-            walk.append(np.arange(heads[run], tails[run] + 1))
-            run = next_in_ring[run]
-        if walk:
-            found.append((np.concatenate(walk), run == first))
-    return sorted(found, key=lambda chain: int(chain[0][0]))
+            rows.append(np.arange(heads[run], tails[run] + 1))
+            run = entry[run]
+        if rows:
+            walked.append((np.concatenate(rows), run == first))
+    return sorted(walked, key=lambda chain: int(chain[0][0]))
+
+
+def loop_of(raw: RawOffset, made: Stitched, rows: Rows, origin: Floats) -> Path:
+    """The path along slices `rows` in this order, moved by `origin`; slices of one piece are one piece again.
+
+    An arc shorter than CROWDED whose ends rounding has turned past each other is a straight line, as a bridge is.
+    """
+    cut = made.cut
+    first, until, bridged = cut.piece[rows], cut.until[rows], made.gaps[rows] > JOINED
+    counts = until - first + 1
+    begins = np.cumsum(counts) - counts
+    piece = np.arange(int(counts.sum())) + np.repeat(first - begins, counts)
+    start, low, high = raw.start[piece], np.zeros(len(piece)), raw.lengths[piece]
+    start[begins], low[begins], high[begins + counts - 1] = cut.points[cut.first[rows]], cut.begin[rows], cut.end[rows]
+    fresh = np.ones(len(piece), np.bool_)
+    fresh[begins[1:]] = (first[1:] != until[:-1]) | (cut.first[rows[1:]] != cut.last[rows[:-1]])
+    heads = fresh.nonzero()[0]
+    size = np.add.reduceat(high - low, heads)
+    piece, start = piece[heads], start[heads]
+    turns, centers, numbers = raw.turns[piece].copy(), raw.center[piece], raw.numbers[piece]
+    if bridged.any():
+        at = np.searchsorted(heads, (begins + counts)[bridged])
+        start = np.insert(start, at, cut.points[cut.last[rows[bridged]]])
+        turns, centers = np.insert(turns, at, 0), np.insert(centers, at, 0.0)
+        numbers, size = np.insert(numbers, at, numbers[at - 1]), np.insert(size, at, 0.0)
+    next_slice = made.following[rows[-1]]
+    points = np.append(start, cut.points[cut.first[next_slice] if next_slice >= 0 else cut.last[rows[-1]]])
+    tiny = ((turns != 0) & (size <= CROWDED)).nonzero()[0]
+    swept = lengths(points[tiny], points[tiny + 1], centers[tiny], turns[tiny])
+    turns[tiny[np.abs(swept - size[tiny]) > CROWDED / 2.0]] = 0
+    centers = np.where(turns == 0, points[:-1], centers)
+    return Path.of(coordinates(points) + origin, coordinates(centers) + origin, turns, numbers)

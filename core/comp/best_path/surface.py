@@ -1,36 +1,37 @@
-"""The surface as the best path takes it: segments that have a length, arcs of one radius, closed, centerd."""
+"""Surface: the contour made fit to be offset globally, and whether it crosses itself or winds."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import tau
+from math import pi, tau
 from typing import Final
 
 import numpy as np
 
 from core.comp import findings as comp_findings
-from core.comp.best_path.tree import Tree, near_selves, piece_boxes, tree
 from core.finding import Finding
 from core.geometry.intersect import Meeting, meet
+from core.geometry.nearby import near_pairs, near_pairs_within
 from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates, next_in_ring
+from core.geometry.piece import SLIVER
+from core.geometry.piece_arrays import boxes, piece_arrays
 from core.tolerance import JOINED, ON_PATH
 
-_UNDER_HALF: Final = 3.1
-"""Radians, safely under half a turn."""
+_UNDER_HALF_TURN: Final = 3.1
+"""Radians, safely under half a turn; whether a corner sharper than this turns left or right its angle does not tell."""
 
-_NOT_WHOLE: Final = 6.0
+_NOT_WHOLE_TURN: Final = 6.0
 """Radians; an arc that turns through less ends well away from its start."""
+
+RUN: Final = 16
+"""Consecutive segments whose headings are looked at together."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Surface:
-    """`path` is the surface moved by -`origin` (2,) so that it lies about (0, 0); empty when it is refused.
-
-    `walls` is the tree over its segments' boxes.
-    """
+    """`path` is the surface moved by -`origin` (2,) so that it lies about (0, 0); empty when it is refused."""
 
     path: Path
-    walls: Tree
     origin: Floats
     findings: tuple[Finding, ...]
 
@@ -43,28 +44,22 @@ def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
     """
     refused = comp_findings.refusal(contour, radius, ())
     if refused:
-        return Surface(EMPTY, _walls(EMPTY), np.zeros(2), refused)
+        return Surface(EMPTY, np.zeros(2), refused)
     points = as_complex(contour.points)
     kept = np.abs(points[1:] - points[:-1]) > JOINED
     if not kept.all():
         kept |= contour.lengths > JOINED
     findings = tuple(comp_findings.zero_length(contour, (~kept).nonzero()[0]))
     if not kept.all():
-        contour = _without(contour, kept)
+        contour = _without_zero_lengths(contour, kept)
     if not len(contour):
-        return Surface(EMPTY, _walls(EMPTY), np.zeros(2), (*findings, *comp_findings.refusal(contour, radius, ())))
+        return Surface(EMPTY, np.zeros(2), (*findings, *comp_findings.refusal(contour, radius, ())))
     origin = (contour.points.min(axis=0) + contour.points.max(axis=0)) / 2.0
     path = _even(Path.of(contour.points - origin, contour.centers - origin, contour.turns, contour.numbers))
-    path = _closed(path) if closed else path
-    return Surface(path, _walls(path), origin, findings)
+    return Surface(_closed(path) if closed else path, origin, findings)
 
 
-def _walls(path: Path) -> Tree:
-    points = as_complex(path.points)
-    return tree(piece_boxes(points[:-1], points[1:], as_complex(path.centers), path.turns, ON_PATH))
-
-
-def _without(contour: Path, kept: Flags) -> Path:
+def _without_zero_lengths(contour: Path, kept: Flags) -> Path:
     """The contour's kept segments: each starts where the one kept before it ends, full circles stay full."""
     ends = contour.points[1:][kept]
     whole = (contour.points[1:] == contour.points[:-1]).all(axis=1)[kept].nonzero()[0]
@@ -92,9 +87,9 @@ def _even(path: Path) -> Path:
     moved = -(chord.conj() * (center - (start + end) / 2.0)).real * chord / np.abs(chord) ** 2
     far = np.abs(moved) > off[rows]
     angle = np.mod(np.angle((end - center) * (start - center).conj()) * turns, tau)
-    large = far & (angle > tau / 2.0)
+    large = far & (angle > pi)
     if large.any():
-        return _even(_parted_at(path, rows[large], angle[large]))
+        return _even(_halved(path, rows[large], angle[large]))
     centers = centers.copy()
     size = (np.abs(start - center) + np.abs(end - center)) / 2.0
     bow = np.sqrt(np.maximum(size**2 - np.abs(chord / 2.0) ** 2, 0.0))
@@ -103,7 +98,7 @@ def _even(path: Path) -> Path:
     return Path(path.points, coordinates(centers), path.turns, path.numbers)
 
 
-def _parted_at(path: Path, rows: Rows, angles: Floats) -> Path:
+def _halved(path: Path, rows: Rows, angles: Floats) -> Path:
     """The path with arcs `rows`, which turn through `angles`, in two halves that meet between their radii."""
     points, center = as_complex(path.points), as_complex(path.centers)[rows]
     arm, last = points[rows] - center, points[rows + 1] - center
@@ -129,23 +124,26 @@ def _closed(path: Path) -> Path:
     )
 
 
-def crosses_itself(surface: Surface, *, closed: bool) -> tuple[float, float] | None:
+def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
     """The numbers of two segments that cross, touch or run along each other elsewhere than at their joint; or None.
 
     A full circle among other segments touches its neighbors with both ends.
     """
-    path = surface.path
     circles = ((path.turns != 0) & (path.points[1:] == path.points[:-1]).all(axis=1)).nonzero()[0]
     if len(circles) and len(path) > 1:
         row = int(circles[0])
         return float(path.numbers[row]), float(path.numbers[row - 1 if row else 1])
-    parted = _parted(path)
-    for i, j in near_selves(surface.walls, parted):
-        if closed and parted[-1]:
-            keep = j - i < len(path) - 1
-            i, j = i[keep], j[keep]
-        if not len(i):
-            continue
+    apart = _meet_next_only_at_joint(path)
+    pieces = piece_arrays(path)
+    for i, j in near_pairs_within(boxes(pieces), 2.0 * ON_PATH):
+        i, j = pieces.rows[i], pieces.rows[j]
+        known = apart[i] & (j == i + 1)
+        if closed and apart[-1]:
+            known |= j - i == len(path) - 1
+        i, j = i[~known], j[~known]
+        # of several crossings the one is named between which fewest segments lie
+        order = np.lexsort((i, j - i))
+        i, j = i[order], j[order]
         met = meet(path, i, path, j)
         hit = met.pair[~_at_joint(path, i[met.pair], j[met.pair], as_complex(met.points))]
         hit = np.concatenate((hit, (met.kinds == Meeting.OVERLAP).nonzero()[0]))
@@ -154,7 +152,7 @@ def crosses_itself(surface: Surface, *, closed: bool) -> tuple[float, float] | N
     return None
 
 
-def _parted(path: Path) -> Flags:
+def _meet_next_only_at_joint(path: Path) -> Flags:
     """(n,) which pieces meet the next one, the last one the first, nowhere but at their joint.
 
     It is so where the two together turn through less than half a turn.
@@ -163,26 +161,26 @@ def _parted(path: Path) -> Flags:
     turned = np.abs(np.angle(last.conj() * next_in_ring(first)))
     arcs = path.turns.nonzero()[0]
     if len(arcs):
-        own = np.zeros(len(path))
-        own[arcs] = np.mod(np.angle(first[arcs].conj() * last[arcs]) * path.turns[arcs], tau)
-        own[arcs[first[arcs] == last[arcs]]] = tau
-        tangent = _tangent(path, own, turned)
-        turned += own + next_in_ring(own)
+        swept = np.zeros(len(path))
+        swept[arcs] = np.mod(np.angle(first[arcs].conj() * last[arcs]) * path.turns[arcs], tau)
+        swept[arcs[first[arcs] == last[arcs]]] = tau
+        tangent = _tangent_and_counter_turning(path, swept, turned)
+        turned += swept + next_in_ring(swept)
         turned[tangent] = 0.0
-    parted: Flags = turned <= _UNDER_HALF
-    return parted
+    apart: Flags = turned <= _UNDER_HALF_TURN
+    return apart
 
 
-def _tangent(path: Path, own: Floats, joint: Floats) -> Flags:
+def _tangent_and_counter_turning(path: Path, swept: Floats, joint: Floats) -> Flags:
     """Which arcs go on so smoothly in one of the other turn that their circles meet nowhere but at the joint.
 
     The chord between the two points where circles meet is no longer than the smaller diameter times the angle there.
     """
     radii = np.abs(as_complex(path.points)[:-1] - as_complex(path.centers))
-    joined: Flags = 2.0 * np.minimum(radii, next_in_ring(radii)) * joint <= JOINED
-    joined &= path.turns * next_in_ring(path.turns) < 0
-    joined &= np.maximum(own, next_in_ring(own)) < _NOT_WHOLE
-    return joined
+    tangent: Flags = 2.0 * np.minimum(radii, next_in_ring(radii)) * joint <= JOINED
+    tangent &= path.turns * next_in_ring(path.turns) < 0
+    tangent &= np.maximum(swept, next_in_ring(swept)) < _NOT_WHOLE_TURN
+    return tangent
 
 
 def tangents(path: Path) -> tuple[Points, Points]:
@@ -206,3 +204,40 @@ def _at_joint(path: Path, i: Rows, j: Rows, at: Points) -> Flags:
     around = (i == 0) & (j == len(path) - 1) & (np.abs(at - points[0]) <= JOINED) & (points[0] == points[-1])
     joint: Flags = near | around
     return joint
+
+
+def winds(path: Path, radius: float) -> bool:
+    """May some place `radius` beside one segment and as far on the other side of another be clear of both?
+
+    `path` is open and does not cross itself.  True where it may not be but that is not easily seen.  BEST_PATH.md,
+    "Winding", shows that between two such segments the contour turns by more than half a turn.
+    """
+    first, last = tangents(path)
+    joints = np.angle(last[:-1].conj() * first[1:])
+    if np.abs(joints).max(initial=0.0) > _UNDER_HALF_TURN:
+        return True
+    swept = np.zeros(len(path))
+    arcs = path.turns.nonzero()[0]
+    if len(arcs):
+        turn = path.turns[arcs]
+        angle = np.mod(np.angle(first[arcs].conj() * last[arcs]) * turn, tau)
+        swept[arcs] = turn * np.where(angle > tau - SLIVER, 0.0, angle)
+    heading = np.cumsum(np.stack((swept, np.append(joints, 0.0)), axis=1)).reshape(-1, 2)
+    low, high = heading.min(axis=1), heading.max(axis=1)
+    before = heading[:, 0] - swept
+    low, high = np.minimum(low, before), np.maximum(high, before)
+    return bool(high.max() - low.min() > pi + ON_PATH) and _faces_itself(path, radius, low, high)
+
+
+def _faces_itself(path: Path, radius: float, low: Floats, high: Floats) -> bool:
+    """Are there segments no farther apart than the cutter is wide whose headings differ by more than half a turn?"""
+    pieces = piece_arrays(path)
+    low, high = low[pieces.rows], high[pieces.rows]
+    box, starts = boxes(pieces), np.arange(0, len(pieces), RUN)
+    low, high = np.minimum.reduceat(low, starts), np.maximum.reduceat(high, starts)
+    least, most = np.minimum.reduceat(box[:2], starts, axis=1), np.maximum.reduceat(box[2:], starts, axis=1)
+    runs = np.concatenate((least, most))
+    return any(
+        bool((np.maximum(high[i] - low[j], high[j] - low[i]) > pi + ON_PATH).any())
+        for i, j in near_pairs(runs, runs, 2.0 * (radius + ON_PATH))
+    )

@@ -8,18 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.advice.remedies import STEP, Unwanted, largest_tool, lookahead_without_blends, middle, start_mid_side, started
+from core.advice.remedies import STEP, Unwanted, largest_tool, lookahead_without_blends, start_mid_side, started
 from core.advice.trials import Trial, table_of
-from core.geometry.piece import Arc, Side, Turn
+from core.geometry.piece import Side
 from tests.core.comp.contours import lines, mixed, shut
 
 SLOT = lines((0, 2), (0, 0), (0.4, 0), (0.4, 2))
-
-
-def test_the_middle_of_an_arc_lies_on_it():
-    assert middle(Arc((1, 0), (-1, 0), (0, 0), Turn.CCW)) == pytest.approx((0, 1))
-    assert middle(Arc((1, 0), (-1, 0), (0, 0), Turn.CW)) == pytest.approx((0, -1))
-    assert middle(Arc((1, 0), (1, 0), (0, 0), Turn.CW)) == pytest.approx((-1, 0))
 
 
 @settings(max_examples=60, deadline=None, derandomize=True)

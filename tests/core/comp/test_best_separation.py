@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.comp.best_path.best_path import BestPath, best_path, separation
+from core.comp.best_path.best_path import BestPath, best_path
+from core.comp.best_path.separation import separation
 from core.comp.compensate import compensate
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Side, Turn

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from core.geometry.fillet import Fillet, NoFillet, Reason, direction, fillet
+from core.geometry.fillet import Fillet, NoFillet, Reason, fillet
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 
 
@@ -16,14 +16,14 @@ def near(one: Point, other: Point, tolerance: float = 1e-9) -> bool:
     return dist(one, other) <= tolerance
 
 
-def blended(before: Piece, behind: Piece, radius: float) -> Fillet:
-    found = fillet(before, behind, radius)
+def blended(before: Piece, after: Piece, radius: float) -> Fillet:
+    found = fillet(before, after, radius)
     assert isinstance(found, Fillet)
     return found
 
 
-def largest_of(before: Piece, behind: Piece) -> float | None:
-    refused = fillet(before, behind, 1e4)
+def largest_of(before: Piece, after: Piece) -> float | None:
+    refused = fillet(before, after, 1e4)
     assert isinstance(refused, NoFillet)
     assert refused.reason is Reason.TOO_LARGE
     return refused.largest
@@ -34,7 +34,7 @@ def test_a_square_corner():
     assert found.before == Line((0.0, 0.0), (8.0, 0.0))
     assert near(found.arc.center, (8.0, 2.0))
     assert found.arc.turn is Turn.CCW
-    assert found.behind == Line((10.0, 2.0), (10.0, 10.0))
+    assert found.after == Line((10.0, 2.0), (10.0, 10.0))
 
 
 def test_a_corner_to_the_right():
@@ -69,8 +69,8 @@ def test_no_corner_no_blend():
 def test_line_and_arc_by_hand():
     """Along X into a circle of radius 5 about (5, 0) that starts upwards at (0, 0): the blend of 1 lies at (h, 1)."""
     before = Line((-10.0, 0.0), (0.0, 0.0))
-    behind = Arc((0.0, 0.0), (5.0, 5.0), (5.0, 0.0), Turn.CW)
-    found = blended(before, behind, 1.0)
+    after = Arc((0.0, 0.0), (5.0, 5.0), (5.0, 0.0), Turn.CW)
+    found = blended(before, after, 1.0)
     assert found.arc.turn is Turn.CCW
     assert near(found.arc.center, (5.0 - sqrt(35.0), 1.0))
     assert near(found.arc.start, (5.0 - sqrt(35.0), 0.0))
@@ -80,8 +80,8 @@ def test_line_and_arc_by_hand():
 def test_two_arcs_by_hand():
     """Two half circles of radius 3 beside each other meet at a cusp; the blend of radius 1 stands above it."""
     before = Arc((-6.0, 0.0), (0.0, 0.0), (-3.0, 0.0), Turn.CW)
-    behind = Arc((0.0, 0.0), (6.0, 0.0), (3.0, 0.0), Turn.CW)
-    found = blended(before, behind, 1.0)
+    after = Arc((0.0, 0.0), (6.0, 0.0), (3.0, 0.0), Turn.CW)
+    found = blended(before, after, 1.0)
     assert near(found.arc.center, (0.0, sqrt(7.0)))
     assert found.arc.turn is Turn.CCW
     assert near(found.arc.start, (-0.75, sqrt(7.0) * 0.75))
@@ -89,8 +89,8 @@ def test_two_arcs_by_hand():
 
 def test_an_arc_too_short_for_the_radius():
     before = Line((-10.0, 0.0), (0.0, 0.0))
-    behind = Arc((0.0, 0.0), (0.1, 1.0), (5.0, 0.0), Turn.CW)
-    assert fillet(before, behind, 3.0) == NoFillet(Reason.TOO_LARGE)
+    after = Arc((0.0, 0.0), (0.1, 1.0), (5.0, 0.0), Turn.CW)
+    assert fillet(before, after, 3.0) == NoFillet(Reason.TOO_LARGE)
 
 
 def piece_from(corner: Point, heading: float, length: float, bend: float) -> Piece:
@@ -115,27 +115,27 @@ pieces = st.tuples(st.floats(0, tau), st.floats(2, 30), st.floats(-3.0, 3.0))
 @settings(derandomize=True, max_examples=400)
 @given(pieces, pieces, st.floats(0.05, 3.0))
 def test_a_blend_is_tangent_to_both_and_lies_within_both(first, second, radius):
-    before, behind = back(piece_from((1.0, 2.0), *first)), piece_from((1.0, 2.0), *second)
-    found = fillet(before, behind, radius)
+    before, after = back(piece_from((1.0, 2.0), *first)), piece_from((1.0, 2.0), *second)
+    found = fillet(before, after, radius)
     assume(isinstance(found, Fillet))
     assert isinstance(found, Fillet)
     arc = found.arc
     assert arc.radius == pytest.approx(radius, abs=1e-7)
     assert dist(arc.end, arc.center) == pytest.approx(radius, abs=1e-7)
-    for piece, point, left in ((before, arc.start, found.before), (behind, arc.end, found.behind)):
-        assert near(direction(piece, point), direction(arc, point), 1e-6)
+    for piece, point, left in ((before, arc.start, found.before), (after, arc.end, found.after)):
+        assert near(piece.direction_at(point), arc.direction_at(point), 1e-6)
         assert (left.length if left else 0.0) <= piece.length + 1e-7
     if found.before:
         assert (found.before.start, found.before.end) == (before.start, arc.start)
-    if found.behind:
-        assert (found.behind.start, found.behind.end) == (arc.end, behind.end)
+    if found.after:
+        assert (found.after.start, found.after.end) == (arc.end, after.end)
 
 
 @settings(derandomize=True, max_examples=200)
 @given(pieces, pieces, st.floats(0.05, 3.0))
 def test_a_blend_is_the_same_traveled_back(first, second, radius):
-    before, behind = back(piece_from((0.0, 0.0), *first)), piece_from((0.0, 0.0), *second)
-    one, other = fillet(before, behind, radius), fillet(back(behind), back(before), radius)
+    before, after = back(piece_from((0.0, 0.0), *first)), piece_from((0.0, 0.0), *second)
+    one, other = fillet(before, after, radius), fillet(back(after), back(before), radius)
     assert type(one) is type(other)
     if isinstance(one, Fillet) and isinstance(other, Fillet):
         assert near(one.arc.center, other.arc.center, 1e-6)
@@ -145,8 +145,8 @@ def test_a_blend_is_the_same_traveled_back(first, second, radius):
 @settings(derandomize=True, max_examples=100)
 @given(st.floats(0.2, pi - 0.2), st.floats(5, 20), st.floats(5, 20))
 def test_the_largest_radius_of_a_corner_fits(corner, one, other):
-    before, behind = Line((-one, 0.0), (0.0, 0.0)), piece_from((0.0, 0.0), corner, other, 0.0)
-    largest = largest_of(before, behind)
+    before, after = Line((-one, 0.0), (0.0, 0.0)), piece_from((0.0, 0.0), corner, other, 0.0)
+    largest = largest_of(before, after)
     assert largest is not None
-    assert isinstance(fillet(before, behind, largest * (1 - 1e-9)), Fillet)
-    assert isinstance(fillet(before, behind, largest * (1 + 1e-6)), NoFillet)
+    assert isinstance(fillet(before, after, largest * (1 - 1e-9)), Fillet)
+    assert isinstance(fillet(before, after, largest * (1 + 1e-6)), NoFillet)

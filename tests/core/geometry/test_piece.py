@@ -39,3 +39,10 @@ def test_end_that_rounding_carries_past_the_start_is_no_full_circle(turn):
 
 def test_nearly_full_circle_is_long():
     assert Arc((2, 0), (2, -1e-6), (0, 0), Turn.CCW).sweep == pytest.approx(tau, abs=1e-6)
+
+
+def test_the_middle_of_a_piece_lies_on_it():
+    assert Arc((1, 0), (-1, 0), (0, 0), Turn.CCW).point_at(0.5) == pytest.approx((0, 1))
+    assert Arc((1, 0), (-1, 0), (0, 0), Turn.CW).point_at(0.5) == pytest.approx((0, -1))
+    assert Arc((1, 0), (1, 0), (0, 0), Turn.CW).point_at(0.5) == pytest.approx((-1, 0))
+    assert Line((1, 2), (3, 6)).point_at(0.25) == (1.5, 3.0)

@@ -144,3 +144,189 @@ def test_a_finding_on_the_page_has_one_mark_that_of_its_weight():
     page = as_page(of(gouging()), [""])
     assert '<ul class="marked">\n<li>!! segment 1: gouges' in page
     assert ".marked { list-style: none" in page
+
+
+def two_blocks() -> tuple[Job, Job]:
+    """A corner with a finish tool and findings, and a slot."""
+    path = polyline((0, 0), (2, 0), (2, 1))
+    (first,), (second,) = floors(1), floors(2, feed=8.0)[1:]
+    words = "Leaves {value} of the long wall uncut, which a smaller tool would reach."
+    uncut = Finding("UNCUT", Severity.INFO, words, 2.0, value=2.54)
+    corner = job(
+        path,
+        comp="LEFT",
+        lookahead="CAL 2",
+        floors=(first, second),
+        finisher=Cutter(7, 0.25 * INCH, "BALL"),
+        finish_tool=7,
+        rough=(Run(path, offset=0.02 * INCH),),
+        finish_z=0.01 * INCH,
+        findings=(uncut, Finding("NEAR", Severity.WARNING, "Near.")),
+    )
+    return corner, job(polyline((3, 0), (4, 0)), block=2, peck_depth=0.0, safe_z=2 * INCH)
+
+
+def test_a_whole_sheet_as_text():
+    assert as_text(of(*two_blocks())).splitlines() == [
+        "SETUP SHEET",
+        "==============================================================================",
+        "PROGRAM            slot",
+        "PART NAME          Key way",
+        "DATE               2026-01-02",
+        "UNITS              INCH",
+        "WORK OFFSET        G54",
+        "SAFE Z             1.0000, 2.0000",
+        "",
+        "READY to post.",
+        "",
+        "TOOLS",
+        "------------------------------------------------------------------------------",
+        "TOOL      TYPE  DIAMETER  LENGTH OFFSET    BLOCKS",
+        "   1  END MILL    0.5000             H1      1, 2",
+        "   7      BALL    0.2500             H7  1 finish",
+        "",
+        "BLOCK 1  MILL CONTOUR",
+        "------------------------------------------------------------------------------",
+        "CUTTER COMP.       LEFT",
+        "LOOKAHEAD          CAL 2",
+        "TOOL               1 END MILL",
+        "FINISH TOOL        7 BALL",
+        "CONTOUR START      X 0.0000  Y 0.0000",
+        "FIRST PLUNGE AT    X 0.0000  Y 0.0000",
+        "CUTTER REACHES     X -0.2500 to 2.2500  Y -0.2500 to 1.2500",
+        "Z START, Z BOTTOM  0.0000  -0.2500",
+        "PECK DEPTH         0.1000",
+        "SPEED              300 RPM",
+        "PLUNGE FEED        20.0",
+        "FEEDS              10.0 (segment 1), 8.0 (segment 2)",
+        "CUTTING TIME       about 2.0 min, rapids not counted",
+        "",
+        "NO.  TOOL    KIND   DEPTH        Z  LEAVES ON SIDE",
+        "  1     1    PASS  1 of 3  -0.1000          0.0200",
+        "  2     1    PASS  2 of 3  -0.2000          0.0200",
+        "  3     1    PASS  3 of 3  -0.2400          0.0200",
+        "  4     7  FINISH  1 of 3  -0.1000          0.0000",
+        "  5     7  FINISH  2 of 3  -0.2000          0.0000",
+        "  6     7  FINISH  3 of 3  -0.2500          0.0000",
+        "",
+        "FINDINGS",
+        "  - segment 2: Leaves 0.1000 of the long wall uncut, which a smaller tool",
+        "     would reach.",
+        "  ! Near.",
+        "",
+        "BLOCK 2  MILL CONTOUR",
+        "------------------------------------------------------------------------------",
+        "CUTTER COMP.       ON",
+        "LOOKAHEAD          none: the center runs on the contour",
+        "TOOL               1 END MILL",
+        "FINISH TOOL        none",
+        "CONTOUR START      X 3.0000  Y 0.0000",
+        "FIRST PLUNGE AT    X 3.0000  Y 0.0000",
+        "CUTTER REACHES     X 2.7500 to 4.2500  Y -0.2500 to 0.2500",
+        "Z START, Z BOTTOM  0.0000  -0.2500",
+        "PECK DEPTH         none: full depth in one pass",
+        "SPEED              300 RPM",
+        "PLUNGE FEED        20.0",
+        "FEEDS              10.0 (segment 1)",
+        "CUTTING TIME       about 0.1 min, rapids not counted",
+        "",
+        "NO.  TOOL  KIND   DEPTH        Z  LEAVES ON SIDE",
+        "  1     1  PASS  1 of 1  -0.2500          0.0000",
+    ]
+
+
+def test_a_whole_sheet_as_a_page():
+    lines = as_page(sheet(two_blocks(), Unit.IN, About("slot")), ["<svg/>", ""]).splitlines()
+    assert lines[0] == "<!DOCTYPE html>"
+    assert lines[lines.index("<h1>Setup sheet: slot</h1>") :][:48] == [
+        "<h1>Setup sheet: slot</h1>",
+        "<table>",
+        "<tr><th>PROGRAM</th><td>slot</td></tr>",
+        "<tr><th>PART NAME</th><td>-</td></tr>",
+        "<tr><th>DATE</th><td>-</td></tr>",
+        "<tr><th>UNITS</th><td>INCH</td></tr>",
+        "<tr><th>WORK OFFSET</th><td>G54</td></tr>",
+        "<tr><th>SAFE Z</th><td>1.0000, 2.0000</td></tr>",
+        "</table>",
+        '<p class="good">READY to post.</p>',
+        "<section><h2>TOOLS</h2>",
+        "</section>",
+        '<table class="tools">',
+        "<tr><th>TOOL</th><th>TYPE</th><th>DIAMETER</th><th>LENGTH OFFSET</th><th>BLOCKS</th></tr>",
+        "<tr><td>1</td><td>END MILL</td><td>0.5000</td><td>H1</td><td>1, 2</td></tr>",
+        "<tr><td>7</td><td>BALL</td><td>0.2500</td><td>H7</td><td>1 finish</td></tr>",
+        "</table>",
+        "<section><h2>BLOCK 1  MILL CONTOUR</h2>",
+        "<figure><svg/></figure>",
+        "<table>",
+        "<tr><th>CUTTER COMP.</th><td>LEFT</td></tr>",
+        "<tr><th>LOOKAHEAD</th><td>CAL 2</td></tr>",
+        "<tr><th>TOOL</th><td>1 END MILL</td></tr>",
+        "<tr><th>FINISH TOOL</th><td>7 BALL</td></tr>",
+        "<tr><th>CONTOUR START</th><td>X 0.0000  Y 0.0000</td></tr>",
+        "<tr><th>FIRST PLUNGE AT</th><td>X 0.0000  Y 0.0000</td></tr>",
+        "<tr><th>CUTTER REACHES</th><td>X -0.2500 to 2.2500  Y -0.2500 to 1.2500</td></tr>",
+        "<tr><th>Z START, Z BOTTOM</th><td>0.0000  -0.2500</td></tr>",
+        "<tr><th>PECK DEPTH</th><td>0.1000</td></tr>",
+        "<tr><th>SPEED</th><td>300 RPM</td></tr>",
+        "<tr><th>PLUNGE FEED</th><td>20.0</td></tr>",
+        "<tr><th>FEEDS</th><td>10.0 (segment 1), 8.0 (segment 2)</td></tr>",
+        "<tr><th>CUTTING TIME</th><td>about 2.0 min, rapids not counted</td></tr>",
+        "</table>",
+        '<h3>FINDINGS</h3><ul class="marked">',
+        "<li>- segment 2: Leaves 0.1000 of the long wall uncut, which a smaller tool would reach.</li>",
+        "<li>! Near.</li>",
+        "</ul>",
+        "</section>",
+        '<table class="passes">',
+        "<tr><th>NO.</th><th>TOOL</th><th>KIND</th><th>DEPTH</th><th>Z</th><th>LEAVES ON SIDE</th></tr>",
+        "<tr><td>1</td><td>1</td><td>PASS</td><td>1 of 3</td><td>-0.1000</td><td>0.0200</td></tr>",
+        "<tr><td>2</td><td>1</td><td>PASS</td><td>2 of 3</td><td>-0.2000</td><td>0.0200</td></tr>",
+        "<tr><td>3</td><td>1</td><td>PASS</td><td>3 of 3</td><td>-0.2400</td><td>0.0200</td></tr>",
+        "<tr><td>4</td><td>7</td><td>FINISH</td><td>1 of 3</td><td>-0.1000</td><td>0.0000</td></tr>",
+        "<tr><td>5</td><td>7</td><td>FINISH</td><td>2 of 3</td><td>-0.2000</td><td>0.0000</td></tr>",
+        "<tr><td>6</td><td>7</td><td>FINISH</td><td>3 of 3</td><td>-0.2500</td><td>0.0000</td></tr>",
+        "</table>",
+    ]
+    assert lines[-4:] == [
+        "<tr><th>NO.</th><th>TOOL</th><th>KIND</th><th>DEPTH</th><th>Z</th><th>LEAVES ON SIDE</th></tr>",
+        "<tr><td>1</td><td>1</td><td>PASS</td><td>1 of 1</td><td>-0.2500</td><td>0.0000</td></tr>",
+        "</table>",
+        "</body></html>",
+    ]
+
+
+def test_what_is_not_ready_says_why_on_the_page():
+    page = as_page(of(gouging()), [""])
+    against = f'<div class="bad">{NOT_READY}<ul>\n<li>segment 1: gouges by 0.2500 (deep).</li>\n</ul></div>'
+    assert against in page
+    assert READY not in page
+
+
+def test_a_finding_of_the_start_and_one_of_no_segment_name_none():
+    start, general = (Finding(code, Severity.ERROR, f"{code}.", segment) for code, segment in (("A", 0), ("B", None)))
+    assert of(replace(SLOT, findings=(start, general, start))).against == ("A.", "B.")
+
+
+def test_a_block_that_is_not_known_yet_shows_what_is():
+    empty = replace(SLOT, surface=SLOT.surface.part(0, 0), finish=(), floors=(), cutter=None, finish_tool=9)
+    said = pairs(of(empty))
+    assert (said["TOOL"], said["FINISH TOOL"], said["FEEDS"]) == ("NOT KNOWN", "NOT KNOWN", "-")
+    assert not said.keys() & {"CONTOUR START", "FIRST PLUNGE AT", "CUTTER REACHES", "CUTTING TIME"}
+
+
+def test_hours_are_told_as_hours():
+    slow = replace(SLOT, floors=floors(1, feed=0.01), peck_depth=0.0)
+    assert pairs(of(slow))["CUTTING TIME"] == "about 3.3 h, rapids not counted"
+    nearly = replace(SLOT, floors=floors(1, feed=0.0201), peck_depth=0.0)
+    assert pairs(of(nearly))["CUTTING TIME"] == "about 99.5 min, rapids not counted"
+
+
+def test_several_segments_of_one_feed_are_told_together():
+    path = polyline((0, 0), (1, 0), (1, 1), (0, 1))
+    assert pairs(of(job(path)))["FEEDS"] == "10.0 (segments 1-3)"
+
+
+def test_all_work_offsets_are_told():
+    assert dict(of(SLOT, replace(SLOT, work_offset=57)).head)["WORK OFFSET"] == "G54, G57"
+    assert dict(of().head)["WORK OFFSET"] == "-"

@@ -43,6 +43,8 @@ def test_a_full_circle_is_two_halves():
 
 
 def test_dashed_layers_say_so():
+    assert "\n.dashed { stroke-dasharray: 6 4 }\n" in svg(Scene(), title="A")
+    assert "\n.rapid { stroke: #7a8894; stroke-width: 0.8px; stroke-dasharray: 2 3 }\n" in svg(Scene(), title="A")
     scene = Scene((Layer(CORNER, Style.DELETED, dashed=True),))
     assert len(paths(scene, "deleted dashed")) == 1
 
@@ -91,6 +93,70 @@ def test_an_empty_scene_and_one_that_is_not_finite_are_drawings_too():
         assert "nan" not in found
         assert "inf" not in found
     assert paths(broken, "surface")[0] == "M0 0 L1 0"
+
+
+TALL = Path.from_pieces([Line((-20, -10), (80, -10)), Line((80, -10), (80, 90))])
+
+
+def drawn(scene: Scene) -> list[str]:
+    """The lines of a drawing without its style sheet."""
+    return [
+        line for line in svg(scene, title="A").splitlines() if line.startswith(("<svg", "<rect", "<path", "<c", "<te"))
+    ]
+
+
+def test_a_whole_drawing():
+    """100 mm large: the margin is 6, letters 2.4, a line of the legend 3.84; axes go 3 beyond what is drawn."""
+    arrow = Mark((0, 0), Style.START, Symbol.ARROW, (0.0, 2.0))
+    marks = (arrow, Mark((10, 20), Style.GOUGE, Symbol.GOUGE), Mark((50, 60), Style.LEAD, Symbol.PLUNGE))
+    layers = (Layer(TALL, Style.SURFACE), Layer(TALL, Style.DELETED, dashed=True))
+    assert drawn(Scene(layers, (Circle((30, 40), 5.0),), marks, Unit.MM)) == [
+        '<svg xmlns="http://www.w3.org/2000/svg" width="960" height="1223.314286" viewBox="-26 -99.84 112 142.72">',
+        '<rect x="-26" y="-99.84" width="100%" height="100%" fill="#ffffff"/>',
+        '<path class="axis" d="M-23 0 L83 0"/>',
+        '<path class="axis" d="M0 13 L0 -93"/>',
+        '<path class="surface" d="M-20 10 L80 10 L80 -90"/>',
+        '<path class="deleted dashed" d="M-20 10 L80 10 L80 -90"/>',
+        '<circle class="cutter" cx="30" cy="-40" r="5"/>',
+        '<path class="start" d="M-0.864 0.576 L0 -0.96 L0.864 0.576"/>',
+        '<path class="gouge" d="M9.16 -19.16 L10.84 -20.84 M9.16 -20.84 L10.84 -19.16"/>',
+        '<circle class="lead" cx="50" cy="-60" r="0.84"/>',
+        '<text x="-20" y="-96" font-size="2.88">A</text>',
+        '<path class="surface" d="M-20 19.04 L-10.4 19.04"/>',
+        '<text x="-8" y="19.84" font-size="2.4">part surface</text>',
+        '<path class="lead" d="M-20 22.88 L-10.4 22.88"/>',
+        '<text x="-8" y="23.68" font-size="2.4">blend moves</text>',
+        '<path class="deleted" d="M-20 26.72 L-10.4 26.72"/>',
+        '<text x="-8" y="27.52" font-size="2.4">deleted segments</text>',
+        '<path class="gouge" d="M-20 30.56 L-10.4 30.56"/>',
+        '<text x="-8" y="31.36" font-size="2.4">gouge</text>',
+        '<path class="cutter" d="M-20 34.4 L-10.4 34.4"/>',
+        '<text x="-8" y="35.2" font-size="2.4">cutter</text>',
+        '<path class="start" d="M-20 38.24 L-10.4 38.24"/>',
+        '<text x="-8" y="39.04" font-size="2.4">start, direction</text>',
+        '<path class="scale" d="M60 19.84 L60 17.44 M80 19.84 L80 17.44 M60 18.64 L80 18.64"/>',
+        '<text x="60" y="22.72" font-size="2.4">20 MM</text>',
+    ]
+
+
+def test_the_scale_of_a_drawing_in_inches():
+    """A quarter of 100 mm is 0.98 in: the bar is half an inch, 12.7 mm."""
+    assert drawn(Scene((Layer(TALL, Style.SURFACE),), unit=Unit.IN))[-2:] == [
+        '<path class="scale" d="M67.3 19.84 L67.3 17.44 M80 19.84 L80 17.44 M67.3 18.64 L80 18.64"/>',
+        '<text x="67.3" y="22.72" font-size="2.4">0.5 IN</text>',
+    ]
+
+
+def test_axes_that_pass_by_are_left_out():
+    away = Path.from_pieces([Line((10, 10), (20, 30))])
+    assert paths(Scene((Layer(away, Style.SURFACE),)), "axis") == []
+    over_x = Path.from_pieces([Line((10, -10), (20, 30))])
+    assert paths(Scene((Layer(over_x, Style.SURFACE),)), "axis") == ["M8.8 0 L21.2 0"]
+    over_y = Path.from_pieces([Line((-10, 10), (30, 20))])
+    assert paths(Scene((Layer(over_y, Style.SURFACE),)), "axis") == ["M0 -8.8 L0 -21.2"]
+    touching = Path.from_pieces([Line((0, 0), (100, 50))])
+    assert paths(Scene((Layer(touching, Style.SURFACE),)), "axis") == ["M-3 0 L103 0", "M0 3 L0 -53"]
+    assert paths(Scene((Layer(touching, Style.SURFACE),), axes=False), "axis") == []
 
 
 def test_each_part_of_a_layer_is_drawn_by_itself():

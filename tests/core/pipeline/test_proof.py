@@ -10,7 +10,7 @@ from core.controls.control_tools import ToolTable
 from core.controls.moves import Plane
 from core.controls.registry import NO_TOOLS, UnknownControl
 from core.draw.scene import Scene, Style
-from core.pipeline.proof import Proof, ground_of, place_of, prove, scene_of
+from core.pipeline.proof import Proof, cutter_place, fixed_scene, prove, scene_at_line
 from core.units import Unit
 
 SQUARE = b"""G20 G17 G40 G90 F10
@@ -39,40 +39,40 @@ def styles(scene: Scene) -> set[Style]:
 
 def test_the_cutter_stands_where_the_line_leaves_it() -> None:
     found = proof()
-    (x, y), _ = place_of(found, 6)
+    (x, y), _ = cutter_place(found, 6)
     assert (x / 25.4, y / 25.4) == pytest.approx((-0.25, 2.25))
-    assert place_of(found, 9)[0] == pytest.approx((-25.4, 76.2))
+    assert cutter_place(found, 9)[0] == pytest.approx((-25.4, 76.2))
 
 
 def test_a_line_without_moves_leaves_the_cutter_where_it_was() -> None:
     found = proof()
-    assert place_of(found, 4)[0] == place_of(found, 3)[0] == pytest.approx((-25.4, -25.4))
-    assert place_of(found, 1)[0] == (0.0, 0.0)
-    assert place_of(found, 10)[0] == place_of(found, 9)[0]
+    assert cutter_place(found, 4)[0] == cutter_place(found, 3)[0] == pytest.approx((-25.4, -25.4))
+    assert cutter_place(found, 1)[0] == (0.0, 0.0)
+    assert cutter_place(found, 10)[0] == cutter_place(found, 9)[0]
 
 
 def test_the_cutter_has_the_radius_of_its_stretch() -> None:
     found = proof()
-    scene = scene_of(ground_of(found), found, 6)
+    scene = scene_at_line(fixed_scene(found), found, 6)
     assert [circle.radius for circle in scene.circles] == pytest.approx([6.35])
     assert scene.unit is Unit.IN
 
 
 def test_surface_center_path_rapids_and_the_cursors_moves_are_drawn() -> None:
     found = proof()
-    ground = ground_of(found)
+    ground = fixed_scene(found)
     assert {Style.SURFACE, Style.PATH, Style.RAPID} <= styles(ground)
     assert Style.LEAD not in styles(ground)
-    assert Style.LEAD in styles(ground_of(proof(b"G20 G90 G1 X1 F5\nM30\n")))
-    assert Style.LEAD in styles(ground_of(replace(found, results=())))
+    assert Style.LEAD in styles(fixed_scene(proof(b"G20 G90 G1 X1 F5\nM30\n")))
+    assert Style.LEAD in styles(fixed_scene(replace(found, results=())))
     assert Style.CURRENT not in styles(ground)
-    assert Style.CURRENT in styles(scene_of(ground, found, 6))
-    assert Style.CURRENT not in styles(scene_of(ground, found, 4))
+    assert Style.CURRENT in styles(scene_at_line(ground, found, 6))
+    assert Style.CURRENT not in styles(scene_at_line(ground, found, 4))
 
 
 def test_without_compensation_there_is_a_place_and_no_cutter() -> None:
     found = proof(b"G20 G90 G0 X1 Y1\nG1 X2 F5\nM30\n")
-    scene = scene_of(ground_of(found), found, 2)
+    scene = scene_at_line(fixed_scene(found), found, 2)
     assert not scene.circles
     assert [mark.at for mark in scene.marks][-1] == pytest.approx((50.8, 25.4))
 
@@ -81,7 +81,7 @@ def test_the_plane_of_the_first_stretch_is_drawn() -> None:
     text = b"G20 G90 G18 F10\nT1 M6\nG0 X0 Z-1\nG41 D1 G1 X0 Z0\nG1 Z2\nG1 X3\nG40 G1 X4 Z4\nM30\n"
     found = proof(text)
     assert found.plane is Plane.ZX
-    assert place_of(found, 3)[0] == pytest.approx((-25.4, 0.0))
+    assert cutter_place(found, 3)[0] == pytest.approx((-25.4, 0.0))
 
 
 @pytest.mark.parametrize("text", [b"", b"\x00\xff\xfe", b"G1 X", b"G41\n" * 5, bytes(range(256))])
@@ -89,7 +89,7 @@ def test_any_text_can_be_drawn(text: bytes) -> None:
     for control in ("threeblock", "rosettacnc:nist", "nine-series:b", "klartext", "linuxcnc"):
         found = prove(text, control, NO_TOOLS)
         assert isinstance(found, Proof)
-        assert scene_of(ground_of(found), found, 1).marks
+        assert scene_at_line(fixed_scene(found), found, 1).marks
 
 
 def test_an_unknown_control_is_said() -> None:

@@ -1,0 +1,217 @@
+"""Programs that a control compensates itself: header, remarks and refusals, from jobs made by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from core.comp.compensate import compensate
+from core.controls.write.programmed_contour import Cut, Plain, Travel
+from core.finding import Finding, Severity
+from core.geometry.piece import Side
+from core.output.control_program import control_program, control_program_errors
+from core.output.nc import Posted, Refusal
+from core.output.passes import Job, Run
+from core.units import Unit
+from tests.core.output.jobs import INCH, Floor, job, polyline
+
+SQUARE = polyline((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0))
+
+
+def cut(stock: float = 0.0, tool: int = 1, diameter: float = 0.5) -> Cut:
+    """A run around the square's outside at 10 inches a minute, with blend moves of 0.125; inches."""
+    radius = (diameter / 2 + stock) * INCH
+    compensated = compensate(SQUARE, Side.RIGHT, radius, 8, closed=True, blend=0.125 * INCH, overlap=0.125 * INCH)
+    return Cut(
+        compensated=compensated, tool=tool, diameter=diameter * INCH, stock=stock * INCH, speed=300.0,
+        feeds={number: 10.0 * INCH for number in range(1, 6)}, plunge_feed=20.0 * INCH,
+        travel=INCH, near=0.1 * INCH, depth=-0.25 * INCH, leave=INCH,
+    )  # fmt: skip
+
+
+def plain() -> Plain:
+    """A run along a line without compensation."""
+    travels = (
+        Travel(0.0, 0.0, INCH, None, 0, (0.0, 0.0)),
+        Travel(0.0, 0.0, 0.1 * INCH, None, 0, (0.0, 0.0)),
+        Travel(0.0, 0.0, -0.25 * INCH, 20.0 * INCH, 0, (0.0, 0.0)),
+        Travel(2.0 * INCH, 0.0, -0.25 * INCH, 10.0 * INCH, 0, (0.0, 0.0)),
+        Travel(2.0 * INCH, 0.0, INCH, None, 0, (0.0, 0.0)),
+    )
+    return Plain(
+        travels=travels, tool=1, diameter=0.5 * INCH, stock=0.0, speed=300.0, feeds={1: 10.0 * INCH},
+        plunge_feed=20.0 * INCH, travel=INCH, near=0.1 * INCH, depth=-0.25 * INCH, leave=INCH,
+    )  # fmt: skip
+
+
+def square(**changes: object) -> Job:
+    return job(SQUARE, comp="RIGHT", finish=(Run(cut().compensated.path),), peck_depth=0.0, **changes)
+
+
+def posted(control: str, *cuts: Cut | Plain, jobs: tuple[Job, ...] = (), name: str = "KEY", part: str = "") -> Posted:
+    found = control_program(jobs or (square(),), cuts or (cut(),), Unit.IN, name=name, control=control, part=part)
+    assert isinstance(found, Posted), found
+    return found
+
+
+def refused(*jobs: Job, control: str = "linuxcnc") -> Refusal:
+    found = control_program(jobs, [cut() for _ in jobs], Unit.IN, name="KEY", control=control)
+    assert isinstance(found, Refusal)
+    return found
+
+
+CONTOUR = [
+    "G1 Z-0.25 F20.",
+    "G42 D1 G1 X0.625 Y-0.375 F10.",
+    "G2 X1. Y0. I0.375 J0.",
+    "G1 X2. Y0.",
+    "G1 X2. Y2.",
+    "G1 X0. Y2.",
+    "G1 X0. Y0.",
+    "G1 X1. Y0.",
+    "G1 X1.125 Y0.",
+    "G2 X1.5 Y-0.375 I0. J-0.375",
+    "G40 G1 X1.25 Y-0.875",
+    "G0 Z1.",
+]
+
+
+def test_a_whole_program_for_linuxcnc() -> None:
+    found = posted("linuxcnc", name="key way/1", part="PART; 7")
+    assert found.notes == ()
+    assert found.text.splitlines() == [
+        "(PROGRAM key way/1)",
+        "(PART PART, 7)",
+        "(WRITTEN BY CUTCOMP FOR linuxcnc: THE CONTOUR AS TYPED, THE CONTROL)",
+        "(COMPENSATES)",
+        "(UNITS INCH)",
+        "(TOOL 1 DIAMETER 0.5000: THE CONTROL'S TABLE MUST SAY THE SAME)",
+        "(BLOCK 1 MILL CONTOUR CUTTER COMP. RIGHT Z 0.0000 TO -0.2500)",
+        "G17 G20 G40 G49 G54 G80 G90 G91.1 G94",
+        "G64 P0.0002",
+        "T1 M6",
+        "G43 H1",
+        "S300 M3",
+        "G0 Z1.",
+        "G0 X0.625 Y-0.875",
+        "G0 Z0.1",
+        *CONTOUR,
+        "M5",
+        "M30",
+    ]
+
+
+def test_a_whole_program_in_klartext() -> None:
+    found = posted("klartext", name="key way/1", part="PART 7")
+    assert found.text.splitlines()[:14] == [
+        "0 BEGIN PGM key-way-1 INCH",
+        "1 ; PROGRAM key way/1",
+        "2 ; PART PART 7",
+        "3 ; WRITTEN BY CUTCOMP FOR klartext: THE CONTOUR AS TYPED, THE CONTROL",
+        "4 ; COMPENSATES",
+        "5 ; UNITS INCH",
+        "6 ; TOOL 1 DIAMETER 0.5000",
+        "7 ; BLOCK 1 MILL CONTOUR CUTTER COMP. RIGHT Z 0.0000 TO -0.2500",
+        "8 TOOL DEF 1 L+0 R+0.25",
+        "9 TOOL CALL 1 Z S300",
+        "10 L Z+1 R0 FMAX M3",
+        "11 L X+0.875 Y-0.375 R0 FMAX",
+        "12 L Z+0.1 R0 FMAX",
+        "13 L Z-0.25 R0 F20",
+    ]
+
+
+def test_offsets_that_an_operator_enters_stand_in_the_header_once() -> None:
+    lines = posted("nine-series:b-g39", cut(0.02), cut(0.02), cut(), cut(tool=2, diameter=0.375)).text.splitlines()
+    assert [line for line in lines if line.startswith(("(TOOL", "(OFFSET"))] == [
+        "(TOOL 1 DIAMETER 0.5000: THE CONTROL'S TABLE MUST SAY THE SAME)",
+        "(TOOL 2 DIAMETER 0.3750: THE CONTROL'S TABLE MUST SAY THE SAME)",
+        "(OFFSET D51 RADIUS 0.2700 OF TOOL 1, LEAVES 0.0200)",
+        "(OFFSET D1 RADIUS 0.2500 OF TOOL 1)",
+        "(OFFSET D2 RADIUS 0.1875 OF TOOL 2)",
+    ]
+
+
+def test_a_control_that_has_the_stock_in_its_block_needs_no_offset() -> None:
+    assert "OFFSET" not in posted("rosettacnc:nist", cut(0.02), cut()).text
+    assert "OFFSET" not in posted("linuxcnc", cut()).text
+    assert "OFFSET" not in posted("nine-series:b-g39", plain(), jobs=(job(polyline((0, 0), (2, 0))),)).text
+
+
+def test_what_differs_from_the_path_of_the_block_is_noted_with_its_segment() -> None:
+    found = posted("nine-series:a")
+    assert [(note.code, note.severity, note.segment) for note in found.notes] == [("DIFFERS", Severity.WARNING, 2.0)]
+    assert "(NOTE DIFFERS SEGMENT 2: nine-series:a goes round corners its own way, up)" in found.text
+    assert "(to 0.1036 off the block's path, its path gouges nothing and leaves)" in found.text
+
+
+def test_without_compensation_the_header_says_so() -> None:
+    text = posted("linuxcnc", plain(), jobs=(job(polyline((0, 0), (2, 0))),)).text
+    assert "(WRITTEN BY CUTCOMP FOR linuxcnc: THE CONTOUR AS TYPED, NOTHING IS)\n(COMPENSATED)\n" in text
+    assert "CUTTER COMP. ON" in text
+    assert "G41" not in text.replace("G40", "")
+
+
+def test_a_control_without_work_offsets_says_that_its_origin_has_to_be_set() -> None:
+    for control in ("threeblock", "klartext"):
+        (note,) = (one for one in posted(control, jobs=(square(work_offset=56),)).notes if one.code == "WORK_OFFSET")
+        assert note.severity is Severity.WARNING
+        assert note.text == f"Work offset G56 cannot be written for {control}; set its origin on the control."
+        assert not [one for one in posted(control).notes if one.code == "WORK_OFFSET"]
+    assert "WORK_OFFSET" not in [one.code for one in posted("linuxcnc", jobs=(square(work_offset=56),)).notes]
+    assert "G56" in posted("linuxcnc", jobs=(square(work_offset=56),)).text
+    assert "; NOTE WORK_OFFSET Work offset G56" in posted("klartext", jobs=(square(work_offset=56),)).text
+
+
+def test_a_part_name_that_a_control_cannot_hold_is_told() -> None:
+    (note,) = posted("threeblock", part="A\x1bB").notes
+    assert (note.code, note.severity, note.field) == ("PART_NAME", Severity.INFO, "name")
+    assert note.text == "PART NAME A?B is not in the file: threeblock knows no comments."
+    assert posted("threeblock", part="  ").notes == ()
+    assert posted("klartext", part="A").notes == ()
+
+
+@pytest.mark.parametrize(
+    ("name", "short"),
+    [
+        ("key_way-1", "key_way-1"),
+        ("key way/1", "key-way-1"),
+        ("Nut \u00f8", "Nut--"),
+        ("", "PART"),
+        ("a" * 30, "a" * 24),
+    ],
+)
+def test_the_name_is_one_that_every_control_takes(name: str, short: str) -> None:
+    assert posted("klartext", name=name).text.startswith(f"0 BEGIN PGM {short} INCH\n")
+
+
+def test_no_block_is_refused() -> None:
+    found = refused()
+    assert [finding.code for finding in found.findings] == ["NO_BLOCK"]
+    assert found.text == "There is no block to post."
+
+
+def test_a_segment_that_climbs_is_refused_under_compensation_only() -> None:
+    climbing = tuple(Floor(number, -0.25 * INCH, -0.2 * INCH, 254.0) for number in range(1, 6))
+    (finding,) = control_program_errors([square(floors=climbing)], Unit.IN)
+    assert (finding.code, finding.severity) == ("NOTWRITTEN", Severity.ERROR)
+    assert finding.text.startswith("Block 1: A segment climbs or falls (Z END) under compensation")
+    assert control_program_errors([replace(square(floors=climbing), comp="ON")], Unit.IN) == ()
+    assert control_program_errors([square()], Unit.IN) == ()
+
+
+def test_what_forbids_posting_forbids_it_here_too_and_is_named_once() -> None:
+    gouge = Finding("GOUGE", Severity.ERROR, "Gouges.", 2)
+    assert [finding.code for finding in refused(square(findings=(gouge, gouge))).findings] == ["GOUGE"]
+    assert [finding.code for finding in refused(square(cutter=None)).findings] == ["TOOL_MISSING"]
+    assert refused(square(), square(block=2, work_offset=55)).text == "The blocks name different work offsets."
+
+
+def test_a_contour_that_a_control_cannot_run_is_refused_by_its_reason() -> None:
+    tiny = cut(diameter=5.0)
+    inside = replace(tiny, compensated=compensate(SQUARE, Side.LEFT, 2.5 * INCH, 1, closed=True))
+    found = control_program([square()], [inside], Unit.IN, name="KEY", control="linuxcnc")
+    assert isinstance(found, Refusal)
+    assert {finding.severity for finding in found.findings} == {Severity.ERROR}
+    assert found.unit is Unit.IN
