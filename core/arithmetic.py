@@ -1,4 +1,4 @@
-"""Sums an operator types into a field, read exactly as fractions: `1 1/2`, `2.5-.125`, `25.4/2`, `3mm+1in`.
+"""Arithmetic an operator types into a field, read exactly as fractions: `1 1/2`, `2.5-.125`, `25.4/2`, `3mm+1in`.
 
 A suffix belongs to the product it stands in; in a sum either every term has one or none has.  A comma, and a
 dash that shop people read as "and" (`1-1/2`), may mean two things and are refused with the reason.
@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Final
 
-LONGEST: Final = 60
+MAX_CHARACTERS: Final = 60
 """Characters a field reads; more is a slip of the hand."""
 
 
@@ -34,16 +34,16 @@ def total(text: str, scales: Mapping[str, Fraction], expected: str) -> Fraction:
     """
     text = text.translate(_ALIKE)
     if not text.strip():
-        raise NotASumError("Nothing is typed: a number is needed.")
-    if len(text) > LONGEST:
-        raise NotASumError(f"That is too long: type at most {LONGEST} characters.")
+        raise NotASumError("Type a number.")
+    if len(text) > MAX_CHARACTERS:
+        raise NotASumError(f"Too long: type at most {MAX_CHARACTERS} characters.")
     if not text.isprintable():
-        raise NotASumError("There is a sign in it that cannot be shown: type it again.")
+        raise NotASumError("It holds a character that cannot be shown: type it again.")
     if "," in text:
-        raise NotASumError("A comma may mean two things: type a point, as in 1.5, and thousands without a mark.")
+        raise NotASumError("Type a point, as in 1.5, and no comma for thousands.")
     _refuse_dashed(text)
-    tokens = [(found.lastgroup or "", found[found.lastgroup or 0]) for found in _TOKEN.finditer(text.rstrip())]
-    return _Reader(tokens, scales, expected).whole()
+    tokens = [(match.lastgroup or "", match[match.lastgroup or 0]) for match in _TOKEN.finditer(text.rstrip())]
+    return _Reader(tokens, scales, expected, text.strip()).whole()
 
 
 def _refuse_dashed(text: str) -> None:
@@ -51,7 +51,7 @@ def _refuse_dashed(text: str) -> None:
     if dashed and int(dashed[2]) < int(dashed[3]):
         whole, above, below = dashed.groups()
         either = f"{whole} {above}/{below} with a blank, or {whole} - {above}/{below} to subtract"
-        raise NotASumError(f"{text.strip()} may mean two things: type {either}.")
+        raise NotASumError(f"{text.strip()} is not clear: type {either}.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +73,7 @@ class _Reader:
     tokens: list[tuple[str, str]]
     scales: Mapping[str, Fraction]
     expected: str
+    typed: str
     at: int = 0
 
     def peek(self, ahead: int = 0) -> tuple[str, str]:
@@ -91,11 +92,11 @@ class _Reader:
         total = self.sum()
         sort, text = self.peek()
         if sort == "number":
-            raise NotASumError(f"Before {text} a sign is missing; a fraction is typed as 1 1/2.")
+            raise NotASumError(f"{self.typed} is not a number.")
         if text == ")":
-            raise NotASumError("There is a bracket too many.")
+            raise NotASumError("One bracket too many.")
         if sort != "end":
-            raise NotASumError(f"{text} cannot stand there.")
+            raise NotASumError(f"{text} does not belong there.")
         return total.scaled()
 
     def sum(self) -> _Amount:
@@ -103,7 +104,7 @@ class _Reader:
         while sign := self.take("+-"):
             term = self.product()
             if (term.scale is None) is not (total.scale is None):
-                raise NotASumError("Give each number of a sum its unit, or put brackets: (2.5-.125)mm.")
+                raise NotASumError("Give every number its unit, or use brackets: (2.5-.125)mm.")
             scaled = total.scaled() + (term.scaled() if sign == "+" else -term.scaled())
             total = _Amount(scaled, None if total.scale is None else Fraction(1))
         return total
@@ -126,7 +127,7 @@ class _Reader:
         if sort != "word":
             return amount
         if text.lower() not in self.scales:
-            raise NotASumError(f"{text} is not understood here: {self.expected}.")
+            raise NotASumError(f"{text} is not a unit here: {self.expected}.")
         if amount.scale is not None:
             raise NotASumError("One unit is enough for a number.")
         self.at += 1
@@ -148,25 +149,25 @@ class _Reader:
         return Fraction(text) + self.fraction(text)
 
     def fraction(self, whole: str) -> Fraction:
-        """The 1/2 behind the whole number of 1 1/2, or 0."""
+        """The 1/2 after the whole number of 1 1/2, or 0."""
         (first, above), (_, slash), (last, below) = (self.peek(ahead) for ahead in range(3))
         if (first, slash, last) != ("number", "/", "number") or "." in whole + above + below:
             return Fraction(0)
         if int(above) >= int(below):
-            raise NotASumError(f"In {whole} {above}/{below} the fraction is not less than 1.")
+            raise NotASumError(f"{whole} {above}/{below}: the fraction must be less than 1.")
         self.at += 3
         return Fraction(int(above), int(below))
 
 
 def _times(left: _Amount, right: _Amount) -> _Amount:
     if left.scale is not None and right.scale is not None:
-        raise NotASumError("A length times a length is no length: leave one unit out.")
+        raise NotASumError("Length times length: leave one unit out.")
     return _Amount(left.value * right.value, right.scale if left.scale is None else left.scale)
 
 
 def _over(left: _Amount, right: _Amount) -> _Amount:
     if right.value == 0:
-        raise NotASumError("Nothing can be divided by zero.")
+        raise NotASumError("Division by zero.")
     if right.scale is not None and (left.scale is not None or right.bracket):
-        raise NotASumError("A number cannot be divided by a length: leave the unit out.")
+        raise NotASumError("Number divided by a length: leave the unit out.")
     return _Amount(left.value / right.value, right.scale if left.scale is None else left.scale)

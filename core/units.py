@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum, StrEnum, auto
 from fractions import Fraction
-from functools import cache, lru_cache
+from functools import lru_cache
 from math import degrees, isfinite, radians
 from types import MappingProxyType
 from typing import Final, assert_never
@@ -19,10 +19,10 @@ from core.arithmetic import NotASumError, total
 from core.finding import Finding
 from core.tolerance import LARGEST, ROUNDING
 
-QUOTED: Final = 24
+MAX_QUOTED: Final = 24
 """Characters of somebody's text that a message repeats."""
 
-WIDEST: Final = 10
+MAX_SHOWN: Final = 10
 """Characters `show` takes at most: larger numbers lose decimals."""
 
 
@@ -56,13 +56,13 @@ MM_PER: Final[Mapping[Unit, Fraction]] = MappingProxyType({Unit.IN: Fraction(127
 """Millimeters in one unit, exactly."""
 
 
-KEPT: Final[Mapping[Unit, int]] = MappingProxyType({Unit.IN: 10, Unit.MM: 8})
+KEPT_DECIMALS: Final[Mapping[Unit, int]] = MappingProxyType({Unit.IN: 10, Unit.MM: 8})
 """Decimals that a conversion keeps: more than a drawing has."""
 
 MOST_DECIMALS: Final = 20
 """A conversion that needs more decimals keeps all that there are."""
 
-CLOSER: Final = 6
+EXTRA_DECIMALS: Final = 6
 """More decimals than a form's that a sentence shows at most of two lengths that are nearly equal."""
 
 
@@ -95,27 +95,27 @@ def convert(value: float, old: Unit, new: Unit) -> float:
     if old is new:
         return value
     exact = Fraction(value) * MM_PER[old] / MM_PER[new]
-    found = (float(round(exact, places)) for places in range(KEPT[new], MOST_DECIMALS))
+    found = (float(round(exact, places)) for places in range(KEPT_DECIMALS[new], MOST_DECIMALS))
     return next((one for one in found if _leads_back(one, value, old, new)), float(exact))
 
 
 def _leads_back(found: float, value: float, old: Unit, new: Unit) -> bool:
     """Whether converting `found` back gives `value`: with the decimals that are kept if these will do."""
     factor = MM_PER[new] / MM_PER[old]
-    kept = float(round(Fraction(found) * factor, KEPT[old]))
-    will_do = float(round(Fraction(kept) / factor, KEPT[new])) == found
+    kept = float(round(Fraction(found) * factor, KEPT_DECIMALS[old]))
+    will_do = float(round(Fraction(kept) / factor, KEPT_DECIMALS[new])) == found
     return value == (kept if will_do else float(Fraction(found) * factor))
 
 
 def show(value: float, kind: Kind, unit: Unit) -> str:
-    """A value in program units as the screens print it, at most `WIDEST` characters, never a negative zero."""
+    """A value in program units as the screens print it, at most `MAX_SHOWN` characters, never a negative zero."""
     if not isfinite(value):
         return str(value)
     decimals = decimals_shown(kind, unit)
     text = f"{value:.{decimals}f}"
-    if len(text) > WIDEST:
+    if len(text) > MAX_SHOWN:
         texts = (f"{value:.{places}f}" for places in range(decimals - 1, -1, -1))
-        text = next((text for text in texts if len(text) <= WIDEST), f"{value:.3g}")
+        text = next((text for text in texts if len(text) <= MAX_SHOWN), f"{value:.3g}")
     return text.removeprefix("-") if not text.strip("-0.") else text
 
 
@@ -124,20 +124,18 @@ def decimals_shown(kind: Kind, unit: Unit) -> int:
     match kind:
         case Kind.LENGTH:
             return 4 if unit is Unit.IN else 3
-        case Kind.FEED | Kind.PERCENT:
-            return 1
         case Kind.ANGLE:
             return 3
-        case Kind.COUNT | Kind.CHOICE | Kind.TEXT:
-            return 0
+        case Kind.FEED | Kind.PERCENT:
+            return 1
         case _:
-            assert_never(kind)
+            return 0
 
 
 def printable(text: str) -> str:
     """Somebody's text as it may stand in a message: on one line, short, and nothing that moves a terminal's cursor."""
     plain = "".join(sign if sign.isprintable() else "?" for sign in text.strip())
-    return plain if len(plain) <= QUOTED else f"{plain[:QUOTED]}..."
+    return plain if len(plain) <= MAX_QUOTED else f"{plain[:MAX_QUOTED]}..."
 
 
 def sentence(finding: Finding, unit: Unit) -> str:
@@ -158,51 +156,38 @@ def sentence(finding: Finding, unit: Unit) -> str:
         here = from_mm(length, unit)
         if other is None or abs(length - other) <= ROUNDING:
             return show(here, Kind.LENGTH, unit)
-        return _told_from(here, from_mm(other, unit), unit)
+        return _telling_digits(here, from_mm(other, unit), unit)
 
     return re.sub(r"\{(\w+)(?:~(\w+))?\}", fill, finding.text)
 
 
-def _told_from(value: float, other: float, unit: Unit) -> str:
+def _telling_digits(value: float, other: float, unit: Unit) -> str:
     """A length with a form's decimals, or as many more as tell how far it is from another."""
     if not (isfinite(value) and isfinite(other)):
         return show(value, Kind.LENGTH, unit)
     apart, fewest = abs(value - other), decimals_shown(Kind.LENGTH, unit)
     enough = (
         places
-        for places in range(fewest, fewest + CLOSER)
+        for places in range(fewest, fewest + EXTRA_DECIMALS)
         if abs(abs(round(value, places) - round(other, places)) - apart) <= apart / 10.0
     )
-    return f"{value:.{next(enough, fewest + CLOSER)}f}"
+    return f"{value:.{next(enough, fewest + EXTRA_DECIMALS)}f}"
 
 
-@lru_cache(8)
 def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:
-    """The value of an operator's text in program units (degrees for an angle), or why there is none.
-
-    One key asks it of one text several times.
-    """
-    if kind in _DECIMAL and _PLAIN.fullmatch(text):
-        # the same number, without the fractions that a sum needs; no zero is negative
-        return float(text) + 0.0
+    """The value of an operator's text in program units (degrees for an angle), or why there is none."""
     try:
         exact = total(text, _scales(kind, unit), _EXPECTED.get(kind, ""))
     except NotASumError as fault:
         return Unreadable(str(fault))
     if kind is Kind.COUNT and exact.denominator != 1:
-        return Unreadable("A whole number is needed here, such as 2.")
-    if abs(exact) * (MM_PER[unit] if kind in _MEASURES else 1) > Fraction(LARGEST):
-        return Unreadable("That number is too large for any machine.")
+        return Unreadable("Type a whole number, such as 2.")
+    if abs(exact) * (MM_PER[unit] if kind in (Kind.LENGTH, Kind.FEED) else 1) > Fraction(LARGEST):
+        return Unreadable("Too large for any machine.")
     return float(exact)
 
 
-_MEASURES: Final = (Kind.LENGTH, Kind.FEED)
-_DECIMAL: Final = (*_MEASURES, Kind.ANGLE, Kind.PERCENT)
-_PLAIN: Final = re.compile(r"-?(?:[0-9]{1,5}(?:\.[0-9]{0,12})?|\.[0-9]{1,12})")
-"""A decimal number as it is typed mostly, too short to be too large for a machine."""
-
-
-@cache
+@lru_cache
 def _scales(kind: Kind, unit: Unit) -> Mapping[str, Fraction]:
     """What each suffix that a kind takes multiplies by to give program units."""
     match kind:

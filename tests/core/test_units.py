@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from core.finding import Finding, Severity
 from core.units import (
-    WIDEST,
+    MAX_SHOWN,
     Kind,
     Unit,
     Unreadable,
@@ -70,12 +70,12 @@ def test_a_plain_number_is_the_same_as_in_a_sum(text: str, kind: Kind, unit: Uni
     ("text", "kind", "reason"),
     [
         ("x", Kind.COUNT, "x is not a number: type a whole number."),
-        ("2.5", Kind.COUNT, "A whole number is needed here, such as 2."),
-        ("10mm", Kind.COUNT, "mm is not understood here: type a whole number."),
-        ("45mm", Kind.ANGLE, "mm is not understood here: type degrees such as 22.5."),
-        ("45deg", Kind.LENGTH, "deg is not understood here: type a number such as 2.5, 1 1/2, 2.5-.125 or 12.7mm."),
-        ("99999999", Kind.LENGTH, "That number is too large for any machine."),
-        ("9" * 60, Kind.COUNT, "That number is too large for any machine."),
+        ("2.5", Kind.COUNT, "Type a whole number, such as 2."),
+        ("10mm", Kind.COUNT, "mm is not a unit here: type a whole number."),
+        ("45mm", Kind.ANGLE, "mm is not a unit here: type degrees such as 22.5."),
+        ("45deg", Kind.LENGTH, "deg is not a unit here: type a number such as 2.5, 1 1/2, 2.5-.125 or 12.7mm."),
+        ("99999999", Kind.LENGTH, "Too large for any machine."),
+        ("9" * 60, Kind.COUNT, "Too large for any machine."),
         ("RIGHT", Kind.CHOICE, "This field takes no number."),
     ],
 )
@@ -123,7 +123,7 @@ def test_show(value, kind, unit, text):
 @given(st.floats(allow_nan=False), st.sampled_from(Kind), st.sampled_from(Unit))
 def test_show_fits_and_has_no_negative_zero(value, kind, unit):
     text = show(value, kind, unit)
-    assert len(text) <= WIDEST
+    assert len(text) <= MAX_SHOWN
     assert text.strip("-0.") or not text.startswith("-")
 
 

@@ -107,7 +107,7 @@ def _adjustment(drafts: Sequence[Draft]) -> dict[int, Finding]:
 
 def _segment(index: int, draft: Draft, blends: Blends, adjusted: Finding | None) -> SolvedSegment:
     shape, before, after = draft.shape, draft.before, draft.after
-    findings = (*shape.findings, *(finding for finding in (blends.faults.get(index), adjusted) if finding is not None))
+    findings = [finding for finding in (*shape.findings, blends.faults.get(index), adjusted) if finding is not None]
     return SolvedSegment(
         number=index + 1,
         values=draft.reading.values,
@@ -142,7 +142,8 @@ def _start(block: Block, program: Program) -> _Start:
     severity = Severity.WARNING if block.cutter_comp is CutterComp.ON else Severity.ERROR
     tool = called_tool(program, block.tool, "tool", severity)
     finish = called_tool(program, block.finish_tool, "finish_tool", severity)
-    reading.fill(dict.fromkeys(ZERO_IF_BLANK, 0.0))
+    for name in ZERO_IF_BLANK:
+        reading.fill(name, 0.0)
     known = reading.known
     point = (known["x_start"], known["y_start"]) if "x_start" in known and "y_start" in known else None
     # what was typed and is wrong comes before what is still to be typed: few of them are seen at once

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from core.finding import Finding, Severity
@@ -20,11 +20,10 @@ class Reading:
     known: dict[str, float]
     findings: tuple[Finding, ...]
 
-    def fill(self, calculated: Mapping[str, float | None]) -> None:
-        """Put calculated numbers, in program units, into the fields that are blank."""
-        for name, value in calculated.items():
-            if value is not None and self.values[name] is None:
-                self.values[name] = Solved(value)
+    def fill(self, name: str, value: float | None) -> None:
+        """Put a calculated number, in program units, into a field that is blank."""
+        if value is not None and self.values[name] is None:
+            self.values[name] = Solved(value)
 
 
 def read_form(form: Form, part: Block | Segment | Parameters | PartSetup, unit: Unit, number: int | None) -> Reading:

@@ -57,7 +57,7 @@ class Draft:
 
 def typed_point(values: dict[str, Value], names: tuple[str, str]) -> tuple[float | None, float | None]:
     """X and Y of a point as typed, in program units; None where they are not typed."""
-    x, y = (values.get(name) for name in names)
+    x, y = values.get(names[0]), values.get(names[1])
     return x.value if isinstance(x, Entry) else None, y.value if isinstance(y, Entry) else None
 
 
@@ -67,16 +67,13 @@ def draft(segment: Segment, number: int, before: Carried, unit: Unit) -> Draft:
     known = reading.known
     z, feed = known.pop("z_end", before.z), known.pop("feed", before.feed)
     shape = _shape(segment, reading, before, unit)
-    heights = {} if isinstance(segment, BlendSegment) else {"z_end": _shown(z, unit)}
-    reading.fill({**heights, "feed": _shown(feed, unit)})
+    reading.fill("feed", None if feed is None else from_mm(feed, unit))
+    if not isinstance(segment, BlendSegment):
+        reading.fill("z_end", None if z is None else from_mm(z, unit))
     # later segments start at an end that is typed, whether or not this one is determined
     typed_end = (known["x_end"], known["y_end"]) if "x_end" in known and "y_end" in known else None
     typed = before.typed if isinstance(segment, BlendSegment) else typed_point(reading.values, _ENDS)
     return Draft(reading, shape, before, Carried(shape.end or typed_end, typed, z, feed))
-
-
-def _shown(value: float | None, unit: Unit) -> float | None:
-    return None if value is None else from_mm(value, unit)
 
 
 def _shape(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> Shape:
@@ -123,7 +120,7 @@ def _solved(task: Task, reading: Reading, given: Given, choice: int | None, unit
     if _too_far(piece):
         text = "This segment leads farther than any machine goes: check its numbers."
         return Shape(findings=(Finding("OUT_OF_RANGE", Severity.ERROR, text, field=task.shape[0]),))
-    reading.fill(_calculated(piece, unit))
+    _calculate(reading, piece, unit)
     if piece.length <= JOINED:
         text = "No length: skipped. Type its end, or F1 deletes it."
         return Shape(end=given.start, findings=(Finding("ZERO_LENGTH", Severity.WARNING, text),))
@@ -155,12 +152,15 @@ def _unsolved(task: Task, outcome: Outcome, reading: Reading, start: Point) -> S
     return Shape(missing=outcome.missing, sketch=sketch(start, reading.known), findings=findings)
 
 
-def _calculated(piece: Piece, unit: Unit) -> dict[str, float]:
-    """All fields of a determined line or arc, in program units."""
-    x_end, y_end = (from_mm(value, unit) for value in piece.end)
+def _calculate(reading: Reading, piece: Piece, unit: Unit) -> None:
+    """Fill the blanks of a determined line or arc."""
+    reading.fill("x_end", from_mm(piece.end[0], unit))
+    reading.fill("y_end", from_mm(piece.end[1], unit))
     if isinstance(piece, Line):
-        length, angle = from_mm(piece.length, unit), from_radians(heading(piece))
-        return {"x_end": x_end, "y_end": y_end, "length": length, "angle": angle}
-    x_center, y_center = (from_mm(value, unit) for value in piece.center)
-    ends = {"x_end": x_end, "y_end": y_end, "x_center": x_center, "y_center": y_center}
-    return {**ends, "radius": from_mm(piece.radius, unit), "sweep": from_radians(abs(piece.sweep))}
+        reading.fill("length", from_mm(piece.length, unit))
+        reading.fill("angle", from_radians(heading(piece)))
+    else:
+        reading.fill("x_center", from_mm(piece.center[0], unit))
+        reading.fill("y_center", from_mm(piece.center[1], unit))
+        reading.fill("radius", from_mm(piece.radius, unit))
+        reading.fill("sweep", from_radians(abs(piece.sweep)))

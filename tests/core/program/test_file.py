@@ -38,7 +38,7 @@ def test_what_could_not_be_read_is_kept_with_its_reason():
     z_bottom = loads(TEXT, "x").blocks[0].z_bottom
     assert isinstance(z_bottom, Unread)
     assert z_bottom.text == "-1/4x"
-    assert z_bottom.reason.startswith("x is not understood here")
+    assert z_bottom.reason.startswith("x is not a unit here")
 
 
 def test_unread_text_that_could_be_read_now_never_becomes_a_number():

@@ -1,12 +1,28 @@
-"""Undo and redo."""
+"""Undo and redo, and what differs between two programs in words."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.program.history import History
-from core.program.model import PartSetup, Program
+from core.program.edit import (
+    Where,
+    copy_block,
+    delete_segment,
+    delete_tool,
+    insert_segment,
+    set_setup,
+    set_tool,
+    set_unit,
+    type_field,
+)
+from core.program.history import History, differences, splice
+from core.program.model import ArcSegment, CutterComp, Entry, LineSegment, PartSetup, Program, Tool, Unread
+from core.units import Unit
+from tests.core.program.parts import line, program, programs
 
 
 def named(name: str) -> Program:
@@ -56,3 +72,71 @@ def test_like_a_list_with_a_cursor(steps):
             at += 1
         assert (history.program, history.undo_count) == (programs[at], at)
         assert history.redo_count == len(programs) - 1 - at
+
+
+PART = program(line(x_end=1.0), line(y_end=1.0), line(x_end=0.0), unit=Unit.IN)
+
+
+def told(edited: object) -> tuple[str, ...]:
+    assert isinstance(edited, Program)
+    return differences(PART, edited)
+
+
+def test_fields() -> None:
+    assert told(type_field(PART, Where(1, 2), "y_end", Entry(2.5))) == (
+        "Block 1, segment 2: Y END 2.5000, was 1.0000.",
+    )
+    assert told(type_field(PART, Where(1), "x_start", None)) == ("Block 1: X START blank, was 0.0000.",)
+    unread = type_field(PART, Where(1, 1), "x_end", Unread("2..5", ""))
+    assert told(unread) == ("Block 1, segment 1: X END 2..5 (cannot be used), was 1.0000.",)
+
+
+def test_choices() -> None:
+    block = replace(PART.blocks[0], cutter_comp=CutterComp.RIGHT)
+    assert told(replace(PART, blocks=(block,))) == ("Block 1: CUTTER COMP. RIGHT, was LEFT.",)
+
+
+def test_segments() -> None:
+    assert told(insert_segment(PART, Where(1, 2), LineSegment())) == ("Block 1, segment 2 is new.",)
+    assert told(delete_segment(PART, Where(1, 3))) == ("Block 1, segment 3 is deleted.",)
+    first, *_ = PART.blocks[0].segments
+    arc = replace(PART.blocks[0], segments=(first, ArcSegment(), *PART.blocks[0].segments[2:]))
+    assert told(replace(PART, blocks=(arc,))) == ("Block 1, segment 2: ARC, was LINE.",)
+    fewer = replace(PART.blocks[0], segments=(ArcSegment(),))
+    assert told(replace(PART, blocks=(fewer,))) == ("Block 1, segments 1 to 3: now 1 in place of 3.",)
+
+
+def test_blocks_and_tools() -> None:
+    assert told(copy_block(PART, 1)) == ("Block 2 is new.",)
+    assert told(set_tool(PART, Tool(7))) == ("Tool 7 is new.",)
+    assert told(delete_tool(PART, 1)) == ("Tool 1 is deleted.",)
+    assert told(set_tool(PART, Tool(1, "BALL", Entry(0.5)))) == ("Tool 1: TYPE BALL, was END MILL.",)
+
+
+def test_setup_and_units() -> None:
+    assert told(set_setup(PART, "name", "COVER")) == ("PART SETUP: PART NAME COVER, was blank.",)
+    assert told(set_unit(PART, Unit.MM)) == ("Program units: MM, was IN.",)
+
+
+@settings(max_examples=20, derandomize=True, deadline=None)
+@given(programs, programs)
+def test_told_if_and_only_if_there_is_a_difference(old: Program, new: Program) -> None:
+    assert differences(old, old) == ()
+    assert bool(differences(old, new)) is (old != new)
+    assert all(sentence.isprintable() for sentence in differences(old, new))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "at", "gone", "come"),
+    [
+        ("abc", "abc", 3, "", ""),
+        ("abc", "axc", 1, "b", "x"),
+        ("abc", "abbc", 2, "", "b"),
+        ("aaa", "aa", 2, "a", ""),
+        ("", "xy", 0, "", "xy"),
+        ("xy", "", 0, "xy", ""),
+    ],
+)
+def test_the_shortest_middle(old: str, new: str, at: int, gone: str, come: str) -> None:
+    found = splice(tuple(old), tuple(new))
+    assert (found.at, "".join(found.old), "".join(found.new)) == (at, gone, come)

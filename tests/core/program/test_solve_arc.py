@@ -1,8 +1,9 @@
-"""An ARC from what is typed of it."""
+"""An ARC from what is typed of it; one whose end reads like its start is never silently another than was meant."""
 
 from __future__ import annotations
 
-from math import dist, radians, tau
+import re
+from math import cos, dist, hypot, radians, sin, tau
 
 import pytest
 from hypothesis import assume, given, settings
@@ -10,11 +11,12 @@ from hypothesis import strategies as st
 
 from core.finding import Severity
 from core.geometry.piece import Arc, Turn
+from core.program.edit import set_unit
 from core.program.model import ArcSegment
 from core.program.solve.block import solve_block
-from core.program.solve.solved import SolvedSegment
-from core.units import Unit, sentence
-from tests.core.program.parts import arc, number, program, tags
+from core.program.solve.solved import SolvedBlock, SolvedSegment
+from core.units import Kind, Unit, sentence, show
+from tests.core.program.parts import arc, line, number, program, tags
 
 
 def solved(segment: ArcSegment, x: float = 0.0, y: float = 0.0) -> SolvedSegment:
@@ -276,3 +278,315 @@ def test_calculated_fields_give_the_arc_again(start, center, sweep, direction):
             and dist(one.center, whole.piece.center) < 1e-4
             for one in candidates
         )
+
+
+INCH = 25.4
+SHOWN = {Unit.IN: (1.4142, 1.4142, 2.4142), Unit.MM: (1.414, 1.414, 2.414)}
+"""X and Y of the end of a line of 2 at 45 degrees as a field shows them, and Y one above."""
+
+UNITS = pytest.mark.parametrize("unit", list(Unit))
+DIRECTIONS = pytest.mark.parametrize("direction", ["CW", "CCW"])
+
+
+def second(segment: ArcSegment, unit: Unit) -> tuple[SolvedBlock, SolvedSegment]:
+    """The segment behind a line of 2 at 45 degrees."""
+    given_program = program(line(length=2.0, angle=45.0, feed=5.0), segment, unit=unit)
+    block = solve_block(given_program.blocks[0], given_program)
+    return block, block.segments[1]
+
+
+def told(found: SolvedSegment, unit: Unit) -> list[tuple[Severity, str, str]]:
+    """What is said of the segment, but for a radius that was typed with few digits."""
+    return [(one.severity, one.code, sentence(one, unit)) for one in found.findings if one.code != "ARC_ADJUSTED"]
+
+
+def is_full(found: SolvedSegment) -> bool:
+    return isinstance(found.piece, Arc) and found.piece.start == found.piece.end and abs(found.piece.sweep) == tau
+
+
+READS = "X END and Y END read like the arc's start: it is the full circle, and ends where it starts. "
+LESS = "For a shorter arc blank X END and Y END and enter SWEEP ANGLE."
+
+
+@UNITS
+@DIRECTIONS
+@pytest.mark.parametrize("axes", ["xy", "x", "y"])
+@pytest.mark.parametrize("radius", [False, True])
+def test_an_end_typed_as_the_screen_shows_the_start_is_the_full_circle(unit, direction, axes, radius):
+    x, y, above = SHOWN[unit]
+    typed = {"x_center": x, "y_center": above} | {name: value for name, value in (("x_end", x), ("y_end", y))}
+    typed = {name: value for name, value in typed.items() if not name.endswith("_end") or name[0] in axes}
+    if axes == "x":
+        # an end in X alone leaves two: the other side of the circle, and the start again
+        typed["choice"] = 1
+    if radius:
+        typed["radius"] = 1.0
+    block, found = second(arc(direction, **typed), unit)
+    assert is_full(found)
+    assert found.end == found.start == block.segments[0].end
+    assert number(found, "sweep") == 360.0
+    fields = {"xy": "X END and Y END read", "x": "X END reads", "y": "Y END reads"}[axes]
+    blank = {"xy": "X END and Y END", "x": "X END", "y": "Y END"}[axes]
+    words = READS.replace("X END and Y END read", fields) + LESS.replace("X END and Y END", blank)
+    assert told(found, unit) == [(Severity.INFO, "FULL_CIRCLE", words)]
+
+
+@UNITS
+@DIRECTIONS
+def test_with_sweep_angle_360_there_is_nothing_to_tell(unit, direction):
+    x, y, above = SHOWN[unit]
+    for end in ({"x_end": x, "y_end": y}, {"y_end": y}, {}):
+        _, found = second(arc(direction, x_center=x, y_center=above, sweep=360.0, **end), unit)
+        assert is_full(found)
+        assert found.findings == ()
+
+
+@UNITS
+@DIRECTIONS
+@pytest.mark.parametrize("off", [1.0, -1.0])
+def test_an_end_a_digit_or_two_from_the_start_is_asked_about_and_sweep_angle_answers(unit, direction, off):
+    x, y, above = SHOWN[unit]
+    step = {Unit.IN: 0.00008, Unit.MM: 0.002}[unit]
+    end = {"x_end": x + off * step, "y_end": y, "x_center": x, "y_center": above}
+    _, found = second(arc(direction, **end), unit)
+    assert found.piece is None
+    assert found.missing == ("sweep",)
+    ((severity, code, text),) = told(found, unit)
+    assert (severity, code) == (Severity.ERROR, "CIRCLE_OR_ARC")
+    question = re.fullmatch(
+        r"The end is (0\.\d+) from the start: full circle or (short arc|arc to that end)\? "
+        r"Type SWEEP ANGLE 360 or (\d+\.\d+)\.",
+        text,
+    )
+    assert question
+    assert (question[2] == "short arc") is (float(question[3]) < 180.0)
+    _, full = second(arc(direction, **end, sweep=360.0), unit)
+    assert is_full(full)
+    assert full.end == full.start
+    assert told(full, unit) == []
+    _, part = second(arc(direction, **end, sweep=float(question[3])), unit)
+    assert isinstance(part.piece, Arc)
+    scale = INCH if unit is Unit.IN else 1.0
+    # on the circle, where its end is as near as radii may differ
+    assert dist(part.piece.end, ((x + off * step) * scale, y * scale)) < 0.00254
+    assert [code for _, code, _ in told(part, unit)] == ["SHORT_ARC"]
+    _, neither = second(arc(direction, **end, sweep=90.0), unit)
+    assert told(neither, unit) == told(found, unit)
+
+
+def test_an_arc_of_93_nanometers_is_no_circle_of_52_meters():
+    end = {"x_end": 100.000093, "y_end": 50.0, "x_center": 100.0, "y_center": 8326.0}
+    given_program = program(arc("CCW", **end), x=100.0, y=50.0)
+    (found,) = solve_block(given_program.blocks[0], given_program).segments
+    assert found.piece is None
+    ((_, code, text),) = told(found, Unit.MM)
+    assert code == "CIRCLE_OR_ARC"
+    assert text == "The end is 0.0001 from the start: full circle or short arc? Type SWEEP ANGLE 360 or 0.00000064."
+    given_program = program(arc("CCW", **end, sweep=0.00000064), x=100.0, y=50.0)
+    (found,) = solve_block(given_program.blocks[0], given_program).segments
+    assert isinstance(found.piece, Arc)
+    assert found.piece.length == pytest.approx(0.000093, rel=1e-3)
+
+
+@UNITS
+@pytest.mark.parametrize("digit", [1e-9, 2e-7, 1e-6, 1e-5])
+def test_a_typed_end_equals_a_typed_start_to_the_last_digit_or_is_asked_about(unit, digit):
+    """What is nearer than two points can be told apart, 0.1 nm, is the start."""
+    for off in (digit, -digit):
+        segment = arc("CW", x_end=0.5 + off, y_end=0.25, x_center=0.5, y_center=1.0)
+        given_program = program(segment, unit=unit, x=0.5, y=0.25)
+        (found,) = solve_block(given_program.blocks[0], given_program).segments
+        if digit == 1e-9:
+            assert is_full(found)
+            assert found.findings == ()
+        else:
+            assert [one.code for one in found.findings] == ["CIRCLE_OR_ARC"]
+
+
+@UNITS
+def test_more_digits_than_the_screen_shows_of_a_calculated_start_count(unit):
+    """The start is 1.41421356...: 1.41421 is the start as it would be typed with one digit more, 1.41424 is not."""
+    x, y, above = SHOWN[unit]
+    _, found = second(arc("CW", x_end=1.41421, y_end=1.4142136, x_center=x, y_center=above), unit)
+    assert is_full(found)
+    assert [code for _, code, _ in told(found, unit)] == ["FULL_CIRCLE"]
+    _, found = second(arc("CW", x_end=1.41424, y_end=y, x_center=x, y_center=above), unit)
+    assert [code for _, code, _ in told(found, unit)] == ["CIRCLE_OR_ARC"]
+
+
+@UNITS
+@DIRECTIONS
+def test_a_change_of_units_leaves_a_full_circle_one(unit, direction):
+    x, y, above = SHOWN[unit]
+    segment = arc(direction, x_end=x, y_end=y, x_center=x, y_center=above)
+    given_program = program(line(length=2.0, angle=45.0, feed=5.0), segment, unit=unit)
+    turned = set_unit(given_program, Unit.MM if unit is Unit.IN else Unit.IN)
+    assert is_full(solve_block(turned.blocks[0], turned).segments[1])
+
+
+def test_an_end_in_x_alone_is_asked_about_too():
+    """Of an end a little beside the start only X is typed: it may be the start, or as near to it."""
+    given_program = program(arc("CW", x_end=0.001, x_center=3.0, y_center=4.0))
+    (found,) = solve_block(given_program.blocks[0], given_program).segments
+    assert [one.code for one in found.findings] == ["CIRCLE_OR_ARC"]
+
+
+@UNITS
+@DIRECTIONS
+@pytest.mark.parametrize("sweep", [0.001, 0.0005, 359.9994, 359.998])
+def test_a_tiny_arc_is_typed_by_its_sweep_angle_and_told(unit, direction, sweep):
+    x, y, above = SHOWN[unit]
+    for end in ({}, {"x_end": x, "y_end": y}):
+        _, found = second(arc(direction, x_center=x, y_center=above, sweep=sweep, **end), unit)
+        ((severity, code, text),) = told(found, unit)
+        assert severity is Severity.WARNING
+        if sweep == 359.9994:
+            # it shows as 359.999, and ends on the start as far as any digit shows
+            assert is_full(found)
+            assert code == "FULL_CIRCLE"
+            continue
+        assert isinstance(found.piece, Arc)
+        assert abs(found.piece.sweep) == pytest.approx(radians(sweep), abs=3e-4)
+        assert code == "SHORT_ARC"
+        assert text.endswith("Enter SWEEP ANGLE 360 if the full circle is meant.")
+
+
+@UNITS
+@DIRECTIONS
+@pytest.mark.parametrize("off", [0.0, 1.0])
+@pytest.mark.parametrize(
+    "typed",
+    [
+        {"radius": 1.0},
+        {"radius": 1.0, "choice": 0},
+        {"radius": 1.0, "choice": 1},
+        {"sweep": 90.0},
+        {"sweep": 360.0},
+        {"sweep": 359.99},
+        {"x_center": 1.0},
+        {"y_center": 3.0},
+        {"radius": 1.0, "x_center": 2.0},
+        {"radius": 1.0, "sweep": 0.001, "choice": 0},
+        {"sweep": 0.001},
+    ],
+)
+def test_an_end_at_the_start_needs_the_center(unit, direction, typed, off):
+    """Without both coordinates of the center the rounding of the end would decide where the arc lies."""
+    block, _ = second(arc(direction), unit)
+    x, y, _ = SHOWN[unit]
+    exact = [value / (INCH if unit is Unit.IN else 1.0) for value in block.segments[0].end]
+    end = {"x_end": x, "y_end": y} if off else {"x_end": exact[0], "y_end": exact[1]}
+    _, found = second(arc(direction, **end, **typed), unit)
+    assert found.piece is None
+    ((severity, code, text),) = told(found, unit)
+    assert (severity, code) == (Severity.ERROR, "MISSING")
+    blank = [label for name, label in (("x_center", "X CENTER"), ("y_center", "Y CENTER")) if name not in typed]
+    assert text == (
+        f"More data needed: the end is at the start. For the full circle type {' and '.join(blank)}; for a shorter "
+        "arc the center and SWEEP ANGLE, with X END and Y END blank."
+    )
+    assert set(found.missing) == {label.lower().replace(" ", "_") for label in blank}
+
+
+@UNITS
+@DIRECTIONS
+@pytest.mark.parametrize("sweep", [0.0005, 359.9995])
+@pytest.mark.parametrize("name", ["x_end", "y_end"])
+def test_one_coordinate_of_an_end_at_the_start_with_radius_and_sweep_says_nothing(unit, direction, sweep, name):
+    x, _, _ = SHOWN[unit]
+    _, found = second(arc(direction, radius=1.0, sweep=sweep, **{name: x}), unit)
+    assert found.piece is None
+    assert [one.code for one in found.findings] == ["MISSING"]
+
+
+def test_radius_sweep_and_one_center_coordinate_still_make_a_full_circle_that_ends_where_it_starts():
+    x, y, above = SHOWN[Unit.IN]
+    end = {"x_end": x, "y_end": y}
+    _, found = second(arc("CW", radius=1.0, sweep=360.0, y_center=above, x_center=x, **end), Unit.IN)
+    assert is_full(found)
+    given_program = program(arc("CW", radius=1.0, sweep=360.0, x_center=1.0, x_end=0.0, y_end=0.0))
+    (segment,) = solve_block(given_program.blocks[0], given_program).segments
+    assert is_full(segment)
+
+
+@UNITS
+def test_an_end_of_exactly_the_start_is_the_full_circle_as_ever(unit):
+    given_program = program(arc("CW", x_end=0.0, y_end=0.0, x_center=1.0, y_center=0.0), unit=unit)
+    block = solve_block(given_program.blocks[0], given_program)
+    assert is_full(block.segments[0])
+    assert block.closed
+    assert block.every_finding == ()
+
+
+def test_a_sweep_that_shows_360_but_leaves_a_gap_is_no_full_circle():
+    _, found = second(arc("CW", x_center=1.4142, y_center=101.4142, sweep=359.999), Unit.IN)
+    assert isinstance(found.piece, Arc)
+    assert dist(found.piece.start, found.piece.end) > 0.04
+    assert abs(found.piece.sweep) == pytest.approx(radians(359.999))
+
+
+def test_an_end_that_misses_the_start_by_little_more_is_told_too():
+    """A few digits beside the start it may still be the full circle that was meant."""
+    start = 2.0 / 2.0**0.5
+    _, found = second(arc("CW", x_end=start - 0.0005, y_end=start, x_center=start, y_center=start + 1.0), Unit.IN)
+    assert isinstance(found.piece, Arc)
+    ((severity, code, text),) = told(found, Unit.IN)
+    assert (severity, code) == (Severity.WARNING, "SHORT_ARC")
+    assert text == (
+        "The arc ends only 0.0005 from its start and turns 0.029 degrees. Enter SWEEP ANGLE 360 if the full circle is "
+        "meant."
+    )
+
+
+@UNITS
+def test_the_other_coordinate_of_an_end_that_touches_the_circle_is_no_choice_between_two_nothings(unit):
+    """At the circle's own extreme an end in X alone is the start itself, and not two arcs of no length."""
+    given_program = program(arc("CW", x_end=1e-13, x_center=1.0, y_center=0.0), unit=unit)
+    (found,) = solve_block(given_program.blocks[0], given_program).segments
+    assert is_full(found)
+    assert found.choices == ()
+
+
+@settings(derandomize=True, max_examples=300, deadline=None)
+@given(
+    st.floats(0.0, tau),
+    st.floats(0.001, 500.0),
+    st.floats(-2.0, 2.0),
+    st.floats(-2.0, 2.0),
+    st.sampled_from(["CW", "CCW"]),
+    st.sampled_from(list(Unit)),
+)
+def test_no_arc_whose_end_reads_like_its_start_is_silent(angle, radius, dx, dy, direction, unit):
+    """Whatever is typed near the start: a full circle, or something that is told."""
+    places = 4 if unit is Unit.IN else 3
+    digit = 10.0**-places
+    start = (radius * cos(angle), radius * sin(angle))
+    end = (round(start[0] + dx * digit, places), round(start[1] + dy * digit, places))
+    typed = {"x_end": end[0], "y_end": end[1], "x_center": 0.0, "y_center": 0.0}
+    given_program = program(arc(direction, **typed), x=start[0], y=start[1], unit=unit)
+    (found,) = solve_block(given_program.blocks[0], given_program).segments
+    same = all(show(a, Kind.LENGTH, unit) == show(b, Kind.LENGTH, unit) for a, b in zip(start, end, strict=True))
+    if is_full(found):
+        exact = hypot(start[0] - end[0], start[1] - end[1]) * (INCH if unit is Unit.IN else 1.0) <= 1e-7
+        assert exact or [one.code for one in found.findings] == ["FULL_CIRCLE"]
+    else:
+        assert found.findings != ()
+        assert not same or any(one.severity is Severity.ERROR for one in found.findings)
+
+
+@settings(derandomize=True, max_examples=200, deadline=None)
+@given(st.floats(0.0, tau), st.floats(0.001, 500.0), st.floats(1e-4, 360.0), st.sampled_from(list(Unit)), st.booleans())
+def test_a_typed_sweep_is_what_the_arc_turns(angle, radius, sweep, unit, near):
+    """And where it ends beside its start that is told."""
+    turned = 360.0 - sweep / 1000.0 if near else sweep
+    start = (radius * cos(angle), radius * sin(angle))
+    segment = arc("CCW", x_center=0.0, y_center=0.0, sweep=turned)
+    given_program = program(segment, x=start[0], y=start[1], unit=unit)
+    (found,) = solve_block(given_program.blocks[0], given_program).segments
+    if isinstance(found.piece, Arc):
+        off = abs(abs(found.piece.sweep) - radians(turned)) * found.piece.radius
+        assert off <= 0.00254 + 1e-6
+        beside = dist(found.piece.start, found.piece.end) <= 0.00254
+        assert bool(found.findings) is (beside and turned != 360.0)
+    else:
+        assert found.findings != ()

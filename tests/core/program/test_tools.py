@@ -1,12 +1,23 @@
-"""The tool table as blocks call it."""
+"""The tool table: which tool a field calls, and LinuxCNC tables read."""
 
 from __future__ import annotations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from core.finding import Severity
+from core.controls.control_tools import read_table
+from core.finding import Finding, Severity
 from core.program.model import Entry, Program, Tool, Unread
-from core.program.tools import called_tool, find_tool, tool_diameter
+from core.program.tools import (
+    MAX_TABLE_LINES,
+    ImportedTools,
+    called_tool,
+    decode_table,
+    find_tool,
+    read_tool_table,
+    tool_diameter,
+)
 from core.units import Unit
 
 TABLE = Program(tools=(Tool(1, "END MILL", Entry(0.5)), Tool(4, "BALL MILL")))
@@ -58,3 +69,118 @@ def test_a_diameter_beyond_any_tool_is_refused_as_a_typed_one_is():
     found = called_tool(part, Entry(1.0), "tool")
     assert found.diameter is None
     assert [one.text for one in found.findings] == ["Tool 1: TOOL DIAMETER must be above 0, at most 10000."]
+
+
+LINUXCNC_TABLE = """\
+; the mill by the window
+T2 P2 Z1.25 D0.375 Q0 ;BALL MILL 3/8
+T1 P1 D.5
+
+t10 p3 x0 y0 d+1. i90 j-90;  FACE MILL
+"""
+
+
+def read(text: str, unit: Unit = Unit.IN, program: Unit = Unit.IN) -> ImportedTools:
+    return read_tool_table(text, unit, program)
+
+
+def refused(text: str) -> Finding:
+    """The first error of a table that is not imported."""
+    table = read(text)
+    assert table.tools == ()
+    return table.errors[0]
+
+
+def test_a_table_in_order_of_numbers_with_remarks_as_types():
+    table = read(LINUXCNC_TABLE)
+    assert table.tools == (
+        Tool(1, "END MILL", Entry(0.5)),
+        Tool(2, "BALL MILL 3/8", Entry(0.375)),
+        Tool(10, "FACE MILL", Entry(1.0)),
+    )
+    assert table.findings == ()
+
+
+@pytest.mark.parametrize(
+    ("unit", "program", "value"),
+    [(Unit.MM, Unit.IN, 0.5), (Unit.MM, Unit.MM, 12.7), (Unit.IN, Unit.MM, 322.58)],
+)
+def test_lengths_are_converted_from_the_tables_unit(unit, program, value):
+    assert read("T1 D12.7", unit, program).tools == (Tool(1, "END MILL", Entry(value)),)
+
+
+@pytest.mark.parametrize("line", ["T3 P3", "T3 P3 D0", "T3 P3 D-0.0"])
+def test_a_tool_without_a_diameter_stays_blank_and_is_told(line):
+    table = read(f"T1 D.5\n{line}")
+    assert table.tools[1] == Tool(3, "END MILL", None)
+    (finding,) = table.findings
+    assert (finding.severity, finding.line) == (Severity.WARNING, 2)
+    assert finding.text == "Tool 3 has no diameter: it stays blank."
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "column", "words"),
+    [
+        ("T1 D.5\nT2 D0,25", 2, 4, "D0,25 is no word"),
+        ("T1 D.5 hello", 1, 8, "hello is no word"),
+        ("T1 D1e3", 1, 6, "E is no word"),
+        ("T1 D1 D2", 1, 7, "D stands twice"),
+        ("T1 G1", 1, 4, "G is no word"),
+        ("P1 D.5", 1, 1, "whole tool number"),
+        ("P1 T1.5 D.5", 1, 4, "whole tool number"),
+        ("T0 D.5", 1, 1, "from 1 to 9999"),
+        ("T-1 D.5", 1, 1, "from 1 to 9999"),
+        ("T10000 D.5", 1, 1, "from 1 to 9999"),
+        ("T1 D-.5", 1, 4, "above 0"),
+        ("T1 D999999", 1, 4, "above 0"),
+        ("T1 D99999999999", 1, 4, "too large"),
+        ("T1 D.5\n\nT1 D.25", 3, 1, "stands in line 1 already"),
+        ("", 1, 1, "no tool in this table"),
+        ("; nothing\n", 1, 1, "no tool in this table"),
+        ("G1 X0 Y0 F100", 1, 1, "G is no word"),
+    ],
+)
+def test_nothing_is_imported_of_a_table_with_a_fault(text, line, column, words):
+    finding = refused(text)
+    assert (finding.line, finding.column) == (line, column)
+    assert words in finding.text
+
+
+def test_what_a_message_repeats_moves_no_cursor_and_holds_no_place_for_a_length():
+    assert refused("T1 \x1b[2J{value}").text == "?[2J?value? is no word of a tool table; write T1 P1 D.25 Z0."
+
+
+def test_a_remark_becomes_a_type_without_control_signs():
+    assert read("T1 D.5 ;END\x1b[31m\x07 MILL").tools[0].type == "END[31m MILL"
+    assert len(read(f"T1 D.5 ;{'x' * 500}").tools[0].type) == 40
+
+
+def test_a_file_that_is_no_table_is_refused_for_its_length():
+    assert "more than" in refused("T1 D.5\n" + ";\n" * MAX_TABLE_LINES).text
+
+
+def test_line_ends_and_encodings():
+    assert len(read("T1 D1\rT2 D2\r\nT3 D3\n").tools) == 3
+    assert decode_table(b"\xef\xbb\xbfT1 ;\xc3\xb8") == "T1 ;\u00f8"
+    assert decode_table(b"T1 ;\xf8") == "T1 ;\u00f8"
+
+
+@given(st.text(alphabet="TDPZQ ;.-+0123456789\nex{\x1b", max_size=60))
+def test_never_half_imported_whatever_the_text(text):
+    table = read(text)
+    assert bool(table.errors) == (table.tools == ())
+    assert len({tool.number for tool in table.tools}) == len(table.tools)
+    for tool in table.tools:
+        assert tool.diameter is None or tool.diameter.value > 0.0
+    for finding in table.findings:
+        assert finding.text.isprintable()
+        assert 1 <= finding.line <= text.count("\n") + 1
+
+
+@given(st.text(alphabet="TDPZ ;.-0123456789\n", max_size=60))
+def test_a_controls_table_has_the_same_tools_where_both_take_it(text):
+    table, control = read(text), read_table(text.encode())[0]
+    for tool in table.tools:
+        held = control.get(tool.number)
+        assert held is not None
+        assert held.diameter == (tool.diameter.value if tool.diameter else 0.0)

@@ -1,4 +1,4 @@
-"""A whole block: how segments follow one another, what is carried over, what counts as determined and closed."""
+"""A block solved: START, what every block shares, and what carries over from segment to segment."""
 
 from __future__ import annotations
 
@@ -6,16 +6,33 @@ import subprocess
 import sys
 from dataclasses import replace
 from itertools import pairwise
-from math import dist
+from math import dist, inf, nan, nextafter, pi
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 
+from core.finding import Severity
 from core.geometry.piece import Arc, Line
-from core.program.model import ArcSegment, BlendSegment, Entry, LineSegment, Program, Unread
-from core.program.solve.block import solve_block
+from core.program.fields import PARAMETERS, SETUP, TABLES, Form, bounds, check
+from core.program.model import (
+    ArcSegment,
+    BlendSegment,
+    Block,
+    CutterComp,
+    Entry,
+    LineSegment,
+    Parameters,
+    PartSetup,
+    Program,
+    Tool,
+    Unread,
+    changed,
+)
+from core.program.solve.block import NEEDED, solve_block
+from core.program.solve.reading import read_form, shared_findings
 from core.program.solve.solved import Solved, SolvedBlock
-from core.units import Unit, sentence, to_mm
+from core.units import Kind, Unit, sentence, to_mm
 from tests.core.program.parts import arc, blend, line, number, program, programs, tags
 
 
@@ -242,3 +259,183 @@ def test_a_segment_that_leads_too_far_is_refused():
 def test_text_in_a_message_moves_no_cursor():
     block = solved(program(LineSegment(x_end=Unread("\x1b[2J", "why."), y_end=Entry(0.0))))
     assert block.every_finding[0].text == "X END: ?[2J cannot be read. why."
+
+
+ALONG = line(x_end=1.0, y_end=0.0)
+
+
+def findings(**start: object) -> list[str]:
+    given = program(ALONG, unit=Unit.IN, start=start)
+    found = solve_block(given.blocks[0], given).findings
+    return [f"{one.code} {one.severity} {one.field}: {sentence(one, Unit.IN)}" for one in found]
+
+
+def test_nothing_is_wrong_with_a_whole_start():
+    assert findings() == []
+
+
+@pytest.mark.parametrize("name", NEEDED)
+def test_blanks_are_named(name):
+    (text,) = findings(**{name: None})
+    assert text.startswith(f"MISSING error {name}: ")
+    assert text.endswith(" is blank: enter it on START.")
+
+
+def test_a_wrong_tool_comes_before_what_is_still_blank():
+    found = findings(tool=Entry(7.0), finish_tool=Entry(8.0), x_start=None, y_start=None)
+    assert [text.split(":")[0] for text in found] == [
+        "TOOL_MISSING error tool",
+        "TOOL_MISSING error finish_tool",
+        "MISSING error x_start",
+        "MISSING error y_start",
+    ]
+
+
+def test_blanks_that_stand_for_zero_are_calculated():
+    given = program(ALONG, start={"finish_tool": None, "peck_depth": None})
+    block = solve_block(given.blocks[0], given)
+    assert (block.values["finish_tool"], block.values["peck_depth"]) == (Solved(0.0), Solved(0.0))
+    assert (block.peck_depth, block.finish_diameter) == (0.0, None)
+    assert block.postable
+
+
+@pytest.mark.parametrize(
+    ("start", "text"),
+    [
+        ({"tool": Entry(5.0)}, "TOOL_MISSING error tool: Tool 5 is not in the tool table"),
+        ({"finish_tool": Entry(5.0)}, "TOOL_MISSING error finish_tool: Tool 5 is not in the tool table"),
+        ({"tool": Entry(2.5)}, "OUT_OF_RANGE error tool: TOOL must be a whole number from 1 to 9999."),
+        ({"lookahead": Entry(21.0)}, "OUT_OF_RANGE error lookahead: CUTCOMP LOOKAHEAD must be a whole number"),
+        ({"speed": Unread("x", "Type a number.")}, "UNREADABLE error speed: SPEED (RPM): x cannot be read."),
+        (
+            {"z_bottom": Entry(0.5)},
+            "Z_ORDER error z_bottom: Z BOTTOM 0.5000 is above Z START 0.0000: it must be below.",
+        ),
+        ({"z_bottom": Entry(0.0)}, "Z_ORDER warning z_bottom: Z BOTTOM is at Z START: nothing is cut."),
+    ],
+)
+def test_trouble_of_start(start, text):
+    assert findings(**start)[0].startswith(text)
+
+
+def test_no_segments():
+    given = program()
+    block = solve_block(given.blocks[0], given)
+    (finding,) = block.findings
+    assert (finding.code, finding.segment) == ("NO_SEGMENTS", 0)
+    assert not block.postable
+    assert not block.closed
+
+
+@pytest.mark.parametrize("diameter", [None, Entry(0.0), Entry(-0.5)])
+@pytest.mark.parametrize(("comp", "severity"), [(CutterComp.RIGHT, Severity.ERROR), (CutterComp.ON, Severity.WARNING)])
+def test_a_tool_without_size_matters_less_on_the_contour(diameter, comp, severity):
+    given = replace(program(ALONG, start={"cutter_comp": comp}), tools=(Tool(1, diameter=diameter),))
+    block = solve_block(given.blocks[0], given)
+    (finding,) = block.findings
+    assert (finding.code, finding.severity, finding.field) == ("TOOL_DIAMETER", severity, "tool")
+    assert block.tool_diameter is None
+
+
+def test_both_tools():
+    given = program(ALONG, start={"finish_tool": Entry(2.0)})
+    given = replace(given, tools=(*given.tools, Tool(2, "FINISHER", Entry(0.25))))
+    block = solve_block(given.blocks[0], given)
+    assert (block.tool_diameter, block.tool_type, block.finish_diameter) == (0.5, "END MILL", 0.25)
+
+
+def test_lengths_feeds_and_angles_are_converted_and_counts_are_not():
+    reading = read_form(Form.LINE, line(x_end=2.0, angle=180.0, feed=10.0), Unit.IN, 1)
+    assert reading.known == {"x_end": 50.8, "angle": pi, "feed": 254.0}
+    assert reading.findings == ()
+    assert reading.values["x_end"] == Entry(2.0)
+    assert reading.values["y_end"] is None
+
+
+def test_faults_are_told_and_not_known():
+    segment = LineSegment(x_end=Unread("1,5", "Type a point."), length=Entry(-2.0), y_end=Entry(float("inf")))
+    reading = read_form(Form.LINE, segment, Unit.MM, 7)
+    assert reading.known == {}
+    assert [(one.code, one.segment, one.field) for one in reading.findings] == [
+        ("UNREADABLE", 7, "x_end"),
+        ("OUT_OF_RANGE", 7, "y_end"),
+        ("OUT_OF_RANGE", 7, "length"),
+    ]
+    assert reading.values["x_end"] == Unread("1,5", "Type a point.")
+
+
+@pytest.mark.parametrize("typed", [Entry(1.0), Unread("x", "why")])
+def test_only_blanks_are_filled(typed):
+    reading = read_form(Form.LINE, LineSegment(x_end=typed), Unit.IN, 1)
+    for name, value in (("x_end", 3.0), ("y_end", 2.0), ("feed", None)):
+        reading.fill(name, value)
+    assert reading.values["x_end"] == typed
+    assert (reading.values["y_end"], reading.values["feed"]) == (Solved(2.0), None)
+    reading.fill("y_end", 4.0)
+    assert reading.values["y_end"] == Solved(2.0)
+
+
+PARTS: dict[Form, Any] = {
+    Form.START: Block(),
+    Form.LINE: LineSegment(),
+    Form.ARC: ArcSegment(),
+    Form.BLEND: BlendSegment(),
+    Form.PARAMETERS: Parameters(),
+    Form.SETUP: PartSetup(),
+}
+
+
+@pytest.mark.parametrize("unit", Unit)
+@pytest.mark.parametrize("form", PARTS)
+def test_a_number_is_known_exactly_where_its_field_takes_it(form: Form, unit: Unit):
+    numbers = [one for one in TABLES[form] if one.kind not in (Kind.CHOICE, Kind.TEXT)]
+    assert numbers
+    for one in numbers:
+        edges = {
+            0.0,
+            1.0,
+            2.5,
+            -3.0,
+            54.0,
+            1e300,
+            *(edge for edge in (*bounds(one, unit), one.above) if edge is not None),
+        }
+        for value in (nan, inf, -inf, *(near for edge in edges for near in _about(edge))):
+            reading = read_form(form, changed(PARTS[form], {one.name: Entry(value)}), unit, 1)
+            taken = check(one, value, unit) is None
+            assert (one.name in reading.known) is taken
+            assert len(reading.findings) == (not taken)
+
+
+def _about(edge: float) -> tuple[float, float, float]:
+    return nextafter(edge, -inf), edge, nextafter(edge, inf)
+
+
+def told(program):
+    return [(one.code, one.field, one.segment, one.text) for one in shared_findings(program)]
+
+
+def test_blanks_and_usual_values_are_no_trouble():
+    assert told(Program()) == []
+    part = Program(Unit.MM, parameters=changed(Program().parameters, {"blend_offset": Entry(3.0)}))
+    assert told(part) == []
+
+
+@pytest.mark.parametrize("one", [one for one in PARAMETERS if one.kind is not Kind.CHOICE], ids=lambda one: one.name)
+def test_unreadable_text_and_numbers_out_of_range_are_errors_of_their_screen(one):
+    parameters = changed(Program().parameters, {one.name: Unread("1..2", "Two points.")})
+    text = f"PROGRAM PARAMETERS: {one.label}: 1..2 cannot be read. Two points."
+    assert told(Program(parameters=parameters)) == [("UNREADABLE", one.name, None, text)]
+    parameters = changed(Program().parameters, {one.name: Entry(-1.0)})
+    ((code, field, _, text),) = told(Program(parameters=parameters))
+    assert (code, field) == ("OUT_OF_RANGE", one.name)
+    assert text.startswith(f"PROGRAM PARAMETERS: {one.label} must be ")
+
+
+def test_part_setup_too():
+    setup = replace(Program().setup, work_offset=Entry(54.5), safe_z=Unread("x", "Why."))
+    assert len(SETUP) == 3
+    assert told(Program(setup=setup)) == [
+        ("OUT_OF_RANGE", "work_offset", None, "PART SETUP: WORK OFFSET must be a whole number from 54 to 59."),
+        ("UNREADABLE", "safe_z", None, "PART SETUP: SAFE Z: x cannot be read. Why."),
+    ]
