@@ -71,19 +71,19 @@ def tangent(at: Point, center: Point, turn: int) -> Point:
     return -turn * dy / size, turn * dx / size
 
 
-def square(at: Point, way: Point, offset: float) -> Point:
+def offset_point(at: Point, way: Point, offset: float) -> Point:
     """The offset point of `at`: `offset` to the left of a direction."""
     return at[0] - offset * way[1], at[1] + offset * way[0]
 
 
 def offset_start(element: Element, offset: float) -> Point:
     """E2: the offset point at an element's start."""
-    return square(element.start, element.leaving, offset)
+    return offset_point(element.start, element.leaving, offset)
 
 
 def offset_end(element: Element, offset: float) -> Point:
     """E1: the offset point at an element's end."""
-    return square(element.end, element.arriving, offset)
+    return offset_point(element.end, element.arriving, offset)
 
 
 def turn_angle(first: Element, second: Element) -> float:
@@ -94,7 +94,7 @@ def turn_angle(first: Element, second: Element) -> float:
 
 def miter(corner: Point, way: Point, angle: float, offset: float) -> Point:
     """M: where the offsets of two straight directions meet outside the corner; `angle` as by `turn_angle`."""
-    x, y = square(corner, way, offset)
+    x, y = offset_point(corner, way, offset)
     reach = abs(offset) * tan(abs(angle) / 2)
     return x + reach * way[0], y + reach * way[1]
 
@@ -168,7 +168,7 @@ def _circle_circle(first: Point, radius: float, second: Point, other: float) -> 
     if half < 0.0:
         return ()
     foot = beyond(first, way, along)
-    return square(foot, way, sqrt(half)), square(foot, way, -sqrt(half))
+    return offset_point(foot, way, sqrt(half)), offset_point(foot, way, -sqrt(half))
 
 
 def sweep(start: Point, end: Point, center: Point, turn: int) -> float:

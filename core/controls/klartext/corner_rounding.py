@@ -120,7 +120,7 @@ def _level(first: Element, second: Element) -> bool:
 def _touch(element: Element, center: Point, offset: float) -> Point:
     """Where a circle about `center`, `offset` to the left of the element, touches it."""
     if not element.turn:
-        return corners.square(center, element.leaving, -offset)
+        return corners.offset_point(center, element.leaving, -offset)
     (x, y), (cx, cy) = center, element.center
     share = element.radius / hypot(x - cx, y - cy)
     return cx + (x - cx) * share, cy + (y - cy) * share

@@ -13,7 +13,7 @@ from enum import StrEnum
 from math import acos, atan2, cos, hypot, sin, tau
 from typing import Final
 
-from core.controls.compensation.corners import WHOLE, beyond, square, turned
+from core.controls.compensation.corners import WHOLE, beyond, offset_point, turned
 from core.geometry.piece import Point
 from core.tolerance import JOINED
 
@@ -62,10 +62,10 @@ def approach(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Cur
         point = beyond(end, way, -lead.length)
         return Curve(point, point, 0)
     if lead.form is Form.LN:
-        point = square(end, way, hand * lead.length)
+        point = offset_point(end, way, hand * lead.length)
         return Curve(point, point, 0)
     if lead.form is Form.CT:
-        center = square(end, way, hand * lead.radius)
+        center = offset_point(end, way, hand * lead.radius)
         turn = hand if lead.radius > 0.0 else -hand
         whole = lead.angle >= tau - WHOLE
         return Curve(end if whole else turned(end, center, -turn * lead.angle), center, turn)
@@ -73,7 +73,7 @@ def approach(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Cur
 
 
 def _tangent_arc(radius: float, start: Point, end: Point, way: Point, hand: int) -> Curve | None:
-    center = square(end, way, hand * radius)
+    center = offset_point(end, way, hand * radius)
     dx, dy = start[0] - center[0], start[1] - center[1]
     apart = hypot(dx, dy)
     if apart < radius * (1.0 - LEAST):

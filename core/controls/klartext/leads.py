@@ -6,7 +6,7 @@ import re
 from math import radians
 from typing import Final
 
-from core.controls.compensation.corners import Element, square
+from core.controls.compensation.corners import Element, offset_point
 from core.controls.klartext.center_path import Role, Step
 from core.controls.klartext.lead_curves import Form, Lead, departure
 from core.controls.klartext.m_functions import functions
@@ -106,7 +106,7 @@ def _goal(
     if point != here:
         text = f"DEP {form} ends where its lead ends. Only DEP LCT takes an end point."
         state.stop("WORD", text, block)
-    start = square(here, last.arriving, state.offset)
+    start = offset_point(here, last.arriving, state.offset)
     curve = departure(lead, start, here, last.arriving, _hand(state.offset, state.applied))
     return list(solid(*(curve.point if curve else here), height, state.plane))
 

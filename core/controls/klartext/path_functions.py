@@ -203,7 +203,7 @@ def _tangent_to(state: State, block: Block, words: Words, end: list[float]) -> N
         state.stop("ARC", "A tangent arc needs an end point away from its start.", block)
     if abs(cross) <= chord * corners.WHOLE:
         state.stop("ARC", ONE_STRAIGHT, block)
-    center = corners.square(start, way, chord * chord / (2.0 * cross))
+    center = corners.offset_point(start, way, chord * chord / (2.0 * cross))
     _arc_to(state, block, words, end, center, 1 if cross > 0.0 else -1)
 
 

@@ -216,7 +216,7 @@ def _rebuilt(element: Element) -> Element:
 def _surface(element: Element, point: Point, offset: float) -> Point:
     """The point of an element that belongs to a point of its offset."""
     if not element.turn:
-        return corners.square(point, element.leaving, -offset)
+        return corners.offset_point(point, element.leaving, -offset)
     share = element.radius / corners.offset_radius(element, offset)
     (x, y), (cx, cy) = point, element.center
     return cx + (x - cx) * share, cy + (y - cy) * share
@@ -243,7 +243,7 @@ def _end(compensated: Compensated, whole: Path, lead: Path, sense: int) -> End:
     else:
         dx, dy = whole.start_directions[0].tolist()
         way = (sense * dx, sense * dy)
-        off = side = corners.square((0.0, 0.0), way, compensated.side.sign)
+        off = side = corners.offset_point((0.0, 0.0), way, compensated.side.sign)
         side = (-side[0], -side[1])
     corner = corners.beyond(at, side, compensated.radius)
     return End(at, corner, way, off, blend)

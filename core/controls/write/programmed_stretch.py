@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.controls.compensation.corners import Element, beyond, square
+from core.controls.compensation.corners import Element, beyond, offset_point
 from core.controls.contours_and_leads import contour_of
 from core.controls.control_run import Run, Stretch
 from core.controls.moves import Moves, Plane
@@ -52,7 +52,7 @@ class ProgrammedStretch:
 
     def end(self, corner: Point, way: Point, blend: float, sense: int) -> End:
         """The path's begin (`sense` 1) or its end (-1), with a quarter arc of radius `blend` or 0."""
-        radius, off = self.stretch.radius, square((0.0, 0.0), way, self.stretch.side.sign)
+        radius, off = self.stretch.radius, offset_point((0.0, 0.0), way, self.stretch.side.sign)
         at = beyond(beyond(corner, off, radius + blend), way, -sense * blend)
         if not blend:
             return End(at, corner, way, off, 0.0)
