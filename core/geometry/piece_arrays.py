@@ -19,10 +19,10 @@ from core.geometry.path import boxes as boxes_of
 from core.geometry.piece import SLIVER
 from core.tolerance import ARC_RADII, ON_PATH
 
-FEW: Final = 500
-"""Pieces for which working out both formulas costs less than parting lines from arcs."""
+FEW_PAIRS: Final = 500
+"""Pairs of which all are worked out at once: that costs less than to part lines from arcs."""
 
-BLOCK: Final = 16_000
+BLOCK_PAIRS: Final = 16_000
 """Pairs worked out at a time."""
 
 
@@ -51,33 +51,7 @@ class PieceArrays:
 
     def take(self, rows: Rows) -> PieceArrays:
         """The pieces of these indices, repeated and ordered as they come."""
-        # an array's own `take` takes half as long as an index
-        return PieceArrays(
-            self.rows.take(rows),
-            self.start.take(rows),
-            self.vector.take(rows),
-            self.arm.take(rows),
-            self.turn.take(rows),
-            self.angle.take(rows),
-            self.radius.take(rows),
-            self.length.take(rows),
-            self.slack.take(rows),
-        )
-
-    def part(self, first: int, last: int) -> PieceArrays:
-        """The pieces from one index up to another, which is not among them: views."""
-        part = slice(first, last)
-        return PieceArrays(
-            self.rows[part],
-            self.start[part],
-            self.vector[part],
-            self.arm[part],
-            self.turn[part],
-            self.angle[part],
-            self.radius[part],
-            self.length[part],
-            self.slack[part],
-        )
+        return PieceArrays(*(getattr(self, name).take(rows) for name in self.__slots__))
 
     @property
     def arcs(self) -> Flags:
@@ -185,43 +159,26 @@ def _one_radius(start: Points, end: Points, center: Points, turn: Floats) -> tup
 def by_kind(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArray[Any]:
     """What `line` yields where `chosen` is False and `arc` where it is True; the last axis counts the pieces.
 
-    Few pieces get both formulas, which is quicker than parting them; either yields something for any piece.
+    Where both kinds occur all pieces get both formulas: either yields something for any piece.
     """
-    bent = np.count_nonzero(chosen)
-    if not bent:
+    if not chosen.any():
         return line(*given)
-    if bent == len(chosen):
-        return arc(*given)
-    if len(chosen) <= FEW:
-        return np.where(chosen, arc(*given), line(*given))
-    rows = (~chosen).nonzero()[0]
-    found = line(*_pick(given, rows))
-    both = np.empty((*found.shape[:-1], len(chosen)), found.dtype)
-    both[..., rows] = found
-    # what is known of the lines makes room for the arcs
-    del found
-    rows = chosen.nonzero()[0]
-    both[..., rows] = arc(*_pick(given, rows))
-    return both
+    return arc(*given) if chosen.all() else np.where(chosen, arc(*given), line(*given))
 
 
 def blocks(first: Flags, second: Flags) -> Iterator[Rows]:
-    """Indices of pairs, parted by which of the two pieces are arcs, at most BLOCK at a time; few pairs all at once.
+    """Indices of pairs by which of the two pieces are arcs, at most BLOCK_PAIRS at a time; few pairs all at once.
 
     Blocks of one kind need no parting in every formula, and bound the memory in use.
     """
-    if 0 < len(first) <= FEW:
+    if 0 < len(first) <= FEW_PAIRS:
         yield np.arange(len(first))
         return
     kinds = 2 * first.astype(np.int8) + second
     for kind in range(4):
         rows = (kinds == kind).nonzero()[0]
-        for start in range(0, len(rows), BLOCK):
-            yield rows[start : start + BLOCK]
-
-
-def _pick(given: tuple[Given, ...], rows: Rows) -> list[Given]:
-    return [item.take(rows) if isinstance(item, PieceArrays) else item.take(rows, axis=-1) for item in given]
+        for start in range(0, len(rows), BLOCK_PAIRS):
+            yield rows[start : start + BLOCK_PAIRS]
 
 
 def at(pieces: PieceArrays, t: Floats) -> Points:

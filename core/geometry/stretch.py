@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.geometry.path import EMPTY, Floats, Path, Points, Rows, as_complex, coordinates
-from core.geometry.piece import Arc, Line, Piece, Point
+from core.geometry.piece import Piece, Point
 
 
 class Ends(NamedTuple):
@@ -123,13 +124,6 @@ def _point(place: np.complex128) -> Point:
     return float(place.real), float(place.imag)
 
 
-def _cut(piece: Piece, start: Point, end: Point) -> Piece:
-    if isinstance(piece, Line):
-        return Line(start, end)
-    return Arc(start, end, piece.center, piece.turn)
-
-
 def _before(piece: Piece, point: Point, other: Point) -> bool:
     """Is `point` passed before `other` on this piece?"""
-    to_point, to_other = _cut(piece, piece.start, point), _cut(piece, piece.start, other)
-    return to_point.length < to_other.length
+    return replace(piece, end=point).length < replace(piece, end=other).length
