@@ -2,13 +2,11 @@
 
 Boxes are (4, n) arrays: left, bottom, right, top.
 
-What a search yields is exact or a superset, as its docstring says; it never misses a pair.  "Exact" is up to the last
-digits of a double.  A superset is made exact by `core.geometry.distance`, pair by pair.  What has a coordinate that is
-no number is near everything, so that whoever measures it sees that.
-
-Pairs come in batches of a few hundred thousand at the most: whoever needs them all at once calls `gathered`, whoever
-looks at each pair once does not hold them.  With 100,000 chords inside one radius ask what comes nearer than a limit
-(`nearer_than`), never what lies in boxes within reach: the answer to the second is all pairs.
+`near_pairs` and `near_pairs_within` are exact for boxes, up to the last digits of a double, and so a superset for what
+is inside them: `core.geometry.distance` makes it exact, pair by pair.  They come in batches of some ten thousand pairs:
+whoever needs them all at once calls `gathered`, whoever looks at each pair once does not hold them.  With 100,000
+chords inside one radius ask what is nearest (`nearest_pieces`, exact), never what lies in boxes within reach: that is
+all pairs.  What has a coordinate that is no number is near everything, so that whoever measures it sees that.
 """
 
 from __future__ import annotations
@@ -21,7 +19,7 @@ import numpy as np
 import shapely
 
 from core.geometry.distance import distance
-from core.geometry.path import Flags, Floats, Points, Rows
+from core.geometry.path import Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays
 
 FAN: Final = 4
@@ -134,13 +132,6 @@ class Chords:
         """The chords of these indices."""
         return Chords(self.start.take(rows), self.end.take(rows), self.slack.take(rows))
 
-    @property
-    def boxes(self) -> Floats:
-        """(4, n) boxes around everything that the chords stand for."""
-        x, y = np.array((self.start.real, self.end.real)), np.array((self.start.imag, self.end.imag))
-        low, high = (x.min(axis=0), y.min(axis=0)), (x.max(axis=0), y.max(axis=0))
-        return np.concatenate((low - self.slack, high + self.slack))
-
 
 def chords_of(pieces: PieceArrays) -> Chords:
     """The chord of each piece; an arc is within its height over the chord, however far it turns."""
@@ -178,68 +169,6 @@ def _off_chord(start: Points, end: Points, points: Points) -> Floats:
     return off
 
 
-def nearer_than(one: Runs, other: Runs, limit: float) -> Batches:
-    """All pairs (i, j) of pieces of `one` and of `other` that come nearer to each other than `limit`, in no order.
-
-    A superset: chords that come as near as that with their slack, seen along either of both.  Between pieces that are
-    short against the limit that is next to exact.  Only runs that come so near are opened, and a batch of them at a
-    time: the work grows with the answer and with the number of pieces, not with how many lie within the limit's box.
-    """
-    coarse = len(one) - 1, len(other) - 1
-    for i, j in near_pairs(one[-1].boxes, other[-1].boxes, limit):
-        stack = [(*coarse, *_near_chords(one[-1], i, other[-1], j, limit))]
-        while stack:
-            first, second, i, j = stack.pop()
-            if not first and not second:
-                yield i, j
-                continue
-            stack += [(first, second, i[BATCH_PAIRS:], j[BATCH_PAIRS:])] if len(i) > BATCH_PAIRS else []
-            stack.append(_opened(one, other, (first, second, i[:BATCH_PAIRS], j[:BATCH_PAIRS]), limit))
-
-
-def _opened(one: Runs, other: Runs, pairs: tuple[int, int, Rows, Rows], limit: float) -> tuple[int, int, Rows, Rows]:
-    """These pairs of runs of two levels with the coarser ones of both opened into their members."""
-    first, second, i, j = pairs
-    if first >= second:
-        first -= 1
-        i, j = _members(i, j, len(one[first]))
-    else:
-        second -= 1
-        j, i = _members(j, i, len(other[second]))
-    return (first, second, *_near_chords(one[first], i, other[second], j, limit))
-
-
-def _members(runs: Rows, partners: Rows, count: int) -> tuple[Rows, Rows]:
-    """The members of these runs, of which there are `count` in all, and the partner of each."""
-    members = (runs[:, None] * FAN + np.arange(FAN)).ravel()
-    partners = partners.repeat(FAN)
-    real = members < count
-    return members[real], partners[real]
-
-
-def _near_chords(one: Chords, i: Rows, other: Chords, j: Rows, limit: float) -> tuple[Rows, Rows]:
-    """Of these pairs those that may come nearer than the limit."""
-    a, b = one.take(i), other.take(j)
-    room = limit + a.slack + b.slack
-    near: Flags = ~(_at_least_apart(a, b) >= room)
-    i, j, room = i[near], j[near], room[near]
-    near = ~(_at_least_apart(other.take(j), one.take(i)) >= room)
-    return i[near], j[near]
-
-
-def _at_least_apart(chord: Chords, other: Chords) -> Floats:
-    """Distance between a chord and the box along it around the other one."""
-    vector = chord.end - chord.start
-    length = np.abs(vector)
-    with np.errstate(invalid="ignore"):
-        unit = (vector + (length == 0.0)).conj() / np.where(length == 0.0, 1.0, length)
-    start, end = (other.start - chord.start) * unit, (other.end - chord.start) * unit
-    ahead = np.maximum(np.minimum(start.real, end.real) - length, -np.maximum(start.real, end.real))
-    aside = np.maximum(np.minimum(start.imag, end.imag), -np.maximum(start.imag, end.imag))
-    apart: Floats = np.hypot(np.maximum(ahead, 0.0), np.maximum(aside, 0.0))
-    return apart
-
-
 def nearest_pieces(points: Points, pieces: PieceArrays, tie: float = 0.0) -> tuple[Rows, Rows, Floats]:
     """Triples (k, j, distance), by rising k, then j: for each point the pieces no farther than the nearest and `tie`.
 
@@ -273,24 +202,9 @@ def _nearest_part(points: Points, first: int, pieces: PieceArrays, runs: Runs, t
     return k + first, j, apart[near]
 
 
-def closest_pieces(one: PieceArrays, other: PieceArrays) -> tuple[Rows, Rows]:
-    """Pairs (i, j), by rising i, then j, among which are all with the least distance between two sets of pieces.
-
-    A superset: what may come so near as two starts come somewhere.  Neither set is empty.
-    """
-    first, second = runs_of(chords_of(one)), runs_of(chords_of(other))
-    level, below = len(first) - 1, len(second) - 1
-    i, j = np.divmod(np.arange(len(first[level]) * len(second[below])), len(second[below]))
-    while True:
-        a, b = first[level].take(i), second[below].take(j)
-        least = np.maximum(_at_least_apart(a, b), _at_least_apart(b, a)) - a.slack - b.slack
-        near = ~(least > np.fmin.reduce(np.abs(a.start - b.start)) * (1.0 + NEARLY))
-        i, j = i[near], j[near]
-        if not level and not below:
-            return gathered([(i, j)])
-        if level >= below:
-            level -= 1
-            i, j = _members(i, j, len(first[level]))
-        else:
-            below -= 1
-            j, i = _members(j, i, len(second[below]))
+def _members(runs: Rows, partners: Rows, count: int) -> tuple[Rows, Rows]:
+    """The members of these runs, of which there are `count` in all, and the partner of each."""
+    members = (runs[:, None] * FAN + np.arange(FAN)).ravel()
+    partners = partners.repeat(FAN)
+    real = members < count
+    return members[real], partners[real]
