@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.controls.control_tools import read_table
@@ -19,6 +19,7 @@ from core.program.tools import (
     tool_diameter,
 )
 from core.units import Unit
+from tests.properties import exercised, must_exercise
 
 TABLE = Program(tools=(Tool(1, "END MILL", Entry(0.5)), Tool(4, "BALL MILL")))
 
@@ -165,9 +166,29 @@ def test_line_ends_and_encodings():
     assert decode_table(b"T1 ;\xf8") == "T1 ;\u00f8"
 
 
-@given(st.text(alphabet="TDPZQ ;.-+0123456789\nex{\x1b", max_size=60))
+numbers = st.one_of(
+    st.integers(0, 99).map(str),
+    st.floats(0.0, 50.0).map("{:.3f}".format),
+    st.sampled_from(["", "-1", "+.5", ".", "1e3", "0", "99999", "1.5.2"]),
+)
+words = st.builds("{}{}".format, st.sampled_from("TTDDPZQ"), numbers) | st.sampled_from([";END", "x", "{", "\x1b"])
+lines_of_words = st.lists(words, max_size=4).map(" ".join)
+tools = st.builds("T{} P{} D{}{}".format, st.integers(1, 12), st.integers(1, 12), numbers, st.sampled_from(["", " ;A"]))
+sound_tools = st.builds("T{} P1 D{:.3f}".format, st.integers(1, 99), st.floats(0.001, 9.0))
+tables = st.one_of(
+    st.lists(sound_tools, min_size=1, max_size=4),
+    st.lists(tools, min_size=1, max_size=3),
+    st.lists(sound_tools | lines_of_words, max_size=4),
+).map("\n".join)
+"""Tables that are sound, nearly sound, or broken in one line."""
+
+
+@must_exercise(0.3, "imported", "refused")
+@settings(max_examples=300)
+@given(tables)
 def test_never_half_imported_whatever_the_text(text):
     table = read(text)
+    exercised("imported" if table.tools else "refused")
     assert bool(table.errors) == (table.tools == ())
     assert len({tool.number for tool in table.tools}) == len(table.tools)
     for tool in table.tools:
@@ -177,9 +198,19 @@ def test_never_half_imported_whatever_the_text(text):
         assert 1 <= finding.line <= text.count("\n") + 1
 
 
-@given(st.text(alphabet="TDPZ ;.-0123456789\n", max_size=60))
+@given(st.text(alphabet="TDPZQ ;.-+0123456789\nex{\x1b", max_size=60))
+def test_any_text_is_a_table_or_is_refused(text):
+    table = read(text)
+    assert bool(table.errors) == (table.tools == ())
+
+
+@must_exercise(0.3)
+@settings(max_examples=300)
+@given(tables)
 def test_a_controls_table_has_the_same_tools_where_both_take_it(text):
     table, control = read(text), read_table(text.encode())[0]
+    if table.tools:
+        exercised()
     for tool in table.tools:
         held = control.get(tool.number)
         assert held is not None
