@@ -78,7 +78,8 @@ class Chain(Recorder):
         self.held, self.standing = None, []
         if held is None:
             return
-        held = held._replace(feed=self.feed_of(held))
+        feed = self.feed_of(held)
+        held = held if feed == held.feed else held._replace(feed=feed)
         if held.turn:
             self.arc(held, end, held.center)
         else:

@@ -118,14 +118,14 @@ def corner(first: Element, second: Element, offset: float, rules: CornerRules) -
     if abs(inward) > pi - rules.reversal:
         hooked = rules.hooks and (second.turn or first.turn) * offset < 0.0
         return Corner.INSIDE if hooked else Corner.OUTSIDE
-    if abs(inward) <= rules.tangent or _touch(first, second, offset, rules.touching):
+    if abs(inward) <= rules.tangent or (rules.touching and _touch(first, second, offset, rules.touching)):
         return Corner.TANGENT
     return Corner.INSIDE if inward > 0.0 else Corner.OUTSIDE
 
 
 def _touch(first: Element, second: Element, offset: float, within: float) -> bool:
     (ax, ay), (bx, by) = offset_end(first, offset), offset_start(second, offset)
-    return within > 0.0 and hypot(ax - bx, ay - by) <= within
+    return hypot(ax - bx, ay - by) <= within
 
 
 def join(first: Element, second: Element, offset: float, rules: CornerRules) -> Joint:
