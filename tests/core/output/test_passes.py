@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from core.geometry.path import Path
 from core.geometry.piece import Line, Turn
-from core.output.passes import Cutter, Job, Motion, Pass, Run, heights, levels, passes
+from core.output.passes import Cutter, Job, Motion, Pass, Run, heights, levels, passes, z_steps
 from tests.core.output.jobs import INCH, Floor, arc, job, path_of, polyline
 
 SLOT = polyline((0, 0), (2, 0), (2, 1))
@@ -229,6 +229,35 @@ def test_heights_on_an_arc_follow_its_angle():
     quarter = path_of(arc((0.5, 0), (0, 0.5), (0, 0), Turn.CCW))
     one = ramp(surface, -0.05, finish=(Run(quarter),))
     assert (heights(one, one.finish[0])[0] / INCH).tolist() == pytest.approx([-0.25, -0.15])
+
+
+def test_rounding_before_an_arcs_first_point_puts_it_not_at_the_arcs_end():
+    surface = path_of(arc((1, 0), (-1, 0), (0, 0), Turn.CCW))
+    for hair in (1e-9, -1e-9):
+        begun = path_of(arc((0.5, hair), (0, 0.5), (0, 0), Turn.CCW))
+        one = ramp(surface, -0.05, finish=(Run(begun),))
+        assert (heights(one, one.finish[0])[0] / INCH).tolist() == pytest.approx([-0.25, -0.15])
+
+
+def test_a_piece_beyond_its_line_keeps_the_height_of_the_lines_end():
+    surface = polyline((0, 0), (2, 0))
+    one = ramp(surface, -0.05, finish=(Run(polyline((-1, 1), (3, 1))),))
+    assert (heights(one, one.finish[0])[0] / INCH).tolist() == pytest.approx([-0.25, -0.05])
+
+
+def test_steps_between_pieces_of_the_path_are_told_with_their_place():
+    surface = polyline((0, 0), (2, 0), (2, 2))
+    one = ramp(surface, -0.05, -0.05, finish=(Run(polyline((0, 0.5), (1.5, 0.5), (1.5, 2))),))
+    (step,) = z_steps(one)
+    assert (step.rise / INCH, step.number) == (pytest.approx(0.05), 2.0)
+    assert step.at == pytest.approx((1.5 * INCH, 0.5 * INCH))
+    assert z_steps(job(surface)) == []
+    assert z_steps(ramp(surface, -0.05, -0.05)) == []
+
+
+def test_safe_z_below_the_retract_clearance_is_raised_to_it():
+    (found,) = passes(job(SLOT, peck_depth=0.0, safe_z=0.05 * INCH))
+    assert [shown(motion)[3] for motion in found.motions if motion.rapid] == [0.1, 0.1]
 
 
 def test_an_overlap_past_the_start_is_lifted_over_a_higher_floor():

@@ -9,7 +9,7 @@ from core.output.nc import Posted, Refusal, center_path_program
 from core.output.objections import OVERRIDE
 from core.output.passes import Cutter, Job, Run, passes
 from core.units import Unit
-from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
+from tests.core.output.jobs import INCH, Floor, arc, floors, job, path_of, polyline
 
 SLOT = path_of(polyline((0, 0), (1, 0))[0], arc((1, 0), (1.5, 0.5), (1, 0.5), Turn.CCW))
 GOUGE = Finding("GOUGE", Severity.ERROR, "Gouges by {value} at X {x} Y {y}.", 2, at=(25.4, 0.0), value=2.54)
@@ -250,6 +250,106 @@ NAN, INFINITE = float("nan"), float("inf")
 def test_a_job_that_cannot_be_cut_is_refused_and_cannot_be_overridden(changes, code):
     assert code in refused(job(SLOT, **changes))
     assert code in refused(job(SLOT, **changes), OVERRIDE)
+
+
+def sentence_of(code: str, **changes: object) -> str:
+    """The sentence of the one finding that a job with these changes is refused for."""
+    found = center_path_program([job(SLOT, **changes)], Unit.IN, name="SLOT")
+    assert isinstance(found, Refusal)
+    (finding,) = (finding for finding in found.findings if finding.code == code)
+    return finding.text
+
+
+def test_segments_without_a_feed_are_named_up_to_six():
+    path = polyline(*((x, 0) for x in range(8)))
+    for count, listed in ((1, "segment 1"), (6, "segments 1, 2, 3, 4, 5, 6"), (7, "segments 1, 2, 3, 4, 5, 6 ...")):
+        given = (*floors(count, feed=0.0), *floors(7)[count:])
+        said = sentence_of("FEED", surface=path, finish=(Run(path),), floors=given)
+        assert said == f"Block 1: There is no FEED above 0 on {listed}."
+
+
+@pytest.mark.parametrize(
+    ("allowed", "refused_changes", "code"),
+    [
+        ({"cutter": Cutter(99999, 12.7)}, {"cutter": Cutter(100000, 12.7)}, "TOOL_NUMBER"),
+        ({"cutter": Cutter(1, 1e-3)}, {"cutter": Cutter(1, -1e-3)}, "TOOL_DIAMETER"),
+        ({"work_offset": 54}, {"work_offset": 53}, "WORK_OFFSET"),
+        ({"work_offset": 59}, {"work_offset": 60}, "WORK_OFFSET"),
+        ({"peck_depth": 0.25 * INCH / 1999.0}, {"peck_depth": 0.25 * INCH / 2001.0}, "PECK_DEPTH"),
+        ({"peck_clearance": 0.0}, {"peck_clearance": -1e-6}, "CLEARANCE"),
+        ({"retract_clearance": 1e-6}, {"retract_clearance": 0.0}, "CLEARANCE"),
+        ({"z_bottom": 0.0, "floors": floors(2, z=0.0)}, {"z_bottom": 1e-6, "floors": floors(2, z=1.0)}, "DEPTH"),
+        ({"floors": floors(2, z=0.0)}, {"floors": floors(2, z=1e-4)}, "Z_END"),
+        ({"floors": floors(2, z=-0.25)}, {"floors": floors(2, z=-0.2501)}, "Z_END"),
+        ({"speed": 0.1}, {"speed": 0.0}, "SPEED"),
+        ({"safe_z": 1e6}, {"safe_z": 1e12}, "NUMBER"),
+    ],
+)
+def test_what_is_just_allowed_is_posted_and_what_is_beyond_it_refused(allowed, refused_changes, code):
+    assert isinstance(center_path_program([job(SLOT, **allowed)], Unit.IN, name="SLOT"), Posted)
+    assert code in refused(job(SLOT, **refused_changes))
+
+
+def test_finish_z_leaves_something_for_the_roughing_tool():
+    both = {"finisher": Cutter(2, 1.0), "finish_tool": 2}
+    assert "M30" in text(job(SLOT, **both, finish_z=0.2499 * INCH))
+    assert refused(job(SLOT, **both, finish_z=0.25 * INCH)) == ["FINISH_Z"]
+    assert "M30" in text(job(SLOT, finish_z=0.25 * INCH))
+
+
+def test_a_field_that_has_an_error_already_is_not_objected_to_again():
+    unread = Finding("UNREAD", Severity.ERROR, "x is not a number.", field="speed")
+    assert refused(job(SLOT, speed=0.0, findings=(unread,))) == ["UNREAD"]
+    assert refused(job(SLOT, finish=(), findings=(unread,))) == ["UNREAD"]
+    assert refused(job(SLOT, finish=(), findings=(GOUGE,))) == ["GOUGE", "NO_PATH"]
+
+
+def test_speeds_are_whole_where_they_are_and_a_change_is_written_once():
+    slow, fast = job(SLOT, peck_depth=0.0, speed=1234.5), job(SLOT, block=2, speed=600.0)
+    found = center_path_program([slow, fast], Unit.IN, name="TWO")
+    assert isinstance(found, Posted)
+    assert [line for line in found.text.splitlines() if line.startswith("S")] == ["S1234.5 M3", "S600"]
+
+
+def test_a_peck_is_named_in_the_header_where_there_is_one():
+    assert "(BLOCK 1 MILL CONTOUR CUTTER COMP. ON Z 0.0000 TO -0.2500 PECK 0.1000)" in text(job(SLOT))
+    assert "PECK" not in text(job(SLOT, peck_depth=0.0))
+
+
+def test_roles_of_the_tools_stand_in_the_header():
+    both = job(SLOT, finisher=Cutter(7, 6.35, "BALL"), finish_tool=7)
+    lines = text(both).splitlines()
+    assert "(TOOL 1 END MILL DIAMETER 0.5000 ROUGH)" in lines
+    assert "(TOOL 7 BALL DIAMETER 0.2500 FINISH)" in lines
+
+
+def test_rapids_go_up_then_across_then_down():
+    lines = text(job(SLOT)).splitlines()
+    first = lines.index("(BLOCK 1 PECK 1 OF 3 Z -0.1000)")
+    assert lines[first + 1 : first + 12] == [
+        "G0 Z1.0",
+        "G0 X0.0 Y0.0",
+        "G0 Z0.1",
+        "G1 Z-0.1 F20.0",
+        "G1 X1.0 F10.0",
+        "G3 X1.5 Y0.5 I0.0 J0.5",
+        "G0 Z0.1",
+        "(BLOCK 1 PECK 2 OF 3 Z -0.2000)",
+        "G0 X0.0 Y0.0",
+        "G0 Z-0.05",
+        "G1 Z-0.2 F20.0",
+    ]
+
+
+def test_a_helix_in_parts_climbs_evenly():
+    """Nearly a full turn is written in two halves; the first ends half way up."""
+    almost = path_of(arc((1, 0), (1, -1e-5), (0, 0), Turn.CCW))
+    climbing = (Floor(1, -0.25 * INCH, -0.05 * INCH, 254.0),)
+    lines = text(job(almost, floors=climbing, peck_depth=0.0)).splitlines()
+    assert [line for line in lines if line.startswith("G3")] == [
+        "G3 X-1.0 Y0.000005 Z-0.15 I-1.0 J0.0 F10.0",
+        "G3 X1.0 Y-0.00001 Z-0.05 I1.0 J-0.000005",
+    ]
 
 
 def test_a_bottom_above_the_top_is_told_once_though_the_contour_runs_at_it():

@@ -330,3 +330,11 @@ def test_several_segments_of_one_feed_are_told_together():
 def test_all_work_offsets_are_told():
     assert dict(of(SLOT, replace(SLOT, work_offset=57)).head)["WORK OFFSET"] == "G54, G57"
     assert dict(of().head)["WORK OFFSET"] == "-"
+
+
+def test_text_beside_a_label_is_wrapped_behind_its_last_column():
+    fits, longer = "a" * 59, "a" * 40 + " " + "b" * 19
+    lines = as_text(sheet([SLOT], Unit.IN, About(fits, longer))).splitlines()
+    assert f"PROGRAM            {fits}" in lines
+    assert len(f"PROGRAM            {fits}") == WIDTH
+    assert lines[lines.index("PART NAME          " + "a" * 40) + 1] == " " * 19 + "b" * 19
