@@ -2,15 +2,33 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import cos, radians, sin
 
 import numpy as np
 import pytest
 
-from core.advice.path_findings import ZStep, open_finding, size_warning, turning_back, z_step_findings
+from core.advice.path_findings import (
+    ZStep,
+    better_path_findings,
+    by_severity,
+    move_names,
+    nearest_finding,
+    open_finding,
+    path_findings,
+    size_warning,
+    turning_back,
+    z_step_findings,
+)
+from core.advice.work import RoughPass, Work
+from core.comp.best_path.best_path import best_path
+from core.comp.best_path.separation import separation
+from core.finding import Finding, Severity
 from core.geometry.path import Path
-from core.geometry.piece import Arc, Line, Piece, Turn
+from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.units import Unit, sentence
+from tests.core.advice.works import work
+from tests.core.comp.contours import lines
 
 
 def rounded(turn: Turn) -> list[Piece]:
@@ -102,3 +120,107 @@ def test_the_deepest_and_the_highest_step_are_told_with_their_numbers() -> None:
     assert (up.segment, up.value) == (6.0, 2.0)
     assert "straight up 2.000" in sentence(up, Unit.MM)
     assert z_step_findings([]) == ()
+
+
+SQUARE = lines((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0))
+NOTCH = lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
+
+
+def told(found: Work, code: str) -> list[tuple[Severity, float | None, str]]:
+    findings = [finding for finding in path_findings(found) if finding.code == code]
+    return [(finding.severity, finding.segment, sentence(finding, Unit.MM)) for finding in findings]
+
+
+def test_findings_are_sorted_by_severity_and_else_stay_in_their_order() -> None:
+    names = ("b", Severity.INFO), ("a", Severity.WARNING), ("d", Severity.ERROR), ("c", Severity.WARNING)
+    found = by_severity([Finding(code, severity, "") for code, severity in names])
+    assert [finding.code for finding in found] == ["d", "a", "c", "b"]
+
+
+def test_a_clean_path_has_nothing_to_be_told_but_what_stays_uncut() -> None:
+    assert {finding.code for finding in path_findings(work(SQUARE, closed=True, blend=0.1, overlap=0.1))} == {"UNCUT"}
+
+
+def test_a_blend_arc_that_gouges_is_an_error_at_either_end() -> None:
+    narrow = lines((1, 0), (2, 0), (2, 0.8), (0, 0.8), (0, 0), (1, 0))
+    found = work(narrow, closed=True, blend=0.9)
+    blends = told(found, "BLEND_GOUGES")
+    assert [severity for severity, _, _ in blends] == [Severity.ERROR] * 2
+    assert [segment for _, segment, _ in blends] == [3.0, 3.0]
+    assert blends[0][2].startswith("The blend-in arc gouges ")
+    assert blends[1][2].startswith("The blend-out arc gouges ")
+    assert not told(work(narrow, closed=True, blend=0.1), "BLEND_GOUGES")
+
+
+def test_a_blend_arc_that_crosses_a_wall_is_told_with_its_free_end() -> None:
+    (begin, end) = told(work(SQUARE, closed=True, blend=1.4), "BLEND_LEAVES")
+    assert begin == (
+        Severity.WARNING,
+        1.0,
+        "Blend-in crosses a wall, from X -0.400 Y 1.650. Make BLEND OFFSET smaller.",
+    )
+    assert end == (Severity.WARNING, 5.0, "Blend-out crosses a wall, to X 2.400 Y 1.650. Make BLEND OFFSET smaller.")
+
+
+def test_moves_are_named_by_the_part_of_the_path_they_belong_to() -> None:
+    hook = lines((1, 0), (2, 0), (2, 1), (0.9, 1), (0.9, 0.3), (0, 0.3), (0, 0), (1, 0))
+    found = work(hook, closed=True, blend=0.1, overlap=0.5)
+    (loop,) = found.loops
+    name, count = move_names(found), len(loop.whole)
+    assert "blend-in arc" in name(0, 1.0)
+    assert name(1, 1.0).endswith("path of segment 1")
+    assert name(len(loop.lead_in) + len(loop.path) - 1, 7.0).endswith("path of segment 7")
+    assert name(count - 2, 1.0).endswith("path of segment 1 past START")
+    assert "blend-out arc" in name(count - 1, 1.0)
+    with pytest.raises(IndexError):
+        name(count, 1.0)
+
+
+def test_roughing_that_cuts_into_the_part_is_an_error_and_into_its_own_stock_a_warning() -> None:
+    slot = lines((0, 0), (2, 0), (2, -1), (2.3, -1), (2.3, 0), (5, 0))
+    ((severity, segment, text),) = told(work(slot, radius=0.125, lookahead=2, stocks=(0.125,)), "ROUGH_GOUGES")
+    assert severity is Severity.ERROR
+    assert segment in (2.0, 4.0)
+    assert text.startswith("Roughing that leaves 0.125 gouges ")
+    step = lines((0.28, 0), (2, 0), (2, 2), (0, 2), (0, 0.5))
+    ((severity, segment, text),) = told(work(step, radius=0.125, lookahead=2, stocks=(0.3,)), "ROUGH_STOCK")
+    assert (severity, segment) == (Severity.WARNING, 4.0)
+    assert text.startswith("Roughing that should leave 0.300 leaves only 0.1")
+
+
+def test_roughing_that_skips_segments_or_has_no_room_is_told() -> None:
+    found = work(NOTCH, radius=0.1, lookahead=3, stocks=(0.2, 0.01))
+    assert told(found, "ROUGH_DELETES") == [
+        (Severity.WARNING, 2.0, "Roughing that leaves 0.200 skips segments 2, 3, 4. The next pass meets solid there.")
+    ]
+    none = RoughPass(0.2, (), found.compensated, found.verdict)
+    assert told(replace(found, rough=(none,)), "ROUGH_EMPTY") == [
+        (Severity.WARNING, None, "No room for the 0.200 roughing pass: skipped.")
+    ]
+    beyond = RoughPass(0.2, found.loops, found.compensated, replace(found.verdict, wrong_side=(0,)))
+    assert told(replace(found, rough=(beyond,)), "ROUGH_GOUGES")[0][2].endswith("on the wrong side of the contour.")
+    unjudged = RoughPass(0.2, found.loops, found.compensated, replace(found.verdict, judged=False))
+    assert told(replace(found, rough=(unjudged,)), "ROUGH_GOUGES")[0][2].endswith("cannot be judged.")
+
+
+def test_the_nearest_place_is_told_against_the_radius() -> None:
+    found = nearest_finding(work(NOTCH, lookahead=3), 0.25)
+    assert (found.code, found.severity, found.segment) == ("NEAREST", Severity.INFO, 1.0)
+    assert sentence(found, Unit.MM) == "0.250 at X 0.000 Y 0.000 on segment 1; the tool's radius is 0.250."
+    assert nearest_finding(None, 0.25) is None
+    assert nearest_finding(work(NOTCH), None) is None
+
+
+def test_what_the_best_path_runs_more_is_told_with_its_length_and_place() -> None:
+    found = work(lines((-1, 0), (2, 0), (2, 2), (0, 2), (0, -1)), Side.RIGHT, lookahead=4)
+    best = best_path(found.surface, Side.RIGHT, 0.25, closed=False)
+    (more,) = better_path_findings(best, separation(found.compensated.path, best, 0.25))
+    assert (more.code, more.severity) == ("BEST_DIFFERS", Severity.INFO)
+    assert more.value > 8.0
+    assert sentence(more, Unit.MM).startswith("BEST runs ")
+    same = work(SQUARE, closed=True)
+    whole = best_path(SQUARE, Side.LEFT, 0.25, closed=True)
+    assert better_path_findings(whole, separation(same.compensated.path, whole, 0.25)) == ()
+    none = best_path(SQUARE, Side.LEFT, 2.0, closed=True)
+    (nowhere,) = better_path_findings(none, separation(same.compensated.path, none, 2.0))
+    assert (nowhere.code, nowhere.text) == ("NO_BEST", "The tool fits nowhere here. Use a smaller one.")
