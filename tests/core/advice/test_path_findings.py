@@ -193,6 +193,8 @@ def test_roughing_that_skips_segments_or_has_no_room_is_told() -> None:
     assert told(found, "ROUGH_DELETES") == [
         (Severity.WARNING, 2.0, "Roughing that leaves 0.200 skips segments 2, 3, 4. The next pass meets solid there.")
     ]
+    assert found.compensated is not None
+    assert found.verdict is not None
     none = RoughPass(0.2, (), found.compensated, found.verdict)
     assert told(replace(found, rough=(none,)), "ROUGH_EMPTY") == [
         (Severity.WARNING, None, "No room for the 0.200 roughing pass: skipped.")
@@ -205,6 +207,7 @@ def test_roughing_that_skips_segments_or_has_no_room_is_told() -> None:
 
 def test_the_nearest_place_is_told_against_the_radius() -> None:
     found = nearest_finding(work(NOTCH, lookahead=3), 0.25)
+    assert found is not None
     assert (found.code, found.severity, found.segment) == ("NEAREST", Severity.INFO, 1.0)
     assert sentence(found, Unit.MM) == "0.250 at X 0.000 Y 0.000 on segment 1; the tool's radius is 0.250."
     assert nearest_finding(None, 0.25) is None
