@@ -13,9 +13,10 @@ import numpy as np
 
 from core.comp.best_path.raw_offset import RawOffset
 from core.comp.best_path.slices import Slices, least_of_connected
-from core.geometry.nearby import nearest_pieces
-from core.geometry.path import Flags, Path, Points, Rows
-from core.geometry.piece_arrays import PieceArrays, piece_arrays
+from core.geometry.distance import distance
+from core.geometry.nearby import near_pairs
+from core.geometry.path import Flags, Floats, Path, Points, Rows, as_complex
+from core.geometry.piece_arrays import boxes, piece_arrays
 from core.tolerance import CLEAR
 
 SAMPLE: Final = 64
@@ -32,30 +33,57 @@ def clear_slices(raw: RawOffset, cut: Slices, surface: Path, radius: float) -> S
     lost[group[cut.dead]] = True
     alive = ~lost[group]
     sample = alive & ((_rank(np.where(alive, group, -1)) % SAMPLE == 0) | (cut.size > radius / 4.0))
-    walls = piece_arrays(surface)
-    good = _clear_in_middle(raw, cut, sample, walls, radius)
+    good = _clear_in_middle(raw, cut, sample, surface, radius)
     clear, blocked = np.zeros((2, len(cut)), np.bool_)
     clear[group[good]] = True
     blocked[group[sample & ~good]] = True
     doubtful = alive & clear[group] & blocked[group] & ~sample
     good |= alive & clear[group] & ~blocked[group]
-    good |= _clear_in_middle(raw, cut, doubtful, walls, radius)
+    good |= _clear_in_middle(raw, cut, doubtful, surface, radius)
     return cut.take(good.nonzero()[0])
 
 
-def _clear_in_middle(raw: RawOffset, cut: Slices, asked: Flags, walls: PieceArrays, radius: float) -> Flags:
+def _clear_in_middle(raw: RawOffset, cut: Slices, asked: Flags, surface: Path, radius: float) -> Flags:
     """Which of the slices that are asked about are clear, each measured in its middle."""
     good = asked.copy()
-    good[asked] = clear(cut.middles(raw, asked.nonzero()[0]), walls, radius)
+    points, piece = cut.middles(raw, asked.nonzero()[0])
+    good[asked] = clear(points, raw.segment[piece], surface, radius)
     return good
 
 
-def clear(points: Points, walls: PieceArrays, radius: float) -> Flags:
-    """(k,) which points are no nearer to any piece of the surface than the radius, within CLEAR."""
-    nearest = np.full(len(points), np.inf)
-    k, _, apart = nearest_pieces(points, walls)
-    nearest[k] = apart
-    return nearest >= radius - CLEAR
+def clear(points: Points, segments: Rows, surface: Path, radius: float) -> Flags:
+    """(k,) which points are no nearer to any piece of the surface than the radius, within CLEAR.
+
+    `segments` (k,) are the pieces the points were offset from: most points that are not clear are too near to a vertex
+    not far from there.
+    """
+    good = _clear_of_vertices(points, segments, as_complex(surface.points), radius)
+    rows = good.nonzero()[0]
+    if len(rows):
+        walls, spots = piece_arrays(surface), points[rows]
+        for i, j in near_pairs(point_boxes(spots), boxes(walls), radius):
+            good[rows[i[distance(walls.take(j), spots[i]) < radius - CLEAR]]] = False
+    return good
+
+
+def _clear_of_vertices(points: Points, segments: Rows, vertices: Points, radius: float) -> Flags:
+    """Which points are clear of the vertices 1, 2, 4, 8 ... segments ahead and behind, until none is near."""
+    good = np.ones(len(points), np.bool_)
+    step, near = 1, True
+    while near and step < len(vertices):
+        near = False
+        for shift in (step, -step):
+            known = np.minimum(np.maximum(segments + shift, 0), len(vertices) - 1)
+            apart = np.abs(points - vertices[known])
+            near |= bool((good & (apart < 2.0 * radius) & (known == segments + shift)).any())
+            good &= apart >= radius - CLEAR
+        step *= 2
+    return good
+
+
+def point_boxes(points: Points) -> Floats:
+    """(4, k) boxes of points."""
+    return np.array((points.real, points.imag, points.real, points.imag))
 
 
 def _rank(group: Rows) -> Rows:

@@ -16,7 +16,6 @@ from core.comp.best_path.surface import winds
 from core.comp.offset import Chain, Part, offset
 from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, Turns, as_complex, joined
 from core.geometry.piece import SLIVER, Side
-from core.geometry.piece_arrays import PieceArrays, boxes
 from core.tolerance import CROWDED, JOINED, ON_PATH
 
 
@@ -52,17 +51,6 @@ class RawOffset:
     def pieces(self) -> Pieces:
         """All pieces, without a copy."""
         return Pieces(self.start, self.end, self.center, self.turns)
-
-    @property
-    def boxes(self) -> Floats:
-        """(4, m) exact bounding boxes."""
-        arcs = self.turns != 0
-        arm = np.where(arcs, self.start - self.center, 1.0)
-        radius = np.where(arcs, np.abs(arm), 0.0)
-        angle = np.where(arcs, self.lengths, 0.0) / np.where(arcs, radius, 1.0)
-        rows, none = np.arange(len(self)), np.zeros(len(self))
-        turn = self.turns.astype(np.float64)
-        return boxes(PieceArrays(rows, self.start, self.end - self.start, arm, turn, angle, radius, self.lengths, none))
 
     @property
     def next_in_row(self) -> Flags:

@@ -18,7 +18,7 @@ import numpy as np
 from core.comp.best_path.raw_offset import RawOffset, renumbered
 from core.geometry.intersect import Meeting, Meetings, meet_pieces
 from core.geometry.nearby import near_pairs, near_pairs_within
-from core.geometry.path import Flags, Floats, Points, Rows, as_complex, next_in_ring
+from core.geometry.path import Flags, Floats, Points, Rows, as_complex, boxes, next_in_ring
 from core.tolerance import CROWDED, JOINED, ON_PATH
 
 MAX_PAIRS: Final = 8_000_000
@@ -74,7 +74,7 @@ def _pairs(raw: RawOffset) -> Iterator[tuple[Rows, Rows]]:
 
     Pieces joined smoothly meet only at their joint, unless together they go once around one way.
     """
-    box, side, outline = raw.boxes, raw.side.nonzero()[0], (~raw.side).nonzero()[0]
+    box, side, outline = boxes(raw.pieces), raw.side.nonzero()[0], (~raw.side).nonzero()[0]
     apart = _meet_next_only_at_joint(raw)
     for i, j in near_pairs_within(box[:, side], 4.0 * ON_PATH):
         i, j = side[i], side[j]
@@ -156,8 +156,8 @@ class Slices:
         turning = renumbered(self.turning[rows], keep)
         return Slices(**columns, turning=turning, points=self.points, outer=self.outer)
 
-    def middles(self, raw: RawOffset, rows: Rows) -> Points:
-        """The points half way along slices."""
+    def middles(self, raw: RawOffset, rows: Rows) -> tuple[Points, Rows]:
+        """The points half way along slices, and the pieces they lie on."""
         piece, along = self.piece[rows], (self.begin[rows] + self.end[rows]) / 2.0
         several = (piece != self.until[rows]).nonzero()[0]
         if len(several):
@@ -167,7 +167,7 @@ class Slices:
             inner = np.clip(np.searchsorted(traveled, half), piece[several], self.until[part])
             piece[several] = inner
             along[several] = np.clip(half - traveled[inner] + raw.lengths[inner], 0.0, raw.lengths[inner])
-        return raw.at(piece, along)
+        return raw.at(piece, along), piece
 
 
 class _Strands(NamedTuple):

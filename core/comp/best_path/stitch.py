@@ -13,10 +13,11 @@ from math import sqrt
 
 import numpy as np
 
+from core.comp.best_path.clearance import point_boxes
 from core.comp.best_path.raw_offset import RawOffset, lengths
 from core.comp.best_path.slices import Slices
 from core.geometry.nearby import gathered, near_pairs
-from core.geometry.path import Flags, Floats, Path, Points, Rows, coordinates, next_in_ring
+from core.geometry.path import Flags, Floats, Path, Rows, coordinates, next_in_ring
 from core.tolerance import CLEAR, CROWDED, GOUGE, JOINED, WHISKER
 
 _ROUNDS = 32
@@ -76,7 +77,7 @@ def _without_doubles(raw: RawOffset, cut: Slices) -> Slices:
     order = crowded[np.lexsort((cut.last[crowded], cut.first[crowded]))]
     early, late = order[:-1], order[1:]
     same = (cut.first[early] == cut.first[late]) & (cut.last[early] == cut.last[late])
-    same &= np.abs(cut.middles(raw, early) - cut.middles(raw, late)) <= GOUGE
+    same &= np.abs(cut.middles(raw, early)[0] - cut.middles(raw, late)[0]) <= GOUGE
     keep = np.ones(len(cut), np.bool_)
     keep[late[same]] = False
     return cut.take(keep.nonzero()[0])
@@ -127,7 +128,7 @@ def _bridge(cut: Slices, following: Rows, limit: float) -> None:
     ends = ((following < 0) & ~cut.outer[cut.last]).nonzero()[0]
     begins = (_not_followed_onto(following) & ~cut.outer[cut.first]).nonzero()[0]
     end, begin = cut.points[cut.last[ends]], cut.points[cut.first[begins]]
-    i, j = gathered(near_pairs(_point_boxes(end), _point_boxes(begin), limit))
+    i, j = gathered(near_pairs(point_boxes(end), point_boxes(begin), limit))
     _pair_up(following, ends[i], begins[j], np.abs(end[i] - begin[j]))
 
 
@@ -152,10 +153,6 @@ def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, limit: float
     last[rows], first[behind] = nodes, nodes + len(rows)
     points, outer = np.concatenate((cut.points, stops, starts)), np.append(cut.outer, np.zeros(2 * len(rows), np.bool_))
     return replace(cut, begin=begin, end=end, first=first, last=last, points=points, outer=outer)
-
-
-def _point_boxes(points: Points) -> Floats:
-    return np.array((points.real, points.imag, points.real, points.imag))
 
 
 def _pair_up(following: Rows, ends: Rows, begins: Rows, rank: Floats) -> None:

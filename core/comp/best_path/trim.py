@@ -76,18 +76,13 @@ def _cut_inside(chain: Untrimmed, left: _Left, radius: float) -> None:
     step, near = 1, limit > 0.0
     while near and step < len(chain.vertices):
         near = False
-        for ahead in (True, False):
-            spots = _vertices(chain, step, ahead=ahead)
-            near |= bool((np.abs(spots - chain.raw.start) < 2.0 * radius).any())
+        segment = chain.raw.segment
+        for rows in (segment + 1 + step, segment + chain.corner - step):
+            known = np.minimum(np.maximum(rows, 0), len(chain.vertices) - 1)
+            spots = chain.vertices[known]
+            near |= bool(((np.abs(spots - chain.raw.start) < 2.0 * radius) & (known == rows)).any())
             _cut(chain.raw, left, spots, limit)
         step *= 2
-
-
-def _vertices(chain: Untrimmed, step: int, *, ahead: bool) -> Points:
-    """(m,) the vertex `step` segments ahead of each piece, or behind it, its own ends not counted."""
-    segment = chain.raw.segment
-    rows = segment + 1 + step if ahead else segment + chain.corner - step
-    return chain.vertices[np.minimum(np.maximum(rows, 0), len(chain.vertices) - 1)]
 
 
 def _cut(raw: RawOffset, left: _Left, spots: Points, limit: float) -> None:
