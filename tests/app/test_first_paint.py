@@ -1,6 +1,5 @@
 """What the first paint waits for: the screen that is seen, and none of those that are not."""
 
-import re
 import subprocess
 import sys
 from pathlib import Path
@@ -62,7 +61,6 @@ os.fsync, TerminalDriver.write, CutcompApp.on_ready = forcing, writing, standing
 guarded()
 """
 ROOT = Path(__file__).parents[2]
-COMPILED = re.compile(r"^from dataclasses import .*\bdataclass\b", re.MULTILINE)
 FORM = {"contour", "contour_cells", "contour_keys", "doors", "forms", "frame", "page", "plan", "program"}
 LATER = {
     "app.filing",

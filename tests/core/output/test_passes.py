@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from core.geometry.path import Path
 from core.geometry.piece import Line, Turn
-from core.output.passes import Cutter, Job, Motion, Pass, Run, heights, levels, passes, z_steps
+from core.output.passes import Cutter, Job, Motion, Pass, Run, heights, levels, meets_solid, passes, z_steps
 from tests.core.output.jobs import INCH, Floor, arc, job, path_of, polyline
 
 SLOT = polyline((0, 0), (2, 0), (2, 1))
@@ -128,8 +128,8 @@ def test_all_offsets_of_a_depth_come_before_the_next_depth_and_the_full_size_las
 
 def with_finisher(diameter: float, **changes: object) -> Job:
     finisher = Cutter(2, diameter * INCH)
-    rough = (Run(OUTER, offset=0.5),)
-    return job(SLOT, rough=rough, finisher=finisher, finish_tool=2, finish_z=0.05 * INCH, **changes)
+    given = {"rough": (Run(OUTER, offset=0.5),), "finish_z": 0.05 * INCH, **changes}
+    return job(SLOT, finisher=finisher, finish_tool=2, **given)
 
 
 def test_the_finish_tool_follows_in_one_pass_at_full_depth_over_the_stock_left():
@@ -243,6 +243,21 @@ def test_a_piece_beyond_its_line_keeps_the_height_of_the_lines_end():
     surface = polyline((0, 0), (2, 0))
     one = ramp(surface, -0.05, finish=(Run(polyline((-1, 1), (3, 1))),))
     assert (heights(one, one.finish[0])[0] / INCH).tolist() == pytest.approx([-0.25, -0.05])
+
+
+def test_heights_count_from_a_lines_own_start():
+    surface = polyline((3, 1), (5, 1))
+    one = ramp(surface, -0.05, finish=(Run(polyline((3.5, 1.5), (4, 1.5))),))
+    assert (heights(one, one.finish[0])[0] / INCH).tolist() == pytest.approx([-0.2, -0.15])
+
+
+def test_a_finish_tool_as_large_pecks_where_no_roughing_has_been():
+    short = Run(polyline((0, 0), (2, 0)), offset=0.5)
+    rough_everywhere, rough_once = (with_finisher(0.5, rough=(run,)) for run in (Run(SLOT, offset=0.5), short))
+    assert [told(each)[1] for each in passes(rough_everywhere) if each.finishing] == [-0.25]
+    assert [told(each)[1] for each in passes(rough_once) if each.finishing] == [-0.1, -0.2, -0.25]
+    assert meets_solid(rough_once) == {2}
+    assert meets_solid(job(SLOT)) == frozenset()
 
 
 def test_steps_between_pieces_of_the_path_are_told_with_their_place():
