@@ -33,11 +33,28 @@ from app.session import FIRST, SEGMENT, Session
 from core.program.edit import Where
 from core.program.history import History, differences
 from tests.app.operator import Operator
-from tests.reports.kill_keys import keys, sent
 from tests.terminal import Terminal, running
 
 LIVES_OF_A_PART = 30
 """After so many kills another part is begun, so that programs of all lengths are typed."""
+
+
+BYTES = {
+    "tab": b"\t",
+    "enter": b"\r",
+    "up": b"\x1b[A",
+    "down": b"\x1b[B",
+    "shift+tab": b"\x1b[Z",
+    "pageup": b"\x1b[5~",
+    "pagedown": b"\x1b[6~",
+    "backspace": b"\x7f",
+    "delete": b"\x1b[3~",
+    "ctrl+z": b"\x1a",
+    "ctrl+y": b"\x19",
+    "ctrl+s": b"\x13",
+}
+"""What a terminal sends for a key that is no character."""
+MOVES = ("tab", "tab", "tab", "down", "up", "shift+tab", "pageup", "pagedown")
 
 
 @dataclass
@@ -109,10 +126,10 @@ def acknowledge(part: Part, terminal: Terminal) -> None:
 def type_until_killed(part: Part, terminal: Terminal, chance: random.Random) -> None:
     """Type; now and then wait until the screen has caught up, now and then do not."""
     while terminal.ended() is None:
-        for key in keys(chance, part.operator):
+        for key in next_keys(chance, part.operator):
             part.press(key)
             with suppress(OSError):
-                terminal.send(sent(key))
+                terminal.send(bytes_of_key(key))
             if chance.random() < 0.3:
                 terminal.read(quiet=0.001, longest=0.02)
         if chance.random() < 0.6:
@@ -262,6 +279,31 @@ def main() -> int:
             whole.add(tally)
     print("\n".join(report(whole)))
     return 1 if whole.lost else 0
+
+
+def next_keys(chance: random.Random, operator: Operator) -> list[str]:
+    """What an operator does next."""
+    kind = chance.choices(("number", "move", "segment", "undo", "redo", "save", "rubbish"), (10, 5, 3, 2, 1, 1, 1))[0]
+    match kind:
+        case "number":
+            text = f"{chance.uniform(-5, 20):.{chance.randint(0, 4)}f}"
+            return [*text, chance.choice(("enter", "tab", "down"))]
+        case "segment":
+            count = len(operator.session.block.segments) - operator.session.where.segment + 1
+            return [*["pagedown"] * count, chance.choice("lab")]
+        case "undo" | "redo":
+            return ["ctrl+z" if kind == "undo" else "ctrl+y"] * chance.randint(1, 4)
+        case "save":
+            return ["ctrl+s"]
+        case "rubbish":
+            return [*"2..5", "tab"]
+        case _:
+            return [chance.choice(MOVES) for _ in range(chance.randint(1, 3))]
+
+
+def bytes_of_key(key: str) -> bytes:
+    """A key as bytes."""
+    return BYTES.get(key) or key.encode()
 
 
 if __name__ == "__main__":

@@ -19,10 +19,17 @@ from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.table import compensate_all
 from core.geometry.path import EMPTY, Path
 from core.verify.judge import judge
-from tests.reports.alike import Difference, differences
-from tests.reports.parts import RADIUS, Part, part
-from tests.reports.rules import Case, Rule, best_rule_of, rule_of
-from tests.reports.witness import Witnessed, witnessed
+from tests.reports.linuxcnc_contours import RADIUS, Part, part
+from tests.reports.linuxcnc_differences import (
+    Case,
+    Difference,
+    Rule,
+    Witnessed,
+    best_rule_of,
+    differences,
+    rule_of,
+    witnessed,
+)
 
 BATCH = 50
 FAR = 99

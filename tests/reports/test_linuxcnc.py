@@ -12,11 +12,9 @@ from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from tests import rs274
 from tests.core.comp.contours import lines
-from tests.reports.alike import differences
 from tests.reports.linuxcnc import BEST, MANY, ONE, printed, report
-from tests.reports.parts import KINDS, RADIUS, Part, corner_angle, part
-from tests.reports.rules import Case, Rule, rule_of
-from tests.reports.witness import witnessed
+from tests.reports.linuxcnc_contours import KINDS, RADIUS, Part, corner_angle, part
+from tests.reports.linuxcnc_differences import Case, Rule, differences, rule_of, witnessed
 
 SQUARE = lines((0, 0), (500, 0), (500, 500), (0, 500))
 

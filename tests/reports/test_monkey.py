@@ -21,9 +21,8 @@ from core.program.file.read import StoreError
 from core.program.file.write import dumps
 from tests.app.operator import Operator
 from tests.reports import monkey
-from tests.reports.monkey import run, through_textual
+from tests.reports.monkey import MEGABYTE, Tally, report, run, screens, through_textual
 from tests.reports.monkey_keys import Coverage, Monkey
-from tests.reports.monkey_tally import MEGABYTE, Tally, report, screens
 from tests.reports.reference import Reference
 
 
