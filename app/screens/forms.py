@@ -13,7 +13,7 @@ from app.widgets.form import Cell, State
 from core.finding import Severity
 from core.pipeline.derived import Tag
 from core.program.edit import Refused
-from core.program.fields import AGAIN, SOLUTION, Field, check, check_text, read_typed, unread_reason
+from core.program.fields import AGAIN, SOLUTION, Field, check, check_text, read_typed, unread_reason, unread_sentence
 from core.program.model import Entry, Program, Unread
 from core.program.solve.solved import Solved, Value
 from core.units import Kind, Unit, sentence, show
@@ -225,7 +225,7 @@ def _unread_sentence(unread: Unread, one: Field, unit: Unit) -> str:
         return outside
     if unread_reason(unread.text, one, unit) == AGAIN:
         return f"{unread.text.strip()} has not been taken yet: type it again."
-    return f"{unread.text.strip()} cannot be read: {unread.reason}"
+    return unread_sentence(unread)
 
 
 def stepped_choice(one: Field, held: str, key: str) -> str | None:

@@ -333,3 +333,9 @@ def unread_reason(text: str, field: Field, unit: Unit) -> str:
     if isinstance(value, Unreadable):
         return value.reason
     return check_text(text, field, unit) or AGAIN
+
+
+def unread_sentence(unread: Unread) -> str:
+    """What is said of a text that cannot be read: the reason, which quotes it."""
+    typed = printable(unread.text)
+    return unread.reason if typed in unread.reason else f"{typed} cannot be read. {unread.reason}"

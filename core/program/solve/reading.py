@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from core.finding import Finding, Severity
-from core.program.fields import NUMBER_FIELDS, Field, Form, check, check_text
+from core.program.fields import NUMBER_FIELDS, Field, Form, check, check_text, unread_sentence
 from core.program.model import Block, Entry, Parameters, PartSetup, Program, Segment, Unread
 from core.program.solve.solved import Solved, Value
-from core.units import Kind, Unit, printable, to_mm, to_radians
+from core.units import Kind, Unit, to_mm, to_radians
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ def _trouble(field: Field, typed: Entry | Unread, unit: Unit) -> tuple[str, str]
     if isinstance(typed, Entry):
         refusal = check(field, typed.value, unit)
     elif (refusal := check_text(typed.text, field, unit)) is None:
-        return "UNREADABLE", f"{field.label}: {printable(typed.text)} cannot be read. {typed.reason}"
+        return "UNREADABLE", f"{field.label}: {unread_sentence(typed)}"
     return None if refusal is None else ("OUT_OF_RANGE", refusal)
 
 
