@@ -6,7 +6,7 @@ A refused edit changes nothing.  A number a field does not take is refused, a te
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Final
@@ -69,38 +69,28 @@ def type_field(program: Program, where: Where, name: str, typed: Typed) -> Edite
     """Put what was typed, or a blank, into a field of START or of a segment."""
     if refusal := _absent(program, where):
         return refusal
-    block = program.blocks[where.block - 1]
-    if where.segment == 0:
-        if refusal := _misfit(field_of(Form.START, name), typed, program.unit) or _lookahead_misfit(block, name, typed):
-            return refusal
-        return _with_block(program, where, changed(block, {name: typed}))
-    segment = block.segments[where.segment - 1]
-    if refusal := _misfit(field_of(form_of(segment), name), typed, program.unit):
-        return refusal
-    return _with_segment(program, where, _typed_into(segment, name, typed))
+    part = _part(program, where)
+    refusal = _misfit(_field(part, name), typed, program.unit)
+    if isinstance(part, Block) and name == "lookahead":
+        refusal = refusal or _lookahead_misfit(part, typed)
+    return refusal or _with_part(program, where, _typed_into(part, name, typed))
 
 
 def choose(program: Program, where: Where, name: str, value: str | int | None) -> Edited:
     """Pick CUTTER COMP. of START, DIRECTION of an ARC, or the solution of a LINE or an ARC (None for none yet)."""
     if refusal := _absent(program, where):
         return refusal
-    block = program.blocks[where.block - 1]
-    form = Form.START if where.segment == 0 else form_of(block.segments[where.segment - 1])
-    field = field_of(form, name)
-    if str(value) not in field.choices and not (value is None and name == "choice"):
+    part = _part(program, where)
+    field = _field(part, name)
+    if value is None and name == "choice":
+        return _with_part(program, where, changed(part, {name: None}))
+    if str(value) not in field.choices:
         return _takes(field)
-    picked = _PICKED[name](value)
-    if where.segment == 0:
-        return _with_block(program, where, changed(block, {name: picked}))
-    return _with_segment(program, where, changed(block.segments[where.segment - 1], {name: picked}))
+    return _with_part(program, where, changed(part, {name: _PICKED[name](value)}))
 
 
-_PICKED: Final[Mapping[str, Any]] = MappingProxyType(
-    {
-        "cutter_comp": CutterComp,
-        "direction": Direction,
-        "choice": lambda value: None if value is None else int(value),
-    }
+_PICKED: Final[Mapping[str, Callable[[Any], Any]]] = MappingProxyType(
+    {"cutter_comp": CutterComp, "direction": Direction, "choice": int}
 )
 
 
@@ -111,20 +101,14 @@ def insert_segment(program: Program, where: Where, segment: Segment) -> Edited:
     if refusal := _absent(program, replace(where, segment=0)):
         return refusal
     block = program.blocks[where.block - 1]
-    before, behind = block.segments[: where.segment - 1], block.segments[where.segment - 1 :]
+    before, after = block.segments[: where.segment - 1], block.segments[where.segment - 1 :]
     if not 0 < where.segment <= len(block.segments) + 1:
         return _no_segment(block, where.segment)
-    if isinstance(segment, BlendSegment) and (refusal := _blend_misfit(before, behind)):
-        return refusal
-    return _with_block(program, where, replace(block, segments=(*before, segment, *behind)))
-
-
-def _blend_misfit(before: tuple[Segment, ...], behind: tuple[Segment, ...]) -> Refused | None:
-    if not before:
+    if isinstance(segment, BlendSegment) and not before:
         return Refused("A BLEND ARC cannot be the first segment: it blends two others.")
-    if isinstance(before[-1], BlendSegment) or (behind and isinstance(behind[0], BlendSegment)):
-        return Refused("A BLEND ARC cannot stand beside another BLEND ARC.")
-    return None
+    if isinstance(segment, BlendSegment) and BlendSegment in map(type, (*before[-1:], *after[:1])):
+        return Refused("A BLEND ARC cannot be next to another BLEND ARC.")
+    return _with_part(program, Where(where.block), replace(block, segments=(*before, segment, *after)))
 
 
 def delete_segment(program: Program, where: Where) -> Edited:
@@ -135,7 +119,7 @@ def delete_segment(program: Program, where: Where) -> Edited:
         return refusal
     block = program.blocks[where.block - 1]
     left = block.segments[: where.segment - 1] + block.segments[where.segment :]
-    return _with_block(program, where, replace(block, segments=left))
+    return _with_part(program, Where(where.block), replace(block, segments=left))
 
 
 def recalculate_lookahead(program: Program, block: int) -> Edited:
@@ -143,7 +127,7 @@ def recalculate_lookahead(program: Program, block: int) -> Edited:
     where = Where(block)
     if refusal := _absent(program, where):
         return refusal
-    return _with_block(program, where, replace(program.blocks[block - 1], lookahead=None))
+    return _with_part(program, where, replace(program.blocks[block - 1], lookahead=None))
 
 
 def new_block(program: Program) -> Block:
@@ -283,12 +267,12 @@ def _converted(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Pa
     """A copy with the lengths and feeds converted; text stays, and what is against it is said in the new unit."""
     typed = [(field, getattr(part, field.name)) for field in table if field.kind in (Kind.LENGTH, Kind.FEED)]
     entries = {field.name: Entry(convert(held.value, old, new)) for field, held in typed if isinstance(held, Entry)}
-    texts = {field.name: _reread(held, field, new) for field, held in typed if isinstance(held, Unread)}
+    texts = {
+        field.name: Unread(held.text, unread_reason(held.text, field, new))
+        for field, held in typed
+        if isinstance(held, Unread)
+    }
     return changed(part, {**entries, **texts})
-
-
-def _reread(text: Unread, field: Field, unit: Unit) -> Unread:
-    return replace(text, reason=unread_reason(text.text, field, unit))
 
 
 def _absent(program: Program, where: Where) -> Refused | None:
@@ -299,16 +283,16 @@ def _absent(program: Program, where: Where) -> Refused | None:
 
 
 def _no_block(program: Program, number: int) -> Refused:
-    """There is no block of that number."""
-    return Refused(f"There is no block {number}: {_last('block', len(program.blocks))}")
+    return _none_of_number("block", number, len(program.blocks))
 
 
 def _no_segment(block: Block, number: int) -> Refused:
-    return Refused(f"There is no segment {number}: {_last('segment', len(block.segments))}")
+    return _none_of_number("segment", number, len(block.segments))
 
 
-def _last(thing: str, count: int) -> str:
-    return f"the last {thing} is {count}." if count else f"no {thing} is typed yet."
+def _none_of_number(thing: str, number: int, count: int) -> Refused:
+    last = f"the last {thing} is {count}." if count else f"no {thing} is typed yet."
+    return Refused(f"There is no {thing} {number}: {last}")
 
 
 def _misfit(field: Field, typed: Typed, unit: Unit) -> Refused | None:
@@ -323,8 +307,8 @@ def _takes(field: Field) -> Refused:
     return Refused(f"{field.label} takes {', '.join(field.choices)}.")
 
 
-def _lookahead_misfit(block: Block, name: str, typed: Typed) -> Refused | None:
-    if name != "lookahead" or isinstance(typed, Entry) or typed == block.lookahead:
+def _lookahead_misfit(block: Block, typed: Typed) -> Refused | None:
+    if isinstance(typed, Entry) or typed == block.lookahead:
         return None
     field = field_of(Form.START, "lookahead")
     unreadable = typed is not None and check_text(typed.text, field, Unit.MM) is None
@@ -333,21 +317,30 @@ def _lookahead_misfit(block: Block, name: str, typed: Typed) -> Refused | None:
     return Refused(f"{field.label} must be a whole number {range_of(field, Unit.MM)}.{again}{back}")
 
 
-def _typed_into(segment: Segment, name: str, typed: Typed) -> Segment:
-    """The segment with the field typed; a solution picked among others than now is dropped."""
-    edited = changed(segment, {name: typed})
-    solutions_differ = name not in ("z_end", "feed") and (typed is None) is not (getattr(segment, name) is None)
+def _part(program: Program, where: Where) -> Block | Segment:
+    """START, which is the block, or a segment."""
+    block = program.blocks[where.block - 1]
+    return block.segments[where.segment - 1] if where.segment else block
+
+
+def _field(part: Block | Segment, name: str) -> Field:
+    return field_of(Form.START if isinstance(part, Block) else form_of(part), name)
+
+
+def _typed_into(part: Block | Segment, name: str, typed: Typed) -> Block | Segment:
+    """The part with the field typed; a solution picked among others than now is dropped."""
+    edited = changed(part, {name: typed})
+    solutions_differ = name not in ("z_end", "feed") and (typed is None) is not (getattr(part, name) is None)
     if solutions_differ and isinstance(edited, LineSegment | ArcSegment):
         return replace(edited, choice=None)
     return edited
 
 
-def _with_block(program: Program, where: Where, block: Block) -> Program:
-    blocks = (*program.blocks[: where.block - 1], block, *program.blocks[where.block :])
-    return replace(program, blocks=blocks)
-
-
-def _with_segment(program: Program, where: Where, segment: Segment) -> Program:
-    block = program.blocks[where.block - 1]
-    segments = (*block.segments[: where.segment - 1], segment, *block.segments[where.segment :])
-    return _with_block(program, where, replace(block, segments=segments))
+def _with_part(program: Program, where: Where, part: Block | Segment) -> Program:
+    """The program with this part in its place."""
+    index = where.block - 1
+    if not isinstance(part, Block):
+        block = program.blocks[index]
+        segments = (*block.segments[: where.segment - 1], part, *block.segments[where.segment :])
+        part = replace(block, segments=segments)
+    return replace(program, blocks=(*program.blocks[:index], part, *program.blocks[index + 1 :]))

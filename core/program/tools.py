@@ -10,11 +10,11 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import isfinite
-from typing import Final, assert_never
+from typing import Final
 
 from core.finding import Finding, Severity
 from core.program.fields import TOOL, Form, check, check_text, field_of
-from core.program.model import Entry, Program, Tool, Typed, Unread
+from core.program.model import Entry, Program, Tool, Typed
 from core.tolerance import LARGEST
 from core.units import Unit, convert, printable, to_mm
 
@@ -49,43 +49,27 @@ def called_tool(program: Program, typed: Typed, name: str, severity: Severity = 
     if trouble is not None:
         return CalledTool(tool.type, None, (Finding("TOOL_DIAMETER", severity, trouble, 0, name),))
     assert isinstance(tool.diameter, Entry)
-    outside = check(field_of(Form.TOOL, "diameter"), tool.diameter.value, program.unit)
-    if outside is not None:
-        told = Finding("TOOL_DIAMETER", severity, f"Tool {tool.number}: {outside}", 0, name)
-        return CalledTool(tool.type, None, (told,))
-    return CalledTool(tool.type, tool_diameter(tool, program.unit))
-
-
-def tool_diameter(tool: Tool, unit: Unit) -> float | None:
-    """Diameter in millimeters, None while it is blank, unreadable or not above 0."""
-    match tool.diameter:
-        case Entry(value) if isfinite(value) and value > 0.0:
-            return to_mm(value, unit)
-        case Entry() | Unread() | None:
-            return None
-        case _:
-            assert_never(tool.diameter)
+    return CalledTool(tool.type, to_mm(tool.diameter.value, program.unit))
 
 
 def _diameter_trouble(tool: Tool, unit: Unit) -> str | None:
-    there = f"Tool {tool.number}: enter its diameter on TOOL SETUP"
-    match tool.diameter:
-        case None:
-            return f"{there}; it is blank."
-        case Unread(text, _):
-            outside = check_text(text, field_of(Form.TOOL, "diameter"), unit)
-            return f"Tool {tool.number}: {outside}" if outside else f"{there}; {printable(text)} cannot be read."
-        case Entry(value) if not isfinite(value) or value <= 0.0:
-            return f"{there}; it must be above 0, and it is {value:g}."
-        case Entry():
-            return None
-        case _:
-            assert_never(tool.diameter)
+    """Why the diameter of a tool cannot be used."""
+    diameter, field = tool.diameter, field_of(Form.TOOL, "diameter")
+    missing = f"Tool {tool.number}: enter its diameter on TOOL SETUP"
+    if diameter is None:
+        return f"{missing}; it is blank."
+    if isinstance(diameter, Entry) and not (isfinite(diameter.value) and diameter.value > 0.0):
+        return f"{missing}; it must be above 0, and it is {diameter.value:g}."
+    if isinstance(diameter, Entry):
+        refusal = check(field, diameter.value, unit)
+    elif (refusal := check_text(diameter.text, field, unit)) is None:
+        return f"{missing}; {printable(diameter.text)} cannot be read."
+    return None if refusal is None else f"Tool {tool.number}: {refusal}"
 
 
 TOOL_TABLE: Final = "TOOLTABLE"
-HOW: Final = "write T1 P1 D.25 Z0"
-LETTERS: Final = "TPXYZABCUVWDIJQ"
+EXAMPLE: Final = "write T1 P1 D.25 Z0"
+TABLE_LETTERS: Final = "TPXYZABCUVWDIJQ"
 """The words a LinuxCNC table knows."""
 MAX_TABLE_LINES: Final = 10_000
 """A table with more lines is none."""
@@ -157,7 +141,7 @@ def read_tool_table(text: str, unit: Unit, program: Unit) -> ImportedTools:
     findings: list[Finding] = []
     lines = _BREAK.split(text)
     if len(lines) > MAX_TABLE_LINES:
-        findings.append(_whole(f"This has more than {MAX_TABLE_LINES} lines: it is no tool table."))
+        findings.append(_fault(f"This has more than {MAX_TABLE_LINES} lines: it is no tool table."))
     for row in table_lines(lines[:MAX_TABLE_LINES]):
         if isinstance(row, Finding):
             findings.append(row)
@@ -165,7 +149,7 @@ def read_tool_table(text: str, unit: Unit, program: Unit) -> ImportedTools:
             rows.append(row)
     findings += [finding for row in rows for finding in _objections(row, unit, program)] + list(_twice(rows))
     if not rows and not findings:
-        findings.append(_whole("There is no tool in this table."))
+        findings.append(_fault("There is no tool in this table."))
     findings.sort(key=lambda finding: (finding.line or 0, finding.column or 0))
     if any(finding.severity is Severity.ERROR for finding in findings):
         return ImportedTools((), tuple(findings))
@@ -173,8 +157,8 @@ def read_tool_table(text: str, unit: Unit, program: Unit) -> ImportedTools:
     return ImportedTools(tuple(tools), tuple(findings))
 
 
-def _whole(text: str) -> Finding:
-    return Finding(TOOL_TABLE, Severity.ERROR, text, line=1, column=1)
+def _fault(text: str, line: int = 1, column: int = 1) -> Finding:
+    return Finding(TOOL_TABLE, Severity.ERROR, text, line=line, column=column)
 
 
 def _line(line: int, text: str, remark: str) -> TableLine | Finding:
@@ -183,15 +167,13 @@ def _line(line: int, text: str, remark: str) -> TableLine | Finding:
         letter, column = found[1].upper(), found.start(1) + 1
         trouble = _word_trouble(letter, float(found[2]), words)
         if trouble is not None:
-            return Finding(TOOL_TABLE, Severity.ERROR, trouble, line=line, column=column)
+            return _fault(trouble, line, column)
         words[letter], columns[letter], end = float(found[2]), column, found.end()
     if rest := text[end:].strip():
         column = end + len(text[end:]) - len(text[end:].lstrip()) + 1
-        text = f"{_quoted(rest)} is no word of a tool table; {HOW}."
-        return Finding(TOOL_TABLE, Severity.ERROR, text, line=line, column=column)
+        return _fault(f"{_quoted(rest)} is no word of a tool table; {EXAMPLE}.", line, column)
     if "T" not in words or not words["T"].is_integer():
-        text = f"A tool table's line needs a whole tool number; {HOW}."
-        return Finding(TOOL_TABLE, Severity.ERROR, text, line=line, column=columns.get("T", 1))
+        return _fault(f"A tool table's line needs a whole tool number; {EXAMPLE}.", line, columns.get("T", 1))
     return TableLine(line, int(words["T"]), words, columns, remark)
 
 
@@ -201,8 +183,8 @@ def _quoted(text: str) -> str:
 
 
 def _word_trouble(letter: str, value: float, words: Mapping[str, float]) -> str | None:
-    if letter not in LETTERS:
-        return f"{letter} is no word of a tool table; {HOW}."
+    if letter not in TABLE_LETTERS:
+        return f"{letter} is no word of a tool table; {EXAMPLE}."
     if letter in words:
         return f"{letter} stands twice in this line."
     if not isfinite(value) or abs(value) > LARGEST:

@@ -14,15 +14,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from decimal import Decimal
 from math import degrees, dist, tau
-from typing import Final, assert_never
+from typing import Final
 
 from core.finding import Finding, Severity
 from core.geometry import construct
-from core.geometry.construct import OnePoint, OutOfReach, TwoPoints
+from core.geometry.construct import NotDetermined, OnePoint, OutOfReach
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.program.fields import Form, field_of
 from core.program.model import Direction
-from core.program.solve.line import shown_angle
+from core.program.solve.line import points_of, shown_angle
 from core.program.solve.rules import Given, Known, Outcome, Rule, Task, contradiction, fault
 from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED
 from core.units import Kind, Unit, convert, decimals_shown, from_mm, to_mm
@@ -99,16 +99,10 @@ def _center_and_coordinate(axis: int, turn: Turn, given: Given) -> Outcome:
     if radius <= JOINED:
         return _no_radius()
     ends = construct.on_circle(center, radius, axis, value)
-    match ends:
-        case OnePoint(point):
-            return _about_center(turn, given, point)
-        case TwoPoints(first, second):
-            return _about_center(turn, given, first, second)
-        case OutOfReach():
-            text = f"The arc's radius is {{0}}: it does not come to {'XY'[axis]} END {{1}}."
-            return contradiction(text, _END[axis], radius, value)
-        case _:
-            assert_never(ends)
+    if isinstance(ends, OutOfReach):
+        text = f"The arc's radius is {{0}}: it does not come to {'XY'[axis]} END {{1}}."
+        return contradiction(text, _END[axis], radius, value)
+    return _about_center(turn, given, *points_of(ends))
 
 
 def _about_center(turn: Turn, given: Given, *ends: Point) -> Outcome:
@@ -185,17 +179,11 @@ def _end_and_radius(turn: Turn, given: Given) -> Outcome | None:
     if _comes_back(start, end):
         return None
     centers = construct.centers(start, end, radius, turn)
-    match centers:
-        case OnePoint(point):
-            return Outcome((Arc(start, end, point, turn),))
-        case TwoPoints(first, second):
-            return _ordered(Arc(start, end, first, turn), Arc(start, end, second, turn))
-        case OutOfReach(least):
-            return contradiction("RADIUS {0~1} does not reach the end: it takes {1~0}.", "radius", radius, least)
-        case construct.NotDetermined():
-            return None
-        case _:
-            assert_never(centers)
+    if isinstance(centers, OutOfReach):
+        return contradiction("RADIUS {0~1} does not reach the end: it takes {1~0}.", "radius", radius, centers.least)
+    if isinstance(centers, NotDetermined):
+        return None
+    return _ordered(*(Arc(start, end, center, turn) for center in points_of(centers)))
 
 
 def _end_and_sweep(turn: Turn, given: Given) -> Outcome | None:
@@ -227,8 +215,7 @@ def _radius_sweep_center(axis: int, turn: Turn, given: Given) -> Outcome:
     if isinstance(centers, OutOfReach):
         text = f"RADIUS {{0~2}} does not reach {'XY'[axis]} CENTER {{1}}: it takes at least {{2~0}}."
         return contradiction(text, "radius", radius, value, centers.least)
-    points = (centers.point,) if isinstance(centers, OnePoint) else (centers.first, centers.second)
-    return Outcome(tuple(_turned(turn, given.start, point, given.known["sweep"]) for point in points))
+    return Outcome(tuple(_turned(turn, given.start, center, given.known["sweep"]) for center in points_of(centers)))
 
 
 def _radius_sweep_end(axis: int, turn: Turn, given: Given) -> Outcome | None:
@@ -240,7 +227,7 @@ def _radius_sweep_end(axis: int, turn: Turn, given: Given) -> Outcome | None:
     if isinstance(ends, OutOfReach):
         text = f"RADIUS and SWEEP ANGLE make the end {{0}} from the start: that does not reach {'XY'[axis]} END {{1}}."
         return contradiction(text, _END[axis], chord, given.known[_END[axis]])
-    return _by_sweep(turn, given, *((ends.point,) if isinstance(ends, OnePoint) else (ends.first, ends.second)))
+    return _by_sweep(turn, given, *points_of(ends))
 
 
 def _turns(arc: Arc, sweep: float) -> bool:
@@ -254,25 +241,16 @@ def _disagreement(piece: Piece, name: str, value: float) -> Finding | None:
     if name == "sweep":
         text = f"SWEEP ANGLE is {shown_angle(value)}, but {shown_angle(abs(piece.sweep))}"
         return None if _turns(piece, value) else fault("CONTRADICTION", text, name)
-    solved = _measure(piece, name)
+    (x_end, y_end), (x_center, y_center) = piece.end, piece.center
+    places = {"x_end": x_end, "y_end": y_end, "x_center": x_center, "y_center": y_center}
+    solved = places.get(name, piece.radius)
     if abs(solved - value) <= ARC_RADII:
         return None
-    return fault("CONTRADICTION", f"{_label(name)} is {{0~1}}, but {{1~0}}", name, value, solved)
-
-
-def _measure(arc: Arc, name: str) -> float:
-    """A length or coordinate of an arc by its field's name."""
-    if name == "radius":
-        return arc.radius
-    return arc.end[_END.index(name)] if name in _END else arc.center[_CENTER.index(name)]
-
-
-def _label(name: str) -> str:
-    return field_of(Form.ARC, name).label
+    return fault("CONTRADICTION", f"{_labels((name,))} is {{0~1}}, but {{1~0}}", name, value, solved)
 
 
 def _labels(names: tuple[str, ...]) -> str:
-    return " and ".join(map(_label, names))
+    return " and ".join(field_of(Form.ARC, name).label for name in names)
 
 
 def _center_needed(given: Given) -> tuple[tuple[str, ...], str] | None:

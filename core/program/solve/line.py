@@ -53,16 +53,15 @@ def _long(axis: int, given: Given) -> Outcome:
     """As long as typed, to one end coordinate."""
     value, length = given.known[_END[axis]], given.known["length"]
     ends = construct.on_circle(given.start, length, axis, value)
-    match ends:
-        case OnePoint(point):
-            return _lines(given.start, point)
-        case TwoPoints(first, second):
-            return _lines(given.start, first, second)
-        case OutOfReach(least):
-            text = f"XY LENGTH {{0~2}} does not reach {'XY'[axis]} END {{1}}: it takes at least {{2~0}}."
-            return contradiction(text, "length", length, value, least)
-        case _:
-            assert_never(ends)
+    if isinstance(ends, OutOfReach):
+        text = f"XY LENGTH {{0~2}} does not reach {'XY'[axis]} END {{1}}: it takes at least {{2~0}}."
+        return contradiction(text, "length", length, value, ends.least)
+    return _lines(given.start, *points_of(ends))
+
+
+def points_of(found: OnePoint | TwoPoints) -> tuple[Point, ...]:
+    """The points of a construction, in its documented order."""
+    return (found.point,) if isinstance(found, OnePoint) else (found.first, found.second)
 
 
 def _lines(start: Point, *ends: Point) -> Outcome:

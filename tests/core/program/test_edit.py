@@ -160,7 +160,7 @@ def test_inserting_is_refused(where, segment, text):
 @pytest.mark.parametrize("at", [2, 3])
 def test_two_blends_never_meet(at):
     blended = program(line(x_end=1.0, y_end=0.0), blend(0.1), line(x_end=1.0, y_end=1.0))
-    refused = Refused("A BLEND ARC cannot stand beside another BLEND ARC.")
+    refused = Refused("A BLEND ARC cannot be next to another BLEND ARC.")
     assert edit.insert_segment(blended, Where(1, at), BlendSegment()) == refused
 
 

@@ -16,7 +16,6 @@ from core.program.tools import (
     decode_table,
     find_tool,
     read_tool_table,
-    tool_diameter,
 )
 from core.units import Unit
 from tests.properties import exercised, must_exercise
@@ -62,7 +61,6 @@ def test_a_diameter_that_cannot_be_used(typed, words):
     assert found.diameter is None
     assert (found.findings[0].code, found.findings[0].severity) == ("TOOL_DIAMETER", Severity.WARNING)
     assert words in found.findings[0].text
-    assert tool_diameter(tool, Unit.IN) is None
 
 
 def test_a_diameter_beyond_any_tool_is_refused_as_a_typed_one_is():
