@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from app.documents.files import load
@@ -11,7 +13,7 @@ from app.widgets.strip import strip
 from core.pipeline.derive import derive
 from core.pipeline.lookahead_table import look_ahead_table
 from core.program.edit import Refused, Where, type_field
-from core.program.model import Program
+from core.program.model import ArcSegment, Direction, Entry, Program
 from tests.app.operator import Operator
 
 
@@ -57,3 +59,23 @@ def test_what_is_still_to_be_typed_is_asked_for_and_is_no_error() -> None:
     assert operator.said.startswith("! More data needed")
     assert " ?  segment 6: More data needed" in operator.part("verdict")
     assert "!!" not in "\n".join(operator.screen())
+
+
+@pytest.mark.parametrize(("answer", "closes"), [("360", True), ("0.0057", False)])
+def test_an_arc_that_ends_close_to_its_start_is_decided_on_sweep_angle(answer: str, closes: bool) -> None:
+    part = load(example("overrun-square"))
+    (block,) = part.blocks
+    arc = ArcSegment(Direction.CCW, *map(Entry, (2.0, 0.0001)), None, *map(Entry, (1.0, 0.0)))
+    program = replace(part, blocks=(replace(block, segments=(block.segments[0], arc)),))
+    operator = Operator.at(program)
+    operator.desk = operator.desk.knowing(derive(program))
+    operator.press("2", "enter")
+    while operator.session.field != "sweep":
+        operator.press("tab")
+    asked = "The end is 0.0001 from the start: full circle or short arc? Type SWEEP ANGLE 360 or 0.006."
+    assert operator.said == f"!! {asked}"
+    operator.press(*answer, "enter")
+    (found,) = derive(operator.session.program).blocks
+    piece = found.solved.segments[1].piece
+    assert piece is not None
+    assert (piece.start == piece.end) is closes
