@@ -149,11 +149,11 @@ def test_unreadable_text_stays_in_the_field_marked_with_the_reason() -> None:
     operator = square().press("tab", "tab", "tab", "tab").type("1..5")
     assert isinstance(operator.block.x_start, Unread)
     assert operator.session.field == "x_start"
-    assert operator.said.startswith("!! 1..5 cannot be read")
+    assert operator.said.startswith("!! 1..5 is not a number")
     operator.press("enter")
     assert "X START     ERR       1..5" in operator.part("body")
     assert operator.session.field == "y_start"
-    assert operator.press("up").said.startswith("!! 1..5 cannot be read")
+    assert operator.press("up").said.startswith("!! 1..5 is not a number")
 
 
 def test_escape_brings_the_old_value_back() -> None:

@@ -178,7 +178,7 @@ def test_a_row_that_is_cut_short_says_so() -> None:
 def test_what_is_missing_is_told_in_full_on_the_form() -> None:
     operator = Operator.at().press("enter").type("1").press("l").type("", "0", "0", "0", "0", "-1")
     told = " ".join(operator.press("pagedown", "a").part("verdict").split())
-    assert "enter the end and the center, the end and RADIUS, or the center and SWEEP ANGLE." in told
+    assert "type the end and the center, the end and RADIUS, or the center and SWEEP ANGLE." in told
 
 
 @pytest.mark.parametrize("name", ["notch", "overrun-square", "pocket"])
