@@ -65,7 +65,8 @@ def test_what_is_still_to_be_typed_is_asked_for_and_is_no_error() -> None:
 def test_an_arc_that_ends_close_to_its_start_is_decided_on_sweep_angle(answer: str, closes: bool) -> None:
     part = load(example("overrun-square"))
     (block,) = part.blocks
-    arc = ArcSegment(Direction.CCW, *map(Entry, (2.0, 0.0001)), None, *map(Entry, (1.0, 0.0)))
+    zero = Entry(0.0)
+    arc = ArcSegment(Direction.CCW, x_end=Entry(2.0), y_end=Entry(0.0001), x_center=Entry(1.0), y_center=zero)
     program = replace(part, blocks=(replace(block, segments=(block.segments[0], arc)),))
     operator = Operator.at(program)
     operator.desk = operator.desk.knowing(derive(program))
