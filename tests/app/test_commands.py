@@ -93,7 +93,7 @@ def test_a_finding_names_its_segment(capsys: pytest.CaptureFixture[str]) -> None
     assert main(["path", str(example("notch"))]) == 1
     told = capsys.readouterr().err
     assert "cutcomp: block 1, segment 4: error: The path of segment 3 gouges segment 4" in told
-    assert "cutcomp: block 1, corner 3-4: warning: At this inside corner" in told
+    assert "cutcomp: block 1, corner 3-4: warning: Corner too tight for the tool" in told
 
 
 CORNERED = """
