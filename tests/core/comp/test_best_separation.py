@@ -16,6 +16,7 @@ from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from tests.core.comp.best_truth import distance, sampled
 from tests.core.comp.contours import lines, loose
+from tests.properties import exercised, must_exercise
 
 CLOSE = 1e-9
 SQUARE = lines((0, 0), (2, 0), (2, 2), (0, 2), (0, 0))
@@ -82,6 +83,7 @@ def test_without_a_best_path_nothing_is_missing():
     assert (found.length, found.whole, found.stretches) == (0.0, 0.0, ())
 
 
+@must_exercise(0.2)
 @settings(max_examples=200, deadline=None, derandomize=True)
 @given(loose, st.sampled_from(Side), st.floats(0.05, 1.0), st.integers(1, 5))
 def test_stretches_are_off_the_controls_path_and_the_rest_is_on_it(contour, side, radius, lookahead):
@@ -89,6 +91,8 @@ def test_stretches_are_off_the_controls_path_and_the_rest_is_on_it(contour, side
     best = best_path(contour, side, radius, closed=False)
     found = separation(control, best, radius)
     assert found.length == pytest.approx(sum(stretch.lengths.sum() for stretch in found.stretches), abs=1e-6)
+    if found.stretches:
+        exercised()
     for stretch in found.stretches:
         assert best.loops
         assert np.min([distance(loop, sampled(stretch)) for loop in best.loops], axis=0).max() < 1e-6

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from core.geometry.fillet import Fillet, NoFillet, Reason, fillet
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
+from tests.properties import exercised, must_exercise
 
 
 def near(one: Point, other: Point, tolerance: float = 1e-9) -> bool:
@@ -131,6 +132,7 @@ def test_a_blend_is_tangent_to_both_and_lies_within_both(first, second, radius):
         assert (found.after.start, found.after.end) == (arc.end, after.end)
 
 
+@must_exercise(0.35)
 @settings(derandomize=True, max_examples=200)
 @given(pieces, pieces, st.floats(0.05, 3.0))
 def test_a_blend_is_the_same_traveled_back(first, second, radius):
@@ -138,6 +140,7 @@ def test_a_blend_is_the_same_traveled_back(first, second, radius):
     one, other = fillet(before, after, radius), fillet(back(after), back(before), radius)
     assert type(one) is type(other)
     if isinstance(one, Fillet) and isinstance(other, Fillet):
+        exercised()
         assert near(one.arc.center, other.arc.center, 1e-6)
         assert one.arc.turn == -other.arc.turn
 

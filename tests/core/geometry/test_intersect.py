@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from core.geometry.intersect import Meeting, Meetings, meet
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Turn
+from tests.properties import exercised, must_exercise
 
 APART, TOUCH, CROSS, OVERLAP = Meeting
 CIRCLE = Arc((1, 0), (1, 0), (0, 0), Turn.CCW)
@@ -173,10 +174,13 @@ def _clear(met: Meetings) -> bool:
     return bool((ends > 1e-4).all()) and met.kinds[0] in (APART, CROSS)
 
 
+@must_exercise(0.25)
 @settings(max_examples=300, deadline=None, derandomize=True)
 @given(any_piece, any_piece)
 def test_points_lie_on_both_pieces(a, b):
     met = _meet(a, b)
+    if len(met.points):
+        exercised()
     for x, y in met.points.tolist():
         assert _distance(a, complex(x, y)) < 1e-8
         assert _distance(b, complex(x, y)) < 1e-8

@@ -19,6 +19,7 @@ from core.verify.crossing import at_joints, crossings
 from core.verify.judge import judge
 from core.verify.verdict import Verdict
 from tests.core.verify.shapes import circle, lines, moved, paths, square
+from tests.properties import exercised, must_exercise
 
 FAR = lines((1000, 1000), (1001, 1000))
 
@@ -76,23 +77,22 @@ def _about(a: Point, b: Point) -> Point:
     return (a[0] + b[0]) / 2 - 2 * (b[1] - a[1]), (a[1] + b[1]) / 2 + 2 * (b[0] - a[0])
 
 
-@settings(deadline=None, max_examples=60, derandomize=True)
-@given(paths(most=4))
-def test_a_straight_cut_across_a_contour_is_found(surface: Path) -> None:
-    """A contour continued by a line back through the middle of its first piece crosses itself there."""
-    first, last = surface[0], surface.points[-1]
-    middle = np.array(first.start) + 0.5 * (np.array(first.end) - np.array(first.start))
-    if isinstance(first, Arc) or np.hypot(*(middle - last)) < 1e-3:
+@must_exercise(0.5)
+@settings(max_examples=60)
+@given(paths(most=4), st.floats(0.5, 3.0), st.floats(0.0, 2 * pi))
+def test_a_straight_cut_across_a_contour_is_found(surface: Path, length: float, angle: float) -> None:
+    """A contour that begins with a line and is continued by a line back through its middle crosses itself there."""
+    begun = surface.points[0] - length * np.array((cos(angle), sin(angle)))
+    first = Line(tuple(begun.tolist()), tuple(surface.points[0].tolist()))
+    middle, last = (surface.points[0] + begun) / 2.0, surface.points[-1]
+    along, out = surface.points[0] - begun, middle - last
+    if np.hypot(*out) < 1e-3 or abs(along[0] * out[1] - along[1] * out[0]) < 1e-3:
         return
-    along = np.array(first.end) - np.array(first.start)
-    out = middle - last
-    if abs(along[0] * out[1] - along[1] * out[0]) < 1e-3:
-        return
+    exercised()
     back = Line(tuple(last.tolist()), tuple((middle + 0.5 * out).tolist()))
-    longer = Path.from_pieces([*surface, back])
-    if len(surface) > 1:
-        assert verdict(longer).crosses_itself
-        assert verdict(moved(longer, 1.0, (100.0, 50.0))).crosses_itself
+    longer = Path.from_pieces([first, *surface, back])
+    assert verdict(longer).crosses_itself
+    assert verdict(moved(longer, 1.0, (100.0, 50.0))).crosses_itself
 
 
 @settings(deadline=None, max_examples=150, derandomize=True)
