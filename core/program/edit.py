@@ -148,12 +148,12 @@ def insert_block(program: Program, at: int) -> Edited:
     """Put a new block at number `at`, with the tool of the block before it; one more than the last appends."""
     if not 1 <= at <= len(program.blocks) + 1:
         return _no_block(program, at)
-    before, behind = program.blocks[: at - 1], program.blocks[at - 1 :]
-    return replace(program, blocks=(*before, new_block(replace(program, blocks=before)), *behind))
+    before, after = program.blocks[: at - 1], program.blocks[at - 1 :]
+    return replace(program, blocks=(*before, new_block(replace(program, blocks=before)), *after))
 
 
 def copy_block(program: Program, at: int) -> Edited:
-    """Put a copy of a block behind it."""
+    """Put a copy of a block after it."""
     if refusal := _absent(program, Where(at)):
         return refusal
     return replace(program, blocks=(*program.blocks[:at], *program.blocks[at - 1 :]))

@@ -140,7 +140,7 @@ class Parameters:
 
 @dataclass(frozen=True, slots=True)
 class PartSetup:
-    """PART SETUP: what stands in the posted file's header and at its end. `work_offset` is 54 ... 59."""
+    """PART SETUP: what the posted file's header and its end need. `work_offset` is 54 ... 59."""
 
     name: str = ""
     work_offset: Typed = None

@@ -81,7 +81,7 @@ _BREAK: Final = re.compile(r"\r\n|\n|\r")
 
 @dataclass(frozen=True, slots=True)
 class TableLine:
-    """One line of a table, in its own unit: its words by letter, where each stands (column from 1), and its remark."""
+    """One line of a table, in its own unit: its words by letter, the column of each from 1, and its remark."""
 
     line: int
     number: int
@@ -103,7 +103,7 @@ class ImportedTools:
 
     @property
     def errors(self) -> tuple[Finding, ...]:
-        """What stands against importing it."""
+        """Why it cannot be imported."""
         return tuple(finding for finding in self.findings if finding.severity is Severity.ERROR)
 
 

@@ -45,7 +45,7 @@ Typable = Parameters | PartSetup | Tool | Block | Segment
 
 
 def _table(header: str, name: str, form: Form, part: Typable, kind: str | None = None) -> list[str]:
-    """A table with its header and, behind it, the table of its unread texts."""
+    """A table with its header, followed by the table of its unread texts."""
     keys = [] if kind is None else [f'kind = "{kind}"']
     keys += _keys(form, part)
     unread = [f"{key} = {_quoted(text)}" for key, text in _unread(form, part)]

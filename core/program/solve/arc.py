@@ -39,11 +39,6 @@ MAX_ANGLE_DECIMALS: Final = 12
 ArcSolver = Callable[[Turn, Given], Outcome | None]
 
 
-def turn_of(direction: Direction) -> Turn:
-    """The geometry's word for DIRECTION."""
-    return Turn.CW if direction is Direction.CW else Turn.CCW
-
-
 def is_start(value: float, start: float, start_typed: float | None, unit: Unit) -> bool:
     """Whether a coordinate of an end, typed as `value`, is typed as that of the start.
 
@@ -339,7 +334,7 @@ def _task(turn: Turn) -> Task:
     )
 
 
-ARC_TASKS: Final = {turn: _task(turn) for turn in (Turn.CW, Turn.CCW)}
+ARC_TASKS: Final = {Direction.CW: _task(Turn.CW), Direction.CCW: _task(Turn.CCW)}
 """The rules for an arc of each direction."""
 
 

@@ -9,7 +9,7 @@ from core.finding import Finding, Severity
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.program.fields import FARTHEST, form_of
 from core.program.model import ArcSegment, BlendSegment, Entry, LineSegment, Segment
-from core.program.solve.arc import ARC_TASKS, adjustment, arc_sketch, circle_finding, is_start, turn_of
+from core.program.solve.arc import ARC_TASKS, adjustment, arc_sketch, circle_finding, is_start
 from core.program.solve.line import LINE_TASK, heading, line_sketch
 from core.program.solve.reading import Reading, read_form
 from core.program.solve.rules import Given, Outcome, Task, solve
@@ -86,7 +86,7 @@ def _shape(segment: Segment, reading: Reading, before: Carried, unit: Unit) -> S
             return _solved(LINE_TASK, reading, Given(before.point, reading.known), segment.choice, unit)
         case ArcSegment():
             given = Given(before.point, reading.known, _ends_at_start(reading, before.point, before.typed, unit))
-            return _solved(ARC_TASKS[turn_of(segment.direction)], reading, given, segment.choice, unit)
+            return _solved(ARC_TASKS[segment.direction], reading, given, segment.choice, unit)
         case _:
             assert_never(segment)
 
