@@ -13,7 +13,7 @@ from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.control_run import Run
 from core.controls.control_tools import ToolTable
 from core.controls.iso.modal_state import RADIUS_ZERO
-from core.controls.judged_runs import Judged, depth, findings, judged
+from core.controls.judged_runs import Judged, deepest_gouge, findings, first_unjudged, judged
 from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
 from core.finding import Finding, Severity
@@ -150,7 +150,7 @@ def _by_line(told: tuple[Finding, ...]) -> tuple[Finding, ...]:
 def _outcome(done: Run, results: tuple[Judged, ...], why: Finding | None) -> str:
     if any(one.code == NOTHING for one in done.findings):
         return "has nothing to run"
-    cut, line = depth(results)
+    cut, line = deepest_gouge(results)
     place = f"at line {line}" if line else "in a lead"
     gouges = f"gouges by {_length(cut, done.unit)} {place}" if cut else ""
     if done.stopped_at is not None:
@@ -159,6 +159,9 @@ def _outcome(done: Run, results: tuple[Judged, ...], why: Finding | None) -> str
         return f"{stops} line {done.stopped_at} ({rule})" + (f", {gouges} before" if gouges else "")
     if gouges:
         return gouges
+    unjudged, at = first_unjudged(results)
+    if unjudged:
+        return f"cannot be judged at line {at}" if at else "cannot be judged"
     wrong = any(result.verdict.wrong_side for result in results)
     if wrong:
         return "runs on the wrong side"

@@ -1,4 +1,4 @@
-"""One program on all controls side by side: who runs it, who stops, who gouges, and where two paths part."""
+"""Compared controls: one program on all controls, which run it, stop or gouge, and where their paths part."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 from core.controls.compared_contours import Parting, apart
 from core.controls.control_run import Run, Stretch
 from core.controls.control_tools import ToolTable
-from core.controls.judged_runs import Judged, depth, judged
-from core.controls.moves import Moves
+from core.controls.judged_runs import Judged, deepest_gouge, judged
+from core.controls.moves import Floats, Moves
 from core.controls.registry import UnknownControl, compared, programmed, reads, run
 from core.controls.translated_contours import run_by_contour
 from core.controls.write.programmed_stretch import NotTranslated
@@ -19,18 +19,21 @@ from core.geometry.path import EMPTY, Path
 from core.units import Unit
 
 APART: Final = 0.0005
-"""Millimeters from which on two paths are told to part."""
+"""Millimeters from which on two paths part."""
 
-LEAST: Final = 0.001
+MIN_WRITTEN_APART: Final = 0.001
 """The same where one of them is written anew, or two of its last digits where that is more."""
+
+
+MAX_POINT_PAIRS: Final = 1_000_000
+"""Pairs of points of one line that are measured."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Compared:
-    """A control's run of the program; `parts` tells where it leaves the path of the first control that runs it.
+    """A control's run of the program; `parts` is where it leaves the path of the control `of`, the first that runs it.
 
-    `of` names that control.  `by` names the one whose contour was translated where this one does not read the
-    program's language.
+    `by` names the control whose contour was translated where this one does not read the program's language.
     """
 
     control: str
@@ -78,7 +81,7 @@ def compare(text: bytes, tools: ToolTable, unit: Unit | None = None) -> tuple[Co
 
 def _row(done: Run, parts: Parting | None, *, by: str = "", of: str = "") -> Compared:
     results = judged(done)
-    return Compared(done.control, done, results, depth(results)[0], parts, by, of)
+    return Compared(done.control, done, results, deepest_gouge(results)[0], parts, by, of)
 
 
 def _by_contour(control: str, first: Run | None, *, paths: bool) -> Compared | OtherLanguage:
@@ -89,20 +92,20 @@ def _by_contour(control: str, first: Run | None, *, paths: bool) -> Compared | O
     if isinstance(made, NotTranslated):
         return OtherLanguage(control, made.text)
     done, digit = made
-    parts = _centers_part(first, done, max(LEAST, 2 * digit)) if paths else None
+    parts = _centers_part(first, done, max(MIN_WRITTEN_APART, 2 * digit)) if paths else None
     return _row(done, parts, by=first.control, of=first.control)
 
 
 def _centers_part(first: Run, other: Run, tolerance: float) -> Parting | None:
     """Where the paths along the contours of two runs part, leads left out; the other one may have stopped early."""
-    for one, two in zip(first.stretches, other.stretches, strict=False):
-        lines = set(two.programmed.lines.tolist())
-        ours, theirs = _along(first, one, lines), _along(other, two, lines)
-        found = apart(theirs, ours, tolerance)
-        if found is None and other.stopped_at is None:
-            found = apart(ours, theirs, tolerance)
-        if found is not None:
-            return found
+    for ours, theirs in zip(first.stretches, other.stretches, strict=False):
+        lines = set(theirs.programmed.lines.tolist())
+        path, other_path = _along(first, ours, lines), _along(other, theirs, lines)
+        parts = apart(other_path, path, tolerance)
+        if parts is None and other.stopped_at is None:
+            parts = apart(path, other_path, tolerance)
+        if parts is not None:
+            return parts
     return None
 
 
@@ -118,16 +121,16 @@ def parting(one: Moves, other: Moves) -> Parting | None:
 
     Compared are the points a line's moves go through: each point of the one with the nearest of the other.
     """
-    ours, theirs = _by_line(one), _by_line(other)
-    found = [(line, _apart(ours[line], theirs[line])) for line in sorted(ours.keys() & theirs.keys())]
-    apart = [(line, distance) for line, distance in found if distance > APART]
-    if not apart:
+    ours, theirs = _points_by_line(one), _points_by_line(other)
+    distances = {line: _distance(ours[line], theirs[line]) for line in sorted(ours.keys() & theirs.keys())}
+    lines = [line for line, distance in distances.items() if distance > APART]
+    if not lines:
         return None
-    farthest, distance = max(apart, key=lambda pair: pair[1])
-    return Parting(apart[0][0], farthest, distance)
+    farthest = max(lines, key=distances.__getitem__)
+    return Parting(lines[0], farthest, distances[farthest])
 
 
-def _by_line(moves: Moves) -> dict[int, np.ndarray[tuple[int, int], np.dtype[np.float64]]]:
+def _points_by_line(moves: Moves) -> dict[int, Floats]:
     """Line to the points (n, 3) its moves begin and end with."""
     order = np.argsort(moves.lines[1:], kind="stable") + 1
     lines = moves.lines[order]
@@ -140,10 +143,9 @@ def _by_line(moves: Moves) -> dict[int, np.ndarray[tuple[int, int], np.dtype[np.
     }
 
 
-def _apart(
-    one: np.ndarray[tuple[int, int], np.dtype[np.float64]], other: np.ndarray[tuple[int, int], np.dtype[np.float64]]
-) -> float:
-    if len(one) * len(other) > 1_000_000:
+def _distance(one: Floats, other: Floats) -> float:
+    """How far the points (n, 3) of two lines are apart at most; of very many points only the last ones count."""
+    if len(one) * len(other) > MAX_POINT_PAIRS:
         return float(np.max(np.linalg.norm(one[-1] - other[-1])))
     between = np.linalg.norm(one[:, None, :] - other[None, :, :], axis=2)
     return float(max(between.min(axis=0).max(), between.min(axis=1).max()))

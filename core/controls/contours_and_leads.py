@@ -1,4 +1,4 @@
-"""The contours among the moves of one compensated stretch, told from the moves that lead to them and between them."""
+"""Contours and leads: which moves of a compensated stretch are contours, and which only lead to them."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ import numpy as np
 from core.geometry.path import Path
 from core.tolerance import CLOSED
 
-MOST_LEAD: Final = 2
-"""So many moves may lead in, out, or from one contour to the next: a line and the arc behind it.  More are surface."""
+MAX_LEAD_MOVES: Final = 2
+"""So many moves may lead in, out, or from one contour to the next: a line and an arc.  More are surface."""
 
-MOST_CHAINS: Final = 32
-"""Among more contours than this the leads are not told from them: each is judged with the whole path."""
+MAX_CONTOURS: Final = 32
+"""With more contours than this all moves count as surface: each contour is judged with the whole path."""
 
 Rows = tuple[int, int]
-"""First row and one behind the last."""
+"""First row and one after the last."""
 
 
-def chains(path: Path) -> tuple[Rows, ...]:
-    """The contours as rows of their pieces, rising; what lies in none of them are leads.
+def contours_of(path: Path) -> tuple[Rows, ...]:
+    """The contours as rows of their pieces, rising; pieces in none of them are leads.
 
-    A closed run of pieces is a contour, the longest one before all others.  What is before, between and behind closed
-    ones is a contour too where it has more than MOST_LEAD pieces, an open one: nothing says that it is no surface.
+    A closed run of pieces is a contour, the longest one before all others.  What is before, between and after closed
+    ones is a contour too where it has more than MAX_LEAD_MOVES pieces, an open one: nothing says that it is no surface.
     """
     whole = (0, len(path))
     places = _places(path)
@@ -31,23 +31,23 @@ def chains(path: Path) -> tuple[Rows, ...]:
     if longest is None:
         return (whole,)
     first, last = longest
-    found = (*_within(path, places, (0, first)), longest, *_within(path, places, (last, len(path))))
-    return found if len(found) <= MOST_CHAINS else (whole,)
+    contours = (*_within(path, places, (0, first)), longest, *_within(path, places, (last, len(path))))
+    return contours if len(contours) <= MAX_CONTOURS else (whole,)
 
 
-def ways(path: Path, contours: tuple[Rows, ...]) -> dict[Rows, frozenset[float]]:
-    """The `chains` of a path that are open ones beside closed ones, with their lines: perhaps only the way to these."""
+def open_contours(path: Path, contours: tuple[Rows, ...]) -> dict[Rows, frozenset[float]]:
+    """The open contours of a path among closed ones, with their lines: they may only lead to the closed ones."""
     if len(contours) == 1:
         return {}
     places = _places(path)
-    open_ones = [rows for rows in contours if places[rows[0]] != places[rows[1]]]
-    return {(first, last): frozenset(path.numbers[first:last].tolist()) for first, last in open_ones}
+    open_rows = [rows for rows in contours if places[rows[0]] != places[rows[1]]]
+    return {(first, last): frozenset(path.numbers[first:last].tolist()) for first, last in open_rows}
 
 
 def contour_of(path: Path) -> Rows:
     """The rows of the one contour without its leads; all rows where there are several, or none that is closed."""
-    found = chains(path)
-    return found[0] if len(found) == 1 else (0, len(path))
+    contours = contours_of(path)
+    return contours[0] if len(contours) == 1 else (0, len(path))
 
 
 def _places(path: Path) -> list[tuple[float, float]]:
@@ -66,26 +66,26 @@ def _longest(places: list[tuple[float, float]]) -> Rows | None:
 
 
 def _within(path: Path, places: list[tuple[float, float]], rows: Rows) -> list[Rows]:
-    """The contours among rows beside the longest one: closed runs from left to right, and what is long between them."""
+    """The contours among rows outside the longest one: closed runs in their order, and what is long between them."""
     begin, end = rows
     last_seen = {places[index]: index for index in range(begin, end + 1)}
-    found: list[Rows] = []
+    contours: list[Rows] = []
     at = open_from = begin
     while at < end:
         close = last_seen[places[at]]
         if close > at and _encloses(path, (at, close)):
-            found += [*_open((open_from, at)), (at, close)]
+            contours += [*_open((open_from, at)), (at, close)]
             at = open_from = close
         else:
             at += 1
-    return [*found, *_open((open_from, end))]
+    return [*contours, *_open((open_from, end))]
 
 
 def _encloses(path: Path, rows: Rows) -> bool:
-    """Whether a closed run is more than a line forth and back."""
+    """Whether a closed run is more than a line there and back."""
     first, last = rows
     return last - first > 2 or bool(path.turns[first:last].any())
 
 
 def _open(rows: Rows) -> list[Rows]:
-    return [rows] if rows[1] - rows[0] > MOST_LEAD else []
+    return [rows] if rows[1] - rows[0] > MAX_LEAD_MOVES else []

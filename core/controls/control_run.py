@@ -1,4 +1,4 @@
-"""What running a program on a control gives: the moves up to its end or its alarm, and what is to be said."""
+"""Control run: what running a program on a control gives, the moves up to its end or its alarm and the findings."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from core.finding import Finding, Severity
 from core.geometry.piece import Side
 from core.units import Unit
 
-MOST: Final = 100
-"""Findings of one rule that are told one by one; of the rest only the number is."""
+MAX_FINDINGS_OF_A_RULE: Final = 100
+"""Findings of one rule that are kept; of the rest only the number is."""
 
 
 @dataclass(frozen=True, slots=True)
 class Change:
     """Another side or radius within a stretch: from row `programmed` of what is programmed on.
 
-    Of the run's moves `row` is that at which the element before ends, and `start` that behind which the first element
-    with the new side or radius runs; between them is the way across.
+    Of the run's moves `row` is that at which the element before ends, and `start` that after which the first element
+    with the new side or radius runs; between them are the moves across.
     """
 
     programmed: int
@@ -31,7 +31,7 @@ class Change:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Stretch:
-    """One run of compensated moves: from the move that turns compensation on to the one that leaves it.
+    """Compensated moves: from the move that turns compensation on to the one that leaves it.
 
     `programmed` are the moves as written, without compensation, its row 0 the point they start from: the part's
     surface.  `entry` and `exit` count the moves at its beginning and end that lead in and out and are no surface.
@@ -54,20 +54,20 @@ class Stretch:
     changes: tuple[Change, ...] = ()
 
     def parts(self) -> tuple[Stretch, ...]:
-        """The stretch in pieces of one side and radius each; a way across goes with the smaller radius of the two.
+        """The stretch in pieces of one side and radius each; moves across belong to the smaller radius of the two.
 
-        Anything larger does not fit there, whatever the control does: it stands square with the smaller one.
+        Anything larger does not fit there, whatever the control does: the center is square to the smaller one.
         """
-        found, now, entry, first = list[Stretch](), (self.side, self.radius), self.entry, self.first
+        parts, side, radius, entry, first = list[Stretch](), self.side, self.radius, self.entry, self.first
         begin = 1
-        for one in self.changes:
-            last = one.row if one.radius <= now[1] else one.start
-            programmed = self.programmed.part(begin - 1, one.programmed)
-            found.append(Stretch(*now, self.plane, programmed, entry, 0, first, last + 1))
-            begin, now, entry, first = one.programmed, (one.side, one.radius), 0, last
+        for change in self.changes:
+            last = change.row if change.radius <= radius else change.start
+            programmed = self.programmed.part(begin - 1, change.programmed)
+            parts.append(Stretch(side, radius, self.plane, programmed, entry, 0, first, last + 1))
+            begin, side, radius, entry, first = change.programmed, change.side, change.radius, 0, last
         programmed = self.programmed.part(begin - 1, len(self.programmed))
-        found.append(Stretch(*now, self.plane, programmed, entry, self.exit, first, self.last))
-        return tuple(found)
+        parts.append(Stretch(side, radius, self.plane, programmed, entry, self.exit, first, self.last))
+        return tuple(parts)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -87,7 +87,7 @@ class Run:
 
 
 class AlarmError(Exception):
-    """The control stops here; caught by whoever runs the program, never seen outside."""
+    """The control stops here; caught where the program is run, never seen outside."""
 
     def __init__(self, finding: Finding, line: int | None) -> None:
         super().__init__(finding.text)
@@ -97,20 +97,20 @@ class AlarmError(Exception):
 
 @dataclass(slots=True)
 class Log:
-    """Findings being gathered, at most `MOST` of one rule and one of a rule on a line."""
+    """Findings being gathered: at most one of a rule on a line, and MAX_FINDINGS_OF_A_RULE of it."""
 
     findings: list[Finding] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=dict)
     seen: set[tuple[str, int | None]] = field(default_factory=set)
 
     def add(self, finding: Finding) -> None:
-        """Keep a finding, unless its rule was told of that line before."""
+        """Keep a finding, unless there is one of its rule on that line."""
         key = (finding.code, finding.line)
         if key in self.seen:
             return
         self.seen.add(key)
         count = self.counts[finding.code] = self.counts.get(finding.code, 0) + 1
-        if count <= MOST:
+        if count <= MAX_FINDINGS_OF_A_RULE:
             self.findings.append(finding)
 
     def tell(
@@ -124,7 +124,7 @@ class Log:
         lengths: tuple[float, ...] = (),
         at: tuple[float, float] | None = None,
     ) -> None:
-        """Keep a finding of these values; the control goes on."""
+        """Keep a finding of these values; the control continues."""
         self.add(Finding(code, severity, text, at=at, lengths=lengths, line=line, column=column))
 
     def stop(
@@ -143,7 +143,11 @@ class Log:
         raise AlarmError(finding, stops_at or line)
 
     def closed(self) -> tuple[Finding, ...]:
-        """All findings by line, with one more for each rule that was told too often."""
-        rest = [(code, count - MOST) for code, count in self.counts.items() if count > MOST]
-        more = [Finding(code, Severity.INFO, f"{code}: {count} more lines like these.") for code, count in rest]
+        """All findings by line, with one more for each rule that has too many."""
+        left = {code: count - MAX_FINDINGS_OF_A_RULE for code, count in self.counts.items()}
+        more = [
+            Finding(code, Severity.INFO, f"{code}: {count} more lines like these.")
+            for code, count in left.items()
+            if count > 0
+        ]
         return (*sorted(self.findings, key=lambda finding: (finding.line or 0, finding.column or 0)), *more)

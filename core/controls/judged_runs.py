@@ -9,9 +9,9 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.contours_and_leads import MOST_LEAD, Rows, chains, ways
+from core.controls.contours_and_leads import MAX_LEAD_MOVES, Rows, contours_of, open_contours
 from core.controls.control_run import Run, Stretch
-from core.controls.repeated_passes import unlapped
+from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
 from core.geometry.path import Path, joined
 from core.tolerance import GOUGE
@@ -20,7 +20,7 @@ from core.verify.report import or_more, stray_findings
 from core.verify.stray import Away, Stray, stray
 from core.verify.verdict import Gouge, Verdict
 
-MOST_GOUGES: Final = 20
+MAX_GOUGES: Final = 20
 """Gouges of a stretch that are told one by one, deepest first."""
 
 GIVEN_UP: Final = "LIMIT"
@@ -77,8 +77,8 @@ def _each(run: Run, stretch: Stretch) -> list[Judged]:
     the side changes it is not asked for, which is told.
     """
     whole = surface_of(stretch)
-    contours = chains(whole)
-    untold = ways(whole, contours)
+    contours = contours_of(whole)
+    untold = open_contours(whole, contours)
     parts, results, row = stretch.parts(), list[Judged](), 0
     sides = any(part.side is not parts[0].side for part in parts)
     for part in parts:
@@ -104,7 +104,7 @@ def _beyond(result: Judged, whole: Path, contours: tuple[Rows, ...], own: Rows) 
     for first, last in contours:
         edges = np.clip((first, *own, last), first, last).tolist()
         # each by itself, for a lap of another part is no repetition of the part's own one
-        surface = joined([unlapped(numbered.part(*both)) for both in pairwise(edges)])
+        surface = joined([without_repeats(numbered.part(*both)) for both in pairwise(edges)])
         cut = judge(surface, part.side, part.radius, result.center).gouges
         others = [(gouge, int(gouge.surface_number)) for gouge in cut if not own[0] <= gouge.surface_number < own[1]]
         more += (replace(gouge, surface_number=float(whole.numbers[at])) for gouge, at in others)
@@ -114,14 +114,14 @@ def _beyond(result: Judged, whole: Path, contours: tuple[Rows, ...], own: Rows) 
 
 def _judged(run: Run, stretch: Stretch, whole: Path, contours: Sequence[Rows]) -> list[Judged]:
     """The verdict on each contour among moves of one side and radius; the first of them has what is said of leads."""
-    center = unlapped(run.moves.part(stretch.first, stretch.last).path(stretch.plane))
+    center = without_repeats(run.moves.part(stretch.first, stretch.last).path(stretch.plane))
     results = [_contour(stretch, whole.part(*rows), center, alone=len(contours) == 1) for rows in contours]
     inside = np.zeros(len(whole), np.bool_)
     for first, last in contours:
         inside[first:last] = True
     leads = whole.numbers[~inside].tolist()
     if leads:
-        cut = judge(unlapped(whole), stretch.side, stretch.radius, center).gouges
+        cut = judge(without_repeats(whole), stretch.side, stretch.radius, center).gouges
         cut_leads = tuple(gouge for gouge in cut if gouge.surface_number in leads)
         results[0] = replace(results[0], leads=tuple(map(int, leads)), lead_gouges=cut_leads)
     return results
@@ -129,7 +129,7 @@ def _judged(run: Run, stretch: Stretch, whole: Path, contours: Sequence[Rows]) -
 
 def _contour(stretch: Stretch, contour: Path, center: Path, *, alone: bool) -> Judged:
     """The verdict on one contour with the whole center path: what runs along another one is on neither side of this."""
-    surface, lines = unlapped(contour), frozenset(contour.numbers.tolist())
+    surface, lines = without_repeats(contour), frozenset(contour.numbers.tolist())
     verdict = judge(surface, stretch.side, stretch.radius, center)
     if stretch.radius <= GOUGE or not alone:
         # a center on the contour itself is on neither side of it, whatever its leads cross; a later offset may not be 0
@@ -154,11 +154,18 @@ def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
     )
 
 
-def depth(results: tuple[Judged, ...]) -> tuple[float, int | None]:
+def deepest_gouge(results: tuple[Judged, ...]) -> tuple[float, int | None]:
     """The deepest gouge of a run in millimeters with its line; 0 and None if there is none, None for a line unknown."""
     gouges = [gouge for result in results for gouge in result.verdict.gouges]
     deepest = max(gouges, key=lambda gouge: gouge.depth, default=None)
     return (deepest.depth, _line(deepest.path_number)) if deepest else (0.0, None)
+
+
+def first_unjudged(results: tuple[Judged, ...]) -> tuple[bool, int | None]:
+    """Whether a contour of a run cannot be judged, and the line of the first one."""
+    result = next((result for result in results if not result.verdict.judged), None)
+    line = _line(result.center.numbers[0]) if result is not None and len(result.center) else None
+    return result is not None, line
 
 
 def _line(number: float) -> int | None:
@@ -170,8 +177,9 @@ def _cuts(result: Judged) -> list[Finding]:
     verdict = result.verdict
     if not verdict.judged:
         line = _line(result.center.numbers[0]) if len(result.center) else None
-        return [Finding("UNJUDGED", Severity.ERROR, "This path cannot be judged: its numbers are none.", line=line)]
-    found = [_gouge(gouge, verdict.radius) for gouge in verdict.gouges[:MOST_GOUGES]]
+        text = "Not judged: a coordinate or the tool radius is too large, or the radii of an arc differ."
+        return [Finding("UNJUDGED", Severity.ERROR, text, line=line)]
+    found = [_gouge(gouge, verdict.radius) for gouge in verdict.gouges[:MAX_GOUGES]]
     left = len(verdict.gouges) - len(found)
     if left:
         found.append(Finding("GOUGE", Severity.ERROR, f"There are {left} more gouges, none of them deeper."))
@@ -202,9 +210,9 @@ def _way(result: Judged, gouged: set[float]) -> list[Finding]:
         return []
     first, last = int(min(result.way)), int(max(result.way))
     text = (
-        f"Lines {first} to {last}, more than {MOST_LEAD} moves beside a closed contour, are taken for a contour of "
-        "their own, and what the cutter cuts into them for a gouge; if they only lead from one contour to another, "
-        f"cancel the compensation before them, or lead there in {MOST_LEAD} moves."
+        f"Lines {first} to {last}, more than {MAX_LEAD_MOVES} moves beside a closed contour, are taken for a contour "
+        "of their own, and what the cutter cuts into them for a gouge; if they only lead from one contour to another, "
+        f"cancel the compensation before them, or lead there in {MAX_LEAD_MOVES} moves."
     )
     return [Finding("WAY", Severity.WARNING, text, line=first)]
 

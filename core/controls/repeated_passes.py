@@ -1,7 +1,7 @@
-"""Laps: a path without the whole laps that it repeats, piece by piece, one right behind the other.
+"""Repeated passes: a path without the whole passes that it repeats piece by piece, directly after one another.
 
-What a path does to a surface, and what of the surface is in the way of a path, is a matter of the places they cover,
-not of how often: each piece left out lies where a piece that is kept does.  Forty depths of one ring are judged as one.
+What a path does to a surface, and what of the surface a path meets, depends on the places they cover, not on how often:
+each piece left out lies where a piece that is kept does.  Forty depths of one ring are judged as one.
 """
 
 from __future__ import annotations
@@ -16,42 +16,42 @@ from core.tolerance import GOUGE, LARGEST, ON_PATH
 
 Rows = NDArray[np.intp]
 
-SWEPT: Final = 3
-"""Decimals of a radian to which arcs of the same two ends are told apart: a full circle from an arc of no length."""
+SWEEP_DECIMALS: Final = 3
+"""Decimals of a radian to which arcs between the same ends differ: a full circle and an arc of no length do."""
 
-SELDOM: Final = 4
-"""A period is tried when at least one in so many pieces of its lap was last seen a period before."""
+MIN_SHARE: Final = 4
+"""A period is tried when at least one in so many pieces of its pass was last seen a period before."""
 
 
-def unlapped(path: Path) -> Path:
-    """The path without repeated laps: the first of them stays with its numbers, in the path's order.
+def without_repeats(path: Path) -> Path:
+    """The path without repeated passes: the first of them stays with its numbers, in the path's order.
 
-    A lap is as many pieces as the whole path keeps repeating with the same ends, centers and turns to ON_PATH, since
+    A pass is as many pieces as the whole path keeps repeating with the same ends, centers and turns to ON_PATH, since
     the sums of incremental programs differ in the last digit.  One that differs in a single piece stays.  The same
     path is returned when nothing is repeated, or when it has coordinates that no machine could have.
     """
-    if len(path) < 2 or not all(bool(np.abs(one).max() <= LARGEST) for one in (path.points, path.centers)):
+    if len(path) < 2 or not all(bool(np.abs(array).max() <= LARGEST) for array in (path.points, path.centers)):
         return path
-    names, rows = _names(path), np.arange(len(path))
-    while len(rows) > len(kept := _once(path, names, rows)):
+    names, rows = _piece_names(path), np.arange(len(path))
+    while len(rows) > len(kept := _without_periods(path, names, rows)):
         rows = kept
-    return path if len(rows) == len(path) else _of(path, rows)
+    return path if len(rows) == len(path) else _rows_of(path, rows)
 
 
-def _of(path: Path, rows: Rows) -> Path:
+def _rows_of(path: Path, rows: Rows) -> Path:
     """These pieces, joined: a start is where the piece before ends, which may move it by rounding."""
     points, turns = np.concatenate((path.points[:1], path.ends[rows])), path.turns[rows]
     centers = np.where(turns[:, None] == 0, points[:-1], path.centers[rows])
     return Path.of(points, centers, turns, path.numbers[rows])
 
 
-def _names(path: Path) -> Rows:
+def _piece_names(path: Path) -> Rows:
     """(n,) the same number for pieces that are one piece to ON_PATH."""
     places, at = _alike(path.points)
     if len(at) - places < 2:
         # a piece that comes again brings both its ends again
         return np.arange(len(path))
-    swept = np.round(path.sweeps, SWEPT)
+    swept = np.round(path.sweeps, SWEEP_DECIMALS)
     columns = (at[:-1], at[1:], _alike(path.centers)[1], path.turns, swept)
     order = np.lexsort(columns)
     new = np.zeros(len(path), np.bool_)
@@ -69,7 +69,7 @@ def _alike(points: NDArray[np.float64]) -> tuple[int, Rows]:
     return len(places), at.reshape(-1)
 
 
-def _once(path: Path, names: Rows, rows: Rows) -> Rows:
+def _without_periods(path: Path, names: Rows, rows: Rows) -> Rows:
     """The rows left of `rows` when each period that they have is cut once, the shortest first."""
     for period in _periods(names[rows]):
         rows = _cut(path, names, rows, period)
@@ -77,22 +77,22 @@ def _once(path: Path, names: Rows, rows: Rows) -> Rows:
 
 
 def _periods(names: Rows) -> list[int]:
-    """How many pieces ago pieces were last seen, rising; those that cannot be a lap's length left out."""
+    """How many pieces ago pieces were last seen, rising; those that cannot be a pass's length left out."""
     order = np.argsort(names, kind="stable")
     same = names[order[1:]] == names[order[:-1]]
     ago, counts = np.unique((order[1:] - order[:-1])[same], return_counts=True)
-    periods: list[int] = ago[SELDOM * counts >= ago].tolist()
+    periods: list[int] = ago[MIN_SHARE * counts >= ago].tolist()
     return periods
 
 
 def _cut(path: Path, names: Rows, rows: Rows, period: int) -> Rows:
-    """Rows without the whole laps of this many pieces that are the same as the pieces a lap before them.
+    """Rows without the whole passes of this many pieces that are the same as the pieces a pass before them.
 
     A run of pieces that are all named as the piece a period before, at least a period long, is closed: it ends with
-    the piece before it, and so where it begins.  What is over of a last lap that is not whole stays.
+    the piece before it, and so where it begins.  What remains of a last pass that is not whole stays.
     """
-    own, again = names[rows], np.zeros(len(rows) + 2, np.bool_)
-    again[period + 1 : -1] = own[period:] == own[:-period]
+    named, again = names[rows], np.zeros(len(rows) + 2, np.bool_)
+    again[period + 1 : -1] = named[period:] == named[:-period]
     edges = np.flatnonzero(again[1:] != again[:-1])
     first, whole = edges[::2], (edges[1::2] - edges[::2]) // period * period
     keep = np.ones(len(rows), np.bool_)
@@ -102,13 +102,13 @@ def _cut(path: Path, names: Rows, rows: Rows, period: int) -> Rows:
     return rows[keep]
 
 
-def _joins(path: Path, rows: Rows, begin: int, behind: int) -> bool:
-    """Whether the piece `behind` starts where the one before `begin` ends; it is not moved if that could bend it.
+def _joins(path: Path, rows: Rows, begin: int, after: int) -> bool:
+    """Whether the piece `after` starts where the one before `begin` ends; it is not moved if that could bend it.
 
     An arc is a full circle only where its two points are the same to the last digit.
     """
-    if behind == len(rows):
+    if after == len(rows):
         return bool(np.abs(path.points[-1] - path.ends[rows[begin - 1]]).max() <= 2.0 * ON_PATH)
-    start, end = path.points[rows[behind]], path.ends[rows[behind]]
+    start, end = path.points[rows[after]], path.ends[rows[after]]
     moved = np.abs(start - path.ends[rows[begin - 1]]).max()
     return bool(moved == 0.0 or (moved <= 2.0 * ON_PATH and np.abs(end - start).max() > GOUGE))

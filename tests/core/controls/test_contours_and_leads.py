@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core.controls.compared_controls import compare
-from core.controls.contours_and_leads import chains, contour_of, ways
+from core.controls.contours_and_leads import contour_of, contours_of, open_contours
 from core.controls.judged_runs import findings, judged
 from core.finding import Finding, Severity
 from core.geometry.path import Path
@@ -28,37 +28,37 @@ OTHER = ((10, 0), (12, 0), (12, 2), (10, 2), (10, 0))
 
 def test_one_or_two_pieces_beside_a_closed_contour_are_leads() -> None:
     path = lines_through((-1, -1), *RING, (-1, 1), (-2, 1))
-    assert chains(path) == ((1, 4),)
+    assert contours_of(path) == ((1, 4),)
     assert contour_of(path) == (1, 4)
     assert contour_of(path.part(0, 2)) == (0, 2)
 
 
 def test_more_pieces_beside_a_closed_contour_are_a_contour() -> None:
     path = lines_through(*RING, (-1, 1), (-2, 1), (-2, 4))
-    assert chains(path) == ((0, 3), (3, 6))
+    assert contours_of(path) == ((0, 3), (3, 6))
     assert contour_of(path) == (0, 6)
 
 
 def test_two_closed_contours_and_the_way_between_them() -> None:
-    assert chains(lines_through(*RING, *OTHER)) == ((0, 3), (4, 8))
-    assert chains(lines_through(*OTHER, (5, 5), (4, 5), *RING, (-1, -1))) == ((0, 4), (4, 7), (7, 10))
+    assert contours_of(lines_through(*RING, *OTHER)) == ((0, 3), (4, 8))
+    assert contours_of(lines_through(*OTHER, (5, 5), (4, 5), *RING, (-1, -1))) == ((0, 4), (4, 7), (7, 10))
 
 
 def test_a_line_forth_and_back_is_no_contour_of_its_own() -> None:
-    assert chains(lines_through(*OTHER, (5, 5), (6, 6), (5, 5))) == ((0, 4), (4, 7))
+    assert contours_of(lines_through(*OTHER, (5, 5), (6, 6), (5, 5))) == ((0, 4), (4, 7))
 
 
 def test_a_full_circle_beside_a_longer_contour_is_a_contour() -> None:
     points = np.array([*OTHER, (14, 0), (14, 0)], np.float64)
     centers, turns = points[:-1].copy(), np.zeros(6, np.int8)
     turns[5], centers[5] = 1, (15, 0)
-    assert chains(Path.of(points, centers, turns, np.arange(1.0, 7.0))) == ((0, 4), (5, 6))
+    assert contours_of(Path.of(points, centers, turns, np.arange(1.0, 7.0))) == ((0, 4), (5, 6))
 
 
 def test_among_very_many_contours_no_leads_are_told() -> None:
     corners = [(x + 4 * row, y) for row in range(40) for x, y in RING]
     path = lines_through(*corners)
-    assert chains(path) == ((0, len(path)),)
+    assert contours_of(path) == ((0, len(path)),)
 
 
 KEY = "X-70. Y-50.\nY-20.\nX-62.\nY-30.\nX-67.\nY-40.\nX-48.\nY-30.\nX-58.\nY-20.\nX-45.\nY-50.\nX-70."
@@ -142,9 +142,9 @@ def test_of_a_long_way_that_is_not_gouged_nothing_is_said(control: str, ring: st
 
 def test_of_contours_that_are_closed_or_alone_none_is_a_way() -> None:
     closed = lines_through(*RING, *OTHER, (5, 5), (4, 5), (3, 5), (-1, -1))
-    assert ways(closed, chains(closed)) == {(8, 12): {9.0, 10.0, 11.0, 12.0}}
+    assert open_contours(closed, contours_of(closed)) == {(8, 12): {9.0, 10.0, 11.0, 12.0}}
     alone = lines_through((0, 0), (1, 0), (1, 1), (5, 5))
-    assert not ways(alone, chains(alone))
+    assert not open_contours(alone, contours_of(alone))
     corners, circle = OPEN_KEY.format(circle=""), OPEN_KEY.format(circle="G2 X100. Y20. I0. J-20.\nG1 ")
     told = [findings(judged(ran(program, "linuxcnc", t1=6))) for program in (corners, circle)]
     assert [sum(one.code == "WAY" for one in found) for found in told] == [0, 1]

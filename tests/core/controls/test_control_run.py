@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core.controls.control_run import MOST, AlarmError, Log
+from core.controls.control_run import MAX_FINDINGS_OF_A_RULE, AlarmError, Log
 from core.finding import Severity
 
 
@@ -17,10 +17,10 @@ def test_a_rule_is_told_once_for_a_line() -> None:
 
 def test_a_rule_that_is_broken_everywhere_is_counted() -> None:
     log = Log()
-    for line in range(1, MOST + 51):
+    for line in range(1, MAX_FINDINGS_OF_A_RULE + 51):
         log.tell(Severity.WARNING, "A", "Text.", line, 1)
     told = log.closed()
-    assert len(told) == MOST + 1
+    assert len(told) == MAX_FINDINGS_OF_A_RULE + 1
     assert "50 more" in told[-1].text
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from core.controls.compared_controls import Compared, OtherLanguage, compare, parting
 from core.controls.control_tools import ToolTable
-from core.controls.judged_runs import depth, findings, judged
+from core.controls.judged_runs import deepest_gouge, findings, judged
 from core.controls.registry import compared, names, reads, resolve
 from core.finding import Severity
 from core.geometry.path import Path
@@ -23,7 +23,7 @@ NOTCH = "G20 G17 F10\nG0 X-1 Y2\nG41 D1\nG1 X0 Y0\nX2\nY-.3\nX2.3\nY0\nX5\nG40\n
 def test_a_gouge_is_told_with_its_depth_and_lines() -> None:
     done = sample("threeblock-outside.nc", "threeblock", t1=0.6)
     results = judged(done)
-    cut, line = depth(results)
+    cut, line = deepest_gouge(results)
     assert (round(from_mm(cut, Unit.IN), 9), line) == (0.05, 5)
     (gouge,) = [finding for finding in findings(results) if finding.code == "GOUGE"]
     assert "surface of line 6 by 0.0500 at X" in sentence(gouge, Unit.IN)

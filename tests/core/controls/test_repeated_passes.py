@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.controls.control_run import Run
-from core.controls.judged_runs import depth, findings, judged
-from core.controls.repeated_passes import unlapped
+from core.controls.judged_runs import deepest_gouge, findings, judged
+from core.controls.repeated_passes import without_repeats
 from core.geometry.path import Path
 from core.geometry.piece import Side
 from core.geometry.piece_arrays import at
@@ -88,15 +88,15 @@ def test_a_gouge_in_the_seventh_lap_alone_is_told() -> None:
     laps = [lap] * 6 + [notched] + [lap] * 3
     even, cut = (judged(_ring("G1 Y0\n" + "\n".join(all_of), control="nine-series:b")) for all_of in ([lap] * 10, laps))
     seventh = range(6 + 6 * 4, 6 + 6 * 4 + 8)
-    assert depth(even)[0] < 0.1
-    assert depth(cut) == (6.0, seventh[2])
+    assert deepest_gouge(even)[0] < 0.1
+    assert deepest_gouge(cut) == (6.0, seventh[2])
     assert {gouge.surface_number for gouge in cut[0].verdict.gouges if gouge.depth == 6.0} == {7.0}
 
 
 def test_a_lap_that_differs_in_one_piece_stays() -> None:
     lap = [(0.0, 30.0), (40.0, 30.0), (40.0, 0.0), (0.0, 0.0)]
     other = [*lap[:1], (40.0, 29.0), *lap[2:]]
-    found = unlapped(_chain([(-5.0, 0.0), (0.0, 0.0), *lap * 6, *other, *lap * 5, (-5.0, 0.0)]))
+    found = without_repeats(_chain([(-5.0, 0.0), (0.0, 0.0), *lap * 6, *other, *lap * 5, (-5.0, 0.0)]))
     assert [40.0, 29.0] in found.points.tolist()
     assert found.numbers[:5].tolist() == [1.0, 2.0, 3.0, 4.0, 5.0]
     assert found.points[[0, -1]].tolist() == [[-5.0, 0.0], [-5.0, 0.0]]
@@ -106,29 +106,29 @@ def test_a_lap_that_differs_in_one_piece_stays() -> None:
 
 def test_what_goes_back_and_forth_or_on_is_no_lap() -> None:
     back = _chain([(0.0, 0.0), (9.0, 0.0), (0.0, 0.0)])
-    assert unlapped(back) is back
+    assert without_repeats(back) is back
     stairs = _chain([(float(step // 2), float((step + 1) // 2)) for step in range(40)])
-    assert unlapped(stairs) is stairs
+    assert without_repeats(stairs) is stairs
     # its two pieces come again two pieces later, but only one of them: no whole lap
     again = _chain([(0.0, 0.0), (9.0, 0.0), (0.0, 0.0), (9.0, 0.0), (9.0, 5.0)])
-    assert unlapped(again) is again
-    whole = unlapped(_chain([(0.0, 0.0), (9.0, 0.0), (0.0, 0.0), (9.0, 0.0), (0.0, 0.0), (0.0, 5.0)]))
+    assert without_repeats(again) is again
+    whole = without_repeats(_chain([(0.0, 0.0), (9.0, 0.0), (0.0, 0.0), (9.0, 0.0), (0.0, 0.0), (0.0, 5.0)]))
     assert whole.points.tolist() == [[0.0, 0.0], [9.0, 0.0], [0.0, 0.0], [0.0, 5.0]]
 
 
 def test_the_other_turn_and_the_other_center_are_other_pieces() -> None:
     both_ways = _chain([(0.0, 0.0)] * 3, [1, -1])
-    assert unlapped(both_ways) is both_ways
+    assert without_repeats(both_ways) is both_ways
     circles = _chain([(0.0, 0.0)] * 5, [1] * 4)
-    assert unlapped(circles).numbers.tolist() == [1.0]
+    assert without_repeats(circles).numbers.tolist() == [1.0]
     centers = circles.centers + np.arange(4.0)[:, None] * (1.0, 0.0)
     beside = Path.of(circles.points, centers, circles.turns)
-    assert unlapped(beside) is beside
+    assert without_repeats(beside) is beside
 
 
 def test_laps_within_laps_are_cut_too() -> None:
     inner, outer = [(1.0, 0.0), (1.0, 1.0), (0.0, 0.0)], [(0.0, 9.0), (0.0, 0.0)]
-    found = unlapped(_chain([(0.0, 0.0), *(inner * 5 + outer) * 6]))
+    found = without_repeats(_chain([(0.0, 0.0), *(inner * 5 + outer) * 6]))
     assert found.numbers.tolist() == [1.0, 2.0, 3.0, 16.0, 17.0]
 
 
@@ -136,7 +136,7 @@ def test_sums_that_differ_in_the_last_digit_are_one_lap_with_the_first_ones_numb
     steps = [(0.1, 0.2), *((x / 3.0, y / 7.0) for x, y in STEPS * 50)]
     points = np.vstack((np.cumsum(steps, axis=0), [(-5.0, 0.0)]))
     assert len(np.unique(points[:-1], axis=0)) > 4
-    found = unlapped(_chain([tuple(point) for point in points.tolist()]))
+    found = without_repeats(_chain([tuple(point) for point in points.tolist()]))
     assert found.numbers.tolist() == [1.0, 2.0, 3.0, 4.0, 201.0]
     assert np.array_equal(found.points[:5], points[:5])
     # a line has its own start for a center
@@ -149,7 +149,7 @@ def test_a_full_circle_is_never_bent_by_a_start_that_rounding_moved() -> None:
     near = [(0.0, 30.0), (40.0, 30.0), (ON_PATH / 10.0, 0.0)]
     corners = [(0.0, 0.0), *lap, *near, near[-1], (9.0, 9.0)]
     path = _chain(corners, [0] * 6 + [1] + [0])
-    found = unlapped(path)
+    found = without_repeats(path)
     assert np.abs(found.sweeps).max() == np.abs(path.sweeps).max() == 2.0 * np.pi
 
 
@@ -157,13 +157,13 @@ def test_an_arc_of_no_length_is_no_full_circle() -> None:
     points = [(0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (ON_PATH / 10.0, 0.0), (ON_PATH / 10.0, 0.0)]
     centers = np.full((4, 2), (2.0, 0.0))
     path = Path.of(np.array(points), centers, np.full(4, -1, np.int8))
-    assert np.abs(unlapped(path).sweeps).min() < 1e-6
+    assert np.abs(without_repeats(path).sweeps).min() < 1e-6
 
 
 def test_numbers_that_are_none_are_left_to_the_judge() -> None:
     for bad in (np.nan, np.inf, 1e300):
         path = _chain([(0.0, 0.0), (bad, 0.0), (0.0, 0.0), (bad, 0.0), (0.0, 0.0)])
-        assert unlapped(path) is path
+        assert without_repeats(path) is path
 
 
 corner = st.tuples(st.integers(0, 4), st.integers(0, 4)).map(lambda at: (4.0 * at[0], 4.0 * at[1]))
@@ -210,12 +210,12 @@ def test_the_verdict_is_that_on_all_the_laps(surface: Path, shape: Path, side: S
     moved = shape.points * 1.1 - 3.0
     center = Path.of(moved, shape.centers * 1.1 - 3.0, shape.turns)
     whole = judge(surface, side, radius, center)
-    once = judge(unlapped(surface), side, radius, unlapped(center))
+    once = judge(without_repeats(surface), side, radius, without_repeats(center))
     assert _told(once) == _told(whole)
-    assert _gouging(unlapped(surface), radius, unlapped(center)) == _gouging(surface, radius, center)
+    assert _gouging(without_repeats(surface), radius, without_repeats(center)) == _gouging(surface, radius, center)
     assert once.depth >= whole.depth - 1e-9
     assert once.depth <= whole.depth + 1e-9 or once.crosses_itself < whole.crosses_itself
     # of a surface that crosses itself laps decide how much of it is an over-run, which has no side
     assert once.wrong_side or once.crosses_itself or not whole.wrong_side
-    kept = {tuple(point) for point in unlapped(surface).points.tolist()}
+    kept = {tuple(point) for point in without_repeats(surface).points.tolist()}
     assert kept == {tuple(point) for point in surface.points.tolist()}
