@@ -359,24 +359,30 @@ def _report(tally: Tally, most: int) -> bool:
     """Print what was counted; returns whether anything differs that was not expected."""
     apart = [one for one in tally.different if _program(one[0].file) in tally.expected]
     different = [one for one in tally.different if _program(one[0].file) not in tally.expected]
-    for question, differences in different[:most]:
-        print(f"\ncutcomp {' '.join(question.arguments)}")
-        for text in differences[:4]:
-            print(f"    {text}")
-        if len(differences) > 4:
-            print(f"    and {len(differences) - 4} more")
+    _print_first(different, most)
     kinds = Counter(question.kind for question, _ in different)
     print()
     for kind, count in tally.asked.items():
         print(f"{kind:<10} {count:>6} answers, {kinds[kind]:>5} different")
     if tally.expected:
         programs = f"{len(tally.expected)} programs differ in expected findings"
-        print(f"{programs} ({_counts(tally.codes)}); {len(apart)} answers about them differ otherwise")
+        print(f"{programs} ({_counts(tally.codes)}); {len(apart)} answers about them differ otherwise:")
+        _print_first(apart, most)
     if tally.last_digits:
         print(f"{tally.last_digits} lines of NC text differ in a last digit by one, which counts as equal")
     if tally.new_keys:
         print(f"keys after only: {_counts(tally.new_keys)}")
     return bool(different)
+
+
+def _print_first(different: list[tuple[Question, list[str]]], most: int) -> None:
+    """The first differences, each with the command line that shows it."""
+    for question, differences in different[:most]:
+        print(f"\ncutcomp {' '.join(question.arguments)}")
+        for text in differences[:4]:
+            print(f"    {text}")
+        if len(differences) > 4:
+            print(f"    and {len(differences) - 4} more")
 
 
 def _counts(counter: Counter[str]) -> str:
