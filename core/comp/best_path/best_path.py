@@ -16,7 +16,7 @@ import numpy as np
 
 from core.comp.best_path.clearance import clear_slices
 from core.comp.best_path.raw_offset import RawOffset, raw_offset
-from core.comp.best_path.slices import self_intersections, sliced
+from core.comp.best_path.slices import sliced
 from core.comp.best_path.stitch import Stitched, chains, loop_of, stitch
 from core.comp.best_path.surface import Surface, crosses_itself, surface_of
 from core.comp.best_path.trim import trimmed
@@ -57,10 +57,11 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     untrimmed = raw_offset(surface.path, side, radius, closed=closed, crossing=crossing is not None)
     raw = trimmed(untrimmed, side.sign, radius)
     del untrimmed
-    met = self_intersections(raw, side.sign)
-    if met is None:
+    cut = sliced(raw, side.sign)
+    if cut is None:
         return BestPath((), (), (*findings, _tangled()))
-    made = stitch(raw, clear_slices(raw, sliced(raw, met), surface.path, radius), side.sign, radius)
+    cut = clear_slices(raw, cut, surface.path, radius)
+    made = stitch(raw, cut, side.sign, radius)
     return _best(raw, made, surface, findings)
 
 

@@ -53,7 +53,7 @@ class Intersections:
         return len(self.a)
 
 
-def self_intersections(raw: RawOffset, sign: int) -> Intersections | None:
+def _self_intersections(raw: RawOffset, sign: int) -> Intersections | None:
     """All meetings of side pieces with raw pieces but at their joints; None if there are too many to be a part's."""
     parts, pairs, count = [], 0, 0
     for i, j in _pairs(raw):
@@ -183,14 +183,13 @@ class _Strands(NamedTuple):
 
 
 class _Stations(NamedTuple):
-    """Every intersection on both its pieces, by piece and as traveled: piece, distance along it, its row, node, turn.
+    """Every intersection on both its pieces, by piece and as traveled: piece, distance along it, its node, its turn.
 
     `turn` is positive where the piece ends its clear stretch there, negative where it begins it.
     """
 
     piece: Rows
     along: Floats
-    row: Rows
     node: Rows
     turn: Floats
 
@@ -205,10 +204,15 @@ class _Stations(NamedTuple):
         return self.node[:-1][same], self.node[1:][same]
 
 
-def sliced(raw: RawOffset, met: Intersections) -> Slices:
-    """The side pieces cut at all intersections."""
+def sliced(raw: RawOffset, sign: int) -> Slices | None:
+    """The side pieces cut at all self-intersections; None if there are too many to be a part's."""
+    met = _self_intersections(raw, sign)
+    if met is None:
+        return None
     strands = _strands(raw)
+    points, outer = _nodes(raw, met, strands)
     stations = _stations(raw, met, strands.nodes)
+    del met
     twin, other = stations.of(~raw.side).twins()
     stations = stations.of(raw.side)
     head = np.arange(len(strands.heads)) + np.searchsorted(stations.piece, strands.heads)
@@ -221,10 +225,10 @@ def sliced(raw: RawOffset, met: Intersections) -> Slices:
     until, end, last = next_in_ring(piece), next_in_ring(begin), next_in_ring(first)
     until[tail], end[tail], last[tail] = strands.tails, raw.lengths[strands.tails], strands.ends
     dead, turning = _turns(stations, at - 1, _alone(raw, stations), count)
+    del stations, at
     dead[head] |= raw.blunt_start[strands.heads]
     dead[tail] |= raw.blunt_end[strands.tails]
     size = _sizes(raw, piece, begin, until, end)
-    points, outer = _nodes(raw, met, strands)
     cut = Slices(piece, until, begin, end, size, first, last, dead, turning, points, outer)
     whole = (raw.start[strands.heads] == raw.end[strands.tails]).nonzero()[0]
     return _welded(cut, np.concatenate((twin, whole)), np.concatenate((other, strands.ends[whole])))
@@ -248,11 +252,11 @@ def _strands(raw: RawOffset) -> _Strands:
 
 def _stations(raw: RawOffset, met: Intersections, nodes: int) -> _Stations:
     piece, along = np.concatenate((met.a, met.b)), np.concatenate((met.along_a, met.along_b))
-    row, turn = np.tile(np.arange(len(met)), 2), np.concatenate((met.turn, -met.turn))
+    node, turn = np.tile(nodes + np.arange(len(met)), 2), np.concatenate((met.turn, -met.turn))
     order = np.lexsort((along, piece))
-    piece, row = piece[order], row[order]
+    piece = piece[order]
     along = np.minimum(np.maximum(along[order], 0.0), raw.lengths[piece])
-    return _Stations(piece, along, row, nodes + row, turn[order])
+    return _Stations(piece, along, node[order], turn[order])
 
 
 def _sizes(raw: RawOffset, piece: Rows, begin: Floats, until: Rows, end: Floats) -> Floats:
@@ -282,9 +286,9 @@ def _turns(stations: _Stations, at: Rows, alone: Flags, count: int) -> tuple[Fla
     dead[at[ending] + 1] = True
     dead[at[beginning]] = True
     ending, beginning = ending & alone, beginning & alone
-    turn_to = np.full(int(stations.row.max(initial=-1)) + 1, -1)
-    turn_to[stations.row[beginning]] = at[beginning] + 1
-    turning[at[ending]] = turn_to[stations.row[ending]]
+    turn_to = np.full(int(stations.node.max(initial=-1)) + 1, -1)
+    turn_to[stations.node[beginning]] = at[beginning] + 1
+    turning[at[ending]] = turn_to[stations.node[ending]]
     return dead, turning
 
 
