@@ -66,6 +66,9 @@ PICTURES: Final = (
     Picture("bone-control", "CAL 8: the neck is too narrow", (1.0, 0.0), BONE),
     Picture("bone-best", "The best path: two loops", (1.0, 0.0), BONE, path=PathChoice.BEST),
     Picture(
+        "dead-slices", "A notch passed on its corners", (0.0, 0.0), NOTCH, path=PathChoice.BEST, room="comp/best_path"
+    ),
+    Picture(
         "uncut", "Corners the cutter does not reach", (1.0, 0.0), (*SQUARE, (1.0, 0.0)), diameter=1.2, room="verify"
     ),
 )
@@ -102,7 +105,7 @@ def main() -> None:
     """Write every picture."""
     argparse.ArgumentParser("tests.docpictures", description=__doc__).parse_args()
     for file, text in drawn():
-        file.parent.mkdir(exist_ok=True)
+        file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8")
         print(file.relative_to(CORE))
 

@@ -30,6 +30,7 @@ def _work(name: str) -> Work:
         ("long-way", False),
         ("bone-control", True),
         ("bone-best", True),
+        ("dead-slices", True),
         ("uncut", True),
     ],
 )
