@@ -61,6 +61,10 @@ SPELLINGS: Final = (
     ("travelled", "traveled"),
     ("grey", "gray"),
 )
+NUMBERED: Final = re.compile(r"^\d+ (?=\D)")
+FINDING: Final = re.compile(r"^[(;] ?(?:overridden [a-z_]+:|note [a-z_]+)")
+REMARK: Final = re.compile(r"^[(;] ?(?:g64|safe z|that is|block|pass)")
+"""A comment that does not go on with the sentence of a finding before it."""
 NUMBER: Final = re.compile(r"[-+]?\d*\.\d+|[-+]?\d+\.?")
 
 
@@ -266,7 +270,7 @@ class Comparison:
 
     def texts(self, old: str, new: str) -> Iterator[str]:
         """NC texts, line by line; a number that is one off in its last digit is counted apart."""
-        lines = folded(old).splitlines(), folded(new).splitlines()
+        lines = compared_lines(old), compared_lines(new)
         if len(lines[0]) != len(lines[1]):
             yield f"{len(lines[0])} lines before, {len(lines[1])} after"
         for number, (one, other) in enumerate(zip(*lines, strict=False), 1):
@@ -275,7 +279,7 @@ class Comparison:
             if _nearly(one, other):
                 self.tally.last_digits += 1
                 continue
-            yield f"line {number}: {one!r} before, {other!r} after"
+            yield f"compared line {number}: {one!r} before, {other!r} after"
 
     def documents(self, old: Any, new: Any, place: str = "") -> Iterator[str]:
         """JSON answers; `place` is the way to what differs."""
@@ -341,13 +345,27 @@ def folded(text: str) -> str:
     return text
 
 
+def compared_lines(text: str) -> list[str]:
+    """Lines of an NC text: of findings in its comments the code alone, of Klartext lines no numbers."""
+    lines: list[str] = []
+    in_finding = False
+    for line in (NUMBERED.sub("", line) for line in folded(text).splitlines()):
+        if found := FINDING.match(line):
+            lines.append(found[0])
+            in_finding = True
+        elif not in_finding or not line.startswith(("(", ";")) or REMARK.match(line):
+            lines.append(line)
+            in_finding = False
+    return lines
+
+
 def _nearly(one: str, other: str) -> bool:
     """Whether two lines differ in the last digits of numbers alone, by one."""
     if NUMBER.split(one) != NUMBER.split(other):
         return False
     for pair in zip(NUMBER.findall(one), NUMBER.findall(other), strict=True):
         decimals = max(len(text.partition(".")[2]) for text in pair)
-        if abs(float(pair[0]) - float(pair[1])) > 1.01 * 10.0**-decimals or not decimals:
+        if pair[0] != pair[1] and (not decimals or abs(float(pair[0]) - float(pair[1])) > 1.01 * 10.0**-decimals):
             return False
     return True
 
