@@ -61,7 +61,7 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     if cut is None:
         return BestPath((), (), (*findings, _tangled()))
     cut = clear_slices(raw, cut, surface.path, radius)
-    made = stitch(raw, cut, side.sign, radius)
+    made = stitch(raw, cut, side.sign, surface.path, radius)
     return _best(raw, made, surface, findings)
 
 

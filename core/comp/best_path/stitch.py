@@ -13,7 +13,7 @@ from math import sqrt
 
 import numpy as np
 
-from core.comp.best_path.clearance import point_boxes
+from core.comp.best_path.clearance import clear, point_boxes
 from core.comp.best_path.raw_offset import RawOffset, lengths
 from core.comp.best_path.slices import Slices
 from core.geometry.nearby import gathered, near_pairs
@@ -22,6 +22,9 @@ from core.tolerance import CLEAR, CROWDED, GOUGE, JOINED, WHISKER
 
 _ROUNDS = 32
 """How often slices are taken away that lead nowhere; near-tangent joints leave one or two in a row."""
+
+_CUT_BACKS = 4
+"""How often the ends of a bridge move away from each other, each time by its length."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -48,7 +51,7 @@ def bridge_limit(radius: float) -> float:
     return min(WHISKER, sqrt(8.0 * radius * CLEAR))
 
 
-def stitch(raw: RawOffset, cut: Slices, sign: int, radius: float) -> Stitched:
+def stitch(raw: RawOffset, cut: Slices, sign: int, surface: Path, radius: float) -> Stitched:
     """Each clear slice with the one that follows it."""
     cut = _without_dead_ends(_without_doubles(raw, cut))
     for _ in range(_ROUNDS):
@@ -62,7 +65,7 @@ def stitch(raw: RawOffset, cut: Slices, sign: int, radius: float) -> Stitched:
         if not whisker.any():
             break
         cut = cut.take((~whisker).nonzero()[0])
-    return Stitched(_without_overlaps(raw, cut, following, bridge_limit(radius)), following, end, begin)
+    return Stitched(_without_overlaps(raw, cut, following, surface, radius), following, end, begin)
 
 
 def _not_followed_onto(following: Rows) -> Flags:
@@ -132,8 +135,11 @@ def _bridge(cut: Slices, following: Rows, limit: float) -> None:
     _pair_up(following, ends[i], begins[j], np.abs(end[i] - begin[j]))
 
 
-def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, limit: float) -> Slices:
-    """The slices with those that a bridge joins cut off abreast of each other, where they run on past each other."""
+def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, surface: Path, radius: float) -> Slices:
+    """The slices with those that a bridge joins cut off abreast of each other, where they run on past each other.
+
+    What is still inside a wall at its very end is cut back until it is clear.
+    """
     rows = (following >= 0).nonzero()[0]
     rows = rows[np.abs(cut.points[cut.last[rows]] - cut.points[cut.first[following[rows]]]) > JOINED]
     if not len(rows):
@@ -141,15 +147,27 @@ def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, limit: float
     behind = following[rows]
     begin, end, first, last = cut.begin.copy(), cut.end.copy(), cut.first.copy(), cut.last.copy()
     piece, until, nodes = cut.piece[behind], cut.until[rows], len(cut.points) + np.arange(len(rows))
-    room = np.minimum(limit, cut.size / 2.0)
+    room = np.minimum(bridge_limit(radius), cut.size / 2.0)
+    low = np.where(cut.piece[rows] == until, begin[rows], 0.0)
+    high = np.where(cut.until[behind] == piece, end[behind], raw.lengths[piece])
     over = raw.along(piece, cut.points[last[rows]]) - begin[behind]
     over[(over < 0.0) | (over > room[behind])] = 0.0
     begin[behind] += over
-    starts = np.where(over > 0.0, raw.at(piece, begin[behind]), cut.points[first[behind]])
+    whole = begin[behind] == cut.begin[behind]
+    starts = np.where(whole, cut.points[first[behind]], raw.at(piece, begin[behind]))
     over = end[rows] - raw.along(until, starts)
     over[(over < 0.0) | (over > room[rows])] = 0.0
     end[rows] -= over
     stops = np.where(over > 0.0, raw.at(until, end[rows]), cut.points[last[rows]])
+    for _ in range(_CUT_BACKS):
+        spots, segments = np.append(stops, starts), raw.segment[np.append(until, piece)]
+        blocked, gaps = ~clear(spots, segments, surface, radius), np.abs(stops - starts)
+        if not blocked.any():
+            break
+        end[rows] -= np.where(blocked[: len(rows)], np.minimum(gaps, (end[rows] - low) / 2.0), 0.0)
+        begin[behind] += np.where(blocked[len(rows) :], np.minimum(gaps, (high - begin[behind]) / 2.0), 0.0)
+        stops = np.where(blocked[: len(rows)], raw.at(until, end[rows]), stops)
+        starts = np.where(blocked[len(rows) :], raw.at(piece, begin[behind]), starts)
     last[rows], first[behind] = nodes, nodes + len(rows)
     points, outer = np.concatenate((cut.points, stops, starts)), np.append(cut.outer, np.zeros(2 * len(rows), np.bool_))
     return replace(cut, begin=begin, end=end, first=first, last=last, points=points, outer=outer)

@@ -97,7 +97,8 @@ def _filleted(rng: Generator, *, mixed: bool) -> list[Piece]:
         bend = phase(behind / before)
         room = 0.499 * min(abs(before), abs(behind)) / max(abs(tan(bend / 2.0)), 1e-6)
         size = min(float(rng.choice([3.0, 5.0, 8.0, rng.uniform(0.5, 20.0), room])), room, 500.0)
-        if mixed and rng.random() < 0.4:
+        if (mixed and rng.random() < 0.4) or size * abs(bend) < 0.05:
+            # rounding may turn a shorter arc into a full circle
             pieces.append(_line(at, corner))
             at = corner
             continue
@@ -163,5 +164,5 @@ def _slots(rng: Generator) -> Drawing:
     turned = exp(1j * float(rng.uniform(0.0, tau)))
     path = Path.from_pieces(pieces)
     points, centers = ((values[:, 0] + 1j * values[:, 1]) * turned for values in (path.points, path.centers))
-    columns = (np.stack((places.real, places.imag), axis=1) for places in (points, centers))
-    return Drawing(Path.of(*columns, path.turns), Side.LEFT, radius)
+    rows, middles = (np.stack((places.real, places.imag), axis=1) for places in (points, centers))
+    return Drawing(Path.of(rows, middles, path.turns), Side.LEFT, radius)
