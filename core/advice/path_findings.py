@@ -16,12 +16,11 @@ from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, next_in_ring
 from core.geometry.piece import Point
 from core.tolerance import GOUGE
+from core.verify.contact import AirCut, air_cuts
 from core.verify.names import Names, move_name
-from core.verify.nearest import Nearest, nearest
+from core.verify.report import contact_findings
 from core.verify.report import findings as verdict_findings
-from core.verify.report import stray_findings
-from core.verify.stray import Away, Stray, stray
-from core.verify.verdict import Gouge, Verdict
+from core.verify.verdict import Approach, Gouge, Verdict
 
 _ORDER: Final = {severity: place for place, severity in enumerate(Severity)}
 
@@ -45,7 +44,7 @@ def path_findings(work: Work) -> tuple[Finding, ...]:
     return (
         *(work.compensated if work.best is None else work.best).findings,
         *verdict_findings(work.verdict, work.surface, move_names(work)),
-        *stray_findings(strayed(work, work.verdict)),
+        *contact_findings(tuple(_air_cuts(work, work.verdict)), work.verdict.backwards),
         *blend_findings(work.loops, work.verdict.gouges, work.verdict.wrong_side),
         *rough_findings(work.rough, work.compensated if work.best is None else None),
     )
@@ -69,15 +68,11 @@ def _rows(loops: Sequence[Loop]) -> Iterator[tuple[Loop, _Rows]]:
         first = rows.end
 
 
-def strayed(work: Work, verdict: Verdict) -> Stray:
-    """Where the paths without their blends leave the surface by more than the radius, and what runs backwards."""
-    away: list[Away] = []
-    against: list[int] = []
+def _air_cuts(work: Work, verdict: Verdict) -> Iterator[AirCut]:
+    """Where the paths without their blends leave the surface by more than the radius."""
     for loop, rows in _rows(work.loops):
         if any(rows.path <= row < rows.lead_out for row in verdict.loose):
-            away += stray(work.surface, verdict.radius, loop.path).away
-        against += [row for row in verdict.backwards if rows.lead_in <= row < rows.end]
-    return Stray(tuple(away), tuple(against))
+            yield from air_cuts(work.surface, verdict.radius, loop.path)
 
 
 def move_names(work: Work) -> Names:
@@ -191,11 +186,9 @@ def _largest_step(steps: Sequence[ZStep], way: str) -> tuple[Finding, ...]:
     return (Finding("Z_STEP", Severity.WARNING, text, number, "z_end", at, abs(rise)),)
 
 
-def nearest_place(work: Work | None) -> Nearest | None:
+def nearest_place(work: Work | None) -> Approach | None:
     """Where the posted path comes nearest to the surface."""
-    if work is None or work.verdict is None:
-        return None
-    return nearest(work.surface, [loop.whole for loop in work.loops], work.verdict.clearance)
+    return None if work is None or work.verdict is None else work.verdict.closest
 
 
 def nearest_finding(work: Work | None, radius: float | None) -> Finding | None:

@@ -15,9 +15,9 @@ from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
 from core.geometry.path import Path, joined
 from core.tolerance import GOUGE
+from core.verify.contact import AirCut, air_cuts
 from core.verify.judge import judge
-from core.verify.report import or_more, stray_findings
-from core.verify.stray import Away, Stray, stray
+from core.verify.report import contact_findings, or_more
 from core.verify.verdict import Gouge, Verdict
 
 MAX_GOUGES: Final = 20
@@ -237,16 +237,16 @@ def _strays(result: Judged) -> list[Finding]:
     """Moves between the leads that leave the surface by more than the radius, or run against it."""
     numbers, lines = result.center.numbers, result.lines
     against = tuple(row for row in result.verdict.backwards if numbers[row] in lines)
-    away: tuple[Away, ...] = ()
+    away: tuple[AirCut, ...] = ()
     if any(numbers[row] in lines for row in result.verdict.loose):
-        found = stray(result.surface, result.stretch.radius, result.center).away
+        found = air_cuts(result.surface, result.stretch.radius, result.center)
         away = tuple(one for one in found if _between_leads(one, result.center, lines))
-    told = stray_findings(Stray(away, against))
+    told = contact_findings(away, against)
     begun = [*(int(numbers[row]) for row in against[:1]), *(int(one.first_number) for one in away)]
     return [replace(finding, segment=None, line=line) for finding, line in zip(told, begun, strict=True)]
 
 
-def _between_leads(away: Away, center: Path, lines: frozenset[float]) -> bool:
+def _between_leads(away: AirCut, center: Path, lines: frozenset[float]) -> bool:
     """Leads are at a path's two ends, or have lines of their own."""
     ends = {tuple(center.points[0].tolist()), tuple(center.points[-1].tolist())}
     return {away.first_number, away.last_number} <= lines and not ends & {away.start, away.end}

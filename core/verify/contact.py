@@ -1,81 +1,122 @@
-"""Contact: which pieces of a center path keep to the surface, and which of them run against it."""
+"""Contact: where a center path keeps to the surface, where it runs against it and where it cuts air.
+
+Neither is a gouge.  Lead moves always cut air; in a path read from elsewhere a stretch in the air that is no lead move,
+or a piece traveled backwards, is a mistake worth seeing.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from math import isinf
 from typing import Final
 
 import numpy as np
 
 from core.geometry.distance import foot
-from core.geometry.path import Flags, Rows
-from core.geometry.piece_arrays import at, direction
-from core.tolerance import ON_PATH
-from core.verify.pairs import Pairs
-from core.verify.touch import POINT
+from core.geometry.path import Flags, Path, Rows
+from core.geometry.piece import Point
+from core.geometry.piece_arrays import at, direction, piece_arrays
+from core.tolerance import ON_PATH, STOCK
+from core.verify.pairs import Pairs, along, keeping, measurable, pairs_of, rounding_of
+from core.verify.uncut import POINT, gaps_of
 
 PARALLEL: Final = 1e-6
 """Sine of the angle up to which a move and the wall it touches run the same way."""
 
 
-def loose(pairs: Pairs) -> tuple[int, ...]:
+@dataclass(frozen=True, slots=True)
+class AirCut:
+    """A stretch of the path farther from the surface than the radius: numbers and places of its ends, its length.
+
+    `beyond` is how much farther than the radius it gets, at `farthest`.
+    """
+
+    first_number: float
+    last_number: float
+    start: Point
+    end: Point
+    length: float
+    beyond: float
+    farthest: Point
+
+
+def loose(pairs: Pairs, radius: float) -> tuple[int, ...]:
     """Rows of pieces that no single surface piece is a radius or less from at both ends and in the middle."""
-    held = pairs.own.settled(len(pairs.center))
-    held[pairs.i[pairs.touch.along]] = True
-    return tuple(pairs.center.rows[~held].tolist())
+    held = np.zeros(len(pairs.pieces), np.bool_)
+    held[pairs.i[keeping(pairs, radius)]] = True
+    return tuple(pairs.pieces.rows[~held].tolist())
+
+
+def air_cuts(surface: Path, radius: float, center: Path) -> tuple[AirCut, ...]:
+    """Where `center` leaves the surface by more than the radius (millimeters), in its order.
+
+    Nothing is known of a path that cannot be judged.
+    """
+    if not (len(surface) and len(center) and measurable(radius, surface, center)):
+        return ()
+    with np.errstate(all="ignore"):
+        walls, moves = piece_arrays(surface), piece_arrays(center)
+        if isinf(float(walls.slack.max() + moves.slack.max())):
+            return ()
+        return _air_cuts(pairs_of(moves, walls, rounding_of(walls)), radius, center)
+
+
+def _air_cuts(pairs: Pairs, radius: float, center: Path) -> tuple[AirCut, ...]:
+    """The path is to the surface what the surface is to the path: what does not reach it cuts air."""
+    whole = np.zeros(len(pairs.pieces), np.bool_)
+    whole[pairs.i[along(pairs, radius + pairs.grant)]] = True
+    gaps = gaps_of(pairs, whole, radius)
+    beyond, numbers = gaps.apart - radius, center.numbers[pairs.pieces.rows[gaps.pieces]]
+    columns = (*numbers, *gaps.ends, gaps.stretches.last - gaps.stretches.first, beyond, gaps.farthest)
+    return tuple(
+        AirCut(first, last, _point(start), _point(end), length, off, _point(farthest))
+        for first, last, start, end, length, off, farthest in zip(*(column.tolist() for column in columns), strict=True)
+        if off > STOCK
+    )
+
+
+def _point(place: complex) -> Point:
+    return place.real, place.imag
 
 
 def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     """Rows of pieces that touch walls along more than a point, all of them against the walls' direction."""
-    touch, own = pairs.touch, pairs.own
-    wide = (touch.last - touch.first) * pairs.surface.length.take(pairs.j) > POINT
-    way = np.zeros(len(pairs.i), np.intp)
-    known = wide & ~touch.unsure
-    if touch.unsure.any():
-        known[_about_one_center(pairs, (wide & touch.unsure).nonzero()[0], radius)] = True
-        # twice what is granted there, since the distance of the middle is measured anew
-        held = np.abs(touch.middle - radius) <= 2.0 * (pairs.grant + ON_PATH)
-        unsure = (touch.unsure & held & ~known).nonzero()[0]
-        if len(unsure):
-            way[unsure] = _way_in_the_middle(pairs, unsure, radius)
-    sure = known.nonzero()[0]
-    way[sure] = _way(pairs, sure)
-    against = np.zeros(len(pairs.center), np.bool_)
-    against[pairs.i[way < 0]] = True
-    if not against.any():
-        return ()
-    against[pairs.i[way > 0]] = False
-    against[own.piece[(own.last - own.first) * pairs.surface.length[: len(own.piece)] > POINT]] = False
-    return tuple(pairs.center.rows[against].tolist())
+    touching = (pairs.least <= radius + pairs.grant).nonzero()[0]
+    way = _way(pairs.keep(touching), radius)
+    against = np.zeros(len(pairs.pieces), np.bool_)
+    against[pairs.i[touching[way < 0]]] = True
+    against[pairs.i[touching[way > 0]]] = False
+    return tuple(pairs.pieces.rows[against].tolist())
 
 
-def _about_one_center(pairs: Pairs, wide: Rows, radius: float) -> Rows:
-    """Those of these pairs, of more than a point beside each other, that are arcs about one center, a radius apart:
-    they run one way or the other wherever they do."""
-    arcs = (pairs.center.turn[pairs.i[wide]] * pairs.surface.turn[pairs.j[wide]]).nonzero()[0]
-    if not len(arcs):
-        return arcs
-    both = wide[arcs]
-    piece, other = pairs.center.take(pairs.i[both]), pairs.surface.take(pairs.j[both])
-    off = np.abs(piece.center - other.center) + np.abs(np.abs(piece.radius - other.radius) - radius)
-    return both[off <= pairs.grant[both]]
-
-
-def _way(pairs: Pairs, chosen: Rows) -> Rows:
-    """+1 where both pieces, parallel or about one center, run the same way, else -1."""
-    i, j = pairs.i[chosen], pairs.j[chosen]
-    turn = pairs.center.turn[i] * pairs.surface.turn[j]
-    dot = (pairs.center.vector[i] * np.conj(pairs.surface.vector[j])).real
-    way: Rows = np.sign(np.where(turn == 0.0, dot, turn)).astype(np.intp)
+def _way(pairs: Pairs, radius: float) -> Rows:
+    """+1 where a piece and the wall it touches run the same way beside each other, -1 against each other, else 0."""
+    limit = radius + pairs.grant
+    piece, wall = pairs.pieces.take(pairs.i), pairs.others.take(pairs.j)
+    feet = foot(wall, np.array((piece.start, piece.end)))
+    reached = np.concatenate((pairs.from_other, pairs.from_piece[::2])) <= limit
+    places = np.array((np.zeros(len(feet[0])), np.ones(len(feet[0])), *feet))
+    begin, end = np.where(reached, places, 2.0).min(axis=0), np.where(reached, places, -2.0).max(axis=0)
+    wide = (end - begin) * wall.length > POINT
+    turn = piece.turn * wall.turn
+    straight = ~(piece.arcs | wall.arcs) & (pairs.least >= radius - pairs.grant)
+    off = np.abs(piece.center - wall.center) + np.abs(np.abs(piece.radius - wall.radius) - radius)
+    alike = straight | ((turn != 0.0) & (off <= pairs.grant))
+    plain = np.sign(np.where(turn == 0.0, (piece.vector * np.conj(wall.vector)).real, turn))
+    way: Rows = np.where(wide & alike, plain, 0.0).astype(np.intp)
+    others = (~alike & (np.abs(pairs.from_piece[1] - radius) <= 2.0 * (pairs.grant + ON_PATH))).nonzero()[0]
+    if len(others):
+        way[others] = _way_in_the_middle(pairs.keep(others), radius)
     return way
 
 
-def _way_in_the_middle(pairs: Pairs, chosen: Rows, radius: float) -> Rows:
-    """The same where the middle of a center piece is a radius from its partner and parallel to it there, else 0."""
-    piece, other = pairs.center.take(pairs.i[chosen]), pairs.surface.take(pairs.j[chosen])
-    half = np.full(len(chosen), 0.5)
+def _way_in_the_middle(pairs: Pairs, radius: float) -> Rows:
+    """The same where the middle of a piece is a radius from its wall and parallel to it there."""
+    piece, wall = pairs.pieces.take(pairs.i), pairs.others.take(pairs.j)
+    half = np.full(len(pairs.i), 0.5)
     middle = at(piece, half)
-    t = foot(other, middle)
-    turn = direction(piece, half) * np.conj(direction(other, t))
-    touching: Flags = np.abs(np.abs(middle - at(other, t)) - radius) <= pairs.grant[chosen] + ON_PATH
-    alike = touching & (t > 0.0) & (t < 1.0) & (np.abs(turn.imag) < PARALLEL)
-    return np.where(alike, np.sign(turn.real), 0.0).astype(np.intp)
+    t = foot(wall, middle)
+    turn = direction(piece, half) * np.conj(direction(wall, t))
+    touching: Flags = np.abs(np.abs(middle - at(wall, t)) - radius) <= pairs.grant + ON_PATH
+    parallel = touching & (t > 0.0) & (t < 1.0) & (np.abs(turn.imag) < PARALLEL)
+    return np.where(parallel, np.sign(turn.real), 0.0).astype(np.intp)

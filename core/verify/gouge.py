@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.geometry.distance import foot
-from core.geometry.path import Floats, Path, Rows
-from core.geometry.piece_arrays import at
-from core.tolerance import JOINED, ON_PATH
-from core.verify.pairs import Approaches, Pairs
-from core.verify.reach import Parts, Stretches, changes, joined, union, within
-from core.verify.verdict import Gouge
+from core.geometry.distance import between, foot, nearest_places
+from core.geometry.path import Floats, Path, Rows, coordinates
+from core.geometry.piece_arrays import at, blocks
+from core.tolerance import GOUGE, JOINED, ON_PATH
+from core.verify.pairs import Pairs, changes
+from core.verify.stretches import NO_STRETCHES, Parts, Stretches, joined, union, within
+from core.verify.verdict import Approach, Gouge
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -25,62 +25,99 @@ class Gouging:
     i: Rows
     j: Rows
 
-
-def gouging(pairs: Pairs, near: Approaches) -> Gouging:
-    """Where the center path is nearer to the surface than the limits of `near`."""
-    if not len(near.i):
-        return Gouging(Stretches(near.limit, near.limit), near.limit, near.limit, near.i, near.j)
-    parts = within(pairs.center, near.i, pairs.surface, near.j, near.limit)
-    k, pair = (near.apart < near.limit).nonzero()
-    spots = pairs.center_stations[near.i[pair]] + near.places[k, pair] * pairs.center.length[near.i[pair]]
-    every = joined((parts, Parts(spots, spots, spots, near.apart[k, pair], pair)))
-    return _deepest(every, near.i, near.j)
+    def __len__(self) -> int:
+        return len(self.stretches)
 
 
-def _deepest(parts: Parts, i: Rows, j: Rows) -> Gouging:
+def gouging(pairs: Pairs, limit: float) -> Gouging:
+    """Where the center path is nearer to the surface than the limit, less what uneven arcs leave open."""
+    limits = limit - pairs.pieces.slack[pairs.i] - pairs.others.slack[pairs.j]
+    near = (pairs.least < limits).nonzero()[0]
+    if not len(near):
+        none = np.zeros(0)
+        return Gouging(NO_STRETCHES, none, none, near, near)
+    parts = within(pairs, near, limits[near])
+    spots, apart, pair = approaches(pairs, near)
+    deep = apart < limits[pair]
+    spots, apart, pair = spots[deep], apart[deep], pair[deep]
+    return _deepest(pairs, joined((parts, Parts(spots, spots, spots, apart, pair))))
+
+
+def approaches(pairs: Pairs, rows: Rows) -> tuple[Floats, Floats, Rows]:
+    """Places, in length traveled, where the pieces of these pairs may be nearest to the others, how near they are
+    there, and whose pair each place is."""
+    found = [np.zeros((3, 0))]
+    for block in blocks(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]]):
+        pair = rows[block]
+        pieces, others = pairs.pieces.take(pairs.i[pair]), pairs.others.take(pairs.j[pair])
+        places = nearest_places(pieces, others)
+        spots = pairs.stations[pairs.i[pair]] + places * pieces.length
+        apart = between(pieces, others, places)
+        found.append(np.array((spots.ravel(), apart.ravel(), np.tile(pair, len(places)))))
+    spots, apart, pair = np.concatenate(found, axis=1)
+    return spots, apart, pair.astype(np.intp)
+
+
+def closest(pairs: Pairs, surface: Path) -> Approach | None:
+    """Where the path comes nearest to the surface; places that differ by no more than GOUGE are as near as each other."""
+    if not len(pairs.i):
+        return None
+    least = pairs.least.min()
+    near = pairs.least <= least + GOUGE
+    spots, apart, pair = approaches(pairs, (near & (pairs.i == pairs.i[near.argmax()])).nonzero()[0])
+    first = np.lexsort((pairs.j[pair], np.round(spots / ON_PATH), apart > least + GOUGE))[:1]
+    piece, wall = pairs.pieces.take(pairs.i[pair[first]]), pairs.others.take(pairs.j[pair[first]])
+    length = np.where(piece.length == 0.0, 1.0, piece.length)
+    center = at(piece, np.clip((spots[first] - pairs.stations[pairs.i[pair[first]]]) / length, 0.0, 1.0))
+    cut = at(wall, foot(wall, center))
+    (x, y), (u, v) = coordinates(center)[0].tolist(), coordinates(cut)[0].tolist()
+    return Approach(float(least), (x, y), (u, v), float(surface.numbers[wall.rows[0]]))
+
+
+def _deepest(pairs: Pairs, parts: Parts) -> Gouging:
     """Parts as stretches, each with the least distance measured in it; of equal ones the earliest along the path."""
     stretches = union(parts.first, parts.last)
     owner, apart = stretches.index(parts.middle), np.round(parts.apart / ON_PATH)
-    least = np.full(len(stretches), np.inf)
-    np.minimum.at(least, owner, apart)
-    deepest = (apart == least.take(owner)).nonzero()[0]
-    owner = owner[deepest]
-    order = np.lexsort((parts.pair[deepest], owner))
-    best = deepest[order[changes(owner[order])]]
+    order = np.lexsort((parts.pair, apart, owner))
+    best = order[changes(owner[order])]
     pair = parts.pair[best]
-    return Gouging(stretches, parts.middle[best], parts.apart[best], i[pair], j[pair])
+    return Gouging(stretches, parts.middle[best], parts.apart[best], pairs.i[pair], pairs.j[pair])
 
 
 def gouges(found: Gouging, pairs: Pairs, radius: float, surface: Path, numbers: Floats) -> tuple[Gouge, ...]:
     """The stretches as `Gouge`s, deepest first; `numbers` are those of the center path's pieces."""
-    if not len(found.i):
+    if not len(found):
         return ()
-    piece, other = pairs.center.take(found.i), pairs.surface.take(found.j)
+    piece, wall = pairs.pieces.take(found.i), pairs.others.take(found.j)
     length = np.where(piece.length == 0.0, 1.0, piece.length)
-    t = (found.place - pairs.center_stations[found.i]) / length
+    t = (found.place - pairs.stations[found.i]) / length
     points = at(piece, np.minimum(np.maximum(t, 0.0), 1.0))
-    touched = at(other, foot(other, points))
-    told = [
-        Gouge(depth, (p.real, p.imag), (q.real, q.imag), row, numbers.item(row), surface.numbers.item(wall), extent)
-        for depth, p, q, row, wall, extent in zip(
-            (radius - found.apart).tolist(),
-            points.tolist(),
-            touched.tolist(),
-            piece.rows.tolist(),
-            other.rows.tolist(),
-            (found.stretches.last - found.stretches.first).tolist(),
-            strict=True,
+    cut = at(wall, foot(wall, points))
+    columns = (
+        radius - found.apart,
+        points.real,
+        points.imag,
+        cut.real,
+        cut.imag,
+        piece.rows,
+        numbers[piece.rows],
+        surface.numbers[wall.rows],
+        found.stretches.last - found.stretches.first,
+    )
+    every = [
+        Gouge(depth, (x, y), (u, v), row, number, segment, extent)
+        for depth, x, y, u, v, row, number, segment, extent in zip(
+            *(column.tolist() for column in columns), strict=True
         )
     ]
-    if len(told) > 1 and _over_seam(found.stretches, pairs):
-        deeper, less = sorted((told[0], told[-1]), key=lambda gouge: -gouge.depth)
-        told = [*told[1:-1], replace(deeper, extent=deeper.extent + less.extent)]
-    return tuple(sorted(told, key=lambda gouge: -gouge.depth))
+    if len(every) > 1 and _over_seam(found.stretches, pairs):
+        deeper, less = sorted((every[0], every[-1]), key=lambda gouge: -gouge.depth)
+        every = [*every[1:-1], replace(deeper, extent=deeper.extent + less.extent)]
+    # of equal ones the earliest along the path comes first, whatever the last digits say
+    return tuple(sorted(every, key=lambda gouge: -round(gouge.depth / ON_PATH)))
 
 
 def _over_seam(stretches: Stretches, pairs: Pairs) -> bool:
     """The first and the last stretch are one: the path ends where it begins, and gouges there."""
-    meets = bool(abs(pairs.center.end[-1] - pairs.center.start[0]) <= JOINED)
-    return (
-        meets and bool(stretches.first[0] <= JOINED) and bool(stretches.last[-1] >= pairs.center_stations[-1] - JOINED)
-    )
+    meets = bool(abs(pairs.pieces.end[-1] - pairs.pieces.start[0]) <= JOINED)
+    return meets and bool(stretches.first[0] <= JOINED) and bool(stretches.last[-1] >= pairs.stations[-1] - JOINED)

@@ -1,146 +1,221 @@
-"""Pairs: the pieces of a center path and of a surface that are near enough to matter to each other."""
+"""Pairs: the pieces of two paths that are nearest to each other somewhere, and the exact distance of each pair."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isnan, ulp
+from math import isfinite, ulp
 
 import numpy as np
 
-from core.geometry.boxes import closest_pairs, near_pairs
-from core.geometry.distance import between, nearest_places
-from core.geometry.path import Floats, Rows
-from core.geometry.piece_arrays import PieceArrays, blocks
-from core.geometry.remembered import remembered
-from core.tolerance import UNCUT
-from core.verify.beside import NOBODY, Beside
-from core.verify.course import Course
-from core.verify.touch import Touches, touches
-from core.verify.unproved import CLEAR, unproved_pairs
+from core.geometry.distance import distance, on_circle
+from core.geometry.path import Flags, Floats, Path, Points, Rows
+from core.geometry.piece_arrays import PieceArrays, at, blocks, traveled
+from core.tolerance import LARGEST, ON_PATH, STOCK, UNCUT
+from core.verify.search import nearest_pairs
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pairs:
-    """Pieces `i` of the center path and `j` of the surface, in rising order of i, and what is measured of both paths.
+    """m pairs of a piece `i` and another path's piece `j`, by rising i: every j that is nearest to some place of its i.
 
-    Every pair whose pieces come within the reach it was made for is there, and no other, but for what `own` proves of
-    own pieces, corners and their walls.  `touch` is what is measured of the pairs, `grant` (m,) what rounding and the
-    uneven radii of arcs leave open for each.  `center_stations` and `surface_stations` are the lengths traveled at
-    the pieces' starts and at the end.
+    `stations` (n + 1,) are the lengths traveled at the pieces' starts and at the end, `grant` (m,) what rounding and
+    the uneven radii of arcs leave open for a pair.  `least` (m,) is how near the pieces come to each other, `from_piece`
+    (3, m) how far the piece's start, middle and end are from the other one, and `from_other` (2, m) how far the
+    other one's start and end are from the piece.
     """
 
-    center: PieceArrays
-    surface: PieceArrays
-    center_stations: Floats
-    surface_stations: Floats
-    center_boxes: Floats
-    surface_boxes: Floats
+    pieces: PieceArrays
+    others: PieceArrays
+    stations: Floats
     i: Rows
     j: Rows
     grant: Floats
-    touch: Touches
-    own: Beside
+    least: Floats
+    from_piece: Floats
+    from_other: Floats
+
+    @property
+    def begins(self) -> Rows:
+        """(n + 1,) where the pairs of each piece begin, and where the last ones end."""
+        return self.i.searchsorted(np.arange(len(self.pieces) + 1))
+
+    def keep(self, rows: Rows) -> Pairs:
+        """The pairs of these indices."""
+        return Pairs(
+            self.pieces,
+            self.others,
+            self.stations,
+            self.i[rows],
+            self.j[rows],
+            self.grant[rows],
+            self.least[rows],
+            self.from_piece[:, rows],
+            self.from_other[:, rows],
+        )
 
 
-def pairs_of(
-    center: Course,
-    surface: Course,
-    radius: float,
-    reach: float,
-    own: Beside = NOBODY,
-) -> Pairs:
-    """All pairs within `reach`.  Touches are those within `radius`."""
-    moves, walls, exact = center.pieces, surface.pieces, granted(surface.pieces)
-    if len(own.piece):
-        i, j = unproved_pairs(moves, center.boxes, walls, surface.boxes, own, reach, radius + CLEAR * exact)
-    else:
-        i, j = near_pairs(center.boxes, surface.boxes, reach)
-    grant = np.full(len(i), exact)
-    for pieces, rows in ((moves, i), (walls, j)):
-        if pieces.slack.any():
-            grant += pieces.slack[rows]
-    if 2 * len(i) > len(moves) + len(walls):
-        center, surface = center.whole(), surface.whole()
-    touch = touches(center, i, surface, j, radius, grant)
-    # what is no number is kept, for the judge to see
-    near = (~(touch.apart > reach)).nonzero()[0]
-    if len(near) < len(i):
-        i, j, grant, touch = i[near], j[near], grant[near], touch.take(near)
-    stations, bounds = (center.stations, surface.stations), (center.boxes, surface.boxes)
-    return Pairs(moves, walls, *stations, *bounds, i, j, grant, touch, own)
+def measurable(radius: float, *paths: Path) -> bool:
+    """All coordinates and the radius are lengths a machine could have."""
+    numbers = np.concatenate([array.ravel() for path in paths for array in (path.points, path.centers)])
+    # what is not a number makes the largest one none, and no comparison holds
+    sound = bool(np.abs(numbers).max(initial=0.0) <= LARGEST)
+    return sound and isfinite(radius) and 0.0 <= radius <= LARGEST
 
 
-def granted(surface: PieceArrays) -> float:
+def pairs_of(pieces: PieceArrays, others: PieceArrays, rounding: float, rows: Rows | None = None) -> Pairs:
+    """The pairs of the pieces, or of those in `rows` alone, and the others that are nearest to them somewhere.
+
+    Others that are farther by no more than `rounding` and what uneven arcs leave open are nearest too.
+    """
+    slack = float(pieces.slack.max(initial=0.0) + others.slack.max(initial=0.0))
+    i, j = nearest_pairs(pieces if rows is None else pieces.take(rows), others, 4.0 * (rounding + slack) + ON_PATH)
+    i = i if rows is None else rows[i]
+    grant = rounding + pieces.slack[i] + others.slack[j]
+    return Pairs(pieces, others, pieces.stations, i, j, grant, *_measured(pieces, i, others, j))
+
+
+def rounding_of(*paths: PieceArrays) -> float:
     """What counts as exact: UNCUT, and four units in the last place of the largest coordinate or radius."""
-    largest = max(np.abs(surface.start.view(np.float64)).max(), surface.radius.max())
+    largest = max(float(max(np.abs(path.start.view(np.float64)).max(), path.radius.max())) for path in paths)
     return UNCUT + 4.0 * ulp(largest)
 
 
+def _measured(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> tuple[Floats, Floats, Floats]:
+    least, from_piece, from_other = np.empty(len(i)), np.empty((3, len(i))), np.empty((2, len(i)))
+    for rows in blocks(pieces.arcs[i], others.arcs[j]):
+        one, other = pieces.take(i[rows]), others.take(j[rows])
+        middle = at(one, np.full(len(rows), 0.5))
+        from_piece[:, rows] = distance(other, np.array((one.start, middle, one.end)))
+        from_other[:, rows] = distance(one, np.array((other.start, other.end)))
+        ends = np.minimum(from_piece[::2, rows].min(axis=0), from_other[:, rows].min(axis=0))
+        least[rows] = np.minimum(ends, _between_ends(one, other))
+    return least, from_piece, from_other
+
+
+def _between_ends(one: PieceArrays, other: PieceArrays) -> Floats:
+    """Least distances of pairs that neither piece has at an end; infinite where there is none."""
+    apart = np.empty(len(one))
+    bent = 2 * one.arcs + other.arcs
+    for kind, formula in enumerate((_lines, _line_and_arc, _arc_and_line, _arcs)):
+        rows = (bent == kind).nonzero()[0]
+        if len(rows):
+            apart[rows] = formula(one.take(rows), other.take(rows))
+    return apart
+
+
+def _lines(one: PieceArrays, other: PieceArrays) -> Floats:
+    """0 for lines that cross between their ends."""
+    off = other.start - one.start
+    turn = (np.conj(one.vector) * other.vector).imag
+    start, end = (np.conj(one.vector) * off).imag, (np.conj(other.vector) * off).imag
+    crossed = (start * (start + turn) < 0.0) & (end * (end + turn) < 0.0)
+    return np.where(crossed, 0.0, np.inf)
+
+
+def _line_and_arc(line: PieceArrays, arc: PieceArrays) -> Floats:
+    """Where the line passes the arc at the foot of its center, and 0 where they cross."""
+    square = np.maximum(line.length * line.length, np.finfo(float).tiny)
+    share = ((arc.center - line.start) * np.conj(line.vector)).real / square
+    off = line.start + share * line.vector - arc.center
+    height = np.abs(off)
+    # of a line that passes the circle the root is no number, and nothing is within it
+    step = np.sqrt((arc.radius - height) * (arc.radius + height) / square)
+    shares = np.array((share, share - step, share + step))
+    met = _within(arc, line.start + shares * line.vector - arc.center) & (shares >= 0.0) & (shares <= 1.0)
+    passed = np.where(met[0], np.abs(height - arc.radius), np.inf)
+    return np.where(met[1] | met[2], 0.0, passed)
+
+
+def _arc_and_line(arc: PieceArrays, line: PieceArrays) -> Floats:
+    return _line_and_arc(line, arc)
+
+
+def _arcs(one: PieceArrays, other: PieceArrays) -> Floats:
+    """On the line through both centers, and 0 where the arcs cross."""
+    between = other.center - one.center
+    size, least, most = np.abs(between), one.radius - other.radius, one.radius + other.radius
+    ahead, back = (_within(one, way * between) for way in (1.0, -1.0))
+    behind, toward = (_within(other, way * between) for way in (1.0, -1.0))
+    gaps = np.where(
+        (ahead & toward, ahead & behind, back & toward), np.abs((size - most, size - least, size + least)), np.inf
+    )
+    # about one center an end of the one is as near as it gets, or they are nowhere side by side
+    apart: Floats = np.where(size > 0.0, gaps.min(axis=0), np.inf)
+    crossing = (size > np.abs(least)) & (size < most)
+    met = on_circle(one, other.center, other.radius)
+    inside = (met >= 0.0) & (met <= 1.0) & _within(other, at(one, np.nan_to_num(met)) - other.center)
+    apart[crossing & inside.any(axis=0)] = 0.0
+    return apart
+
+
+def _within(arc: PieceArrays, toward: Points) -> Flags:
+    """Whether directions from the centers lie within the arcs."""
+    within: Flags = traveled(arc, toward) <= arc.angle
+    return within
+
+
+def keeping(pairs: Pairs, radius: float) -> Flags:
+    """Pairs of which the other piece is no farther than the radius from the piece's ends and its middle."""
+    near: Flags = pairs.from_piece.max(axis=0) <= radius + pairs.grant + STOCK
+    return near
+
+
+def along(pairs: Pairs, limit: Floats) -> Flags:
+    """Pairs of which the other piece is within the limit of all of the piece for sure: two lines, or arcs about one
+    center, and both ends of the piece are."""
+    near: Flags = pairs.from_piece.max(axis=0) <= limit
+    return near & (_straight(pairs) | concentric(pairs))
+
+
+def covering(pairs: Pairs, limit: Floats) -> Flags:
+    """Pairs of which the piece is within the limit of all of the other piece for sure."""
+    near: Flags = pairs.from_other.max(axis=0) <= limit
+    return near & (_straight(pairs) | concentric(pairs))
+
+
+def _straight(pairs: Pairs) -> Flags:
+    straight: Flags = ~(pairs.pieces.arcs[pairs.i] | pairs.others.arcs[pairs.j])
+    return straight
+
+
+def concentric(pairs: Pairs) -> Flags:
+    """Pairs of arcs about one center that are beside each other only once."""
+    found = pairs.pieces.arcs[pairs.i] & pairs.others.arcs[pairs.j]
+    rows = found.nonzero()[0]
+    if len(rows):
+        one, other = pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows])
+        found[rows] = (np.abs(one.center - other.center) <= ON_PATH) & (one.angle + other.angle <= np.pi * 1.999)
+    return found
+
+
 @dataclass(frozen=True, eq=False, slots=True)
-class Approaches:
-    """The least distance among all pairs, infinite without any, and the pairs nearer than was asked for.
+class Nearest:
+    """All pieces nearest to places: pairs of place `k` and piece `j` in rising order of k, ties included."""
 
-    Of these: places (8, m) on pieces `i` of the center path where they may be nearest to pieces `j`, how near they are
-    there, and what each pair was asked for.  The least is no number if any distance is none.
-    """
-
-    least: float
-    i: Rows
+    k: Rows
     j: Rows
-    places: Floats
     apart: Floats
-    limit: Floats
+
+    @property
+    def first(self) -> Rows:
+        """(n,) the row of each place's first piece."""
+        return changes(self.k)
 
 
-def approaches(pairs: Pairs, limit: float) -> Approaches:
-    """All pairs nearer than `limit` less the slack of both."""
-    measured = pairs.touch.apart.min(initial=np.inf)
-    least = float(pairs.own.apart.min(initial=measured))
-    if measured >= limit:
-        return _none(least, pairs.i[:0])
-    deep = (pairs.touch.apart < limit).nonzero()[0]
-    near = measure(pairs, pairs.i[deep], pairs.j[deep], limit)
-    least = near.least if isnan(near.least) else least
-    return Approaches(least, near.i, near.j, near.places, near.apart, near.limit)
+def nearest(pairs: Pairs, index: Rows, points: Points) -> Nearest:
+    """What of the other path is nearest to these points, each on the piece `index`; ties within ON_PATH included."""
+    begins = pairs.begins
+    counts = begins[index + 1] - begins[index]
+    starts = counts.cumsum() - counts
+    k = np.repeat(np.arange(len(index)), counts)
+    j = pairs.j[np.arange(len(k)) + (begins[index] - starts)[k]]
+    apart = distance(pairs.others.take(j), points[k])
+    keep = (apart <= np.minimum.reduceat(apart, starts)[k] + ON_PATH).nonzero()[0] if len(k) else k
+    return Nearest(k[keep], j[keep], apart[keep])
 
 
-def measure(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
-    """Of these pieces those nearer than `limit` less the slack of both."""
-    if not len(i):
-        return _none(np.inf, i)
-    found = [
-        _measure_block(pairs, i[block], j[block], limit)
-        for block in blocks(pairs.center.arcs[i], pairs.surface.arcs[j])
-    ]
-    if len(found) == 1:
-        return found[0]
-    columns = zip(*((one.i, one.j, one.places, one.apart, one.limit) for one in found), strict=True)
-    least = float(np.min([one.least for one in found]))
-    return Approaches(least, *(np.concatenate(column, axis=-1) for column in columns))
-
-
-def _none(least: float, nobody: Rows) -> Approaches:
-    places = np.zeros((8, 0))
-    return Approaches(least, nobody, nobody, places, places, places[0])
-
-
-def _measure_block(pairs: Pairs, i: Rows, j: Rows, limit: float) -> Approaches:
-    piece, other = pairs.center.take(i), pairs.surface.take(j)
-    places, apart = _measured(piece, other)
-    limits = limit - piece.slack - other.slack
-    deep = (apart < limits).any(axis=0)
-    return Approaches(float(apart.min()), i[deep], j[deep], places[:, deep], apart[:, deep], limits[deep])
-
-
-@remembered
-def _measured(piece: PieceArrays, other: PieceArrays) -> tuple[Floats, Floats]:
-    """(8, m) places where the pieces may be nearest to their partners, and how far they are there."""
-    places = nearest_places(piece, other)
-    return places, between(piece, other, places)
-
-
-def clearance(pairs: Pairs, near: Approaches, reach: float) -> float:
-    """Least distance of the two paths, infinite if one is empty; `near` knows it if it is within `reach`."""
-    if near.least <= reach or not len(pairs.center) or not len(pairs.surface):
-        return near.least
-    return measure(pairs, *closest_pairs(pairs.center_boxes, pairs.surface_boxes), 0.0).least
+def changes(owner: Rows) -> Rows:
+    """Where each run of equal values begins."""
+    begins = np.ones(len(owner), np.bool_)
+    np.not_equal(owner[1:], owner[:-1], out=begins[1:])
+    return begins.nonzero()[0]

@@ -10,8 +10,8 @@ from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.stretch import stretch_lengths
 from core.tolerance import STOCK
+from core.verify.contact import AirCut
 from core.verify.names import Names, by_number
-from core.verify.stray import Away, Stray
 from core.verify.verdict import Gouge, Uncut, UncutStretches, Verdict
 
 DIGIT: Final = 0.00254
@@ -48,17 +48,17 @@ def findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple
     )
 
 
-def stray_findings(found: Stray) -> tuple[Finding, ...]:
-    """What an operator should see of a path's stretches away from the part and of pieces traveled backwards."""
-    backwards: tuple[Finding, ...] = ()
-    if found.backwards:
-        count = len(found.backwards)
+def contact_findings(air_cuts: Sequence[AirCut], backwards: Sequence[int]) -> tuple[Finding, ...]:
+    """What an operator should see of a path's cuts in the air and of the rows that are traveled backwards."""
+    against: tuple[Finding, ...] = ()
+    if backwards:
+        count = len(backwards)
         text = f"{count} {'move runs' if count == 1 else 'moves run'} against the direction of the contour."
-        backwards = (Finding("BACKWARDS", Severity.WARNING, text),)
-    return (*backwards, *(_away(stretch) for stretch in found.away))
+        against = (Finding("BACKWARDS", Severity.WARNING, text),)
+    return (*against, *(_air_cut(stretch) for stretch in air_cuts))
 
 
-def _away(stretch: Away) -> Finding:
+def _air_cut(stretch: AirCut) -> Finding:
     text = "{value} of path does not touch the part: at X {x} Y {y} the cutter is {0} off it."
     return Finding(
         "AWAY",

@@ -2,68 +2,204 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import inf, nan
+from typing import Final
 
 import numpy as np
 
-from core.geometry.path import Flags, Floats, Path, Points
+from core.geometry.distance import band_places, feet, foot
+from core.geometry.path import Flags, Floats, Path, Points, Rows
 from core.geometry.piece import Side
-from core.tolerance import CLOSED, STOCK
-from core.verify.gaps import Bound, GapParts, bounds, parts_of, thickest
-from core.verify.pairs import Pairs
-from core.verify.reached import covered, reached
+from core.geometry.piece_arrays import PieceArrays, at
+from core.tolerance import CLOSED, ON_PATH, STOCK
+from core.verify.farthest import farthest
+from core.verify.pairs import Pairs, concentric, covering, nearest, pairs_of
+from core.verify.stretches import Parts, Stretches, joined, within
 from core.verify.verdict import NOTHING, UncutStretches
 
+POINT: Final = 1e-6
+"""Millimeters of a piece that count as one point."""
 
-def uncut(pairs: Pairs, radius: float, surface: Path, *, closed: bool, side: Side | None = None) -> UncutStretches:
+ON_EDGE: Final = 1e-7
+"""Millimeters from the cutter's edge at which an end of a gap is on it."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Gaps:
+    """k stretches of a path's pieces that the others do not reach: (2, k) the first and the last piece of each and the
+    points at its ends, and which ends are `reached`; the point that is farthest from the others, and how far it is.
+
+    `corner` is the one place from which both of its ends are reached, and `area` what lies between the stretch and the
+    circle of the radius about it, positive where the stretch runs counter-clockwise; no numbers without such a place.
+    """
+
+    stretches: Stretches
+    pieces: Rows
+    ends: Points
+    reached: Flags
+    farthest: Points
+    apart: Floats
+    corner: Points
+    area: Floats
+
+
+def uncut(pairs: Pairs, radius: float, surface: Path, side: Side, rounding: float, *, closed: bool) -> UncutStretches:
     """Stretches farther than the radius from the path, in the contour's order, each over its joints in one.
 
-    In a closed contour a stretch that runs over START stands last.  What is nowhere thicker than STOCK is left out.
-    Areas are told of what lies on the cutter's `side`.
+    `pairs` are those of the center path's pieces with the surface.  In a closed contour a stretch that runs over START
+    stands last.  What is nowhere thicker than STOCK is left out.
     """
-    if covered(pairs):
+    walls = pairs.others
+    whole = np.zeros(len(walls), np.bool_)
+    whole[pairs.j[covering(pairs, radius + pairs.grant)]] = True
+    if whole.all():
         return NOTHING
-    total = float(pairs.surface_stations[-1])
-    gaps, near = reached(pairs, radius).gaps(total)
-    if not len(gaps):
+    gaps = gaps_of(pairs_of(walls, pairs.pieces, rounding, (~whole).nonzero()[0]), whole, radius)
+    if not len(gaps.stretches):
         return NOTHING
-    parts = parts_of(pairs, gaps)
-    if not len(pairs.center):
-        every, far, unknown = np.ones(len(gaps), np.bool_), np.full(len(gaps), inf), np.full(len(gaps), nan)
-        return _told(pairs, surface, parts, every, parts.points[parts.begins], far, unknown)
-    over = closed and bool(gaps.first[0] == 0.0 and gaps.last[-1] == total)
-    bound = bounds(pairs, parts, near, radius)
-    thick = bound.apart > radius + STOCK
-    if over and (thick[0] or thick[-1]):
-        thick[0] = thick[-1] = True
-    if not thick.any():
-        return NOTHING
-    if not thick.all():
-        gaps, near, bound = gaps.keep(thick), near[:, thick], bound.keep(thick)
-    sign = 0 if side is None else side.sign
-    area = _areas(np.where((near < 0).any(axis=0), nan, bound.sector), sign)
-    points, apart = thickest(pairs, gaps, near, bound, radius)
-    told = _told(pairs, surface, parts, thick, points, apart - radius, area)
-    if over and len(told) > 1:
-        told = told.over_start(_area_over_start(bound, sign))
-    return told.keep(told.thickness > STOCK)
+    numbers, stretches = surface.numbers[walls.rows], gaps.stretches
+    length, thick = stretches.last - stretches.first, gaps.apart - radius
+    area = np.where(gaps.area * side.sign > 0.0, np.abs(gaps.area), nan)
+    at_start, at_end = stretches.first == 0.0, stretches.last == walls.stations[-1]
+    area[~gaps.reached.all(axis=0)] = nan
+    found = UncutStretches(*numbers[gaps.pieces], *gaps.ends, length, thick, gaps.farthest, area)
+    if closed and at_start[0] and at_end[-1] and len(found) > 1:
+        one = abs(gaps.corner[0] - gaps.corner[-1]) <= CLOSED
+        both = float(gaps.area[0] + gaps.area[-1]) * side.sign if one else nan
+        found = found.over_start(both if both > 0.0 else nan)
+    return found.keep(found.thickness > STOCK)
 
 
-def _areas(sector: Floats, sign: int) -> Floats:
-    """Sectors on the cutter's side: a gap of a contour that crosses itself may run round the part instead."""
-    return np.where(sector * sign > 0.0, np.abs(sector), nan)
+def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
+    """What of the pieces is farther than the radius from the others and longer than STOCK; those that are `whole` are
+    known to be reached from end to end."""
+    pieces, stations = pairs.pieces, pairs.stations
+    reached = _reached(pairs, whole, radius)
+    first, last = np.append(0.0, reached.last), np.append(reached.first, stations[-1])
+    wide = (last - first > STOCK).nonzero()[0]
+    gaps = Stretches(first[wide], last[wide])
+    inward = np.array((gaps.first + ON_PATH, gaps.last - ON_PATH))
+    index = stations[1:-1].searchsorted(inward, side="right")
+    length = np.where(pieces.length[index] == 0.0, 1.0, pieces.length[index])
+    t = np.clip((np.array((gaps.first, gaps.last)) - stations[index]) / length, 0.0, 1.0)
+    ends = at(pieces.take(index.ravel()), t.ravel()).reshape(2, -1)
+    if not len(pairs.others):
+        unknown = np.full(len(gaps), nan)
+        nothing = np.zeros(ends.shape, np.bool_)
+        return Gaps(gaps, index, ends, nothing, ends[0], np.full(len(gaps), inf), unknown + 0j, unknown)
+    far, (corner, reached) = farthest(pairs, gaps), _corners(pairs, index, ends, radius)
+    return Gaps(gaps, index, ends, reached, far.point, far.apart, corner, _areas(pairs, gaps, corner, radius))
 
 
-def _area_over_start(bound: Bound, sign: int) -> float:
-    """The area of the first and the last gap together, seen from one point; not a number if they are not."""
-    one = bool(np.abs(bound.corner[0] - bound.corner[-1]) <= CLOSED)
-    return float(_areas(bound.sector[:1] + bound.sector[-1:], sign)[0]) if one else nan
+def _reached(pairs: Pairs, whole: Flags, radius: float) -> Stretches:
+    """The stretches of the pieces within the radius of the others.
+
+    What is granted for rounding and for uneven arcs decides whether a place is reached; where a stretch ends is then
+    settled with the radius alone.
+    """
+    stations, limit = pairs.stations, radius + pairs.grant
+    rows = (pairs.least <= limit).nonzero()[0]
+    begin, end = _between_feet(pairs, rows, limit[rows])
+    piece = pairs.i[rows]
+    bent = pairs.pieces.arcs[piece] | pairs.others.arcs[pairs.j[rows]]
+    unsure = bent & ((end - begin) * pairs.pieces.length[piece] > POINT)
+    unsure[unsure] = ~concentric(pairs.keep(rows[unsure]))
+    unsure |= pairs.least[rows] < radius - pairs.grant[rows]
+    sure = (~unsure & (begin <= end)).nonzero()[0]
+    start, length = stations[piece[sure]], pairs.pieces.length[piece[sure]]
+    proved = Parts(start + begin[sure] * length, start + end[sure] * length, start, start, rows[sure])
+    known = whole.nonzero()[0]
+    covered = Parts(stations[known], stations[known + 1], stations[known], stations[known], np.full(len(known), -1))
+    measured = within(pairs, rows[unsure], limit[rows[unsure]])
+    drawn = np.zeros(len(pairs.i) + 1, np.bool_)
+    drawn[rows[unsure]] = True
+    return _settled(pairs, joined((covered, proved, measured)), drawn, radius)
 
 
-def _told(
-    pairs: Pairs, surface: Path, parts: GapParts, chosen: Flags, thickest: Points, thickness: Floats, area: Floats
-) -> UncutStretches:
-    begins, ends = parts.begins[chosen], parts.ends[chosen]
-    numbers, first, last = surface.numbers[pairs.surface.rows], parts.j[begins], parts.j[ends]
-    start, end, length = parts.points[begins], parts.points[ends], parts.s[ends] - parts.s[begins]
-    return UncutStretches(numbers[first], numbers[last], start, end, length, thickness, thickest, area)
+def _between_feet(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats]:
+    """First and last fraction of the pieces of these pairs that is an end, or the foot of an end of the other piece,
+    within the limit; the first is the larger one where there is none.
+
+    The distance from a line is convex along another: what lies between is within too.
+    """
+    near = np.concatenate((pairs.from_piece[::2, rows], pairs.from_other[:, rows])) <= limit
+    places = np.zeros((4, len(rows)))
+    places[1] = 1.0
+    asked = (near[2:].any(axis=0) & ~(near[0] & near[1])).nonzero()[0]
+    piece, other = pairs.pieces.take(pairs.i[rows[asked]]), pairs.others.take(pairs.j[rows[asked]])
+    places[2:, asked] = foot(piece, np.array((other.start, other.end)))
+    near[2:] &= ~(near[0] & near[1])
+    return np.where(near, places, 2.0).min(axis=0), np.where(near, places, -2.0).max(axis=0)
+
+
+def _settled(pairs: Pairs, parts: Parts, drawn: Flags, radius: float) -> Stretches:
+    """Parts as stretches; their ends drawn in to where one of the pairs that are `drawn` reaches them with the radius
+    alone."""
+    order = parts.first.argsort(kind="stable")
+    first, last = parts.first[order], parts.last[order]
+    furthest = np.maximum.accumulate(last)
+    begins = np.ones(len(first), np.bool_)
+    begins[1:] = first[1:] > furthest[:-1]
+    begin = begins.nonzero()[0]
+    if not len(begin):
+        return Stretches(first, last)
+    holder = np.maximum.accumulate(np.where(last == furthest, np.arange(len(last)), 0))
+    end = holder[np.append(begin[1:], len(first)) - 1]
+    pair = parts.pair[order[np.concatenate((begin, end))]]
+    ends = np.concatenate((first[begin], last[end]))
+    loose = drawn[pair].nonzero()[0]
+    inward = np.repeat((1.0, -1.0), len(begin))
+    ends[loose] += inward[loose] * _overshoot(pairs, pair[loose], ends[loose], inward[loose], radius)
+    low, high = ends[: len(begin)], ends[len(begin) :]
+    return Stretches(low, np.maximum(low, high))
+
+
+def _overshoot(pairs: Pairs, pair: Rows, ends: Floats, inward: Floats, radius: float) -> Floats:
+    """How far `inward` (+1 or -1 along the path) from these ends the distance is the radius, or least.
+
+    What is granted moves an end by as much as sqrt(2 r grant) where the reach ends in a circle about the end of a
+    piece; the foot of that end is where it stops when the piece is exactly a radius away.
+    """
+    i, j, grant = pairs.i[pair], pairs.j[pair], pairs.grant[pair]
+    piece, other = pairs.pieces.take(i), pairs.others.take(j)
+    places = np.concatenate((band_places(piece, other, np.full(len(pair), radius)), feet(piece, other)))
+    moved = (pairs.stations[i] + places * piece.length - ends) * inward
+    widest = 2.0 * np.sqrt(2.0 * (radius + grant) * grant)
+    least: Floats = np.where((moved > 0.0) & (moved < widest), moved, inf).min(axis=0)
+    return np.where(np.isinf(least), 0.0, least)
+
+
+def _corners(pairs: Pairs, index: Rows, ends: Points, radius: float) -> tuple[Points, Flags]:
+    """(k,) the places of the others from which both ends of each gap are reached, and (2, k) which ends are."""
+    near = [nearest(pairs, rows, points) for rows, points in zip(index, ends, strict=True)]
+    reached = np.array([one.apart[one.first] <= radius + 4.0 * ON_PATH for one in near])
+    corner = np.full(len(index[0]), complex(nan, nan))
+    for end in (1, 0):
+        k, other = near[end].k, pairs.others.take(near[end].j)
+        places = at(other, foot(other, ends[end, k]))
+        off = np.abs(np.abs(ends[:, k] - places) - radius) > ON_EDGE
+        on_edge = reached[end, k] & ~(off & reached[:, k]).any(axis=0)
+        corner[k[on_edge]] = places[on_edge]
+    return corner, reached
+
+
+def _areas(pairs: Pairs, gaps: Stretches, corner: Points, radius: float) -> Floats:
+    """(k,) area between each gap and the circle about its corner."""
+    parts = gaps.cut(pairs.stations[1:-1])
+    owner, piece = gaps.index(parts.middle), pairs.stations[1:-1].searchsorted(parts.middle, side="right")
+    sectors = _sectors(pairs.pieces.take(piece), parts, pairs.stations[piece], corner[owner], radius)
+    areas: Floats = np.bincount(owner, sectors, len(gaps))
+    return areas
+
+
+def _sectors(pieces: PieceArrays, parts: Stretches, starts: Floats, corner: Points, radius: float) -> Floats:
+    """(m,) area between each part of a piece and the circle about its corner, signed as it runs about it."""
+    length = np.where(pieces.length == 0.0, 1.0, pieces.length)
+    t = np.clip((np.array((parts.first, parts.middle, parts.last)) - starts) / length, 0.0, 1.0)
+    first, middle, last = at(pieces, t) - corner
+    angle = np.angle(np.conj(first) * middle) + np.angle(np.conj(middle) * last)
+    swept = (t[2] - t[0]) * pieces.angle
+    bow = pieces.turn * pieces.radius**2 * (swept - np.sin(swept))
+    sectors: Floats = 0.5 * ((np.conj(first) * last).imag + bow - radius * radius * angle)
+    return sectors

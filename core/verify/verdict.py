@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from math import isnan
+from math import inf, isnan, nan
 from typing import Any, Final, overload
 
 import numpy as np
@@ -37,6 +37,19 @@ class Gouge:
     path_number: float
     surface_number: float
     extent: float
+
+
+@dataclass(frozen=True, slots=True)
+class Approach:
+    """The least distance from path to surface, and the first place along the path that is so near.
+
+    `at` is the center there, `surface_at` the surface point, `surface_number` the contour's segment.
+    """
+
+    distance: float
+    at: Point
+    surface_at: Point
+    surface_number: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,8 +155,8 @@ NOTHING: Final = UncutStretches(
 class Verdict:
     """What one center path does to one surface.
 
-    `clearance` is the least distance from path to surface (infinite for an empty path); gouges are deepest first,
-    uncut stretches in the contour's order.  `wrong_side` lists rows of the path that are behind the surface somewhere,
+    `closest` is where the path comes nearest to the surface, None for an empty path; gouges are deepest first, uncut
+    stretches in the contour's order.  `wrong_side` lists rows of the path that are behind the surface somewhere,
     on the part's side of what is nearest to them, by more than GOUGE: all of them where a closed contour does not cross
     itself; beside any other those that meet a wall, and those that are so at their ends, in their middles or where
     they gouge most.
@@ -155,7 +168,7 @@ class Verdict:
     """
 
     radius: float
-    clearance: float
+    closest: Approach | None
     gouges: tuple[Gouge, ...]
     uncut: UncutStretches
     surface_length: float
@@ -165,6 +178,13 @@ class Verdict:
     backwards: tuple[int, ...] = ()
     crossing_at: Point | None = None
     judged: bool = True
+
+    @property
+    def clearance(self) -> float:
+        """The least distance from path to surface, infinite for an empty path and no number if nothing is judged."""
+        if not self.judged:
+            return nan
+        return inf if self.closest is None else self.closest.distance
 
     @property
     def clean(self) -> bool:

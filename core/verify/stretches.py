@@ -1,0 +1,107 @@
+"""Stretches: which lengths of a path are nearer to another path than a limit, as exact intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.geometry.distance import band_places, between
+from core.geometry.path import Flags, Floats, Rows
+from core.geometry.piece_arrays import blocks
+from core.tolerance import ON_PATH
+from core.verify.pairs import Pairs
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Stretches:
+    """k stretches of a path, apart from each other and in order: lengths traveled (k,) at `first` and `last`."""
+
+    first: Floats
+    last: Floats
+
+    def __len__(self) -> int:
+        return len(self.first)
+
+    @property
+    def middle(self) -> Floats:
+        """(k,) lengths traveled in the middle."""
+        return (self.first + self.last) / 2.0
+
+    def index(self, s: Floats) -> Rows:
+        """The stretch each place `s` is in or follows; -1 before the first."""
+        return self.first.searchsorted(s, side="right") - 1
+
+    def holds(self, s: Floats) -> Flags:
+        """Which places are strictly inside a stretch."""
+        owner = self.index(s)
+        inside = owner >= 0
+        inside[inside] = (s[inside] > self.first[owner[inside]]) & (s[inside] < self.last[owner[inside]])
+        return inside
+
+    def keep(self, chosen: Flags) -> Stretches:
+        """The stretches for which `chosen` (k,) is True."""
+        return Stretches(self.first[chosen], self.last[chosen])
+
+    def cut(self, places: Floats) -> Stretches:
+        """What is between these places within the stretches."""
+        s = np.sort(np.concatenate((self.first, self.last, places[self.holds(places)])))
+        parts = Stretches(s[:-1], s[1:])
+        return parts.keep((parts.last > parts.first + ON_PATH) & self.holds(parts.middle))
+
+
+NO_STRETCHES = Stretches(np.zeros(0), np.zeros(0))
+"""Nothing of a path."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Parts:
+    """m parts of pieces: lengths traveled at both ends and in the middle, the distance there, and whose pair it is."""
+
+    first: Floats
+    last: Floats
+    middle: Floats
+    apart: Floats
+    pair: Rows
+
+
+def within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
+    """All parts of the pieces of these pairs that are nearer to the others than `limit` (m,), one for each pair.
+
+    The pieces are parted wherever the distance can pass the limit, and the middle of each part decides.
+    """
+    found = [
+        _within(pairs, rows[block], limit[block])
+        for block in blocks(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]])
+    ]
+    return joined(found)
+
+
+def _within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
+    pieces, others = pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows])
+    places = band_places(pieces, others, limit)
+    middles = (places[1:] + places[:-1]) / 2.0
+    apart = between(pieces, others, middles)
+    part, pair = ((apart < limit) & (places[1:] > places[:-1])).nonzero()
+    start, length = pairs.stations[pairs.i[rows[pair]]], pieces.length[pair]
+    first, last, middle = places[part, pair], places[part + 1, pair], middles[part, pair]
+    return Parts(start + first * length, start + last * length, start + middle * length, apart[part, pair], rows[pair])
+
+
+def joined(found: Sequence[Parts]) -> Parts:
+    """All of these parts."""
+    columns = [[part.first, part.last, part.middle, part.apart] for part in found]
+    first, last, middle, apart = np.concatenate(columns, axis=1) if found else np.zeros((4, 0))
+    return Parts(first, last, middle, apart, np.concatenate((np.zeros(0, np.intp), *(part.pair for part in found))))
+
+
+def union(first: Floats, last: Floats) -> Stretches:
+    """Overlapping and touching parts as stretches."""
+    order = first.argsort(kind="stable")
+    first, furthest = first[order], np.maximum.accumulate(last[order])
+    begins = np.ones(len(first), np.bool_)
+    begins[1:] = first[1:] > furthest[:-1] + ON_PATH
+    starts = begins.nonzero()[0]
+    ends = np.append(starts[1:], len(first)) - 1
+    return Stretches(first[starts], furthest[ends[: len(starts)]])
