@@ -17,8 +17,7 @@ from core.geometry.path import Path, as_complex, next_in_ring
 from core.geometry.piece import Point
 from core.tolerance import GOUGE
 from core.verify.contact import AirCut, air_cuts
-from core.verify.names import Names, move_name
-from core.verify.report import contact_findings
+from core.verify.report import Names, contact_findings, move_name
 from core.verify.report import findings as verdict_findings
 from core.verify.verdict import Approach, Gouge, Verdict
 
@@ -81,7 +80,7 @@ def move_names(work: Work) -> Names:
     def name(row: int, _number: float) -> str:
         for loop, rows in _rows(work.loops):
             if row < rows.path:
-                return "The blend-in arc"
+                return "the blend-in arc"
             if row < rows.lead_out:
                 return move_name(loop.path, row - rows.path, work.surface)
             if row < rows.end:
@@ -96,7 +95,7 @@ def _lead_out_name(loop: Loop, row: int, surface: Path) -> str:
     # the overlap's arcs are the path's own, the blend's is not
     again = bool((as_complex(loop.path.centers) == as_complex(lead.centers)[row]).any())
     if row == len(lead) - 1 and lead.turns[row] and not again:
-        return "The blend-out arc"
+        return "the blend-out arc"
     return f"{move_name(lead, row, surface)} past START"
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, as_complex, swept
 from core.geometry.path import boxes as boxes_of
 from core.geometry.piece import SLIVER
-from core.tolerance import ARC_RADII, ON_PATH
+from core.tolerance import ON_PATH
 
 FEW_PAIRS: Final = 500
 """Pairs of which all are worked out at once: that costs less than to part lines from arcs."""
@@ -32,8 +32,8 @@ class PieceArrays:
 
     `rows` are the pieces' rows in the path they come from.  `vector` is end - start.  `arm` is start - center of an
     arc and 1 of a line, `turn` 0 for a line, `angle` the unsigned angle traveled by an arc and 0 for a line.
-    `slack` is how far an arc of two different radii may be from the circle taken for it, infinite if the radii
-    differ by more than ARC_RADII, or at all where both ends are on one ray: nobody knows then where it runs.
+    `slack` is how far an arc of two different radii may be from the circle taken for it, infinite where both of its
+    ends are on one ray: nobody knows then where it runs.
     """
 
     rows: Rows
@@ -156,7 +156,7 @@ def _one_radius(start: Points, end: Points, center: Points, turn: Floats) -> tup
     far = np.where(short & (size > 0.0), middle + 1j * turn * unit * bow, center)
     moved = np.where(np.abs(shift) > off, far, center - unit * shift)
     on_one_ray = (np.abs(turned.imag) <= 2.0 * SLIVER * turned.real) & (turned.real > 0.0)
-    slack = np.where((off > ARC_RADII) | on_one_ray, np.inf, off)
+    slack = np.where(on_one_ray, np.inf, off)
     return np.where(uneven, moved, center), np.where(uneven, slack, 0.0)
 
 

@@ -59,7 +59,7 @@ def approaches(pairs: Pairs, rows: Rows) -> tuple[Floats, Floats, Rows]:
 
 
 def closest(pairs: Pairs, surface: Path) -> Approach | None:
-    """Where the path comes nearest to the surface; places that differ by no more than GOUGE are as near as each other."""
+    """Where the path comes nearest to the surface; places that differ by no more than GOUGE are equally near."""
     if not len(pairs.i):
         return None
     least = pairs.least.min()

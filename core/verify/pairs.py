@@ -19,9 +19,9 @@ class Pairs:
     """m pairs of a piece `i` and another path's piece `j`, by rising i: every j that is nearest to some place of its i.
 
     `stations` (n + 1,) are the lengths traveled at the pieces' starts and at the end, `grant` (m,) what rounding and
-    the uneven radii of arcs leave open for a pair.  `least` (m,) is how near the pieces come to each other, `from_piece`
-    (3, m) how far the piece's start, middle and end are from the other one, and `from_other` (2, m) how far the
-    other one's start and end are from the piece.
+    the uneven radii of arcs leave open for a pair.  `least` (m,) is how near the pieces come to each other,
+    `from_piece` (3, m) how far the piece's start, middle and end are from the other one, and `from_other` (2, m) how
+    far the other one's start and end are from the piece.
     """
 
     pieces: PieceArrays
@@ -56,7 +56,8 @@ class Pairs:
 
 def measurable(radius: float, *paths: Path) -> bool:
     """All coordinates and the radius are lengths a machine could have."""
-    numbers = np.concatenate([array.ravel() for path in paths for array in (path.points, path.centers)])
+    arrays = [array.ravel() for path in paths for array in (path.points, path.centers)]
+    numbers = np.concatenate((np.zeros(0), *arrays))
     # what is not a number makes the largest one none, and no comparison holds
     sound = bool(np.abs(numbers).max(initial=0.0) <= LARGEST)
     return sound and isfinite(radius) and 0.0 <= radius <= LARGEST

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from math import isinf
+from collections.abc import Callable, Sequence
+from math import isfinite, isinf
 from typing import Final
+
+import numpy as np
 
 from core.finding import Finding, Severity
 from core.geometry.path import Path
-from core.geometry.stretch import stretch_lengths
-from core.tolerance import STOCK
 from core.verify.contact import AirCut
-from core.verify.names import Names, by_number
-from core.verify.verdict import Gouge, Uncut, UncutStretches, Verdict
+from core.verify.verdict import Gouge, Uncut, UnevenArc, Verdict
 
 DIGIT: Final = 0.00254
 """Millimeters: the last digit of a form in inches."""
@@ -20,17 +19,29 @@ DIGIT: Final = 0.00254
 SHOWN: Final = DIGIT / 2.0
 """Lengths below this would be told as zeros."""
 
-SHOWN_AREA: Final = 0.033
-"""Square millimeters below which an area would be told as zeros in inches."""
+Names = Callable[[int, float], str]
+"""The name of a move by its row in the judged path and by its number."""
 
-Shares = list[tuple[float, float]]
-"""Segments by their numbers, and how much of each."""
 
-UNCUT: Final = "UNCUT"
-"""The code of a stretch that stays uncut."""
+def by_number(_row: int, number: float) -> str:
+    """All that a number says: the path of segment k, or of the corner after it by k + 1/2."""
+    return f"the path of {int(number)}" if number == int(number) else f"the path at {_corner(number)}"
 
-LISTED: Final = 12
-"""A stretch over more segments is told by its first and its last alone."""
+
+def move_name(path: Path, row: int, surface: Path) -> str:
+    """A move of a compensated path: along a segment, about a corner, or straight across what the tool cannot enter."""
+    number = path.numbers[row].item()
+    if number != int(number):
+        arc = f"the corner arc after {int(number)}"
+        return arc if path.turns[row] else f"the straight move across {_corner(number)}"
+    segment = np.flatnonzero(surface.numbers == number)
+    if len(segment) and surface.turns[segment[0]] and not path.turns[row]:
+        return f"the straight move across {int(number)}"
+    return f"the path of {int(number)}"
+
+
+def _corner(number: float) -> str:
+    return f"the corner after {int(number)}"
 
 
 def findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple[Finding, ...]:
@@ -39,12 +50,12 @@ def findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple
     `names` says what the moves of the judged path are.
     """
     if not verdict.judged:
-        return (_unjudged(),)
+        return (_unjudged(verdict.uneven_arc),)
     return (
         *(_gouge(gouge, names, verdict.radius) for gouge in verdict.gouges),
         *_wrong_side(verdict),
-        *_crosses_itself(verdict),
-        *_uncut(verdict.uncut, surface),
+        *_crossing(verdict),
+        *(_uncut(stretch, surface) for stretch in verdict.uncut),
     )
 
 
@@ -59,11 +70,10 @@ def contact_findings(air_cuts: Sequence[AirCut], backwards: Sequence[int]) -> tu
 
 
 def _air_cut(stretch: AirCut) -> Finding:
-    text = "{value} of path does not touch the part: at X {x} Y {y} the cutter is {0} off it."
     return Finding(
         "AWAY",
         Severity.INFO,
-        text,
+        "{value} of path cuts air: {0} off the part at X {x} Y {y}.",
         segment=stretch.first_number,
         at=stretch.farthest,
         value=stretch.length,
@@ -71,29 +81,33 @@ def _air_cut(stretch: AirCut) -> Finding:
     )
 
 
-def _unjudged() -> Finding:
-    text = (
-        "The path cannot be judged: a coordinate or the tool radius is no number a machine can have, "
-        "or an arc's radii at its start and its end differ."
-    )
-    return Finding("UNJUDGED", Severity.ERROR, text)
+def _unjudged(arc: UnevenArc | None) -> Finding:
+    """Why nothing is known of the path."""
+    if arc is None:
+        text = "Not judged: a coordinate or the tool radius is no number, or too large for any machine."
+        return Finding("UNJUDGED", Severity.ERROR, text)
+    which = "segment" if arc.on_surface else "path of segment"
+    if isfinite(arc.difference):
+        text = f"Not judged: the arc's radii at start and end, in {which} {_number(arc.number)}, differ by {{value}}."
+        return Finding("UNJUDGED", Severity.ERROR, text, segment=arc.number, value=arc.difference)
+    text = f"Not judged: the arc in {which} {_number(arc.number)} may be empty or a full circle."
+    return Finding("UNJUDGED", Severity.ERROR, text, segment=arc.number)
 
 
 def or_more(gouge: Gouge, radius: float) -> str:
-    """What is said behind a depth that is told no farther than all of the cutter is behind the surface."""
+    """What is said after a depth that is told no farther than all of the cutter is behind the surface."""
     return " or more" if gouge.depth >= 2.0 * radius else ""
 
 
 def _gouge(gouge: Gouge, names: Names, radius: float) -> Finding:
     """The segment is the surface's; `lengths` holds the length of path that gouges."""
-    move = names(gouge.path_piece, gouge.path_number)
     fine = gouge.depth < SHOWN
     depth = "less than {1}" if fine else "{value}" + or_more(gouge, radius)
-    text = f"{move} gouges segment {_number(gouge.surface_number)} by {depth} at X {{x}} Y {{y}}, over {{0}} of path."
+    move = names(gouge.path_piece, gouge.path_number)
     return Finding(
         "GOUGE",
         Severity.ERROR,
-        text,
+        f"GOUGE {depth} deep in segment {_number(gouge.surface_number)} at X {{x}} Y {{y}}, by {move}.",
         segment=gouge.surface_number,
         at=gouge.surface_at,
         value=gouge.depth,
@@ -109,42 +123,34 @@ def _wrong_side(verdict: Verdict) -> tuple[Finding, ...]:
     if not verdict.wrong_side:
         return ()
     moves = len(verdict.wrong_side)
-    text = f"The cutter runs on the part's side of the contour, on {moves} {'move' if moves == 1 else 'moves'}."
+    text = f"The cutter is on the wrong side for {moves} {'move' if moves == 1 else 'moves'}. Check CUTTER COMP."
     return (Finding("WRONG_SIDE", Severity.ERROR, text),)
 
 
-def _crosses_itself(verdict: Verdict) -> tuple[Finding, ...]:
+def _crossing(verdict: Verdict) -> tuple[Finding, ...]:
+    if verdict.over_run_at is not None:
+        text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
+        return (Finding("OVER_RUN", Severity.INFO, text, at=verdict.over_run_at),)
     if not verdict.crosses_itself:
         return ()
-    text = "The contour crosses or touches itself at X {x} Y {y}: its over-run counts as surface too."
+    text = "The contour crosses itself at X {x} Y {y}."
     return (Finding("CROSSES_ITSELF", Severity.WARNING, text, at=verdict.crossing_at),)
 
 
-def _uncut(uncut: UncutStretches, surface: Path) -> Sequence[Finding]:
-    """A finding for each stretch."""
-    return [_told(one, shares, surface) for one, shares in zip(uncut, _shares(uncut, surface), strict=True)]
-
-
-def _told(uncut: Uncut, shares: Shares, surface: Path) -> Finding:
-    """The segment is the one the stretch begins on; `lengths` holds the largest thickness, then each share.
+def _uncut(uncut: Uncut, surface: Path) -> Finding:
+    """The segment is the one the stretch begins on; `lengths` holds the largest thickness.
 
     There is no thickness where there is no path.
     """
     where = _segments(uncut, surface)
-    lengths: tuple[float, ...] = ()
     if isinf(uncut.thickness):
-        text = f"Nothing of {where} is cut: there is no path."
+        text, lengths = f"UNCUT: nothing of {where} is cut. There is no path.", ()
     else:
-        told = ""
-        if len(shares) > 1:
-            listed = [f"segment {number:g} {{{row}}}" for row, (number, _) in enumerate(shares, 1)]
-            told = f" ({', '.join(listed)})"
-        thick = "{0}" if uncut.thickness >= SHOWN else f"less than {{{len(shares) + 1}}}"
-        area = "" if uncut.area is None or uncut.area < SHOWN_AREA else ", area {area}"
-        text = f"{{value}} of {where} stays uncut{told}, {thick} at the thickest, at X {{x}} Y {{y}}{area}."
-        lengths = (uncut.thickness, *[length for _, length in shares], DIGIT)
+        thick = "{0}" if uncut.thickness >= SHOWN else "less than {1}"
+        text = f"UNCUT {thick} thick, {{value}} long, {where} at X {{x}} Y {{y}}."
+        lengths = (uncut.thickness, DIGIT)
     return Finding(
-        UNCUT,
+        "UNCUT",
         Severity.INFO,
         text,
         segment=uncut.first_number,
@@ -155,17 +161,12 @@ def _told(uncut: Uncut, shares: Shares, surface: Path) -> Finding:
     )
 
 
-def _shares(uncut: UncutStretches, surface: Path) -> list[Shares]:
-    """How much of each segment a stretch takes, in the contour's order; few enough to be read."""
-    parts = stretch_lengths(surface, uncut.ends)
-    return [[one for one in part if one[1] > STOCK] if len(part) <= LISTED else [] for part in parts]
-
-
 def _segments(uncut: Uncut, surface: Path) -> str:
     """The segments a stretch lies on, from the one it begins on to the one it ends on."""
     first, last = _number(uncut.first_number), _number(uncut.last_number)
     if first == last:
         return f"segment {first}"
     if uncut.first_number < uncut.last_number:
-        return f"segments {first} to {last}"
-    return f"segments {first} to {_number(float(surface.numbers[-1]))} and on over START to {last}"
+        return f"segments {first}-{last}"
+    through = "" if uncut.first_number == surface.numbers[-1] else f"-{_number(float(surface.numbers[-1]))}"
+    return f"segments {first}{through} and over START to {last}"

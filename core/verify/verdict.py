@@ -151,6 +151,16 @@ NOTHING: Final = UncutStretches(
 """No stretches."""
 
 
+@dataclass(frozen=True, slots=True)
+class UnevenArc:
+    """An arc that cannot be judged: its radii at both ends differ by so much, which is infinite where nobody knows
+    whether it is empty or a full circle."""
+
+    number: float
+    difference: float
+    on_surface: bool
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Verdict:
     """What one center path does to one surface.
@@ -162,9 +172,11 @@ class Verdict:
     they gouge most.
     `loose` are rows that may be farther from the surface than the radius somewhere, lead moves among them, and
     `backwards` rows that run against all walls they touch.
-    `crossing_at` is the first place where the surface crosses or touches itself.  `judged` is False, and
-    `clearance` not a number, where coordinates or radius are no lengths a machine could have or an arc has two clearly
-    different radii: nothing is known then.
+    `crossing_at` is the first place where the surface crosses or touches itself.  `over_run_at` is where its first and
+    its last element cross, and nothing else, if what lies beyond is clear of the part: that is judged as lead-in and
+    lead-out and is no surface.  `radius_slack` is how much of the radii of uneven arcs is added to the tolerance.
+    `judged` is False, and `clearance` not a number, where coordinates or radius are no lengths a machine could have or
+    an arc, `uneven_arc`, has two clearly different radii: nothing is known then.
     """
 
     radius: float
@@ -177,7 +189,10 @@ class Verdict:
     loose: tuple[int, ...] = ()
     backwards: tuple[int, ...] = ()
     crossing_at: Point | None = None
+    over_run_at: Point | None = None
+    radius_slack: float = 0.0
     judged: bool = True
+    uneven_arc: UnevenArc | None = None
 
     @property
     def clearance(self) -> float:

@@ -74,6 +74,8 @@ def wrong_side(pairs: Pairs, found: Gouging, surface: Sided, radius: float) -> t
     gouge at its ends, in its middle and where it is deepest, and a piece that meets no wall may be on another side
     between these places.
     """
+    if not len(pairs.pieces):
+        return np.zeros(0, np.bool_), found
     parts = _parts(pairs, found, surface, radius)
     index, t = np.arange(len(pairs.pieces)), np.full(len(pairs.pieces), 0.5)
     asked = (~(_near(pairs, radius) if surface.endless else _kept(pairs, found, radius))).nonzero()[0]
@@ -96,7 +98,8 @@ def _with_depth(pairs: Pairs, inside: Stretches, found: Gouging, wrong: Flags, r
     """With what of these parts, which are on the part's side, is more than GOUGE there.
 
     A gouge's distance counts as negative there.  It ends where the path is the radius away again, short of which it is
-    by GOUGE and what uneven arcs leave open: at the end that is farthest inside all of the cutter is behind the surface.
+    by GOUGE and what uneven arcs leave open: at the end that is farthest inside all of the cutter is behind the
+    surface.
     """
     inside = inside.cut(pairs.stations[1:-1])
     # what gouges is nowhere farther from the surface

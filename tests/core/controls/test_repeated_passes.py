@@ -14,12 +14,11 @@ from core.controls.judged_runs import deepest_gouge, findings, judged
 from core.controls.repeated_passes import without_repeats
 from core.geometry.path import Path
 from core.geometry.piece import Side
-from core.geometry.piece_arrays import at
+from core.geometry.piece_arrays import at, piece_arrays
 from core.tolerance import GOUGE, ON_PATH
-from core.verify.course import courses
 from core.verify.gouge import gouging
 from core.verify.judge import judge
-from core.verify.pairs import approaches, pairs_of
+from core.verify.pairs import pairs_of, rounding_of
 from core.verify.verdict import Verdict
 from tests.core.controls.hand import ran
 
@@ -194,13 +193,13 @@ def _told(verdict: Verdict) -> tuple[object, ...]:
 def _gouging(surface: Path, radius: float, center: Path) -> set[tuple[float, float]]:
     """Places of the center path within its gouges: of one that runs over several laps the verdict tells one alone."""
     with np.errstate(all="ignore"):
-        walls, moves = courses((surface,), (center,))
-        pairs = pairs_of(moves, walls, radius, radius + 1e-5)
-        stretches = gouging(pairs, approaches(pairs, radius - GOUGE)).stretches
-    piece, t = np.divmod(np.arange(SHARES * len(moves.pieces)), SHARES)
-    s = pairs.center_stations[piece] + (t + 0.5) / SHARES * moves.pieces.length[piece]
+        walls, moves = piece_arrays(surface), piece_arrays(center)
+        pairs = pairs_of(moves, walls, rounding_of(walls))
+        stretches = gouging(pairs, radius - GOUGE).stretches
+    piece, t = np.divmod(np.arange(SHARES * len(moves)), SHARES)
+    s = pairs.stations[piece] + (t + 0.5) / SHARES * moves.length[piece]
     inside = (s[:, None] > stretches.first + 1e-5) & (s[:, None] < stretches.last - 1e-5)
-    points = at(moves.pieces.take(piece), (t + 0.5) / SHARES)[inside.any(axis=1)]
+    points = at(moves.take(piece), (t + 0.5) / SHARES)[inside.any(axis=1)]
     return set(zip((points.real.round(6) + 0.0).tolist(), (points.imag.round(6) + 0.0).tolist(), strict=True))
 
 

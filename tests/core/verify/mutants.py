@@ -1,6 +1,6 @@
 """Mutants: correct center paths spoiled in small ways, and whether the judge notices.
 
-`python -m tests.core.verify.mutants [contours]` prints a table for each road the judge may take.  Whether a mutant
+`python -m tests.core.verify.mutants [contours]` prints a table for each of both.  Whether a mutant
 truly gouges or leaves stock is decided by dense points (`oracle`), not by the judge.
 """
 
@@ -17,10 +17,11 @@ import numpy as np
 from core.geometry.path import Path
 from core.geometry.piece import Side
 from core.tolerance import GOUGE
+from core.verify.judge import judge
 from core.verify.verdict import Verdict
 from tests.core.verify import oracle
 from tests.core.verify.corpus import MATTERS, STEP, Case, Chain, Truth, corpus
-from tests.core.verify.roads import ROADS, Road, proofs
+from tests.core.verify.finer import judge_finer
 
 Mutation = Callable[[Random, Case], Chain]
 
@@ -159,9 +160,12 @@ MUTATIONS: tuple[Mutation, ...] = (
 )
 
 
+Judge = Callable[[Path, Side, float, Path], Verdict]
+
+
 @dataclass
 class Row:
-    """Counts of one mutation on one road; `proved` are walls with moves of their own, which are not measured."""
+    """Counts of one mutation."""
 
     mutants: int = 0
     gouging: int = 0
@@ -169,18 +173,15 @@ class Row:
     leaving: int = 0
     stock_caught: int = 0
     falsely_accused: int = 0
-    proved: int = 0
 
     @property
     def missed(self) -> int:
         return self.gouging - self.gouge_caught + self.leaving - self.stock_caught
 
-    def count(self, road: Road, case: Case, path: Path, truth: Truth) -> None:
+    def count(self, judged: Judge, case: Case, path: Path, truth: Truth) -> None:
         """Judge one mutant and compare."""
-        with proofs() as found:
-            verdict = road.verdict(case.surface, case.side, case.radius, path)
+        verdict = judged(case.surface, case.side, case.radius, path)
         self.mutants += 1
-        self.proved += sum(int(np.count_nonzero(own.piece >= 0)) for own in found)
         self.gouging += truth.gouges
         self.gouge_caught += truth.gouges and _gouge_told(truth, verdict, case)
         self.leaving += truth.stock > MATTERS
@@ -217,21 +218,23 @@ def _falsely(truth: Truth, verdict: Verdict, case: Case, path: Path) -> bool:
     return bool(verdict.wrong_side) and case.closed and truth.behind <= 0.0
 
 
+JUDGES: dict[str, Judge] = {"as it is": judge, "in many parts": judge_finer}
+
 Table = dict[str, Row]
 """One row a mutation."""
 
 
 def tables(seed: int, contours: int) -> dict[str, Table]:
-    """One table a road over the same mutants of a corpus of contours."""
-    told = {road.name: {mutation.__name__: Row() for mutation in MUTATIONS} for road in ROADS}
+    """Two tables over the same mutants of a corpus of contours: as they are, and parted into many pieces."""
+    told = {name: {mutation.__name__: Row() for mutation in MUTATIONS} for name in JUDGES}
     random = Random(seed)
     for case in corpus(seed, contours):
         for mutation in MUTATIONS:
             path = mutation(random, case).path()
             if len(path):
                 truth = Truth.of(case, path)
-                for road in ROADS:
-                    told[road.name][mutation.__name__].count(road, case, path, truth)
+                for name, judged in JUDGES.items():
+                    told[name][mutation.__name__].count(judged, case, path, truth)
     return told
 
 
@@ -239,18 +242,18 @@ def main() -> None:
     parser = argparse.ArgumentParser("tests.core.verify.mutants", description=__doc__)
     parser.add_argument("contours", type=int, nargs="?", default=100, help="contours whose paths are spoiled")
     told = tables(1, parser.parse_args().contours)
-    for road in ROADS:
-        print(f"{road.name}: {road.words}")
-        _print(told[road.name])
+    for name, table in told.items():
+        print(name)
+        _print(table)
 
 
 def _print(table: Table) -> None:
-    words = ("mutants", "gouging", "caught", "stock", "caught", "missed", "falsely", "proved")
+    words = ("mutants", "gouging", "caught", "stock", "caught", "missed", "falsely")
     print(f"{'mutation':20}" + "".join(f"{word:>9}" for word in words))
     sums = np.zeros(len(words), np.intp)
     for name, row in table.items():
         caught = (row.mutants, row.gouging, row.gouge_caught, row.leaving, row.stock_caught)
-        counts = (*caught, row.missed, row.falsely_accused, row.proved)
+        counts = (*caught, row.missed, row.falsely_accused)
         print(f"{name.replace('_', ' '):20}" + "".join(f"{count:9}" for count in counts))
         sums += counts
     print(f"{'all':20}" + "".join(f"{count:9}" for count in sums) + "\n")

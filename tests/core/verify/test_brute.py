@@ -1,4 +1,4 @@
-"""Both roads of the judge against a slow one over many contours, and over their paths spoiled in all ways.
+"""The judge against a slow one over many contours, and over their paths spoiled in all ways.
 
 `python -m tests.core.verify.test_brute [seeds]` compares as many more as wanted.
 """
@@ -18,11 +18,11 @@ from core.comp.compensate import compensate
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Side, Turn
 from core.tolerance import STOCK
+from core.verify.judge import judge
 from core.verify.verdict import Verdict
 from tests.core.verify import oracle
 from tests.core.verify.brute import Slow, point_to, slow
 from tests.core.verify.corpus import Chain, gouged
-from tests.core.verify.roads import measured, proved
 from tests.core.verify.shapes import circle, moved
 
 
@@ -130,12 +130,11 @@ def compared(family: Callable[[Random], Path], seed: int, contours: int) -> int:
 
 
 def agree(surface: Path, side: Side, radius: float, path: Path) -> None:
-    """Both roads of the judge, by measuring every pair and by proving what can be, say what the slow judge finds."""
+    """The judge says what the slow judge finds."""
     truth = slow(surface, radius, path, STOCK)
-    for verdict in (measured, proved):
-        told = verdict(surface, side, radius, path)
-        _agree(told, truth, surface, radius, path)
-        _as_deep(told, truth, surface, side, path)
+    told = judge(surface, side, radius, path)
+    _agree(told, truth, surface, radius, path)
+    _as_deep(told, truth, surface, side, path)
 
 
 def _as_deep(told: Verdict, truth: Slow, surface: Path, side: Side, path: Path) -> None:

@@ -8,14 +8,11 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Point, Side, Turn
 from core.geometry.piece_arrays import direction, piece_arrays
-from core.verify import crossing as module
-from core.verify.course import courses
-from core.verify.crossing import at_joints, crossings
+from core.verify.crossing import at_joints
 from core.verify.judge import judge
 from core.verify.verdict import Verdict
 from tests.core.verify.shapes import circle, lines, moved, paths, square
@@ -93,19 +90,6 @@ def test_a_straight_cut_across_a_contour_is_found(surface: Path, length: float, 
     longer = Path.from_pieces([first, *surface, back])
     assert verdict(longer).crosses_itself
     assert verdict(moved(longer, 1.0, (100.0, 50.0))).crosses_itself
-
-
-@settings(deadline=None, max_examples=150, derandomize=True)
-@given(paths(8), st.booleans())
-def test_what_is_told_apart_by_its_lines_does_not_meet(surface: Path, closed: bool) -> None:
-    (course,) = courses((surface,))
-    with np.errstate(all="ignore"):
-        quick = crossings(course, closed=closed)
-    with pytest.MonkeyPatch.context() as patch, np.errstate(all="ignore"):
-        patch.setattr(module, "clear", lambda _one, i, *_: np.zeros(len(i), np.bool_))
-        piece_arrays = crossings(course, closed=closed)
-    assert np.array_equal(quick.places, piece_arrays.places)
-    assert np.array_equal(quick.points, piece_arrays.points)
 
 
 @given(paths(), paths())

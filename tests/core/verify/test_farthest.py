@@ -9,10 +9,11 @@ import pytest
 
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Turn
-from core.geometry.piece_arrays import boxes, piece_arrays
+from core.geometry.piece_arrays import piece_arrays
 from core.verify import farthest as module
 from core.verify.farthest import farthest
-from core.verify.reach import Stretches
+from core.verify.pairs import pairs_of, rounding_of
+from core.verify.stretches import Stretches
 from tests.core.verify.shapes import lines
 
 
@@ -20,18 +21,18 @@ from tests.core.verify.shapes import lines
 @pytest.mark.parametrize("floor", [lines((-10, 0), (10, 0)), lines((-10, 0), (-2.5, 0), (2.5, 0), (10, 0))])
 def test_the_top_of_an_arc_is_found_at_once(begin: float, floor: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """One wall is nearest to both ends of what is left: it knows itself where it is farthest."""
-    monkeypatch.setattr(module, "ROUNDS", 4)
+    monkeypatch.setattr(module, "MAX_DIVISIONS", 4)
     walked = piece_arrays(
         Path.from_pieces([Arc((begin, (25 - begin**2) ** 0.5 - 3.0), (3.0, 1.0), (0.0, -3.0), Turn.CW)])
     )
     other, whole = piece_arrays(floor), Stretches(np.zeros(1), walked.length)
-    far = farthest(walked, whole, other, boxes(other))
+    far = farthest(pairs_of(walked, other, rounding_of(other)), whole)
     assert far.apart.item() == pytest.approx(2.0, abs=1e-14)
     assert far.place.item() == pytest.approx(5.0 * asin(-begin / 5.0), abs=1e-9)
 
 
 def test_between_two_walls_it_is_where_both_are_as_far(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "ROUNDS", 2)
+    monkeypatch.setattr(module, "MAX_DIVISIONS", 2)
     walked, other = piece_arrays(lines((0, 0), (4, 0))), piece_arrays(lines((-1, -1), (-1, 9), (5, 9), (5, -1)))
-    far = farthest(walked, Stretches(np.zeros(1), walked.length), other, boxes(other))
+    far = farthest(pairs_of(walked, other, rounding_of(other)), Stretches(np.zeros(1), walked.length))
     assert (far.place.item(), far.apart.item()) == pytest.approx((2.0, 3.0), abs=1e-12)

@@ -13,13 +13,11 @@ from core.comp.compensate import compensate
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from core.tolerance import STOCK
-from core.verify import gaps
 from core.verify.judge import judge
 from core.verify.verdict import UncutStretches
 from tests.core.verify import oracle
 from tests.core.verify.corpus import Chain
 from tests.core.verify.oracle import chords
-from tests.core.verify.roads import thresholds
 from tests.core.verify.shapes import circle, lines, square
 from tests.core.verify.test_brute import spiral, waves
 
@@ -96,25 +94,6 @@ def odd_outlines() -> list[tuple[Path, Path]]:
     ]
 
 
-@pytest.mark.parametrize(("surface", "center"), odd_outlines())
-def test_the_bound_proves_what_the_search_finds(surface: Path, center: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    short = uncut(surface, center)
-    monkeypatch.setattr(gaps, "_proved", lambda _pairs, _near, bound, _radius: np.zeros(len(bound.apart), np.bool_))
-    searched = uncut(surface, center)
-    assert len(short) == len(searched) > 0
-    for one, other in zip(short, searched, strict=True):
-        assert one.thickness == pytest.approx(other.thickness, abs=2e-8)
-        assert (one.start, one.end, one.length) == (other.start, other.end, other.length)
-
-
-def test_a_corner_is_proved_without_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
-    def searched(*_: object) -> None:
-        raise AssertionError
-
-    monkeypatch.setattr(gaps, "farthest", searched)
-    assert len(uncut(polygon(80), inside(polygon(80)))) == 80
-
-
 def cap(radius: float, width: float) -> float:
     """What a circle reaches over a chord."""
     return radius**2 * asin(width / 2 / radius) - width / 2 * sqrt(radius**2 - width**2 / 4)
@@ -168,13 +147,9 @@ def test_an_area_is_told_whichever_of_the_moves_that_end_a_gap_stands_for_it() -
     points = [(radius * cos(angle), radius * sin(angle)) for radius, angle in spots]
     surface = Chain((*points, points[0]), tuple(bend / 10.0 for bend in ROUNDED_GEAR)).path()
     path = compensate(surface, Side.LEFT, 1.0, 11, closed=True).path
-    areas = []
-    for few in (len(surface), 0):
-        with thresholds(few):
-            areas.append([one.area for one in uncut(surface, path, 1.0)])
-    assert None not in areas[0]
-    assert areas[1] == pytest.approx(areas[0], abs=1e-9)
-    assert areas[0][0] == pytest.approx(_area_left(surface, path, 1.0, (0.3, 2.9)), abs=1e-3)
+    areas = [one.area for one in uncut(surface, path, 1.0)]
+    assert None not in areas
+    assert areas[0] == pytest.approx(_area_left(surface, path, 1.0, (0.3, 2.9)), abs=1e-3)
 
 
 def _area_left(surface: Path, path: Path, radius: float, near: tuple[float, float]) -> float:

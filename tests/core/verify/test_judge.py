@@ -10,7 +10,7 @@ import pytest
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.tolerance import GOUGE
-from core.verify.judge import judge, judge_together, rulings
+from core.verify.judge import judge, judge_together
 from tests.core.verify.shapes import around, circle, lines, moved, square
 
 R = 0.25
@@ -21,40 +21,72 @@ MID_SIDE_PATH = lines((1, R), (1.75, R), (1.75, 1.75), (R, 1.75), (R, R), (1, R)
 CORNERS = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)]
 
 
-def test_over_run_square_cut_at_its_outer_corner_alone() -> None:
+def test_over_run_square_cut_at_its_outer_corner_alone_leaves_all_of_the_square() -> None:
     verdict = judge(OVER_RUN, Side.RIGHT, R, OVER_RUN_PATH)
     assert verdict.clean
-    assert verdict.clearance == pytest.approx(R, abs=1e-12)
-    assert verdict.surface_length == pytest.approx(10.0)
-    assert verdict.uncut_length == pytest.approx(8.5, abs=1e-9)
+    assert verdict.over_run_at == pytest.approx((0.0, 0.0))
+    assert not verdict.crosses_itself
+    assert verdict.crossing_at is None
+    assert verdict.clearance == pytest.approx(sqrt(2.0) * R, abs=1e-12)
+    assert verdict.surface_length == pytest.approx(8.0)
+    assert verdict.uncut_length == pytest.approx(8.0, abs=1e-9)
     (stretch,) = verdict.uncut
     assert (stretch.first_number, stretch.last_number) == (1.0, 4.0)
-    assert stretch.start == pytest.approx((-0.25, 0.0))
-    assert stretch.end == pytest.approx((0.0, -0.25))
     assert stretch.thickest == pytest.approx((2.0, 2.0))
     assert stretch.thickness == pytest.approx(2.25 * sqrt(2) - R)
     assert stretch.area is None
+
+
+def over_run_path(radius: float = R) -> Path:
+    """The path around the square with all four sides kept."""
+    pieces: list[Piece] = [
+        Line((-1, -radius), (2, -radius)),
+        Arc((2, -radius), (2 + radius, 0), (2, 0), Turn.CCW),
+        Line((2 + radius, 0), (2 + radius, 2)),
+        Arc((2 + radius, 2), (2, 2 + radius), (2, 2), Turn.CCW),
+        Line((2, 2 + radius), (0, 2 + radius)),
+        Arc((0, 2 + radius), (-radius, 2), (0, 2), Turn.CCW),
+        Line((-radius, 2), (-radius, -1)),
+    ]
+    return Path.from_pieces(pieces, [1, 1.5, 2, 2.5, 3, 3.5, 4])
+
+
+def test_over_run_square_with_every_segment_kept_is_clean() -> None:
+    verdict = judge(OVER_RUN, Side.RIGHT, R, over_run_path())
+    assert verdict.clean
+    assert verdict.over_run_at == pytest.approx((0.0, 0.0))
+    assert verdict.uncut == ()
+
+
+def test_a_path_too_near_to_the_square_of_an_over_run_gouges_it() -> None:
+    verdict = judge(OVER_RUN, Side.RIGHT, R, over_run_path(R - 0.01))
+    assert not verdict.clean
+    assert verdict.depth == pytest.approx(0.01)
+
+
+def test_an_over_run_into_the_part_is_a_crossing() -> None:
+    verdict = judge(OVER_RUN, Side.LEFT, R, lines((-1, R), (1.75, R), (1.75, 1.75), (R, 1.75), (R, -1)))
+    assert verdict.over_run_at is None
     assert verdict.crosses_itself
     assert verdict.crossing_at == pytest.approx((0.0, 0.0))
+    assert not verdict.clean
 
 
-def test_over_run_square_with_every_segment_kept_gouges_the_over_run() -> None:
-    pieces: list[Piece] = [
-        Line((-1, -R), (2, -R)),
-        Arc((2, -R), (2 + R, 0), (2, 0), Turn.CCW),
-        Line((2 + R, 0), (2 + R, 2)),
-        Arc((2 + R, 2), (2, 2 + R), (2, 2), Turn.CCW),
-        Line((2, 2 + R), (0, 2 + R)),
-        Arc((0, 2 + R), (-R, 2), (0, 2), Turn.CCW),
-        Line((-R, 2), (-R, -1)),
-    ]
-    verdict = judge(OVER_RUN, Side.RIGHT, R, Path.from_pieces(pieces, [1, 1.5, 2, 2.5, 3, 3.5, 4]))
-    assert verdict.depth == pytest.approx(R)
-    assert {gouge.path_number for gouge in verdict.gouges} == {1.0, 4.0}
-    for gouge in verdict.gouges:
-        assert gouge.surface_number == 5.0 - gouge.path_number
-        assert gouge.extent == pytest.approx(2 * R, abs=1e-3)
-    assert verdict.uncut == ()
+def test_a_crossing_of_other_than_the_first_and_the_last_segment_is_no_over_run() -> None:
+    ell = lines((-1, 0), (4, 0), (4, 2), (2, 2), (2, 4), (0, 4), (0, -1), (-1, -1))
+    verdict = judge(ell, Side.RIGHT, R, lines((-1, -R), (-R, -R), (-R, -1)))
+    assert verdict.over_run_at is None
+    assert verdict.crosses_itself
+
+
+def test_an_over_run_of_arcs_is_lead_in_and_lead_out() -> None:
+    leaf = Path.from_pieces(
+        [Arc((-1, -0.5), (4, 2), (0.75, 2.25), Turn.CCW), Line((4, 2), (0, 2)), Line((0, 2), (0, -2.5))]
+    )
+    verdict = judge(leaf, Side.RIGHT, R, lines((9, 9), (8, 9)))
+    assert verdict.over_run_at is not None
+    assert verdict.over_run_at[0] == pytest.approx(0.0, abs=1e-9)
+    assert verdict.clean
 
 
 def test_inside_square_leaves_a_corner_of_both_walls() -> None:
@@ -205,8 +237,22 @@ def test_an_arc_with_two_radii_is_granted_the_difference() -> None:
     surface = Path.from_pieces([Arc((10.0, 0.0), (0.0, 10.002), (0.0, 0.0), Turn.CCW)])
     path = Path.from_pieces([Arc((9.0, 0.0), (0.0, 9.002), (0.0, 0.0), Turn.CCW)])
     assert judge(surface, Side.LEFT, 1.0, path).clean
-    spiral = Path.from_pieces([Arc((9.0, 0.0), (0.0, 9.1), (0.0, 0.0), Turn.CCW)])
-    assert not judge(surface, Side.LEFT, 1.0, spiral).judged
+    assert judge(surface, Side.LEFT, 1.0, path).radius_slack == pytest.approx(0.004)
+
+
+def test_an_arc_of_two_radii_is_judged_up_to_the_difference_that_is_accepted() -> None:
+    wall = Path.from_pieces([Arc((10.0, 0.0), (0.0, 10.0), (0.0, 0.0), Turn.CCW)])
+    spiral = Path.from_pieces([Arc((9.0, 0.0), (0.0, 9.01), (0.0, 0.0), Turn.CCW)])
+    refused = judge(wall, Side.LEFT, 1.0, spiral)
+    assert not refused.judged
+    assert refused.uneven_arc is not None
+    assert refused.uneven_arc.difference == pytest.approx(0.01)
+    assert not refused.uneven_arc.on_surface
+    accepted = judge(wall, Side.LEFT, 1.0, spiral, arc_radii=0.0127)
+    assert accepted.clean
+    assert accepted.radius_slack == pytest.approx(0.01)
+    deep = judge(wall, Side.LEFT, 1.02, spiral, arc_radii=0.0127)
+    assert deep.depth == pytest.approx(0.02, abs=0.0101)
 
 
 @pytest.mark.parametrize("turn", [Turn.CW, Turn.CCW])
@@ -224,16 +270,6 @@ def test_far_from_the_origin_rounding_is_still_rounding() -> None:
     verdict = judge(moved(MID_SIDE, 0.0, shift), Side.LEFT, R, moved(MID_SIDE_PATH, 0.0, shift))
     assert verdict.clean
     assert verdict.uncut_length == pytest.approx(8 * R, abs=1e-3)
-
-
-def test_many_paths_over_one_surface_are_judged_as_each_alone() -> None:
-    centers = (MID_SIDE_PATH, EMPTY, lines((0, 0), (1, nan)), MID_SIDE_PATH, lines((1, 0.1), (1.5, 0.1)))
-    together = rulings(MID_SIDE, Side.LEFT, R, centers)
-    for ruling, center in zip(together, centers, strict=True):
-        alone, verdict = judge(MID_SIDE, Side.LEFT, R, center), ruling.verdict
-        assert ruling.clean == alone.clean == verdict.clean
-        assert (verdict.gouges, verdict.uncut, verdict.judged) == (alone.gouges, alone.uncut, alone.judged)
-    assert together[0] is together[3]
 
 
 def test_a_ring_of_ten_thousand_teeth_is_as_right_as_a_small_one() -> None:

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-from itertools import count
 from math import nan
-from typing import Any
 
 import numpy as np
 import pytest
@@ -14,46 +10,12 @@ from numpy.typing import NDArray
 
 from core.geometry.path import Path
 from core.geometry.piece import Side
-from core.verify import judge as judging
-from core.verify import pairs as pairing
-from core.verify.judge import judge, judgeable, rulings
-from core.verify.stray import stray
+from core.verify.contact import air_cuts
+from core.verify.judge import judge, judge_together
+from core.verify.pairs import measurable
 from tests.core.verify.shapes import lines
 
 WALL, DEEP = lines((0, 0), (10, 0), (20, 0)), lines((1, 0.5), (9, 0.5), (19, 0.5))
-
-
-def _lost(found: tuple[NDArray[np.float64], ...]) -> tuple[NDArray[np.float64], ...]:
-    return tuple(array * nan for array in found)
-
-
-def _spoilt(monkeypatch: pytest.MonkeyPatch, name: str, spoil: Callable[[Any], Any]) -> None:
-    real = getattr(pairing, name)
-    monkeypatch.setattr(pairing, name, lambda *given: spoil(real(*given)))
-
-
-def test_a_pair_whose_distance_is_no_number_is_not_judged(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert judge(WALL, Side.LEFT, 1.0, DEEP).depth == pytest.approx(0.5)
-    _spoilt(monkeypatch, "touches", lambda found: replace(found, apart=np.full(len(found.apart), nan)))
-    for verdict in (judge(WALL, Side.LEFT, 1.0, DEEP), rulings(WALL, Side.LEFT, 1.0, [DEEP])[0].verdict):
-        assert not verdict.judged
-        assert not verdict.clean
-
-
-def test_nor_one_whose_places_are_no_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
-    _spoilt(monkeypatch, "_measured", _lost)
-    assert not judge(WALL, Side.LEFT, 1.0, DEEP).judged
-    assert not rulings(WALL, Side.LEFT, 1.0, [DEEP])[0].clean
-
-
-@pytest.mark.parametrize("bad", range(3))
-def test_nor_where_one_block_of_pairs_has_them(bad: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A least of all blocks that is taken by comparisons passes it over, unless it is the first."""
-    monkeypatch.setattr(pairing, "blocks", lambda first, _: np.arange(len(first))[:, None])
-    block = count()
-    _spoilt(monkeypatch, "_measured", lambda found: _lost(found) if next(block) == bad else found)
-    assert not judge(WALL, Side.LEFT, 1.0, DEEP).judged
-    assert next(block) > bad
 
 
 ODD = (1e7, -1e7, 9.9e6, 1e6, 1e-7, 1e-9, 1e-10, 1e-160, 5e-324, 0.0)
@@ -98,9 +60,9 @@ def test_of_any_path_at_all_no_finding_goes_by_a_number_that_is_none(seed: int) 
         surface, center = _odd_path(random), _odd_path(random)
         radius = float(10.0 ** random.uniform(-6.0, 6.0))
         verdict = judge(surface, Side.LEFT, radius, center)
-        assert rulings(surface, Side.LEFT, radius, [center])[0].clean == verdict.clean
-        stray(surface, radius, center)
-        if not verdict.judged:
+        air_cuts(surface, radius, center)
+        # the runs beyond a crossing are no surface
+        if not verdict.judged or verdict.over_run_at is not None:
             continue
         judged += 1
         told = [number for one in verdict.gouges for number in (one.depth, *one.at, *one.surface_at, one.extent)]
@@ -124,7 +86,7 @@ def test_no_number_is_let_in_anywhere(bad: float, where: str) -> None:
             arrays = {"points": DEEP.points.copy(), "centers": DEEP.centers.copy()}
             arrays[where][row, axis] = bad
             path = Path.of(arrays["points"], arrays["centers"], DEEP.turns)
-            assert not judgeable(1.0, WALL, path)
+            assert not measurable(1.0, WALL, path)
             assert not judge(WALL, Side.LEFT, 1.0, path).judged
-            assert not judging.judge_together(path, Side.LEFT, 1.0, [WALL, DEEP]).judged
-            assert not rulings(path, Side.LEFT, 1.0, [DEEP])[0].clean
+            assert not judge_together(path, Side.LEFT, 1.0, [WALL, DEEP]).judged
+            assert not judge(path, Side.LEFT, 1.0, DEEP).clean

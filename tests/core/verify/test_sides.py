@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from random import Random
-from unittest.mock import patch
 
 import numpy as np
 import pytest
 
-from core.comp.compensate import compensate
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.verify import sides as module
 from core.verify.judge import judge
 from tests.core.verify import oracle
 from tests.core.verify.corpus import Chain
@@ -47,24 +44,6 @@ def test_sides_of_closed_outlines(seed: int) -> None:
         for side in Side:
             wrong = inside != (room_is_left_inside == (side is Side.LEFT))
             assert judge(outline, side, 0.05, move).wrong_side == ((0,) if wrong else ())
-
-
-@pytest.mark.parametrize("seed", range(40))
-def test_moves_away_from_a_closed_outline_are_on_the_side_of_the_path_they_belong_to(seed: int) -> None:
-    """What stands for the whole path says of the moves in and out what their own ends and middles say."""
-    random = Random(seed)
-    outline, radius = star(random), random.choice((0.005, 0.05, 0.3))
-    for side in Side:
-        path = compensate(outline, side, radius, 20, closed=True).path
-        if not len(path):
-            continue
-        far = [(x + random.gauss(0.0, 2.0), y + random.gauss(0.0, 2.0)) for x, y in path.points[[0, -1]].tolist()]
-        moves = [*lines(far[0], tuple(path.points[0])), *path, *lines(tuple(path.points[-1]), far[1])]
-        center = Path.from_pieces(moves)
-        for told in Side:
-            with patch.object(module, "NARROW", np.inf):
-                asked = judge(outline, told, radius, center).wrong_side
-            assert judge(outline, told, radius, center).wrong_side == asked
 
 
 HOOK = Path.from_pieces([Line((0, 0), (10, 0)), Arc((10, 0), (10, 4), (10, 2), Turn.CCW), Line((10, 4), (3, 4))])

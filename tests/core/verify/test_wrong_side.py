@@ -10,17 +10,14 @@ import numpy as np
 import pytest
 from shapely.geometry import Polygon
 
-from core.geometry.path import Flags, Path
+from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.verify import behind
 from core.verify.judge import judge
-from core.verify.pairs import Pairs
-from core.verify.reach import Stretches
 from core.verify.verdict import Verdict
 from tests.core.verify import oracle
 from tests.core.verify.corpus import Chain, gouged
+from tests.core.verify.finer import MANY, in_parts
 from tests.core.verify.oracle import chords
-from tests.core.verify.roads import MANY, in_parts, measured, proved
 from tests.core.verify.shapes import lines, mirrored, square
 
 PLATE = square(40.0)
@@ -29,7 +26,7 @@ PLATE = square(40.0)
 @pytest.mark.parametrize(("end", "inside"), [((50, 1), 0.29357798), ((44, 0.6), 0.30353430), ((60, 4), 1.68888889)])
 def test_a_move_through_a_corner_of_a_plate(end: tuple[float, float], inside: float) -> None:
     """Its ends and its middle are beside the plate, its center is inside by less than the radius."""
-    for verdict in on_all_roads(PLATE, Side.RIGHT, 3.0, lines((-1, -2.5), end)):
+    for verdict in as_it_is_and_finer(PLATE, Side.RIGHT, 3.0, lines((-1, -2.5), end)):
         assert verdict.wrong_side == (0,)
         assert verdict.depth == pytest.approx(3.0 + inside, abs=1e-6)
         x, y = verdict.gouges[0].at
@@ -87,7 +84,7 @@ OPEN = lines((0, 0), (10, 0))
 )
 def test_behind_an_open_contour_as_far_as_it_has_a_side(move: Path, depth: float, wrong: bool) -> None:
     """Where nothing of it but an end is nearest it has none; farther behind it than the radius there is no gouge."""
-    for verdict in on_all_roads(OPEN, Side.LEFT, 1.0, move):
+    for verdict in as_it_is_and_finer(OPEN, Side.LEFT, 1.0, move):
         assert verdict.depth == pytest.approx(depth, abs=1e-6)
         assert bool(verdict.wrong_side) == wrong
 
@@ -115,7 +112,7 @@ def test_the_middle_of_a_groove_is_on_the_side_that_the_groove_is_open_to(
     radius: float, move: Path, depth: float
 ) -> None:
     """All of the arc is equally near there, its edges too, behind both of which the lips go away."""
-    for verdict in on_all_roads(GROOVE, Side.RIGHT, radius, move):
+    for verdict in as_it_is_and_finer(GROOVE, Side.RIGHT, radius, move):
         assert verdict.wrong_side == ()
         assert verdict.depth == pytest.approx(depth, abs=1e-6)
 
@@ -136,7 +133,7 @@ def test_behind_the_edge_where_two_walls_touch(side: Side, wrong: tuple[int, ...
     move = lines((2, -0.3), (2, 0.3))
     other = Side.LEFT if side is Side.RIGHT else Side.RIGHT
     mirror_image = judge(mirrored(BOSS), other, 2.5, mirrored(move))
-    for verdict in (*on_all_roads(BOSS, side, 2.5, move), mirror_image):
+    for verdict in (*as_it_is_and_finer(BOSS, side, 2.5, move), mirror_image):
         assert verdict.wrong_side == wrong
         assert verdict.depth == pytest.approx(depth, abs=1e-6)
 
@@ -147,19 +144,19 @@ ARMS = lines((0, 10), (0, 0), (4, 0), (4, 3))
 def test_a_move_over_the_end_of_an_arm_to_the_part_side_of_the_other_one() -> None:
     """It meets nothing: it is behind from where the other arm is as near as that end, 4.209 beside it, to its end."""
     inside = 1.0 + (5.75 - sqrt(5.75**2 - 0.5625 * 17.0)) / 0.28125
-    for verdict in on_all_roads(ARMS, Side.RIGHT, 5.0, lines((9, 9), (1, 6))):
+    for verdict in as_it_is_and_finer(ARMS, Side.RIGHT, 5.0, lines((9, 9), (1, 6))):
         assert verdict.depth == pytest.approx(5.0 + inside, abs=1e-6)
         assert verdict.wrong_side == (0,)
 
 
 def test_a_move_that_is_behind_an_open_contour_at_its_end_alone_is_told_itself() -> None:
-    for verdict in on_all_roads(OPEN, Side.LEFT, 1.0, lines((-6, -2), (1, -2), (-6, -3))):
+    for verdict in as_it_is_and_finer(OPEN, Side.LEFT, 1.0, lines((-6, -2), (1, -2), (-6, -3))):
         assert verdict.wrong_side == (0, 1)
 
 
-def on_all_roads(surface: Path, side: Side, radius: float, path: Path) -> Iterator[Verdict]:
-    """The verdict however many walls there are."""
-    return (road(surface, side, radius, path) for road in (measured, proved, in_many_walls))
+def as_it_is_and_finer(surface: Path, side: Side, radius: float, path: Path) -> Iterator[Verdict]:
+    """The verdict on the contour as it is, and in many parts."""
+    return (judged(surface, side, radius, path) for judged in (judge, in_many_walls))
 
 
 def outline(random: Random) -> Path:
@@ -189,25 +186,25 @@ Judge = Callable[[Path, Side, float, Path], Verdict]
 
 
 def in_many_walls(surface: Path, side: Side, radius: float, path: Path) -> Verdict:
-    """The verdict on the same contour in so many walls that the judge proves what it can."""
+    """The verdict on the same contour in many walls."""
     parts = -(-MANY // len(surface))
     return judge(in_parts(surface, [np.arange(1, parts) / parts] * len(surface)), side, radius, path)
 
 
-@pytest.mark.parametrize("road", [measured, proved, in_many_walls])
+@pytest.mark.parametrize("judged", [judge, in_many_walls])
 @pytest.mark.parametrize("seed", range(3))
-def test_any_moves_through_any_closed_contour(seed: int, road: Judge) -> None:
-    assert compared(road, seed, 8) > 15
+def test_any_moves_through_any_closed_contour(seed: int, judged: Judge) -> None:
+    assert compared(judged, seed, 8) > 15
 
 
-def compared(road: Judge, seed: int, contours: int) -> int:
+def compared(judged: Judge, seed: int, contours: int) -> int:
     """How many of the paths are inside the part somewhere; each is judged as points and shapely see it."""
     random, inside = Random(seed), 0
     for _ in range(contours):
         surface, side = outline(random), random.choice(list(Side))
         for _ in range(6):
             path, radius = moves(random), random.choice((0.01, 0.1, 0.5, 2.0))
-            verdict = road(surface, side, radius, path)
+            verdict = judged(surface, side, radius, path)
             inside += _agree(surface, side, verdict, path)
     return inside
 
@@ -237,25 +234,18 @@ def spiral(random: Random) -> Path:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_where_no_end_is_near_no_side_changes_between_arms(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    random, parts, kept = Random(seed), 0, 0
-    narrowed = behind._about_ends
-
-    def counted(pairs: Pairs, stretches: Stretches, radius: float) -> Flags:
-        nonlocal parts, kept
-        chosen = narrowed(pairs, stretches, radius)
-        parts, kept = parts + len(chosen), kept + int(chosen.sum())
-        return chosen
-
+def test_moves_between_the_turns_of_an_open_spiral_are_the_same_in_many_parts(seed: int) -> None:
+    """Whether a part of a move may change sides between two arms is asked of more places in short moves."""
+    random, told = Random(seed), 0
     for _ in range(60):
         surface, side, radius = spiral(random), random.choice(list(Side)), random.choice((0.1, 0.5, 2.0))
         path = moves(random)
-        monkeypatch.setattr(behind, "_about_ends", counted)
         verdict = judge(surface, side, radius, path)
-        monkeypatch.setattr(behind, "_about_ends", lambda _, stretches, __: np.ones(len(stretches), np.bool_))
-        everywhere = judge(surface, side, radius, path)
-        assert (verdict.gouges, verdict.wrong_side) == (everywhere.gouges, everywhere.wrong_side)
-    assert 0 < kept < parts
+        finer = judge(surface, side, radius, in_parts(path, [np.arange(1, 8) / 8] * len(path)))
+        assert verdict.depth == pytest.approx(finer.depth, abs=1e-7)
+        assert verdict.wrong_side or not finer.wrong_side
+        told += bool(verdict.gouges)
+    assert told > 10
 
 
 def test_beside_an_uneven_arc_that_misses_its_end_a_path_slips_through_the_gap() -> None:

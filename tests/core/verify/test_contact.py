@@ -7,24 +7,28 @@ from math import cos, inf, pi, sin, sqrt
 import pytest
 
 from core.geometry.path import EMPTY, Path
-from core.geometry.piece import Arc, Line, Turn
-from core.verify.stray import stray
+from core.geometry.piece import Arc, Line, Side, Turn
+from core.verify.contact import air_cuts
+from core.verify.judge import judge
 from tests.core.verify.shapes import around, circle, lines, square
 from tests.core.verify.test_judge import CORNERS, MID_SIDE, MID_SIDE_PATH, R
 
 WALL = lines((0, 0), (10, 0))
 
 
+def backwards(surface: Path, radius: float, center: Path) -> tuple[int, ...]:
+    return judge(surface, Side.LEFT, radius, center).backwards
+
+
 def test_a_correct_path_never_strays() -> None:
     for surface, path in ((MID_SIDE, MID_SIDE_PATH), (square(), around(CORNERS, R))):
-        found = stray(surface, R, path)
-        assert found.away == ()
-        assert found.backwards == ()
+        assert air_cuts(surface, R, path) == ()
+        assert backwards(surface, R, path) == ()
 
 
 def test_lead_moves_are_away() -> None:
     path = Path.from_pieces([Arc((1, 3), (3, 1), (3, 3), Turn.CCW), Line((3, 1), (10, 1))], [1, 1])
-    (away,) = stray(WALL, 1.0, path).away
+    (away,) = air_cuts(WALL, 1.0, path)
     assert away.start == (1, 3)
     assert away.end == pytest.approx((3, 1), abs=1e-3)
     assert away.length == pytest.approx(pi, abs=1e-3)
@@ -33,7 +37,7 @@ def test_lead_moves_are_away() -> None:
 
 
 def test_a_detour_over_several_moves_is_one_stretch() -> None:
-    (away,) = stray(WALL, 1.0, lines((0, 1), (4, 1), (5, 2), (6, 1), (10, 1))).away
+    (away,) = air_cuts(WALL, 1.0, lines((0, 1), (4, 1), (5, 2), (6, 1), (10, 1)))
     assert away.length == pytest.approx(2 * sqrt(2), abs=1e-6)
     assert (away.first_number, away.last_number) == (2, 3)
     assert away.farthest == pytest.approx((5, 2))
@@ -41,19 +45,19 @@ def test_a_detour_over_several_moves_is_one_stretch() -> None:
 
 
 def test_moves_against_the_contour_are_named() -> None:
-    assert stray(WALL, 1.0, lines((0, 1), (6, 1), (4, 1), (10, 1))).backwards == (1,)
-    assert stray(WALL, 1.0, lines((10, 1), (0, 1))).backwards == (0,)
-    assert stray(WALL, 1.0, lines((0, 2), (10, 2))).backwards == ()
+    assert backwards(WALL, 1.0, lines((0, 1), (6, 1), (4, 1), (10, 1))) == (1,)
+    assert backwards(WALL, 1.0, lines((10, 1), (0, 1))) == (0,)
+    assert backwards(WALL, 1.0, lines((0, 2), (10, 2))) == ()
 
 
 def test_a_long_move_against_a_short_wall_is_seen_from_the_wall() -> None:
-    assert stray(lines((0, 0), (1, 0)), 1.0, lines((1, 1), (-20, 1))).backwards == (0,)
+    assert backwards(lines((0, 0), (1, 0)), 1.0, lines((1, 1), (-20, 1))) == (0,)
 
 
 def test_an_arc_the_other_way_round_is_backwards() -> None:
     hole = circle((0, 0), 5.0)
-    assert stray(hole, 1.0, circle((0, 0), 4.0)).backwards == ()
-    assert stray(hole, 1.0, circle((0, 0), 4.0, Turn.CW)).backwards == (0,)
+    assert backwards(hole, 1.0, circle((0, 0), 4.0)) == ()
+    assert backwards(hole, 1.0, circle((0, 0), 4.0, Turn.CW)) == (0,)
 
 
 @pytest.mark.parametrize("sweep", [0.3, pi / 2.0, 3.0, 6.0])
@@ -63,15 +67,15 @@ def test_a_whole_circle_round_a_part_of_one_runs_one_way_wherever_it_starts(swee
     wall = Path.from_pieces([Arc(ends[0], ends[1], (0.0, 0.0), Turn.CCW)])
     place = (4.0 * cos(start), 4.0 * sin(start))
     for turn, told in ((Turn.CCW, ()), (Turn.CW, (0,))):
-        assert stray(wall, 1.0, Path.from_pieces([Arc(place, place, (0.0, 0.0), turn)])).backwards == told
+        assert backwards(wall, 1.0, Path.from_pieces([Arc(place, place, (0.0, 0.0), turn)])) == told
 
 
 def test_in_a_slot_as_wide_as_the_cutter_one_wall_is_passed_the_right_way() -> None:
     slot = lines((0, 0), (10, 0), (10, 2), (0, 2))
-    assert stray(slot, 1.0, lines((0, 1), (9, 1))).backwards == ()
+    assert backwards(slot, 1.0, lines((0, 1), (9, 1))) == ()
 
 
 def test_nothing_is_told_of_what_cannot_be_judged() -> None:
     for surface, path in ((EMPTY, MID_SIDE_PATH), (MID_SIDE, EMPTY), (MID_SIDE, lines((0, 0), (inf, 0)))):
-        found = stray(surface, R, path)
-        assert (found.away, found.backwards) == ((), ())
+        assert air_cuts(surface, R, path) == ()
+        assert backwards(surface, R, path) == ()

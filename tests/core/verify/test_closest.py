@@ -1,19 +1,19 @@
 """Where a center path comes nearest to the surface."""
 
-from math import inf, nan
+from math import nan
 
 import pytest
 
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from core.verify.judge import judge, judge_together
-from core.verify.nearest import nearest
+from core.verify.verdict import Approach
 
 WALLS = Path.from_pieces([Line((0, 0), (10, 0)), Line((10, 0), (10, 10))])
 
 
-def asked(surface, centers, radius=1.0):
-    return nearest(surface, centers, judge_together(surface, Side.LEFT, radius, centers).clearance)
+def asked(surface: Path, centers: list[Path], radius: float = 1.0) -> Approach | None:
+    return judge_together(surface, Side.LEFT, radius, centers).closest
 
 
 def test_a_path_beside_a_corner_is_nearest_where_it_begins():
@@ -50,7 +50,7 @@ def test_the_place(path, at, surface_at, number):
 def test_the_deepest_gouge_is_the_nearest_place():
     path = Path.from_pieces([Line((0, 1), (4, 1)), Line((4, 1), (6, 0.5)), Line((6, 0.5), (8, 1))])
     verdict = judge(WALLS, Side.LEFT, 1.0, path)
-    found = nearest(WALLS, [path], verdict.clearance)
+    found = verdict.closest
     assert (found.at, found.surface_number) == (verdict.gouges[0].at, verdict.gouges[0].surface_number)
     assert verdict.radius - found.distance == pytest.approx(verdict.depth)
 
@@ -62,7 +62,7 @@ def test_of_several_loops_the_nearest():
 
 def test_without_a_path_or_a_distance_there_is_no_place():
     path = Path.from_pieces([Line((0, 1), (9, 1))])
-    assert nearest(WALLS, [], inf) is None
-    assert nearest(WALLS, [EMPTY], inf) is None
-    assert nearest(EMPTY, [path], inf) is None
-    assert nearest(WALLS, [path], nan) is None
+    assert asked(WALLS, []) is None
+    assert asked(WALLS, [EMPTY]) is None
+    assert asked(EMPTY, [path]) is None
+    assert asked(WALLS, [path], nan) is None

@@ -4,15 +4,10 @@ from __future__ import annotations
 
 from math import cos, hypot, pi, sin, sqrt
 
-import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.geometry.piece_arrays import piece_arrays
-from core.verify.columns import Columns, columns, inside
 from core.verify.judge import judge
 from tests.core.verify.shapes import moved
 
@@ -70,33 +65,3 @@ def test_arcs_about_one_center_are_near_only_where_they_are_side_by_side(first: 
 def _arc(radius: float, begin: float, end: float, turn: Turn) -> Path:
     start, last = ((radius * cos(angle), radius * sin(angle)) for angle in (begin, end)[:: int(turn)])
     return Path.from_pieces([Arc(start, last, (0.0, 0.0), turn)])
-
-
-@settings(deadline=None, max_examples=300, derandomize=True)
-@given(
-    st.one_of(st.floats(-8.0, 0.8).map(lambda power: float(10.0**power)), st.just(pi)),
-    st.floats(0.0, 7.0),
-    st.sampled_from([0.01, 1.0, 1e3, 1e6]),
-    st.sampled_from(list(Turn)[::2]),
-    st.floats(0.0, 1e5),
-)
-def test_what_is_inside_an_arc_is_ahead_of_its_center(
-    sweep: float, begin: float, radius: float, turn: Turn, far: float
-) -> None:
-    """The look at the middle, which is left out but for THIN arcs, would leave out no direction of any other arc."""
-    ends = [
-        (far + radius * cos(angle), far + radius * sin(angle))
-        for angle in (begin, begin + int(turn) * min(sweep, 6.28))
-    ]
-    arc = Columns(*columns(piece_arrays(Path.from_pieces([Arc(ends[0], ends[1], (far, far), turn)]))))
-    seen = begin + np.concatenate((np.linspace(0.0, 2.0 * pi, 97), sweep * np.linspace(0.0, 1.0, 9)))
-    seen = np.concatenate((seen, begin + pi + np.linspace(-2.0, 2.0, 41) * sweep))
-    x, y = np.cos(seen) * radius, np.sin(seen) * radius
-    x, y = (
-        np.concatenate((x, arc.begin_x, -arc.begin_x, -arc.end_x)),
-        np.concatenate((y, arc.begin_y, -arc.begin_y, -arc.end_y)),
-    )
-    behind, before = arc.begin_x * y - arc.begin_y * x >= 0.0, arc.end_y * x - arc.end_x * y >= 0.0
-    ahead = x * arc.middle_x + y * arc.middle_y >= -0.5 * (np.abs(x) + np.abs(y))
-    whole = (ahead & behind & before) | ((behind | before) & (arc.size > 0.0))
-    assert inside(x, y, arc).tolist() == whole.tolist()
