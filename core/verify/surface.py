@@ -44,7 +44,7 @@ def _without_over_run(surface: Surface) -> Surface | None:
     """The surface between the crossing of its first and its last element.
 
     None where anything else crosses, where a run beyond the crossing is on the part's side of what is left, and where
-    it is as long as that: it is no over-run then.
+    it is as long as that or has no length.
     """
     walls, places, points = surface.walls, surface.crossings.places, surface.crossings.points
     if surface.closed or not len(points) or len(walls) < 3:
@@ -52,8 +52,9 @@ def _without_over_run(surface: Surface) -> Surface | None:
     stations = walls.stations
     ends = (places[:, 0] <= stations[1] - JOINED) & (places[:, 1] >= stations[-2] + JOINED)
     first, last = places[0]
-    longest = max(first, stations[-1] - last)
-    if not ends.all() or np.abs(points - points[0]).max() > 2.0 * JOINED or longest >= last - first:
+    shortest, longest = sorted((float(first), float(stations[-1] - last)))
+    one = bool(ends.all() and np.abs(points - points[0]).max() <= 2.0 * JOINED)
+    if not one or shortest <= JOINED or longest >= last - first:
         return None
     x, y = points[0].real.item(), points[0].imag.item()
     left = piece_arrays(_cut(surface.path, walls, (x, y)))

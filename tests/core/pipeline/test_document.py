@@ -47,7 +47,7 @@ def test_corner_arcs_have_half_numbers_and_deletions_their_causes():
 
 
 def test_findings_carry_their_place_and_a_sentence():
-    derived = derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT)))
+    derived = derive(program(block(NOTCH, CutterComp.LEFT)))
     gouge = path_document(derived)["blocks"][0]["findings"][0]
     assert (gouge["code"], gouge["severity"]) == ("GOUGE", "error")
     assert gouge["value"] == pytest.approx(0.25)

@@ -33,10 +33,11 @@ def test_the_notch_is_clean_from_three_and_three_is_recommended():
     assert found.recommended == 3
 
 
-def test_the_over_run_square_is_clean_from_three_although_most_of_it_is_erased():
+def test_the_over_run_square_is_clean_at_every_value_and_cut_at_one_and_two():
     found = table(OVER_RUN_SQUARE, CutterComp.RIGHT)
-    assert [row.clean for row in found.rows] == [False] * 2 + [True] * 18
-    assert found.recommended == 3
+    assert all(row.clean for row in found.rows)
+    assert [row.uncut == 0.0 for row in found.rows] == [True] * 2 + [False] * 18
+    assert found.recommended == 1
 
 
 def test_there_is_no_table_without_compensation():
