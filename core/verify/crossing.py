@@ -73,7 +73,8 @@ def _may_come_back(surface: PieceArrays) -> Flags:
     """(n - 1,) pieces and the next ones that are not both straight, or that go back by all but half a turn."""
     vector, length, bent = surface.vector, surface.length, surface.arcs
     back: Flags = (np.conj(vector[:-1]) * vector[1:]).real < -0.99 * length[:-1] * length[1:]
-    return back | bent[:-1] | bent[1:]
+    back |= bent[:-1] | bent[1:]
+    return back
 
 
 def _turned(surface: PieceArrays, rows: Rows, following: Rows) -> Floats:
@@ -94,7 +95,8 @@ def at_joints(surface: PieceArrays, rows: Rows, following: Rows) -> Points:
 def _overlapping(bounds: Floats) -> Flags:
     """(n - 1,) boxes that share more with the next one than the surroundings of a joint, where neighbors are one."""
     shared = np.minimum(bounds[2:, 1:], bounds[2:, :-1]) - np.maximum(bounds[:2, 1:], bounds[:2, :-1])
-    either: Flags = (shared > 5.0 * JOINED).any(axis=0)
+    wide = shared > 5.0 * JOINED
+    either: Flags = wide[0] | wide[1]
     return either
 
 

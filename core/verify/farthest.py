@@ -115,10 +115,9 @@ def _better(
     first = order[changes(owner[order])]
     first = first[apart[first] > best.apart[owner[first]]]
     chosen = owner[first]
-    columns = [column.copy() for column in (best.place, best.point, best.apart, best.near)]
-    for column, values in zip(columns, (s[first], points[first], apart[first], near[first]), strict=True):
-        column[chosen] = values
-    return Farthest(*columns)
+    place, point, most, by = best.place.copy(), best.point.copy(), best.apart.copy(), best.near.copy()
+    place[chosen], point[chosen], most[chosen], by[chosen] = s[first], points[first], apart[first], near[first]
+    return Farthest(place, point, most, by)
 
 
 def _bounds(pairs: Pairs, spans: _Spans) -> tuple[Floats, Floats]:

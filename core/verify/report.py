@@ -144,11 +144,10 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
     """
     where = _segments(uncut, surface)
     if isinf(uncut.thickness):
-        text, lengths = f"UNCUT: nothing of {where} is cut. There is no path.", ()
+        text = f"UNCUT: nothing of {where} is cut. There is no path."
     else:
         thick = "{0}" if uncut.thickness >= SHOWN else "less than {1}"
         text = f"UNCUT {thick} thick, {{value}} long, {where} at X {{x}} Y {{y}}."
-        lengths = (uncut.thickness, DIGIT)
     return Finding(
         "UNCUT",
         Severity.INFO,
@@ -156,7 +155,7 @@ def _uncut(uncut: Uncut, surface: Path) -> Finding:
         segment=uncut.first_number,
         at=uncut.thickest,
         value=uncut.length,
-        lengths=lengths,
+        lengths=() if isinf(uncut.thickness) else (uncut.thickness, DIGIT),
         area=uncut.area,
     )
 

@@ -75,8 +75,8 @@ def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
     """What of the pieces is farther than the radius from the others and longer than STOCK; those that are `whole` are
     known to be reached from end to end."""
     pieces, stations = pairs.pieces, pairs.stations
-    reached = _reached(pairs, whole, radius)
-    first, last = np.append(0.0, reached.last), np.append(reached.first, stations[-1])
+    cut = _reached(pairs, whole, radius)
+    first, last = np.append(0.0, cut.last), np.append(cut.first, stations[-1])
     wide = (last - first > STOCK).nonzero()[0]
     gaps = Stretches(first[wide], last[wide])
     inward = np.array((gaps.first + ON_PATH, gaps.last - ON_PATH))
@@ -189,7 +189,8 @@ def _areas(pairs: Pairs, gaps: Stretches, corner: Points, radius: float) -> Floa
     parts = gaps.cut(pairs.stations[1:-1])
     owner, piece = gaps.index(parts.middle), pairs.stations[1:-1].searchsorted(parts.middle, side="right")
     sectors = _sectors(pairs.pieces.take(piece), parts, pairs.stations[piece], corner[owner], radius)
-    areas: Floats = np.bincount(owner, sectors, len(gaps))
+    areas = np.zeros(len(gaps))
+    np.add.at(areas, owner, sectors)
     return areas
 
 

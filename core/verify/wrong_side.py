@@ -117,11 +117,10 @@ def _with_depth(pairs: Pairs, inside: Stretches, found: Gouging, wrong: Flags, r
     apart = np.where(apart >= radius - GOUGE - slack - 2.0 * FINE, radius, apart)
     order = np.lexsort((spots, -np.round(apart / ON_PATH), owner))
     best = order[changes(owner[order])]
-    gouge, columns = owner[best], [column.copy() for column in (found.place, found.apart, found.i, found.j)]
-    deepest = spots[best], -apart[best], index[gouging][best], wall[gouging][best]
-    for column, values in zip(columns, deepest, strict=True):
-        column[gouge] = values
-    return wrong, Gouging(found.stretches, *columns)
+    gouge, deepest = owner[best], gouging[best]
+    where, distance, i, j = found.place.copy(), found.apart.copy(), found.i.copy(), found.j.copy()
+    where[gouge], distance[gouge], i[gouge], j[gouge] = spots[best], -apart[best], index[deepest], wall[deepest]
+    return wrong, Gouging(found.stretches, where, distance, i, j)
 
 
 def _near(pairs: Pairs, radius: float) -> Flags:

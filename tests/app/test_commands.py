@@ -92,7 +92,7 @@ def test_standard_output_that_takes_nothing_is_told_in_a_sentence(words: tuple[s
 def test_a_finding_names_its_segment(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["path", str(example("notch"))]) == 1
     told = capsys.readouterr().err
-    assert "cutcomp: block 1, segment 4: error: The path of segment 3 gouges segment 4" in told
+    assert "cutcomp: block 1, segment 4: error: GOUGE 0.2500 deep in segment 4" in told
     assert "cutcomp: block 1, corner 3-4: warning: Corner too tight for the tool" in told
 
 
