@@ -8,6 +8,7 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Point, Side, Turn
