@@ -51,6 +51,7 @@ class Picture:
 
 NOTCH: Final = ((2.0, 0.0), (2.0, -0.3), (2.3, -0.3), (2.3, 0.0), (5.0, 0.0))
 SQUARE: Final = ((2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0))
+OVER_RUN: Final = ((2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, -1.0))
 CHAMFERED: Final = ((2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.1), (0.1, 0.0))
 BONE: Final = (
     (2.0, 0.0), (2.0, 0.8), (3.0, 0.8), (3.0, 0.0), (5.0, 0.0), (5.0, 2.0), (3.0, 2.0), (3.0, 1.2), (2.0, 1.2),
@@ -58,6 +59,7 @@ BONE: Final = (
 )  # fmt: skip
 
 PICTURES: Final = (
+    Picture("over-run", "The ends past the corner are leads", (-1, 0), OVER_RUN, comp=CutterComp.RIGHT, room="verify"),
     Picture("walk-1", "Look-ahead 1: nothing is deleted", (0.0, 0.0), NOTCH, lookahead=1),
     Picture("walk-3", "Look-ahead 3: the notch is passed over", (0.0, 0.0), NOTCH, lookahead=3),
     Picture("corner-start", "Started at an inside corner", (0.0, 0.0), SQUARE),

@@ -32,6 +32,7 @@ def _work(name: str) -> Work:
         ("bone-best", True),
         ("dead-slices", True),
         ("uncut", True),
+        ("over-run", True),
     ],
 )
 def test_the_verdicts_are_those_of_the_text(name, clean):

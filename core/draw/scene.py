@@ -159,6 +159,7 @@ def contour_scene(
     further: Sequence[Path] = (),
     leads: Sequence[Path] = (),
     rough: Sequence[Path] = (),
+    over_run: Parts = NO_PARTS,
     deleted: Parts = NO_PARTS,
     meetings: Sequence[Point] = (),
     gouges: Sequence[Point] = (),
@@ -170,15 +171,17 @@ def contour_scene(
     """Everything one contour shows, lengths in millimeters.
 
     `sketches` are segments not determined yet; `further` the center path's other loops; `leads` the blend moves,
-    the blend-in first; `rough` further center paths; `deleted` pieces of the contour that the look-ahead erased and
-    `meetings` the points where the erasing pieces meet; `gouges` the spots cut into; `uncut` stretches of the surface;
-    `cutter` (center, radius); `current` the segment under the cursor; `start` the contour's START.
+    the blend-in first; `over_run` the ends of the surface that are lead-in and lead-out; `rough` further center paths;
+    `deleted` pieces of the contour that the look-ahead deletes and `meetings` the points where the deleting pieces
+    meet; `gouges` the spots cut into; `uncut` stretches of the surface; `cutter` (center, radius); `current` the
+    segment under the cursor; `start` the contour's START.
     """
     layers = (
         *_parts(sketches, Style.SURFACE, dashed=True),
         *_layers((surface,), Style.SURFACE),
         *_layers(rough, Style.RAPID, dashed=True),
         *_layers(leads, Style.LEAD),
+        *_parts(over_run, Style.LEAD),
         *_layers((path, *further), Style.PATH),
         *_parts(uncut, Style.UNCUT),
         *_parts(deleted, Style.DELETED, dashed=True),

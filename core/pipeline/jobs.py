@@ -59,6 +59,9 @@ def _notes(block: DerivedBlock, unit: Unit) -> Iterator[str]:
         numbers = dict.fromkeys(work.compensated.deleted.segments.tolist())
         which = f"SEGMENT{'S' if len(numbers) > 1 else ''} {', '.join(f'{number:g}' for number in numbers)}"
         yield f"DELETED BY THE LOOK-AHEAD: {which}"
+    if work.verdict.over_run_at is not None:
+        x, y = (show(from_mm(value, unit), Kind.LENGTH, unit) for value in work.verdict.over_run_at)
+        yield f"OVER-RUN AT X {x} Y {y}: THE ENDS ARE LEAD-IN AND LEAD-OUT"
     if work.verdict.uncut:
         left, whole = (from_mm(length, unit) for length in (work.verdict.uncut_length, work.verdict.surface_length))
         yield f"UNCUT {show(left, Kind.LENGTH, unit)} OF {show(whole, Kind.LENGTH, unit)}"

@@ -12,12 +12,13 @@ from core.advice.trials import Row
 from core.advice.work import Loop, Work
 from core.comp.result import Compensated
 from core.draw.scene import Scene, contour_scene, joined_scenes
-from core.geometry.path import EMPTY, Floats, Path
+from core.geometry.path import EMPTY, Floats, Path, as_complex
 from core.geometry.piece import Line, Piece, Point
-from core.geometry.stretch import NO_PARTS, Parts, pieces_joined, stretches
+from core.geometry.stretch import NO_PARTS, Ends, Parts, pieces_joined, stretches
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock
 from core.units import Unit
+from core.verify.verdict import Verdict
 
 
 def svg_of(derived: Derived, *, title: str) -> str:
@@ -46,12 +47,22 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         rough=() if row is not None else _dashed_paths(work),
         deleted=NO_PARTS if control is None else _deleted(control),
         meetings=() if control is None else list(dict.fromkeys(zip(*control.deleted.at.T.tolist(), strict=True))),
+        over_run=NO_PARTS if verdict is None else _over_run(surface, verdict),
         gouges=() if verdict is None else [gouge.surface_at for gouge in verdict.gouges],
         uncut=NO_PARTS if verdict is None or not verdict.uncut else stretches(surface, verdict.uncut.ends),
         cutter=_cutter(block, loops, control, segment),
         current=_current(block, segment),
         start=solved.segments[0].start if solved.segments else None,
     )
+
+
+def _over_run(surface: Path, verdict: Verdict) -> Parts:
+    """What of the surface lies beyond the crossing of its ends: lead-in and lead-out."""
+    if verdict.over_run_at is None:
+        return NO_PARTS
+    crossing, numbers = complex(*verdict.over_run_at), surface.numbers[[0, -1]]
+    start, end = as_complex(surface.points[[0, -1]])
+    return stretches(surface, Ends(numbers, np.array([start, crossing]), numbers, np.array([crossing, end])))
 
 
 def _posted_control_path(work: Work) -> Compensated | None:

@@ -247,7 +247,7 @@ needy = st.one_of(
 """Contours of which many have no clean look-ahead, each for another reason."""
 
 
-@must_exercise(0.02, "start", "start without blends", "tool", "tool without blends", "look-ahead without blends")
+@must_exercise(0.01, "start", "start without blends", "tool", "tool without blends", "look-ahead without blends")
 @settings(max_examples=80, derandomize=True)
 @given(needy)
 def test_every_remedy_holds(asked: Trial) -> None:
