@@ -1,4 +1,4 @@
-"""What a control's path does to the contour that the program describes, by the program's lines."""
+"""Judged runs: what a control's path does to the contour that the program describes, by the program's lines."""
 
 from __future__ import annotations
 
@@ -11,17 +11,18 @@ import numpy as np
 
 from core.controls.contours_and_leads import MAX_LEAD_MOVES, Rows, contours_of, open_contours
 from core.controls.control_run import Run, Stretch
+from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
 from core.geometry.path import Path, joined
-from core.tolerance import GOUGE
+from core.tolerance import ARC_RADII, GOUGE
 from core.verify.contact import AirCut, air_cuts
 from core.verify.judge import judge
 from core.verify.report import contact_findings, or_more
 from core.verify.verdict import Gouge, Verdict
 
 MAX_GOUGES: Final = 20
-"""Gouges of a stretch that are told one by one, deepest first."""
+"""Gouges of a stretch that have a finding each, deepest first."""
 
 GIVEN_UP: Final = "LIMIT"
 """The rule by which a run ends that repeats too much to be followed."""
@@ -30,16 +31,25 @@ FINE: Final = 0.001
 """Millimeters under which a gouge's depth cannot be shown in digits."""
 
 
+@dataclass(frozen=True, slots=True)
+class UnevenArc:
+    """The arc whose radii at its start and its end differ most, by more than any rounding, and its line."""
+
+    first: float
+    last: float
+    line: int | None
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Judged:
     """A compensated stretch, the surface it cuts, the center path with its leads, and the verdict on them.
 
-    Surface and center path are without the laps that they repeat, each by itself; `lines` are those of the whole
-    surface, since of two laps written out the one may be kept of the surface and the other of the path.
-    `leads` are programmed moves taken for leads because a closed contour begins behind them or ends before them, and
-    `lead_gouges` what is cut of them: they may be surface after all.  `alone`: the side changed where it begins, and
-    what is cut on the other side is not asked about.  `way`: the lines of all of an open contour beside closed ones, of
-    which this is the first part.
+    Surface and center path are without the passes that they repeat, each by itself; `lines` are those of the whole
+    surface, since of two equal passes one may be kept of the surface and the other of the path.
+    `leads` are programmed moves taken for leads because a closed contour begins after them or ends before them, and
+    `lead_gouges` what is cut of them: they may be surface after all.  `by_itself`: the side changed where it begins,
+    and what is cut on the other side is not judged.  `open_lines`: the lines of all of an open contour among closed
+    ones, of which this is the first part.
     """
 
     stretch: Stretch
@@ -49,8 +59,9 @@ class Judged:
     lines: frozenset[float]
     leads: tuple[int, ...] = ()
     lead_gouges: tuple[Gouge, ...] = ()
-    alone: bool = False
-    way: frozenset[float] = frozenset()
+    by_itself: bool = False
+    open_lines: frozenset[float] = frozenset()
+    uneven: UnevenArc | None = None
 
 
 def judged(run: Run) -> tuple[Judged, ...]:
@@ -61,7 +72,7 @@ def judged(run: Run) -> tuple[Judged, ...]:
     """
     if any(finding.code == GIVEN_UP for finding in run.findings):
         return ()
-    return tuple(result for stretch in run.stretches for result in _each(run, stretch))
+    return tuple(result for stretch in run.stretches for result in _judge_stretch(run, stretch))
 
 
 def surface_of(stretch: Stretch) -> Path:
@@ -70,71 +81,92 @@ def surface_of(stretch: Stretch) -> Path:
     return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
 
 
-def _each(run: Run, stretch: Stretch) -> list[Judged]:
+def _judge_stretch(run: Run, stretch: Stretch) -> list[Judged]:
     """The verdicts on a stretch; where its side or radius changes, on each part with those that are in force there.
 
     A part may also cut the surface of another one: that counts where the tool runs on one side of all of them; where
-    the side changes it is not asked for, which is told.
+    the side changes it is not judged, and a finding says so.
     """
     whole = surface_of(stretch)
     contours = contours_of(whole)
-    untold = open_contours(whole, contours)
+    open_lines = open_contours(whole, contours)
     parts, results, row = stretch.parts(), list[Judged](), 0
-    sides = any(part.side is not parts[0].side for part in parts)
+    sides_change = any(part.side is not parts[0].side for part in parts)
     for part in parts:
-        own = surface_of(part)
-        begin, row = row, row + len(own)
+        surface = surface_of(part)
+        begin, row = row, row + len(surface)
         inner = [(max(first, begin) - begin, min(last, row) - begin) for first, last in contours]
-        held = [both[0] < both[1] for both in inner]
-        told = _judged(run, part, own, list(compress(inner, held)) or [(0, len(own))])
-        for place, rows in enumerate(compress(contours, held)):
-            told[place] = replace(told[place], way=untold.pop(rows, frozenset()))
-        if sides:
-            told[0] = replace(told[0], alone=bool(results))
+        inside = [first < last for first, last in inner]
+        judgments = _judge_part(run, part, surface, list(compress(inner, inside)) or [(0, len(surface))])
+        for index, rows in enumerate(compress(contours, inside)):
+            judgments[index] = replace(judgments[index], open_lines=open_lines.pop(rows, frozenset()))
+        if sides_change:
+            judgments[0] = replace(judgments[0], by_itself=bool(results))
         elif len(parts) > 1:
-            told[0] = _beyond(told[0], whole, contours, (begin, row))
-        results += told
+            judgments[0] = _with_other_parts(judgments[0], whole, contours, (begin, row))
+        results += judgments
     return results
 
 
-def _beyond(result: Judged, whole: Path, contours: tuple[Rows, ...], own: Rows) -> Judged:
-    """With what is cut of all contours besides the part's own rows; a subprogram's lines may be in several."""
+def _with_other_parts(result: Judged, whole: Path, contours: tuple[Rows, ...], rows: Rows) -> Judged:
+    """With what is cut of all contours outside the part's rows; a subprogram's lines may be in several parts."""
     part, numbered = result.stretch, replace(whole, numbers=np.arange(len(whole), dtype=np.float64))
     more: list[Gouge] = []
     for first, last in contours:
-        edges = np.clip((first, *own, last), first, last).tolist()
-        # each by itself, for a lap of another part is no repetition of the part's own one
+        edges = np.clip((first, *rows, last), first, last).tolist()
+        # each by itself, for a pass of another part is no repetition of one of this part
         surface = joined([without_repeats(numbered.part(*both)) for both in pairwise(edges)])
         cut = judge(surface, part.side, part.radius, result.center).gouges
-        others = [(gouge, int(gouge.surface_number)) for gouge in cut if not own[0] <= gouge.surface_number < own[1]]
-        more += (replace(gouge, surface_number=float(whole.numbers[at])) for gouge, at in others)
+        others = [gouge for gouge in cut if not rows[0] <= gouge.surface_number < rows[1]]
+        more += (replace(gouge, surface_number=float(whole.numbers[int(gouge.surface_number)])) for gouge in others)
     gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)
     return replace(result, verdict=replace(result.verdict, gouges=tuple(gouges)))
 
 
-def _judged(run: Run, stretch: Stretch, whole: Path, contours: Sequence[Rows]) -> list[Judged]:
-    """The verdict on each contour among moves of one side and radius; the first of them has what is said of leads."""
+def _judge_part(run: Run, stretch: Stretch, whole: Path, contours: Sequence[Rows]) -> list[Judged]:
+    """The verdict on each contour among moves of one side and radius; the first of them has the leads."""
     center = without_repeats(run.moves.part(stretch.first, stretch.last).path(stretch.plane))
-    results = [_contour(stretch, whole.part(*rows), center, alone=len(contours) == 1) for rows in contours]
+    accepted = _accepted_difference(run, whole, center)
+    results = [_judge_contour(stretch, whole.part(*rows), center, accepted, len(contours)) for rows in contours]
+    results[0] = replace(results[0], uneven=_most_uneven(whole, center))
     inside = np.zeros(len(whole), np.bool_)
     for first, last in contours:
         inside[first:last] = True
     leads = whole.numbers[~inside].tolist()
     if leads:
-        cut = judge(without_repeats(whole), stretch.side, stretch.radius, center).gouges
-        cut_leads = tuple(gouge for gouge in cut if gouge.surface_number in leads)
-        results[0] = replace(results[0], leads=tuple(map(int, leads)), lead_gouges=cut_leads)
+        gouges = judge(without_repeats(whole), stretch.side, stretch.radius, center, accepted).gouges
+        lead_gouges = tuple(gouge for gouge in gouges if gouge.surface_number in leads)
+        results[0] = replace(results[0], leads=tuple(map(int, leads)), lead_gouges=lead_gouges)
     return results
 
 
-def _contour(stretch: Stretch, contour: Path, center: Path, *, alone: bool) -> Judged:
+def _judge_contour(stretch: Stretch, contour: Path, center: Path, accepted: float, contours: int) -> Judged:
     """The verdict on one contour with the whole center path: what runs along another one is on neither side of this."""
     surface, lines = without_repeats(contour), frozenset(contour.numbers.tolist())
-    verdict = judge(surface, stretch.side, stretch.radius, center)
-    if stretch.radius <= GOUGE or not alone:
+    verdict = judge(surface, stretch.side, stretch.radius, center, accepted)
+    if stretch.radius <= GOUGE or contours > 1:
         # a center on the contour itself is on neither side of it, whatever its leads cross; a later offset may not be 0
         verdict = replace(verdict, wrong_side=tuple(row for row in verdict.wrong_side if center.numbers[row] in lines))
     return Judged(stretch, surface, center, verdict, lines)
+
+
+def _accepted_difference(run: Run, *paths: Path) -> float:
+    """Millimeters by which the control that made this run lets the radii of an arc of this size differ."""
+    radii = [float(path.radii[path.turns != 0].max(initial=0.0)) for path in paths]
+    return max(ARC_RADII, arc_radii(run.control).largest_difference(max(radii), run.unit) + GOUGE)
+
+
+def _most_uneven(*paths: Path) -> UnevenArc | None:
+    """The arc of these paths whose radii differ most, None where all are the same but for rounding."""
+    worst, difference = None, ARC_RADII
+    for path in paths:
+        arms = path.ends - path.centers
+        first, last = path.radii, np.hypot(arms[:, 0], arms[:, 1])
+        apart = np.where(path.turns != 0, np.abs(last - first), 0.0)
+        row = int(apart.argmax()) if len(apart) else 0
+        if len(apart) and apart[row] > difference:
+            worst, difference = UnevenArc(float(first[row]), float(last[row]), _line(path.numbers[row])), apart[row]
+    return worst
 
 
 def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
@@ -144,12 +176,14 @@ def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
         finding
         for result in results
         for finding in (
-            *_alone(result),
+            *_by_itself(result),
+            *_uneven_arc(result),
             *_cuts(result),
-            *_way(result, gouged),
+            *_open_contour(result, gouged),
             *_leads(result),
-            *_strays(result),
-            *_rest(result),
+            *_contact(result),
+            *_uncut(result),
+            *_crossing(result),
         )
     )
 
@@ -164,55 +198,84 @@ def deepest_gouge(results: tuple[Judged, ...]) -> tuple[float, int | None]:
 def first_unjudged(results: tuple[Judged, ...]) -> tuple[bool, int | None]:
     """Whether a contour of a run cannot be judged, and the line of the first one."""
     result = next((result for result in results if not result.verdict.judged), None)
-    line = _line(result.center.numbers[0]) if result is not None and len(result.center) else None
-    return result is not None, line
+    return result is not None, None if result is None else _first_line(result.center)
 
 
 def _line(number: float) -> int | None:
-    """The program's line that a piece of a path has as its number; 0 is a move that stands in no line."""
+    """The program's line that a piece of a path has as its number; 0 is a move that belongs to no line."""
     return int(number) or None
+
+
+def _first_line(path: Path) -> int | None:
+    return _line(path.numbers[0]) if len(path) else None
+
+
+def _by_itself(result: Judged) -> list[Finding]:
+    """That a part is judged by itself."""
+    if not result.by_itself:
+        return []
+    text = (
+        "The side changes here. What the cutter cuts here of the contour on the other side, or there of this one, is "
+        "not judged. Write G40 between them to be sure."
+    )
+    return [Finding("SIDES", Severity.WARNING, text, line=_first_line(result.surface))]
+
+
+def _uneven_arc(result: Judged) -> list[Finding]:
+    """That an arc has two radii, which the control accepts, and how it is judged."""
+    arc = result.uneven
+    if arc is None or not result.verdict.judged:
+        return []
+    text = "Arc radius {0} at its start, {1} at its end: judged between both, with {value} more tolerance."
+    lengths, difference = (arc.first, arc.last), abs(arc.first - arc.last)
+    return [Finding("ARC_RADII", Severity.INFO, text, value=difference, lengths=lengths, line=arc.line)]
 
 
 def _cuts(result: Judged) -> list[Finding]:
     verdict = result.verdict
     if not verdict.judged:
-        line = _line(result.center.numbers[0]) if len(result.center) else None
-        text = "Not judged: a coordinate or the tool radius is too large, or the radii of an arc differ."
-        return [Finding("UNJUDGED", Severity.ERROR, text, line=line)]
-    found = [_gouge(gouge, verdict.radius) for gouge in verdict.gouges[:MAX_GOUGES]]
-    left = len(verdict.gouges) - len(found)
+        return [_unjudged(result)]
+    listed = [_gouge(gouge, verdict.radius) for gouge in verdict.gouges[:MAX_GOUGES]]
+    left = len(verdict.gouges) - len(listed)
     if left:
-        found.append(Finding("GOUGE", Severity.ERROR, f"There are {left} more gouges, none of them deeper."))
+        listed.append(Finding("GOUGE", Severity.ERROR, f"There are {left} more gouges, none of them deeper."))
     if verdict.wrong_side:
         line = _line(result.center.numbers[verdict.wrong_side[0]])
-        text = "The cutter runs on the wrong side of the contour here."
+        text = "The cutter is on the wrong side of the contour here."
         if 2 * len(verdict.wrong_side) > len(result.center):
-            text = "The cutter runs on the wrong side of the contour; exchange G41 and G42, or RL and RR."
-        found.append(Finding("WRONG-SIDE", Severity.ERROR, text, line=line))
-    return found
+            text = "The cutter is on the wrong side of the contour. Exchange G41 and G42, or RL and RR."
+        listed.append(Finding("WRONG-SIDE", Severity.ERROR, text, line=line))
+    return listed
 
 
-def _alone(result: Judged) -> list[Finding]:
-    """That a part is judged by itself."""
-    if not result.alone:
-        return []
-    text = (
-        "The side changes here, and each part is judged by its own side alone: whether the cutter gouges here what it "
-        "cuts on the other side, or there what it cuts here, is not judged; write G40 between them to be sure."
-    )
-    line = int(result.surface.numbers[0]) if len(result.surface) else None
-    return [Finding("SIDES", Severity.WARNING, text, line=line)]
+def _unjudged(result: Judged) -> Finding:
+    """Why nothing is known of a path."""
+    arc, line = result.verdict.uneven_arc, _first_line(result.center)
+    if arc is None:
+        text = "Not judged: a coordinate or the tool radius is too large for any machine."
+        return Finding("UNJUDGED", Severity.ERROR, text, line=line)
+    text = "Not judged: the radii of this arc differ by {value}. Correct its center or end point."
+    if np.isinf(arc.difference):
+        text = "Not judged: this arc may be empty or a full circle. Correct its center or end point."
+    return Finding("UNJUDGED", Severity.ERROR, text, value=arc.difference, line=_line(arc.number) or line)
 
 
-def _way(result: Judged, gouged: set[float]) -> list[Finding]:
+def _gouge(gouge: Gouge, radius: float) -> Finding:
+    depth = "{value}" + or_more(gouge, radius) if gouge.depth > FINE else "less than a thousandth of a millimeter"
+    text = f"The cutter gouges the surface of line {int(gouge.surface_number)} by {depth} at X {{x}} Y {{y}}."
+    line = _line(gouge.path_number)
+    return Finding("GOUGE", Severity.ERROR, text, at=gouge.surface_at, value=gouge.depth, line=line)
+
+
+def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
     """That gouged lines may be no surface at all: nothing in a program says where a contour begins."""
-    if not gouged & result.way:
+    if not gouged & result.open_lines:
         return []
-    first, last = int(min(result.way)), int(max(result.way))
+    first, last = int(min(result.open_lines)), int(max(result.open_lines))
     text = (
-        f"Lines {first} to {last}, more than {MAX_LEAD_MOVES} moves beside a closed contour, are taken for a contour "
-        "of their own, and what the cutter cuts into them for a gouge; if they only lead from one contour to another, "
-        f"cancel the compensation before them, or lead there in {MAX_LEAD_MOVES} moves."
+        f"Lines {first} to {last}, more than {MAX_LEAD_MOVES} moves next to a closed contour, count as a contour of "
+        "their own, and cuts into them as gouges. If they only lead from one contour to another, cancel the "
+        f"compensation before them, or lead there in {MAX_LEAD_MOVES} moves."
     )
     return [Finding("WAY", Severity.WARNING, text, line=first)]
 
@@ -221,29 +284,29 @@ def _leads(result: Judged) -> list[Finding]:
     """That moves are taken for leads, and what is cut of them."""
     if not result.leads:
         return []
-    text = f"{len(result.leads)} moves before or behind a closed contour are taken for leads, not for surface."
+    text = f"{len(result.leads)} moves before or after a closed contour are taken for leads, not for surface."
     if len(result.leads) == 1:
-        text = "A move before or behind a closed contour is taken for a lead, not for surface."
-    found = [Finding("LEADS", Severity.INFO, text, line=result.leads[0])]
+        text = "A move before or after a closed contour is taken for a lead, not for surface."
+    listed = [Finding("LEADS", Severity.INFO, text, line=result.leads[0])]
     deepest = {gouge.surface_number: gouge for gouge in reversed(result.lead_gouges)}
-    for gouge in sorted(deepest.values(), key=lambda one: -one.depth):
-        text = f"The cutter cuts {{value}} into line {int(gouge.surface_number)}; if that is no lead, it is a gouge."
+    for gouge in sorted(deepest.values(), key=lambda gouge: -gouge.depth):
+        text = f"The cutter cuts {{value}} into line {int(gouge.surface_number)}. If that is no lead, it is a gouge."
         line = _line(gouge.path_number)
-        found.append(Finding("LEAD-GOUGE", Severity.INFO, text, at=gouge.surface_at, value=gouge.depth, line=line))
-    return found
+        listed.append(Finding("LEAD-GOUGE", Severity.INFO, text, at=gouge.surface_at, value=gouge.depth, line=line))
+    return listed
 
 
-def _strays(result: Judged) -> list[Finding]:
+def _contact(result: Judged) -> list[Finding]:
     """Moves between the leads that leave the surface by more than the radius, or run against it."""
     numbers, lines = result.center.numbers, result.lines
     against = tuple(row for row in result.verdict.backwards if numbers[row] in lines)
     away: tuple[AirCut, ...] = ()
     if any(numbers[row] in lines for row in result.verdict.loose):
-        found = air_cuts(result.surface, result.stretch.radius, result.center)
-        away = tuple(one for one in found if _between_leads(one, result.center, lines))
-    told = contact_findings(away, against)
-    begun = [*(int(numbers[row]) for row in against[:1]), *(int(one.first_number) for one in away)]
-    return [replace(finding, segment=None, line=line) for finding, line in zip(told, begun, strict=True)]
+        cuts = air_cuts(result.surface, result.stretch.radius, result.center)
+        away = tuple(cut for cut in cuts if _between_leads(cut, result.center, lines))
+    begun = [*(int(numbers[row]) for row in against[:1]), *(int(cut.first_number) for cut in away)]
+    listed = contact_findings(away, against)
+    return [replace(finding, segment=None, line=line) for finding, line in zip(listed, begun, strict=True)]
 
 
 def _between_leads(away: AirCut, center: Path, lines: frozenset[float]) -> bool:
@@ -252,28 +315,25 @@ def _between_leads(away: AirCut, center: Path, lines: frozenset[float]) -> bool:
     return {away.first_number, away.last_number} <= lines and not ends & {away.start, away.end}
 
 
-def _gouge(gouge: Gouge, radius: float) -> Finding:
-    much = "{value}" + or_more(gouge, radius) if gouge.depth > FINE else "less than a thousandth of a millimeter"
-    text = f"The cutter gouges the surface of line {int(gouge.surface_number)} by {much} at X {{x}} Y {{y}}."
-    line = _line(gouge.path_number)
-    return Finding("GOUGE", Severity.ERROR, text, at=gouge.surface_at, value=gouge.depth, line=line)
+def _uncut(result: Judged) -> list[Finding]:
+    verdict = result.verdict
+    if not verdict.judged or not verdict.uncut:
+        return []
+    worst = max(verdict.uncut, key=lambda stretch: stretch.thickness)
+    text = "{0} of {1} of the surface stays uncut, at most {value} thick at X {x} Y {y}."
+    lengths = (verdict.uncut_length, verdict.surface_length)
+    line, at = int(worst.first_number), worst.thickest
+    return [Finding("UNCUT", Severity.WARNING, text, at=at, value=worst.thickness, lengths=lengths, line=line)]
 
 
-def _rest(result: Judged) -> list[Finding]:
-    verdict, found = result.verdict, []
-    if verdict.judged and verdict.uncut:
-        worst = max(verdict.uncut, key=lambda stretch: stretch.thickness)
-        text = "{0} of {1} of the surface stays uncut, at most {value} thick at X {x} Y {y}."
-        lengths = (verdict.uncut_length, verdict.surface_length)
-        line = int(worst.first_number)
-        place, thick = worst.thickest, worst.thickness
-        found.append(
-            Finding("UNCUT", Severity.WARNING, text, at=place, value=thick, lengths=lengths, line=line),
-        )
-    if verdict.crosses_itself:
-        at = verdict.crossing_at
-        where = " at X {x} Y {y}" if at else ""
-        text = f"The programmed contour crosses or touches itself{where}; the verdict counts all of it as surface."
-        began = int(result.surface.numbers[0]) if len(result.surface) else None
-        found.append(Finding("CROSSES", Severity.WARNING, text, at=at, line=began))
-    return found
+def _crossing(result: Judged) -> list[Finding]:
+    """That the contour's ends run past its corner, or that it crosses itself."""
+    verdict, line = result.verdict, _first_line(result.surface)
+    if verdict.over_run_at is not None:
+        text = "Over-run at X {x} Y {y}: the ends are lead-in and lead-out."
+        return [Finding("OVER_RUN", Severity.INFO, text, at=verdict.over_run_at, line=line)]
+    if not verdict.crosses_itself:
+        return []
+    place = " at X {x} Y {y}" if verdict.crossing_at else ""
+    text = f"The programmed contour crosses or touches itself{place}. All of it counts as surface."
+    return [Finding("CROSSES", Severity.WARNING, text, at=verdict.crossing_at, line=line)]

@@ -112,7 +112,7 @@ def test_a_long_way_between_contours_that_is_told_as_gouged_is_told_to_be_no_sur
     assert {9.0, 10.0} & {float(one.text.split("line ")[1].split()[0]) for one in told if one.code == "GOUGE"}
     (way,) = (one for one in told if one.code == "WAY")
     assert (way.severity, way.line) == (Severity.WARNING, 9)
-    assert way.text.startswith("Lines 9 to 12, more than 2 moves beside a closed contour")
+    assert way.text.startswith("Lines 9 to 12, more than 2 moves next to a closed contour")
     short = findings(judged(ran(two_rings("X-20. Y-50.\nX100. Y0.\n"), control, t1=6)))
     assert not {"WAY", "GOUGE"} & {one.code for one in short}
 
@@ -134,7 +134,7 @@ NECK = "Y30.\nX10.\nY20.\nX5.\nY10.\nX19.\nY20.\nX14.\nY30.\nX40.\nY0.\nX0.\n"
 def test_of_a_long_way_that_is_not_gouged_nothing_is_said(control: str, ring: str, gouged: bool) -> None:
     way = "G21 G17 G90 G94 F100\nG0 X-30. Y60. Z5.\nG41 D1 G1 X-60. Y30.\nY0.\nX-40.\nX-20.\nX0.\n"
     results = judged(ran(way + ring + "G40 X0. Y-40.\nM2\n", control, t1=6))
-    assert any(one.way for one in results)
+    assert any(one.open_lines for one in results)
     codes = {one.code for one in findings(results)}
     assert ("GOUGE" in codes) is gouged
     assert "WAY" not in codes

@@ -1,0 +1,185 @@
+"""What `check` says of over-runs at corners, of arcs with two radii, and of what cannot be judged."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from app.check import check
+
+THREEBLOCK = """G70G90
+N10G0G90X-1.Y1.T1M6
+N20G41Y.25Z0
+N21G1X-.5Y0F20.
+N22X1.5
+N23Y-1.5
+N24X0
+N25Y.4
+N26G0G40X-1.Y1.
+M2
+"""
+
+ISO = """G20 G90 G17 F20.
+T1 M6
+G0 X-2. Y0.25
+G41 D1
+G1 X-1. Y0.
+X1.5
+Y-1.5
+X0.
+Y1.
+G40
+G1 X-1. Y3.
+M2
+"""
+
+KLARTEXT = """BEGIN PGM P INCH
+TOOL DEF 1 L+0 R+0.25
+TOOL CALL 1 Z S1000
+L X-1 Y+1 R0 FMAX
+L Z-1 R0 FMAX
+L X-0.5 Y+0 RL F100
+L X+1.5
+L Y-1.5
+L X+0
+L Y+0.5
+L X-1 Y+1 R0
+END PGM P INCH
+"""
+
+PROGRAMS = {
+    "threeblock": THREEBLOCK,
+    "rosettacnc:nist": ISO,
+    "rosettacnc:easy": ISO,
+    "rosettacnc:normal": ISO,
+    "nine-series:a": ISO,
+    "nine-series:b": ISO,
+    "klartext": KLARTEXT,
+    "linuxcnc": ISO,
+}
+
+
+def checked(
+    capsys: pytest.CaptureFixture[str], folder: Path, text: str, control: str
+) -> tuple[int, list[dict[str, object]], str]:
+    """The exit status, the findings, and the line that says what the control does."""
+    file = folder / "program.nc"
+    file.write_text(text)
+    arguments = [str(file), "--control", control, "--tool", "1=.5"]
+    status = check([*arguments, "--json"])
+    findings = json.loads(capsys.readouterr().out)["findings"]
+    assert check(arguments) == status
+    return status, findings, capsys.readouterr().out.splitlines()[-1]
+
+
+def rules(findings: list[dict[str, object]]) -> list[object]:
+    return [finding["rule"] for finding in findings]
+
+
+@pytest.mark.parametrize("control", PROGRAMS)
+def test_an_over_run_at_a_corner_is_a_lead_and_said_once(
+    control: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    status, findings, outcome = checked(capsys, tmp_path, PROGRAMS[control], control)
+    told = rules(findings)
+    assert told.count("OVER_RUN") == 1, findings
+    assert "GOUGE" not in told
+    assert "CROSSES" not in told
+    (over_run,) = [finding for finding in findings if finding["rule"] == "OVER_RUN"]
+    assert over_run["severity"] == "info"
+    assert "X 0.0000 Y 0.0000" in str(over_run["text"])
+    assert status == 0, findings
+    assert f"{control}: runs;" in outcome
+
+
+@pytest.mark.parametrize("control", ["linuxcnc", "rosettacnc:easy", "nine-series:a"])
+def test_an_over_run_that_cuts_the_part_still_gouges(
+    control: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    """The last move runs up to the corner and then into the part."""
+    text = ISO.replace("X0.\nY1.\n", "X0.\nY0.5\nX0.7 Y-0.7\n")
+    assert text != ISO
+    status, findings, _ = checked(capsys, tmp_path, text, control)
+    assert status == 1, findings
+
+
+ARC = """G20 G90 G17 F20.
+T1 M6
+G0 X-2. Y-2.
+G41 D1
+G1 X-1. Y-1.5
+G1 Y0.
+G2 X{end} Y0. I1. J0.
+G1 Y-1.
+G40
+G1 X3. Y-2.
+M2
+"""
+
+KLARTEXT_ARC = """BEGIN PGM P MM
+TOOL DEF 1 L+0 R+5
+TOOL CALL 1 Z S1000
+L X-40 Y+0 R0 FMAX
+L Z-1 R0 FMAX
+L X-20 Y-20 RL F100
+L Y+0
+CC X+0 Y+0
+C X+{end} Y+0 DR-
+L Y-20
+L X+40 Y-30 R0
+END PGM P MM
+"""
+
+
+@pytest.mark.parametrize(
+    ("control", "text", "difference"),
+    [
+        ("linuxcnc", ARC.format(end="1.0003"), "0.0003"),
+        ("rosettacnc:normal", ARC.format(end="1.0003"), "0.0003"),
+        ("nine-series:a", ARC.format(end="1.0003"), "0.0003"),
+        ("klartext", KLARTEXT_ARC.format(end="20.01"), "0.010"),
+    ],
+)
+def test_an_arc_with_two_radii_is_judged_and_the_difference_is_said(
+    control: str, text: str, difference: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    status, findings, outcome = checked(capsys, tmp_path, text, control)
+    assert "UNJUDGED" not in rules(findings)
+    (radii,) = [finding for finding in findings if finding["rule"] == "ARC_RADII"]
+    assert radii["severity"] == "info"
+    assert radii["line"] == (9 if control == "klartext" else 7)
+    assert difference in str(radii["text"])
+    assert status == 0
+    assert "runs" in outcome
+
+
+@pytest.mark.parametrize(
+    ("control", "text"),
+    [
+        ("linuxcnc", ARC.format(end="1.5")),
+        ("rosettacnc:normal", ARC.format(end="1.01")),
+        ("nine-series:a", ARC.format(end="1.01")),
+        ("klartext", KLARTEXT_ARC.format(end="20.02")),
+    ],
+)
+def test_an_arc_whose_radii_differ_more_than_the_control_accepts_is_its_alarm(
+    control: str, text: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    status, findings, outcome = checked(capsys, tmp_path, text, control)
+    assert status == 1
+    assert "UNJUDGED" not in rules(findings)
+    assert "alarms at line" in outcome
+
+
+def test_what_cannot_be_judged_is_never_said_to_run(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """Positions of this size leave no digits to judge by."""
+    text = ARC.format(end="1.").replace("G1 Y-1.\n", "G1 Y-1.\nG1 X1. Y-900000.\n")
+    status, findings, outcome = checked(capsys, tmp_path, text, "linuxcnc")
+    (unjudged,) = [finding for finding in findings if finding["rule"] == "UNJUDGED"]
+    assert unjudged["severity"] == "error"
+    assert "its numbers are none" not in str(unjudged["text"])
+    assert status == 1
+    assert "runs" not in outcome
+    assert "cannot be judged" in outcome
