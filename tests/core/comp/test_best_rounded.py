@@ -47,10 +47,9 @@ def test_the_largest_gap_that_was_joined_is_said_once():
     (finding,) = best.findings
     assert (finding.code, finding.severity) == ("BEST_JOINED", Severity.INFO)
     assert finding.lengths == pytest.approx((1e-6, 0.0), abs=1e-10)
-    assert (finding.segment, finding.at) in (
-        (1.0, pytest.approx((20.0, 10.0), abs=2e-6)),
-        (2.0, pytest.approx((40.0, -10.0), abs=2e-6)),
-    )
+    assert finding.segment in (1.0, 2.0)
+    place = (20.0, 10.0) if finding.segment == 1.0 else (40.0, -10.0)
+    assert finding.at == pytest.approx(place, abs=2e-6)
 
 
 def test_a_tangent_contour_joins_nothing():
