@@ -141,7 +141,7 @@ class Remedies:
 async def test_remedies_are_given_up_for_a_newer_path_and_only_those_of_the_last_are_told(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    app = app_on("overrun-square")
+    app = app_on("notch")
     async with app.run_test(size=(132, 43)) as pilot:
         await loaded(pilot)
         await at_rest(pilot, app)
@@ -164,7 +164,7 @@ async def test_remedies_are_given_up_for_a_newer_path_and_only_those_of_the_last
 async def test_what_a_half_typed_number_needs_is_found_out_at_rest_and_told_with_enter(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    app = app_on("overrun-square")
+    app = app_on("notch")
     async with app.run_test(size=(132, 43)) as pilot:
         await loaded(pilot)
         await at_rest(pilot, app)
@@ -187,7 +187,7 @@ async def test_what_a_half_typed_number_needs_is_found_out_at_rest_and_told_with
 
 
 async def test_the_thread_of_the_remedies_never_looks_at_a_desk_of_which_nothing_is_derived_yet() -> None:
-    app = app_on("overrun-square")
+    app = app_on("notch")
     async with app.run_test(size=(132, 43)) as pilot:
         await loaded(pilot)
         await at_rest(pilot, app)
@@ -200,7 +200,7 @@ async def test_the_thread_of_the_remedies_never_looks_at_a_desk_of_which_nothing
 
 
 async def test_leaving_waits_for_no_remedy(monkeypatch: pytest.MonkeyPatch) -> None:
-    app = app_on("overrun-square")
+    app = app_on("notch")
     tried = Remedies(monkeypatch)
     async with app.run_test(size=(132, 43)) as pilot:
         await loaded(pilot)
@@ -214,7 +214,7 @@ async def test_leaving_waits_for_no_remedy(monkeypatch: pytest.MonkeyPatch) -> N
 
 @pytest.mark.parametrize("limit", [inf, -1.0], ids=["fast", "slow"])
 async def test_a_fast_and_a_slow_machine_come_to_the_same_screen(limit: float) -> None:
-    program = load(example("overrun-square"))
+    program = load(example("notch"))
     app = app_on(program)
     async with app.run_test(size=(132, 43)) as pilot:
         await loaded(pilot)

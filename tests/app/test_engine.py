@@ -27,7 +27,7 @@ from core.program.edit import Where, copy_block, type_field
 from core.program.model import Entry, Program
 from tests.bench.keys import gear
 
-PART = load(example("overrun-square"))
+PART = load(example("notch"))
 
 
 @pytest.fixture
@@ -76,7 +76,7 @@ EDITS = [
 ]
 
 
-@pytest.mark.parametrize("name", ["overrun-square", "pocket", "flange", "plate-mm"])
+@pytest.mark.parametrize("name", ["notch", "pocket", "flange", "plate-mm"])
 @pytest.mark.parametrize(("where", "field", "text"), EDITS)
 def test_what_was_tried_out_is_what_would_be_derived_of_an_equal_program(
     name: str, where: Where, field: str, text: str
