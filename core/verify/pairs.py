@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isfinite, ulp
+from math import isfinite, tau, ulp
+from typing import Final
 
 import numpy as np
 
@@ -12,6 +13,9 @@ from core.geometry.path import Flags, Floats, Path, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, blocks, traveled
 from core.tolerance import LARGEST, ON_PATH, STOCK, UNCUT
 from core.verify.search import nearest_pairs
+
+ONCE: Final = 1e-6
+"""Radians by which two arcs about one center miss each other at one of the two places where they may overlap."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -185,7 +189,10 @@ def concentric(pairs: Pairs) -> Flags:
     rows = found.nonzero()[0]
     if len(rows):
         one, other = pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows])
-        found[rows] = (np.abs(one.center - other.center) <= ON_PATH) & (one.angle + other.angle <= np.pi * 1.999)
+        middles = [arc.arm * np.exp(0.5j * arc.turn * arc.angle) for arc in (one, other)]
+        between = np.abs(np.angle(middles[0] * np.conj(middles[1])))
+        once = (one.angle + other.angle) / 2.0 + between < tau - ONCE
+        found[rows] = (np.abs(one.center - other.center) <= ON_PATH) & once
     return found
 
 

@@ -53,6 +53,7 @@ def uncut(pairs: Pairs, radius: float, surface: Path, side: Side, rounding: floa
     walls = pairs.others
     whole = np.zeros(len(walls), np.bool_)
     whole[pairs.j[covering(pairs, radius + pairs.grant)]] = True
+    whole |= _in_thin_runs(pairs, whole, radius, closed=closed)
     if whole.all():
         return NOTHING
     gaps = gaps_of(pairs_of(walls, pairs.pieces, rounding, (~whole).nonzero()[0]), whole, radius)
@@ -69,6 +70,21 @@ def uncut(pairs: Pairs, radius: float, surface: Path, side: Side, rounding: floa
         both = float(gaps.area[0] + gaps.area[-1]) * side.sign if one else nan
         found = found.over_start(both if both > 0.0 else nan)
     return found.keep(found.thickness > STOCK)
+
+
+def _in_thin_runs(pairs: Pairs, whole: Flags, radius: float, *, closed: bool) -> Flags:
+    """Walls between two that are reached from end to end, with nothing thicker than STOCK on any wall between these:
+    fine chords of a curve leave that at every joint, and none of it is told."""
+    thick = ~whole
+    thick[pairs.j[covering(pairs, np.full(len(pairs.j), radius + STOCK))]] = False
+    runs = whole.cumsum()
+    if closed and not whole[-1]:
+        # a run may go on over START
+        runs[runs == runs[-1]] = 0
+    told = np.zeros(len(whole) + 1, np.bool_)
+    told[runs[thick]] = True
+    thin: Flags = ~told[runs]
+    return thin
 
 
 def gaps_of(pairs: Pairs, whole: Flags, radius: float) -> Gaps:
