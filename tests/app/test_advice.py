@@ -158,7 +158,7 @@ async def test_remedies_are_given_up_for_a_newer_path_and_only_those_of_the_last
         assert tried.begun[-1] == last
         assert last not in tried.given_up
         assert all(one.work is not None for one in app.engine.needs)
-        assert "gouges segment" in lines(app)
+        assert "CAL 2 gouges" in lines(app)
 
 
 async def test_what_a_half_typed_number_needs_is_found_out_at_rest_and_told_with_enter(

@@ -29,7 +29,7 @@ SCREENS = {
     "parameters": ("pocket", ("f4",)),
     "units": ("pocket", ("f4", "right")),
     "program": ("pocket", ("f8", "f3")),
-    "post": ("overrun-square", ("f8", "f6", "enter")),
+    "post": ("notch", ("f8", "f6", "enter")),
     "leave": ("pocket", ("tab", "9", "ctrl+q")),
     "help": ("pocket", ("tab", "tab", "tab", "tab", "?")),
     "millimeters": ("plate-mm", ("2", "enter")),
