@@ -101,7 +101,7 @@ def test_nobody_is_asked_to_replace_a_file_by_what_is_refused(
 
 def test_a_gouge_that_is_posted_is_said_to_be_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    operator = worked_out("overrun-square", *["tab"] * 11, "1", "enter")
+    operator = worked_out("notch", *["tab"] * 11, "1", "enter")
     operator.desk = operator.desk.knowing(derive(operator.session.program))
     operator.press("f8", "f6", "enter").press(*"POST", "space", *"WITH", "space", *"GOUGE", "enter")
     assert operator.said.startswith("! Posted in spite of a gouge: part.nc, ")
