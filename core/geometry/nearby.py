@@ -5,8 +5,9 @@ Boxes are (4, n) arrays: left, bottom, right, top.
 `near_pairs` and `near_pairs_within` are exact for boxes, up to the last digits of a double, and so a superset for what
 is inside them: `core.geometry.distance` makes it exact, pair by pair.  They come in batches of some ten thousand pairs:
 whoever needs them all at once calls `gathered`, whoever looks at each pair once does not hold them.  With 100,000
-chords inside one radius ask what is nearest (`nearest_pieces`, exact), never what lies in boxes within reach: that is
-all pairs.  What has a coordinate that is no number is near everything, so that whoever measures it sees that.
+chords inside one radius ask what is nearest (`nearest_pieces`, exact; `nearest_pairs`, a superset), never what lies
+in boxes within reach: that is all pairs.  What has a coordinate that is no number is near everything, so that whoever
+measures it sees that.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ import shapely
 
 from core.geometry.distance import distance
 from core.geometry.path import Floats, Points, Rows
-from core.geometry.piece_arrays import PieceArrays
+from core.geometry.piece_arrays import PieceArrays, at
 
 FAN: Final = 4
 """Consecutive chords, or runs of them, in one run."""
@@ -36,6 +37,10 @@ BATCH_PAIRS: Final = 1 << 14
 
 BATCH_QUERIES: Final = 1024
 """Boxes that the tree is asked about at a time, where few are near each other."""
+
+MAX_CHORD_LENGTHS: Final = 8.0
+"""Median lengths of the pieces from which on a piece is parted: what is long has no piece that is nearest to all of
+it."""
 
 EVERYWHERE: Final = np.array([[-1e300], [-1e300], [1e300], [1e300]])
 """The box of what has no known place."""
@@ -204,6 +209,117 @@ def _nearest_part(points: Points, first: int, pieces: PieceArrays, runs: Runs, t
         if level:
             j, k = _members(j, k, len(runs[level - 1]))
     return k + first, j, apart[near]
+
+
+def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple[Rows, Rows]:
+    """Pairs (i, j), by rising i, then j, among which is each of `others` that is nearest to any place of each piece.
+
+    So are those that are farther by no more than `tie`.
+    """
+    if not (len(pieces) and len(others)):
+        return np.zeros(0, np.intp), np.zeros(0, np.intp)
+    both = len(pieces) + len(others)
+    typical = MAX_CHORD_LENGTHS * min(float(np.median(path.length)) for path in (pieces, others))
+    one, rows = _parted(pieces, typical, both)
+    other, columns = _parted(others, typical, both)
+    batches = [rows[i] * len(others) + columns[j] for i, j in _searched(one, other, tie)]
+    pairs = np.concatenate(batches)
+    # np.unique takes ten times as long
+    pairs.sort()
+    first = np.ones(len(pairs), np.bool_)
+    np.not_equal(pairs[1:], pairs[:-1], out=first[1:])
+    return np.divmod(pairs[first], len(others))
+
+
+def _parted(pieces: PieceArrays, typical: float, most: int) -> tuple[Chords, Rows]:
+    """Chords of the pieces, those longer than `typical` in parts, but not of more than `most` parts in all; and the
+    pieces that they are of."""
+    length = max(typical, float(pieces.length.sum()) / most)
+    counts = np.ones(len(pieces), np.intp)
+    long = (pieces.length > length).nonzero()[0]
+    counts[long] = np.ceil(pieces.length[long] / length) if length > 0.0 else 1
+    rows = np.repeat(np.arange(len(pieces)), counts)
+    part = np.arange(len(rows)) - (counts.cumsum() - counts)[rows]
+    start, end = pieces.start.take(rows), pieces.end.take(rows)
+    inner = (counts[rows] > 1).nonzero()[0]
+    if len(inner):
+        parted, count = pieces.take(rows[inner]), counts[rows[inner]]
+        start[inner], end[inner] = at(parted, part[inner] / count), at(parted, (part[inner] + 1) / count)
+    bow = pieces.radius[rows] * (1.0 - np.cos(pieces.angle[rows] / counts[rows] / 2.0))
+    return Chords(start, end, bow), rows
+
+
+def _searched(one: Chords, other: Chords, tie: float) -> Iterator[tuple[Rows, Rows]]:
+    """The pairs of chords of which one may hold what is nearest to a place of the other's curve, in batches.
+
+    `within` are for each run lengths within which all of its places have something of the other path.
+    """
+    first, second = runs_of(one), runs_of(other)
+    jumps = _jumps(second)
+    within = [np.full(len(level), np.inf) for level in first]
+    high, low = len(first) - 1, len(second) - 1
+    i, j = np.divmod(np.arange(len(first[high]) * len(second[low])), len(second[low]))
+    stack = [(high, low, i, j)]
+    while stack:
+        high, low, i, j = stack.pop()
+        if len(i) > BATCH_PAIRS and i[0] != i[-1]:
+            half = max(int(i.searchsorted(i[len(i) // 2])), int(i.searchsorted(i[0], side="right")))
+            stack += [(high, low, i[half:], j[half:]), (high, low, i[:half], j[:half])]
+            continue
+        i, j = _contenders(first[high], i, second[low], j, jumps[low], within[high], tie)
+        if not high and not low:
+            yield i, j
+        elif high >= low:
+            members, j = _members(i, j, len(first[high - 1]))
+            within[high - 1][members] = np.minimum(within[high - 1][members], within[high][members // FAN])
+            order = np.argsort(members, kind="stable")
+            stack.append((high - 1, low, members[order], j[order]))
+        else:
+            j, i = _members(j, i, len(second[low - 1]))
+            stack.append((high, low - 1, i, j))
+
+
+def _jumps(runs: Runs) -> list[Floats]:
+    """For each run of each level the largest gap between chords in it: no place of it is so near to its chord."""
+    chords = runs[0]
+    gap = np.zeros(len(chords))
+    gap[:-1] = np.abs(chords.start[1:] - chords.end[:-1])
+    levels = [np.zeros(len(chords))]
+    for level in runs[1:]:
+        size = FAN ** len(levels)
+        inner = gap.copy()
+        # the gap behind the last member belongs to no run
+        inner[size - 1 :: size] = 0.0
+        levels.append(np.maximum.reduceat(inner, np.arange(0, len(chords), size))[: len(level)])
+    return levels
+
+
+def _contenders(
+    one: Chords, i: Rows, other: Chords, j: Rows, jump: Floats, within: Floats, tie: float
+) -> tuple[Rows, Rows]:
+    """Pairs, by rising i, that come as near as some run does to all of the other; updates `within`.
+
+    Seen along the line through both middles, chords take up room by how far they reach along it.
+    """
+    half, reach = (one.end - one.start) / 2.0, (other.end - other.start) / 2.0
+    between = (other.start + reach).take(j) - (one.start + half).take(i)
+    apart = np.abs(between)
+    toward = np.conj(between)
+    taken = np.abs((half.take(i) * toward).real) + np.abs((reach.take(j) * toward).real)
+    least = apart - taken / np.where(apart == 0.0, 1.0, apart) - one.slack.take(i) - other.slack.take(j)
+    keep = ~(least > within.take(i) + tie)
+    i, j, apart, least = i[keep], j[keep], apart[keep], least[keep]
+    if not len(i):
+        return i, j
+    starts = np.flatnonzero(np.concatenate(([True], i[1:] != i[:-1])))
+    closest = np.minimum.reduceat(apart, starts).repeat(np.diff(starts, append=len(i)))
+    best = (apart == closest).nonzero()[0]
+    a, b = i[best], j[best]
+    start, end = other.start.take(b), other.end.take(b)
+    ends = np.maximum(_off_chord(start, end, one.start.take(a)), _off_chord(start, end, one.end.take(a)))
+    np.minimum.at(within, a, ends + one.slack.take(a) + other.slack.take(b) + jump.take(b))
+    keep = ~(least > within.take(i) + tie)
+    return i[keep], j[keep]
 
 
 def _members(runs: Rows, partners: Rows, count: int) -> tuple[Rows, Rows]:

@@ -53,10 +53,6 @@ class PieceArrays:
         """The pieces of these indices, repeated and ordered as they come."""
         return PieceArrays(*(getattr(self, name).take(rows) for name in self.__slots__))
 
-    def part(self, first: int, last: int) -> PieceArrays:
-        """The pieces from one index up to another, which is not among them: views."""
-        return PieceArrays(*(getattr(self, name)[first:last] for name in self.__slots__))
-
     @property
     def arcs(self) -> Flags:
         """(n,) which pieces are arcs."""

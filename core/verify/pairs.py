@@ -9,10 +9,10 @@ from typing import Final
 import numpy as np
 
 from core.geometry.distance import distance, on_circle
+from core.geometry.nearby import nearest_pairs
 from core.geometry.path import Flags, Floats, Path, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, blocks, traveled
 from core.tolerance import LARGEST, ON_PATH, STOCK, UNCUT
-from core.verify.search import nearest_pairs
 
 ONCE: Final = 1e-6
 """Radians by which two arcs about one center miss each other at one of the two places where they may overlap."""

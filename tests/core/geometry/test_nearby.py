@@ -13,10 +13,11 @@ from core.geometry.nearby import (
     gathered,
     near_pairs,
     near_pairs_within,
+    nearest_pairs,
     nearest_pieces,
 )
 from core.geometry.path import Path
-from core.geometry.piece_arrays import PieceArrays, boxes, piece_arrays
+from core.geometry.piece_arrays import PieceArrays, at, boxes, piece_arrays
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.signedinteger[Any]]
@@ -100,6 +101,22 @@ def test_of_short_chords_within_one_radius_only_the_nearest_come() -> None:
     assert len(k) <= 3 * len(points)
     assert apart.max() < 6.02
     assert np.abs(j - k)[:1000].max() < 40
+
+
+@pytest.mark.parametrize("arcs", [False, True])
+@pytest.mark.parametrize(("n", "m"), SIZES)
+def test_nearest_pairs_hold_the_piece_nearest_to_every_place(n: int, m: int, arcs: bool) -> None:
+    one, other = walk(4, n, arcs=arcs), walk(5, m, arcs=arcs)
+    found = pairs(nearest_pairs(one, other, 1e-9))
+    for part in np.linspace(0.0, 1.0, 9):
+        places = at(one, np.full(len(one), part))
+        nearest = distance(other, np.repeat(places[:, None], len(other), axis=1)).argmin(axis=1)
+        assert set(enumerate(nearest.tolist())) <= found
+
+
+def test_nearest_pairs_of_short_chords_within_one_radius_are_few() -> None:
+    wall, move = waves(2000, 1.0), waves(2000, 7.0)
+    assert len(nearest_pairs(move, wall, 1e-9)[0]) < 8 * 2000
 
 
 @pytest.mark.parametrize("arcs", [False, True])
