@@ -32,7 +32,7 @@ SHOTS = (
     Shot("start", "pocket"),
     Shot("start-wide", "pocket", size=(132, 43)),
     Shot("segment", "pocket", (b"8\r",)),
-    Shot("gouge", "overrun-square"),
+    Shot("gouge", "notch"),
     Shot("draw", "pocket", (b"8\r", F7)),
     Shot("lookahead-table", "notch", (TO_LOOKAHEAD, F4, DOWN)),
     Shot("no-color", "pocket", environment={"NO_COLOR": "1"}),

@@ -25,7 +25,7 @@ def gouging() -> Operator:
     """An operator before a path that gouges: it is posted if the words are said."""
     from core.pipeline.derive import derive
 
-    program = load(example("overrun-square"))
+    program = load(example("notch"))
     return Operator(Desk(Session.of(program)).knowing(derive(program)))
 
 

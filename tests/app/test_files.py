@@ -156,7 +156,7 @@ def test_posting_writes_the_file(folder: Path) -> None:
 def test_a_path_that_gouges_is_posted_only_in_so_many_words(folder: Path) -> None:
     from core.pipeline.derive import derive
 
-    operator = opened("overrun-square")
+    operator = opened("notch")
     operator.desk = operator.desk.knowing(derive(operator.session.program))
     entered(to_post(operator), str(folder / "square.nc"))
     assert "POST WITH GOUGE" in operator.said

@@ -35,7 +35,7 @@ def test_a_sheet_on_standard_output_is_text(part: Path, capsys: pytest.CaptureFi
 def test_a_sheet_with_the_drawing_and_one_that_says_do_not_run(part: Path) -> None:
     assert main(["sheet", str(part), "-o", str(part.with_suffix(".html"))]) == 0
     assert "<svg" in part.with_suffix(".html").read_text()
-    assert main(["sheet", str(example("overrun-square")), "-o", str(part.with_suffix(".txt"))]) == 1
+    assert main(["sheet", str(example("notch")), "-o", str(part.with_suffix(".txt"))]) == 1
     assert "DO NOT RUN" in part.with_suffix(".txt").read_text()
 
 

@@ -174,7 +174,7 @@ def _clear(met: Meetings) -> bool:
     return bool((ends > 1e-4).all()) and met.kinds[0] in (APART, CROSS)
 
 
-@must_exercise(0.25)
+@must_exercise(0.12)
 @settings(max_examples=300, deadline=None, derandomize=True)
 @given(any_piece, any_piece)
 def test_points_lie_on_both_pieces(a, b):

@@ -181,7 +181,7 @@ tables = st.one_of(
 """Tables that are sound, nearly sound, or broken in one line."""
 
 
-@must_exercise(0.3, "imported", "refused")
+@must_exercise(0.2, "imported", "refused")
 @settings(max_examples=300)
 @given(tables)
 def test_never_half_imported_whatever_the_text(text):
@@ -202,7 +202,7 @@ def test_any_text_is_a_table_or_is_refused(text):
     assert bool(table.errors) == (table.tools == ())
 
 
-@must_exercise(0.3)
+@must_exercise(0.2)
 @settings(max_examples=300)
 @given(tables)
 def test_a_controls_table_has_the_same_tools_where_both_take_it(text):
