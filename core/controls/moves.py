@@ -1,7 +1,7 @@
 """Moves: what a control's axes do, in one neutral form for every control, as immutable numpy arrays.
 
 Millimeters and millimeters a minute.  A move goes from the end of the row before it to its own point; row 0 is
-the start point, told as a rapid of line 0.  An arc's direction is seen from the positive side of the axis that
+the start point, a rapid of line 0.  An arc's direction is seen from the positive side of the axis that
 stands on its plane; an arc that ends where it starts is a full circle; an arc that also moves along that axis is
 a helix.
 """
@@ -86,19 +86,6 @@ class Moves:
         for array in (self.points, self.centers, self.turns, self.planes, self.rapid, self.feeds, self.lines):
             array.flags.writeable = False
 
-    @staticmethod
-    def of(table: Floats) -> Moves:
-        """The moves of rows (n, `WIDTH`) of a tape."""
-        return Moves(
-            table[:, 0:3].copy(),
-            table[:, 3:6].copy(),
-            table[:, 6].astype(np.int8),
-            table[:, 7].astype(np.int8),
-            table[:, 8].astype(np.bool_),
-            table[:, 9].copy(),
-            table[:, 10].astype(np.int32),
-        )
-
     def __len__(self) -> int:
         return len(self.turns)
 
@@ -149,13 +136,13 @@ _POINT: Final = Struct("3d")
 
 
 class Tape:
-    """Moves being recorded, a row of `WIDTH` doubles each, one behind the other in memory; `moves` closes it."""
+    """Moves being recorded, a row of `WIDTH` doubles each."""
 
     __slots__ = ("_packed",)
 
     def __init__(self, start: Point3 = (0.0, 0.0, 0.0)) -> None:
         self._packed = bytearray()
-        self.rapid(*start, 0)
+        self.straight(start, 0.0, 0, rapid=True)
 
     def __len__(self) -> int:
         return len(self._packed) // _ROW.size
@@ -166,36 +153,29 @@ class Tape:
         x, y, z = _POINT.unpack_from(self._packed, len(self._packed) - _ROW.size)
         return x, y, z
 
-    def rapid(self, x: float, y: float, z: float, line: int) -> None:
-        """A straight move at rapid."""
-        self._packed += _ROW.pack(x, y, z, x, y, z, 0, 0, True, 0.0, line)
+    def straight(self, end: Point3, feed: float, line: int, *, rapid: bool = False) -> None:
+        """A straight move."""
+        self._packed += _ROW.pack(*end, *end, 0, 0, rapid, feed, line)
 
-    def straight(self, x: float, y: float, z: float, feed: float, line: int) -> None:
-        """A straight move at feed."""
-        self._packed += _ROW.pack(x, y, z, x, y, z, 0, 0, False, feed, line)
-
-    def arc(self, end: Point3, center: Point3, turn: int, plane: int, feed: float, line: int) -> None:
-        """An arc or a helix at feed."""
-        self._packed += _ROW.pack(*end, *center, turn, plane, False, feed, line)
-
-    def row(
-        self, end: Point3, center: Point3, turn: int, plane: int, feed: float, line: int, *, rapid: bool
+    def arc(
+        self, end: Point3, center: Point3, turn: int, plane: int, feed: float, line: int, *, rapid: bool = False
     ) -> None:  # fmt: skip
-        """A move by all that its row has."""
+        """An arc or a helix."""
         self._packed += _ROW.pack(*end, *center, turn, plane, rapid, feed, line)
-
-    def extend(self, table: Floats) -> None:
-        """Many moves: rows (n, `WIDTH`)."""
-        self._packed += table.tobytes()
 
     def cut(self, rows: int) -> None:
         """Takes back all moves but the first so many rows."""
         del self._packed[rows * _ROW.size :]
 
     def moves(self) -> Moves:
-        """Everything recorded."""
-        return Moves.of(self.table())
-
-    def table(self) -> Floats:
-        """The rows (n, `WIDTH`) recorded so far."""
-        return np.frombuffer(bytes(self._packed), np.float64).reshape(-1, WIDTH)
+        """Everything recorded so far."""
+        table = np.frombuffer(bytes(self._packed), np.float64).reshape(-1, WIDTH)
+        return Moves(
+            table[:, 0:3].copy(),
+            table[:, 3:6].copy(),
+            table[:, 6].astype(np.int8),
+            table[:, 7].astype(np.int8),
+            table[:, 8].astype(np.bool_),
+            table[:, 9].copy(),
+            table[:, 10].astype(np.int32),
+        )

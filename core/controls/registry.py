@@ -7,7 +7,7 @@ corners in force; a G39 or G39.1 in the program changes them from there on, as o
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final
@@ -15,22 +15,21 @@ from typing import Final
 from core.controls.control_run import Run
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import ArcRadii
+from core.controls.iso.dialect import Dialect
+from core.controls.iso.flow import MakeControl, execute
 from core.controls.klartext import control as klartext
-from core.controls.klartext import path_functions
+from core.controls.klartext.path_functions import ARC_RADII
 from core.controls.makers import linuxcnc, nine_series, rosettacnc, threeblock
 from core.controls.program_text import lines_of
 from core.finding import Finding, Severity
 from core.units import Unit
 
-Control = Callable[[bytes, str, ToolTable, Unit | None], Run]
-"""Runs a program's text on a variant of a control with these tools; never raises for any text.
-
-The unit is the one in force at the start, None for the one that the control usually starts in.
-"""
-
 NO_TOOLS: Final = ToolTable()
 
-_NOTHING: Final = b" \t\r\n\x00\xef\xbb\xbf\xff\xfe"
+TINY_SHARE: Final = 1e-7
+"""Share of the tool's radius for which no contour is too narrow: the stretches then are the whole contour."""
+
+_BLANKS: Final = b" \t\r\n\x00\xef\xbb\xbf\xff\xfe"
 """Blanks, line ends and the marks of encodings: of these alone is an empty program."""
 
 _EMPTY: Final = Finding("EMPTY", Severity.ERROR, "The program is empty; there is nothing to run.", line=1, column=1)
@@ -45,28 +44,21 @@ class UnknownControl:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One control: what runs it, how far the radii of an arc may differ on it, its variants (the first is the default)
-    and those a comparison shows.
-    """
+    """One control: its dialect (None for Klartext) and what makes each of its variants, the default first."""
 
-    control: Control
-    arc_radii: ArcRadii
-    variants: tuple[str, ...] = ("",)
+    dialect: Dialect | None
+    variants: Mapping[str, MakeControl | None]
     compared: tuple[str, ...] = ("",)
-
-
-def _klartext(text: bytes, variant: str, tools: ToolTable, _: Unit | None) -> Run:
-    """Klartext says its unit itself."""
-    return klartext.run(text, variant, tools)
+    """The variants a comparison shows."""
 
 
 CONTROLS: Final[Mapping[str, Entry]] = MappingProxyType(
     {
-        "threeblock": Entry(threeblock.run, threeblock.DIALECT.arc_radii),
-        "rosettacnc": Entry(rosettacnc.run, rosettacnc.DIALECT.arc_radii, rosettacnc.ENTRIES, rosettacnc.ENTRIES),
-        "nine-series": Entry(nine_series.run, nine_series.DIALECT.arc_radii, nine_series.VARIANTS, ("a", "b")),
-        "klartext": Entry(_klartext, path_functions.ARC_RADII),
-        "linuxcnc": Entry(linuxcnc.run, linuxcnc.DIALECT.arc_radii),
+        "threeblock": Entry(threeblock.DIALECT, {"": threeblock.ThreeBlock}),
+        "rosettacnc": Entry(rosettacnc.DIALECT, rosettacnc.VARIANTS, tuple(rosettacnc.VARIANTS)),
+        "nine-series": Entry(nine_series.DIALECT, nine_series.VARIANTS, ("a", "b")),
+        "klartext": Entry(None, {"": None}),
+        "linuxcnc": Entry(linuxcnc.DIALECT, {"": linuxcnc.LinuxCnc}),
     }
 )
 """The controls, in the order a comparison shows them."""
@@ -74,11 +66,12 @@ CONTROLS: Final[Mapping[str, Entry]] = MappingProxyType(
 
 def arc_radii(control: str) -> ArcRadii:
     """How far the radii of an arc may differ on a control, by its full or short name."""
-    return CONTROLS[control.partition(":")[0]].arc_radii
+    dialect = CONTROLS[control.partition(":")[0]].dialect
+    return dialect.arc_radii if dialect else ARC_RADII
 
 
 def names() -> tuple[str, ...]:
-    """Every control with every variant, as it can be asked for."""
+    """Every control with every variant."""
     return tuple(_joined(name, variant) for name, entry in CONTROLS.items() for variant in entry.variants)
 
 
@@ -106,25 +99,31 @@ def resolve(control: str) -> str | UnknownControl:
     entry = CONTROLS.get(name)
     if entry is None or (variant and variant not in entry.variants):
         return UnknownControl(f"There is no such control; there are {', '.join(names())}.")
-    return _joined(name, variant or entry.variants[0])
+    return _joined(name, variant or next(iter(entry.variants)))
 
 
 def run(text: bytes, control: str, tools: ToolTable = NO_TOOLS, unit: Unit | None = None) -> Run | UnknownControl:
-    """A program's text on a control, by the control's full or short name; `unit` where the text names none."""
+    """A program's text on a control, by the control's full or short name; never raises for any text.
+
+    `unit` counts where the text names none, None for the one in which the control usually starts.
+    """
     full = resolve(control)
     if isinstance(full, UnknownControl):
         return full
     name, _, variant = full.partition(":")
-    made = CONTROLS[name].control(text, variant, tools, unit)
-    return made if text.strip(_NOTHING) else replace(made, findings=(_EMPTY,))
+    entry = CONTROLS[name]
+    make = entry.variants[variant]
+    if entry.dialect is None or make is None:
+        made = klartext.run(text, tools)
+    else:
+        made = execute(text, full, replace(entry.dialect, unit=unit or entry.dialect.unit), tools, make)
+    return made if text.strip(_BLANKS) else replace(made, findings=(_EMPTY,))
 
 
 def programmed(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -> Run | None:
-    """The run of a text that alarms, with next to no radius, so that its stretches tell the whole contour.
+    """The run of a Klartext program that stops, with next to no radius, so that its stretches are the whole contour.
 
-    None where a control has no such run, or where even that stops.
+    None for another control, or where even that stops.
     """
-    if control != "klartext":
-        return None
-    made = klartext.programmed(text, tools)
-    return made if made.stopped_at is None else None
+    made = klartext.run(text, tools, TINY_SHARE) if control == "klartext" else None
+    return made if made and made.stopped_at is None else None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Final
 
 from core.controls.write.iso_program import Frame, offsets
 from core.controls.write.iso_style import STYLES, Radius
@@ -15,22 +16,22 @@ from core.output.objections import posting_errors
 from core.output.passes import Job, level_floor
 from core.units import Unit, printable, sentence
 
+CLIMBS: Final = (
+    "A segment climbs or falls (Z END) under compensation, where the heights at corners are the control's own.  "
+    "Post the center path, or choose CUTTER COMP. ON."
+)
+
 
 def control_program_errors(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ...]:
-    """What forbids posting at all, and what a control's own compensation cannot be told.
+    """What forbids posting at all, and what a control's own compensation cannot do.
 
-    Nothing can be overridden here: the path that is cut is the control's, and nobody has judged it for that.
+    Nothing can be overridden here: the path that is cut is the control's, which the verdict has not judged.
     """
-    if not jobs:
-        return (Finding("NO_BLOCK", Severity.ERROR, "There is no block to post."),)
     errors = list(posting_errors(jobs, Grid(unit), override=None))
     for job in jobs:
         if job.comp != "ON" and not level_floor(job):
-            text = (
-                "A segment climbs or falls (Z END) under compensation, where the heights at corners are the control's"
-            )
-            text += " own.  Post the center path, or choose CUTTER COMP. ON."
-            errors.append(Finding("NOTWRITTEN", Severity.ERROR, f"Block {job.block}: {text}"))
+            text = f"Block {job.block}: {CLIMBS}"
+            errors.append(Finding("NOTWRITTEN", Severity.ERROR, text))
     return tuple(dict.fromkeys(errors))
 
 
@@ -47,41 +48,29 @@ def control_program(
 
     def remarks(notes: Sequence[Finding]) -> Sequence[str]:
         # a semicolon would end the block even inside a remark, or begin another one
-        texts = [
-            text.replace(";", ",") for text in (*program_titles(name, part), *_header(jobs, cuts, unit, control, notes))
-        ]
-        if control == "klartext":
-            return [line[1:-1] for text in texts for line in comments(text)]
-        return [line for text in texts for line in comments(text)]
+        texts = (*program_titles(name, part), *_header(jobs, cuts, unit, control, notes))
+        lines = [line for text in texts for line in comments(text.replace(";", ","))]
+        return [line[1:-1] for line in lines] if control == "klartext" else lines
 
+    # a name every control takes: letters, digits, a dash
+    short_name = "".join(sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in name)[:24]
     frame = Frame(unit, jobs[0].work_offset)
-    written = write_program(cuts, control, frame, _short_name(name), remarks)
+    written = write_program(cuts, control, frame, short_name or "PART", remarks)
     if isinstance(written, NotWritten):
         return Refusal(written.findings, unit)
-    return Posted(written.text, notes=(*_unwritable(jobs, control), *_part_name_missing(part, control), *written.notes))
+    style, notes = STYLES.get(control), _no_work_offset(jobs, control)
+    if style is not None and not style.comments and part.strip():
+        text = f"PART NAME {printable(part)} is not in the file: {control} knows no comments."
+        notes += (Finding("PART_NAME", Severity.INFO, text, field="name"),)
+    return Posted(written.text, notes=(*notes, *written.notes))
 
 
-def _short_name(name: str) -> str:
-    """A name every control takes: letters, digits, a dash."""
-    kept = "".join(sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in name)
-    return kept[:24] or "PART"
-
-
-def _unwritable(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
-    """What the text of this control cannot say."""
+def _no_work_offset(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
+    """That this control has no word for the jobs' work offset."""
     if control in ("threeblock", "klartext") and jobs[0].work_offset != 54:
         text = f"Work offset G{jobs[0].work_offset} cannot be written for {control}; set its origin on the control."
         return (Finding("WORK_OFFSET", Severity.WARNING, text),)
     return ()
-
-
-def _part_name_missing(part: str, control: str) -> tuple[Finding, ...]:
-    """That the part's name is nowhere in a text that holds no comments."""
-    style = STYLES.get(control)
-    if style is None or style.comments or not part.strip():
-        return ()
-    text = f"PART NAME {printable(part)} is not in the file: {control} knows no comments."
-    return (Finding("PART_NAME", Severity.INFO, text, field="name"),)
 
 
 def _header(
@@ -92,19 +81,15 @@ def _header(
     compensation = "THE CONTROL COMPENSATES" if compensates else "NOTHING IS COMPENSATED"
     yield f"WRITTEN BY CUTCOMP FOR {control}: THE CONTOUR AS TYPED, {compensation}"
     yield f"UNITS {'INCH' if unit is Unit.IN else 'MM'}"
-    yield from dict.fromkeys(_tool_line(cut, unit, control) for cut in cuts)
+    table = "" if control == "klartext" else ": THE CONTROL'S TABLE MUST SAY THE SAME"
+    yield from dict.fromkeys(f"TOOL {cut.tool} DIAMETER {length_text(cut.diameter, unit)}{table}" for cut in cuts)
     yield from _offsets(cuts, unit, control)
     for job in jobs:
         depth = f"Z {length_text(job.z_start, unit)} TO {length_text(job.z_bottom, unit)}"
         yield f"BLOCK {job.block} MILL CONTOUR CUTTER COMP. {job.comp} {depth}"
-    for note in (*_unwritable(jobs, control), *notes):
+    for note in (*_no_work_offset(jobs, control), *notes):
         where = "" if note.segment is None else f"SEGMENT {note.segment:g}: "
         yield f"NOTE {note.code} {where}{sentence(note, unit)}"
-
-
-def _tool_line(cut: Cut | Plain, unit: Unit, control: str) -> str:
-    table = "" if control == "klartext" else ": THE CONTROL'S TABLE MUST SAY THE SAME"
-    return f"TOOL {cut.tool} DIAMETER {length_text(cut.diameter, unit)}{table}"
 
 
 def _offsets(cuts: Sequence[Cut | Plain], unit: Unit, control: str) -> Iterator[str]:
@@ -114,6 +99,6 @@ def _offsets(cuts: Sequence[Cut | Plain], unit: Unit, control: str) -> Iterator[
         return
     sizes = {(cut.tool, cut.stock): cut.diameter / 2 + cut.stock for cut in cuts if isinstance(cut, Cut)}
     numbers = offsets(cuts, style)
-    for key, number in ((key, numbers[key]) for key in sizes):
-        stock = f", LEAVES {length_text(key[1], unit)}" if key[1] else ""
-        yield f"OFFSET D{number} RADIUS {length_text(sizes[key], unit)} OF TOOL {key[0]}{stock}"
+    for (tool, stock), size in sizes.items():
+        leaves = f", LEAVES {length_text(stock, unit)}" if stock else ""
+        yield f"OFFSET D{numbers[tool, stock]} RADIUS {length_text(size, unit)} OF TOOL {tool}{leaves}"

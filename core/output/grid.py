@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, tau
 from typing import Final
 
-from core.geometry.piece import Arc, Point, Turn
+from core.geometry.piece import Arc, Point
 from core.tolerance import CLOSED
 from core.units import Kind, Unit, from_mm, show
 
@@ -20,14 +20,14 @@ DECIMALS: Final = {Unit.IN: 6, Unit.MM: 5}
 FEED_DECIMALS: Final = 3
 FINER: Final = 1
 """Further decimals of I and J, which keep the two radii of an arc equal."""
-ASTRAY: Final = 4.0
+MAX_END_ERROR: Final = 4.0
 """How far, in last digits, an arc as written may end from where it should, measured along it."""
-SMALLEST: Final = 160.0
+MIN_RADIUS: Final = 160.0
 """An arc of a smaller radius, in last digits, is written as chords: LinuxCNC refuses it as one without a radius."""
-SHALLOW: Final = 1e-5
+MIN_ANGLE: Final = 1e-5
 """Radians.  Controls take an angle much smaller than this for none at all, and so the arc for a full circle."""
-FLAT: Final = 0.5
-"""A chord that strays from its arc by no more than this, in last digits, is the arc as well as can be written."""
+MAX_CHORD_HEIGHT: Final = 0.5
+"""A chord that leaves its arc by no more than this, in last digits, is the arc as well as can be written."""
 
 Steps = tuple[int, int]
 
@@ -64,53 +64,40 @@ class Grid:
 
 
 @dataclass(frozen=True, slots=True)
-class Chord:
-    """A straight part of a move: it ends at `end` after `part` of the move, 0 to 1."""
+class ArcPart:
+    """A part of an arc: it ends at `end` after `share` of the arc, 0 to 1.
+
+    `center` is counted from the start as written, in last digits of I and J; None for a chord.
+    """
 
     end: Point
-    part: float
+    share: float
+    center: Steps | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Bow:
-    """A circular part of a move, with its center from the start as written, in last digits of I and J."""
-
-    end: Point
-    part: float
-    center: Steps
-
-
-def written(arc: Arc, grid: Grid) -> Iterator[Chord | Bow]:
-    """The arc in parts that mean the same after rounding, in order: mostly one bow."""
-    yield from _parts(arc, grid, 0.0, 1.0)
-
-
-def _parts(arc: Arc, grid: Grid, first: float, last: float) -> Iterator[Chord | Bow]:
-    start, end = _at(arc, first), _at(arc, last)
+def arc_parts(arc: Arc, grid: Grid, first: float = 0.0, last: float = 1.0) -> Iterator[ArcPart]:
+    """The arc from one share to another in parts that mean the same after rounding, in order: mostly one arc."""
+    start, end = (_point_at(arc, share) for share in (first, last))
     sweep, radius = arc.sweep * (last - first), grid.fine(arc.radius)
-    center = _center(start, arc.center, grid)
-    if radius >= SMALLEST and _means(start, end, center, sweep, radius, grid):
-        yield Bow(end, last, center)
-    elif _rise(radius, sweep) <= FLAT:
-        yield Chord(end, last)
+    (cx, cy), (x, y) = arc.center, grid.point(start)
+    i, j = round((grid.fine(cx) - x) * 10**FINER), round((grid.fine(cy) - y) * 10**FINER)
+    height = radius * (1.0 - cos(sweep / 2) if abs(sweep) <= pi else 2.0)
+    if radius >= MIN_RADIUS and _survives(start, end, (i, j), sweep, radius, grid):
+        yield ArcPart(end, last, (i, j))
+    elif height <= MAX_CHORD_HEIGHT:
+        yield ArcPart(end, last)
     else:
         middle = (first + last) / 2
-        yield from _parts(arc, grid, first, middle)
-        yield from _parts(arc, grid, middle, last)
+        yield from arc_parts(arc, grid, first, middle)
+        yield from arc_parts(arc, grid, middle, last)
 
 
-def _at(arc: Arc, part: float) -> Point:
-    return {0.0: arc.start, 1.0: arc.end}.get(part) or arc.point_at(part)
+def _point_at(arc: Arc, share: float) -> Point:
+    return {0.0: arc.start, 1.0: arc.end}.get(share) or arc.point_at(share)
 
 
-def _center(start: Point, center: Point, grid: Grid) -> Steps:
-    """I and J: from the start as written to the true center."""
-    x, y = grid.point(start)
-    return round((grid.fine(center[0]) - x) * 10**FINER), round((grid.fine(center[1]) - y) * 10**FINER)
-
-
-def _means(start: Point, end: Point, center: Steps, sweep: float, radius: float, grid: Grid) -> bool:
-    """The bow as written turns as far as meant, and ends at its start only if it is the full circle.
+def _survives(start: Point, end: Point, center: Steps, sweep: float, radius: float, grid: Grid) -> bool:
+    """The arc as written turns as far as meant, and ends at its start only if it is the full circle.
 
     An end within `CLOSED` of the start is one that controls with fewer digits take for it.
     """
@@ -123,19 +110,9 @@ def _means(start: Point, end: Point, center: Steps, sweep: float, radius: float,
     away = (last[0] - first[0] - i, last[1] - first[1] - j)
     turn = 1 if sweep > 0.0 else -1
     turned = turn * (atan2(away[1], away[0]) - atan2(-j, -i)) % tau
-    if not SHALLOW <= turned <= tau - SHALLOW:
+    if not MIN_ANGLE <= turned <= tau - MIN_ANGLE:
         return False
-    return abs(turned - abs(sweep)) * radius <= ASTRAY and abs(hypot(*away) - hypot(i, j)) <= ASTRAY
-
-
-def _rise(radius: float, sweep: float) -> float:
-    """How far an arc strays from its chord."""
-    return radius * (1.0 - cos(min(abs(sweep), pi * 2) / 2)) if abs(sweep) <= pi else 2.0 * radius
-
-
-def turn_word(turn: Turn) -> str:
-    """G2 for clockwise, G3 for counter-clockwise."""
-    return "G3" if turn is Turn.CCW else "G2"
+    return abs(turned - abs(sweep)) * radius <= MAX_END_ERROR and abs(hypot(*away) - hypot(i, j)) <= MAX_END_ERROR
 
 
 def feed_text(feed: float, grid: Grid) -> str:

@@ -16,9 +16,10 @@ from dataclasses import dataclass, replace
 from textwrap import wrap
 from typing import Final
 
-from core.finding import Finding, Severity
+from core.controls.write.iso_program import CORNER_TOLERANCE, speed_text
+from core.finding import Finding
 from core.geometry.piece import Arc, Turn
-from core.output.grid import FINER, Bow, Grid, feed_text, length_text, turn_word, written
+from core.output.grid import FINER, Grid, arc_parts, feed_text, length_text
 from core.output.objections import OVERRIDE, overridden_errors, posting_errors
 from core.output.passes import Cutter, Job, Motion, Pass, clear_height, passes
 from core.units import Unit, sentence
@@ -28,9 +29,6 @@ WIDTH: Final = 72
 ACTIVE: Final = re.compile(r"\s*[A-Za-z_]+\s*,")
 """A comment that begins like this is an order to some controls: (MSG, ...), (LOGOPEN, ...), (PY, ...)."""
 READABLE: Final = str.maketrans({"(": "[", ")": "]", "%": " PERCENT", "\u00b0": " DEG", "\u2013": "-", "\u2212": "-"})
-
-ROUNDING: Final = {Unit.IN: "0.0002", Unit.MM: "0.005"}
-"""How far the machine may leave the path at a corner, in program units."""
 
 
 def comments(text: str) -> Iterator[str]:
@@ -52,14 +50,6 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True)
-class Written:
-    """Lines of NC text and where the tool is after them."""
-
-    lines: tuple[str, ...]
-    place: Place
-
-
-@dataclass(frozen=True, slots=True)
 class _Step:
     """One line to be: its G word, where it ends, and for an arc its I and J."""
 
@@ -68,8 +58,8 @@ class _Step:
     center: str = ""
 
 
-def nc_lines(motions: Iterable[Motion], place: Place, grid: Grid) -> Written:
-    """The motions as text, begun at `place`.
+def _nc_lines(motions: Iterable[Motion], place: Place, grid: Grid) -> tuple[list[str], Place]:
+    """The motions as text, begun at `place`, and where the tool is after them.
 
     A rapid never moves Z together with X and Y: up comes before, down after.  What would be no move as written is
     left out.
@@ -80,7 +70,7 @@ def nc_lines(motions: Iterable[Motion], place: Place, grid: Grid) -> Written:
             text = _line(step, place, grid)
             place = step.target if text else replace(step.target, feed=place.feed)
             texts += [text] if text else []
-    return Written(tuple(texts), place)
+    return texts, place
 
 
 def _steps(motion: Motion, place: Place, grid: Grid) -> Iterator[_Step]:
@@ -105,36 +95,26 @@ def _arc(motion: Motion, place: Place, feed: str, grid: Grid) -> Iterator[_Step]
     assert place.y is not None
     assert place.z is not None
     arc = Arc((place.x, place.y), (motion.x, motion.y), motion.center, motion.turn)
-    for part in written(arc, grid):
-        z = motion.z if part.part == 1.0 else place.z + part.part * (motion.z - place.z)
+    word = "G3" if motion.turn is Turn.CCW else "G2"
+    for part in arc_parts(arc, grid):
+        z = motion.z if part.share == 1.0 else place.z + part.share * (motion.z - place.z)
         target = Place(*part.end, z, feed)
-        if isinstance(part, Bow):
-            i, j = (grid.text(steps, FINER) for steps in part.center)
-            yield _Step(turn_word(motion.turn), target, f" I{i} J{j}")
-        else:
+        if part.center is None:
             yield _Step("G1", target)
+        else:
+            i, j = (grid.text(steps, FINER) for steps in part.center)
+            yield _Step(word, target, f" I{i} J{j}")
 
 
 def _line(step: _Step, place: Place, grid: Grid) -> str:
     """The step as text, empty if nothing moves."""
-    axes = "".join(
-        _axis(name, old, new, grid, always=bool(step.center) and name != "Z")
-        for name, old, new in (
-            ("X", place.x, step.target.x),
-            ("Y", place.y, step.target.y),
-            ("Z", place.z, step.target.z),
-        )
-    )
-    feed = f" F{step.target.feed}" if step.target.feed != place.feed else ""
+    target, axes = step.target, ""
+    for name, old, new in (("X", place.x, target.x), ("Y", place.y, target.y), ("Z", place.z, target.z)):
+        moved = new is not None and (old is None or grid.steps(old) != grid.steps(new))
+        if new is not None and (moved or (step.center and name != "Z")):
+            axes += f" {name}{grid.text(grid.steps(new))}"
+    feed = f" F{target.feed}" if target.feed != place.feed else ""
     return f"{step.word}{axes}{step.center}{feed}" if axes else ""
-
-
-def _axis(name: str, old: float | None, new: float | None, grid: Grid, *, always: bool) -> str:
-    if new is None:
-        return ""
-    steps = grid.steps(new)
-    moved = old is None or grid.steps(old) != steps
-    return f" {name}{grid.text(steps)}" if moved or always else ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,14 +144,11 @@ def center_path_program(
 ) -> Posted | Refusal:
     """The NC text of all jobs, or the findings that forbid it.
 
-    `name` is the program's name and `part` the PART NAME that stand at its head, in comments that nothing typed brings
-    to life.
+    `name` is the program's name and `part` the PART NAME; both stand at its head as comments, whatever they contain.
     `override` counts only if it is the sentence `core.output.objections.OVERRIDE`, and only against findings on a path
     that is known; the header then says what was overridden.
     """
     grid = Grid(unit)
-    if not jobs:
-        return Refusal((Finding("NO_BLOCK", Severity.ERROR, "There is no block to post."),), unit)
     against = posting_errors(jobs, grid, override=override)
     if against:
         return Refusal(against, unit)
@@ -204,7 +181,7 @@ def _header(jobs: Sequence[Job], unit: Unit, head: tuple[str, ...], waived: tupl
         yield from comments(f"OVERRIDDEN BY THE OPERATOR: {OVERRIDE}")
     for finding in waived:
         yield from comments(f"OVERRIDDEN {finding.code}: {_sentence(finding, unit)}")
-    yield from comments(f"G64 P{ROUNDING[unit]}: THE MACHINE MAY ROUND INSIDE CORNERS BY SO MUCH")
+    yield from comments(f"G64 P{CORNER_TOLERANCE[unit]}: THE MACHINE MAY ROUND INSIDE CORNERS BY SO MUCH")
 
 
 def _sentence(finding: Finding, unit: Unit) -> str:
@@ -247,7 +224,7 @@ def _raised_safe_z(safe: float, highest: Job, unit: Unit) -> Iterator[str]:
 def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
     inch = grid.unit is Unit.IN
     yield f"G17 {'G20' if inch else 'G21'} G40 G49 G{jobs[0].work_offset} G80 G90 G91.1 G94"
-    yield f"G64 P{ROUNDING[grid.unit]}"
+    yield f"G64 P{CORNER_TOLERANCE[grid.unit]}"
     place, tool, speed = Place(), None, 0.0
     for job in jobs:
         for a_pass in passes(job):
@@ -255,12 +232,11 @@ def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
                 yield from _tool_change(a_pass, first=tool is None)
                 tool, speed, place = a_pass.cutter.number, a_pass.speed, Place()
             elif a_pass.speed != speed:
-                yield f"S{_speed(a_pass.speed)}"
+                yield f"S{speed_text(a_pass.speed)}"
                 speed = a_pass.speed
             yield from comments(_title(a_pass, grid.unit))
-            written = nc_lines(a_pass.motions, place, grid)
-            yield from written.lines
-            place = written.place
+            lines, place = _nc_lines(a_pass.motions, place, grid)
+            yield from lines
     yield "M5"
     yield "M30"
 
@@ -270,11 +246,7 @@ def _tool_change(a_pass: Pass, *, first: bool) -> Iterator[str]:
         yield "M5"
     yield f"T{a_pass.cutter.number} M6"
     yield f"G43 H{a_pass.cutter.number}"
-    yield f"S{_speed(a_pass.speed)} M3"
-
-
-def _speed(speed: float) -> str:
-    return f"{speed:.1f}".removesuffix(".0")
+    yield f"S{speed_text(a_pass.speed)} M3"
 
 
 def _title(a_pass: Pass, unit: Unit) -> str:

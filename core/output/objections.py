@@ -17,7 +17,7 @@ OVERRIDE: Final = "POST WITH GOUGE"
 """What an operator must say, word for word, to have a path posted that the verdict is against."""
 
 OVERRIDABLE: Final = frozenset({"GOUGE", "BLEND_GOUGES", "ROUGH_GOUGES", "WRONG_SIDE"})
-"""Findings on a path that is whole and known; whatever is unread, missing or undetermined can not be overridden."""
+"""Findings on a path that is whole and known; whatever is unread, missing or undetermined cannot be overridden."""
 
 MAX_LISTED: Final = 6
 """Segments named in one sentence."""
@@ -27,8 +27,8 @@ MAX_PECKS: Final = 2000
 
 
 def posting_errors(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> tuple[Finding, ...]:
-    """The errors that stand against posting, each named once; those the operator overrode are left out."""
-    errors: list[Finding] = []
+    """The errors that forbid posting, each named once; those the operator overrode are left out."""
+    errors = [] if jobs else [Finding("NO_BLOCK", Severity.ERROR, "There is no block to post.")]
     for job in jobs:
         errors += (*job.errors, *job_errors(job, grid))
     if len({job.work_offset for job in jobs}) > 1:
@@ -39,25 +39,20 @@ def posting_errors(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> 
 
 
 def job_errors(job: Job, grid: Grid) -> Iterator[Finding]:
-    """What is wrong with a job and none of its errors tells: about a field that has none, and a path that is due."""
+    """What is wrong with a job that none of its errors names: fields without an error, and a path without a cause."""
     errors = job.errors
-    named = {finding.field for finding in errors}
-    for objection in _objections(job, grid):
-        due = objection.code == "NO_PATH" and any(finding.code not in OVERRIDABLE for finding in errors)
-        if not due and (objection.field is None or objection.field not in named) and objection not in errors:
+    fields = {finding.field for finding in errors}
+    explained = any(finding.code not in OVERRIDABLE for finding in errors)
+    for wrong, code, text, field in (*_tools(job), *_depths(job), *_numbers(job), *_paths(job, grid)):
+        objection = Finding(code, Severity.ERROR, f"Block {job.block}: {text}", field=field)
+        known = objection in errors or (field is not None and field in fields) or (code == "NO_PATH" and explained)
+        if wrong and not known:
             yield objection
 
 
 def overridden_errors(jobs: Iterable[Job]) -> tuple[Finding, ...]:
-    """The errors that stand and may be overridden."""
+    """The errors that may be overridden."""
     return tuple(finding for job in jobs for finding in job.errors if finding.code in OVERRIDABLE)
-
-
-def _objections(job: Job, grid: Grid) -> Iterator[Finding]:
-    """What is wrong with the job itself, whoever made it."""
-    for wrong, code, text, name in (*_tools(job), *_depths(job), *_numbers(job), *_paths(job, grid)):
-        if wrong:
-            yield Finding(code, Severity.ERROR, f"Block {job.block}: {text}", field=name)
 
 
 _Check = tuple[bool, str, str, str | None]
@@ -105,7 +100,7 @@ def _numbers(job: Job) -> Iterator[_Check]:
         *(value or 0.0 for level in job.levels for value in level),
     )
     sane = all(isfinite(value) and abs(value) <= LARGEST for value in given)
-    yield not sane, "NUMBER", "A depth, feed or speed is no number a machine could have.", None
+    yield not sane, "NUMBER", "A depth, feed or speed is out of any machine's range.", None
     yield not 54 <= job.work_offset <= 59, "WORK_OFFSET", "WORK OFFSET goes from 54 to 59.", "work_offset"
     yield job.speed <= 0.0, "SPEED", "SPEED must be above 0.", "speed"
 
@@ -114,44 +109,29 @@ def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
     nothing = not any(len(run.path) for run in job.finish)
     yield nothing, "NO_PATH", "There is no path to post: the cutter fits nowhere, or the contour is not known.", None
     unroughed = job.finisher is not None and not any(len(run.path) for run in rough_runs(job))
-    yield (
-        unroughed,
-        "NO_ROUGH_PATH",
-        "The roughing tool has no path, so the finish tool would cut solid.",
-        "finish_tool",
-    )
+    text = "The roughing tool has no path, so the finish tool would cut solid."
+    yield unroughed, "NO_ROUGH_PATH", text, "finish_tool"
     wild = not all(_reachable(run) for run in (*job.finish, *job.rough))
-    yield wild, "COORDINATE", "A point of the path is none a machine could reach.", None
-    yield _stands_still(job.plunge_feed, grid), "PLUNGE_FEED", "PLUNGE FEED must be above 0.", "plunge_feed"
+    yield wild, "COORDINATE", "A point of the path is out of any machine's reach.", None
+    yield _no_feed(job.plunge_feed, grid), "PLUNGE_FEED", "PLUNGE FEED must be above 0.", "plunge_feed"
     unfed = sorted(_unfed(job, grid))
     listed = ", ".join(map(str, unfed[:MAX_LISTED])) + (" ..." if len(unfed) > MAX_LISTED else "")
-    yield (
-        bool(unfed),
-        "FEED",
-        f"There is no FEED above 0 on {'segment' if len(unfed) == 1 else 'segments'} {listed}.",
-        "feed",
-    )
+    text = f"There is no FEED above 0 on {'segment' if len(unfed) == 1 else 'segments'} {listed}."
+    yield bool(unfed), "FEED", text, "feed"
 
 
 def _reachable(run: Run) -> bool:
-    parts = [part for part in (run.lead_in, run.path, run.lead_out) if len(part)]
-    if not parts:
-        return True
-    places = np.concatenate([array for part in parts for array in (part.points, part.centers)])
-    # a comparison with what is no number is false
-    return bool(places.min() >= -LARGEST and places.max() <= LARGEST)
+    arrays = [array for part in (run.lead_in, run.path, run.lead_out) for array in (part.points, part.centers)]
+    # a comparison with NaN is false
+    return all(bool((np.abs(array) <= LARGEST).all()) for array in arrays)
 
 
-def _stands_still(feed: float, grid: Grid) -> bool:
+def _no_feed(feed: float, grid: Grid) -> bool:
     return not isfinite(feed) or feed <= 0.0 or float(feed_text(feed, grid)) == 0.0
 
 
 def _unfed(job: Job, grid: Grid) -> set[int]:
     """Segments that some run cuts without a feed."""
-    moving = {
-        feed for feed in {feed for _, _, feed in job.levels} if feed is not None and not _stands_still(feed, grid)
-    }
-    fed = {floor.number for floor in job.floors if floor.feed in moving}
-    numbers = [run.path.numbers for run in (*job.finish, *job.rough)]
-    used = set(np.floor(np.concatenate(numbers)).astype(int).tolist()) if numbers else set()
+    fed = {floor.number for floor in job.floors if floor.feed is not None and not _no_feed(floor.feed, grid)}
+    used = {int(number) for run in (*job.finish, *job.rough) for number in np.unique(run.path.numbers).tolist()}
     return used - fed

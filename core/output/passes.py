@@ -4,7 +4,7 @@ Words: a *run* is one center path with its blend moves, cut in one go at one dep
 begins; a segment's *floor* is the height its Z START and Z END give it.
 
 Roughing comes first, with TOOL: at each depth all its runs from outside in, then one peck deeper, so that no run is
-ever deeper than one peck beside stock another run should have taken.  Without a finish tool the run at full size is
+ever deeper than one peck next to stock another run should have taken.  Without a finish tool the run at full size is
 the last at each depth.  FINISH TOOL follows in one pass at full depth; it pecks only where it is smaller than TOOL,
 because it then cuts corners that are still solid.
 
@@ -22,7 +22,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil, tau
-from typing import Final, Protocol
+from typing import Final
 
 import numpy as np
 
@@ -66,24 +66,14 @@ class Run:
         return (float(whole.points[0, 0]), float(whole.points[0, 1])) if len(whole) else None
 
 
-class Floor(Protocol):
-    """What a job asks of a segment."""
+@dataclass(frozen=True, slots=True)
+class Floor:
+    """A segment's number, from 1, its heights at both ends in mm, and its feed in mm a minute, None if not known."""
 
-    @property
-    def number(self) -> int:
-        """Its number, from 1."""
-
-    @property
-    def z_start(self) -> float:
-        """Its height at its start (mm)."""
-
-    @property
-    def z_end(self) -> float:
-        """Its height at its end (mm)."""
-
-    @property
-    def feed(self) -> float | None:
-        """Its feed (mm a minute), None if not known."""
+    number: int
+    z_start: float
+    z_end: float
+    feed: float | None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -91,7 +81,7 @@ class Job:
     """One block, ready for passes.
 
     `surface` is the programmed contour; piece numbers of it and of every run are those of `floors`, k + 1/2 for the
-    corner arc behind k.  `cutter` is the block's TOOL, `finisher` its FINISH TOOL; either is None when the block
+    corner arc after k.  `cutter` is the block's TOOL, `finisher` its FINISH TOOL; either is None when the block
     names none or the table has none, and then a finding says so.
 
     `finish` are the runs at full size, in order: one, or one for each loop of the best path.  `rough` are the runs
@@ -163,8 +153,8 @@ class Pass:
     """One run at one depth, from above its plunge point to above its end.
 
     `side` of `sides` widths from outside in, of which one may be several runs, and `number` of `count` depths, at
-    `level`; `stock` is what the run leaves on the side; `finishing` says that it is the
-    finish tool's.  The first motion is a rapid in XY at a height that clears everything.
+    `level`; `stock` is what the run leaves on the side; `finishing`: the finish tool cuts it.  The first motion is a
+    rapid in XY at a height that clears everything.
     """
 
     block: int
@@ -237,7 +227,7 @@ def _floor_heights(job: Job, path: Path) -> Floats:
 
 
 def _ends(path: Path, piece: int, sweep: float, floors: _Floors) -> tuple[float, float]:
-    """Heights at a piece's two ends; no height at all for a piece of no segment."""
+    """Heights at a piece's two ends; minus infinity for a piece of no segment."""
     number = float(path.numbers[piece])
     floor, row = floors.floors.get(int(number)), floors.rows.get(int(number))
     if floor is None:
@@ -255,10 +245,10 @@ def _fractions(ends: Floats, sweep: float, floors: _Floors, row: int) -> tuple[f
     if surface.turns[row] == 0:
         run = surface.ends[row] - surface.starts[row]
         square = max(float(run @ run), np.finfo(float).tiny)
-        first, last = ((ends - surface.starts[row]) @ run / square).tolist()
-        return _clamped(first), _clamped(last)
+        first, last = np.clip((ends - surface.starts[row]) @ run / square, 0.0, 1.0).tolist()
+        return first, last
     whole, begun = float(floors.sweeps[row]), _turned(surface, row, ends[0])
-    return _clamped(begun / whole), _clamped((begun + sweep) / whole)
+    return min(begun / whole, 1.0), min((begun + sweep) / whole, 1.0)
 
 
 def _turned(surface: Path, row: int, point: Floats) -> float:
@@ -267,10 +257,6 @@ def _turned(surface: Path, row: int, point: Floats) -> float:
     angles: Floats = np.arctan2(*(np.array((start, point)) - center).T[::-1])
     turned = float((angles[1] - angles[0]) * surface.turns[row]) % tau
     return 0.0 if turned > tau - WRAPPED else turned
-
-
-def _clamped(part: float) -> float:
-    return min(max(part, 0.0), 1.0)
 
 
 def levels(z_start: float, bottom: float, peck: float) -> tuple[float, ...]:
@@ -296,7 +282,7 @@ class _Stage:
 
 
 def passes(job: Job) -> tuple[Pass, ...]:
-    """All passes of a block, in order.  The job must be one that `objections` finds nothing against."""
+    """All passes of a block, in order.  The job must be one without posting errors."""
     return tuple(a_pass for stage in _stages(job) for a_pass in _cut(job, stage))
 
 
@@ -327,10 +313,8 @@ def _stages(job: Job) -> Iterator[_Stage]:
 
 
 def meets_solid(job: Job) -> frozenset[int]:
-    """Segments that the finish tool cuts and no roughing run has been along: it finds solid material there."""
-    if job.finisher is None:
-        return frozenset()
-    return _segments(job.finish) - _segments(job.rough[-1:])
+    """Segments that the finish tool cuts and no roughing run has cut: it meets solid material there."""
+    return frozenset() if job.finisher is None else _segments(job.finish) - _segments(job.rough[-1:])
 
 
 def _segments(runs: Sequence[Run]) -> frozenset[int]:
@@ -351,7 +335,7 @@ def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:
                 *_down(job, run, max(level, float(floor[0, 0])), before, safe if done == 0 else clear_height(job)),
                 *_milled(job, run, floor, level),
             )
-            up = _retract(motions[-1], safe if done == last else clear_height(job))
+            up = Motion(motions[-1].x, motions[-1].y, safe if done == last else clear_height(job))
             yield Pass(
                 block=job.block,
                 cutter=stage.cutter,
@@ -378,10 +362,6 @@ def _down(job: Job, run: Run, depth: float, before: float | None, height: float)
     yield Motion(x, y, depth, job.plunge_feed)
 
 
-def _retract(motion: Motion, height: float) -> Motion:
-    return Motion(motion.x, motion.y, height)
-
-
 def _milled(job: Job, run: Run, floors: Floats, level: float) -> Iterator[Motion]:
     """The run at `level`, held up where the floor is higher."""
     whole = run.whole
@@ -395,7 +375,7 @@ def _milled(job: Job, run: Run, floors: Floats, level: float) -> Iterator[Motion
 
 
 def _feeds(job: Job, run: Run) -> list[float]:
-    """Feed of each piece: its segment's; the blend moves take that of the path's end they stand at."""
+    """Feed of each piece: its segment's; a blend move has that of the path's end it leads to or from."""
     by_number = {floor.number: floor.feed or 0.0 for floor in job.floors}
     path = [by_number[int(number)] for number in run.path.numbers.tolist()]
     return [path[0]] * len(run.lead_in) + path + [path[-1]] * len(run.lead_out)

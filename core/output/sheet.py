@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
-from itertools import groupby
+from itertools import chain, groupby, pairwise
 from math import hypot, isfinite
 from textwrap import wrap
 from typing import Final
@@ -43,7 +43,7 @@ figure { margin: 1em 0 } svg { max-width: 100%; max-height: 18em; height: auto }
 _MARK = {Severity.ERROR: "!!", Severity.WARNING: "!", Severity.INFO: "-"}
 
 Pair = tuple[str, str]
-"""A label and what stands beside it."""
+"""A label and its text."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,39 +58,27 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """A whole sheet.  `against` says why the program is not to be run as it is; empty for one that is ready."""
+    """A whole sheet.  `errors` say why the program must not run as it is; empty for one that is ready."""
 
     title: str
     head: tuple[Pair, ...]
-    against: tuple[str, ...]
+    errors: tuple[str, ...]
     tools: Section
     blocks: tuple[Section, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class About:
-    """What the jobs do not know: the program's name, the part's, and the day, as text."""
-
-    program: str
-    part: str = ""
-    day: str = ""
-
-
-def sheet(jobs: Sequence[Job], unit: Unit, about: About) -> Sheet:
-    """The sheet of a program's jobs; lengths on it are in program units."""
-    against = posting_errors(jobs, Grid(unit), override=None)
+def sheet(jobs: Sequence[Job], unit: Unit, program: str, part: str = "", day: str = "") -> Sheet:
+    """The sheet of a program's jobs, with its name, the part's and the day; lengths on it are in program units."""
     head = (
-        ("PROGRAM", about.program),
-        ("PART NAME", about.part or "-"),
-        ("DATE", about.day or "-"),
-        ("UNITS", "INCH" if unit is Unit.IN else "MILLIMETRE"),
+        ("PROGRAM", program),
+        ("PART NAME", part or "-"),
+        ("DATE", day or "-"),
+        ("UNITS", "INCH" if unit is Unit.IN else "MILLIMETERS"),
         ("WORK OFFSET", ", ".join(dict.fromkeys(f"G{job.work_offset}" for job in jobs)) or "-"),
         ("SAFE Z", ", ".join(dict.fromkeys(length_text(job.safe_z, unit) for job in jobs)) or "-"),
     )
-    against_texts = tuple(dict.fromkeys(_finding_text(finding, unit) for finding in against))
-    if not jobs:
-        against_texts = ("There is no block.",)
-    return Sheet(about.program, head, against_texts, _tools(jobs, unit), tuple(_block(job, unit) for job in jobs))
+    errors = dict.fromkeys(_finding_text(error, unit) for error in posting_errors(jobs, Grid(unit), override=None))
+    return Sheet(program, head, tuple(errors), _tools(jobs, unit), tuple(_block(job, unit) for job in jobs))
 
 
 def _feed(value: float | None, unit: Unit) -> str:
@@ -109,17 +97,11 @@ def _tools(jobs: Sequence[Job], unit: Unit) -> Section:
         for cutter, role in ((job.cutter, ""), (job.finisher, " finish")):
             if cutter is not None:
                 used.setdefault(cutter, []).append(f"{job.block}{role}")
-    rows = [
-        (
-            str(cutter.number),
-            cutter.type or "-",
-            length_text(cutter.diameter, unit),
-            f"H{cutter.number}",
-            ", ".join(blocks),
-        )
-        for cutter, blocks in sorted(used.items(), key=lambda item: item[0].number)
-    ]
-    return Section("TOOLS", table=(("TOOL", "TYPE", "DIAMETER", "LENGTH OFFSET", "BLOCKS"), *rows))
+    rows = [("TOOL", "TYPE", "DIAMETER", "LENGTH OFFSET", "BLOCKS")]
+    for cutter in sorted(used, key=lambda cutter: cutter.number):
+        size, blocks = length_text(cutter.diameter, unit), ", ".join(used[cutter])
+        rows.append((str(cutter.number), cutter.type or "-", size, f"H{cutter.number}", blocks))
+    return Section("TOOLS", table=tuple(rows))
 
 
 def _block(job: Job, unit: Unit) -> Section:
@@ -192,27 +174,18 @@ def _feeds(job: Job, unit: Unit) -> str:
 
 
 def _pass_table(all_passes: Sequence[Pass], unit: Unit) -> tuple[tuple[str, ...], ...]:
-    rows = [
-        (
-            str(number),
-            str(a_pass.cutter.number),
-            "FINISH" if a_pass.finishing else "PASS",
-            f"{a_pass.number} of {a_pass.count}",
-            length_text(a_pass.level, unit),
-            length_text(a_pass.stock, unit),
-        )
-        for number, a_pass in enumerate(all_passes, 1)
-    ]
-    return (("NO.", "TOOL", "KIND", "DEPTH", "Z", "LEAVES ON SIDE"), *rows) if rows else ()
+    rows = [("NO.", "TOOL", "KIND", "DEPTH", "Z", "LEAVES ON SIDE")]
+    for number, a_pass in enumerate(all_passes, 1):
+        kind, depth = "FINISH" if a_pass.finishing else "PASS", f"{a_pass.number} of {a_pass.count}"
+        level, stock = length_text(a_pass.level, unit), length_text(a_pass.stock, unit)
+        rows.append((str(number), str(a_pass.cutter.number), kind, depth, level, stock))
+    return tuple(rows) if all_passes else ()
 
 
 def _cutting_time(all_passes: Sequence[Pass]) -> str:
     """Length over feed, all feeds at their programmed value."""
-    time = 0.0
-    for a_pass in all_passes:
-        for before, motion in zip(a_pass.motions, a_pass.motions[1:], strict=False):
-            if motion.feed:
-                time += _travel(before, motion) / motion.feed
+    moves = (pair for a_pass in all_passes for pair in pairwise(a_pass.motions))
+    time = sum(_travel(before, motion) / motion.feed for before, motion in moves if motion.feed)
     if not isfinite(time):
         return "-"
     return f"{time:.1f} min" if time < 100.0 else f"{time / 60.0:.1f} h"
@@ -228,17 +201,17 @@ def _travel(before: Motion, motion: Motion) -> float:
 def as_text(sheet: Sheet) -> str:
     """The sheet, lines ended by a line feed."""
     lines = ["SETUP SHEET", "=" * WIDTH, *_text_pairs(sheet.head), ""]
-    if sheet.against:
-        lines += [NOT_READY, *(line for text in sheet.against for line in _wrapped(f"!! {text}", "     "))]
+    if sheet.errors:
+        lines += [NOT_READY, *(line for text in sheet.errors for line in _wrapped(f"!! {text}"))]
     else:
         lines.append(READY)
     for section in (sheet.tools, *sheet.blocks):
         lines += ["", section.title, "-" * WIDTH, *_text_section(section)]
-    return "\n".join(printable_line(line).rstrip() for line in lines) + "\n"
+    return "\n".join(_printable_line(line).rstrip() for line in lines) + "\n"
 
 
-def printable_line(text: str) -> str:
-    """Text on one line, every sign of it one that is seen."""
+def _printable_line(text: str) -> str:
+    """Text on one line, with a question mark for what does not print."""
     return "".join(sign if sign.isprintable() else "?" for sign in text)
 
 
@@ -251,25 +224,25 @@ def _text_section(section: Section) -> Iterator[str]:
         yield ""
         yield "FINDINGS"
         for text in section.findings:
-            yield from _wrapped(text, "     ")
+            yield from _wrapped(text)
 
 
 def _text_pairs(pairs: Sequence[tuple[str, str]]) -> Iterator[str]:
     for label, text in pairs:
-        first, *rest = wrap(printable_line(text), WIDTH - LABEL - 1) or [""]
+        first, *rest = wrap(_printable_line(text), WIDTH - LABEL - 1) or [""]
         yield f"{label:<{LABEL}} {first}"
         yield from (f"{'':<{LABEL}} {line}" for line in rest)
 
 
 def _table(rows: Sequence[Sequence[str]]) -> Iterator[str]:
     """Columns as wide as their longest text, numbers under their headings' right end."""
-    widths = [max(len(printable_line(row[column])) for row in rows) for column in range(len(rows[0]))]
+    widths = [max(len(_printable_line(row[column])) for row in rows) for column in range(len(rows[0]))]
     for row in rows:
-        yield "  ".join(f"{printable_line(text):>{width}}" for text, width in zip(row, widths, strict=True))
+        yield "  ".join(f"{_printable_line(text):>{width}}" for text, width in zip(row, widths, strict=True))
 
 
-def _wrapped(text: str, indent: str) -> list[str]:
-    return wrap(printable_line(text), WIDTH - 2, initial_indent="  ", subsequent_indent=indent)
+def _wrapped(text: str) -> list[str]:
+    return wrap(_printable_line(text), WIDTH - 2, initial_indent="  ", subsequent_indent="     ")
 
 
 def as_page(sheet: Sheet, drawings: Sequence[str]) -> str:
@@ -283,26 +256,22 @@ def as_page(sheet: Sheet, drawings: Sequence[str]) -> str:
         *_page_table(sheet.head),
         *_page_verdict(sheet),
         *_page_section(sheet.tools, ""),
-        *(
-            line
-            for block, drawing in zip(sheet.blocks, drawings, strict=True)
-            for line in _page_section(block, drawing)
-        ),
+        *chain.from_iterable(map(_page_section, sheet.blocks, drawings)),
         "</body></html>",
     )
     return "\n".join(lines) + "\n"
 
 
 def _escaped(text: str) -> str:
-    return escape(printable_line(text))
+    return escape(_printable_line(text))
 
 
 def _page_verdict(sheet: Sheet) -> Iterator[str]:
-    if not sheet.against:
+    if not sheet.errors:
         yield f'<p class="good">{_escaped(READY)}</p>'
         return
     yield f'<div class="bad">{_escaped(NOT_READY)}<ul>'
-    yield from (f"<li>{_escaped(text)}</li>" for text in sheet.against)
+    yield from (f"<li>{_escaped(text)}</li>" for text in sheet.errors)
     yield "</ul></div>"
 
 

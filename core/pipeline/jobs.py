@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from core.geometry.path import EMPTY
-from core.output.passes import Cutter, Job, Run
+from core.output.passes import Cutter, Floor, Job, Run
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.parameters import parameter, setup_value
 from core.program.model import Entry, Program, Typed
@@ -28,7 +28,10 @@ def job(block: DerivedBlock, program: Program) -> Job:
         cutter=_cutter(block.block.tool, solved.tool_diameter, program),
         finisher=_cutter(block.block.finish_tool, solved.finish_diameter, program) if finish_tool else None,
         surface=block.work.surface if block.work else EMPTY,
-        floors=solved.segments[: solved.determined],
+        floors=tuple(
+            Floor(segment.number, segment.z_start, segment.z_end, segment.feed)
+            for segment in solved.segments[: solved.determined]
+        ),
         finish=_finish_runs(block),
         rough=_rough_runs(block),
         z_start=solved.z_start or 0.0,

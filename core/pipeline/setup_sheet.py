@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from core.output.sheet import About, Sheet, as_page, as_text, sheet
+from core.output.sheet import Sheet, as_page, as_text, sheet
 from core.output.svg import svg
 from core.pipeline.derived import Derived
 from core.pipeline.jobs import jobs
@@ -12,7 +12,7 @@ from core.pipeline.plot import block_scene
 def sheet_of(derived: Derived, *, name: str, day: str) -> Sheet:
     """The sheet of a program called `name`, printed on `day` (any text)."""
     program = derived.program
-    return sheet(jobs(derived), program.unit, About(name, program.setup.name, day))
+    return sheet(jobs(derived), program.unit, name, program.setup.name, day)
 
 
 def sheet_text(derived: Derived, *, name: str, day: str) -> str:

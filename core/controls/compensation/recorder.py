@@ -52,11 +52,8 @@ class Recorder:
 
     def straight(self, element: Element, end: Point, *, low: bool = False) -> None:
         """A straight move of an element's to a point of its plane, at its end's height or still at its start's."""
-        x, y, z = solid(*end, element.low if low else element.high, self.plane)
-        if element.rapid:
-            self.tape.rapid(x, y, z, element.line)
-        else:
-            self.tape.straight(x, y, z, element.feed, element.line)
+        target = solid(*end, element.low if low else element.high, self.plane)
+        self.tape.straight(target, 0.0 if element.rapid else element.feed, element.line, rapid=element.rapid)
 
     def arc(self, element: Element, end: Point, center: Point) -> None:
         """An element's own arc, or its offset, to a point of its plane."""
@@ -68,7 +65,7 @@ class Recorder:
         self.tape.arc(target, middle, turn, self.plane, element.feed, element.line)
 
     def lead_on(self, joint: Joint, element: Element, offset: float) -> None:
-        """The way of a joint, from the end of one offset to the start of the element behind it."""
+        """The way of a joint, from the end of one offset to the start of the next element."""
         for point in joint.through:
             self.straight(element, point, low=True)
         if joint.center is not None:
@@ -123,7 +120,7 @@ class Recorder:
             center = solid(*element.center, element.high, self.plane)
             tape.arc(target, center, element.turn, self.plane, element.feed, element.line)
         else:
-            tape.straight(*target, element.feed, element.line)
+            tape.straight(target, element.feed, element.line)
 
     def leave(self) -> None:
         """Compensation is canceled: the next motion in the plane still belongs to the stretch."""

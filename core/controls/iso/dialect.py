@@ -6,7 +6,7 @@ Codes are in tenths (G41.1 is 411).  A group holds the codes of which a block ta
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import Enum, auto
 from types import MappingProxyType
 from typing import Final
@@ -105,7 +105,6 @@ class Dialect:
     the run is given up.
     """
 
-    name: str
     codes: Mapping[int, Code]
     unit: Unit
     mode: int | None = 0
@@ -130,10 +129,6 @@ class Dialect:
     tells_unused: bool = True
     max_repeated_blocks: int = 400_000
     max_o_words: int = 15_000
-
-    def starting(self, unit: Unit | None) -> Dialect:
-        """The same in a machine that starts in another unit, the control's usual one for None."""
-        return self if unit is None else replace(self, unit=unit)
 
 
 _ALWAYS_TAKEN: Final = frozenset("NOXYZFSTABCUVW")

@@ -460,10 +460,13 @@ class Flow:
             self.log.tell(Severity.WARNING, "END", "The program has no end; write M2 or M30.", len(self.lines), 1)
 
 
-def execute(
-    text: bytes, name: str, dialect: Dialect, tools: ToolTable, log: Log, make: Callable[[Log], Control]
-) -> Run:  # fmt: skip
-    """A program on the control that `make` gives."""
+MakeControl = Callable[[Log], Control]
+"""Makes a control that writes its findings into a log."""
+
+
+def execute(text: bytes, name: str, dialect: Dialect, tools: ToolTable, make: MakeControl) -> Run:
+    """A program on the control of this name that `make` gives; never raises for any text."""
+    log = Log()
     control = make(log)
     machine = Machine(dialect, control, tools, log)
     stopped_at = None

@@ -120,14 +120,14 @@ class Record:
         """A straight move at the step's feed, or at that of the block before it."""
         target = solid(end[0], end[1], height, step.plane)
         rapid, feed = step.before if lead else (step.element.rapid, step.element.feed)
-        self.tape.row(target, target, 0, 0, feed, step.element.line, rapid=rapid)
+        self.tape.straight(target, feed, step.element.line, rapid=rapid)
 
     def arc(self, end: Point, height: float, center: Point, turn: int, step: Step, feed: float | None = None) -> None:
         """An arc in the step's plane, at the step's feed unless given."""
         target, middle = solid(*end, height, step.plane), solid(*center, height, step.plane)
         element = step.element
         speed = element.feed if feed is None else feed
-        self.tape.row(target, middle, turn, step.plane, speed, element.line, rapid=element.rapid)
+        self.tape.arc(target, middle, turn, step.plane, speed, element.line, rapid=element.rapid)
 
     def plain(self, step: Step, end: Point) -> None:
         """The step's element as programmed, but ending at `end`."""
@@ -153,10 +153,12 @@ class Record:
         if self.programmed is None:
             return
         element = step.element
-        target = solid(*element.end, element.high, step.plane)
-        center = solid(*element.center, element.high, step.plane) if element.turn else target
-        plane = step.plane if element.turn else 0
-        self.programmed.row(target, center, element.turn, plane, element.feed, element.line, rapid=element.rapid)
+        target, rapid = solid(*element.end, element.high, step.plane), element.rapid
+        if element.turn:
+            center = solid(*element.center, element.high, step.plane)
+            self.programmed.arc(target, center, element.turn, step.plane, element.feed, element.line, rapid=rapid)
+        else:
+            self.programmed.straight(target, element.feed, element.line, rapid=rapid)
         self.leaving = int(step.role in (Role.EXIT, Role.DEPARTURE))
         self.led_out = step.role is Role.DEPARTURE
 

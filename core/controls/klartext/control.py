@@ -24,9 +24,6 @@ MAX_REPEATED_BLOCKS: Final = 50_000
 MAX_CALL_DEPTH: Final = 19
 """Subprograms that may call one another."""
 
-TINY_SHARE: Final = 1e-7
-"""Share of the tool's radius for which no contour is too narrow."""
-
 _LABEL: Final = re.compile(r'\s*("[^"]*"|\d+)\s*$', re.ASCII)
 _CALL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*(?:REP\s*(\d{1,5})(?:/\d+)?)?\s*$', re.ASCII)
 _SET: Final = re.compile(r"\s*(\d+)\s*=(.*)$", re.ASCII)
@@ -37,20 +34,11 @@ _GOAL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*$', re.ASCII)
 _FORMULA_OF_FN: Final = {5: "SQRT", 6: "SIN", 7: "COS"}
 
 
-def run(text: bytes, variant: str, tools: ToolTable) -> Run:  # noqa: ARG001  (the one variant is the empty one)
-    """A program in Klartext with these tools; never raises for any text.
+def run(text: bytes, tools: ToolTable, share: float = 1.0) -> Run:
+    """A program in Klartext with these tools, run with a share of each tool's radius; never raises for any text.
 
     Tools of the table count before TOOL DEF of the same number.
     """
-    return _run(text, tools, 1.0)
-
-
-def programmed(text: bytes, tools: ToolTable) -> Run:
-    """The run with a tool of next to no radius: its stretches are the contour even where the tool does not fit."""
-    return _run(text, tools, TINY_SHARE)
-
-
-def _run(text: bytes, tools: ToolTable, share: float) -> Run:
     log = Log()
     center = CenterPath(log, Record(share))
     blocks = tuple(read_blocks(lines_of(text)))

@@ -13,11 +13,9 @@ from types import MappingProxyType
 from typing import Final
 
 from core.controls.compensation.chain import OneMoveQueue
-from core.controls.control_run import Log, Run
 from core.controls.control_tools import ToolTable, not_there
 from core.controls.iso.arcs import ArcRadii
 from core.controls.iso.dialect import PLANES, Dialect, Do, codes
-from core.controls.iso.flow import execute
 from core.controls.iso.machine import Control
 from core.controls.iso.macro import Kept
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
@@ -27,7 +25,6 @@ from core.geometry.piece import Side
 from core.units import Unit
 
 DIALECT: Final = Dialect(
-    "linuxcnc",
     codes(
         ("motion", Do.CYCLE, (382, 383, 384, 385, 730, 740)),
         ("motion", Do.BEYOND, (50, 51, 52, 60, 61, 62, 330, 331, 700, 710, 711, 712, 720, 721, 722, 760)),
@@ -232,8 +229,3 @@ _KNOWN_M: Final = frozenset(
     10 * code for code in (*range(10), 19, 30, *range(48, 54), *range(60, 69), *range(70, 74), 98, 99, *range(100, 200))
 )
 _CENTERS: Final = frozenset("IJKR")
-
-
-def run(text: bytes, _: str, tools: ToolTable, unit: Unit | None = None) -> Run:
-    """A program as LinuxCNC runs it; there are no variants."""
-    return execute(text, "linuxcnc", DIALECT.starting(unit), tools, Log(), LinuxCnc)

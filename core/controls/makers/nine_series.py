@@ -8,7 +8,10 @@ the least length that the machine builder can set is taken as 0, and so is the l
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import partial
 from math import radians
+from types import MappingProxyType
 from typing import Final, NamedTuple
 
 from core.controls.compensation.chain import Chain
@@ -24,11 +27,10 @@ from core.controls.compensation.joint import (
     inward_turn,
     vector_end,
 )
-from core.controls.control_run import Log, Run
-from core.controls.control_tools import ToolTable
+from core.controls.control_run import Log
 from core.controls.iso.arcs import IN_PLANE
 from core.controls.iso.dialect import PLANES, Dialect, Do, codes
-from core.controls.iso.flow import execute
+from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
 from core.finding import Severity
@@ -36,7 +38,6 @@ from core.geometry.piece import Point, Side
 from core.units import Unit
 
 DIALECT: Final = Dialect(
-    "nine-series",
     codes(
         ("units", Do.UNITS, (700, 710)),
         ("corners", Do.OWN, (390, 391)),
@@ -55,12 +56,6 @@ DIALECT: Final = Dialect(
 
 TANGENT: Final = radians(0.05)
 """Inside corners under this angle whose offsets miss each other are tangent; the control's own limit is not known."""
-
-OUTSIDE: Final = {"g39": Outside.LINES, "g39.1": Outside.MITER_OR_ARC}
-"""How sharp outside corners are gone round: generated lines (G39) or an arc (G39.1)."""
-
-VARIANTS: Final = ("a", "a-g39", "a-g39.1", "b", "b-g39", "b-g39.1")
-"""Type A or B, and the corners in force at the start."""
 
 NON_MOTION: Final = 10
 """Blocks without motion in the plane that compensation looks across; the machine builder sets it, this is assumed."""
@@ -86,7 +81,7 @@ class NineSeries(Chain, Control):
     `motionless` counts blocks without motion in the plane.
     """
 
-    def __init__(self, log: Log, *, type_a: bool = True, outside: Outside = Outside.LINES) -> None:
+    def __init__(self, log: Log, *, type_a: bool, outside: Outside) -> None:
         super().__init__(log)
         self.type_a = type_a
         self.rules = CornerRules(outside=outside)
@@ -380,11 +375,11 @@ class NineSeries(Chain, Control):
         self.release_at_end()
 
 
-def run(text: bytes, variant: str, tools: ToolTable, unit: Unit | None = None) -> Run:
-    """A program as the 9/Series runs it, type `a` or `b`, with the corners of G39 or `-g39.1` in force."""
-    kind, _, corners = variant.partition("-")
-
-    def make(log: Log) -> NineSeries:
-        return NineSeries(log, type_a=kind == "a", outside=OUTSIDE[corners or "g39"])
-
-    return execute(text, f"nine-series:{variant}", DIALECT.starting(unit), tools, Log(), make)
+VARIANTS: Final[Mapping[str, MakeControl]] = MappingProxyType(
+    {
+        f"{kind}{corners}": partial(NineSeries, type_a=kind == "a", outside=outside)
+        for kind in ("a", "b")
+        for corners, outside in (("", Outside.LINES), ("-g39", Outside.LINES), ("-g39.1", Outside.MITER_OR_ARC))
+    }
+)
+"""Type A or B, and how sharp outside corners are rounded at the start: by lines (G39) or an arc (G39.1)."""

@@ -8,16 +8,17 @@ the rest follows LinuxCNC is an interpretation.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import acos, atan2, cos, hypot, pi, sin
+from types import MappingProxyType
 from typing import Final, NoReturn
 
 from core.controls.compensation.chain import AlarmCodes, Chain, OneMoveQueue
 from core.controls.compensation.corners import Element, fits, offset_end, offset_start
 from core.controls.compensation.joint import Corner, CornerRules
-from core.controls.control_run import Log, Run
-from core.controls.control_tools import ToolTable, not_there
+from core.controls.control_run import Log
+from core.controls.control_tools import not_there
 from core.controls.iso.dialect import PLANES, Dialect, Do, codes
-from core.controls.iso.flow import execute
 from core.controls.iso.machine import Control
 from core.controls.iso.macro import Kept
 from core.controls.iso.reader import SWITCHES, Block, whole
@@ -27,7 +28,6 @@ from core.geometry.piece import Point, Side
 from core.units import Unit
 
 DIALECT: Final = Dialect(
-    "rosettacnc",
     codes(
         ("compensation", Do.SIDE, (411, 421)),
         ("system", Do.SYSTEM, (591, 592, 593)),
@@ -47,8 +47,6 @@ DIALECT: Final = Dialect(
     parameters=Kept.MACRO_B,
     cycle_rule="C8",
 )
-
-ENTRIES: Final = ("nist", "easy", "normal")
 
 CORNERS: Final = CornerRules(tangent=0.01, reversal=0.01, rapid_straight=True)
 """The corners of NIST: under 0.01 radians a corner is none."""
@@ -267,7 +265,5 @@ class Easy(Nist):
             self._end_entry(offset_end(self.held, self.offset))
 
 
-def run(text: bytes, variant: str, tools: ToolTable, unit: Unit | None = None) -> Run:
-    """A program as RosettaCNC runs it with the entry `nist`, `easy` or `normal`."""
-    entries: dict[str, type[Control]] = {"nist": Nist, "easy": Easy, "normal": Normal}
-    return execute(text, f"rosettacnc:{variant}", DIALECT.starting(unit), tools, Log(), entries[variant])
+VARIANTS: Final[Mapping[str, type[Control]]] = MappingProxyType({"nist": Nist, "easy": Easy, "normal": Normal})
+"""The entries, the default first."""

@@ -15,10 +15,8 @@ from typing import Final, NoReturn
 from core.controls.compensation.chain import Chain
 from core.controls.compensation.corners import Element, element_sweep, fits, offset_end, offset_radius, offset_start
 from core.controls.compensation.joint import Corner, CornerRules, Joint
-from core.controls.control_run import Log, Run
-from core.controls.control_tools import ToolTable
+from core.controls.control_run import Log
 from core.controls.iso.dialect import Dialect, Do, codes
-from core.controls.iso.flow import execute
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import Block, Syntax
 from core.controls.moves import Plane
@@ -27,7 +25,6 @@ from core.geometry.piece import Point, Side
 from core.units import Unit
 
 DIALECT: Final = Dialect(
-    "threeblock",
     codes(
         ("units", Do.UNITS, (700, 710)),
         ("ratio", Do.OWN, (440, 450)),
@@ -301,8 +298,3 @@ class ThreeBlock(Chain, Control):
             line = self.blocks[-1][0] if self.blocks else self.turned_on
             self.log.tell(Severity.ERROR, "B21-NOG40", text, line, 1)
         self.release_at_end()
-
-
-def run(text: bytes, _: str, tools: ToolTable, unit: Unit | None = None) -> Run:
-    """A program as this control runs it; there are no variants."""
-    return execute(text, "threeblock", DIALECT.starting(unit), tools, Log(), ThreeBlock)

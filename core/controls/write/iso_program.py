@@ -94,7 +94,7 @@ class _Writer:
 
     def tool(self, cut: Terms, before: Terms | None) -> Iterator[Line]:
         """The change of tool, of its data, of the speed."""
-        speed = f"S{from_speed(cut.speed)}"
+        speed = f"S{speed_text(cut.speed)}"
         same = before is not None and before.tool == cut.tool
         stands = same and before is not None and before.stock == cut.stock
         if not same and before is not None:
@@ -211,7 +211,7 @@ class _Writer:
         return Line((" " if self.style.spaced else "").join(words), segment)
 
 
-def from_speed(speed: float) -> str:
+def speed_text(speed: float) -> str:
     """A spindle speed without a needless decimal."""
     return f"{speed:.1f}".removesuffix(".0")
 

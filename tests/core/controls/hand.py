@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from core.controls import registry
-from core.controls.control_run import Log, Run
+from core.controls.control_run import Run
 from core.controls.control_tools import ToolTable
 from core.controls.iso.flow import execute
 from core.controls.makers import linuxcnc
@@ -31,7 +31,7 @@ def ran_up_to(text: str, blocks: int, **diameters: float) -> Run:
     """The run of a program on LinuxCNC, given up when so many blocks have run again."""
     table = ToolTable.diameters({int(name[1:]): value for name, value in diameters.items()})
     dialect = replace(linuxcnc.DIALECT, max_repeated_blocks=blocks)
-    return execute(text.encode(), "linuxcnc", dialect, table, Log(), linuxcnc.LinuxCnc)
+    return execute(text.encode(), "linuxcnc", dialect, table, linuxcnc.LinuxCnc)
 
 
 def sample(name: str, control: str, **diameters: float) -> Run:

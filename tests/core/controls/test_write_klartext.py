@@ -51,7 +51,7 @@ def outline(*points: Point) -> Path:
 
 def made_of(text: str, stretch: int = 0) -> Path:
     """The path the control makes of a program."""
-    made = run(text.encode(), "", ToolTable())
+    made = run(text.encode(), ToolTable())
     assert made.stopped_at is None, made.findings
     assert not made.findings, made.findings
     one = made.stretches[stretch]
@@ -130,7 +130,7 @@ def test_inches_read_back() -> None:
     assert isinstance(text, str)
     assert "TOOL DEF 2 L+0 R+0.25\n" in text
     assert "F10\n" in text
-    made = run(text.encode(), "", ToolTable())
+    made = run(text.encode(), ToolTable())
     (stretch,) = made.stretches
     path = made.moves.part(stretch.first, stretch.last).path()
     assert float(np.abs(path.points - compensated.whole.points).max()) < MIN_TOLERANCE

@@ -2,24 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.output.passes import Cutter, Job, Run
+from core.output.passes import Cutter, Floor, Job, Run
 
 INCH = 25.4
-
-
-@dataclass(frozen=True)
-class Floor:
-    """A segment as a job sees it: heights in mm, feed in mm a minute."""
-
-    number: int
-    z_start: float
-    z_end: float
-    feed: float | None
 
 
 def inches(*points: Point) -> list[Point]:

@@ -12,9 +12,9 @@ from core.finding import Finding, Severity
 from core.geometry.piece import Side
 from core.output.control_program import control_program, control_program_errors
 from core.output.nc import Posted, Refusal
-from core.output.passes import Job, Run
+from core.output.passes import Floor, Job, Run
 from core.units import Unit
-from tests.core.output.jobs import INCH, Floor, job, polyline
+from tests.core.output.jobs import INCH, job, polyline
 
 SQUARE = polyline((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0))
 

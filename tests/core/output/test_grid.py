@@ -1,3 +1,4 @@
+from collections.abc import Iterable
 from math import cos, hypot, pi, sin, tau
 
 import pytest
@@ -5,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.geometry.piece import Arc, Line, Turn
-from core.output.grid import Bow, Chord, Grid, written
+from core.output.grid import ArcPart, Grid, arc_parts
 from core.units import Unit
 
 MM = Grid(Unit.MM)
@@ -35,6 +36,11 @@ def test_inches_have_six():
     assert IN.text(IN.steps(-2.54)) == "-0.1"
 
 
+def chords(parts: Iterable[ArcPart]) -> list[bool]:
+    """Of each part whether it is a chord."""
+    return [part.center is None for part in parts]
+
+
 def arc(radius: float, begin: float, sweep: float, center: tuple[float, float] = (0.0, 0.0)) -> Arc:
     def at(angle: float) -> tuple[float, float]:
         return center[0] + radius * cos(angle), center[1] + radius * sin(angle)
@@ -42,28 +48,26 @@ def arc(radius: float, begin: float, sweep: float, center: tuple[float, float] =
     return Arc(at(begin), at(begin + sweep), center, Turn.CCW if sweep > 0 else Turn.CW)
 
 
-def test_an_ordinary_arc_is_one_bow_about_its_center():
-    (bow,) = written(arc(10.0, 0.0, pi / 2), MM)
-    assert isinstance(bow, Bow)
-    assert bow.center == (-10000000, 0)
+def test_an_ordinary_arc_is_one_arc_about_its_center():
+    (part,) = arc_parts(arc(10.0, 0.0, pi / 2), MM)
+    assert part.center == (-10000000, 0)
 
 
-def test_a_full_circle_is_one_bow():
+def test_a_full_circle_is_one_arc():
     circle = Arc((10.0, 0.0), (10.0, 0.0), (0.0, 0.0), Turn.CW)
-    (bow,) = written(circle, MM)
-    assert isinstance(bow, Bow)
-    assert bow.end == (10.0, 0.0)
+    (part,) = arc_parts(circle, MM)
+    assert part.end == (10.0, 0.0)
 
 
 def test_an_arc_whose_ends_round_to_one_point_is_no_full_circle():
     """A hundredth of the last digit long: written as it is, a control would travel the whole circle."""
-    parts = list(written(arc(10.0, 0.3, 1e-7), MM))
-    assert [type(part) for part in parts] == [Chord]
+    parts = list(arc_parts(arc(10.0, 0.3, 1e-7), MM))
+    assert chords(parts) == [True]
 
 
 def test_nearly_a_full_circle_is_cut_in_two():
-    parts = list(written(arc(10.0, 0.3, tau - 1e-7), MM))
-    assert [type(part) for part in parts] == [Bow, Bow]
+    parts = list(arc_parts(arc(10.0, 0.3, tau - 1e-7), MM))
+    assert chords(parts) == [False, False]
 
 
 def test_a_short_arc_that_rounding_turns_back_is_written_as_a_chord():
@@ -77,29 +81,29 @@ def test_a_short_arc_that_rounding_turns_back_is_written_as_a_chord():
     assert MM.point(end) == (0, 0)
     assert short.sweep > -0.01
     assert as_written.sweep < -6.0
-    assert [type(part) for part in written(short, MM)] == [Chord]
+    assert chords(arc_parts(short, MM)) == [True]
 
 
 def test_an_arc_of_hardly_any_angle_is_a_chord():
     """Ten last digits on a radius of 10 m: some controls take so small an angle for none, and none for a circle."""
-    assert [type(part) for part in written(arc(10_000.0, 0.3, 1e-7), MM)] == [Chord]
+    assert chords(arc_parts(arc(10_000.0, 0.3, 1e-7), MM)) == [True]
 
 
 @pytest.mark.parametrize("grid", [IN, MM], ids=["in", "mm"])
 @pytest.mark.parametrize("radius", [0.5, 10.0, 25.4, 5000.0])
 @pytest.mark.parametrize("gap", [0.0005, 0.0015, 0.0025])
-def test_no_bow_ends_within_a_closed_contours_tolerance_of_its_start(grid: Grid, radius: float, gap: float) -> None:
+def test_no_arc_ends_within_a_closed_contours_tolerance_of_its_start(grid: Grid, radius: float, gap: float) -> None:
     """A control with fewer digits takes such an end for the start, and the arc for the full circle, or for none."""
-    short = list(written(arc(radius, 0.3, gap / radius), grid))
-    assert {type(part) for part in short} == {Chord}
-    long = list(written(arc(radius, 0.3, gap / radius - tau), grid))
-    assert [type(part) for part in long] == [Bow, Bow]
+    short = list(arc_parts(arc(radius, 0.3, gap / radius), grid))
+    assert all(chords(short))
+    long = list(arc_parts(arc(radius, 0.3, gap / radius - tau), grid))
+    assert chords(long) == [False, False]
 
 
 def test_a_speck_of_an_arc_is_chords():
-    parts = list(written(arc(0.0005, 0.0, pi), MM))
-    assert {type(part) for part in parts} == {Chord}
-    assert parts[-1].part == 1.0
+    parts = list(arc_parts(arc(0.0005, 0.0, pi), MM))
+    assert all(chords(parts))
+    assert parts[-1].share == 1.0
 
 
 radii = st.one_of(st.floats(1e-5, 1e-2), st.floats(0.01, 1.0), st.floats(1.0, 5000.0))
@@ -123,11 +127,11 @@ def measured(meant: Arc, grid: Grid, digit: float) -> tuple[float, float, int]:
     """Length, largest distance from the true arc's circle, and number of the pieces as a control reads them."""
     place = (grid.steps(meant.start[0]) * digit, grid.steps(meant.start[1]) * digit)
     length, worst, count = 0.0, 0.0, 0
-    for part in written(meant, grid):
+    for part in arc_parts(meant, grid):
         end = (grid.steps(part.end[0]) * digit, grid.steps(part.end[1]) * digit)
         piece: Arc | Line = Line(place, end)
         middle = ((place[0] + end[0]) / 2, (place[1] + end[1]) / 2)
-        if isinstance(part, Bow):
+        if part.center is not None:
             i, j = part.center[0] * digit / 10, part.center[1] * digit / 10
             piece = Arc(place, end, (place[0] + i, place[1] + j), meant.turn)
             worst = max(worst, abs(piece.radius - meant.radius))

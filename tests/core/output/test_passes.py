@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from core.geometry.path import Path
 from core.geometry.piece import Line, Turn
-from core.output.passes import Cutter, Job, Motion, Pass, Run, heights, levels, meets_solid, passes, z_steps
-from tests.core.output.jobs import INCH, Floor, arc, job, path_of, polyline
+from core.output.passes import Cutter, Floor, Job, Motion, Pass, Run, heights, levels, meets_solid, passes, z_steps
+from tests.core.output.jobs import INCH, arc, job, path_of, polyline
 
 SLOT = polyline((0, 0), (2, 0), (2, 1))
 OUTER = polyline((0, 0.1), (1.9, 0.1), (1.9, 1))

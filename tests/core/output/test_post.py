@@ -7,9 +7,9 @@ from core.finding import Finding, Severity
 from core.geometry.piece import Turn
 from core.output.nc import Posted, Refusal, center_path_program
 from core.output.objections import OVERRIDE
-from core.output.passes import Cutter, Job, Run, passes
+from core.output.passes import Cutter, Floor, Job, Run, passes
 from core.units import Unit
-from tests.core.output.jobs import INCH, Floor, arc, floors, job, path_of, polyline
+from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
 SLOT = path_of(polyline((0, 0), (1, 0))[0], arc((1, 0), (1.5, 0.5), (1, 0.5), Turn.CCW))
 GOUGE = Finding("GOUGE", Severity.ERROR, "Gouges by {value} at X {x} Y {y}.", 2, at=(25.4, 0.0), value=2.54)

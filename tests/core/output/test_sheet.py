@@ -8,16 +8,16 @@ from xml.etree import ElementTree
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
 from core.output.passes import Cutter, Job, Run
-from core.output.sheet import NOT_READY, READY, WIDTH, About, Sheet, as_page, as_text, sheet
+from core.output.sheet import NOT_READY, READY, WIDTH, Sheet, as_page, as_text, sheet
 from core.units import Unit
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
 SLOT = job(polyline((0, 0), (2, 0)))
-ABOUT = About("slot", "Key way", "2026-01-02")
+NAMES = ("slot", "Key way", "2026-01-02")
 
 
 def of(*jobs: Job, unit: Unit = Unit.IN) -> Sheet:
-    return sheet(jobs, unit, ABOUT)
+    return sheet(jobs, unit, *NAMES)
 
 
 def pairs(one: Sheet) -> dict[str, str]:
@@ -35,7 +35,7 @@ def test_the_head_and_the_tools():
         "WORK OFFSET": "G54",
         "SAFE Z": "1.0000",
     }
-    assert one.against == ()
+    assert one.errors == ()
     assert one.tools.table[1:] == (("1", "END MILL", "0.5000", "H1", "1"),)
 
 
@@ -96,7 +96,7 @@ def gouging() -> Job:
 
 def test_a_gouge_makes_the_sheet_say_do_not_run_and_keeps_the_depths():
     one = of(gouging())
-    assert one.against == ("segment 1: gouges by 0.2500 (deep).",)
+    assert one.errors == ("segment 1: gouges by 0.2500 (deep).",)
     assert len(one.blocks[0].table) == 4
     assert NOT_READY in as_text(one)
     assert READY not in as_text(one)
@@ -107,16 +107,16 @@ def test_what_cannot_be_cut_has_no_passes_and_says_why():
     one = of(replace(SLOT, cutter=None))
     assert one.blocks[0].table == ()
     assert pairs(one)["TOOL"] == "NOT KNOWN"
-    assert any("TOOL is not in the tool table" in text for text in one.against)
+    assert any("TOOL is not in the tool table" in text for text in one.errors)
 
 
 def test_no_block_is_not_ready():
-    assert of().against == ("There is no block.",)
+    assert of().errors == ("There is no block to post.",)
     assert NOT_READY in as_text(of())
 
 
 def test_the_text_is_narrow_and_holds_nothing_a_printer_obeys():
-    wild = sheet([gouging()], Unit.IN, About("a\x1b[2J\n" + "b" * 200, "\x07bell", "now"))
+    wild = sheet([gouging()], Unit.IN, "a\x1b[2J\n" + "b" * 200, "\x07bell", "now")
     lines = as_text(wild).splitlines()
     assert all(line.isprintable() for line in lines)
     assert max(map(len, lines)) <= WIDTH
@@ -133,7 +133,7 @@ def test_the_page_is_one_document_with_the_drawings_in_it():
 
 
 def test_names_cannot_leave_their_place_on_the_page():
-    page = as_page(sheet([gouging()], Unit.IN, About("</title><script>x()</script>", "\x1b<b>", "")), [""])
+    page = as_page(sheet([gouging()], Unit.IN, "</title><script>x()</script>", "\x1b<b>", ""), [""])
     assert "<script" not in page
     assert "&lt;script&gt;" in page
     assert "\x1b" not in page
@@ -236,7 +236,7 @@ def test_a_whole_sheet_as_text():
 
 
 def test_a_whole_sheet_as_a_page():
-    lines = as_page(sheet(two_blocks(), Unit.IN, About("slot")), ["<svg/>", ""]).splitlines()
+    lines = as_page(sheet(two_blocks(), Unit.IN, "slot"), ["<svg/>", ""]).splitlines()
     assert lines[0] == "<!DOCTYPE html>"
     assert lines[lines.index("<h1>Setup sheet: slot</h1>") :][:48] == [
         "<h1>Setup sheet: slot</h1>",
@@ -305,7 +305,7 @@ def test_what_is_not_ready_says_why_on_the_page():
 
 def test_a_finding_of_the_start_and_one_of_no_segment_name_none():
     start, general = (Finding(code, Severity.ERROR, f"{code}.", segment) for code, segment in (("A", 0), ("B", None)))
-    assert of(replace(SLOT, findings=(start, general, start))).against == ("A.", "B.")
+    assert of(replace(SLOT, findings=(start, general, start))).errors == ("A.", "B.")
 
 
 def test_a_block_that_is_not_known_yet_shows_what_is():
@@ -334,7 +334,7 @@ def test_all_work_offsets_are_told():
 
 def test_text_beside_a_label_is_wrapped_behind_its_last_column():
     fits, longer = "a" * 59, "a" * 40 + " " + "b" * 19
-    lines = as_text(sheet([SLOT], Unit.IN, About(fits, longer))).splitlines()
+    lines = as_text(sheet([SLOT], Unit.IN, fits, longer)).splitlines()
     assert f"PROGRAM            {fits}" in lines
     assert len(f"PROGRAM            {fits}") == WIDTH
     assert lines[lines.index("PART NAME          " + "a" * 40) + 1] == " " * 19 + "b" * 19

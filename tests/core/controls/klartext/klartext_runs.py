@@ -17,7 +17,7 @@ TOOLS = ToolTable()
 def runs(*blocks: str, radius: float = 5.0, tools: ToolTable = TOOLS) -> Run:
     """The blocks with a tool of this radius in the spindle; the first of them is line 4."""
     text = HEAD.format(radius=radius) + "".join(f"{block}\n" for block in blocks) + "END PGM P MM\n"
-    return run(text.encode(), "", tools)
+    return run(text.encode(), tools)
 
 
 def clean(*blocks: str, radius: float = 5.0) -> Run:

@@ -25,7 +25,7 @@ def test_the_rule_is_found_where_it_is_broken(file: Path) -> None:
     text = file.read_bytes()
     wanted = WANTED.match(text.decode())
     assert wanted is not None
-    made = run(text, "", ToolTable())
+    made = run(text, ToolTable())
     (stop,) = [finding for finding in made.findings if finding.severity is Severity.ERROR]
     assert (stop.code, stop.line, stop.column) == (wanted[1], int(wanted[2]), int(wanted[3]))
     assert made.stopped_at == stop.line

@@ -55,7 +55,7 @@ def broken(file: Path, count: int) -> float:
     for number in range(count):
         program = mutated(text, random)
         before = perf_counter()
-        made = run(program, "", ToolTable())
+        made = run(program, ToolTable())
         slowest = max(slowest, perf_counter() - before)
         assert sound(made), (file.name, number, program)
     return slowest
@@ -85,7 +85,7 @@ def test_a_hundred_mutations_of_each_sample(file: Path) -> None:
     ids=range(12),
 )
 def test_what_is_no_program_is_answered(text: bytes) -> None:
-    made = run(text, "", ToolTable())
+    made = run(text, ToolTable())
     assert sound(made)
     assert made.findings
 
