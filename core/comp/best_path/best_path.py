@@ -15,10 +15,10 @@ from typing import Final
 import numpy as np
 
 from core.comp.best_path.clearance import clear_slices
+from core.comp.best_path.prepared_contour import Surface, crosses_itself, surface_of
 from core.comp.best_path.raw_offset import RawOffset, raw_offset
 from core.comp.best_path.slices import sliced
 from core.comp.best_path.stitch import Stitched, chains, loop_of, stitch
-from core.comp.best_path.surface import Surface, crosses_itself, surface_of
 from core.comp.best_path.trim import trimmed
 from core.finding import Finding, Severity
 from core.geometry.path import Path, Rows

@@ -12,7 +12,7 @@ from math import tau
 
 import numpy as np
 
-from core.comp.best_path.surface import winds
+from core.comp.best_path.prepared_contour import winds
 from core.comp.offset import Chain, Part, offset
 from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, Turns, as_complex, joined
 from core.geometry.piece import SLIVER, Side
