@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.comp import findings
-from core.comp.blend import blend_in, blend_out
+from core.comp.blend_moves import blend_in, blend_out
 from core.comp.crossings import Candidates, crossings
 from core.comp.offset import Chain, offset
 from core.comp.prune import prune

@@ -16,7 +16,7 @@ from core.advice.path_findings import (
 from core.advice.work import Loop, RoughPass, Work
 from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
-from core.comp.blend import blend_in, blend_out
+from core.comp.blend_moves import blend_in, blend_out
 from core.comp.compensate import compensate
 from core.comp.result import Compensated
 from core.finding import Finding

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.comp.blend import blend_in, blend_out, past_start
+from core.comp.blend_moves import blend_in, blend_out, past_start
 from core.comp.compensate import compensate
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Side, Turn

@@ -5,7 +5,7 @@ import pytest
 
 from core.advice.path_findings import move_names, path_findings
 from core.advice.work import Loop
-from core.comp.blend import blend_in, blend_out
+from core.comp.blend_moves import blend_in, blend_out
 from core.finding import Severity
 from core.geometry.path import Path
 from core.geometry.piece import Side
