@@ -18,7 +18,7 @@ from core.finding import Finding, Severity
 from core.geometry.piece import Point
 from core.program.fields import Form, field_of
 from core.program.model import BlendSegment, Block, CutterComp, Program
-from core.program.solve.blend import Blends, blended
+from core.program.solve.blend_arc import Blends, blended
 from core.program.solve.reading import Reading, read_form
 from core.program.solve.segment import Carried, Draft, draft, typed_point
 from core.program.solve.solved import SolvedBlock, SolvedSegment, Value
