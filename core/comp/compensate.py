@@ -1,12 +1,14 @@
 """Compensate: a contour's center path under the control's look-ahead rule, every stage kept.
 
 The stages: zero-length segments dropped, offset to the raw chain, crossings found, walked and pruned, blended.
+
+Table: a contour's center path at several look-aheads, offset and crossed once for all of them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -138,3 +140,22 @@ def _with_length(contour: Path) -> tuple[Path, list[Finding]]:
 def _is_point(piece: Piece) -> bool:
     """No longer than JOINED, of a piece whose ends are as near; an arc about its end has no direction there."""
     return piece.length <= JOINED or (isinstance(piece, Arc) and piece.center == piece.end)
+
+
+def compensate_all(
+    contour: Path,
+    side: Side,
+    radius: float,
+    lookaheads: Sequence[int],
+    *,
+    closed: bool,
+    blend: float = 0.0,
+    overlap: float = 0.0,
+) -> tuple[Compensated, ...]:
+    """`compensate` at several look-aheads, in their order; those that test the same crossings are walked once."""
+    if not lookaheads:
+        return ()
+    offset = offset_contour(contour, side, radius, lookaheads, closed=closed)
+    first = {offset.tested(lookahead): lookahead for lookahead in reversed(lookaheads)}
+    walked = {tested: offset.path_at(lookahead, blend, overlap) for tested, lookahead in first.items()}
+    return tuple(replace(walked[offset.tested(lookahead)], lookahead=lookahead) for lookahead in lookaheads)

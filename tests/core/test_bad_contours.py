@@ -14,8 +14,7 @@ from hypothesis import strategies as st
 from core.advice.trials import Trial, table_of
 from core.advice.why_not_clean import needs_of
 from core.comp.best_path.best_path import best_path
-from core.comp.compensate import compensate
-from core.comp.table import compensate_all
+from core.comp.compensate import compensate, compensate_all
 from core.finding import Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn

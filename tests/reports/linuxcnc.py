@@ -16,7 +16,7 @@ from itertools import count
 from pathlib import Path as File
 
 from core.comp.best_path.best_path import BestPath, best_path
-from core.comp.table import compensate_all
+from core.comp.compensate import compensate_all
 from core.geometry.path import EMPTY, Path
 from core.verify.judge import judge
 from tests.reports.linuxcnc_contours import RADIUS, Part, part

@@ -10,11 +10,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from core.comp.compensate import compensate
+from core.comp.compensate import compensate, compensate_all
 from core.comp.crossings import crossings
 from core.comp.offset import offset
 from core.comp.result import Compensated
-from core.comp.table import compensate_all
 from core.geometry.path import Floats, Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.tolerance import JOINED

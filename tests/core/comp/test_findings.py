@@ -8,10 +8,9 @@ from math import cos, inf, nan, pi, sin
 import numpy as np
 import pytest
 
-from core.comp.compensate import compensate
+from core.comp.compensate import compensate, compensate_all
 from core.comp.findings import MAX_NAMED_PLACES, spoken
 from core.comp.result import Compensated
-from core.comp.table import compensate_all
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn

@@ -6,10 +6,9 @@ from math import sqrt
 
 import pytest
 
-from core.comp.compensate import compensate
+from core.comp.compensate import compensate, compensate_all
 from core.comp.lookahead import HIGHEST, LOWEST, calculated
 from core.comp.result import Compensated
-from core.comp.table import compensate_all
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from tests.core.comp.golden import (
