@@ -21,7 +21,7 @@ from core.units import sentence
 if TYPE_CHECKING:
     import argparse
 
-    from core.advice.trials import Table
+    from core.advice.lookahead_table import Table
     from core.output.nc import Refusal
     from core.pipeline.derived import Derived, DerivedBlock
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from app.desk import Desk
     from app.screens.page import Page, Surface, View
     from app.session import Session
-    from core.advice.trials import Table
+    from core.advice.lookahead_table import Table
     from core.finding import Finding
 
 NUMERIC: Final = ("core.pipeline.derive", "core.pipeline.lookahead_table", "app.widgets.drawing")

@@ -15,7 +15,7 @@ from core.pipeline.derived import DerivedBlock
 from core.units import Unit
 
 if TYPE_CHECKING:
-    from core.advice.trials import Table
+    from core.advice.lookahead_table import Table
 
 MORE: Final = plain(" Whether there is more to say is being calculated.", Look.WARNING)
 """Where a better path has not been looked for yet, nor what the contour needs."""

@@ -17,8 +17,8 @@ from core.program.model import Entry
 from core.units import Unit
 
 if TYPE_CHECKING:
-    from core.advice.trials import Row as Fate
-    from core.advice.trials import Table
+    from core.advice.lookahead_table import Row as Fate
+    from core.advice.lookahead_table import Table
 
 HALF: Final = (HIGHEST - LOWEST + 1) // 2
 """The table stands in two columns of ten values."""

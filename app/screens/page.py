@@ -12,7 +12,7 @@ from app.session import Said, Session, Tone
 from app.widgets.rows import Row
 
 if TYPE_CHECKING:
-    from core.advice.trials import Table
+    from core.advice.lookahead_table import Table
     from core.draw.scene import Scene
     from core.program.model import Program
 

@@ -10,8 +10,8 @@ from core.pipeline.derived import DerivedBlock
 from core.units import Unit
 
 if TYPE_CHECKING:
-    from core.advice.trials import Row as Fate
-    from core.advice.trials import Table
+    from core.advice.lookahead_table import Row as Fate
+    from core.advice.lookahead_table import Table
 
 STRIP: Final = 59
 """Cells of the strip: it stands above the form's drawing."""

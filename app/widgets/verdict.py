@@ -20,7 +20,7 @@ from core.pipeline.derived import DerivedBlock
 from core.units import Unit, sentence
 
 if TYPE_CHECKING:
-    from core.advice.trials import Table
+    from core.advice.lookahead_table import Table
     from core.comp.result import Compensated, Deletions
     from core.verify.verdict import Verdict
 

@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from core.advice.trials import Trial, table_of
+from core.advice.lookahead_table import Trial, table_of
 from core.geometry.path import Path
 from core.geometry.piece import Point
 from core.tolerance import CLOSED

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
+from core.advice.lookahead_table import Row, Table, Trial
 from core.advice.remedies import (
     StartMoved,
     ToolFits,
@@ -20,7 +21,6 @@ from core.advice.remedies import (
     start_mid_side_without_blends,
     started,
 )
-from core.advice.trials import Row, Table, Trial
 from core.finding import Finding, Severity
 
 MAX_NAMED: Final = 4

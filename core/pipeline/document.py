@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from math import isfinite
 from typing import Any
 
+from core.advice.lookahead_table import Row, Table
 from core.advice.path_findings import nearest_place
-from core.advice.trials import Row, Table
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Point

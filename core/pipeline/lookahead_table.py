@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from core.advice.lookahead_table import Table, Trial, table_of
 from core.advice.remedies import always
-from core.advice.trials import Table, Trial, table_of
 from core.advice.why_not_clean import Needs, needs_of
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.parameters import parameter, stocks

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.advice.trials import Row
+from core.advice.lookahead_table import Row
 from core.advice.work import Loop, Work
 from core.comp.result import Compensated
 from core.draw.scene import Scene, contour_scene, joined_scenes

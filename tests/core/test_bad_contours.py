@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.advice.trials import Trial, table_of
+from core.advice.lookahead_table import Trial, table_of
 from core.advice.why_not_clean import needs_of
 from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate, compensate_all

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core.advice.lookahead_table import Trial, table_of
 from core.advice.remedies import STEP, Unwanted, largest_tool, lookahead_without_blends, start_mid_side, started
-from core.advice.trials import Trial, table_of
 from core.geometry.piece import Side
 from tests.core.comp.contours import lines, mixed, shut
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from core.advice.trials import Trial, table_of
+from core.advice.lookahead_table import Trial, table_of
 from core.geometry.piece import Side
 from core.verify.judge import judge
 from tests.core.comp.contours import lines

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core.advice.lookahead_table import Trial, table_of
 from core.advice.remedies import STEP, started
-from core.advice.trials import Trial, table_of
 from core.advice.why_not_clean import MAX_NAMED, Needs, needs_of
 from core.comp.lookahead import calculated
 from core.finding import Severity
