@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from asyncio import TimerHandle
 
     from app.application import CutcompApp
-    from core.advice.work import Work
+    from core.advice.block_paths import Work
     from core.pipeline.derived import DerivedBlock
     from core.program.model import Program
 

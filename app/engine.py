@@ -18,7 +18,7 @@ from app.memory import Memory
 from app.screens.page import Drawn, Sketch
 from app.widgets.rows import Row
 from app.widgets.verdict import fitted, verdict_rows
-from core.advice.work import Work
+from core.advice.block_paths import Work
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.outline import outline
 from core.program.model import Program

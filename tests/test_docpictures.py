@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from core.advice.work import Work
+from core.advice.block_paths import Work
 from core.pipeline.derive import derive
 from tests.docpictures import CORE, PICTURES, drawn, program
 

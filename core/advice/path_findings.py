@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from core.advice.work import Loop, RoughPass, Work
+from core.advice.block_paths import Loop, RoughPass, Work
 from core.comp.best_path.best_path import BestPath
 from core.comp.best_path.separation import Separation
 from core.comp.result import Compensated

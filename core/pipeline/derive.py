@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from core.advice.block_paths import Loop, RoughPass, Work
 from core.advice.path_findings import (
     better_path_findings,
     by_severity,
@@ -13,7 +14,6 @@ from core.advice.path_findings import (
     turning_back,
     z_step_findings,
 )
-from core.advice.work import Loop, RoughPass, Work
 from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
 from core.comp.blend_moves import blend_in, blend_out

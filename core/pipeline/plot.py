@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from core.advice.block_paths import Loop, Work
 from core.advice.lookahead_table import Row
-from core.advice.work import Loop, Work
 from core.comp.result import Compensated
 from core.draw.scene import Scene, contour_scene, joined_scenes
 from core.geometry.path import EMPTY, Floats, Path, as_complex

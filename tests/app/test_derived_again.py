@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from app.documents.files import load
 from app.engine import derived_again
 from app.files import example
-from core.advice.work import Work
+from core.advice.block_paths import Work
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
 from core.program.edit import Refused, Where, delete_segment, set_unit, type_field

@@ -17,7 +17,7 @@ from app.screens.lookahead import LookaheadTable
 from app.screens.page import WHOLE, Surface
 from app.session import Session
 from app.widgets.rows import text_of
-from core.advice.work import Work
+from core.advice.block_paths import Work
 from core.finding import Finding, Severity
 from core.pipeline.derive import derive
 from core.pipeline.derived import DerivedBlock

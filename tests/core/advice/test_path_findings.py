@@ -8,6 +8,7 @@ from math import cos, radians, sin
 import numpy as np
 import pytest
 
+from core.advice.block_paths import RoughPass, Work
 from core.advice.path_findings import (
     ZStep,
     better_path_findings,
@@ -20,7 +21,6 @@ from core.advice.path_findings import (
     turning_back,
     z_step_findings,
 )
-from core.advice.work import RoughPass, Work
 from core.comp.best_path.best_path import best_path
 from core.comp.best_path.separation import separation
 from core.finding import Finding, Severity

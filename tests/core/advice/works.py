@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from core.advice.work import Loop, RoughPass, Work
+from core.advice.block_paths import Loop, RoughPass, Work
 from core.comp.compensate import compensate
 from core.geometry.path import Path
 from core.geometry.piece import Side

@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from core.advice.block_paths import Loop
 from core.advice.path_findings import move_names, path_findings
-from core.advice.work import Loop
 from core.comp.blend_moves import blend_in, blend_out
 from core.finding import Severity
 from core.geometry.path import Path
