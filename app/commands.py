@@ -98,7 +98,7 @@ def _report(derived: Derived, number: int | None) -> None:
 
 def path(options: argparse.Namespace) -> int:
     """`cutcomp path`: the center path of every block."""
-    from core.pipeline.document import path_document, path_listing
+    from core.pipeline.command_output import path_document, path_listing
 
     derived = _derived(options.file, options.block, options.lookahead)
     if options.json:
@@ -111,7 +111,7 @@ def path(options: argparse.Namespace) -> int:
 
 def lookahead(options: argparse.Namespace) -> int:
     """`cutcomp lookahead`: what becomes of the path at every value, and what the contour needs."""
-    from core.pipeline.document import table_document, table_listing
+    from core.pipeline.command_output import table_document, table_listing
     from core.pipeline.lookahead_table import look_ahead_table
 
     derived = _derived(options.file, options.block)

@@ -7,9 +7,9 @@ import pytest
 from core.draw.scene import Style
 from core.finding import Severity
 from core.geometry.piece import Point
+from core.pipeline.command_output import table_document
 from core.pipeline.derive import derive
 from core.pipeline.derived import DerivedBlock
-from core.pipeline.document import table_document
 from core.pipeline.jobs import jobs
 from core.pipeline.lookahead_table import look_ahead_table, needs
 from core.pipeline.plot import block_scene
