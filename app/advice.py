@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from asyncio import TimerHandle
 
     from app.application import CutcompApp
-    from core.advice.block_paths import Work
+    from core.advice.block_paths import BlockPaths
     from core.pipeline.derived import DerivedBlock
     from core.program.model import Program
 
@@ -31,7 +31,7 @@ ONE_PICTURE: Final = 0.5
 SMALL: Final = 0.25
 """The part of it in which a small contour's notes come with them."""
 
-About = tuple["Work | None", int]
+About = tuple["BlockPaths | None", int]
 """The paths and the calculated look-ahead that needs are about."""
 
 

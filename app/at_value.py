@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
-from core.program.edit import Refused, Where, type_field
+from core.program.edit import FormPlace, Refused, type_field
 from core.program.model import Entry, Program
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ class AtValue:
         if value is None or value == session.found.lookahead.value:
             return None
         number = session.where.block
-        program = type_field(session.program, Where(number), "lookahead", Entry(float(value)))
+        program = type_field(session.program, FormPlace(number), "lookahead", Entry(float(value)))
         return None if isinstance(program, Refused) else AtValue(session, program, number, value)
 
     @property

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Final
 
-from core.program.edit import Where
+from core.program.edit import FormPlace
 from core.program.model import Block, Program, Segment
 
-Place = tuple[Where, str | None]
+Place = tuple[FormPlace, str | None]
 """A segment, and the name of its field where one alone is different."""
 SEGMENTS: Final = "segments"
 
@@ -19,7 +19,7 @@ def changed(before: Program, after: Program) -> Place | None:
         return None
     one, other = before.blocks, after.blocks
     if len(one) != len(other):
-        return Where(_first(one, other)), None
+        return FormPlace(_first(one, other)), None
     different = [number for number, pair in enumerate(zip(one, other, strict=True), 1) if pair[0] != pair[1]]
     return _in_block(one[different[0] - 1], other[different[0] - 1], different[0]) if len(different) == 1 else None
 
@@ -27,9 +27,9 @@ def changed(before: Program, after: Program) -> Place | None:
 def _in_block(before: Block, after: Block, number: int) -> Place:
     names = _names(before, after)
     if SEGMENTS not in names:
-        return Where(number), names[0] if len(names) == 1 else None
+        return FormPlace(number), names[0] if len(names) == 1 else None
     first = _first(before.segments, after.segments)
-    here = Where(number, min(first, len(after.segments)))
+    here = FormPlace(number, min(first, len(after.segments)))
     if len(before.segments) != len(after.segments):
         return here, None
     names = _names(before.segments[first - 1], after.segments[first - 1])

@@ -112,7 +112,7 @@ def path(options: argparse.Namespace) -> int:
 def lookahead(options: argparse.Namespace) -> int:
     """`cutcomp lookahead`: what becomes of the path at every value, and what the contour needs."""
     from core.pipeline.command_output import table_document, table_listing
-    from core.pipeline.lookahead_table import look_ahead_table
+    from core.pipeline.derive import look_ahead_table
 
     derived = _derived(options.file, options.block)
     unit = derived.program.unit
@@ -131,7 +131,7 @@ def lookahead(options: argparse.Namespace) -> int:
 
 def _advised(found: DerivedBlock, table: Table | None, program: Program) -> Table | None:
     """The table with what the contour needs as its notes."""
-    from core.pipeline.lookahead_table import needs
+    from core.pipeline.derive import needs
 
     told = None if table is None else needs(found, program, table)
     return table if table is None or told is None else replace(table, notes=told.sentences)

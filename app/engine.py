@@ -18,7 +18,7 @@ from app.memory import Memory
 from app.screens.page import Drawn, Sketch
 from app.widgets.rows import Row
 from app.widgets.verdict import fitted, verdict_rows
-from core.advice.block_paths import Work
+from core.advice.block_paths import BlockPaths
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.outline import outline
 from core.program.model import Program
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from core.advice.lookahead_table import Table
     from core.finding import Finding
 
-NUMERIC: Final = ("core.pipeline.derive", "core.pipeline.lookahead_table", "app.widgets.drawing")
+NUMERIC: Final = ("core.pipeline.derive", "core.pipeline.derive", "app.widgets.drawing")
 """Modules that need the numeric library."""
 FAST: Final = 0.033
 """Seconds of work, two pictures of sixty a second: what took no longer lately is done before the next picture.
@@ -100,7 +100,7 @@ class Known:
 class Needing(NamedTuple):
     """Sentences on what a block needs: the paths they are about, and the calculated look-ahead they explain."""
 
-    work: Work
+    work: BlockPaths
     calculated: int
     sentences: tuple[Finding, ...]
 
@@ -119,9 +119,9 @@ class Engine:
     took: dict[str, float] = field(default_factory=dict)
     derived: tuple[Derived, ...] = ()
     """What was derived last, whether of the program or of one that was tried out; the newest first."""
-    tables: tuple[tuple[Work, Table | None], ...] = ()
+    tables: tuple[tuple[BlockPaths, Table | None], ...] = ()
     """Paths and their tables, the newest first; changed as a whole, since screens look in from another thread."""
-    notes: tuple[tuple[Work, tuple[Finding, ...]], ...] = ()
+    notes: tuple[tuple[BlockPaths, tuple[Finding, ...]], ...] = ()
     """Paths and what a better one would cut, the newest first; changed as a whole too."""
     needs: tuple[Needing, ...] = ()
     """What was found out last, the newest first; changed as a whole too."""
@@ -165,7 +165,7 @@ class Engine:
 
     def keep_table(self, found: DerivedBlock, program: Program) -> None:
         """Make and keep the look-ahead table of a block."""
-        from core.pipeline.lookahead_table import look_ahead_table
+        from core.pipeline.derive import look_ahead_table
 
         if found.work is None or self.tabulated(found):
             return
@@ -200,7 +200,7 @@ class Engine:
 
         `wanted` is asked between two of them: where nobody wants them any more, nothing is kept.
         """
-        from core.pipeline.lookahead_table import needs
+        from core.pipeline.derive import needs
 
         if found.work is None or self._needing(found) is not None:
             return

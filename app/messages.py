@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from app.session import SEGMENT, Tone
-from core.program.edit import Edited, Where
+from core.program.edit import Edited, FormPlace
 
 if TYPE_CHECKING:
     from app.desk import Desk
@@ -24,7 +24,7 @@ class Edit(NamedTuple):
 class Move(NamedTuple):
     """The cursor goes to a field of the MILL CONTOUR form."""
 
-    where: Where
+    where: FormPlace
     field: str = SEGMENT
 
 

@@ -15,7 +15,7 @@ from app.documents.files import Stamp
 from app.guard import THE_WAY, UNGUARDED, Guard
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.outline import outline
-from core.program.edit import Edited, Refused, Where
+from core.program.edit import Edited, FormPlace, Refused
 from core.program.history import History
 from core.program.model import Block, Program, Segment
 
@@ -23,7 +23,7 @@ SEGMENT: Final = "segment"
 """The name of the SEGMENT line, where the cursor walks from segment to segment."""
 
 
-FIRST: Final = Where(1, 0)
+FIRST: Final = FormPlace(1, 0)
 """START of block 1."""
 
 
@@ -56,7 +56,7 @@ class Session:
     saved: Program
     derived: Derived
     file: Path | None = None
-    where: Where = FIRST
+    where: FormPlace = FIRST
     field: str = SEGMENT
     said: Said | None = None
     guard: Guard = UNGUARDED
@@ -130,7 +130,7 @@ class Session:
             return self.saying("There is nothing to redo.")
         return self._back(self.history.redo()).saying(f"Done again: {label}.")
 
-    def at(self, where: Where, field: str = SEGMENT) -> Session:
+    def at(self, where: FormPlace, field: str = SEGMENT) -> Session:
         """The cursor moved; a place that does not exist becomes the nearest one that does."""
         return replace(self, where=_nearest(self.program, where), field=field)
 
@@ -162,10 +162,10 @@ class Session:
         return replace(self, history=history, where=where, field=self.field if same else SEGMENT)
 
 
-def _nearest(program: Program, where: Where) -> Where:
+def _nearest(program: Program, where: FormPlace) -> FormPlace:
     block = min(max(where.block, 1), len(program.blocks))
-    return Where(block, min(max(where.segment, 0), len(program.blocks[block - 1].segments)))
+    return FormPlace(block, min(max(where.segment, 0), len(program.blocks[block - 1].segments)))
 
 
-def _kind(program: Program, where: Where) -> type[Segment] | None:
+def _kind(program: Program, where: FormPlace) -> type[Segment] | None:
     return type(program.blocks[where.block - 1].segments[where.segment - 1]) if where.segment else None

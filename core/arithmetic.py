@@ -16,7 +16,7 @@ MAX_CHARACTERS: Final = 60
 """Characters a field reads; more is a slip of the hand."""
 
 
-class NotASumError(Exception):
+class CannotReadError(Exception):
     """Why a text cannot be read: a sentence for the operator."""
 
 
@@ -27,20 +27,20 @@ _ALIKE: Final = str.maketrans({"\t": " ", "\N{MINUS SIGN}": "-", "\N{EN DASH}": 
 _DASHED: Final = re.compile(r"\s*([-+]?[0-9]+)-([0-9]+)/(2|4|8|16|32|64)\s*[^-+*/()0-9]*")
 
 
-def total(text: str, scales: Mapping[str, Fraction], expected: str) -> Fraction:
-    """The value of a sum; raises NotASumError.
+def evaluate(text: str, scales: Mapping[str, Fraction], expected: str) -> Fraction:
+    """The value of a sum; raises CannotReadError.
 
     `scales` holds what each suffix multiplies by, `expected` what the field takes, as "type a whole number".
     """
     text = text.translate(_ALIKE)
     if not text.strip():
-        raise NotASumError("Type a number.")
+        raise CannotReadError("Type a number.")
     if len(text) > MAX_CHARACTERS:
-        raise NotASumError(f"Too long: type at most {MAX_CHARACTERS} characters.")
+        raise CannotReadError(f"Too long: type at most {MAX_CHARACTERS} characters.")
     if not text.isprintable():
-        raise NotASumError("It holds a character that cannot be shown: type it again.")
+        raise CannotReadError("It holds a character that cannot be shown: type it again.")
     if "," in text:
-        raise NotASumError("Type a point, as in 1.5, and no comma for thousands.")
+        raise CannotReadError("Type a point, as in 1.5, and no comma for thousands.")
     _refuse_dashed(text)
     tokens = [(match.lastgroup or "", match[match.lastgroup or 0]) for match in _TOKEN.finditer(text.rstrip())]
     return _Reader(tokens, scales, expected, text.strip()).whole()
@@ -51,7 +51,7 @@ def _refuse_dashed(text: str) -> None:
     if dashed and int(dashed[2]) < int(dashed[3]):
         whole, above, below = dashed.groups()
         either = f"{whole} {above}/{below} with a blank, or {whole} - {above}/{below} to subtract"
-        raise NotASumError(f"{text.strip()} is not clear: type {either}.")
+        raise CannotReadError(f"{text.strip()} is not clear: type {either}.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,32 +89,32 @@ class _Reader:
         return text
 
     def whole(self) -> Fraction:
-        total = self.sum()
+        value = self.sum()
         sort, text = self.peek()
         if sort == "number":
-            raise NotASumError(f"{self.typed} is not a number.")
+            raise CannotReadError(f"{self.typed} is not a number.")
         if text == ")":
-            raise NotASumError("One bracket too many.")
+            raise CannotReadError("One bracket too many.")
         if sort != "end":
-            raise NotASumError(f"{text} does not belong there.")
-        return total.scaled()
+            raise CannotReadError(f"{text} does not belong there.")
+        return value.scaled()
 
     def sum(self) -> _Amount:
-        total = self.product()
+        value = self.product()
         while sign := self.take("+-"):
             term = self.product()
-            if (term.scale is None) is not (total.scale is None):
-                raise NotASumError("Give every number its unit, or use brackets: (2.5-.125)mm.")
-            scaled = total.scaled() + (term.scaled() if sign == "+" else -term.scaled())
-            total = _Amount(scaled, None if total.scale is None else Fraction(1))
-        return total
+            if (term.scale is None) is not (value.scale is None):
+                raise CannotReadError("Give every number its unit, or use brackets: (2.5-.125)mm.")
+            scaled = value.scaled() + (term.scaled() if sign == "+" else -term.scaled())
+            value = _Amount(scaled, None if value.scale is None else Fraction(1))
+        return value
 
     def product(self) -> _Amount:
-        total = self.signed()
+        value = self.signed()
         while sign := self.take("*/"):
             factor = self.signed()
-            total = _times(total, factor) if sign == "*" else _over(total, factor)
-        return total
+            value = _times(value, factor) if sign == "*" else _over(value, factor)
+        return value
 
     def signed(self) -> _Amount:
         sign = self.take("+-")
@@ -127,24 +127,24 @@ class _Reader:
         if sort != "word":
             return amount
         if text.lower() not in self.scales:
-            raise NotASumError(f"{text} is not a unit here: {self.expected}.")
+            raise CannotReadError(f"{text} is not a unit here: {self.expected}.")
         if amount.scale is not None:
-            raise NotASumError("One unit is enough for a number.")
+            raise CannotReadError("One unit is enough for a number.")
         self.at += 1
         return replace(amount, scale=self.scales[text.lower()])
 
     def bracket(self) -> _Amount:
         inside = self.sum()
         if not self.take(")"):
-            raise NotASumError("A closing bracket is missing.")
+            raise CannotReadError("A closing bracket is missing.")
         return replace(inside, bracket=True)
 
     def number(self) -> Fraction:
         sort, text = self.peek()
         if sort == "word":
-            raise NotASumError(f"{text} is not a number: {self.expected}.")
+            raise CannotReadError(f"{text} is not a number: {self.expected}.")
         if sort != "number":
-            raise NotASumError(f"A number is missing {f'before {text}' if text else 'at the end'}.")
+            raise CannotReadError(f"A number is missing {f'before {text}' if text else 'at the end'}.")
         self.at += 1
         return Fraction(text) + self.fraction(text)
 
@@ -154,20 +154,20 @@ class _Reader:
         if (first, slash, last) != ("number", "/", "number") or "." in whole + above + below:
             return Fraction(0)
         if int(above) >= int(below):
-            raise NotASumError(f"{whole} {above}/{below}: the fraction must be less than 1.")
+            raise CannotReadError(f"{whole} {above}/{below}: the fraction must be less than 1.")
         self.at += 3
         return Fraction(int(above), int(below))
 
 
 def _times(left: _Amount, right: _Amount) -> _Amount:
     if left.scale is not None and right.scale is not None:
-        raise NotASumError("Length times length: leave one unit out.")
+        raise CannotReadError("Length times length: leave one unit out.")
     return _Amount(left.value * right.value, right.scale if left.scale is None else left.scale)
 
 
 def _over(left: _Amount, right: _Amount) -> _Amount:
     if right.value == 0:
-        raise NotASumError("Division by zero.")
+        raise CannotReadError("Division by zero.")
     if right.scale is not None and (left.scale is not None or right.bracket):
-        raise NotASumError("Number divided by a length: leave the unit out.")
+        raise CannotReadError("Number divided by a length: leave the unit out.")
     return _Amount(left.value / right.value, right.scale if left.scale is None else left.scale)

@@ -15,7 +15,7 @@ from math import degrees, isfinite, radians
 from types import MappingProxyType
 from typing import Final, assert_never
 
-from core.arithmetic import NotASumError, total
+from core.arithmetic import CannotReadError, evaluate
 from core.finding import Finding
 from core.tolerance import LARGEST, ROUNDING
 
@@ -177,8 +177,8 @@ def _telling_digits(value: float, other: float, unit: Unit) -> str:
 def parse(text: str, kind: Kind, unit: Unit) -> float | Unreadable:
     """The value of an operator's text in program units (degrees for an angle), or why there is none."""
     try:
-        exact = total(text, _scales(kind, unit), _EXPECTED.get(kind, ""))
-    except NotASumError as fault:
+        exact = evaluate(text, _scales(kind, unit), _EXPECTED.get(kind, ""))
+    except CannotReadError as fault:
         return Unreadable(str(fault))
     if kind is Kind.COUNT and exact.denominator != 1:
         return Unreadable("Type a whole number, such as 2.")
@@ -201,7 +201,7 @@ def _scales(kind: Kind, unit: Unit) -> Mapping[str, Fraction]:
         case Kind.COUNT:
             return {}
         case Kind.CHOICE | Kind.TEXT:
-            raise NotASumError("This field takes no number.")
+            raise CannotReadError("This field takes no number.")
         case _:
             assert_never(kind)
 

@@ -6,14 +6,14 @@ import re
 
 import pytest
 
-from core.advice.block_paths import Work
+from core.advice.block_paths import BlockPaths
 from core.pipeline.derive import derive
 from tests.docpictures import CORE, PICTURES, drawn, program
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 
 
-def _work(name: str) -> Work:
+def _work(name: str) -> BlockPaths:
     (picture,) = (one for one in PICTURES if one.name == name)
     (found,) = derive(program(picture)).blocks
     assert found.work is not None

@@ -20,7 +20,7 @@ from typing import Any, Final, TypeVar
 from app.documents.files import Stamp
 from app.documents.journal_file import Record, whole_lines
 from app.documents.lock import Owner, owner_of
-from core.program.edit import Where
+from core.program.edit import FormPlace
 from core.program.history import History, Step, splice
 from core.program.model import (
     ArcSegment,
@@ -256,7 +256,7 @@ class Head:
 class Cursor:
     """Where the operator was: place, name of the field, and the time in ISO format."""
 
-    where: Where
+    where: FormPlace
     field: str
     time: str
 
@@ -405,6 +405,6 @@ def _read_head(record: Record) -> Head:
 def _read_cursor(record: Record) -> Cursor:
     match record:
         case {"at": [block, segment, name], "time": time}:
-            return Cursor(Where(whole_of(block), whole_of(segment)), text_of(name), text_of(time))
+            return Cursor(FormPlace(whole_of(block), whole_of(segment)), text_of(name), text_of(time))
         case _:
             raise Damaged

@@ -17,7 +17,7 @@ from app.widgets.header import block_line, header, segment_line
 from app.widgets.rows import Row
 from app.widgets.verdict import NOT_YET
 from core.finding import Finding, Severity
-from core.program.edit import Where, choose, type_field
+from core.program.edit import FormPlace, choose, type_field
 from core.program.fields import SEGMENT_PROMPT, Field, read_typed
 from core.program.solve.solved import Value
 from core.units import Kind, sentence
@@ -103,7 +103,7 @@ class Contour(FormPage):
             return self._walked(session, WALK[key])
         if key in ("ctrl+home", "ctrl+end"):
             there = 0 if key == "ctrl+home" else len(session.block.segments)
-            return self._gone(session, Where(session.where.block, there))
+            return self._gone(session, FormPlace(session.where.block, there))
         if self.cursor(session) == SEGMENT:
             return self._segment_key(key, character, session)
         if key == "enter" and self.cursor(session) == self.fields(session)[-1].name and _leads_on(session):
@@ -132,7 +132,7 @@ class Contour(FormPage):
         there = contour_keys.advance(session) if step > 0 else contour_keys.back(session)
         return Answer(settled.page, (*settled.messages, *there))
 
-    def _gone(self, session: Session, where: Where) -> Answer:
+    def _gone(self, session: Session, where: FormPlace) -> Answer:
         settled = self.settle(session)
         if any(isinstance(message, Say) for message in settled.messages):
             return settled
@@ -203,6 +203,6 @@ def _leads_on(session: Session) -> bool:
     return session.where.segment > 0 or not session.block.segments
 
 
-def _label(one: Field, where: Where) -> str:
+def _label(one: Field, where: FormPlace) -> str:
     place = "START" if where.segment == 0 else f"segment {where.segment}"
     return f"{one.label} of {place}, block {where.block}"

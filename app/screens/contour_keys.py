@@ -10,7 +10,7 @@ from app.screens.contour_cells import form_at
 from app.screens.page import Softkey, Softkeys
 from app.session import SEGMENT, Session, Tone
 from core.pipeline.derived import Tag
-from core.program.edit import Where, choose, delete_segment, recalculate_lookahead
+from core.program.edit import FormPlace, choose, delete_segment, recalculate_lookahead
 from core.units import Kind, from_mm, show
 
 
@@ -18,7 +18,7 @@ def advance(session: Session) -> tuple[Message, ...]:
     """To the next segment; behind the last one a new one is offered."""
     where = session.where
     if where.segment < len(session.block.segments):
-        return (Move(Where(where.block, where.segment + 1)),)
+        return (Move(FormPlace(where.block, where.segment + 1)),)
     return (Move(where), Open(partial(doors.new_segment, where.segment + 1)))
 
 
@@ -27,7 +27,7 @@ def back(session: Session) -> tuple[Message, ...]:
     where = session.where
     if where.segment == 0:
         return (Move(where), Say("START is the first segment."))
-    return (Move(Where(where.block, where.segment - 1)),)
+    return (Move(FormPlace(where.block, where.segment - 1)),)
 
 
 def jump(session: Session, digits: str) -> tuple[Message, ...]:
@@ -36,7 +36,7 @@ def jump(session: Session, digits: str) -> tuple[Message, ...]:
         return (Say(f"{digits} is no segment number: type digits only, such as 3, then Enter.", Tone.ERROR),)
     number, last = int(digits), len(session.block.segments)
     if number <= last:
-        return (Move(Where(session.where.block, number)),)
+        return (Move(FormPlace(session.where.block, number)),)
     behind = f"the last one is {last}" if last else "there is only START yet"
     return (Say(f"There is no segment {number}: {behind}. Right arrow past the last adds one.", Tone.ERROR),)
 

@@ -12,7 +12,7 @@ from app.screens.page import Answer, Layout, Page, Sketch, Softkey, Softkeys, Su
 from app.session import Said, Session
 from app.widgets.header import block_line, header, segment_line
 from app.widgets.words import number
-from core.program.edit import Where
+from core.program.edit import FormPlace
 
 STEP: Final = 1.25
 """One key press enlarges or shrinks by this factor."""
@@ -161,4 +161,4 @@ def _walk(session: Session, step: int) -> tuple[Message, ...]:
     there = session.where.segment + step
     if not 0 <= there <= len(session.block.segments):
         return (Say("That is the last segment." if step > 0 else "START is the first."),)
-    return (Move(Where(session.where.block, there)),)
+    return (Move(FormPlace(session.where.block, there)),)

@@ -13,7 +13,16 @@ from app.widgets.form import Cell, State
 from core.finding import Severity
 from core.pipeline.derived import Tag
 from core.program.edit import Refused
-from core.program.fields import AGAIN, SOLUTION, Field, check, check_text, read_typed, unread_reason, unread_sentence
+from core.program.fields import (
+    SOLUTION,
+    TYPE_AGAIN,
+    Field,
+    check,
+    check_text,
+    read_typed,
+    unread_reason,
+    unread_sentence,
+)
 from core.program.model import Entry, Program, Unread
 from core.program.solve.solved import Solved, Value
 from core.units import Kind, Unit, sentence, show
@@ -223,7 +232,7 @@ def unusable(held: Value | str, one: Field, unit: Unit) -> str | None:
 def _unread_sentence(unread: Unread, one: Field, unit: Unit) -> str:
     if outside := check_text(unread.text, one, unit):
         return outside
-    if unread_reason(unread.text, one, unit) == AGAIN:
+    if unread_reason(unread.text, one, unit) == TYPE_AGAIN:
         return f"{unread.text.strip()} has not been taken yet: type it again."
     return unread_sentence(unread)
 

@@ -12,7 +12,7 @@ from app.session import Said, Session
 from app.widgets.header import block_line, header, segment_line
 from app.widgets.rows import Look, Row, Span
 from app.widgets.verdict import before_first
-from core.program.edit import Refused, Where, insert_segment
+from core.program.edit import FormPlace, Refused, insert_segment
 from core.program.fields import TABLES, Form
 from core.program.model import ArcSegment, BlendSegment, LineSegment, Segment
 
@@ -53,7 +53,7 @@ class NewSegment(Page):
 
     def _added(self, session: Session, index: int) -> tuple[Message, ...]:
         _, form, kind, _ = KINDS[index]
-        where = Where(session.where.block, self.number)
+        where = FormPlace(session.where.block, self.number)
         outcome = insert_segment(session.program, where, kind())
         edit = Edit(outcome, f"new {form} {self.number}, block {where.block}")
         return (edit,) if isinstance(outcome, Refused) else (edit, Close(), Move(where, TABLES[form][0].name))

@@ -15,7 +15,7 @@ from app.widgets.header import header
 from app.widgets.rows import Look, Row, Span, plain
 from core.finding import Severity
 from core.pipeline.derived import DerivedBlock
-from core.program.edit import Where, copy_block, delete_block, insert_block, move_block
+from core.program.edit import FormPlace, copy_block, delete_block, insert_block, move_block
 from core.program.model import Entry, Program
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class ProgramPage(Page):
         at, last = session.where.block, len(session.program.blocks)
         there = {"up": at - 1, "down": at + 1, "home": 1, "end": last, "pageup": 1, "pagedown": last}.get(key)
         if there is not None:
-            return Answer(self, (Move(Where(min(max(there, 1), last))),))
+            return Answer(self, (Move(FormPlace(min(max(there, 1), last))),))
         return Answer(self, (Move(session.where), Open(Contour()))) if key in ("enter", "right") else None
 
     def help(self, session: Session) -> tuple[str, ...]:
@@ -103,8 +103,8 @@ def _first(page: ProgramPage, session: Session) -> Softkeys:
     told = Say(f"Deleted block {at}. Ctrl+Z brings it back.")
     return {
         1: Softkey("DELETE BLOCK", (Edit(delete_block(program, at), f"DELETE BLOCK {at}"), told)),
-        2: Softkey("INSERT BLOCK BEHIND", (behind, Move(Where(at + 1)), Open(Contour()))),
-        3: Softkey("COPY BLOCK", (Edit(copy_block(program, at), f"COPY BLOCK {at}"), Move(Where(at + 1)))),
+        2: Softkey("INSERT BLOCK BEHIND", (behind, Move(FormPlace(at + 1)), Open(Contour()))),
+        3: Softkey("COPY BLOCK", (Edit(copy_block(program, at), f"COPY BLOCK {at}"), Move(FormPlace(at + 1)))),
         4: Softkey("OPEN", (Browse(),)),
         5: Softkey("SAVE", save_messages(session)),
         6: Softkey("POST NC", (Open(partial(doors.post, session)),)),
@@ -130,7 +130,7 @@ def _second(page: ProgramPage, session: Session) -> Softkeys:
 def _moved(program: Program, at: int, to: int, way: str) -> tuple[Message, ...]:
     if not 1 <= to <= len(program.blocks):
         return (Say(f"Block {at} is the {'first' if to < 1 else 'last'} one: it cannot move {way.lower()}."),)
-    return (Edit(move_block(program, at, to), f"MOVE BLOCK {at} {way}"), Move(Where(to)))
+    return (Edit(move_block(program, at, to), f"MOVE BLOCK {at} {way}"), Move(FormPlace(to)))
 
 
 def _third(page: ProgramPage, session: Session) -> Softkeys:

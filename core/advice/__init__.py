@@ -1,1 +1,1 @@
-"""Advice: what a finding says and what would mend it."""
+"""Advice: findings about fields and paths beyond the judge's verdict, and remedies that were cut and judged."""

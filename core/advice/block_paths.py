@@ -1,4 +1,4 @@
-"""Work: what the cutter does in one block, in millimeters.  Needs no numpy, so that a first screen needs none."""
+"""Block paths: what the cutter runs in one block, in millimeters, and the verdict on it.  Needs no numpy."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class RoughPass:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Work:
+class BlockPaths:
     """Every path of a block and what it does to the surface.
 
     `surface` is the determined part of the contour; `loops` the finish path that is posted, one or, for PATH BEST,

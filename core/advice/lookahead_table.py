@@ -1,4 +1,4 @@
-"""Trials: a contour cut at every look-ahead value from 1 to 20, each path judged."""
+"""Look-ahead table: a contour cut at every look-ahead value from 1 to 20, each path judged."""
 
 from __future__ import annotations
 

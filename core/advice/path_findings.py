@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from core.advice.block_paths import Loop, RoughPass, Work
+from core.advice.block_paths import BlockPaths, Loop, RoughPass
 from core.comp.best_path.best_path import BestPath
 from core.comp.best_path.separation import Separation
 from core.comp.result import Compensated
@@ -36,7 +36,7 @@ def by_severity(findings: Sequence[Finding]) -> tuple[Finding, ...]:
     return tuple(sorted(findings, key=lambda finding: _ORDER[finding.severity]))
 
 
-def path_findings(work: Work) -> tuple[Finding, ...]:
+def path_findings(work: BlockPaths) -> tuple[Finding, ...]:
     """Everything found about the posted path, its blends and the roughing passes."""
     assert work.verdict is not None
     assert work.compensated is not None
@@ -67,14 +67,14 @@ def _rows(loops: Sequence[Loop]) -> Iterator[tuple[Loop, _Rows]]:
         first = rows.end
 
 
-def _air_cuts(work: Work, verdict: Verdict) -> Iterator[AirCut]:
+def _air_cuts(work: BlockPaths, verdict: Verdict) -> Iterator[AirCut]:
     """Where the paths without their blends leave the surface by more than the radius."""
     for loop, rows in _rows(work.loops):
         if any(rows.path <= row < rows.lead_out for row in verdict.loose):
             yield from air_cuts(work.surface, verdict.radius, loop.path)
 
 
-def move_names(work: Work) -> Names:
+def move_names(work: BlockPaths) -> Names:
     """What the moves of all loops are, counted as the verdict counts them."""
 
     def name(row: int, _number: float) -> str:
@@ -185,12 +185,12 @@ def _largest_step(steps: Sequence[ZStep], way: str) -> tuple[Finding, ...]:
     return (Finding("Z_STEP", Severity.WARNING, text, number, "z_end", at, abs(rise)),)
 
 
-def nearest_place(work: Work | None) -> Approach | None:
+def nearest_place(work: BlockPaths | None) -> Approach | None:
     """Where the posted path comes nearest to the surface."""
     return None if work is None or work.verdict is None else work.verdict.closest
 
 
-def nearest_finding(work: Work | None, radius: float | None) -> Finding | None:
+def nearest_finding(work: BlockPaths | None, radius: float | None) -> Finding | None:
     """The least distance from the center path to the surface against the tool's radius, and where; None for none."""
     place = nearest_place(work)
     if place is None or radius is None:

@@ -26,13 +26,13 @@ MAX_STARTS: Final = 6
 MAX_STARTS_WITHOUT_BLENDS: Final = 2
 """So many of them without blend moves: where the path begins then matters little."""
 
-WORTH: Final = 1.02
+LARGER_BY: Final = 1.02
 """A tool that fits without blend moves is offered beside one that fits with them if it is so many times as large."""
 
 FEWEST_CLOSED: Final = 3
 """Segments with which a contour can come back to where it began."""
 
-USUAL: Final = (8, 3, 1, 20)
+USUAL_LOOKAHEADS: Final = (8, 3, 1, 20)
 """Look-aheads tried while a tool is looked for; the one it is then offered with is chosen from all."""
 
 
@@ -53,11 +53,11 @@ class StartMoved:
     value: int
 
 
-class Unwanted(Exception):
+class SearchCanceled(Exception):
     """Nobody waits for the remedies any more."""
 
 
-def always() -> bool:
+def never_canceled() -> bool:
     """Somebody waits to the end."""
     return True
 
@@ -65,7 +65,7 @@ def always() -> bool:
 def _recommended(trial: Trial, wanted: Callable[[], bool]) -> int | None:
     """The look-ahead the table recommends for a trial; asks before whether the answer is still wanted."""
     if not wanted():
-        raise Unwanted
+        raise SearchCanceled
     return table_of(trial).recommended
 
 
@@ -74,23 +74,23 @@ def without_blends(trial: Trial) -> Trial:
     return replace(trial, blend=0.0)
 
 
-def lookahead_without_blends(trial: Trial, wanted: Callable[[], bool] = always) -> int | None:
+def lookahead_without_blends(trial: Trial, wanted: Callable[[], bool] = never_canceled) -> int | None:
     """The value that is clean when the blend moves are left out."""
     return _recommended(without_blends(trial), wanted) if trial.blend > 0.0 else None
 
 
 def larger_tool_without_blends(
-    trial: Trial, than: ToolFits | None, hint: float | None = None, wanted: Callable[[], bool] = always
+    trial: Trial, than: ToolFits | None, hint: float | None = None, wanted: Callable[[], bool] = never_canceled
 ) -> ToolFits | None:
     """The largest tool without blend moves, if there are any to leave out and it is worth offering too."""
     if trial.blend <= 0.0:
         return None
-    least = 0 if than is None else max(int(_steps(than.diameter) * WORTH), _steps(than.diameter) + 1)
+    least = 0 if than is None else max(int(_steps(than.diameter) * LARGER_BY), _steps(than.diameter) + 1)
     return largest_tool(without_blends(trial), hint, wanted, least=least)
 
 
 def largest_tool(
-    trial: Trial, hint: float | None = None, wanted: Callable[[], bool] = always, *, least: int = 0
+    trial: Trial, hint: float | None = None, wanted: Callable[[], bool] = never_canceled, *, least: int = 0
 ) -> ToolFits | None:
     """The largest clean diameter below the cutter's, a multiple of STEP, rounded down; by halving what is left.
 
@@ -116,9 +116,9 @@ def largest_tool(
 def _clean(trial: Trial, size: int, wanted: Callable[[], bool]) -> bool:
     """Whether the finish path of one of the usual look-aheads is clean with a diameter of so many STEPs."""
     if not wanted():
-        raise Unwanted
+        raise SearchCanceled
     trial = _with_tool(trial, size)
-    distinct = {id(one.path): one.whole for one in trial.paths(trial.radius, USUAL) if len(one.path)}
+    distinct = {id(one.path): one.whole for one in trial.paths(trial.radius, USUAL_LOOKAHEADS) if len(one.path)}
     return any(judge(trial.surface, trial.side, trial.radius, path).clean for path in distinct.values())
 
 
@@ -132,7 +132,7 @@ def _steps(diameter: float) -> int:
 
 
 def start_mid_side(
-    trial: Trial, wanted: Callable[[], bool] = always, max_starts: int = MAX_STARTS
+    trial: Trial, wanted: Callable[[], bool] = never_canceled, max_starts: int = MAX_STARTS
 ) -> StartMoved | None:
     """The longest side of a closed contour whose middle is a clean start; `max_starts` of them are tried."""
     if not trial.closed:
@@ -144,14 +144,14 @@ def start_mid_side(
     return None
 
 
-def start_mid_side_without_blends(trial: Trial, wanted: Callable[[], bool] = always) -> StartMoved | None:
+def start_mid_side_without_blends(trial: Trial, wanted: Callable[[], bool] = never_canceled) -> StartMoved | None:
     """The same without blend moves, if there are any to leave out."""
     if trial.blend <= 0.0:
         return None
     return start_mid_side(without_blends(trial), wanted, MAX_STARTS_WITHOUT_BLENDS)
 
 
-def start_at_end(trial: Trial, wanted: Callable[[], bool] = always) -> StartMoved | None:
+def start_at_end(trial: Trial, wanted: Callable[[], bool] = never_canceled) -> StartMoved | None:
     """The end of an open contour, if the contour is clean and closed when START is typed there.
 
     Only where one number of START is that of the end and the first segment is a line, which is then another one: both

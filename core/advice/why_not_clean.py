@@ -8,14 +8,14 @@ from typing import Final, NamedTuple
 
 from core.advice.lookahead_table import Row, Table, Trial
 from core.advice.remedies import (
+    SearchCanceled,
     StartMoved,
     ToolFits,
-    Unwanted,
-    always,
     larger_tool_without_blends,
     largest_tool,
     longest_segments,
     lookahead_without_blends,
+    never_canceled,
     start_at_end,
     start_mid_side,
     start_mid_side_without_blends,
@@ -51,7 +51,7 @@ class Needs:
     sentences: tuple[Finding, ...] = ()
 
 
-def needs_of(trial: Trial, calculated: int, table: Table, wanted: Callable[[], bool] = always) -> Needs | None:
+def needs_of(trial: Trial, calculated: int, table: Table, wanted: Callable[[], bool] = never_canceled) -> Needs | None:
     """What a contour needs whose look-ahead table is known; nothing where it could not be offset at all.
 
     `wanted` is asked before each remedy is tried: where it says no, the rest is not tried and the answer is None.
@@ -63,7 +63,7 @@ def needs_of(trial: Trial, calculated: int, table: Table, wanted: Callable[[], b
         return Needs(why, sentences=why)
     try:
         return _with_remedies(why, trial, table, wanted)
-    except Unwanted:
+    except SearchCanceled:
         return None
 
 

@@ -1,8 +1,6 @@
 """Compensate: a contour's center path under the control's look-ahead rule, every stage kept.
 
 The stages: zero-length segments dropped, offset to the raw chain, crossings found, walked and pruned, blended.
-
-Table: a contour's center path at several look-aheads, offset and crossed once for all of them.
 """
 
 from __future__ import annotations
@@ -15,7 +13,7 @@ import numpy as np
 from core.comp import findings
 from core.comp.blend_moves import blend_in, blend_out
 from core.comp.crossings import Candidates, crossings
-from core.comp.offset import Chain, offset
+from core.comp.offset import RawChain, offset
 from core.comp.prune import prune
 from core.comp.result import Compensated, Deletions
 from core.finding import Finding
@@ -55,7 +53,7 @@ class OffsetContour:
     side: Side
     radius: float
     closed: bool
-    chain: Chain | None
+    chain: RawChain | None
     candidates: Candidates | None
     findings: tuple[Finding, ...]
 
@@ -70,9 +68,9 @@ class OffsetContour:
             return self._without_path(lookahead)
         last_wins = self.closed and len(self.contour) == 2
         pruned = prune(chain, candidates.joints, candidates.within(lookahead), last_wins=last_wins)
-        found = findings.bridged(self.contour, chain, pruned, self.radius)
+        found = findings.bridge_findings(self.contour, chain, pruned, self.radius)
         if self.closed:
-            found += findings.long_way(self.contour, pruned)
+            found += findings.most_deleted_finding(self.contour, pruned)
         if not len(pruned.path):
             found.append(findings.nothing_left())
         return Compensated(
@@ -121,7 +119,7 @@ def offset_contour(
         refused = (*common, *findings.refusal(surface, radius, lookaheads))
         return OffsetContour(surface, side, radius, closed, None, None, refused)
     if closed:
-        common += findings.inside_start(surface, side, radius)
+        common += findings.start_in_corner_finding(surface, side, radius)
     chain = offset(surface, side, radius)
     candidates = crossings(chain, max(lookaheads), closed=closed)
     return OffsetContour(surface, side, radius, closed, chain, candidates, tuple(common))

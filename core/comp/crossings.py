@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.comp.offset import Chain, Part
+from core.comp.offset import RawChain, RawPart
 from core.geometry.intersect import Meeting, Meetings, meet_pieces
 from core.geometry.path import Flags, Floats, Pieces, Points, Rows, as_complex, boxes, pieces_of
 from core.tolerance import ON_PATH
@@ -57,7 +57,7 @@ class Candidates:
         return int(np.count_nonzero(self.reach <= 2 * lookahead))
 
 
-def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
+def crossings(chain: RawChain, lookahead: int, *, closed: bool) -> Candidates:
     """Every crossing that a look-ahead up to `lookahead` may have to know of.
 
     Tangent touches of pieces that are not neighbors are left out: a cutter that just fits passes.  The first and
@@ -65,7 +65,7 @@ def crossings(chain: Chain, lookahead: int, *, closed: bool) -> Candidates:
     """
     pieces = pieces_of(chain.raw)
     a, b = _near_pairs(chain, pieces, 2 * lookahead)
-    joint = (b - a == 2) & (chain.parts[b - 1] == Part.BRIDGE)
+    joint = (b - a == 2) & (chain.parts[b - 1] == RawPart.BRIDGE)
     if closed:
         tested = joint | (a > 0) | (b < len(chain) - 1)
         a, b, joint = a[tested], b[tested], joint[tested]
@@ -90,14 +90,14 @@ def _chosen(met: Meetings, a: Rows, b: Rows, chosen: Flags) -> Crossings:
     )
 
 
-def _near_pairs(chain: Chain, pieces: Pieces, reach: int) -> tuple[Rows, Rows]:
+def _near_pairs(chain: RawChain, pieces: Pieces, reach: int) -> tuple[Rows, Rows]:
     """Pairs a < b, by b, then a, of segments and corners that are not next to each other in the chain, within reach
     and with boxes that meet.
 
     No two have one place, so that there are no more than `reach` of them within reach: shifting all of them along
     themselves by one, two and so on finds every pair, and no more where a thousand pieces lie on top of each other.
     """
-    rows = (chain.parts <= Part.CORNER).nonzero()[0]
+    rows = (chain.parts <= RawPart.CORNER).nonzero()[0]
     places, grown = chain.places[rows], _grown_boxes(pieces.take(rows))
     first, second = [np.zeros(0, np.intp)], [np.zeros(0, np.intp)]
     for step in range(1, min(reach, len(rows) - 1) + 1):

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.comp.offset import Chain, Part
+from core.comp.offset import RawChain, RawPart
 from core.comp.prune import Pruned
 from core.finding import Finding, Severity
 from core.geometry.path import Flags, Floats, Path, Rows, as_complex
@@ -91,7 +91,7 @@ def zero_length(contour: Path, rows: Rows) -> list[Finding]:
     return _named("ZERO_LENGTH", text, contour.numbers[rows], contour.points[rows])
 
 
-def inside_start(contour: Path, side: Side, radius: float) -> list[Finding]:
+def start_in_corner_finding(contour: Path, side: Side, radius: float) -> list[Finding]:
     """A closed contour that starts at an inside corner: the cutter comes down in the other wall."""
     first, last = contour[0], contour[-1]
     bend = complex(*last.direction_at(last.end)).conjugate() * complex(*first.direction_at(first.start))
@@ -102,16 +102,16 @@ def inside_start(contour: Path, side: Side, radius: float) -> list[Finding]:
     return [Finding("START_INSIDE_CORNER", Severity.WARNING, text, float(contour.numbers[0]), at=at)]
 
 
-def bridged(contour: Path, chain: Chain, pruned: Pruned, radius: float) -> list[Finding]:
+def bridge_findings(contour: Path, chain: RawChain, pruned: Pruned, radius: float) -> list[Finding]:
     """Bridges that still stand in the path: inside arcs and corners the tool cannot enter."""
     rows = pruned.bridges
     if not len(rows):
         return []
-    vanished = chain.parts[rows] == Part.VANISHED.value
+    vanished = chain.parts[rows] == RawPart.VANISHED.value
     return [*_vanished(contour, chain, rows[vanished], radius), *_missed(contour, chain, rows[~vanished], radius)]
 
 
-def _vanished(contour: Path, chain: Chain, rows: Rows, radius: float) -> list[Finding]:
+def _vanished(contour: Path, chain: RawChain, rows: Rows, radius: float) -> list[Finding]:
     segments = chain.places[rows] // 2
     radii = np.abs(as_complex(contour.points)[segments] - as_complex(contour.centers)[segments])
     small = radii < radius - JOINED
@@ -120,7 +120,7 @@ def _vanished(contour: Path, chain: Chain, rows: Rows, radius: float) -> list[Fi
     return _named("VANISHED", text, numbers, at, radii[small])
 
 
-def _missed(contour: Path, chain: Chain, rows: Rows, radius: float) -> list[Finding]:
+def _missed(contour: Path, chain: RawChain, rows: Rows, radius: float) -> list[Finding]:
     """Inside corners bridged where the bridge enters a wall: by the square of its length over the tool's diameter."""
     points = as_complex(chain.raw.points)
     rows = rows[np.abs(points[rows + 1] - points[rows]) ** 2 > 2.0 * radius * GOUGE]
@@ -129,7 +129,7 @@ def _missed(contour: Path, chain: Chain, rows: Rows, radius: float) -> list[Find
     return _named("CORNER_MISSED", text, chain.raw.numbers[rows], at)
 
 
-def long_way(contour: Path, pruned: Pruned) -> list[Finding]:
+def most_deleted_finding(contour: Path, pruned: Pruned) -> list[Finding]:
     """A closed contour of which the look-ahead deleted more than half the length."""
     deleted = pruned.deleted.segments
     if not len(deleted):
@@ -139,7 +139,7 @@ def long_way(contour: Path, pruned: Pruned) -> list[Finding]:
     erased = float(lengths[rows].sum())
     if erased <= lengths.sum() / 2.0:
         return []
-    what = f"LOOK-AHEAD deletes most of the part: {spoken(deleted)}, {{value}} long."
+    what = f"LOOK-AHEAD deletes most of the part: {segment_list(deleted)}, {{value}} long."
     text = f"{what} Space on LOOKAHEAD shows what keeps it."
     return [Finding("LONG_WAY", Severity.WARNING, text, float(deleted[0]), value=erased)]
 
@@ -149,7 +149,7 @@ def nothing_left() -> Finding:
     return _error("NO_PATH", "Nothing is left of the path: the tool does not fit.")
 
 
-def spoken(numbers: NDArray[np.float64]) -> str:
+def segment_list(numbers: NDArray[np.float64]) -> str:
     """Segment numbers as said on the shop floor: `segment 4`, `segments 2-3, 7`."""
     whole = numbers.astype(int)
     runs = np.split(whole, (np.diff(whole) != 1).nonzero()[0] + 1)

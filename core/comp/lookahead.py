@@ -1,4 +1,4 @@
-"""The control's look-ahead: the calculated value (CAL), the range of a typed one (USR), and which one to recommend."""
+"""Look-ahead: the calculated value (CAL), the range of a typed one (USR), the one to recommend; the rule is `prune`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Offset: the raw chain of all pieces one radius beside the contour, before any test.
+"""Offset: every segment moved one radius to the side, and the corner arcs between, also for best paths and M120.
 
 Words: the chain's parts are offset SEGMENTs, CORNER arcs about outside corners, BRIDGEs (provisional lines where
 an inside corner's two offsets are to be tested), and VANISHED segments (inside arcs not larger than the tool,
@@ -20,7 +20,7 @@ from core.geometry.piece import Side
 from core.tolerance import JOINED
 
 
-class Part(IntEnum):
+class RawPart(IntEnum):
     """What a piece of the raw chain is."""
 
     SEGMENT = 0
@@ -30,7 +30,7 @@ class Part(IntEnum):
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Chain:
+class RawChain:
     """The raw chain of m pieces: `raw`, the `parts` (m,) they are and their `places` (m,) in half steps."""
 
     raw: Path
@@ -49,7 +49,7 @@ class _Offsets(NamedTuple):
     vanished: Flags
 
 
-def offset(contour: Path, side: Side, radius: float) -> Chain:
+def offset(contour: Path, side: Side, radius: float) -> RawChain:
     """The raw chain of a contour without zero-length segments, at `radius` > 0 millimeters to `side`.
 
     Each segment has two slots, for itself and for its joint with the next one; the chain takes some of them.
@@ -62,8 +62,8 @@ def offset(contour: Path, side: Side, radius: float) -> Chain:
     points[0::2], points[1::2] = offsets.ends
     turns[segments] = np.where(offsets.vanished, 0, contour.turns)
     turns[joints] = np.where(outside, -side.sign, 0)
-    parts[segments] = np.where(offsets.vanished, Part.VANISHED, Part.SEGMENT)
-    parts[joints] = np.where(outside, Part.CORNER, Part.BRIDGE)
+    parts[segments] = np.where(offsets.vanished, RawPart.VANISHED, RawPart.SEGMENT)
+    parts[joints] = np.where(outside, RawPart.CORNER, RawPart.BRIDGE)
     centers = points[:-1].copy()
     centers[segments] = np.where(turns[segments] == 0, centers[segments], as_complex(contour.centers))
     centers[joints] = np.where(outside, as_complex(contour.points)[1:-1], centers[joints])
@@ -75,7 +75,7 @@ def offset(contour: Path, side: Side, radius: float) -> Chain:
     starts = np.append(points[places], points[-1])
     _close_circles(starts, contour, places)
     raw = Path(coordinates(starts), coordinates(centers[places]), turns[places], numbers[places])
-    return Chain(raw, parts[places], places)
+    return RawChain(raw, parts[places], places)
 
 
 def _offsets(contour: Path, shift: float) -> _Offsets:

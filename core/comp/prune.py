@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from core.comp.crossings import Crossings
-from core.comp.offset import Chain, Part
+from core.comp.offset import RawChain, RawPart
 from core.comp.result import Deletions
 from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates
 from core.tolerance import JOINED, ON_PATH
@@ -45,7 +45,7 @@ class _Left(NamedTuple):
     stands: Flags
 
 
-def prune(chain: Chain, joints: Crossings, others: Crossings, *, last_wins: bool = False) -> Pruned:
+def prune(chain: RawChain, joints: Crossings, others: Crossings, *, last_wins: bool = False) -> Pruned:
     """Walk the chain with the crossings of its joints and those of other pieces that the look-ahead tests.
 
     `last_wins`: a joint takes the latest point on the earlier piece (closed contours of two segments).
@@ -57,7 +57,7 @@ def prune(chain: Chain, joints: Crossings, others: Crossings, *, last_wins: bool
     left, met = walk.left(chain), np.array(walk.met, np.intp)
     path, bridges = _what_is_left(chain, left)
     gone = np.frombuffer(walk.gone, np.bool_)
-    return Pruned(path, chain.parts[bridges[1]] >= Part.BRIDGE, bridges[0], _deletions(chain, others, met, gone))
+    return Pruned(path, chain.parts[bridges[1]] >= RawPart.BRIDGE, bridges[0], _deletions(chain, others, met, gone))
 
 
 class _Walk:
@@ -128,7 +128,7 @@ class _Walk:
             if piece < until and high[piece] < low[piece] - ON_PATH:
                 agenda.append(piece + 2)
 
-    def left(self, chain: Chain) -> _Left:
+    def left(self, chain: RawChain) -> _Left:
         """What the walk has left of the chain."""
         raw_starts, bridged = as_complex(chain.raw.points)[:-1], np.array(self._bridged, np.intp)
         starts, stands = raw_starts.copy(), np.ones(len(chain), np.bool_)
@@ -140,13 +140,13 @@ class _Walk:
         return _Left(np.array(self._low), np.array(self._high), starts, stands)
 
 
-def _what_is_left(chain: Chain, left: _Left) -> tuple[Path, tuple[Rows, Rows]]:
+def _what_is_left(chain: RawChain, left: _Left) -> tuple[Path, tuple[Rows, Rows]]:
     """The path of the pieces that still stand; the rows of the bridges among them, and the rows of all."""
     alive = left.stands.nonzero()[0]
     starts = np.append(left.starts[alive], as_complex(chain.raw.points)[-1:])
     real = _not_slivers(chain, left, alive, starts)
     alive, starts = alive[real], starts[np.append(real, True)]
-    bridges = alive[chain.parts[alive] >= Part.BRIDGE]
+    bridges = alive[chain.parts[alive] >= RawPart.BRIDGE]
     if not len(alive):
         return EMPTY, (bridges, alive)
     turns = chain.raw.turns[alive]
@@ -155,7 +155,7 @@ def _what_is_left(chain: Chain, left: _Left) -> tuple[Path, tuple[Rows, Rows]]:
     return path, (bridges, alive)
 
 
-def _not_slivers(chain: Chain, left: _Left, alive: Rows, starts: Points) -> Flags:
+def _not_slivers(chain: RawChain, left: _Left, alive: Rows, starts: Points) -> Flags:
     """Which pieces still have a length: an arc trimmed to a point must not be taken for a full circle.
 
     One that is left for a whole turn but for rounding is made one: its ends in `starts` become the same numbers.
@@ -169,7 +169,7 @@ def _not_slivers(chain: Chain, left: _Left, alive: Rows, starts: Points) -> Flag
     return real
 
 
-def _deletions(chain: Chain, others: Crossings, met: Rows, gone: Flags) -> Deletions:
+def _deletions(chain: RawChain, others: Crossings, met: Rows, gone: Flags) -> Deletions:
     """The segments among the pieces that are gone, each by the first event, a row in `met`, that spans it."""
     if not len(met):
         return Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))

@@ -1,4 +1,4 @@
-"""Tool tables as the controls read them: numbers and diameters, and the reader of LinuxCNC's table files."""
+"""Tool tables as the controls read them, LinuxCNC's files too; the program's own table is in `program.tools`."""
 
 from __future__ import annotations
 

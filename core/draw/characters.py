@@ -28,7 +28,7 @@ LEAST_ROWS: Final = 3
 
 
 @dataclass(eq=False, slots=True)
-class Sheet:
+class CellSheet:
     """A picture's cells row by row: `characters` and the Style of each in `styles`, both (rows * columns,)."""
 
     columns: int
@@ -37,7 +37,7 @@ class Sheet:
     styles: bytearray
 
 
-def write_signs(sheet: Sheet, scene: Scene, view: View, mode: Mode) -> None:
+def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
     """Write the signs of a scene over a picture's cells."""
     columns, rows, look = sheet.columns, sheet.rows, cells(mode)
     if columns >= LEAST_COLUMNS and rows >= LEAST_ROWS:
@@ -76,7 +76,7 @@ def arrow(direction: Point, heads: str) -> str:
     return heads[round(atan2(direction[1], direction[0]) / (tau / 8)) % 8]
 
 
-def _name_axes(sheet: Sheet, view: View) -> None:
+def _name_axes(sheet: CellSheet, view: View) -> None:
     columns, rows = sheet.columns, sheet.rows
     column, row = view.cell((0.0, 0.0), columns, rows)
     for name, across, down in (("X", columns - 1.0, row), ("Y", column, 0.0)):
@@ -85,7 +85,7 @@ def _name_axes(sheet: Sheet, view: View) -> None:
             _write(sheet, int(down), name, Style.AXIS, int(across))
 
 
-def _write(sheet: Sheet, row: int, text: str, style: Style, column: int = 0) -> None:
+def _write(sheet: CellSheet, row: int, text: str, style: Style, column: int = 0) -> None:
     text = text[: sheet.columns - column]
     first = row * sheet.columns + column
     sheet.characters[first : first + len(text)] = text

@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.draw.characters import Cells, Mode, Sheet, cells, write_signs
+from core.draw.characters import Cells, CellSheet, Mode, cells, write_signs
 from core.draw.chords import Chords, Rows, chords
 from core.draw.scene import BEYOND, Layer, Scene, Style
 from core.draw.view import TALL, View
@@ -62,7 +62,7 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
     if look.faint is not None:
         characters = np.where(strong | (styles == Style.AXIS.value), characters, look.faint[codes])
     characters[struck] = STRUCK
-    sheet = Sheet(columns, rows, characters.tolist(), bytearray(styles))
+    sheet = CellSheet(columns, rows, characters.tolist(), bytearray(styles))
     write_signs(sheet, scene, view, mode)
     text = "".join(sheet.characters)
     lines = tuple(text[first : first + columns] for first in range(0, len(text), columns))

@@ -1,4 +1,4 @@
-"""Document: a derived program for the command line, as JSON dictionaries and as lines of text, in program units."""
+"""Command output: what `cutcomp path` and `cutcomp lookahead` print, as JSON or as lines, in program units."""
 
 from __future__ import annotations
 

@@ -1,10 +1,12 @@
-"""Derive: what follows from a program, every stage in its order: fields, surface, paths, verdict, findings."""
+"""Derive: what follows from a program: fields, surface, paths, verdict, findings; the look-ahead table and remedies."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from core.advice.block_paths import Loop, RoughPass, Work
+from core.advice.block_paths import BlockPaths, Loop, RoughPass
+from core.advice.lookahead_table import Table, Trial, table_of
 from core.advice.path_findings import (
     better_path_findings,
     by_severity,
@@ -14,6 +16,8 @@ from core.advice.path_findings import (
     turning_back,
     z_step_findings,
 )
+from core.advice.remedies import never_canceled
+from core.advice.why_not_clean import Needs, needs_of
 from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
 from core.comp.blend_moves import blend_in, blend_out
@@ -48,7 +52,7 @@ def derive_block(program: Program, number: int) -> DerivedBlock:
 
 
 def with_better_paths(derived: Derived) -> Derived:
-    """The same with the best path beside every control's path: what separates the two is among the findings."""
+    """The same with the best path next to every control's path: what separates the two is among the findings."""
     blocks = (replace(block, findings=(*block.findings, *better_path(block))) for block in derived.blocks)
     return Derived(derived.program, tuple(blocks))
 
@@ -62,19 +66,19 @@ def better_path(block: DerivedBlock) -> tuple[Finding, ...]:
     return better_path_findings(best, separation(work.compensated.path, best, work.compensated.radius))
 
 
-def _work(block: DerivedBlock, program: Program) -> Work:
+def _work(block: DerivedBlock, program: Program) -> BlockPaths:
     """The surface of a block, its paths and the verdict on them."""
     numbers, pieces = zip(*block.solved.pieces, strict=True)
     surface = Path.from_pieces(pieces, numbers)
     if block.side is None:
-        return Work(surface, (Loop(surface, EMPTY, EMPTY),), None, None)
+        return BlockPaths(surface, (Loop(surface, EMPTY, EMPTY),), None, None)
     assert block.radius is not None
     contour = _Contour(surface, block.side, block.solved.closed, block.lookahead.value, program)
     control = contour.control(block.radius)
     best = contour.best(block.radius) if program.parameters.path is PathChoice.BEST else None
     loops = contour.loops(control, best)
     verdict = judge_together(surface, block.side, block.radius, [loop.whole for loop in loops])
-    return Work(surface, loops, control, verdict, _rough(block, contour), best)
+    return BlockPaths(surface, loops, control, verdict, _rough(block, contour), best)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -128,7 +132,7 @@ def _rough(block: DerivedBlock, contour: _Contour) -> tuple[RoughPass, ...]:
     return tuple(passes)
 
 
-def _with_findings(block: DerivedBlock, work: Work, program: Program) -> DerivedBlock:
+def _with_findings(block: DerivedBlock, work: BlockPaths, program: Program) -> DerivedBlock:
     """The block with its paths and their findings, and with what else forbids posting, such as a SPEED of 0."""
     assert block.radius is not None
     closed = block.solved.closed
@@ -145,3 +149,38 @@ def _with_findings(block: DerivedBlock, work: Work, program: Program) -> Derived
     due = job(block, program)
     further = (*dict.fromkeys(job_errors(due, Grid(program.unit))), *z_step_findings(z_steps(due)))
     return replace(block, findings=by_severity((*findings, *further)))
+
+
+def look_ahead_table(block: DerivedBlock, program: Program) -> Table | None:
+    """The table of a derived block; None for ON and while there is nothing to compensate."""
+    trial = trial_of(block, program)
+    return None if trial is None else table_of(trial)
+
+
+def trial_of(block: DerivedBlock, program: Program) -> Trial | None:
+    """What a derived block cuts; None for ON and while there is nothing to compensate."""
+    if block.work is None or block.side is None or block.radius is None:
+        return None
+    return Trial(
+        block.work.surface,
+        block.side,
+        block.radius,
+        block.solved.closed,
+        parameter(program, "blend_offset"),
+        parameter(program, "blend_overlap"),
+        () if block.solved.tool_diameter is None else stocks(block, program),
+        None if block.solved.finish_diameter is None else (block.solved.tool_diameter or 0.0) / 2,
+    )
+
+
+def needs(
+    block: DerivedBlock, program: Program, table: Table | None = None, *, wanted: Callable[[], bool] = never_canceled
+) -> Needs | None:
+    """What a derived block needs; `table` is its look-ahead table where that is known.  None where there is none.
+
+    `wanted` is asked before each remedy is tried: where it says no, the rest is not tried and the answer is None.
+    """
+    trial = trial_of(block, program)
+    if trial is None:
+        return None
+    return needs_of(trial, block.lookahead.calculated, table or table_of(trial), wanted)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from core.advice.block_paths import Work
+from core.advice.block_paths import BlockPaths
 from core.finding import Finding, Severity
 from core.geometry.piece import Side
 from core.program.model import Block, Program
@@ -43,7 +43,7 @@ class DerivedBlock:
     side: Side | None
     profile: bool
     radius: float | None
-    work: Work | None
+    work: BlockPaths | None
     known: bool
     findings: tuple[Finding, ...]
 

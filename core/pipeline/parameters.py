@@ -1,4 +1,4 @@
-"""Parameters: what PROGRAM PARAMETERS and PART SETUP say or leave to their defaults, and what follows for roughing."""
+"""Parameters in force: as typed or the default of `program.fields`; and the stock each roughing pass leaves."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from core.program.model import Entry, Program
 from core.units import to_mm
 
 MAX_SIDE_PASSES: Final = 1000
-"""More passes than this are a slip of the finger in MAX OFFSET or POCKET OVERLAP."""
+"""More passes than this are a typing mistake in MAX OFFSET or POCKET OVERLAP."""
 
 
 def parameter(program: Program, name: str) -> float:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.advice.block_paths import Loop, Work
+from core.advice.block_paths import BlockPaths, Loop
 from core.advice.lookahead_table import Row
 from core.comp.result import Compensated
 from core.draw.scene import Scene, contour_scene, joined_scenes
@@ -65,12 +65,12 @@ def _over_run(surface: Path, verdict: Verdict) -> Parts:
     return stretches(surface, Ends(numbers, np.array([start, crossing]), numbers, np.array([crossing, end])))
 
 
-def _posted_control_path(work: Work) -> Compensated | None:
+def _posted_control_path(work: BlockPaths) -> Compensated | None:
     """The control's path where it is the one that is posted: only then do its deletions mean anything."""
     return work.compensated if work.best is None else None
 
 
-def _dashed_paths(work: Work | None) -> list[Path]:
+def _dashed_paths(work: BlockPaths | None) -> list[Path]:
     """The roughing passes, and the control's path where another one is posted."""
     if work is None:
         return []

@@ -48,7 +48,7 @@ from core.units import Kind, Unit, convert, printable
 
 
 @dataclass(frozen=True, slots=True)
-class Where:
+class FormPlace:
     """A place on the form: block from 1, segment from 1, 0 for START."""
 
     block: int
@@ -65,7 +65,7 @@ class Refused:
 Edited = Program | Refused
 
 
-def type_field(program: Program, where: Where, name: str, typed: Typed) -> Edited:
+def type_field(program: Program, where: FormPlace, name: str, typed: Typed) -> Edited:
     """Put what was typed, or a blank, into a field of START or of a segment."""
     if refusal := _absent(program, where):
         return refusal
@@ -76,7 +76,7 @@ def type_field(program: Program, where: Where, name: str, typed: Typed) -> Edite
     return refusal or _with_part(program, where, _typed_into(part, name, typed))
 
 
-def choose(program: Program, where: Where, name: str, value: str | int | None) -> Edited:
+def choose(program: Program, where: FormPlace, name: str, value: str | int | None) -> Edited:
     """Pick CUTTER COMP. of START, DIRECTION of an ARC, or the solution of a LINE or an ARC (None for none yet)."""
     if refusal := _absent(program, where):
         return refusal
@@ -94,7 +94,7 @@ _PICKED: Final[Mapping[str, Callable[[Any], Any]]] = MappingProxyType(
 )
 
 
-def insert_segment(program: Program, where: Where, segment: Segment) -> Edited:
+def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edited:
     """Put a segment before `where.segment`; one more than the last appends."""
     if where.segment == 0:
         return Refused("START comes first: nothing goes before it.")
@@ -108,10 +108,10 @@ def insert_segment(program: Program, where: Where, segment: Segment) -> Edited:
         return Refused("A BLEND ARC cannot be the first segment: it blends two others.")
     if isinstance(segment, BlendSegment) and BlendSegment in map(type, (*before[-1:], *after[:1])):
         return Refused("A BLEND ARC cannot be next to another BLEND ARC.")
-    return _with_part(program, Where(where.block), replace(block, segments=(*before, segment, *after)))
+    return _with_part(program, FormPlace(where.block), replace(block, segments=(*before, segment, *after)))
 
 
-def delete_segment(program: Program, where: Where) -> Edited:
+def delete_segment(program: Program, where: FormPlace) -> Edited:
     """Take a segment out; the next one then starts where the one before it ends."""
     if where.segment == 0:
         return Refused("START cannot be deleted.")
@@ -119,12 +119,12 @@ def delete_segment(program: Program, where: Where) -> Edited:
         return refusal
     block = program.blocks[where.block - 1]
     left = block.segments[: where.segment - 1] + block.segments[where.segment :]
-    return _with_part(program, Where(where.block), replace(block, segments=left))
+    return _with_part(program, FormPlace(where.block), replace(block, segments=left))
 
 
 def recalculate_lookahead(program: Program, block: int) -> Edited:
     """Bring the calculated look-ahead back: USR becomes CAL."""
-    where = Where(block)
+    where = FormPlace(block)
     if refusal := _absent(program, where):
         return refusal
     return _with_part(program, where, replace(program.blocks[block - 1], lookahead=None))
@@ -154,14 +154,14 @@ def insert_block(program: Program, at: int) -> Edited:
 
 def copy_block(program: Program, at: int) -> Edited:
     """Put a copy of a block after it."""
-    if refusal := _absent(program, Where(at)):
+    if refusal := _absent(program, FormPlace(at)):
         return refusal
     return replace(program, blocks=(*program.blocks[:at], *program.blocks[at - 1 :]))
 
 
 def move_block(program: Program, at: int, to: int) -> Edited:
     """Take block `at` out and put it back so that its number is `to`."""
-    if refusal := _absent(program, Where(at)) or _absent(program, Where(to)):
+    if refusal := _absent(program, FormPlace(at)) or _absent(program, FormPlace(to)):
         return refusal
     rest = program.blocks[: at - 1] + program.blocks[at:]
     return replace(program, blocks=(*rest[: to - 1], program.blocks[at - 1], *rest[to - 1 :]))
@@ -169,7 +169,7 @@ def move_block(program: Program, at: int, to: int) -> Edited:
 
 def delete_block(program: Program, at: int) -> Edited:
     """Take a block out; the last one left stays."""
-    if refusal := _absent(program, Where(at)):
+    if refusal := _absent(program, FormPlace(at)):
         return refusal
     if len(program.blocks) == 1:
         return Refused("The only block cannot be deleted: a program has at least one.")
@@ -275,7 +275,7 @@ def _converted(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Pa
     return changed(part, {**entries, **texts})
 
 
-def _absent(program: Program, where: Where) -> Refused | None:
+def _absent(program: Program, where: FormPlace) -> Refused | None:
     if not 1 <= where.block <= len(program.blocks):
         return _no_block(program, where.block)
     block = program.blocks[where.block - 1]
@@ -317,7 +317,7 @@ def _lookahead_misfit(block: Block, typed: Typed) -> Refused | None:
     return Refused(f"{field.label} must be a whole number {range_of(field, Unit.MM)}.{again}{back}")
 
 
-def _part(program: Program, where: Where) -> Block | Segment:
+def _part(program: Program, where: FormPlace) -> Block | Segment:
     """START, which is the block, or a segment."""
     block = program.blocks[where.block - 1]
     return block.segments[where.segment - 1] if where.segment else block
@@ -336,7 +336,7 @@ def _typed_into(part: Block | Segment, name: str, typed: Typed) -> Block | Segme
     return edited
 
 
-def _with_part(program: Program, where: Where, part: Block | Segment) -> Program:
+def _with_part(program: Program, where: FormPlace, part: Block | Segment) -> Program:
     """The program with this part in its place."""
     index = where.block - 1
     if not isinstance(part, Block):

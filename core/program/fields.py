@@ -1,4 +1,4 @@
-"""The fields of the screens: label, kind, range and prompt of everything that can be typed, and what a text in one is.
+"""Fields of the screens: label, kind, range, prompt and default of everything that can be typed, and reading it.
 
 One table for the form, the reader of files, and the messages, so that a field has one name everywhere.
 `name` is the attribute of the model and the key of the program file.
@@ -305,7 +305,7 @@ def default(name: str, unit: Unit) -> float | None:
     return inch if unit is Unit.IN else millimeter
 
 
-AGAIN: Final = "Type it again."
+TYPE_AGAIN: Final = "Type it again."
 """What is said of a text that was refused once and could be read now."""
 
 
@@ -332,7 +332,7 @@ def unread_reason(text: str, field: Field, unit: Unit) -> str:
     value = parse(text, field.kind, unit)
     if isinstance(value, Unreadable):
         return value.reason
-    return check_text(text, field, unit) or AGAIN
+    return check_text(text, field, unit) or TYPE_AGAIN
 
 
 def unread_sentence(unread: Unread) -> str:

@@ -1,4 +1,4 @@
-"""Tools: the tool table of a program, which tool a field calls, and LinuxCNC tool tables.
+"""Tools: the program's tool table, the tool a field calls, LinuxCNC tables (the controls': `controls.control_tools`).
 
 A LinuxCNC table has a tool a line, `T1 P1 Z0.5 D0.25 Q0 ;remark`: a letter and a number at a time, in any order, and a
 remark after the semicolon.  It does not say its unit: lengths are in the machine's.

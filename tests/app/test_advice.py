@@ -20,9 +20,8 @@ from app.widgets.rows import Row
 from core.advice.why_not_clean import Needs
 from core.finding import Finding, Severity
 from core.pipeline import derive as stages
-from core.pipeline import lookahead_table as remedies
 from core.pipeline.derived import DerivedBlock
-from core.program.edit import Where
+from core.program.edit import FormPlace
 from core.program.model import Program
 from tests.app.pilots import app_on, at_rest, lines, loaded, until
 from tests.reports.reference import Reference
@@ -126,8 +125,8 @@ class Remedies:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.begun, self.given_up, self.go = list[Program](), list[Program](), Event()
-        self.own = remedies.needs
-        monkeypatch.setattr(remedies, "needs", self.needs)
+        self.own = stages.needs
+        monkeypatch.setattr(stages, "needs", self.needs)
 
     def needs(self, found: DerivedBlock, program: Program, table: None, *, wanted: Callable[[], bool]) -> Needs | None:
         self.begun.append(program)
@@ -193,7 +192,7 @@ async def test_the_thread_of_the_remedies_never_looks_at_a_desk_of_which_nothing
         await at_rest(pilot, app)
         about, desk = about_of(app.shown.found), app.desk
         # as between a key that makes a block and what is derived of it
-        app.desk = replace(desk, session=replace(desk.session, where=Where(2)))
+        app.desk = replace(desk, session=replace(desk.session, where=FormPlace(2)))
         assert app.advice._wanted(about, app.touched)
         assert not app.advice._wanted((None, 2), app.touched)
         app.desk = desk

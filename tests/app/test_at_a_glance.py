@@ -17,8 +17,7 @@ from app.session import Session
 from app.survey import worst
 from app.widgets.rows import text_of
 from app.widgets.strip import strip
-from core.pipeline.derive import derive
-from core.pipeline.lookahead_table import look_ahead_table
+from core.pipeline.derive import derive, look_ahead_table
 from core.program.model import Entry
 from tests.app.operator import Operator
 

@@ -6,7 +6,7 @@ import pytest
 
 from app.screens.new_segment import NewSegment
 from app.session import SEGMENT
-from core.program.edit import Where
+from core.program.edit import FormPlace
 from core.program.model import (
     ArcSegment,
     CutterComp,
@@ -95,13 +95,13 @@ def test_the_look_ahead_field_has_its_own_softkeys() -> None:
 
 def test_digits_and_enter_go_to_a_segment() -> None:
     operator = square().press("3", "enter")
-    assert operator.session.where == Where(1, 3)
+    assert operator.session.where == FormPlace(1, 3)
     assert operator.session.field == SEGMENT
 
 
 def test_a_segment_that_does_not_exist_is_told() -> None:
     operator = square().press("9", "enter")
-    assert operator.session.where == Where(1, 0)
+    assert operator.session.where == FormPlace(1, 0)
     assert operator.said == "!! There is no segment 9: the last one is 4. Right arrow past the last adds one."
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from core.program.edit import Where
+from core.program.edit import FormPlace
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -41,7 +41,7 @@ def test_undo_first_takes_back_what_is_half_typed() -> None:
 
 def test_undo_of_a_new_segment_brings_the_cursor_to_one_that_exists() -> None:
     operator = square().press("ctrl+end", "right", "l", "ctrl+z")
-    assert operator.session.where == Where(1, 4)
+    assert operator.session.where == FormPlace(1, 4)
     assert len(operator.segments) == 4
 
 

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 from app.documents.files import load
 from app.engine import derived_again
 from app.files import example
-from core.advice.block_paths import Work
+from core.advice.block_paths import BlockPaths
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived
-from core.program.edit import Refused, Where, delete_segment, set_unit, type_field
+from core.program.edit import FormPlace, Refused, delete_segment, set_unit, type_field
 from core.program.model import Entry, Program, Tool
 from core.units import Unit
 
@@ -24,7 +24,7 @@ EDITS = st.lists(st.tuples(st.integers(0, 12), FIELDS, st.none() | VALUES.map(En
 def edited(program: Program, segment: int, field: str, value: Entry | None) -> Program:
     """The program after one edit, itself where that is refused."""
     count = len(program.blocks[0].segments)
-    where = Where(1, min(segment, count))
+    where = FormPlace(1, min(segment, count))
     outcome: Program | Refused
     if value == Entry(5.0):
         outcome = set_unit(program, Unit.MM if program.unit is Unit.IN else Unit.IN)
@@ -48,7 +48,7 @@ def told(derived: Derived) -> list[object]:
     ]
 
 
-def _paths(work: Work) -> tuple[object, ...]:
+def _paths(work: BlockPaths) -> tuple[object, ...]:
     loops = [loop.whole.points.tolist() for loop in work.loops]
     verdict = None if work.verdict is None else (work.verdict.depth, work.verdict.uncut_length)
     return work.surface.points.tolist(), work.surface.numbers.tolist(), loops, verdict

@@ -17,13 +17,12 @@ from app.screens.lookahead import LookaheadTable
 from app.screens.page import WHOLE, Surface
 from app.session import Session
 from app.widgets.rows import text_of
-from core.advice.block_paths import Work
+from core.advice.block_paths import BlockPaths
 from core.finding import Finding, Severity
-from core.pipeline.derive import derive
+from core.pipeline.derive import derive, needs
 from core.pipeline.derived import DerivedBlock
-from core.pipeline.lookahead_table import needs
 from core.pipeline.outline import outline
-from core.program.edit import Where, copy_block, type_field
+from core.program.edit import FormPlace, copy_block, type_field
 from core.program.model import Entry, Program
 from tests.bench.keys import gear
 
@@ -39,7 +38,7 @@ def engine() -> Engine:
     return engine
 
 
-def changed(where: Where, field: str, value: float) -> tuple[DerivedBlock, Program]:
+def changed(where: FormPlace, field: str, value: float) -> tuple[DerivedBlock, Program]:
     """The block after one number was typed."""
     program = type_field(PART, where, field, Entry(value))
     assert isinstance(program, Program)
@@ -47,7 +46,7 @@ def changed(where: Where, field: str, value: float) -> tuple[DerivedBlock, Progr
 
 
 def test_another_path_has_another_table(engine: Engine) -> None:
-    found, program = changed(Where(1, 1), "x_end", 2.5)
+    found, program = changed(FormPlace(1, 1), "x_end", 2.5)
     assert not engine.tabulated(found)
     assert engine.known(found, None).table is None
     engine.keep_table(found, program)
@@ -59,7 +58,7 @@ def test_another_depth_keeps_the_table_and_what_the_contour_needs() -> None:
     engine, before = Engine(ready=True), derive(PART)
     engine.keep_table(before.blocks[0], PART)
     engine.keep_needs(before.blocks[0], PART)
-    program = type_field(PART, Where(1, 0), "z_bottom", Entry(-0.5))
+    program = type_field(PART, FormPlace(1, 0), "z_bottom", Entry(-0.5))
     assert isinstance(program, Program)
     found = derived_again(program, before).blocks[0]
     assert found is not before.blocks[0]
@@ -69,17 +68,17 @@ def test_another_depth_keeps_the_table_and_what_the_contour_needs() -> None:
 
 
 EDITS = [
-    *((Where(1, 0), "tool", text) for text in ("1", "3", "7")),
-    *((Where(1, 0), "z_bottom", text) for text in ("-.1", "-0", "2")),
-    *((Where(1, 1), "x_end", text) for text in ("2.5", ".1", "-0", "9")),
-    (Where(1, 0), "lookahead", "1"),
+    *((FormPlace(1, 0), "tool", text) for text in ("1", "3", "7")),
+    *((FormPlace(1, 0), "z_bottom", text) for text in ("-.1", "-0", "2")),
+    *((FormPlace(1, 1), "x_end", text) for text in ("2.5", ".1", "-0", "9")),
+    (FormPlace(1, 0), "lookahead", "1"),
 ]
 
 
 @pytest.mark.parametrize("name", ["notch", "pocket", "flange", "plate-mm"])
 @pytest.mark.parametrize(("where", "field", "text"), EDITS)
 def test_what_was_tried_out_is_what_would_be_derived_of_an_equal_program(
-    name: str, where: Where, field: str, text: str
+    name: str, where: FormPlace, field: str, text: str
 ) -> None:
     part = load(example(name))
     tried, accepted = (type_field(part, where, field, Entry(float(text))) for _ in range(2))
@@ -100,7 +99,7 @@ def plain(found: DerivedBlock) -> tuple[object, ...]:
     return (*told, found.solved, found.findings, None if found.work is None else cut(found.work))
 
 
-def cut(work: Work) -> tuple[object, ...]:
+def cut(work: BlockPaths) -> tuple[object, ...]:
     """The paths and what they do."""
     paths = [work.surface, *(loop.whole for loop in work.loops)]
     arrays = [array.tolist() for path in paths for array in (path.points, path.centers, path.turns, path.numbers)]
@@ -113,7 +112,7 @@ def test_nothing_is_held_of_another_program() -> None:
     assert engine.held(PART) is None
     engine.derive(PART, derive(PART))
     assert engine.held(PART) is not None
-    assert engine.held(changed(Where(1, 1), "x_end", 2.5)[1]) is None
+    assert engine.held(changed(FormPlace(1, 1), "x_end", 2.5)[1]) is None
 
 
 def drawn(known: Known, session: Session) -> str:
@@ -127,12 +126,12 @@ def test_until_the_new_path_is_there_the_drawing_of_this_block_stands_and_never_
     session = Session.of(program)
     shown = drawn(known, session.knowing(derive(program)))
     assert shown
-    edited = type_field(program, Where(1, 1), "x_end", Entry(2.5))
+    edited = type_field(program, FormPlace(1, 1), "x_end", Entry(2.5))
     assert isinstance(edited, Program)
     stale = session.apply(edited, "X END").knowing(outline(edited))
     assert not stale.found.known
     assert drawn(known, stale) == shown
-    for other in (stale.at(Where(2)), Session.of(edited)):
+    for other in (stale.at(FormPlace(2)), Session.of(edited)):
         contour = drawn(Known(ready=True), other)
         assert contour != shown
         assert drawn(known, other) == contour
@@ -158,7 +157,7 @@ def test_a_page_is_made_again_for_another_session_page_or_room_and_shows_the_tab
     session, known, page, room = Session.of(PART), Known(), Contour(), Surface()
     view = known.view(page, session, room)
     assert known.view(page, session, room) is view
-    for other in (known.view(Contour(), session, room), known.view(page, session.at(Where(1, 1)), room)):
+    for other in (known.view(Contour(), session, room), known.view(page, session.at(FormPlace(1, 1)), room)):
         assert other is not view
     assert known.view(page, session, room._replace(width=132)) is not view
     assert [one for one in (Contour, DrawPage, LookaheadTable, FindingsPage) if one.tabled] == [
@@ -178,7 +177,7 @@ def test_needs_that_were_given_up_are_not_known(engine: Engine) -> None:
 
 
 def test_needs_are_remembered_and_told_of_what_is_accepted_alone(engine: Engine) -> None:
-    accepted, tried = derive(PART).blocks[0], changed(Where(1, 1), "x_end", 2.5)
+    accepted, tried = derive(PART).blocks[0], changed(FormPlace(1, 1), "x_end", 2.5)
     engine.keep_table(*tried)
     engine.keep_needs(*tried)
     for found, before, told in ((tried[0], accepted, False), (tried[0], tried[0], True), (tried[0], None, True)):
@@ -189,7 +188,7 @@ def test_needs_are_remembered_and_told_of_what_is_accepted_alone(engine: Engine)
 
 
 def test_what_a_better_path_would_cut_is_told_of_what_is_accepted_alone(engine: Engine) -> None:
-    accepted, (found, program) = derive(PART).blocks[0], changed(Where(1, 1), "x_end", 2.5)
+    accepted, (found, program) = derive(PART).blocks[0], changed(FormPlace(1, 1), "x_end", 2.5)
     note = Finding("BEST_DIFFERS", Severity.INFO, "A better path would cut more.")
     engine.keep_table(found, program)
     assert found.work is not None

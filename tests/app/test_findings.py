@@ -16,8 +16,7 @@ from app.screens.page import Surface
 from app.session import Session
 from app.widgets.rows import Span, plain, text_of
 from app.widgets.verdict import fitted, verdict_rows
-from core.pipeline.derive import derive
-from core.pipeline.lookahead_table import look_ahead_table
+from core.pipeline.derive import derive, look_ahead_table
 from core.program.model import Entry, Program
 from tests.app.operator import Operator
 

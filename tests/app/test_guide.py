@@ -15,7 +15,7 @@ from app.messages import Edit, Move
 from app.screens.post import PostPage
 from app.session import Session
 from core.pipeline.derive import derive
-from core.program.edit import Where, type_field
+from core.program.edit import FormPlace, type_field
 from core.program.fields import Form, field_of, read_typed
 from core.program.model import CutterComp, Entry
 from tests.app.operator import Operator
@@ -124,7 +124,7 @@ def test_a_value_in_a_field_that_the_plate_does_not_need_is_named(
     operator = begun()
     while len(operator.segments) < 3:
         obey(known(operator))
-    where = Where(1, 2 if form is Form.LINE else 0)
+    where = FormPlace(1, 2 if form is Form.LINE else 0)
     value = read_typed(typed, field_of(form, name), operator.session.program.unit)
     operator.desk = operator.desk.take(Edit(type_field(operator.session.program, where, name, value), name))
     finished(operator)
@@ -184,8 +184,8 @@ def test_what_is_to_be_changed_on_another_segment_is_named(typed: str, why: str)
     while len(operator.segments) < 2:
         obey(known(operator))
     feed = read_typed(typed, field_of(Form.LINE, "feed"), operator.session.program.unit)
-    edit = Edit(type_field(operator.session.program, Where(1, 1), "feed", feed), "FEED")
-    operator.desk = operator.desk.take(edit).take(Move(Where(1, 2), "x_end"))
+    edit = Edit(type_field(operator.session.program, FormPlace(1, 1), "feed", feed), "FEED")
+    operator.desk = operator.desk.take(edit).take(Move(FormPlace(1, 2), "x_end"))
     assert operator.said == f"GUIDE Segment 1 is next, its FEED {why}: Page Up goes there."
 
 

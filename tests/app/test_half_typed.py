@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.screens.contour import Contour
-from core.program.edit import Refused, Where, type_field
+from core.program.edit import FormPlace, Refused, type_field
 from core.program.model import CutterComp, Entry
 from tests.app.operator import Operator
 
@@ -48,6 +48,6 @@ def test_undo_on_the_form_takes_back_the_half_typed_text_first() -> None:
 def test_a_choice_takes_no_number_and_no_blank() -> None:
     program = Operator.at().session.program
     for typed in (None, Entry(1.0)):
-        refused = type_field(program, Where(1, 0), "cutter_comp", typed)
+        refused = type_field(program, FormPlace(1, 0), "cutter_comp", typed)
         assert isinstance(refused, Refused)
         assert "ON" in refused.text

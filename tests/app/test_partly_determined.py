@@ -10,16 +10,15 @@ from app.documents.files import load
 from app.files import example
 from app.widgets.rows import text_of
 from app.widgets.strip import strip
-from core.pipeline.derive import derive
-from core.pipeline.lookahead_table import look_ahead_table
-from core.program.edit import Refused, Where, type_field
+from core.pipeline.derive import derive, look_ahead_table
+from core.program.edit import FormPlace, Refused, type_field
 from core.program.model import ArcSegment, Direction, Entry, Program
 from tests.app.operator import Operator
 
 
 def without(number: int, name: str, part: str = "pocket") -> Program:
     """An example with a field of a segment blank."""
-    outcome = type_field(load(example(part)), Where(1, number), name, None)
+    outcome = type_field(load(example(part)), FormPlace(1, number), name, None)
     assert not isinstance(outcome, Refused)
     return outcome
 

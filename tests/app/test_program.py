@@ -10,7 +10,7 @@ from app.files import example
 from app.screens.contour import Contour
 from app.screens.program import ProgramPage
 from app.session import Session
-from core.program.edit import Where
+from core.program.edit import FormPlace
 from core.program.fields import TOOL, read_typed
 from core.program.model import CutterComp, Entry, PathChoice, Tool, Unread
 from core.units import Unit
@@ -38,14 +38,14 @@ def test_a_block_is_entered_on_segment_wherever_it_was_left(key: str) -> None:
     assert operator.session.field == "lookahead"
     operator.press("f8", key).type("4")
     assert operator.block.lookahead is None
-    assert operator.session.where == Where(1, 4)
+    assert operator.session.where == FormPlace(1, 4)
     operator.press("f8", key)
-    assert (operator.session.where, operator.session.field) == (Where(1, 4), "segment")
+    assert (operator.session.where, operator.session.field) == (FormPlace(1, 4), "segment")
 
 
 def test_blocks_are_inserted_copied_moved_and_deleted() -> None:
     operator = at_list().press("f2")
-    assert operator.session.where == Where(2, 0)
+    assert operator.session.where == FormPlace(2, 0)
     operator.press("tab", "tab", "r", "f8")
     assert [block.cutter_comp for block in operator.session.program.blocks] == [CutterComp.LEFT, CutterComp.RIGHT]
     operator.press("f3")

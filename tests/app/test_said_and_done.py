@@ -16,8 +16,7 @@ from app.screens.post import PostPage
 from app.session import Session
 from app.widgets.rows import text_of
 from app.widgets.verdict import verdict_rows
-from core.pipeline.derive import derive
-from core.pipeline.lookahead_table import look_ahead_table
+from core.pipeline.derive import derive, look_ahead_table
 from core.program.file.write import dumps
 from core.program.model import Entry
 from tests.app.kept import DEAD, ELSEWHERE, asked, started

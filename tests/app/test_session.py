@@ -8,7 +8,7 @@ from pathlib import Path
 from app.files import empty_program
 from app.session import SEGMENT, Session, Tone
 from core.pipeline.outline import outline
-from core.program.edit import Refused, Where
+from core.program.edit import FormPlace, Refused
 from core.program.model import Entry, LineSegment, Program
 
 
@@ -24,7 +24,7 @@ def with_start(program: Program, x: float) -> Program:
 def test_a_new_session_is_saved_and_stands_on_segment_of_start() -> None:
     begun = session()
     assert not begun.unsaved
-    assert (begun.where, begun.field) == (Where(1, 0), SEGMENT)
+    assert (begun.where, begun.field) == (FormPlace(1, 0), SEGMENT)
 
 
 def test_an_edit_makes_it_unsaved_and_saving_ends_that() -> None:
@@ -63,15 +63,15 @@ def test_there_is_nothing_to_undo_at_first() -> None:
 
 def test_the_cursor_stays_within_the_program() -> None:
     begun = session(LineSegment(), LineSegment())
-    assert begun.at(Where(7, 9)).where == Where(1, 2)
-    assert begun.at(Where(0, -1)).where == Where(1, 0)
+    assert begun.at(FormPlace(7, 9)).where == FormPlace(1, 2)
+    assert begun.at(FormPlace(0, -1)).where == FormPlace(1, 0)
 
 
 def test_undoing_a_segment_takes_the_cursor_off_it() -> None:
     begun = session(LineSegment())
     longer = replace(begun.program.blocks[0], segments=(LineSegment(), LineSegment()))
-    edited = begun.apply(replace(begun.program, blocks=(longer,)), "new LINE").at(Where(1, 2), "x_end")
-    assert edited.undo().where == Where(1, 1)
+    edited = begun.apply(replace(begun.program, blocks=(longer,)), "new LINE").at(FormPlace(1, 2), "x_end")
+    assert edited.undo().where == FormPlace(1, 1)
     assert edited.undo().field == SEGMENT
 
 

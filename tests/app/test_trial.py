@@ -8,7 +8,7 @@ from app.screens.contour import Contour
 from app.screens.new_segment import NewSegment
 from app.screens.program import ProgramPage
 from app.session import SEGMENT
-from core.program.edit import Where
+from core.program.edit import FormPlace
 from core.program.model import Entry
 from tests.app.operator import Operator
 from tests.app.squares import square
@@ -43,7 +43,7 @@ def test_segment_says_how_the_first_segment_is_made() -> None:
 @pytest.mark.parametrize("text", ["-1", "abc", "1.5", "²"])
 def test_what_is_no_segment_number_is_told_and_opens_nothing(text: str) -> None:
     operator = square().type(text)
-    assert operator.session.where == Where(1, 0)
+    assert operator.session.where == FormPlace(1, 0)
     assert operator.session.field == SEGMENT
     assert f"{text} is no segment number" in operator.said
 

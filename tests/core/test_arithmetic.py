@@ -8,13 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.arithmetic import MAX_CHARACTERS, NotASumError, total
+from core.arithmetic import MAX_CHARACTERS, CannotReadError, evaluate
 
 SCALES = {"in": Fraction(1), "mm": Fraction(5, 127), '"': Fraction(1)}
 
 
 def read(text: str) -> Fraction:
-    return total(text, SCALES, "type a number")
+    return evaluate(text, SCALES, "type a number")
 
 
 @pytest.mark.parametrize(
@@ -97,14 +97,14 @@ def test_reads(text, value):
     ],
 )
 def test_refuses(text, word):
-    with pytest.raises(NotASumError, match=word):
+    with pytest.raises(CannotReadError, match=word):
         read(text)
 
 
 def test_a_dash_before_a_fraction_may_mean_two_things():
-    with pytest.raises(NotASumError, match=r"1-1/2 is not clear: type 1 1/2 with a blank, or 1 - 1/2"):
+    with pytest.raises(CannotReadError, match=r"1-1/2 is not clear: type 1 1/2 with a blank, or 1 - 1/2"):
         read("1-1/2")
-    with pytest.raises(NotASumError, match=r"type -2 3/16 with a blank"):
+    with pytest.raises(CannotReadError, match=r"type -2 3/16 with a blank"):
         read("-2-3/16in")
 
 
@@ -118,7 +118,7 @@ def outcome(text: str) -> str:
     """The value or the reason as text."""
     try:
         return str(read(text))
-    except NotASumError as error:
+    except CannotReadError as error:
         return str(error)
 
 

@@ -30,7 +30,7 @@ from app.documents.journal_file import journal_path
 from app.files import empty_program
 from app.places import read
 from app.session import FIRST, SEGMENT, Session
-from core.program.edit import Where
+from core.program.edit import FormPlace
 from core.program.history import History, differences
 from tests.app.operator import Operator
 from tests.terminal import Terminal, running
@@ -69,7 +69,7 @@ class Part:
     operator: Operator = field(default_factory=Operator.at)
     acknowledged: int = 0
 
-    def begin(self, history: History, where: Where = FIRST, name: str = SEGMENT) -> None:
+    def begin(self, history: History, where: FormPlace = FIRST, name: str = SEGMENT) -> None:
         """Go on from here, as the program does it after a start; what the desk in memory saves goes elsewhere."""
         shadow = self.file.with_suffix(".shadow")
         shadow.unlink(missing_ok=True)

@@ -14,7 +14,7 @@ import numpy as np
 
 from core.comp.best_path.best_path import BestPath
 from core.comp.crossings import crossings
-from core.comp.offset import Part as ChainPart
+from core.comp.offset import RawPart as ChainPart
 from core.comp.offset import offset
 from core.comp.result import Compensated
 from core.geometry.path import Path

@@ -1,4 +1,4 @@
-"""Surface: the contour made fit to be offset globally, and whether it crosses itself or winds."""
+"""Prepared contour: the contour made fit to be offset globally, and whether it crosses itself or winds."""
 
 from __future__ import annotations
 
@@ -207,7 +207,7 @@ def _at_joint(path: Path, i: Rows, j: Rows, at: Points) -> Flags:
 
 
 def winds(path: Path, radius: float) -> bool:
-    """May some place `radius` beside one segment and as far on the other side of another be clear of both?
+    """May some place `radius` from one segment and as far on the other side of another be clear of both?
 
     `path` is open and does not cross itself.  True where it may not be but that is not easily seen.  BEST_PATH.md,
     "Winding", shows that between two such segments the contour turns by more than half a turn.

@@ -13,7 +13,7 @@ from math import tau
 import numpy as np
 
 from core.comp.best_path.prepared_contour import winds
-from core.comp.offset import Chain, Part, offset
+from core.comp.offset import RawChain, RawPart, offset
 from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, Turns, as_complex, joined
 from core.geometry.piece import SLIVER, Side
 from core.tolerance import CROWDED, JOINED, ON_PATH
@@ -127,7 +127,7 @@ def raw_offset(surface: Path, side: Side, radius: float, *, closed: bool, crossi
         return _raw(chain, radius, 2 * len(surface) - 1, vertices, rings=(len(chain),))
     whole = joined((surface.part(0, 1).reversed(), surface, surface.part(len(surface) - 1, len(surface)).reversed()))
     chain = _without_cusps(offset(whole, side, radius), whole, side)
-    chain = Chain(chain.raw, chain.parts, chain.places - 2)
+    chain = RawChain(chain.raw, chain.parts, chain.places - 2)
     return _raw(chain, radius, 2 * len(surface) - 1, as_complex(surface.points), rings=())
 
 
@@ -142,22 +142,22 @@ def _around_closed(surface: Path, side: Side, radius: float, *, crossing: bool) 
     return _raw(chain, radius, 2 * len(surface), vertices, rings=(ring, len(chain)))
 
 
-def _ring(surface: Path, side: Side, radius: float) -> Chain:
+def _ring(surface: Path, side: Side, radius: float) -> RawChain:
     """The offset of a closed surface with the joint at its start: traveled on over the first segment."""
     chain = offset(joined((surface, surface.part(0, 1))), side, radius)
     last = int(np.searchsorted(chain.places, 2 * len(surface)))
-    chain = Chain(chain.raw.part(0, last), chain.parts[:last], chain.places[:last])
+    chain = RawChain(chain.raw.part(0, last), chain.parts[:last], chain.places[:last])
     return _without_cusps(chain, surface, side)
 
 
-def _without_cusps(chain: Chain, surface: Path, side: Side) -> Chain:
+def _without_cusps(chain: RawChain, surface: Path, side: Side) -> RawChain:
     """The chain without half circles about reversals whose inside the cutter is on: there they are behind the wall.
 
     Which side is inside shows in how far to the left the way back lies of the way there, a little before the tip:
     by the angle between them and by their curvatures.  Where they lie on each other both sides are outside.
     """
     points, centers = as_complex(chain.raw.points), as_complex(chain.raw.centers)
-    corners = (chain.parts == Part.CORNER.value).nonzero()[0]
+    corners = (chain.parts == RawPart.CORNER.value).nonzero()[0]
     across = points[corners] + points[corners + 1] - 2.0 * centers[corners]
     corners = corners[np.abs(across) <= JOINED]
     if not len(corners):
@@ -170,8 +170,8 @@ def _without_cusps(chain: Chain, surface: Path, side: Side) -> Chain:
     before = np.minimum(sizes[there], sizes[back]) / 4.0
     aside = bend.imag / np.abs(bend) * before - (curvature[there] + curvature[back]) * before**2 / 2.0
     parts = chain.parts.copy()
-    parts[corners[side.sign * aside > JOINED]] = Part.BRIDGE.value
-    return Chain(chain.raw, parts, chain.places)
+    parts[corners[side.sign * aside > JOINED]] = RawPart.BRIDGE.value
+    return RawChain(chain.raw, parts, chain.places)
 
 
 def _curvature(path: Path) -> Floats:
@@ -180,7 +180,7 @@ def _curvature(path: Path) -> Floats:
     return curvature
 
 
-def _both_sides(there: Chain, back: Chain, places: int) -> Chain:
+def _both_sides(there: RawChain, back: RawChain, places: int) -> RawChain:
     """Two chains as one, a bridge between them; the second one's places begin at `places`."""
     path = Path.of(
         np.concatenate((there.raw.points, back.raw.points)),
@@ -188,25 +188,25 @@ def _both_sides(there: Chain, back: Chain, places: int) -> Chain:
         np.concatenate((there.raw.turns, np.zeros(1, np.int8), back.raw.turns)),
         np.concatenate((there.raw.numbers, np.zeros(1), back.raw.numbers)),
     )
-    bridge = np.full(1, Part.BRIDGE.value, np.uint8)
+    bridge = np.full(1, RawPart.BRIDGE.value, np.uint8)
     parts = np.concatenate((there.parts, bridge, back.parts))
-    return Chain(path, parts, np.concatenate((there.places, there.places[-1:] + 1, back.places + places)))
+    return RawChain(path, parts, np.concatenate((there.places, there.places[-1:] + 1, back.places + places)))
 
 
-def _raw(chain: Chain, radius: float, sides: int, vertices: Points, *, rings: tuple[int, ...]) -> Untrimmed:
+def _raw(chain: RawChain, radius: float, sides: int, vertices: Points, *, rings: tuple[int, ...]) -> Untrimmed:
     """The pieces of a chain that have a geometry of their own, joined over provisional bridges of no length.
 
     Side pieces have places 0 ... `sides` - 1.  Before each of the rows `rings` a ring ends, whose last piece is joined
     to its first; the row at its end, if there are more, is none of either ring.
     """
     path = chain.raw
-    rows = (chain.parts <= Part.CORNER.value).nonzero()[0]
+    rows = (chain.parts <= RawPart.CORNER.value).nonzero()[0]
     points = as_complex(path.points)
     start, end, turns = points[rows], points[rows + 1], path.turns[rows]
     center = as_complex(path.centers)[rows]
     onward, order = _onward(rows, len(chain), rings)
     gapless = (order >= 0) & (np.abs(start[order] - end) <= JOINED)
-    bridged = (order >= 0) & ~gapless & (chain.parts[onward[rows]] == Part.BRIDGE.value)
+    bridged = (order >= 0) & ~gapless & (chain.parts[onward[rows]] == RawPart.BRIDGE.value)
     raw = RawOffset(
         start,
         end,
@@ -223,7 +223,7 @@ def _raw(chain: Chain, radius: float, sides: int, vertices: Points, *, rings: tu
         np.zeros(len(rows), np.bool_),
     )
     inside = bridged & (rows[order] == onward[onward[rows]])
-    return _smoothed(Untrimmed(raw, order, inside, chain.parts[rows] == Part.CORNER.value, vertices), radius)
+    return _smoothed(Untrimmed(raw, order, inside, chain.parts[rows] == RawPart.CORNER.value, vertices), radius)
 
 
 def _onward(rows: Rows, count: int, rings: tuple[int, ...]) -> tuple[Rows, Rows]:

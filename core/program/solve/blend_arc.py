@@ -27,7 +27,7 @@ class Blends:
     waiting: set[int] = field(default_factory=set)
 
 
-def blended(
+def put_blends_in(
     segments: Sequence[Segment], pieces: Sequence[Piece | None], radii: dict[int, float], lengthless: Set[int]
 ) -> Blends:
     """The pieces of the segments with every BLEND ARC put in.

@@ -18,7 +18,7 @@ from core.finding import Finding, Severity
 from core.geometry.piece import Point
 from core.program.fields import Form, field_of
 from core.program.model import BlendSegment, Block, CutterComp, Program
-from core.program.solve.blend_arc import Blends, blended
+from core.program.solve.blend_arc import Blends, put_blends_in
 from core.program.solve.reading import Reading, read_form
 from core.program.solve.segment import Carried, Draft, draft, typed_point
 from core.program.solve.solved import SolvedBlock, SolvedSegment, Value
@@ -90,7 +90,7 @@ def _blends(block: Block, drafts: Sequence[Draft]) -> Blends:
     radii = {index: known["radius"] for index in blends if "radius" in (known := drafts[index].reading.known)}
     shapes = [draft.shape for draft in drafts]
     lengthless = {index for index, shape in enumerate(shapes) if shape.piece is None and shape.end is not None}
-    return blended(block.segments, [shape.piece for shape in shapes], radii, lengthless.difference(blends))
+    return put_blends_in(block.segments, [shape.piece for shape in shapes], radii, lengthless.difference(blends))
 
 
 def _adjustment(drafts: Sequence[Draft]) -> dict[int, Finding]:

@@ -29,7 +29,7 @@ from app.documents.journal import (
 )
 from app.documents.journal_file import LARGEST_KEPT, JournalFile, journal_path, lines, set_aside
 from app.documents.lock import Owner
-from core.program.edit import Where, delete_segment, insert_segment, type_field
+from core.program.edit import FormPlace, delete_segment, insert_segment, type_field
 from core.program.history import History
 from core.program.model import Entry, LineSegment, Program, Unread
 from tests.core.program.parts import line, program, programs
@@ -37,7 +37,7 @@ from tests.core.program.parts import line, program, programs
 PART = program(line(x_end=1.0), line(y_end=1.0), line(x_end=0.0))
 OWNER = Owner("ann", "mill-3", 4711, "boot:12", "2025-03-04T06:00:00+01:00")
 HEAD = Head(OWNER, "/parts/pocket.toml", Stamp(120, 5, "ab"))
-CURSOR = Cursor(Where(1, 2), "y_end", "2025-03-04T06:05:00+01:00")
+CURSOR = Cursor(FormPlace(1, 2), "y_end", "2025-03-04T06:05:00+01:00")
 
 Step = Callable[[History], History]
 
@@ -46,7 +46,7 @@ def typed(number: float) -> Step:
     """An edit: this number into Y END of segment 2."""
 
     def do(history: History) -> History:
-        edited = type_field(history.program, Where(1, 2), "y_end", Entry(number))
+        edited = type_field(history.program, FormPlace(1, 2), "y_end", Entry(number))
         assert isinstance(edited, Program)
         return history.do(edited, f"Y END {number}")
 
@@ -312,14 +312,14 @@ def test_any_two_programs(old: Program, new: Program) -> None:
 
 
 def test_one_field_is_one_small_record() -> None:
-    edited = type_field(PART, Where(1, 2), "y_end", Entry(2.5))
+    edited = type_field(PART, FormPlace(1, 2), "y_end", Entry(2.5))
     assert isinstance(edited, Program)
     assert delta(PART, edited) == {"block": [0, {}, [1, 1, [["LINE", {"y_end": 2.5}]]]]}
 
 
 def test_a_blank_and_an_unreadable_text() -> None:
-    blank = type_field(PART, Where(1), "x_start", None)
-    unread = type_field(PART, Where(1), "x_start", Unread("2..5", "two points"))
+    blank = type_field(PART, FormPlace(1), "x_start", None)
+    unread = type_field(PART, FormPlace(1), "x_start", Unread("2..5", "two points"))
     assert isinstance(blank, Program)
     assert isinstance(unread, Program)
     assert delta(PART, blank) == {"block": [0, {"x_start": None}, [3, 0, []]]}
@@ -327,8 +327,8 @@ def test_a_blank_and_an_unreadable_text() -> None:
 
 
 def test_segments_in_and_out() -> None:
-    longer = insert_segment(PART, Where(1, 2), LineSegment())
-    shorter = delete_segment(PART, Where(1, 1))
+    longer = insert_segment(PART, FormPlace(1, 2), LineSegment())
+    shorter = delete_segment(PART, FormPlace(1, 1))
     assert isinstance(longer, Program)
     assert isinstance(shorter, Program)
     assert delta(PART, longer) == {"block": [0, {}, [1, 0, [["LINE", {}]]]]}
@@ -365,7 +365,7 @@ def test_what_is_no_difference_is_refused(values: object) -> None:
 
 def test_a_thousand_segments_share_all_but_one() -> None:
     long = program(*(line(x_end=float(number)) for number in range(1000)))
-    edited = type_field(long, Where(1, 500), "x_end", Entry(0.5))
+    edited = type_field(long, FormPlace(1, 500), "x_end", Entry(0.5))
     assert isinstance(edited, Program)
     again = applied(long, delta(long, edited))
     assert again == edited

@@ -8,8 +8,7 @@ from app.messages import Open
 from app.screens.lookahead import LookaheadTable
 from app.screens.page import Surface
 from app.widgets.rows import text_of
-from core.pipeline.derive import derive
-from core.pipeline.lookahead_table import look_ahead_table
+from core.pipeline.derive import derive, look_ahead_table
 from core.program.model import CutterComp, Entry, LineSegment, Program
 from tests.app.operator import Operator
 from tests.app.squares import square

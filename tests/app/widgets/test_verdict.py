@@ -11,8 +11,7 @@ from app.files import example
 from app.widgets.rows import text_of
 from app.widgets.verdict import verdict_rows
 from core.finding import Finding, Severity
-from core.pipeline.derive import derive
-from core.pipeline.lookahead_table import look_ahead_table
+from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.outline import outline
 from core.program.model import Entry
 from core.units import Unit

@@ -8,7 +8,7 @@ from math import cos, radians, sin
 import numpy as np
 import pytest
 
-from core.advice.block_paths import RoughPass, Work
+from core.advice.block_paths import BlockPaths, RoughPass
 from core.advice.path_findings import (
     ZStep,
     better_path_findings,
@@ -126,7 +126,7 @@ SQUARE = lines((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0))
 NOTCH = lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
 
 
-def told(found: Work, code: str) -> list[tuple[Severity, float | None, str]]:
+def told(found: BlockPaths, code: str) -> list[tuple[Severity, float | None, str]]:
     findings = [finding for finding in path_findings(found) if finding.code == code]
     return [(finding.severity, finding.segment, sentence(finding, Unit.MM)) for finding in findings]
 

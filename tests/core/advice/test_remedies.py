@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.advice.lookahead_table import Trial, table_of
-from core.advice.remedies import STEP, Unwanted, largest_tool, lookahead_without_blends, start_mid_side, started
+from core.advice.remedies import STEP, SearchCanceled, largest_tool, lookahead_without_blends, start_mid_side, started
 from core.geometry.piece import Side
 from tests.core.comp.contours import lines, mixed, shut
 
@@ -64,5 +64,5 @@ def test_blend_moves_are_left_out_only_where_there_are_any(blend):
 
 
 def test_a_remedy_nobody_waits_for_is_not_tried():
-    with pytest.raises(Unwanted):
+    with pytest.raises(SearchCanceled):
         largest_tool(Trial(SLOT, Side.LEFT, 0.25, False, 0.0, 0.0), wanted=lambda: False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from core.advice.block_paths import Loop, RoughPass, Work
+from core.advice.block_paths import BlockPaths, Loop, RoughPass
 from core.comp.compensate import compensate
 from core.geometry.path import Path
 from core.geometry.piece import Side
@@ -19,7 +19,7 @@ def work(
     blend: float = 0.0,
     overlap: float = 0.0,
     stocks: tuple[float, ...] = (),
-) -> Work:
+) -> BlockPaths:
     """The control's path at full size and the roughing passes that leave these stocks."""
 
     def cut(size: float) -> tuple[RoughPass, tuple[Loop, ...]]:
@@ -29,4 +29,6 @@ def work(
         return RoughPass(size - radius, loops, control, verdict), loops
 
     finish, loops = cut(radius)
-    return Work(contour, loops, finish.compensated, finish.verdict, tuple(cut(radius + stock)[0] for stock in stocks))
+    return BlockPaths(
+        contour, loops, finish.compensated, finish.verdict, tuple(cut(radius + stock)[0] for stock in stocks)
+    )

@@ -9,22 +9,22 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.comp.crossings import crossings
-from core.comp.offset import Chain, Part, offset
+from core.comp.offset import RawChain, RawPart, offset
 from core.geometry.intersect import Meeting, meet
 from core.geometry.path import Path
 from core.geometry.piece import Side
 from tests.core.comp.contours import lines, mixed, polygons
 
 
-def _all_pairs(chain: Chain, lookahead: int, *, closed: bool) -> list[tuple[int, int]]:
+def _all_pairs(chain: RawChain, lookahead: int, *, closed: bool) -> list[tuple[int, int]]:
     """Pairs of partners that are not path neighbors and within reach, in order of b, then a."""
-    partners = [row for row, part in enumerate(chain.parts.tolist()) if part <= Part.CORNER]
+    partners = [row for row, part in enumerate(chain.parts.tolist()) if part <= RawPart.CORNER]
     pairs = [
         (a, b)
         for a, b in combinations(partners, 2)
         if b - a > 1
         and chain.places[b] - chain.places[a] <= 2 * lookahead
-        and not (b - a == 2 and chain.parts[a + 1] == Part.BRIDGE)
+        and not (b - a == 2 and chain.parts[a + 1] == RawPart.BRIDGE)
         and not (closed and (a, b) == (0, len(chain) - 1))
     ]
     return sorted(pairs, key=lambda pair: pair[::-1])
@@ -47,8 +47,8 @@ def test_all_pairs_within_reach_are_found(contour, side, radius, lookahead, clos
 @given(mixed | polygons, st.sampled_from(Side), st.floats(0.05, 2.0), st.booleans())
 def test_joints_are_found_at_every_lookahead(contour, side, radius, closed):
     chain = offset(contour, side, radius)
-    bridges = np.flatnonzero(chain.parts == Part.BRIDGE)
-    bridges = bridges[(chain.parts[bridges - 1] == Part.SEGMENT) & (chain.parts[bridges + 1] == Part.SEGMENT)]
+    bridges = np.flatnonzero(chain.parts == RawPart.BRIDGE)
+    bridges = bridges[(chain.parts[bridges - 1] == RawPart.SEGMENT) & (chain.parts[bridges + 1] == RawPart.SEGMENT)]
     met = meet(chain.raw, bridges - 1, chain.raw, bridges + 1)
     joints = crossings(chain, 1, closed=closed).joints
     assert np.array_equal(joints.b, bridges[met.pair] + 1)

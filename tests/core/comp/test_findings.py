@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from core.comp.compensate import compensate, compensate_all
-from core.comp.findings import MAX_NAMED_PLACES, spoken
+from core.comp.findings import MAX_NAMED_PLACES, segment_list
 from core.comp.result import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path
@@ -223,7 +223,7 @@ def test_zero_lengths_beyond_a_hundred_are_counted():
     [([4], "segment 4"), ([2, 3], "segments 2-3"), ([1, 2, 3, 7, 9, 10], "segments 1-3, 7, 9-10")],
 )
 def test_spoken_numbers(numbers, text):
-    assert spoken(np.array(numbers, np.float64)) == text
+    assert segment_list(np.array(numbers, np.float64)) == text
 
 
 @pytest.mark.parametrize("radius", [1e-6, 0.3, 50.0, 1e6])

@@ -12,7 +12,7 @@ import pytest
 
 from core.comp.compensate import compensate
 from core.comp.crossings import crossings
-from core.comp.offset import Part, offset
+from core.comp.offset import RawPart, offset
 from core.controls.compensation.corners import Element, arc_element, line_element, meetings, offset_end, offset_start
 from core.controls.compensation.joint import Corner, CornerRules, join
 from core.geometry.distance import distance
@@ -27,7 +27,7 @@ RULES = CornerRules(touching=JOINED)
 NEAR = 1e-7
 """Millimeters by which the points may differ: what rounding makes of a meeting of two nearly tangent circles."""
 
-KINDS = {Part.CORNER: Corner.OUTSIDE, Part.BRIDGE: Corner.INSIDE}
+KINDS = {RawPart.CORNER: Corner.OUTSIDE, RawPart.BRIDGE: Corner.INSIDE}
 
 
 def _point(place: complex) -> Point:
@@ -71,7 +71,7 @@ def test_arrays_and_elements_see_the_same_corner(turns: tuple[int, int], bend: s
     for first, second, side, radius in _corners(turns, bend):
         one, two = _element(first), _element(second)
         chain = offset(Path.from_pieces([first, second]), side, radius)
-        parts = [Part(part) for part in chain.parts.tolist()]
+        parts = [RawPart(part) for part in chain.parts.tolist()]
         joint = join(one, two, side.sign * radius, RULES)
         assert joint.corner is (KINDS[parts[1]] if len(parts) == 3 else Corner.TANGENT)
         points = as_complex(chain.raw.points)
@@ -90,7 +90,7 @@ def test_arrays_and_elements_meet_in_the_same_points(turns: tuple[int, int], ben
         contour = Path.from_pieces([first, second])
         chain = offset(contour, side, radius)
         joint = join(one, two, side.sign * radius, RULES)
-        if joint.corner is not Corner.INSIDE or Part.VANISHED in chain.parts.tolist():
+        if joint.corner is not Corner.INSIDE or RawPart.VANISHED in chain.parts.tolist():
             continue
         found = crossings(chain, 1, closed=False).joints.points.tolist()
         pieces = piece_arrays(chain.raw.part(0, 1), chain.raw.part(2, 3))

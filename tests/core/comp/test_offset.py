@@ -9,15 +9,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.comp.offset import Chain, Part, offset
+from core.comp.offset import RawChain, RawPart, offset
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from tests.core.comp.contours import lines, mixed
 
-SEGMENT, CORNER, BRIDGE, VANISHED = Part
+SEGMENT, CORNER, BRIDGE, VANISHED = RawPart
 
 
-def _chain(contour: Path, side: Side, radius: float) -> Chain:
+def _chain(contour: Path, side: Side, radius: float) -> RawChain:
     chain = offset(contour, side, radius)
     assert len(chain) == len(chain.raw) == len(chain.places)
     return chain

@@ -6,9 +6,8 @@ import pytest
 
 from core.comp.lookahead import recommended
 from core.output.passes import meets_solid
-from core.pipeline.derive import derive
+from core.pipeline.derive import derive, look_ahead_table, needs
 from core.pipeline.jobs import job
-from core.pipeline.lookahead_table import look_ahead_table, needs
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Entry, Parameters, PathChoice, Tool
 from core.units import Unit, sentence

@@ -8,10 +8,9 @@ from core.draw.scene import Style
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.pipeline.command_output import table_document
-from core.pipeline.derive import derive
+from core.pipeline.derive import derive, look_ahead_table, needs
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.jobs import jobs
-from core.pipeline.lookahead_table import look_ahead_table, needs
 from core.pipeline.plot import block_scene
 from core.pipeline.post import post_center_path
 from core.program.model import CutterComp, Entry

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 from core.program import edit
-from core.program.edit import Refused, Where, set_unit
+from core.program.edit import FormPlace, Refused, set_unit
 from core.program.fields import PARAMETERS, SETUP, START, TABLES, Form, field_of, unread_reason
 from core.program.file.read import loads
 from core.program.file.write import dumps
@@ -42,30 +42,30 @@ def made(edited: edit.Edited) -> Program:
 
 
 def test_typing_into_start_and_into_a_segment():
-    typed = made(edit.type_field(SQUARE, Where(1), "x_start", Entry(-1.0)))
+    typed = made(edit.type_field(SQUARE, FormPlace(1), "x_start", Entry(-1.0)))
     assert typed.blocks[0] == replace(SQUARE.blocks[0], x_start=Entry(-1.0))
-    typed = made(edit.type_field(SQUARE, Where(1, 2), "feed", Entry(10.0)))
+    typed = made(edit.type_field(SQUARE, FormPlace(1, 2), "feed", Entry(10.0)))
     assert typed.blocks[0].segments[1] == line(x_end=2.0, y_end=2.0, feed=10.0)
     assert typed.blocks[0].segments[::2] == SQUARE.blocks[0].segments[::2]
 
 
 def test_a_blank_and_unreadable_text_are_kept():
-    assert made(edit.type_field(SQUARE, Where(1), "x_start", None)).blocks[0].x_start is None
+    assert made(edit.type_field(SQUARE, FormPlace(1), "x_start", None)).blocks[0].x_start is None
     unread = Unread("x", "why")
-    first = made(edit.type_field(SQUARE, Where(1, 1), "x_end", unread)).blocks[0].segments[0]
+    first = made(edit.type_field(SQUARE, FormPlace(1, 1), "x_end", unread)).blocks[0].segments[0]
     assert first == LineSegment(x_end=unread, y_end=Entry(0.0))
 
 
 @pytest.mark.parametrize(
     ("where", "name", "value", "text"),
     [
-        (Where(1), "speed", 2.5, "SPEED (RPM) must be a whole number from 1 to 100000."),
-        (Where(1), "peck_depth", -1.0, "PECK DEPTH must be from 0 to 254000."),
-        (Where(1, 1), "feed", 0.0, "FEED must be above 0, at most 254000."),
-        (Where(1, 4), "feed", 1.0, "There is no segment 4: the last segment is 3."),
-        (Where(1, -1), "feed", 1.0, "There is no segment -1: the last segment is 3."),
-        (Where(2), "speed", 1.0, "There is no block 2: the last block is 1."),
-        (Where(0), "speed", 1.0, "There is no block 0: the last block is 1."),
+        (FormPlace(1), "speed", 2.5, "SPEED (RPM) must be a whole number from 1 to 100000."),
+        (FormPlace(1), "peck_depth", -1.0, "PECK DEPTH must be from 0 to 254000."),
+        (FormPlace(1, 1), "feed", 0.0, "FEED must be above 0, at most 254000."),
+        (FormPlace(1, 4), "feed", 1.0, "There is no segment 4: the last segment is 3."),
+        (FormPlace(1, -1), "feed", 1.0, "There is no segment -1: the last segment is 3."),
+        (FormPlace(2), "speed", 1.0, "There is no block 2: the last block is 1."),
+        (FormPlace(0), "speed", 1.0, "There is no block 0: the last block is 1."),
     ],
 )
 def test_typing_is_refused(where, name, value, text):
@@ -73,15 +73,17 @@ def test_typing_is_refused(where, name, value, text):
 
 
 def test_there_is_no_block_in_an_empty_program():
-    assert edit.type_field(Program(), Where(1), "speed", None) == Refused("There is no block 1: no block is typed yet.")
+    assert edit.type_field(Program(), FormPlace(1), "speed", None) == Refused(
+        "There is no block 1: no block is typed yet."
+    )
 
 
 def test_lookahead_is_typed_and_calculated_again():
-    user = made(edit.type_field(SQUARE, Where(1), "lookahead", Entry(4.0)))
+    user = made(edit.type_field(SQUARE, FormPlace(1), "lookahead", Entry(4.0)))
     assert user.blocks[0].lookahead == Entry(4.0)
-    moved = made(edit.type_field(user, Where(1, 1), "x_end", Entry(3.0)))
+    moved = made(edit.type_field(user, FormPlace(1, 1), "x_end", Entry(3.0)))
     assert moved.blocks[0].lookahead == Entry(4.0)
-    hidden = made(edit.choose(user, Where(1), "cutter_comp", "ON"))
+    hidden = made(edit.choose(user, FormPlace(1), "cutter_comp", "ON"))
     assert hidden.blocks[0].lookahead == Entry(4.0)
     assert made(edit.recalculate_lookahead(user, 1)) == SQUARE
     assert edit.recalculate_lookahead(user, 2) == Refused("There is no block 2: the last block is 1.")
@@ -89,35 +91,38 @@ def test_lookahead_is_typed_and_calculated_again():
 
 @pytest.mark.parametrize("typed", [Entry(0.0), Entry(21.0), Entry(2.5), Unread("x", "why"), None])
 def test_another_lookahead_is_refused_with_the_range(typed):
-    user = made(edit.type_field(SQUARE, Where(1), "lookahead", Entry(4.0)))
-    refused = edit.type_field(user, Where(1), "lookahead", typed)
+    user = made(edit.type_field(SQUARE, FormPlace(1), "lookahead", Entry(4.0)))
+    refused = edit.type_field(user, FormPlace(1), "lookahead", typed)
     assert isinstance(refused, Refused)
     assert refused.text.startswith("CUTCOMP LOOKAHEAD must be a whole number from 1 to 20.")
 
 
 def test_leaving_a_calculated_lookahead_blank_changes_nothing():
-    assert edit.type_field(SQUARE, Where(1), "lookahead", None) == SQUARE
+    assert edit.type_field(SQUARE, FormPlace(1), "lookahead", None) == SQUARE
 
 
 def test_choose():
-    right = made(edit.choose(SQUARE, Where(1), "cutter_comp", "PROFILE RIGHT"))
+    right = made(edit.choose(SQUARE, FormPlace(1), "cutter_comp", "PROFILE RIGHT"))
     assert right.blocks[0].cutter_comp is CutterComp.PROFILE_RIGHT
     curved = program(arc("CW", x_end=1.0, y_end=1.0, radius=3.0))
-    turned = made(edit.choose(curved, Where(1, 1), "direction", "CCW")).blocks[0].segments[0]
+    turned = made(edit.choose(curved, FormPlace(1, 1), "direction", "CCW")).blocks[0].segments[0]
     assert isinstance(turned, ArcSegment)
     assert turned.direction is Direction.CCW
-    picked = made(edit.choose(curved, Where(1, 1), "choice", 1)).blocks[0].segments[0]
+    picked = made(edit.choose(curved, FormPlace(1, 1), "choice", 1)).blocks[0].segments[0]
     assert picked == arc("CW", x_end=1.0, y_end=1.0, radius=3.0, choice=1)
-    assert made(edit.choose(made(edit.choose(curved, Where(1, 1), "choice", 1)), Where(1, 1), "choice", None)) == curved
+    assert (
+        made(edit.choose(made(edit.choose(curved, FormPlace(1, 1), "choice", 1)), FormPlace(1, 1), "choice", None))
+        == curved
+    )
 
 
 @pytest.mark.parametrize(
     ("where", "name", "value", "text"),
     [
-        (Where(1), "cutter_comp", "UP", "CUTTER COMP. takes ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT."),
-        (Where(1), "cutter_comp", None, "CUTTER COMP. takes ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT."),
-        (Where(1, 1), "choice", 2, "SOLUTION takes 0, 1."),
-        (Where(1, 9), "choice", 0, "There is no segment 9: the last segment is 3."),
+        (FormPlace(1), "cutter_comp", "UP", "CUTTER COMP. takes ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT."),
+        (FormPlace(1), "cutter_comp", None, "CUTTER COMP. takes ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT."),
+        (FormPlace(1, 1), "choice", 2, "SOLUTION takes 0, 1."),
+        (FormPlace(1, 9), "choice", 0, "There is no segment 9: the last segment is 3."),
     ],
 )
 def test_choosing_is_refused(where, name, value, text):
@@ -126,31 +131,31 @@ def test_choosing_is_refused(where, name, value, text):
 
 def test_a_picked_solution_is_dropped_when_other_fields_decide():
     picked = program(arc("CW", x_end=1.0, y_end=1.0, radius=3.0, choice=1))
-    kept = made(edit.type_field(picked, Where(1, 1), "radius", Entry(4.0))).blocks[0].segments[0]
+    kept = made(edit.type_field(picked, FormPlace(1, 1), "radius", Entry(4.0))).blocks[0].segments[0]
     assert kept == arc("CW", x_end=1.0, y_end=1.0, radius=4.0, choice=1)
-    kept = made(edit.type_field(picked, Where(1, 1), "feed", Entry(4.0))).blocks[0].segments[0]
+    kept = made(edit.type_field(picked, FormPlace(1, 1), "feed", Entry(4.0))).blocks[0].segments[0]
     assert kept == arc("CW", x_end=1.0, y_end=1.0, radius=3.0, feed=4.0, choice=1)
-    dropped = made(edit.type_field(picked, Where(1, 1), "x_end", None)).blocks[0].segments[0]
+    dropped = made(edit.type_field(picked, FormPlace(1, 1), "x_end", None)).blocks[0].segments[0]
     assert dropped == arc("CW", y_end=1.0, radius=3.0)
 
 
 def test_insert_segment():
     new = line(x_end=9.0, y_end=9.0)
     first, second, third = SQUARE.blocks[0].segments
-    assert made(edit.insert_segment(SQUARE, Where(1, 1), new)).blocks[0].segments == (new, first, second, third)
-    assert made(edit.insert_segment(SQUARE, Where(1, 3), new)).blocks[0].segments == (first, second, new, third)
-    assert made(edit.insert_segment(SQUARE, Where(1, 4), new)).blocks[0].segments == (first, second, third, new)
-    assert made(edit.insert_segment(SQUARE, Where(1, 4), blend(0.1))).blocks[0].segments[3] == blend(0.1)
+    assert made(edit.insert_segment(SQUARE, FormPlace(1, 1), new)).blocks[0].segments == (new, first, second, third)
+    assert made(edit.insert_segment(SQUARE, FormPlace(1, 3), new)).blocks[0].segments == (first, second, new, third)
+    assert made(edit.insert_segment(SQUARE, FormPlace(1, 4), new)).blocks[0].segments == (first, second, third, new)
+    assert made(edit.insert_segment(SQUARE, FormPlace(1, 4), blend(0.1))).blocks[0].segments[3] == blend(0.1)
 
 
 @pytest.mark.parametrize(
     ("where", "segment", "text"),
     [
-        (Where(1, 0), LineSegment(), "START comes first: nothing goes before it."),
-        (Where(1, 5), LineSegment(), "There is no segment 5: the last segment is 3."),
-        (Where(1, -1), LineSegment(), "There is no segment -1: the last segment is 3."),
-        (Where(3, 1), LineSegment(), "There is no block 3: the last block is 1."),
-        (Where(1, 1), BlendSegment(), "A BLEND ARC cannot be the first segment: it blends two others."),
+        (FormPlace(1, 0), LineSegment(), "START comes first: nothing goes before it."),
+        (FormPlace(1, 5), LineSegment(), "There is no segment 5: the last segment is 3."),
+        (FormPlace(1, -1), LineSegment(), "There is no segment -1: the last segment is 3."),
+        (FormPlace(3, 1), LineSegment(), "There is no block 3: the last block is 1."),
+        (FormPlace(1, 1), BlendSegment(), "A BLEND ARC cannot be the first segment: it blends two others."),
     ],
 )
 def test_inserting_is_refused(where, segment, text):
@@ -161,17 +166,17 @@ def test_inserting_is_refused(where, segment, text):
 def test_two_blends_never_meet(at):
     blended = program(line(x_end=1.0, y_end=0.0), blend(0.1), line(x_end=1.0, y_end=1.0))
     refused = Refused("A BLEND ARC cannot be next to another BLEND ARC.")
-    assert edit.insert_segment(blended, Where(1, at), BlendSegment()) == refused
+    assert edit.insert_segment(blended, FormPlace(1, at), BlendSegment()) == refused
 
 
 def test_delete_segment():
     first, _, third = SQUARE.blocks[0].segments
-    assert made(edit.delete_segment(SQUARE, Where(1, 2))).blocks[0].segments == (first, third)
-    assert edit.delete_segment(SQUARE, Where(1, 0)) == Refused("START cannot be deleted.")
-    assert edit.delete_segment(SQUARE, Where(1, 4)) == Refused("There is no segment 4: the last segment is 3.")
+    assert made(edit.delete_segment(SQUARE, FormPlace(1, 2))).blocks[0].segments == (first, third)
+    assert edit.delete_segment(SQUARE, FormPlace(1, 0)) == Refused("START cannot be deleted.")
+    assert edit.delete_segment(SQUARE, FormPlace(1, 4)) == Refused("There is no segment 4: the last segment is 3.")
     alone = program(line(x_end=1.0, y_end=0.0))
-    assert made(edit.delete_segment(alone, Where(1, 1))).blocks[0].segments == ()
-    assert edit.delete_segment(program(), Where(1, 1)) == Refused("There is no segment 1: no segment is typed yet.")
+    assert made(edit.delete_segment(alone, FormPlace(1, 1))).blocks[0].segments == ()
+    assert edit.delete_segment(program(), FormPlace(1, 1)) == Refused("There is no segment 1: no segment is typed yet.")
 
 
 def test_new_block():
@@ -262,7 +267,7 @@ def test_set_unit_converts_lengths_and_feeds_and_nothing_else():
 
 def test_set_unit_keeps_what_could_not_be_read():
     unread = Unread("1,5", unread_reason("1,5", field_of(Form.LINE, "x_end"), Unit.IN))
-    given = made(edit.type_field(SQUARE, Where(1, 1), "x_end", unread))
+    given = made(edit.type_field(SQUARE, FormPlace(1, 1), "x_end", unread))
     assert edit.set_unit(given, Unit.IN).blocks[0].segments[0] == LineSegment(x_end=unread, y_end=Entry(0.0))
 
 

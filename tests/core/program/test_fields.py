@@ -8,8 +8,8 @@ import pytest
 
 from core.program import fields
 from core.program.fields import (
-    AGAIN,
     TABLES,
+    TYPE_AGAIN,
     Form,
     check,
     check_text,
@@ -197,4 +197,4 @@ def test_a_number_the_field_does_not_take_is_kept_as_it_was_typed(form: Form, na
 def test_a_text_the_field_would_take_now_waits_to_be_typed_again() -> None:
     one = field_of(Form.START, "x_start")
     assert check_text("99999", one, Unit.MM) is None
-    assert unread_reason("99999", one, Unit.MM) == AGAIN
+    assert unread_reason("99999", one, Unit.MM) == TYPE_AGAIN

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.program.edit import (
-    Where,
+    FormPlace,
     copy_block,
     delete_segment,
     delete_tool,
@@ -83,11 +83,11 @@ def told(edited: object) -> tuple[str, ...]:
 
 
 def test_fields() -> None:
-    assert told(type_field(PART, Where(1, 2), "y_end", Entry(2.5))) == (
+    assert told(type_field(PART, FormPlace(1, 2), "y_end", Entry(2.5))) == (
         "Block 1, segment 2: Y END 2.5000, was 1.0000.",
     )
-    assert told(type_field(PART, Where(1), "x_start", None)) == ("Block 1: X START blank, was 0.0000.",)
-    unread = type_field(PART, Where(1, 1), "x_end", Unread("2..5", ""))
+    assert told(type_field(PART, FormPlace(1), "x_start", None)) == ("Block 1: X START blank, was 0.0000.",)
+    unread = type_field(PART, FormPlace(1, 1), "x_end", Unread("2..5", ""))
     assert told(unread) == ("Block 1, segment 1: X END 2..5 (cannot be used), was 1.0000.",)
 
 
@@ -97,8 +97,8 @@ def test_choices() -> None:
 
 
 def test_segments() -> None:
-    assert told(insert_segment(PART, Where(1, 2), LineSegment())) == ("Block 1, segment 2 is new.",)
-    assert told(delete_segment(PART, Where(1, 3))) == ("Block 1, segment 3 is deleted.",)
+    assert told(insert_segment(PART, FormPlace(1, 2), LineSegment())) == ("Block 1, segment 2 is new.",)
+    assert told(delete_segment(PART, FormPlace(1, 3))) == ("Block 1, segment 3 is deleted.",)
     first, *_ = PART.blocks[0].segments
     arc = replace(PART.blocks[0], segments=(first, ArcSegment(), *PART.blocks[0].segments[2:]))
     assert told(replace(PART, blocks=(arc,))) == ("Block 1, segment 2: ARC, was LINE.",)

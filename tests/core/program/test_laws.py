@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from core.geometry.piece import Arc, Piece, Point
 from core.program import edit
-from core.program.edit import Where
+from core.program.edit import FormPlace
 from core.program.fields import check, field_of, form_of
 from core.program.model import ArcSegment, BlendSegment, Direction, Entry, Program, Segment
 from core.program.solve.block import solve_block
@@ -185,7 +185,7 @@ def test_what_was_calculated_may_be_typed_and_changes_nothing(part):
     for segment in before.segments:
         for name, found in segment.values.items():
             if isinstance(found, Solved):
-                typed = program_of(edit.type_field(typed, Where(1, segment.number), name, Entry(found.value)))
+                typed = program_of(edit.type_field(typed, FormPlace(1, segment.number), name, Entry(found.value)))
     after = solved(typed)
     assert after.every_finding == ()
     assert same(before, after)
@@ -222,7 +222,7 @@ def test_pieces_join_and_arcs_are_exact(part):
 @laws
 @given(contours(), st.integers(1, 6))
 def test_deleting_what_was_inserted_changes_nothing(part, at):
-    where = Where(1, min(at, len(part.blocks[0].segments) + 1))
+    where = FormPlace(1, min(at, len(part.blocks[0].segments) + 1))
     longer = program_of(edit.insert_segment(part, where, line(x_end=1.0, y_end=2.0)))
     assert program_of(edit.delete_segment(longer, where)) == part
 
@@ -232,7 +232,7 @@ def test_deleting_what_was_inserted_changes_nothing(part, at):
 def test_deleting_a_segment_joins_its_neighbors(points, index):
     assume(index + 1 < len(points))
     part = program(*(line(x_end=x, y_end=y) for x, y in points), x=1000.0)
-    shorter = solved(program_of(edit.delete_segment(part, Where(1, index + 1))))
+    shorter = solved(program_of(edit.delete_segment(part, FormPlace(1, index + 1))))
     before = solved(part)
     assert shorter.segments[index].start == before.segments[index].start
     assert shorter.segments[index].end == before.segments[index + 1].end

@@ -4,9 +4,8 @@ from itertools import pairwise
 import pytest
 
 from core.pipeline.command_output import path_document, path_listing, table_document, table_listing, verdict_listing
-from core.pipeline.derive import derive
+from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.jobs import jobs
-from core.pipeline.lookahead_table import look_ahead_table
 from core.pipeline.plot import block_scene, svg_of
 from core.program.model import CutterComp, Entry, Parameters
 from core.units import Unit
