@@ -17,6 +17,7 @@ from core.geometry.piece import Line, Piece, Point
 from core.geometry.stretch import NO_PARTS, Ends, Parts, pieces_joined, stretches
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock
+from core.tolerance import JOINED
 from core.units import Unit
 from core.verify.verdict import Verdict
 
@@ -62,7 +63,10 @@ def _over_run(surface: Path, verdict: Verdict) -> Parts:
         return NO_PARTS
     crossing, numbers = complex(*verdict.over_run_at), surface.numbers[[0, -1]]
     start, end = as_complex(surface.points[[0, -1]])
-    return stretches(surface, Ends(numbers, np.array([start, crossing]), numbers, np.array([crossing, end])))
+    starts, ends = np.array([start, crossing]), np.array([crossing, end])
+    # one end may begin or stop at the crossing
+    runs = np.abs(ends - starts) > JOINED
+    return stretches(surface, Ends(numbers[runs], starts[runs], numbers[runs], ends[runs]))
 
 
 def _posted_control_path(work: BlockPaths) -> Compensated | None:

@@ -19,7 +19,7 @@ from core.verify.wrong_side import on_part_side, sided
 class Surface:
     """The walls of a contour on whose `side` the cutter runs, and where they meet themselves.
 
-    `over_run_at` is where the first and the last element cross, if what lies beyond is a lead-in and a lead-out: the
+    `over_run_at` is where the first and the last element meet, if what lies beyond is a lead-in or a lead-out: the
     walls are closed there.
     """
 
@@ -43,44 +43,46 @@ class Surface:
 def _without_over_run(surface: Surface) -> Surface | None:
     """The surface between the crossing of its first and its last element.
 
-    None where anything else crosses, where a run beyond the crossing is on the part's side of what is left, and where
-    it is as long as that or has no length.
+    One of them may begin, end or join the next element at the crossing, as long as either runs beyond it.  None where
+    anything else crosses, where a run beyond the crossing is on the part's side of what is left, and where it is as
+    long as that.
     """
     walls, places, points = surface.walls, surface.crossings.places, surface.crossings.points
     if surface.closed or not len(points) or len(walls) < 3:
         return None
     stations = walls.stations
-    ends = (places[:, 0] <= stations[1] - JOINED) & (places[:, 1] >= stations[-2] + JOINED)
-    first, last = places[0]
-    shortest, longest = sorted((float(first), float(stations[-1] - last)))
-    one = bool(ends.all() and np.abs(points - points[0]).max() <= 2.0 * JOINED)
-    if not one or shortest <= JOINED or longest >= last - first:
+    at_ends = (places[:, 0] <= stations[1] + JOINED) & (places[:, 1] >= stations[-2] - JOINED)
+    if not at_ends.all() or np.abs(points - points[0]).max() > 2.0 * JOINED:
+        return None
+    first, last = float(places[:, 0].min()), float(places[:, 1].max())
+    lead_in, lead_out = first, float(stations[-1]) - last
+    if max(lead_in, lead_out) <= JOINED or max(lead_in, lead_out) >= last - first:
         return None
     x, y = points[0].real.item(), points[0].imag.item()
-    left = piece_arrays(_cut(surface.path, walls, (x, y)))
-    if len(left) != len(walls):
-        return None
-    runs = piece_arrays(*_runs(surface.path, walls, (x, y)))
-    pairs, index = pairs_of(runs, left, rounding_of(walls)), np.array((0, len(runs) - 1))
-    far = np.array((runs.start[0], runs.end[-1]))
+    begin, end = walls.rows[0] + (first >= stations[1] - JOINED), walls.rows[-1] - (last <= stations[-2] + JOINED)
+    left = piece_arrays(_between(surface.path, int(begin), int(end), (x, y)))
     side = sided(surface.side, left, NO_CROSSINGS, closed=True)
-    if on_part_side(left, far, nearest(pairs, index, far), side).any():
+    before, after = _beyond(surface.path, walls, (x, y))
+    ends = [(before, walls.start[0])] * (lead_in > JOINED) + [(after, walls.end[-1])] * (lead_out > JOINED)
+    runs, far = piece_arrays(*(run for run, _ in ends)), np.array([point for _, point in ends])
+    near = nearest(pairs_of(runs, left, rounding_of(walls)), np.arange(len(runs)), far)
+    if on_part_side(left, far, near, side).any():
         return None
     return Surface(surface.path, surface.side, left, True, NO_CROSSINGS, (x, y))
 
 
-def _cut(path: Path, walls: PieceArrays, at: Point) -> Path:
-    """The path from a point of its first wall to the same point of its last one."""
-    points, centers = path.points.copy(), path.centers.copy()
-    first, last = int(walls.rows[0]), int(walls.rows[-1])
-    points[: first + 1], points[last + 1 :] = at, at
-    lines = path.turns == 0
+def _between(path: Path, begin: int, end: int, at: Point) -> Path:
+    """The path's pieces from one row to another, begun and ended at a point; those outside have no length."""
+    points, centers, turns = path.points.copy(), path.centers.copy(), path.turns.copy()
+    points[: begin + 1], points[end + 1 :] = at, at
+    turns[:begin], turns[end + 1 :] = 0, 0
+    lines = turns == 0
     centers[lines] = points[:-1][lines]
-    return Path(points, centers, path.turns, path.numbers)
+    return Path(points, centers, turns, path.numbers)
 
 
-def _runs(path: Path, walls: PieceArrays, at: Point) -> tuple[Path, Path]:
-    """What lies before that point on the first wall, and behind it on the last one."""
+def _beyond(path: Path, walls: PieceArrays, at: Point) -> tuple[Path, Path]:
+    """What lies before a point of the first wall, and behind it on the last one."""
     first, last = (path.part(row, row + 1) for row in (int(walls.rows[0]), int(walls.rows[-1])))
     before = Path.of(np.array((first.points[0], at)), first.centers, first.turns)
     center = last.centers if last.turns[0] else np.array((at,))

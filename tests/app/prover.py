@@ -15,6 +15,8 @@ from tests.app.operator import Operator
 
 DATA = Path(__file__).parents[1] / "data" / "nc"
 SQUARE = (DATA / "threeblock-square.nc").read_bytes()
+CROSSED = SQUARE.replace(b"X-1.Y1.T1M6", b"X-8.Y1.T1M6")
+"""The square with a first move longer than itself, which is no over-run: the contour crosses itself."""
 CORNER = b"G20 G17 G40 G90 F10\nT1 M6\nG0 X-2 Y-2\nG41 D1 G1 X0 Y-1\nX0 Y2\nX2\nY0\nX-1\nG40 G1 X-2\nM30\n"
 
 

@@ -94,6 +94,70 @@ def test_an_over_run_at_a_corner_is_a_lead_and_said_once(
     assert f"{control}: runs;" in outcome
 
 
+SEED = """N10G0G90X-1.Y1.T1M6
+N20G41{offset}Y0Z0
+N21G1X0Y0F20.
+N22X1.5
+N23Y-1.5
+N24X0
+N25Y.1
+N26G0G40X-1.Y1.
+N30{end}
+"""
+
+KLARTEXT_SEED = """BEGIN PGM P INCH
+TOOL DEF 1 L+0 R+0.25
+TOOL CALL 1 Z S1000
+L X-1 Y+1 R0 FMAX
+L Z-1 R0 FMAX
+L X-1 Y+0 RL F100
+L X+0
+L X+1.5
+L Y-1.5
+L X+0
+L Y+0.1
+L X-1 Y+1 R0
+END PGM P INCH
+"""
+
+SEEDS = {
+    "rosettacnc:easy": SEED.format(offset="", end="M2"),
+    "rosettacnc:normal": SEED.format(offset="", end="M2"),
+    "nine-series:a": SEED.format(offset="D1", end="M2"),
+    "nine-series:b": SEED.format(offset="D1", end="M2"),
+    "klartext": KLARTEXT_SEED,
+    "linuxcnc": SEED.format(offset="", end="M2"),
+}
+
+
+@pytest.mark.parametrize("control", SEEDS)
+def test_an_end_that_runs_past_the_corner_where_the_contour_begins_is_a_lead(
+    control: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    """These controls take the move to the corner for a lead too: nothing is gouged."""
+    status, findings, outcome = checked(capsys, tmp_path, SEEDS[control], control)
+    (over_run,) = [finding for finding in findings if finding["rule"] == "OVER_RUN"]
+    assert over_run["severity"] == "info"
+    assert {"GOUGE", "CROSSES", "UNCUT"}.isdisjoint(rules(findings)), findings
+    assert status == 0, findings
+    assert f"{control}: runs;" in outcome
+
+
+def test_an_entry_that_nicks_the_corner_gouges_by_its_depth_there(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    """The control goes straight from (-1, 0) to (0, 0.25): it passes (0, 0) at 0.25 / sqrt(1.0625)."""
+    text = SEED.format(offset="", end="T2M6")
+    status, findings, outcome = checked(capsys, tmp_path, text, "threeblock")
+    (gouge,) = [finding for finding in findings if finding["rule"] == "GOUGE"]
+    assert gouge["text"] == "The cutter gouges the surface of line 4 by 0.0075 at X 0.0000 Y 0.0000."
+    assert gouge["line"] == 3
+    assert "OVER_RUN" in rules(findings)
+    assert "CROSSES" not in rules(findings)
+    assert status == 1
+    assert "threeblock: gouges by 0.0075 at line 3;" in outcome
+
+
 @pytest.mark.parametrize("control", ["linuxcnc", "rosettacnc:easy", "nine-series:a"])
 def test_an_over_run_that_cuts_the_part_still_gouges(
     control: str, capsys: pytest.CaptureFixture[str], tmp_path: Path

@@ -19,13 +19,13 @@ from core.finding import Finding, Severity
 from core.program.edit import insert_block
 from core.units import Unit, sentence
 from tests.app.operator import Operator
-from tests.app.prover import CORNER, SQUARE, Prover, square
+from tests.app.prover import CORNER, CROSSED, SQUARE, Prover, square
 
 
 def test_the_listing_stands_beside_the_findings() -> None:
     screen = "\n".join(square().screen())
     assert "NC PROOF  threeblock  tools 1=0.5" in screen
-    assert "gouges by 0.1045 at line 3" in screen
+    assert "gouges by 0.0075 at line 3" in screen
     assert "  1 >N10G0G90X-1.Y1.T1M6" in screen
     assert "  3! N21G1X0Y0F20." in screen
     assert "FINDINGS  1 of 3" in screen
@@ -33,7 +33,7 @@ def test_the_listing_stands_beside_the_findings() -> None:
 
 
 def test_the_prompt_tells_the_finding_of_the_cursors_line() -> None:
-    assert square().press("down", "down").said.startswith("!! GOUGE: The cutter gouges the surface of line 7 by 0.1045")
+    assert square().press("down", "down").said.startswith("!! GOUGE: The cutter gouges the surface of line 4 by 0.0075")
 
 
 def test_findings_lead_to_their_lines() -> None:
@@ -53,15 +53,15 @@ def marked(prover: Prover) -> tuple[str, str]:
 
 
 def test_every_finding_is_told_by_its_own_text_though_several_are_in_one_line() -> None:
-    prover = square("linuxcnc").press("home")
-    assert [one.line for one in prover.page.findings] == [1, 3, 3, 3, 7, 9]
+    prover = Prover.of(CROSSED, "linuxcnc").press("home")
+    assert [one.line for one in prover.page.findings] == [1, 3, 3, 3, 7, 7, 9]
     codes = [one.code for one in prover.page.findings]
-    assert codes == ["UNIT", "GOUGE", "UNCUT", "CROSSES", "GOUGE", "TOOL"]
+    assert codes == ["UNIT", "GOUGE", "UNCUT", "CROSSES", "GOUGE", "WRONG-SIDE", "TOOL"]
     for number, one in enumerate(prover.page.findings, 1):
         if number > 1:
             prover.press("n")
         count, code = marked(prover)
-        assert count.startswith(f"FINDINGS  {number} of 6")
+        assert count.startswith(f"FINDINGS  {number} of 7")
         assert code == one.code
         assert prover.said.lstrip("! ") == f"{one.code}: {sentence(one, Unit.MM)}"
     assert prover.press("n").said == "There is no further finding."
@@ -70,29 +70,29 @@ def test_every_finding_is_told_by_its_own_text_though_several_are_in_one_line() 
 
 
 def test_no_finding_is_marked_where_the_prompt_tells_none() -> None:
-    prover = square("linuxcnc").press("g", "5", "enter")
+    prover = Prover.of(CROSSED, "linuxcnc").press("g", "5", "enter")
     assert prover.said.startswith("Enter types in the line")
     count, *rows = prover.part("verdict").splitlines()
-    assert count.startswith(" FINDINGS  6 ")
+    assert count.startswith(" FINDINGS  7 ")
     assert not any(row.startswith(">") for row in rows)
-    assert marked(prover.press("n"))[0].startswith("FINDINGS  5 of 6")
-    assert marked(prover.press("g", "5", "enter", "p"))[0].startswith("FINDINGS  4 of 6")
+    assert marked(prover.press("n"))[0].startswith("FINDINGS  5 of 7")
+    assert marked(prover.press("g", "5", "enter", "p"))[0].startswith("FINDINGS  4 of 7")
     assert prover.said.startswith("! CROSSES")
-    assert marked(prover.press("g", "5", "enter", "tab"))[0].startswith("FINDINGS  4 of 6")
+    assert marked(prover.press("g", "5", "enter", "tab"))[0].startswith("FINDINGS  4 of 7")
 
 
 def test_the_mark_goes_with_the_cursor_to_what_is_told_of_its_line() -> None:
-    prover = square("linuxcnc").press("g", "7", "enter")
-    assert marked(prover)[0].startswith("FINDINGS  5 of 6")
+    prover = Prover.of(CROSSED, "linuxcnc").press("g", "7", "enter")
+    assert marked(prover)[0].startswith("FINDINGS  5 of 7")
     prover.press("g", "3", "enter")
-    assert marked(prover)[0].startswith("FINDINGS  2 of 6")
+    assert marked(prover)[0].startswith("FINDINGS  2 of 7")
     assert prover.said.startswith("!! GOUGE")
     assert prover.press("c", "C").said.startswith("Tried on")
-    assert marked(prover)[0].startswith("FINDINGS  2 of 6")
+    assert marked(prover)[0].startswith("FINDINGS  2 of 7")
 
 
 def test_a_finding_that_is_in_no_line_is_gone_to_like_the_others() -> None:
-    prover = square("linuxcnc")
+    prover = Prover.of(CROSSED, "linuxcnc")
     page, told = prover.page, prover.page.told
     assert told is not None
     assert told.answer is not None
@@ -107,20 +107,20 @@ def test_a_finding_that_is_in_no_line_is_gone_to_like_the_others() -> None:
 
 @pytest.mark.parametrize("size", [(80, 24), (132, 43)])
 def test_the_list_of_findings_shows_each_whole(size: tuple[int, int]) -> None:
-    prover = square("linuxcnc").press("n", "n", "n", "ctrl+f")
+    prover = Prover.of(CROSSED, "linuxcnc").press("n", "n", "n", "ctrl+f")
     findings = prover.page.findings
     text = " ".join(prover.part("body", *size).split())
     for one in findings:
         assert f"{one.code}: {sentence(one, Unit.MM)}" in text
     assert "> ! 3:" in text
-    assert "4 of 6" in prover.part("header", *size)
+    assert "4 of 7" in prover.part("header", *size)
     assert prover.press("up", "up", "enter").page.at == 1
     assert prover.desk.page is prover.page
     assert prover.page.row == 2
 
 
 def test_a_long_list_of_findings_keeps_the_marked_one_in_sight() -> None:
-    prover = square("linuxcnc")
+    prover = Prover.of(CROSSED, "linuxcnc")
     told = prover.page.told
     assert told is not None
     assert told.answer is not None
@@ -142,7 +142,7 @@ def test_a_long_list_of_findings_keeps_the_marked_one_in_sight() -> None:
 
 
 def test_the_list_follows_the_answer_and_changes_nothing_below_it() -> None:
-    prover = square("linuxcnc")
+    prover = Prover.of(CROSSED, "linuxcnc")
     asked = prover.page.asked
     desk = prover.desk.press("enter").press("(", "(").press("ctrl+f")
     assert not isinstance(desk.page, ProofPage)
@@ -200,9 +200,9 @@ def test_what_lies_below_the_comparison_is_not_changed_unseen(key: str) -> None:
 
 def test_another_diameter_changes_the_verdict() -> None:
     prover = square()
-    assert prover.page.told.answer.outcome == "gouges by 0.1045 at line 3"
+    assert prover.page.told.answer.outcome == "gouges by 0.0075 at line 3"
     prover.press("t", *"1=.2", "enter")
-    assert prover.page.told.answer.outcome != "gouges by 0.1045 at line 3"
+    assert prover.page.told.answer.outcome != "gouges by 0.0075 at line 3"
     assert "tools 1=0.2" in "\n".join(prover.screen())
     assert prover.press(">").page.asked.tools.get(1).diameter == pytest.approx(0.201)
     assert prover.press("<", "<").page.asked.tools.get(1).diameter == pytest.approx(0.199)
@@ -212,7 +212,7 @@ def test_a_tool_nobody_gave_is_asked_for() -> None:
     prover = Prover.of(SQUARE, "threeblock", tool=None)
     assert "B5-TOOL" in "\n".join(prover.screen())
     assert prover.press("<").said == "Tool 1 has no diameter here yet: t gives it one."
-    assert prover.press("t", *".5", "enter").page.told.answer.outcome == "gouges by 0.1045 at line 3"
+    assert prover.press("t", *".5", "enter").page.told.answer.outcome == "gouges by 0.0075 at line 3"
 
 
 @pytest.mark.parametrize(

@@ -6,11 +6,11 @@ from tests.app.prover import SQUARE, Prover, square
 
 
 def test_a_line_is_typed_and_the_verdict_follows() -> None:
-    prover = square().press(*["down"] * 6, "enter", *["backspace"] * 6, *"N25Y.3", "enter")
-    assert prover.lines[6] == "N25Y.3"
-    assert prover.page.row == 7
+    prover = square().press(*["down"] * 3, "enter", *["backspace"] * 7, *"N22X-.5", "enter")
+    assert prover.lines[3] == "N22X-.5"
+    assert prover.page.row == 4
     assert prover.page.unsaved
-    assert "gouges by 0.1045" not in "\n".join(prover.screen())
+    assert "gouges by 0.0075" not in "\n".join(prover.screen())
 
 
 def test_esc_leaves_a_line_as_it_was() -> None:

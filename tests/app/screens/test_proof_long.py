@@ -28,7 +28,7 @@ def test_a_long_program_is_run_first_and_judged_then() -> None:
     second = first.hearing(rest.answer())
     assert isinstance(second, ProofPage)
     assert second.question is None
-    assert second.told.answer.outcome.startswith("gouges by 0.1045")
+    assert second.told.answer.outcome.startswith("gouges by 0.0075")
     assert not first.told.answer.outcome.startswith("gouges")
 
 

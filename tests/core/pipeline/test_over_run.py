@@ -104,6 +104,19 @@ def test_the_ends_beyond_the_crossing_are_drawn_as_leads():
     assert leads(derived(MID_SIDE_SQUARE)) == []
 
 
+def test_an_end_that_stops_at_the_crossing_is_no_lead():
+    corners = ((1.5, 0), (1.5, -1.5), (0, -1.5))
+    for points, lead in (
+        (((0, 0), *corners, (0, 0.1)), [0, 0, 0, 0.1]),
+        (((-1, 0), (0, 0), *corners, (0, 0)), [-1, 0, 0, 0]),
+    ):
+        found = derived(points, comp=CutterComp.LEFT)
+        assert "OVER_RUN" in codes(found)
+        assert "GOUGE" not in codes(found)
+        ((start, end),) = leads(found)
+        assert [*start, *end] == pytest.approx(lead)
+
+
 def test_the_head_of_the_nc_file_says_what_the_ends_are():
     part = derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT, plunge_feed=Entry(5.0), speed=Entry(900.0))))
     note = "OVER-RUN AT X 0.0000 Y 0.0000: THE ENDS ARE LEAD-IN AND LEAD-OUT"
