@@ -258,9 +258,8 @@ def _uncut(verdict: Verdict, unit: Unit) -> Row:
     uncut = f"{length(verdict.uncut_length, unit)} of {length(verdict.surface_length, unit)}"
     row: Row = (Span(" UNCUT   ", Look.LABEL), Span(uncut, Look.WARNING if verdict.uncut else Look.TYPED))
     if not verdict.gouges:
-        clean = verdict.clean
-        word = Span("none" if clean else "wrong side", Look.GOOD if clean else Look.ERROR)
-        row = (*row, Span("  GOUGE ", Look.LABEL), word)
+        word = "none" if verdict.clean else "wrong side" if verdict.judged else "not judged"
+        row = (*row, Span("  GOUGE ", Look.LABEL), Span(word, Look.GOOD if verdict.clean else Look.ERROR))
     return (*row, *_nearest(verdict, unit, STRIP - len(text_of(row))))
 
 

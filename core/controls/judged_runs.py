@@ -91,6 +91,7 @@ def _judge_stretch(run: Run, stretch: Stretch) -> list[Judged]:
     contours = contours_of(whole)
     open_lines = open_contours(whole, contours)
     parts, results, row = stretch.parts(), list[Judged](), 0
+    unjudged: list[Judged] = []
     sides_change = any(part.side is not parts[0].side for part in parts)
     for part in parts:
         surface = surface_of(part)
@@ -103,24 +104,51 @@ def _judge_stretch(run: Run, stretch: Stretch) -> list[Judged]:
         if sides_change:
             judgments[0] = replace(judgments[0], by_itself=bool(results))
         elif len(parts) > 1:
-            judgments[0] = _with_other_parts(judgments[0], whole, contours, (begin, row))
+            judgments[0], unknown = _with_other_parts(run, judgments[0], whole, contours, (begin, row))
+            unjudged += unknown
         results += judgments
-    return results
+    return _with_unjudged(results, unjudged)
 
 
-def _with_other_parts(result: Judged, whole: Path, contours: tuple[Rows, ...], rows: Rows) -> Judged:
-    """With what is cut of all contours outside the part's rows; a subprogram's lines may be in several parts."""
+def _with_unjudged(results: list[Judged], unjudged: Sequence[Judged]) -> list[Judged]:
+    """The results and those that are not judged for another reason than one of them."""
+    reasons = {result.verdict.uneven_arc for result in results if not result.verdict.judged}
+    more = {result.verdict.uneven_arc: result for result in unjudged if result.verdict.uneven_arc not in reasons}
+    return [*results, *more.values()]
+
+
+def _with_other_parts(
+    run: Run, result: Judged, whole: Path, contours: tuple[Rows, ...], rows: Rows
+) -> tuple[Judged, list[Judged]]:
+    """With what is cut of all contours outside the part's rows, and those of them that cannot be judged.
+
+    A subprogram's lines may be in several parts.
+    """
     part, numbered = result.stretch, replace(whole, numbers=np.arange(len(whole), dtype=np.float64))
-    more: list[Gouge] = []
+    accepted = _accepted_difference(run, whole, result.center)
+    more, unjudged = list[Gouge](), list[Judged]()
     for first, last in contours:
         edges = np.clip((first, *rows, last), first, last).tolist()
         # each by itself, for a pass of another part is no repetition of one of this part
         surface = joined([without_repeats(numbered.part(*both)) for both in pairwise(edges)])
-        cut = judge(surface, part.side, part.radius, result.center).gouges
-        others = [gouge for gouge in cut if not rows[0] <= gouge.surface_number < rows[1]]
+        verdict = judge(surface, part.side, part.radius, result.center, accepted)
+        if not verdict.judged:
+            unjudged.append(Judged(part, surface, result.center, _numbered(verdict, whole), frozenset()))
+            continue
+        others = [gouge for gouge in verdict.gouges if not rows[0] <= gouge.surface_number < rows[1]]
         more += (replace(gouge, surface_number=float(whole.numbers[int(gouge.surface_number)])) for gouge in others)
+    if not result.verdict.judged:
+        return result, unjudged
     gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)
-    return replace(result, verdict=replace(result.verdict, gouges=tuple(gouges)))
+    return replace(result, verdict=replace(result.verdict, gouges=tuple(gouges))), unjudged
+
+
+def _numbered(verdict: Verdict, surface: Path) -> Verdict:
+    """The verdict with the number of an uneven arc of the surface instead of its row."""
+    arc = verdict.uneven_arc
+    if arc is None or not arc.on_surface:
+        return verdict
+    return replace(verdict, uneven_arc=replace(arc, number=float(surface.numbers[int(arc.number)])))
 
 
 def _judge_part(run: Run, stretch: Stretch, whole: Path, contours: Sequence[Rows]) -> list[Judged]:
@@ -134,9 +162,13 @@ def _judge_part(run: Run, stretch: Stretch, whole: Path, contours: Sequence[Rows
         inside[first:last] = True
     leads = whole.numbers[~inside].tolist()
     if leads:
-        gouges = judge(without_repeats(whole), stretch.side, stretch.radius, center, accepted).gouges
+        surface = without_repeats(whole)
+        verdict = judge(surface, stretch.side, stretch.radius, center, accepted)
+        gouges = verdict.gouges if verdict.judged else ()
         lead_gouges = tuple(gouge for gouge in gouges if gouge.surface_number in leads)
         results[0] = replace(results[0], leads=tuple(map(int, leads)), lead_gouges=lead_gouges)
+        if not verdict.judged:
+            results = _with_unjudged(results, [Judged(stretch, surface, center, verdict, frozenset())])
     return results
 
 

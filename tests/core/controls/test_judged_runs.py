@@ -9,7 +9,7 @@ import pytest
 
 from core.controls.compared_controls import Compared, OtherLanguage, compare, parting
 from core.controls.control_tools import ToolTable
-from core.controls.judged_runs import deepest_gouge, findings, judged
+from core.controls.judged_runs import deepest_gouge, findings, first_unjudged, judged
 from core.controls.registry import compared, names, reads, resolve
 from core.finding import Severity
 from core.geometry.path import Path
@@ -176,3 +176,28 @@ def test_parts_on_two_sides_say_that_they_are_judged_each_by_itself(control: str
     changed = findings(judged(ran(text.format(side="G42 "), control, t1=10)))
     assert [(one.line, one.severity) for one in changed if one.code == "SIDES"] == [(6, Severity.WARNING)]
     assert "SIDES" not in {one.code for one in findings(judged(ran(text.format(side=""), control, t1=10)))}
+
+
+@pytest.mark.parametrize("arm", [".2999", ".3"])
+def test_an_uneven_arc_that_the_control_accepts_hides_no_gouge_of_another_part(arm: str) -> None:
+    """The second part runs .225 beside the first wall with a radius of .375."""
+    head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\nY2\n"
+    text = f"{head}G3 X-.6 Y2 I-{arm} J0\nG1 Y1.5\nD2\nY0\nG40 X-.225 Y-1\nM2\n"
+    results = judged(ran(text, "nine-series:a", t1=0.4, t2=0.75))
+    cut, line = deepest_gouge(results)
+    assert from_mm(cut, Unit.IN) == pytest.approx(0.15, abs=1e-6)
+    assert line == 10
+    assert any("surface of line 6" in one.text for one in findings(results) if one.severity is Severity.ERROR)
+
+
+def test_leads_that_cannot_be_judged_are_an_error() -> None:
+    """The arc of the lead ends on the ray it begins on: nobody knows whether it is empty or a full circle."""
+    head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X-.5 Y0\n"
+    lead = "G3 X-.4999 Y0 I.2 J0\nG1 X0 Y0\n"
+    text = f"{head}{lead}Y2\nX2\nY0\nX0\nG40 X-1\nM2\n"
+    results = judged(ran(text, "nine-series:a", t1=0.05))
+    assert results[0].verdict.judged
+    assert not results[0].lead_gouges
+    unknown = [one for one in findings(results) if one.code == "UNJUDGED"]
+    assert [(one.severity, one.line) for one in unknown] == [(Severity.ERROR, 6)]
+    assert first_unjudged(results)[0]
