@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Final
 
 MAX_CHARACTERS: Final = 60
-"""Characters a field reads; more is a slip of the hand."""
+"""Characters a field reads; more is a typing mistake."""
 
 
 class CannotReadError(Exception):
@@ -38,9 +38,9 @@ def evaluate(text: str, scales: Mapping[str, Fraction], expected: str) -> Fracti
     if len(text) > MAX_CHARACTERS:
         raise CannotReadError(f"Too long: type at most {MAX_CHARACTERS} characters.")
     if not text.isprintable():
-        raise CannotReadError("It holds a character that cannot be shown: type it again.")
+        raise CannotReadError("It has a character that cannot be displayed: type it again.")
     if "," in text:
-        raise CannotReadError("Type a point, as in 1.5, and no comma for thousands.")
+        raise CannotReadError("Use a decimal point (1.5) and no thousands comma.")
     _refuse_dashed(text)
     tokens = [(match.lastgroup or "", match[match.lastgroup or 0]) for match in _TOKEN.finditer(text.rstrip())]
     return _Reader(tokens, scales, expected, text.strip()).whole()
@@ -161,7 +161,7 @@ class _Reader:
 
 def _times(left: _Amount, right: _Amount) -> _Amount:
     if left.scale is not None and right.scale is not None:
-        raise CannotReadError("Length times length: leave one unit out.")
+        raise CannotReadError("Length times length: remove one unit.")
     return _Amount(left.value * right.value, right.scale if left.scale is None else left.scale)
 
 
@@ -169,5 +169,5 @@ def _over(left: _Amount, right: _Amount) -> _Amount:
     if right.value == 0:
         raise CannotReadError("Division by zero.")
     if right.scale is not None and (left.scale is not None or right.bracket):
-        raise CannotReadError("Number divided by a length: leave the unit out.")
+        raise CannotReadError("Number divided by a length: remove the unit.")
     return _Amount(left.value / right.value, right.scale if left.scale is None else left.scale)

@@ -67,12 +67,12 @@ EXTRA_DECIMALS: Final = 6
 
 
 def to_mm(value: float, unit: Unit) -> float:
-    """Millimeters (a minute) of a length (a feed) in program units."""
+    """Millimeters (per minute) of a length (a feed) in program units."""
     return value * 25.4 if unit is Unit.IN else value
 
 
 def from_mm(value: float, unit: Unit) -> float:
-    """Program units (a minute) of a length (a feed) in millimeters."""
+    """Program units (per minute) of a length (a feed) in millimeters."""
     return value / 25.4 if unit is Unit.IN else value
 
 
@@ -134,7 +134,7 @@ def decimals_shown(kind: Kind, unit: Unit) -> int:
 
 def printable(text: str) -> str:
     """Somebody's text as it may stand in a message: on one line, short, and nothing that moves a terminal's cursor."""
-    plain = "".join(sign if sign.isprintable() else "?" for sign in text.strip())
+    plain = "".join(character if character.isprintable() else "?" for character in text.strip())
     return plain if len(plain) <= MAX_QUOTED else f"{plain[:MAX_QUOTED]}..."
 
 
@@ -201,7 +201,7 @@ def _scales(kind: Kind, unit: Unit) -> Mapping[str, Fraction]:
         case Kind.COUNT:
             return {}
         case Kind.CHOICE | Kind.TEXT:
-            raise CannotReadError("This field takes no number.")
+            raise CannotReadError("This field does not take a number.")
         case _:
             assert_never(kind)
 

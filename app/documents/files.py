@@ -1,7 +1,7 @@
-"""Files: programs and what is made of them, read whole, and written so that there is always one whole file.
+"""Files: read programs; save without ever leaving a half-written file.
 
-A file is written beside its place, forced to the disk and renamed over the old one: whatever happens, the old
-file or the new one is there, and nothing else is left behind.
+A file is written next to its place, forced to the disk and renamed over the old one: whatever happens, the old
+file or the new one is there, and nothing else is left.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ def save(program: Program, path: str | Path) -> None:
 def write_text(path: str | Path, text: str) -> None:
     """Write a file in one step, through a symbolic link if there is one; its permissions stay.
 
-    StoreError leaves the old file as it was and nothing beside it.
+    StoreError leaves the old file as it was and nothing next to it.
     """
     try:
         data = text.encode()
@@ -123,7 +123,7 @@ def write_output(path: Path, text: str) -> None:
 def refuse_program(path: Path) -> None:
     """StoreError where what is made of a program would be written over one."""
     if _is_program(path):
-        raise StoreError(f"{path} is a program, which would be lost: nothing is written. Name another file.")
+        raise StoreError(f"{path} is a program and would be overwritten. Choose another name.")
 
 
 def _is_program(path: Path) -> bool:
@@ -141,8 +141,8 @@ def _is_program(path: Path) -> bool:
 
 def _replace(target: Path, data: bytes) -> None:
     old = _status(target)
-    beside = target.with_name(f".{target.name[:200]}.{os.urandom(6).hex()}.tmp")
-    handle = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
+    temporary = target.with_name(f".{target.name[:200]}.{os.urandom(6).hex()}.tmp")
+    handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
     try:
         try:
             if old is not None:
@@ -151,10 +151,10 @@ def _replace(target: Path, data: bytes) -> None:
             os.fsync(handle)
         finally:
             os.close(handle)
-        beside.replace(target)
+        temporary.replace(target)
     except BaseException:
         with suppress(OSError):
-            beside.unlink()
+            temporary.unlink()
         raise
     sync_folder(target.parent)
 
@@ -208,7 +208,7 @@ def why(error: OSError | ValueError) -> str:
         case errno.ENAMETOOLONG:
             return "the name is too long. Choose a shorter one."
         case None:
-            return "this is no file name. Choose another."
+            return "that is not a file name. Choose another."
         case _:
             return (
                 f"{error.strerror or error}. Try again or choose another place." if isinstance(error, OSError) else ""

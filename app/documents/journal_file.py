@@ -1,4 +1,4 @@
-"""The journal's file: lines that are on the disk before `add` returns, and where it lies.
+"""The journal's file: lines that are on the disk before `add` returns, and where it is stored.
 
 A line is a sum over itself and everything before it, a blank, and a JSON object.  A line that was torn by a power
 cut, or that is not what was written, ends what can be read.
@@ -28,7 +28,7 @@ NAMELESS: Final[int] = getattr(os, "O_TMPFILE", 0)
 """Opens a file without a name in a folder; 0 where the system has none."""
 
 LARGEST_KEPT: Final = 1_000_000
-"""Bytes of a journal that is kept in memory over a save; of a longer one undo behind the next crash ends there."""
+"""Bytes of a journal that is kept in memory over a save; of a longer one undo after the next crash ends there."""
 
 
 @dataclass(slots=True)
@@ -36,7 +36,7 @@ class JournalFile:
     """A journal that is being written.  `handle` is None while there is no file; `total` is the sum of all lines.
 
     `unwritten` holds lines that could not be written yet, such as on a full disk: the next `add` tries them again.
-    `program` is the file it is about where it lies beside it: whoever may read or write that one may read or write the
+    `program` is the file it is about where it lies next to it: whoever may read or write that one may read or write the
     journal.  `aside` is what a file that stood in its place is called now.
     """
 
@@ -50,7 +50,7 @@ class JournalFile:
 
     @classmethod
     def resumed(cls, path: Path, length: int, total: int) -> Self:
-        """The journal of a program that died, cut behind its last whole line; OSError if that cannot be done."""
+        """The journal of a program that died, cut after its last whole line; OSError if that cannot be done."""
         handle = os.open(path, os.O_RDWR | os.O_APPEND | os.O_CLOEXEC)
         try:
             os.ftruncate(handle, length)
@@ -198,7 +198,7 @@ def whole_lines(data: bytes) -> Iterator[tuple[bytes, int, int]]:
 
 
 def journal_path(path: Path) -> Path:
-    """The journal of a program file: hidden, beside the file that a symbolic link leads to."""
+    """The journal of a program file: hidden, next to the file that a symbolic link leads to."""
     target = Path(os.path.realpath(path))
     return target.with_name(f".{target.name[:200]}{SUFFIX}")
 

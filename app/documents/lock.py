@@ -1,4 +1,4 @@
-"""Who has a program open: a small hidden file beside it, made in one step, with the owner's name in it.
+"""Who has a program open: a small hidden file next to it, made in one step, with the owner's name in it.
 
 The lock tells, it does not force: a second opener may look or take over, and the first one finds another name in the
 file before it saves.  Two who recognize the same dead lock in the same moment may both believe that it is theirs;
@@ -101,7 +101,7 @@ def alive(owner: Owner) -> bool:
 
 
 def lock_path(path: Path) -> Path:
-    """The lock's file: hidden, beside the file that a symbolic link leads to."""
+    """The lock's file: hidden, next to the file that a symbolic link leads to."""
     target = Path(os.path.realpath(path))
     return target.with_name(f".{target.name[:200]}{SUFFIX}")
 

@@ -12,7 +12,7 @@ from core.program.solve.solved import SolvedBlock
 from core.tolerance import JOINED, LAST_PASS, ON_PATH
 from core.units import Kind, from_mm, show, to_mm
 
-SHOWN: Final = 0.01
+VISIBLE: Final = 0.01
 """A field shows a length above this, in millimeters, as something else than 0 in any unit."""
 
 
@@ -44,10 +44,10 @@ def _z_ends(solved: SolvedBlock) -> Iterator[Finding]:
         if bottom - JOINED <= height <= top + JOINED or not isinstance(segment.values.get("z_end"), Entry):
             continue
         if height > top + JOINED:
-            text = "Z END {value} is above Z START {0}, in the way of rapids. Type {1} to {0}."
+            text = "Z END {value} is above Z START {0}; rapids would hit it. Enter {1} to {0}."
             lengths = (top, bottom)
         else:
-            text = "Z END {value} is below Z BOTTOM {0}: no pass goes so deep. Type {0} to {1}."
+            text = "Z END {value} is below Z BOTTOM {0}: no pass goes so deep. Enter {0} to {1}."
             lengths = (bottom, top)
         number = float(segment.number)
         yield Finding("Z_END", Severity.ERROR, text, number, "z_end", value=height, lengths=lengths)
@@ -63,14 +63,14 @@ def _safe_z(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
     clear = solved.z_start + clearance
     if safe >= clear - JOINED:
         return
-    text = "SAFE Z {value} is below Z {0}, RETRACT CLEARANCE {1} over Z START {2}: the tool moves at Z {0} instead. "
+    text = "SAFE Z {value} is below Z {0}, RETRACT CLEARANCE {1} over Z START {2}: the tool rapids at Z {0} instead. "
     severity = Severity.INFO if typed is None else Severity.WARNING
     lengths = (clear, clearance, solved.z_start)
     yield Finding("SAFE_Z", severity, f"{text}Enter SAFE Z on PART SETUP.", field="safe_z", value=safe, lengths=lengths)
 
 
 def _blank_feeds(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
-    """The segments from the first on whose FEED is blank; not told before the first one is determined."""
+    """The segments from the first on whose FEED is blank; reported once the first segment is determined."""
     if not solved.determined or solved.plunge_feed is None:
         return
     count = len(block.segments)
@@ -79,7 +79,7 @@ def _blank_feeds(block: Block, solved: SolvedBlock, program: Program) -> Iterato
         return
     subject = "the contour is" if blank == count else "it is" if blank == 1 else f"segments 1 to {blank} are"
     feed = show(from_mm(solved.plunge_feed, program.unit), Kind.FEED, program.unit)
-    text = f"FEED is blank: {subject} milled with PLUNGE FEED {feed}. Enter FEED."
+    text = f"FEED is blank: {subject} cut at PLUNGE FEED {feed}. Enter FEED."
     yield Finding("PLUNGE_FED", Severity.WARNING, text, 1, "feed")
 
 
@@ -93,19 +93,23 @@ def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[
         if not isinstance(typed, Entry) or typed.value <= 0.0:
             continue
         label = field_of(Form.PARAMETERS, name).label
-        text = f"{label} {{value}} is not left: FINISH TOOL is 0. Enter FINISH TOOL on START, or 0 in {label} "
+        text = f"{label} {{value}} has no effect: FINISH TOOL is 0. Enter FINISH TOOL on START, or 0 in {label} "
         value = to_mm(typed.value, program.unit)
         yield Finding("NOT_LEFT", Severity.WARNING, text + "on PROGRAM PARAMETERS.", 0, "finish_tool", value=value)
 
 
 def _no_clearance(solved: SolvedBlock, program: Program) -> Iterator[Finding]:
     """Clearances that a field shows as 0: a rapid then ends on material."""
-    consequences = {"retract_clearance": "the tool comes by rapid onto the top of the material"}
+    consequences = {"retract_clearance": "the tool rapids right to the top of the stock"}
     if _pecks(solved):
-        consequences["peck_clearance"] = "between pecks the tool comes down by rapid onto the floor it has just cut"
+        consequences["peck_clearance"] = "between pecks it rapids right to the last floor"
     for name, consequence in consequences.items():
         value = _parameter(name, program)
-        if value is None or value > SHOWN or show(from_mm(value, program.unit), Kind.LENGTH, program.unit).strip("0."):
+        if (
+            value is None
+            or value > VISIBLE
+            or show(from_mm(value, program.unit), Kind.LENGTH, program.unit).strip("0.")
+        ):
             continue
         label = field_of(Form.PARAMETERS, name).label
         text = f"{label} is {{value}}: {consequence}. Enter {label} on PROGRAM PARAMETERS."
@@ -120,7 +124,7 @@ def _pecks(solved: SolvedBlock) -> bool:
 
 
 def _one_pass(block: Block, solved: SolvedBlock, program: Program) -> Iterator[Finding]:
-    """A PROFILE that comes in from nowhere: with a finish tool from no farther than what that one takes."""
+    """A PROFILE whose MAX OFFSET is 0, with a finish tool no more than FINISH XY: it makes one pass."""
     if block.cutter_comp not in (CutterComp.PROFILE_LEFT, CutterComp.PROFILE_RIGHT):
         return
     finishing = solved.finish_diameter is not None
@@ -149,7 +153,7 @@ def _one_segment(solved: SolvedBlock) -> Iterator[Finding]:
 
 
 def _no_length(solved: SolvedBlock) -> Iterator[Finding]:
-    """A contour that is known and has no segment with a length: a point, beside which nothing can be cut."""
+    """A contour that is known and has no segment with a length: a point, which has no path."""
     if not solved.segments or solved.determined < len(solved.segments) or solved.pieces:
         return
     text = "No segment has a length: the contour is a point, and there is no path. Correct X END or Y END."

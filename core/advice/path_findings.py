@@ -109,7 +109,7 @@ def blend_findings(loops: Sequence[Loop], gouges: Sequence[Gouge], wrong_side: S
         for name, first, last in blends:
             hit = next((gouge for gouge in gouges if first <= gouge.path_piece < last), None)
             if hit is not None:
-                text = f"The blend-{name} arc gouges {{value}} deep. Start elsewhere or make BLEND OFFSET smaller."
+                text = f"The blend-{name} arc gouges {{value}} deep. Start elsewhere or reduce BLEND OFFSET."
                 yield Finding("BLEND_GOUGES", Severity.ERROR, text, hit.surface_number, None, hit.at, hit.depth)
             if any(first <= row < last for row in wrong_side):
                 yield _blend_crosses_wall(loop, name)
@@ -119,7 +119,7 @@ def _blend_crosses_wall(loop: Loop, name: str) -> Finding:
     """The blend arc that runs beyond a wall somewhere, with its free end."""
     lead, row, way = (loop.lead_in, 0, "from") if name == "in" else (loop.lead_out, -1, "to")
     x, y = lead.points[row].tolist()
-    text = f"Blend-{name} crosses a wall, {way} X {{x}} Y {{y}}. Make BLEND OFFSET smaller."
+    text = f"The blend-{name} arc {way} X {{x}} Y {{y}} crosses a wall. Reduce BLEND OFFSET."
     return Finding("BLEND_LEAVES", Severity.WARNING, text, float(lead.numbers[row]), None, (x, y))
 
 
@@ -131,7 +131,7 @@ def rough_findings(rough: Sequence[RoughPass], finish: Compensated | None) -> It
         if skipped and finish is not None:
             numbers = ", ".join(f"{number:g}" for number in sorted(skipped))
             which = f"segment{'s' if len(skipped) > 1 else ''} {numbers}"
-            text = f"Roughing that leaves {{0}} skips {which}. The next pass meets solid there."
+            text = f"Roughing that leaves {{0}} skips {which}: the next pass cuts solid stock there."
             yield Finding("ROUGH_DELETES", Severity.WARNING, text, min(skipped), lengths=(rough_pass.stock,))
 
 
@@ -167,7 +167,7 @@ class ZStep(NamedTuple):
 
 
 def z_step_findings(steps: Sequence[ZStep]) -> tuple[Finding, ...]:
-    """The deepest and the highest step, each a warning that tells how many there are.
+    """The deepest and the highest step, each a warning that says how many there are.
 
     The tool plunges there with its whole width, which an end mill that does not cut at its center cannot.
     """
@@ -181,7 +181,7 @@ def _largest_step(steps: Sequence[ZStep], way: str) -> tuple[Finding, ...]:
         return ()
     rise, number, at = steps[0]
     more = f" There are {len(steps)} such places." if len(steps) > 1 else ""
-    text = f"The tool goes straight {way} {{value}} at X {{x}} Y {{y}}: the slope of a Z END is cut off there.{more}"
+    text = f"The tool goes straight {way} {{value}} at X {{x}} Y {{y}}: the ramp to Z END is shortened there.{more}"
     return (Finding("Z_STEP", Severity.WARNING, text, number, "z_end", at, abs(rise)),)
 
 
@@ -203,17 +203,17 @@ def nearest_finding(work: BlockPaths | None, radius: float | None) -> Finding | 
 def better_path_findings(best: BestPath, apart: Separation) -> tuple[Finding, ...]:
     """What the best path would cut that the control's does not, or that there is none."""
     if not best.loops:
-        return (Finding("NO_BEST", Severity.INFO, "The tool fits nowhere here. Use a smaller one."),)
+        return (Finding("NO_BEST", Severity.INFO, "The tool does not fit. Use a smaller one."),)
     if apart.length <= GOUGE or not apart.stretches:
         return ()
     first = apart.stretches[0]
     x, y = first.points[0].tolist()
-    text = "BEST runs {value} more, from X {x} Y {y} on. F4, PATH."
+    text = "BEST cuts {value} more, starting at X {x} Y {y}. Set PATH with F4."
     return (Finding("BEST_DIFFERS", Severity.INFO, text, float(first.numbers[0]), None, (x, y), apart.length),)
 
 
 def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
-    """A tool that is larger than the whole contour is mostly a wrong one."""
+    """A tool that is larger than the whole contour is usually the wrong tool."""
     boxes = surface.boxes
     extent = max((boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0)).tolist(), default=inf)
     if 2 * radius <= extent:
@@ -226,7 +226,7 @@ def open_finding(surface: Path, diameter: float, *, closed: bool) -> tuple[Findi
     """That a contour is open: a warning where START and the end are no farther apart than the tool is wide.
 
     Such a gap is seldom meant, and no look at the path shows it; nor one so small that the contour counts as closed,
-    beside which the path gouges as deep.  Fewer than three segments enclose nothing.
+    where the path gouges as deep.  Fewer than three segments enclose nothing.
     """
     apart = dist(surface.points[0].tolist(), surface.points[-1].tolist()) if len(surface) else 0.0
     if apart <= GOUGE or (not closed and len(surface) < FEWEST_CLOSED):
@@ -237,8 +237,8 @@ def open_finding(surface: Path, diameter: float, *, closed: bool) -> tuple[Findi
     if not closed and apart > diameter:
         text = "The contour is open: it ends {value~0} from START."
         return (Finding("OPEN", Severity.INFO, text, number, None, place, apart, lengths),)
-    what = "counts as closed, but" if closed else "is not closed:"
-    text = f"The contour {what} it ends at X {{x~1}} Y {{y~2}}, {{value~0}} from START. "
+    what = "is treated as closed but" if closed else "is not closed: it"
+    text = f"The contour {what} ends {{value~0}} from START, at X {{x~1}} Y {{y~2}}. "
     text += "Check START and the last segment."
     return (Finding("NEARLY_CLOSED", Severity.WARNING, text, number, None, place, apart, lengths),)
 
@@ -266,5 +266,5 @@ def _turned(surface: Path, row: int, following: int) -> Finding:
     check = f"DIRECTION of segment {before}" if surface.turns[row] else "its end"
     if surface.turns[following]:
         check = "its DIRECTION and its end"
-    text = f"It begins straight back along segment {before}, at X {{x}} Y {{y}}. Check {check}."
+    text = f"This segment goes straight back over segment {before} at X {{x}} Y {{y}}. Check {check}."
     return Finding("TURNS_BACK", Severity.WARNING, text, number, at=tuple(surface.points[row + 1].tolist()))

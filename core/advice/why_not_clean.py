@@ -24,7 +24,7 @@ from core.advice.remedies import (
 from core.finding import Finding, Severity
 
 MAX_NAMED: Final = 4
-"""So many places that are too small are named in sentences."""
+"""The number of places that are too small and named in sentences."""
 
 _NO_BLENDS: Final = "without blend moves (BLEND OFFSET 0)"
 
@@ -33,7 +33,7 @@ _NO_BLENDS: Final = "without blend moves (BLEND OFFSET 0)"
 class Needs:
     """Sentences for the operator, and what they say.
 
-    `why` tells why CAL's value is not clean, empty when it is.  The rest is there only when no value is clean:
+    `why` says why CAL's value is not clean, empty when it is.  The rest is there only when no value is clean:
     `too_small` names inside radii and corners the tool does not enter; the others are remedies that have been cut and
     judged clean, None where none was found.  Where neither another start nor leaving out the blend moves helps,
     `start_without_blends` is both at once.  A tool is looked for when no other remedy helps, from the middle of a side
@@ -127,7 +127,7 @@ def why_not_clean(table: Table, calculated: int) -> tuple[Finding, ...]:
         return (Finding("CAL_NOT_CLEAN", Severity.WARNING, f"CAL {calculated} makes no path that can be cut."),)
     gouge = row.verdict.gouges[0]
     if table.recommended is not None:
-        help_ = f"Type look-ahead {table.recommended}: clean."
+        help_ = f"Enter look-ahead {table.recommended}, which is clean."
     elif _starts_at_inside_corner(row):
         help_ = "START is in an inside corner, where no look-ahead helps."
     else:
@@ -175,16 +175,16 @@ def _tool_sentences(tools: _Tools) -> Iterator[Finding]:
 
 def _start_at_end_sentence(start: StartMoved) -> Finding:
     text = (
-        "START may be mistyped: at X {x} Y {y}, where the contour ends, it would be closed, "
-        f"and look-ahead {start.value} clean."
+        "START may be mistyped: at X {x} Y {y}, where the contour ends, it would close "
+        f"and look-ahead {start.value} would be clean."
     )
     return replace(_remedy("START_AT_END", text), segment=0.0, at=start.at)
 
 
 def _nothing_helps(*, closed: bool) -> Finding:
-    """What has been tried in vain, and no more: the tries are bounded, and a number may be mistyped."""
-    tried = "No value, start or tool" if closed else "No value or tool"
-    text = f"{tried} helps. Check the contour's numbers."
+    """What has been tried without success, and no more: the tries are bounded, and a number may be mistyped."""
+    tried = "No look-ahead, start or tool" if closed else "No look-ahead or tool"
+    text = f"{tried} was found that works. Check the contour's numbers."
     return Finding("NOTHING_HELPS", Severity.WARNING, text)
 
 

@@ -1,4 +1,4 @@
-"""Findings of compensation: contours it refuses, and what became of a contour that the operator must know."""
+"""Findings of compensation: contours it refuses, and what became of one that the operator must know."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from core.geometry.piece import Side
 from core.tolerance import ARC_RADII, GOUGE, JOINED, LARGEST
 
 MAX_NAMED_PLACES: Final = 100
-"""So many places of one kind are named; a last finding then tells how many there are."""
+"""The number of places of one kind that are listed; a last finding then says how many there are."""
 
 
 def refusal(contour: Path, radius: float, lookaheads: Sequence[int]) -> tuple[Finding, ...]:
@@ -72,7 +72,8 @@ def _not_arcs(contour: Path) -> tuple[Finding, ...]:
         return found
     across = (start - centers)[doubtful].conj() * (end - centers)[doubtful]
     beside = (np.abs(across.imag) <= JOINED * first[doubtful]) & (across.real > 0.0)
-    text = "The arc ends next to its start, {0} and {1} from its center. End it at its start, or away from there."
+    text = "The arc ends next to its start, {0} and {1} from its center. "
+    text += "Move the end to the start for a full circle, or farther away."
     rows, first, last = rows[doubtful], first[doubtful], last[doubtful]
     return (*found, *_arcs_named("ARC_ENDS", text, contour.numbers[rows], beside, first, last))
 
@@ -97,7 +98,7 @@ def start_in_corner_finding(contour: Path, side: Side, radius: float) -> list[Fi
     bend = complex(*last.direction_at(last.end)).conjugate() * complex(*first.direction_at(first.start))
     if side.sign * bend.imag <= 0.0 or radius * (1.0 - bend.real) <= GOUGE:
         return []
-    text = "START is in an inside corner: gouges the last wall. Start mid-side."
+    text = "START is in an inside corner: the cutter gouges the last wall. Start in the middle of a side."
     at = (float(contour.points[0, 0]), float(contour.points[0, 1]))
     return [Finding("START_INSIDE_CORNER", Severity.WARNING, text, float(contour.numbers[0]), at=at)]
 
@@ -115,7 +116,7 @@ def _vanished(contour: Path, chain: RawChain, rows: Rows, radius: float) -> list
     segments = chain.places[rows] // 2
     radii = np.abs(as_complex(contour.points)[segments] - as_complex(contour.centers)[segments])
     small = radii < radius - JOINED
-    text = "Inside radius {value} is too small for the tool: the path jumps it and may gouge."
+    text = "Inside radius {value} is too small for the tool: the path runs straight across and may gouge."
     numbers, at = contour.numbers[segments[small]], contour.points[segments[small]]
     return _named("VANISHED", text, numbers, at, radii[small])
 
@@ -124,7 +125,7 @@ def _missed(contour: Path, chain: RawChain, rows: Rows, radius: float) -> list[F
     """Inside corners bridged where the bridge enters a wall: by the square of its length over the tool's diameter."""
     points = as_complex(chain.raw.points)
     rows = rows[np.abs(points[rows + 1] - points[rows]) ** 2 > 2.0 * radius * GOUGE]
-    text = "Corner too tight for the tool: the path jumps it and may gouge."
+    text = "Corner too tight for the tool: the path runs straight across and may gouge."
     at = contour.points[chain.places[rows] // 2 + 1]
     return _named("CORNER_MISSED", text, chain.raw.numbers[rows], at)
 
@@ -140,7 +141,7 @@ def most_deleted_finding(contour: Path, pruned: Pruned) -> list[Finding]:
     if erased <= lengths.sum() / 2.0:
         return []
     what = f"LOOK-AHEAD deletes most of the part: {segment_list(deleted)}, {{value}} long."
-    text = f"{what} Space on LOOKAHEAD shows what keeps it."
+    text = f"{what} Press Space on LOOKAHEAD to find a value that keeps it."
     return [Finding("LONG_WAY", Severity.WARNING, text, float(deleted[0]), value=erased)]
 
 
@@ -164,5 +165,6 @@ def _named(code: str, text: str, numbers: Floats, at: Floats, values: Floats | N
     rows = zip(numbers[first].tolist(), at[first].tolist(), sizes, strict=True)
     found = [Finding(code, Severity.WARNING, text, number, at=(x, y), value=value) for number, (x, y), value in rows]
     if len(numbers) > MAX_NAMED_PLACES:
-        found.append(Finding(code, Severity.WARNING, f"There are {len(numbers)} such places; the first are named."))
+        total = f"There are {len(numbers)} such places; the first {MAX_NAMED_PLACES} are listed."
+        found.append(Finding(code, Severity.WARNING, total))
     return found

@@ -1,6 +1,6 @@
 """Points and centers from what a drawing gives, as plain numbers: every solution, in a documented order.
 
-Millimeters and radians, angles counter-clockwise from +X.  `axis` 0 is X and 1 is Y.  The answers are tagged:
+Millimeters and radians, angles counterclockwise from +X.  `axis` 0 is X and 1 is Y.  The answers are tagged:
 `OnePoint`, `TwoPoints`, `OutOfReach` (nothing reaches so far), `NotDetermined` (the givens say nothing about it) and
 `BehindStart`.
 """
@@ -38,7 +38,7 @@ class OutOfReach:
 
 @dataclass(frozen=True, slots=True)
 class NotDetermined:
-    """No one solution: what is given runs beside what is asked and says nothing about it."""
+    """No one solution: what is given runs next to what is asked and says nothing about it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +126,7 @@ def center_by_coordinate(start: Point, end: Point, axis: int, value: float) -> O
 
 
 def rotated(point: Point, center: Point, angle: float) -> Point:
-    """A point turned about `center` by `angle`, positive counter-clockwise."""
+    """A point turned about `center` by `angle`, positive counterclockwise."""
     dx, dy = point[0] - center[0], point[1] - center[1]
     return center[0] + dx * cos(angle) - dy * sin(angle), center[1] + dx * sin(angle) + dy * cos(angle)
 

@@ -1,7 +1,7 @@
 """The arc that blends two pieces at their common corner, tangent to both.
 
 The center of an arc that runs the way both pieces run lies one radius to the same side of both: on the left
-for an arc traveled counter-clockwise, on the right for a clockwise one.
+for an arc traveled counterclockwise, on the right for a clockwise one.
 """
 
 from __future__ import annotations

@@ -34,7 +34,7 @@ class Path:
     """n joined pieces.
 
     `points` (n + 1, 2): piece i runs from row i to row i + 1.  `centers` (n, 2): of arcs; a line has its own
-    start there.  `turns` (n,): 0 line, +1 counter-clockwise, -1 clockwise.  `numbers` (n,): the programmed
+    start there.  `turns` (n,): 0 line, +1 counterclockwise, -1 clockwise.  `numbers` (n,): the programmed
     segment k each piece belongs to, k + 1/2 for the corner arc between k and k + 1.  An arc whose two points
     are the same row of numbers is a full circle.  The empty path has one point or none.
     """
@@ -115,7 +115,7 @@ class Path:
 
     @property
     def sweeps(self) -> Floats:
-        """(n,) angle traveled by each arc, positive counter-clockwise, 0 for a line, a full turn for a circle."""
+        """(n,) angle traveled by each arc, positive counterclockwise, 0 for a line, a full turn for a circle."""
         return swept(pieces_of(self)) * self.turns
 
     @property

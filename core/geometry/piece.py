@@ -64,7 +64,7 @@ class Arc:
 
     @property
     def sweep(self) -> float:
-        """Angle traveled in radians, positive counter-clockwise, at most a full turn."""
+        """Angle traveled in radians, positive counterclockwise, at most a full turn."""
         if self.start == self.end:
             return int(self.turn) * tau
         (x0, y0), (x1, y1), (cx, cy) = self.start, self.end, self.center

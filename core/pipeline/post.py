@@ -70,7 +70,7 @@ def _uncompensated(a_pass: Pass, job: Job) -> Plain:
 
 
 def _travels(motions: Sequence[Motion]) -> Iterator[Travel]:
-    """The moves; an arc that ends beside its start is a line, or two halves, which no control takes for a full circle.
+    """The moves; an arc that ends next to its start is a line, or two halves, which no control takes for a full circle.
 
     The digits of most controls cannot tell such an end from the start.
     """

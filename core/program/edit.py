@@ -97,7 +97,7 @@ _PICKED: Final[Mapping[str, Callable[[Any], Any]]] = MappingProxyType(
 def insert_segment(program: Program, where: FormPlace, segment: Segment) -> Edited:
     """Put a segment before `where.segment`; one more than the last appends."""
     if where.segment == 0:
-        return Refused("START comes first: nothing goes before it.")
+        return Refused("START is always first.")
     if refusal := _absent(program, replace(where, segment=0)):
         return refusal
     block = program.blocks[where.block - 1]
@@ -189,7 +189,7 @@ def delete_tool(program: Program, number: int) -> Edited:
     """Take a tool out of the table; blocks that call it then say that it is missing."""
     left = tuple(tool for tool in program.tools if tool.number != number)
     if len(left) == len(program.tools):
-        return Refused(f"There is no tool {number} in the tool table.")
+        return Refused(f"Tool {number} is not in the tool table.")
     return replace(program, tools=left)
 
 
@@ -209,20 +209,20 @@ def set_setup(program: Program, name: str, value: str | Typed) -> Edited:
     """Put what was typed into a field of PART SETUP: text for the name, a number or a blank for the others."""
     field = field_of(Form.SETUP, name)
     if isinstance(value, str):
-        if refusal := _unshown(field.label, value):
+        if refusal := _not_displayable(field.label, value):
             return refusal
     elif refusal := _misfit(field, value, program.unit):
         return refusal
     return replace(program, setup=changed(program.setup, {name: value}))
 
 
-def _unshown(label: str, text: str) -> Refused | None:
-    """A text with a sign that no screen shows, such as a space that does not break, pasted from elsewhere."""
-    place = next((place for place, sign in enumerate(text, 1) if not sign.isprintable()), None)
-    if place is None:
+def _not_displayable(label: str, text: str) -> Refused | None:
+    """A text with a character that no screen displays, such as a space that does not break, pasted from elsewhere."""
+    position = next((at for at, character in enumerate(text, 1) if not character.isprintable()), None)
+    if position is None:
         return None
-    sign = f"U+{ord(text[place - 1]):04X}"
-    return Refused(f"{label}: sign {place} ({sign}) cannot be shown. Type the text again without it.")
+    code = f"U+{ord(text[position - 1]):04X}"
+    return Refused(f"{label}: character {position} ({code}) cannot be displayed. Type the text again without it.")
 
 
 def set_unit(program: Program, unit: Unit) -> Program:
@@ -283,16 +283,16 @@ def _absent(program: Program, where: FormPlace) -> Refused | None:
 
 
 def _no_block(program: Program, number: int) -> Refused:
-    return _none_of_number("block", number, len(program.blocks))
+    return _does_not_exist("block", number, len(program.blocks))
 
 
 def _no_segment(block: Block, number: int) -> Refused:
-    return _none_of_number("segment", number, len(block.segments))
+    return _does_not_exist("segment", number, len(block.segments))
 
 
-def _none_of_number(thing: str, number: int, count: int) -> Refused:
-    last = f"the last {thing} is {count}." if count else f"no {thing} is typed yet."
-    return Refused(f"There is no {thing} {number}: {last}")
+def _does_not_exist(thing: str, number: int, count: int) -> Refused:
+    last = f"the last is {count}." if count else f"no {thing} is typed yet."
+    return Refused(f"{thing.capitalize()} {number} does not exist; {last}")
 
 
 def _misfit(field: Field, typed: Typed, unit: Unit) -> Refused | None:

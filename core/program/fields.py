@@ -59,10 +59,10 @@ class Form(StrEnum):
 
 
 FARTHEST: Final = 254000.0
-"""Largest coordinate and length in millimeters, and feed in millimeters a minute: 10000 in, beyond any machine."""
+"""Largest coordinate and length in millimeters, and feed in millimeters per minute: 10000 in, beyond any machine."""
 
 FASTEST: Final = 100000
-"""Largest SPEED in revolutions a minute."""
+"""Largest SPEED in revolutions per minute."""
 
 SEGMENT_PROMPT: Final = (
     "Enter a segment number, use ENTER to edit segment, or use left arrow (back), right arrow (advance), or softkey."
@@ -128,7 +128,7 @@ LINE: Final = (
     _Y_END,
     _Z_END,
     _size("length", "XY LENGTH", "Length of the line in the XY plane."),
-    Field("angle", "XY ANGLE", Kind.ANGLE, "Angle from +X, counter-clockwise, degrees.", -360.0, 360.0),
+    Field("angle", "XY ANGLE", Kind.ANGLE, "Angle from +X, counterclockwise, degrees.", -360.0, 360.0),
     _FEED,
 )
 
@@ -188,7 +188,7 @@ PARAMETERS: Final = (
         "path",
         "PATH",
         Kind.CHOICE,
-        "Path to post: CONTROL as the look-ahead makes it, BEST without its faults.",
+        "Path to post. CONTROL: as the look-ahead makes it. BEST: the true offset.",
         choices=tuple(choice.value for choice in PathChoice),
     ),
 )
@@ -248,7 +248,7 @@ def form_of(segment: Segment) -> Form:
 
 
 def field_of(form: Form, name: str) -> Field:
-    """The field `name` of a screen; KeyError if it has none of that name."""
+    """The field `name` of a screen; KeyError if there is none of that name."""
     return _BY_NAME[form, name]
 
 

@@ -119,7 +119,7 @@ def _fields(where: str, form: Form, old: Part, new: Part, unit: Unit) -> Iterato
         if before != after:
             yield f"{where}: {field.label} {_text(after, field.kind, unit)}, was {_text(before, field.kind, unit)}."
     if getattr(old, "choice", None) != getattr(new, "choice", None):
-        yield f"{where}: another solution is picked."
+        yield f"{where}: solution changed."
 
 
 def _text(value: object, kind: Kind, unit: Unit) -> str:
@@ -176,7 +176,7 @@ def _replaced(thing: str, where: str, at: int, old: int, new: int) -> str:
         return f"{where}{_run(thing, at, new)} {'is' if new == 1 else 'are'} new."
     if new == 0:
         return f"{where}{_run(thing, at, old)} {'is' if old == 1 else 'are'} deleted."
-    return f"{where}{_run(thing, at, old)}: now {new} in place of {old}."
+    return f"{where}{_run(thing, at, old)}: {old} replaced by {new}."
 
 
 def _run(thing: str, at: int, count: int) -> str:

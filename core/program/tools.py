@@ -36,7 +36,7 @@ def find_tool(program: Program, number: float) -> Tool | None:
 def called_tool(program: Program, typed: Typed, name: str, severity: Severity = Severity.ERROR) -> CalledTool:
     """The tool that field `name` (`tool` or `finish_tool`) calls.
 
-    A blank and unreadable text call nothing and are for others to tell; 0 is no finish tool.
+    A blank and unreadable text call nothing and are reported elsewhere; 0 is no finish tool.
     `severity` weighs a diameter that cannot be used, which hurts less when the center runs on the contour.
     """
     if not isinstance(typed, Entry) or (name == "finish_tool" and typed.value == 0.0):
@@ -72,9 +72,9 @@ EXAMPLE: Final = "write T1 P1 D.25 Z0"
 TABLE_LETTERS: Final = "TPXYZABCUVWDIJQ"
 """The words a LinuxCNC table knows."""
 MAX_TABLE_LINES: Final = 10_000
-"""A table with more lines is none."""
+"""A file with more lines is not a tool table."""
 MAX_TABLE_FAULTS: Final = 3
-"""Faults that are named each."""
+"""Faults that are listed."""
 _WORD: Final = re.compile(r"\s*([A-Za-z])\s*([-+]?(?:\d+(?:\.\d*)?|\.\d+))(?=[\sA-Za-z]|$)")
 _BREAK: Final = re.compile(r"\r\n|\n|\r")
 
@@ -117,7 +117,7 @@ def table_faults(name: str, findings: Sequence[Finding]) -> str:
 
 
 def decode_table(data: bytes) -> str:
-    """A table's text: UTF-8, or byte for byte where it is none."""
+    """A table's text: UTF-8, or byte for byte where it is not."""
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -141,7 +141,7 @@ def read_tool_table(text: str, unit: Unit, program: Unit) -> ImportedTools:
     findings: list[Finding] = []
     lines = _BREAK.split(text)
     if len(lines) > MAX_TABLE_LINES:
-        findings.append(_fault(f"This has more than {MAX_TABLE_LINES} lines: it is no tool table."))
+        findings.append(_fault(f"This has more than {MAX_TABLE_LINES} lines: it is not a tool table."))
     for row in table_lines(lines[:MAX_TABLE_LINES]):
         if isinstance(row, Finding):
             findings.append(row)
@@ -171,7 +171,7 @@ def _line(line: int, text: str, remark: str) -> TableLine | Finding:
         words[letter], columns[letter], end = float(found[2]), column, found.end()
     if rest := text[end:].strip():
         column = end + len(text[end:]) - len(text[end:].lstrip()) + 1
-        return _fault(f"{_quoted(rest)} is no word of a tool table; {EXAMPLE}.", line, column)
+        return _fault(f"{_quoted(rest)} is not a word of a tool table; {EXAMPLE}.", line, column)
     if "T" not in words or not words["T"].is_integer():
         return _fault(f"A tool table's line needs a whole tool number; {EXAMPLE}.", line, columns.get("T", 1))
     return TableLine(line, int(words["T"]), words, columns, remark)
@@ -184,9 +184,9 @@ def _quoted(text: str) -> str:
 
 def _word_trouble(letter: str, value: float, words: Mapping[str, float]) -> str | None:
     if letter not in TABLE_LETTERS:
-        return f"{letter} is no word of a tool table; {EXAMPLE}."
+        return f"{letter} is not a word of a tool table; {EXAMPLE}."
     if letter in words:
-        return f"{letter} stands twice in this line."
+        return f"{letter} appears twice in this line."
     if not isfinite(value) or abs(value) > LARGEST:
         return "A number of this line is too large for any tool."
     return None
@@ -209,11 +209,11 @@ def _twice(rows: Iterable[TableLine]) -> Iterator[Finding]:
     for row in rows:
         before = first.setdefault(row.number, row.line)
         if before != row.line:
-            yield row.finding(Severity.ERROR, "T", f"Tool {row.number} stands in line {before} already.")
+            yield row.finding(Severity.ERROR, "T", f"Tool {row.number} is already on line {before}.")
 
 
 def _tool(row: TableLine, unit: Unit, program: Unit) -> Tool:
     value = row.words.get("D", 0.0)
     size = Entry(convert(value, unit, program)) if value else None
-    kind = "".join(sign for sign in row.remark if sign.isprintable())[:40].strip()
+    kind = "".join(character for character in row.remark if character.isprintable())[:40].strip()
     return Tool(row.number, kind or Tool(row.number).type, size)

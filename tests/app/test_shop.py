@@ -89,7 +89,7 @@ def test_what_is_no_tool_table_is_told_alike_in_a_few_lines(part: Path, capsys: 
     assert (checked.out, imported.out, part.read_bytes()) == ("", "", before)
     assert checked.err + "cutcomp: nothing was imported.\n" == imported.err
     first, *_, last = checked.err.splitlines()
-    assert first == f"cutcomp: {program}, line 1, column 1: G is no word of a tool table; write T1 P1 D.25 Z0."
+    assert first == f"cutcomp: {program}, line 1, column 1: G is not a word of a tool table; write T1 P1 D.25 Z0."
     assert (len(checked.err.splitlines()), last) == (4, f"{program}: 73 more faults.")
 
 
@@ -159,6 +159,6 @@ def test_neither_sheet_nor_nc_file_takes_the_place_of_a_program(part: Path, keys
     before = part.read_text()
     operator = Operator.at(load(part)).press("f8", *keys)
     operator.press("delete", *part.name, "enter")
-    assert "is a program, which would be lost" in operator.said
+    assert "is a program and would be overwritten" in operator.said
     operator.press("r")
     assert part.read_text() == before

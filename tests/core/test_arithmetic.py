@@ -91,7 +91,7 @@ def test_reads(text, value):
         ("٣", "not a number"),
         ("1 ٣/4", "is not a unit"),
         ("²", "not a number"),
-        ("1\x1b", "a character that cannot be shown"),
+        ("1\x1b", "a character that cannot be displayed"),
         ("1" * (MAX_CHARACTERS + 1), "Too long"),
         ("(" * MAX_CHARACTERS, "A number is missing at the end"),
     ],

@@ -76,7 +76,7 @@ def test_a_plain_number_is_the_same_as_in_a_sum(text: str, kind: Kind, unit: Uni
         ("45deg", Kind.LENGTH, "deg is not a unit here: type a number such as 2.5, 1 1/2, 2.5-.125 or 12.7mm."),
         ("99999999", Kind.LENGTH, "Too large for any machine."),
         ("9" * 60, Kind.COUNT, "Too large for any machine."),
-        ("RIGHT", Kind.CHOICE, "This field takes no number."),
+        ("RIGHT", Kind.CHOICE, "This field does not take a number."),
     ],
 )
 def test_unreadable(text, kind, reason):

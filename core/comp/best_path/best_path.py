@@ -47,7 +47,7 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     """Every place of the cutter's center at `radius` millimeters from the contour on `side` that is clear of all of it.
 
     `closed` is whether the programmed contour ends at its start.  Never raises: a contour that cannot be offset, or
-    beside which the cutter fits nowhere, gives no loops and an error finding.
+    where the cutter fits nowhere, gives no loops and an error finding.
     """
     surface = surface_of(contour, radius, closed=closed)
     if not len(surface.path):
@@ -84,12 +84,12 @@ def _is_rounding(made: Stitched, rows: Rows) -> bool:
 
 
 def _no_path() -> Finding:
-    text = "The tool fits nowhere beside this contour: there is no best path."
+    text = "The tool does not fit: there is no best path."
     return Finding("NO_PATH", Severity.ERROR, text)
 
 
 def _tangled() -> Finding:
-    text = "The contour lies on itself so often that no best path is worked out."
+    text = "The contour overlaps itself too often; no best path is calculated."
     return Finding("TANGLED", Severity.ERROR, text)
 
 

@@ -151,7 +151,7 @@ def _ring(surface: Path, side: Side, radius: float) -> RawChain:
 
 
 def _without_cusps(chain: RawChain, surface: Path, side: Side) -> RawChain:
-    """The chain without half circles about reversals whose inside the cutter is on: there they are behind the wall.
+    """The chain without half circles about reversals whose inside faces the cutter, since they lie inside the wall.
 
     Which side is inside shows in how far to the left the way back lies of the way there, a little before the tip:
     by the angle between them and by their curvatures.  Where they lie on each other both sides are outside.

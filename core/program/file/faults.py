@@ -78,7 +78,7 @@ def cut_off(text: str) -> str | None:
 
 
 def _quoted(line: str) -> str:
-    plain = "".join(sign if sign.isprintable() else "?" for sign in " ".join(line.split()))
+    plain = "".join(character if character.isprintable() else "?" for character in " ".join(line.split()))
     return plain if len(plain) <= LONGEST_QUOTE else f"{plain[:LONGEST_QUOTE]}..."
 
 
@@ -96,9 +96,9 @@ def syntax_fault(fault: str, text: str) -> str:
     if not stops_in_last_line:
         twice = _BARE_KEY.match(lines[int(line) - 1]) if problem == "Cannot overwrite a value" else None
         if twice is not None:
-            return f"{place.partition(',')[0]}: {twice[1]} stands twice: remove one."
+            return f"{place.partition(',')[0]}: {twice[1]} appears twice: remove one."
         return f"{place}: {problem}. Correct it there, or open a saved copy."
     key = _BARE_KEY.match(lines[-1])
     where = f"line {len(lines)}{f', {key[1]}' if key else ''}"
-    remedy = "The file may be cut off there: open a saved copy or an earlier version, or mend the line."
+    remedy = "The file may be cut off there: open a saved copy or an earlier version, or fix the line."
     return f"{where}: {problem}. {remedy}"

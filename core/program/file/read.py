@@ -66,7 +66,7 @@ class _Table:
         return StoreError(f"{self.file}, line {line}: {text}")
 
     def only(self, allowed: tuple[str, ...]) -> None:
-        """Refuse keys that mean nothing here."""
+        """Refuse keys that this table does not have."""
         if self.data.keys() <= set(allowed):
             return
         from difflib import get_close_matches
@@ -207,7 +207,7 @@ def _unread_numbers(table: _Table, fields: tuple[Field, ...]) -> dict[str, Typed
     unread.only(tuple(field.name for field in fields))
     for key in unread.data:
         if key in table.data:
-            raise unread.fault(key, f"{key} stands twice, as a number and as unread text: remove one.")
+            raise unread.fault(key, f"{key} appears twice, as a number and as unread text: remove one.")
     return {field.name: _unread(unread, field) for field in fields if field.name in unread.data}
 
 
@@ -240,7 +240,7 @@ def _tools(top: _Table) -> tuple[Tool, ...]:
     for table in top.array("tool"):
         tool = _tool(table)
         if tool.number in tools:
-            raise table.fault("number", f"tool {tool.number} stands twice in the tool table: remove one.")
+            raise table.fault("number", f"tool {tool.number} appears twice in the tool table: remove one.")
         tools[tool.number] = tool
     return tuple(tools[number] for number in sorted(tools))
 

@@ -74,7 +74,7 @@ def _ordered(*arcs: Arc) -> Outcome:
 
 
 def _no_radius() -> Outcome:
-    return contradiction("X CENTER and Y CENTER are the start itself: an arc needs a radius.", "x_center")
+    return contradiction("X CENTER and Y CENTER are the same as the start: an arc needs a radius.", "x_center")
 
 
 def _end_and_center(turn: Turn, given: Given) -> Outcome:
@@ -95,7 +95,7 @@ def _center_and_coordinate(axis: int, turn: Turn, given: Given) -> Outcome:
         return _no_radius()
     ends = construct.on_circle(center, radius, axis, value)
     if isinstance(ends, OutOfReach):
-        text = f"The arc's radius is {{0}}: it does not come to {'XY'[axis]} END {{1}}."
+        text = f"The arc's radius is {{0}}: it does not reach {'XY'[axis]} END {{1}}."
         return contradiction(text, _END[axis], radius, value)
     return _about_center(turn, given, *points_of(ends))
 

@@ -40,10 +40,10 @@ def _along(axis: int, given: Given) -> Outcome | None:
         case construct.NotDetermined() if "length" in known or abs(value - start[axis]) <= ARC_RADII:
             return None
         case construct.NotDetermined():
-            text = f"XY ANGLE {shown_angle(angle)} keeps {'XY'[axis]} at {{0~1}} and never comes to {label} {{1~0}}"
-            return contradiction(f"{text}: correct one of them.", "angle", start[axis], value)
+            text = f"XY ANGLE {shown_angle(angle)} holds {'XY'[axis]} at {{0~1}}: it never reaches {label} {{1~0}}"
+            return contradiction(f"{text}. Correct one of them.", "angle", start[axis], value)
         case BehindStart():
-            text = f"XY ANGLE {shown_angle(angle)} leads away from {label} {{0}}: correct one of them."
+            text = f"XY ANGLE {shown_angle(angle)} leads away from {label} {{0}}. Correct one of them."
             return contradiction(text, "angle", value)
         case _:
             assert_never(end)
@@ -110,7 +110,7 @@ LINE_TASK = Task(
 
 
 def line_sketch(start: Point, known: Known) -> Line | None:
-    """What to draw dashed of a line that is not determined: towards what is typed of its end."""
+    """What to draw dashed of a line that is not determined: toward what is typed of its end."""
     end = (known.get("x_end", start[0]), known.get("y_end", start[1]))
     if end == start and "length" in known and "angle" in known:
         end = (start[0] + known["length"] * cos(known["angle"]), start[1] + known["length"] * sin(known["angle"]))

@@ -55,7 +55,7 @@ def _trouble(field: Field, typed: Entry | Unread, unit: Unit) -> tuple[str, str]
 
 
 def _internal(value: float, kind: Kind, unit: Unit) -> float:
-    """Millimeters of a length, millimeters a minute of a feed, radians of an angle."""
+    """Millimeters of a length, millimeters per minute of a feed, radians of an angle."""
     if kind in (Kind.LENGTH, Kind.FEED):
         return to_mm(value, unit)
     return to_radians(value) if kind is Kind.ANGLE else value

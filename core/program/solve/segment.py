@@ -118,7 +118,7 @@ def _solved(task: Task, reading: Reading, given: Given, choice: int | None, unit
         return _unsolved(task, outcome, reading, given.start)
     piece = pieces[choice or 0] if len(pieces) > 1 else pieces[0]
     if _too_far(piece):
-        text = "This segment leads farther than any machine goes: check its numbers."
+        text = "This segment's end or center is beyond any machine's travel. Check its numbers."
         return Shape(findings=(Finding("OUT_OF_RANGE", Severity.ERROR, text, field=task.shape[0]),))
     _calculate(reading, piece, unit)
     if piece.length <= JOINED:

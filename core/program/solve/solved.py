@@ -31,7 +31,7 @@ class SolvedSegment:
     `piece` is its part of the surface in millimeters, None while it is not determined or has no length;
     neighbors of a BLEND ARC are already shortened.  `missing` names the fields of which one more is needed.
     `choices` are the pieces between which the operator picks, in the documented order.  `z_start`, `z_end` are
-    millimeters, `feed` millimeters a minute.
+    millimeters, `feed` millimeters per minute.
     """
 
     number: int
@@ -53,7 +53,7 @@ class SolvedSegment:
 
 @dataclass(frozen=True, slots=True)
 class SolvedBlock:
-    """A whole block: START's values and its segments.  Lengths in millimeters, feeds in millimeters a minute.
+    """A whole block: START's values and its segments.  Lengths in millimeters, feeds in millimeters per minute.
 
     `determined` is how many segments from the first on are determined; the surface known so far is theirs.
     """

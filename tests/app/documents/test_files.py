@@ -69,7 +69,7 @@ def test_loading_what_is_no_file(tmp_path):
     missing = tmp_path / "none.toml"
     words = f"{missing} cannot be read: there is no such file or folder. Check the name."
     assert refusal(lambda: load(missing)) == words
-    assert refusal(lambda: load(tmp_path / "a\0b")).endswith("this is no file name. Choose another.")
+    assert refusal(lambda: load(tmp_path / "a\0b")).endswith("that is not a file name. Choose another.")
     assert refusal(lambda: load(tmp_path / ("n" * 300))).endswith("the name is too long. Choose a shorter one.")
     os.mkfifo(tmp_path / "pipe")
     assert refusal(lambda: load(tmp_path / "pipe")).endswith("this is not a file. Choose the name of a file.")
@@ -98,7 +98,7 @@ def test_saving_where_no_file_can_be(tmp_path):
     assert refusal(lambda: save(PART, tmp_path)).endswith("this is not a file. Choose the name of a file.")
     nowhere = tmp_path / "none" / "part.toml"
     assert refusal(lambda: save(PART, nowhere)).startswith(f"{nowhere} is not saved: there is no such file or folder.")
-    assert refusal(lambda: save(PART, tmp_path / "a\0b")).endswith("this is no file name. Choose another.")
+    assert refusal(lambda: save(PART, tmp_path / "a\0b")).endswith("that is not a file name. Choose another.")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -206,7 +206,7 @@ def test_output_is_never_written_over_a_program(tmp_path):
     save(Program(), part)
     other.write_bytes(part.read_bytes())
     for target in (part, other, tmp_path / "new.toml"):
-        with pytest.raises(StoreError, match="Name another file"):
+        with pytest.raises(StoreError, match="Choose another name"):
             write_output(target, "M2")
     assert part.read_bytes() == other.read_bytes()
     assert load(part) == Program()

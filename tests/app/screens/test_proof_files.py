@@ -155,6 +155,6 @@ def test_an_nc_file_never_takes_the_place_of_a_program(tmp_path: Path, monkeypat
     save(empty_program(), part)
     before = part.read_bytes()
     prover = square().press("S", *str(part), "enter")
-    assert "is a program, which would be lost" in prover.said
+    assert "is a program and would be overwritten" in prover.said
     prover.press("r")
     assert part.read_bytes() == before

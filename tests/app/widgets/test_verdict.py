@@ -50,7 +50,7 @@ def test_a_contour_that_does_not_cross_itself_begins_with_its_gouge_and_where_it
     assert "CROSSES_ITSELF" not in {one.code for one in found.findings}
     _, gouge, end, *_ = (text_of(row) for row in verdict_rows(found, None, Unit.IN, None))
     assert gouge.startswith(" GOUGE ")
-    assert "is not closed: it ends at X 2.0000 Y 0.2500, 0.2500 from START" in end
+    assert "is not closed: it ends 0.2500 from START, at X 2.0000 Y 0.2500" in end
 
 
 def test_beside_every_value_of_the_table_stands_what_the_contour_needs_and_nothing_of_the_path_in_force() -> None:

@@ -41,7 +41,7 @@ def fed(*feeds, plunge=5.0):
 def test_a_contour_that_is_milled_with_the_plunge_feed_is_told_so(feeds, who):
     ((one, text),) = told(fed(*feeds), "PLUNGE_FED")
     assert (one.severity, one.segment, one.field) == (Severity.WARNING, 1, "feed")
-    assert text == f"FEED is blank: {who} milled with PLUNGE FEED 5.0. Enter FEED."
+    assert text == f"FEED is blank: {who} cut at PLUNGE FEED 5.0. Enter FEED."
 
 
 def test_the_plunge_feed_is_told_in_the_programs_unit():
@@ -75,7 +75,7 @@ def test_a_finish_allowance_without_a_finish_tool_is_told(name, label, number):
     ((one, text),) = told(part, "NOT_LEFT")
     assert (one.severity, one.segment, one.field) == (Severity.WARNING, 0, "finish_tool")
     assert text == (
-        f"{label} 2.6000 is not left: FINISH TOOL is 0. Enter FINISH TOOL on START, or 0 in {label} "
+        f"{label} 2.6000 has no effect: FINISH TOOL is 0. Enter FINISH TOOL on START, or 0 in {label} "
         "on PROGRAM PARAMETERS."
     )
 
@@ -101,7 +101,7 @@ def test_a_rapid_onto_the_floor_just_cut_is_told(clearance):
     ((one, text),) = told(pecked(clearance), "NO_CLEARANCE")
     assert (one.severity, one.segment, one.field) == (Severity.WARNING, None, "peck_clearance")
     assert text == (
-        "PECK CLEARANCE is 0.0000: between pecks the tool comes down by rapid onto the floor it has just cut. "
+        "PECK CLEARANCE is 0.0000: between pecks it rapids right to the last floor. "
         "Enter PECK CLEARANCE on PROGRAM PARAMETERS."
     )
 
@@ -134,7 +134,7 @@ def test_a_retract_clearance_that_a_field_shows_as_nothing_is_told():
     ((one, text),) = told(part, "NO_CLEARANCE")
     assert (one.severity, one.field) == (Severity.WARNING, "retract_clearance")
     assert text == (
-        "RETRACT CLEARANCE is 0.000: the tool comes by rapid onto the top of the material. "
+        "RETRACT CLEARANCE is 0.000: the tool rapids right to the top of the stock. "
         "Enter RETRACT CLEARANCE on PROGRAM PARAMETERS."
     )
 
@@ -285,8 +285,8 @@ def test_nothing_is_told_where_the_clearance_is_refused():
 @pytest.mark.parametrize(
     ("height", "expected"),
     [
-        (0.1, "Z END 0.1000 is above Z START 0.0000, in the way of rapids. Type -0.2500 to 0.0000."),
-        (-0.3, "Z END -0.3000 is below Z BOTTOM -0.2500: no pass goes so deep. Type -0.2500 to 0.0000."),
+        (0.1, "Z END 0.1000 is above Z START 0.0000; rapids would hit it. Enter -0.2500 to 0.0000."),
+        (-0.3, "Z END -0.3000 is below Z BOTTOM -0.2500: no pass goes so deep. Enter -0.2500 to 0.0000."),
     ],
 )
 def test_a_z_end_outside_the_block_is_an_error_that_names_the_range(height, expected):

@@ -96,9 +96,9 @@ def test_a_gap_is_told_by_its_size_beside_the_tool(gap: float, closed: bool, cod
 @pytest.mark.parametrize(
     ("gap", "words"),
     [
-        (0.0005, "it ends at X 0.0000 Y 0.00002, 0.00002 from START."),
-        (0.00001, "it ends at X 0.0000 Y 0.0000004, 0.0000004 from START."),
-        (1.27, "it ends at X 0.0000 Y 0.0500, 0.0500 from START."),
+        (0.0005, "ends 0.00002 from START, at X 0.0000 Y 0.00002."),
+        (0.00001, "ends 0.0000004 from START, at X 0.0000 Y 0.0000004."),
+        (1.27, "ends 0.0500 from START, at X 0.0000 Y 0.0500."),
     ],
 )
 def test_a_gap_is_told_with_the_digits_that_show_it(gap: float, words: str) -> None:
@@ -116,7 +116,7 @@ def test_the_deepest_and_the_highest_step_are_told_with_their_numbers() -> None:
     steps = [ZStep(-1.0, 2.0, (0, 0)), ZStep(-3.0, 4.0, (5, 0)), ZStep(2.0, 6.0, (7, 1))]
     down, up = z_step_findings(steps)
     assert (down.segment, down.value, down.at) == (4.0, 3.0, (5, 0))
-    assert sentence(down, Unit.MM).endswith("cut off there. There are 2 such places.")
+    assert sentence(down, Unit.MM).endswith("shortened there. There are 2 such places.")
     assert (up.segment, up.value) == (6.0, 2.0)
     assert "straight up 2.000" in sentence(up, Unit.MM)
     assert z_step_findings([]) == ()
@@ -157,9 +157,9 @@ def test_a_blend_arc_that_crosses_a_wall_is_told_with_its_free_end() -> None:
     assert begin == (
         Severity.WARNING,
         1.0,
-        "Blend-in crosses a wall, from X -0.400 Y 1.650. Make BLEND OFFSET smaller.",
+        "The blend-in arc from X -0.400 Y 1.650 crosses a wall. Reduce BLEND OFFSET.",
     )
-    assert end == (Severity.WARNING, 5.0, "Blend-out crosses a wall, to X 2.400 Y 1.650. Make BLEND OFFSET smaller.")
+    assert end == (Severity.WARNING, 5.0, "The blend-out arc to X 2.400 Y 1.650 crosses a wall. Reduce BLEND OFFSET.")
 
 
 def test_moves_are_named_by_the_part_of_the_path_they_belong_to() -> None:
@@ -191,7 +191,11 @@ def test_roughing_that_cuts_into_the_part_is_an_error_and_into_its_own_stock_a_w
 def test_roughing_that_skips_segments_or_has_no_room_is_told() -> None:
     found = work(NOTCH, radius=0.1, lookahead=3, stocks=(0.2, 0.01))
     assert told(found, "ROUGH_DELETES") == [
-        (Severity.WARNING, 2.0, "Roughing that leaves 0.200 skips segments 2, 3, 4. The next pass meets solid there.")
+        (
+            Severity.WARNING,
+            2.0,
+            "Roughing that leaves 0.200 skips segments 2, 3, 4: the next pass cuts solid stock there.",
+        )
     ]
     assert found.compensated is not None
     assert found.verdict is not None
@@ -220,10 +224,10 @@ def test_what_the_best_path_runs_more_is_told_with_its_length_and_place() -> Non
     (more,) = better_path_findings(best, separation(found.compensated.path, best, 0.25))
     assert (more.code, more.severity) == ("BEST_DIFFERS", Severity.INFO)
     assert more.value > 8.0
-    assert sentence(more, Unit.MM).startswith("BEST runs ")
+    assert sentence(more, Unit.MM).startswith("BEST cuts ")
     same = work(SQUARE, closed=True)
     whole = best_path(SQUARE, Side.LEFT, 0.25, closed=True)
     assert better_path_findings(whole, separation(same.compensated.path, whole, 0.25)) == ()
     none = best_path(SQUARE, Side.LEFT, 2.0, closed=True)
     (nowhere,) = better_path_findings(none, separation(same.compensated.path, none, 2.0))
-    assert (nowhere.code, nowhere.text) == ("NO_BEST", "The tool fits nowhere here. Use a smaller one.")
+    assert (nowhere.code, nowhere.text) == ("NO_BEST", "The tool does not fit. Use a smaller one.")

@@ -177,7 +177,7 @@ def test_where_nothing_helps_it_says_so():
     assert codes(found)[0] == "CAL_NOT_CLEAN"
     assert "No look-ahead is clean." in said(found)
     assert codes(found)[-1] == "NOTHING_HELPS"
-    assert "No value or tool helps. Check the contour's numbers." in said(found)
+    assert "No look-ahead or tool was found that works. Check the contour's numbers." in said(found)
 
 
 def test_a_mistyped_start_of_a_closed_contour_is_told():
@@ -187,7 +187,7 @@ def test_a_mistyped_start_of_a_closed_contour_is_told():
     assert found.start_at_end is not None
     assert found.start_at_end.at == (0.0, 0.0)
     assert found.sentences[-1].segment == 0
-    assert "START may be mistyped: at X 0.000 Y 0.000, where the contour ends, it would be closed" in said(found)
+    assert "START may be mistyped: at X 0.000 Y 0.000, where the contour ends, it would close" in said(found)
     assert table_of(trial(SQUARE, Side.RIGHT, closed=True)).row(found.start_at_end.value).clean
 
 
@@ -278,7 +278,7 @@ def test_every_remedy_holds(asked: Trial) -> None:
 def test_the_value_that_is_clean_is_told_where_the_calculated_one_is_not():
     notch = lines((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
     found = of(trial(notch, Side.LEFT, closed=False))
-    assert said(found) == "CAL 2 gouges. Type look-ahead 3: clean."
+    assert said(found) == "CAL 2 gouges. Enter look-ahead 3, which is clean."
     assert (found.tool, found.start) == (None, None)
     assert not of(trial(notch, Side.RIGHT, closed=False)).sentences
 

@@ -41,7 +41,7 @@ def test_a_gap_with_which_it_counts_as_closed_is_told_since_the_path_gouges_besi
     assert found.solved.closed
     (one,) = (one for one in found.findings if one.code == "NEARLY_CLOSED")
     assert one.severity is Severity.WARNING
-    assert "counts as closed, but it ends at" in one.text
+    assert "is treated as closed but ends" in one.text
     assert one.value == pytest.approx(0.00254)
 
 
@@ -73,7 +73,7 @@ def test_a_blend_arc_that_takes_all_of_a_slope_leaves_a_step():
     found = sloped(line(2, 0), BlendSegment(radius=Entry(1)), line(2, 1, -0.1), line(0, 1))
     ((segment, value, text),) = steps(found)
     assert (segment, value) == (4, 0.15)
-    assert text == "The tool goes straight up 0.1500 at X 2.0000 Y 1.0000: the slope of a Z END is cut off there."
+    assert text == "The tool goes straight up 0.1500 at X 2.0000 Y 1.0000: the ramp to Z END is shortened there."
 
 
 def test_a_z_end_on_a_segment_without_length_is_a_step():
@@ -112,8 +112,8 @@ def test_a_blend_arc_that_begins_and_ends_beyond_a_wall_is_named(offset):
     told = [sentence(one, Unit.IN) for one in found.findings if one.code == "BLEND_LEAVES"]
     far = [f"{place:.4f}" for place in (1 - offset, 1 + offset, 0.25 + offset)]
     expected = [
-        f"Blend-in crosses a wall, from X {far[0]} Y {far[2]}. Make BLEND OFFSET smaller.",
-        f"Blend-out crosses a wall, to X {far[1]} Y {far[2]}. Make BLEND OFFSET smaller.",
+        f"The blend-in arc from X {far[0]} Y {far[2]} crosses a wall. Reduce BLEND OFFSET.",
+        f"The blend-out arc to X {far[1]} Y {far[2]} crosses a wall. Reduce BLEND OFFSET.",
     ]
     assert told == (expected if offset > 1.0 else [])
 
@@ -157,7 +157,9 @@ def test_it_is_a_warning_beside_the_path_that_names_the_place_and_what_to_do() -
     (found,) = derive(program(block(((0, 0), (2, 0), (1, 0), (1, 3)), CutterComp.LEFT))).blocks
     (one,) = (one for one in found.findings if one.code == "TURNS_BACK")
     assert one.severity is Severity.WARNING
-    assert sentence(one, Unit.IN) == "It begins straight back along segment 1, at X 2.0000 Y 0.0000. Check its end."
+    assert (
+        sentence(one, Unit.IN) == "This segment goes straight back over segment 1 at X 2.0000 Y 0.0000. Check its end."
+    )
     warnings = [told for told in found.findings if told.severity is Severity.WARNING]
     assert warnings[0] == one
     assert {told.code for told in warnings[1:]} == {"PLUNGE_FED", "CROSSES_ITSELF"}

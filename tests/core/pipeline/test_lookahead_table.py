@@ -98,7 +98,7 @@ def test_segments_that_only_roughing_deletes_are_told():
     part = replace(program(typed, parameters=parameters), unit=Unit.MM, tools=tools)
     (found,) = derive(part).blocks
     (told,) = [finding for finding in found.findings if finding.code == "ROUGH_DELETES"]
-    assert told.text.endswith("skips segments 2, 3, 4. The next pass meets solid there.")
+    assert told.text.endswith("skips segments 2, 3, 4: the next pass cuts solid stock there.")
     assert meets_solid(job(found, part)) == {2, 3, 4}
 
 
@@ -132,7 +132,7 @@ def test_the_notch_is_told_the_look_ahead_that_is_clean():
     found = needs(derive(part).blocks[0], part)
     assert found is not None
     assert [finding.code for finding in found.sentences] == ["CAL_NOT_CLEAN"]
-    assert sentence(found.sentences[0], part.unit) == "CAL 2 gouges. Type look-ahead 3: clean."
+    assert sentence(found.sentences[0], part.unit) == "CAL 2 gouges. Enter look-ahead 3, which is clean."
     assert found.sentences[0].at is not None
     assert found.tool is None
     assert found.start is None

@@ -62,10 +62,10 @@ def test_a_blank_and_unreadable_text_are_kept():
         (FormPlace(1), "speed", 2.5, "SPEED (RPM) must be a whole number from 1 to 100000."),
         (FormPlace(1), "peck_depth", -1.0, "PECK DEPTH must be from 0 to 254000."),
         (FormPlace(1, 1), "feed", 0.0, "FEED must be above 0, at most 254000."),
-        (FormPlace(1, 4), "feed", 1.0, "There is no segment 4: the last segment is 3."),
-        (FormPlace(1, -1), "feed", 1.0, "There is no segment -1: the last segment is 3."),
-        (FormPlace(2), "speed", 1.0, "There is no block 2: the last block is 1."),
-        (FormPlace(0), "speed", 1.0, "There is no block 0: the last block is 1."),
+        (FormPlace(1, 4), "feed", 1.0, "Segment 4 does not exist; the last is 3."),
+        (FormPlace(1, -1), "feed", 1.0, "Segment -1 does not exist; the last is 3."),
+        (FormPlace(2), "speed", 1.0, "Block 2 does not exist; the last is 1."),
+        (FormPlace(0), "speed", 1.0, "Block 0 does not exist; the last is 1."),
     ],
 )
 def test_typing_is_refused(where, name, value, text):
@@ -74,7 +74,7 @@ def test_typing_is_refused(where, name, value, text):
 
 def test_there_is_no_block_in_an_empty_program():
     assert edit.type_field(Program(), FormPlace(1), "speed", None) == Refused(
-        "There is no block 1: no block is typed yet."
+        "Block 1 does not exist; no block is typed yet."
     )
 
 
@@ -86,7 +86,7 @@ def test_lookahead_is_typed_and_calculated_again():
     hidden = made(edit.choose(user, FormPlace(1), "cutter_comp", "ON"))
     assert hidden.blocks[0].lookahead == Entry(4.0)
     assert made(edit.recalculate_lookahead(user, 1)) == SQUARE
-    assert edit.recalculate_lookahead(user, 2) == Refused("There is no block 2: the last block is 1.")
+    assert edit.recalculate_lookahead(user, 2) == Refused("Block 2 does not exist; the last is 1.")
 
 
 @pytest.mark.parametrize("typed", [Entry(0.0), Entry(21.0), Entry(2.5), Unread("x", "why"), None])
@@ -122,7 +122,7 @@ def test_choose():
         (FormPlace(1), "cutter_comp", "UP", "CUTTER COMP. takes ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT."),
         (FormPlace(1), "cutter_comp", None, "CUTTER COMP. takes ON, LEFT, RIGHT, PROFILE LEFT, PROFILE RIGHT."),
         (FormPlace(1, 1), "choice", 2, "SOLUTION takes 0, 1."),
-        (FormPlace(1, 9), "choice", 0, "There is no segment 9: the last segment is 3."),
+        (FormPlace(1, 9), "choice", 0, "Segment 9 does not exist; the last is 3."),
     ],
 )
 def test_choosing_is_refused(where, name, value, text):
@@ -151,10 +151,10 @@ def test_insert_segment():
 @pytest.mark.parametrize(
     ("where", "segment", "text"),
     [
-        (FormPlace(1, 0), LineSegment(), "START comes first: nothing goes before it."),
-        (FormPlace(1, 5), LineSegment(), "There is no segment 5: the last segment is 3."),
-        (FormPlace(1, -1), LineSegment(), "There is no segment -1: the last segment is 3."),
-        (FormPlace(3, 1), LineSegment(), "There is no block 3: the last block is 1."),
+        (FormPlace(1, 0), LineSegment(), "START is always first."),
+        (FormPlace(1, 5), LineSegment(), "Segment 5 does not exist; the last is 3."),
+        (FormPlace(1, -1), LineSegment(), "Segment -1 does not exist; the last is 3."),
+        (FormPlace(3, 1), LineSegment(), "Block 3 does not exist; the last is 1."),
         (FormPlace(1, 1), BlendSegment(), "A BLEND ARC cannot be the first segment: it blends two others."),
     ],
 )
@@ -173,10 +173,12 @@ def test_delete_segment():
     first, _, third = SQUARE.blocks[0].segments
     assert made(edit.delete_segment(SQUARE, FormPlace(1, 2))).blocks[0].segments == (first, third)
     assert edit.delete_segment(SQUARE, FormPlace(1, 0)) == Refused("START cannot be deleted.")
-    assert edit.delete_segment(SQUARE, FormPlace(1, 4)) == Refused("There is no segment 4: the last segment is 3.")
+    assert edit.delete_segment(SQUARE, FormPlace(1, 4)) == Refused("Segment 4 does not exist; the last is 3.")
     alone = program(line(x_end=1.0, y_end=0.0))
     assert made(edit.delete_segment(alone, FormPlace(1, 1))).blocks[0].segments == ()
-    assert edit.delete_segment(program(), FormPlace(1, 1)) == Refused("There is no segment 1: no segment is typed yet.")
+    assert edit.delete_segment(program(), FormPlace(1, 1)) == Refused(
+        "Segment 1 does not exist; no segment is typed yet."
+    )
 
 
 def test_new_block():
@@ -194,8 +196,8 @@ def test_insert_block_takes_the_tool_of_the_block_before():
     assert [block.tool for block in made(edit.insert_block(two, 2)).blocks] == [Entry(7.0), Entry(7.0), Entry(8.0)]
     assert [block.tool for block in made(edit.insert_block(two, 1)).blocks] == [Entry(1.0), Entry(7.0), Entry(8.0)]
     assert [block.tool for block in made(edit.insert_block(two, 3)).blocks] == [Entry(7.0), Entry(8.0), Entry(8.0)]
-    assert edit.insert_block(two, 4) == Refused("There is no block 4: the last block is 2.")
-    assert edit.insert_block(two, 0) == Refused("There is no block 0: the last block is 2.")
+    assert edit.insert_block(two, 4) == Refused("Block 4 does not exist; the last is 2.")
+    assert edit.insert_block(two, 0) == Refused("Block 0 does not exist; the last is 2.")
 
 
 def test_copy_move_and_delete_blocks():
@@ -207,7 +209,7 @@ def test_copy_move_and_delete_blocks():
     assert made(edit.move_block(given, 3, 1)).blocks == (three, one, two)
     assert made(edit.move_block(given, 2, 2)) == given
     assert made(edit.delete_block(given, 2)).blocks == (one, three)
-    absent = Refused("There is no block 4: the last block is 3.")
+    absent = Refused("Block 4 does not exist; the last is 3.")
     assert edit.copy_block(given, 4) == edit.move_block(given, 4, 1) == edit.move_block(given, 1, 4) == absent
     assert edit.delete_block(given, 4) == absent
     last = Refused("The only block cannot be deleted: a program has at least one.")
@@ -221,7 +223,7 @@ def test_the_tool_table():
     larger = Tool(2, diameter=Entry(2.0))
     assert made(edit.set_tool(both, larger)).tools == (larger, three)
     assert made(edit.delete_tool(both, 2)).tools == (three,)
-    assert edit.delete_tool(both, 9) == Refused("There is no tool 9 in the tool table.")
+    assert edit.delete_tool(both, 9) == Refused("Tool 9 is not in the tool table.")
     wrong = Refused("TOOL DIAMETER must be above 0, at most 10000.")
     assert edit.set_tool(both, Tool(1, diameter=Entry(0.0))) == wrong
     assert edit.set_tool(both, Tool(1, diameter=Entry(-0.5))) == wrong
@@ -237,7 +239,7 @@ def test_parameters_and_setup():
     assert made(edit.set_setup(SQUARE, "safe_z", None)).setup.safe_z is None
     refused = Refused("WORK OFFSET must be a whole number from 54 to 59.")
     assert edit.set_setup(SQUARE, "work_offset", Entry(60.0)) == refused
-    refused = Refused("PART NAME: sign 6 (U+00A0) cannot be shown. Type the text again without it.")
+    refused = Refused("PART NAME: character 6 (U+00A0) cannot be displayed. Type the text again without it.")
     assert edit.set_setup(SQUARE, "name", "COVER\u00a07") == refused
     assert isinstance(edit.set_setup(SQUARE, "name", "two\nlines"), Refused)
 

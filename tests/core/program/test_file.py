@@ -229,7 +229,7 @@ def test_a_file_without_an_end_that_stops_in_the_middle_of_a_line_may_be_cut_off
         return
     told = refusal(text)
     assert told.startswith(f"part.toml, {said}")
-    assert told.endswith(" The file may be cut off there: open a saved copy or an earlier version, or mend the line.")
+    assert told.endswith(" The file may be cut off there: open a saved copy or an earlier version, or fix the line.")
 
 
 def test_a_fault_in_the_middle_is_a_fault_of_its_line():
@@ -240,7 +240,7 @@ def test_a_fault_in_the_middle_is_a_fault_of_its_line():
 def test_a_key_that_stands_twice_is_named(begin: str) -> None:
     told = refusal(UNTOLD.replace("speed = 300", f"speed = 300\n{begin}speed = 400"))
     line = UNTOLD[: UNTOLD.index("speed = 300")].count("\n") + 2
-    assert told == f"part.toml, line {line}: speed stands twice: remove one."
+    assert told == f"part.toml, line {line}: speed appears twice: remove one."
 
 
 KEYS = """\

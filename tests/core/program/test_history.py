@@ -103,7 +103,7 @@ def test_segments() -> None:
     arc = replace(PART.blocks[0], segments=(first, ArcSegment(), *PART.blocks[0].segments[2:]))
     assert told(replace(PART, blocks=(arc,))) == ("Block 1, segment 2: ARC, was LINE.",)
     fewer = replace(PART.blocks[0], segments=(ArcSegment(),))
-    assert told(replace(PART, blocks=(fewer,))) == ("Block 1, segments 1 to 3: now 1 in place of 3.",)
+    assert told(replace(PART, blocks=(fewer,))) == ("Block 1, segments 1 to 3: 3 replaced by 1.",)
 
 
 def test_blocks_and_tools() -> None:

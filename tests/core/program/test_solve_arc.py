@@ -192,11 +192,11 @@ def test_exact_arcs_are_fitted_to_nothing():
         ),
         (
             {"x_center": 0.0, "y_center": 0.0, "x_end": 6.0},
-            "x_end: The arc's radius is 5.000: it does not come to X END 6.000.",
+            "x_end: The arc's radius is 5.000: it does not reach X END 6.000.",
         ),
         (
             {"x_center": 5.0, "y_center": 0.0, "sweep": 90.0},
-            "x_center: X CENTER and Y CENTER are the start itself: an arc needs a radius.",
+            "x_center: X CENTER and Y CENTER are the same as the start: an arc needs a radius.",
         ),
         (
             {"radius": 1.0, "sweep": 90.0, "x_center": 0.0},

@@ -130,7 +130,7 @@ def test_says_what_is_missing(typed, missing, words):
             {"x_end": 1.0, "angle": 90.0, "length": 6.0},
             "x_end: X END is 1.000, but 0.000 by XY LENGTH and XY ANGLE: correct or blank one of them.",
         ),
-        ({"x_end": -3.0, "angle": 45.0}, "angle: XY ANGLE 45.000 leads away from X END -3.000: correct one of them."),
+        ({"x_end": -3.0, "angle": 45.0}, "angle: XY ANGLE 45.000 leads away from X END -3.000. Correct one of them."),
         ({"y_end": 6.0, "length": 5.0}, "length: XY LENGTH 5.000 does not reach Y END 6.000: it takes at least 6.000."),
     ],
 )
@@ -174,12 +174,12 @@ def test_any_two_calculated_fields_give_the_line_again(start, end):
 @pytest.mark.parametrize(
     ("typed", "told"),
     [
-        (line(x_end=3.0, angle=90.0), "XY ANGLE 90.000 keeps X at 1.000 and never comes to X END 3.000"),
-        (line(y_end=-2.0, angle=180.0), "XY ANGLE 180.000 keeps Y at 1.000 and never comes to Y END -2.000"),
+        (line(x_end=3.0, angle=90.0), "XY ANGLE 90.000 holds X at 1.000: it never reaches X END 3.000"),
+        (line(y_end=-2.0, angle=180.0), "XY ANGLE 180.000 holds Y at 1.000: it never reaches Y END -2.000"),
     ],
 )
 def test_an_angle_beside_an_end_that_it_never_comes_to_is_a_contradiction(typed: LineSegment, told: str) -> None:
-    assert text(solved(typed, 1.0, 1.0)) == f"CONTRADICTION angle: {told}: correct one of them."
+    assert text(solved(typed, 1.0, 1.0)) == f"CONTRADICTION angle: {told}. Correct one of them."
 
 
 def test_an_angle_along_the_end_that_start_has_already_still_needs_the_other_end_or_a_length() -> None:

@@ -120,11 +120,11 @@ def test_a_tool_without_a_diameter_stays_blank_and_is_told(line):
 @pytest.mark.parametrize(
     ("text", "line", "column", "words"),
     [
-        ("T1 D.5\nT2 D0,25", 2, 4, "D0,25 is no word"),
-        ("T1 D.5 hello", 1, 8, "hello is no word"),
-        ("T1 D1e3", 1, 6, "E is no word"),
-        ("T1 D1 D2", 1, 7, "D stands twice"),
-        ("T1 G1", 1, 4, "G is no word"),
+        ("T1 D.5\nT2 D0,25", 2, 4, "D0,25 is not a word"),
+        ("T1 D.5 hello", 1, 8, "hello is not a word"),
+        ("T1 D1e3", 1, 6, "E is not a word"),
+        ("T1 D1 D2", 1, 7, "D appears twice"),
+        ("T1 G1", 1, 4, "G is not a word"),
         ("P1 D.5", 1, 1, "whole tool number"),
         ("P1 T1.5 D.5", 1, 4, "whole tool number"),
         ("T0 D.5", 1, 1, "from 1 to 9999"),
@@ -133,10 +133,10 @@ def test_a_tool_without_a_diameter_stays_blank_and_is_told(line):
         ("T1 D-.5", 1, 4, "above 0"),
         ("T1 D999999", 1, 4, "above 0"),
         ("T1 D99999999999", 1, 4, "too large"),
-        ("T1 D.5\n\nT1 D.25", 3, 1, "stands in line 1 already"),
+        ("T1 D.5\n\nT1 D.25", 3, 1, "is already on line 1"),
         ("", 1, 1, "no tool in this table"),
         ("; nothing\n", 1, 1, "no tool in this table"),
-        ("G1 X0 Y0 F100", 1, 1, "G is no word"),
+        ("G1 X0 Y0 F100", 1, 1, "G is not a word"),
     ],
 )
 def test_nothing_is_imported_of_a_table_with_a_fault(text, line, column, words):
@@ -146,7 +146,7 @@ def test_nothing_is_imported_of_a_table_with_a_fault(text, line, column, words):
 
 
 def test_what_a_message_repeats_moves_no_cursor_and_holds_no_place_for_a_length():
-    assert refused("T1 \x1b[2J{value}").text == "?[2J?value? is no word of a tool table; write T1 P1 D.25 Z0."
+    assert refused("T1 \x1b[2J{value}").text == "?[2J?value? is not a word of a tool table; write T1 P1 D.25 Z0."
 
 
 def test_a_remark_becomes_a_type_without_control_signs():
