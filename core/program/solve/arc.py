@@ -23,7 +23,7 @@ from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.program.fields import Form, field_of
 from core.program.model import Direction
 from core.program.solve.line import points_of, shown_angle
-from core.program.solve.rules import Given, Known, Outcome, Rule, Task, contradiction, fault
+from core.program.solve.rules import Given, Known, Outcome, Rule, Task, contradiction, either, fault
 from core.tolerance import AGREES, ARC_RADII, CLOSED, JOINED
 from core.units import Kind, Unit, convert, decimals_shown, from_mm, to_mm
 
@@ -32,6 +32,9 @@ _CENTER: Final = ("x_center", "y_center")
 
 DOUBTFUL: Final = 10.0 * CLOSED
 """An arc whose end is no farther from its start than this may be a full circle that was typed with too few digits."""
+
+ADJUSTED: Final = 5e-6
+"""Millimeters by which an arc's numbers may differ unmentioned: half of the last digit that is posted."""
 
 MAX_ANGLE_DECIMALS: Final = 12
 """Decimals that a field of an angle takes."""
@@ -42,15 +45,16 @@ ArcSolver = Callable[[Turn, Given], Outcome | None]
 def is_start(value: float, start: float, start_typed: float | None, unit: Unit) -> bool:
     """Whether a coordinate of an end, typed as `value`, is typed as that of the start.
 
-    Both are compared as typed, in program units.  Where the start is calculated (`start_typed` is None), its own value,
-    `start` in millimeters, decides: it must read like the end in every digit that is typed, at least in those that a
-    form shows.  It may do so in either unit, so that a change of units leaves every part as it was.  What is nearer
-    than two points can be told apart is the start in any case.
+    Both are compared as typed, in program units.  Where the start is calculated (`start_typed` is None, or what was
+    typed is not where the segment before ends), its own value, `start` in millimeters, decides: it must read like the
+    end in every digit that is typed, at least in those that a form shows.  It may do so in either unit, so that a
+    change of units leaves every part as it was.  What is nearer than two points can be told apart is the start in any
+    case.
     """
-    if abs(to_mm(value, unit) - start) <= JOINED:
+    if abs(to_mm(value, unit) - start) <= JOINED or value == start_typed:
         return True
-    if start_typed is not None:
-        return value == start_typed
+    if start_typed is not None and abs(to_mm(start_typed, unit) - start) <= JOINED:
+        return False
     return any(_reads_like(convert(value, unit, other), from_mm(start, other), other) for other in Unit)
 
 
@@ -101,19 +105,19 @@ def _center_and_coordinate(axis: int, turn: Turn, given: Given) -> Outcome:
 
 
 def _about_center(turn: Turn, given: Given, *ends: Point) -> Outcome:
-    """The arcs about a typed center to each of the ends."""
-    start, center = given.start, _point(given.known, _CENTER)
-    arcs: list[Arc] = []
-    for end in ends:
-        arc = construct.settled(start, end, center, turn)
-        if _comes_back(start, end):
-            full = Arc(start, start, center, turn)
-            decided = _swept_back(full, given) if given.back else _decided(full, arc, given)
-            if decided is None:
-                return _question(arc, dist(start, end), given)
-            arc = decided
-        arcs.append(arc)
-    return _ordered(*arcs)
+    """The arcs about a typed center to each of the ends; SWEEP ANGLE decides what one close to the start is."""
+    start, center, sweep = given.start, _point(given.known, _CENTER), given.known.get("sweep")
+    close = [end for end in ends if _comes_back(start, end)]
+    arcs = [construct.settled(start, end, center, turn) for end in close]
+    others = [construct.settled(start, end, center, turn) for end in ends if end not in close]
+    full = Arc(start, start, center, turn)
+    if not close:
+        return _ordered(*others)
+    if given.back:
+        return _ordered(_swept_back(full, given), *others)
+    if sweep is None or not any(_turns(arc, sweep) for arc in (full, *arcs, *others)):
+        return _question(min(dist(start, end) for end in close), arcs, others, given)
+    return _ordered(min(full, *arcs, key=lambda arc: abs(abs(arc.sweep) - sweep)), *others)
 
 
 def _swept_back(full: Arc, given: Given) -> Arc:
@@ -125,23 +129,15 @@ def _swept_back(full: Arc, given: Given) -> Arc:
     return full
 
 
-def _decided(full: Arc, arc: Arc, given: Given) -> Arc | None:
-    """Which of the two SWEEP ANGLE means; None without it, or where it is that of neither."""
-    sweep = given.known.get("sweep")
-    if sweep is None:
-        return None
-    fitting = [one for one in (full, arc) if _turns(one, sweep)]
-    return min(fitting, key=lambda one: abs(abs(one.sweep) - sweep), default=None)
-
-
-def _question(arc: Arc, gap: float, given: Given) -> Outcome:
-    """What is asked where an end may be the start; the answer is typed on SWEEP ANGLE."""
-    if arc.start == arc.end:
-        text = "The end is {value~0} from the start. Type SWEEP ANGLE 360 for the full circle."
-    else:
-        short = abs(arc.sweep) < tau / 2.0
-        answers = f"360 or {_angle_to_type(abs(arc.sweep))}"
-        text = f"The end is {{value~0}} from the start: full circle or {'short arc' if short else 'arc to that end'}?"
+def _question(gap: float, arcs: list[Arc], others: list[Arc], given: Given) -> Outcome:
+    """What is asked where an end may be the start, `gap` from it; the answer is typed on SWEEP ANGLE."""
+    names = {arc: "short arc" if abs(arc.sweep) < tau / 2.0 else "arc to that end" for arc in arcs}
+    names = {arc: name for arc, name in names.items() if arc.end != arc.start}
+    names |= dict.fromkeys(others, "arc to the other end")
+    text = "The end is {value~0} from the start. Type SWEEP ANGLE 360 for the full circle."
+    if names:
+        answers = either(["360", *(_angle_to_type(abs(arc.sweep)) for arc in names)])
+        text = f"The end is {{value~0}} from the start: {either(['full circle', *names.values()])}?"
         text += f" Type SWEEP ANGLE {answers}."
     asked = Finding("CIRCLE_OR_ARC", Severity.ERROR, text, field="sweep", value=gap, lengths=(0.0,))
     return Outcome(missing=() if "sweep" in given.known else ("sweep",), finding=asked)
@@ -259,29 +255,32 @@ def _center_needed(given: Given) -> tuple[tuple[str, ...], str] | None:
     return blank, f"{text}SWEEP ANGLE, with X END and Y END blank."
 
 
-def circle_finding(arc: Arc, known: Known) -> Finding | None:
+def circle_finding(arc: Arc, given: Given) -> Finding | None:
     """What is said of an arc that ends at its start or close to it; None where it is typed as it is."""
     if arc.start == arc.end:
-        return _full_circle_finding(arc.start, known)
+        return _full_circle_finding(given)
     gap = dist(arc.start, arc.end)
-    if gap > (CLOSED if "sweep" in known else DOUBTFUL) or arc.length <= JOINED:
+    if gap > (CLOSED if "sweep" in given.known else DOUBTFUL) or arc.length <= JOINED:
         return None
     text = f"The arc ends only {{value~0}} from its start and turns {shown_angle(abs(arc.sweep))} degrees. "
     text += "Enter SWEEP ANGLE 360 if the full circle is meant."
     return Finding("SHORT_ARC", Severity.WARNING, text, field="sweep", value=gap, lengths=(0.0,))
 
 
-def _full_circle_finding(start: Point, known: Known) -> Finding | None:
+def _full_circle_finding(given: Given) -> Finding | None:
     """That the numbers typed make the full circle though they are not exactly those of one."""
-    if "sweep" in known:
-        if known["sweep"] == tau:
-            return None
-        text = f"SWEEP ANGLE {shown_angle(known['sweep'])} ends at the arc's start: it is the full circle. Enter 360."
+    known, (x, y) = given.known, given.start
+    sweep, gap = known.get("sweep"), dist(given.start, (known.get("x_end", x), known.get("y_end", y)))
+    if sweep is not None and sweep != tau:
+        text = f"SWEEP ANGLE {shown_angle(sweep)} ends at the arc's start: it is the full circle. Enter 360."
         return Finding("FULL_CIRCLE", Severity.WARNING, text, field="sweep")
-    names = tuple(name for name in _END if name in known)
-    if all(abs(known[name] - start[_END.index(name)]) <= JOINED for name in names):
+    if gap <= JOINED or (sweep is not None and given.back):
         return None
+    names = tuple(name for name in _END if name in known)
     ends = _labels(names)
+    if sweep is not None:
+        text = f"SWEEP ANGLE 360 makes the full circle: it ends where it starts, {{value~0}} from {ends}."
+        return Finding("FULL_CIRCLE", Severity.INFO, text, field="sweep", value=gap, lengths=(0.0,))
     text = f"{ends} read{'s' if len(names) == 1 else ''} like the arc's start: it is the full circle, and ends where "
     text += f"it starts. For a shorter arc blank {ends} and enter SWEEP ANGLE."
     return Finding("FULL_CIRCLE", Severity.INFO, text, field=names[0])
@@ -290,15 +289,15 @@ def _full_circle_finding(start: Point, known: Known) -> Finding | None:
 def adjustment(arc: Arc, given: Given) -> Finding | None:
     """That an arc is fitted to typed numbers which are not exactly those of one arc; `value` is what they differ by."""
     known = given.known
-    if not given.back:
+    if not given.back and arc.start != arc.end:
         center = known.get("x_center", arc.center[0]), known.get("y_center", arc.center[1])
         end = known.get("x_end", arc.end[0]), known.get("y_end", arc.end[1])
         radius, out = dist(arc.start, center), dist(end, center)
-        if abs(out - radius) > JOINED:
+        if abs(out - radius) > ADJUSTED:
             text = "Radius {0~1} at start, {1~0} at end: the arc is fitted to both."
             return Finding("ARC_ADJUSTED", Severity.INFO, text, value=abs(out - radius), lengths=(radius, out))
     radius = known.get("radius", arc.radius)
-    if abs(arc.radius - radius) <= JOINED:
+    if abs(arc.radius - radius) <= ADJUSTED:
         return None
     text = "RADIUS {0~1} does not fit the other numbers: {1~0} is used."
     return Finding("ARC_ADJUSTED", Severity.INFO, text, value=abs(arc.radius - radius), lengths=(radius, arc.radius))

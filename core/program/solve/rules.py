@@ -109,10 +109,11 @@ def _undetermined(task: Task, known: Known, *, tried: bool) -> Outcome:
     one_more = tuple(name for name in blank if any(rule.needs <= {*known, name} for rule in task.rules))
     missing = blank if tried or not one_more else one_more
     enough = one_more and not (tried and len(blank) > 2)
-    return more_needed(missing, f"type {_either([task.label(name) for name in missing])}." if enough else task.advice)
+    return more_needed(missing, f"type {either([task.label(name) for name in missing])}." if enough else task.advice)
 
 
-def _either(labels: list[str]) -> str:
+def either(labels: list[str]) -> str:
+    """The choice between these, in words."""
     return labels[0] if len(labels) == 1 else f"{', '.join(labels[:-1])} or {labels[-1]}"
 
 

@@ -131,7 +131,7 @@ def _whole(piece: Piece, given: Given, choices: tuple[Piece, ...]) -> Shape:
     """A determined line or arc, with what is to be said of an arc's numbers."""
     if isinstance(piece, Line):
         return Shape(piece, piece.end, choices=choices)
-    finding = circle_finding(piece, given.known)
+    finding = circle_finding(piece, given)
     findings = () if finding is None else (finding,)
     return Shape(piece, piece.end, choices=choices, findings=findings, adjustment=adjustment(piece, given))
 

@@ -153,7 +153,7 @@ def test_a_radius_that_does_not_fit_the_end_by_rounding_is_told():
 
 
 def test_arcs_that_are_fitted_are_told_once_where_the_numbers_differ_most():
-    ends = [(0.0, 5.0001), (-5.0, 0.002), (0.0, -5.0)]
+    ends = [(0.0, 5.0001), (-5.0, 0.02), (0.0, -5.0)]
     arcs = [arc("CCW", x_end=x, y_end=y, x_center=0.0, y_center=0.0) for x, y in ends]
     part = program(*arcs, x=5.0)
     findings = solve_block(part.blocks[0], part).every_finding
@@ -363,7 +363,9 @@ def test_an_end_a_digit_or_two_from_the_start_is_asked_about_and_sweep_angle_ans
     _, full = second(arc(direction, **end, sweep=360.0), unit)
     assert is_full(full)
     assert full.end == full.start
-    assert told(full, unit) == []
+    ((severity, code, text),) = told(full, unit)
+    assert (severity, code) == (Severity.INFO, "FULL_CIRCLE")
+    assert re.search(r"it ends where it starts, 0\.\d+ from X END and Y END\.$", text)
     _, part = second(arc(direction, **end, sweep=float(question[3])), unit)
     assert isinstance(part.piece, Arc)
     scale = INCH if unit is Unit.IN else 1.0
@@ -372,6 +374,66 @@ def test_an_end_a_digit_or_two_from_the_start_is_asked_about_and_sweep_angle_ans
     assert [code for _, code, _ in told(part, unit)] == ["SHORT_ARC"]
     _, neither = second(arc(direction, **end, sweep=90.0), unit)
     assert told(neither, unit) == told(found, unit)
+
+
+def behind_a_line_to(end: tuple[float, float], segment: ArcSegment) -> SolvedSegment:
+    """The segment behind a line from 0, 0 to a typed end."""
+    given_program = program(line(x_end=end[0], y_end=end[1]), segment)
+    return solve_block(given_program.blocks[0], given_program).segments[1]
+
+
+X_NEAR_START = {"x_end": 17.321, "x_center": 0.0, "y_center": 0.0}
+"""From 17.3205, 10 two ends on the circle of 20 have this X: one a micrometer from the start, one at 60 degrees."""
+
+
+def test_a_typed_sweep_picks_the_other_end_where_one_is_close_to_the_start():
+    found = behind_a_line_to((17.3205, 10.0), arc("CW", **X_NEAR_START, sweep=60.0))
+    assert found.findings == ()
+    assert isinstance(found.piece, Arc)
+    assert dist(found.piece.end, (17.321, -9.9991)) < 1e-4
+    full = behind_a_line_to((17.3205, 10.0), arc("CW", **X_NEAR_START, sweep=360.0))
+    assert is_full(full)
+    short = behind_a_line_to((17.3205, 10.0), arc("CW", **X_NEAR_START, sweep=0.003))
+    assert isinstance(short.piece, Arc)
+    assert dist(short.piece.end, (17.321, 9.9991)) < 1e-4
+
+
+@pytest.mark.parametrize("typed", [{}, {"choice": 0}, {"sweep": 90.0}])
+def test_the_question_names_the_sweep_angle_of_the_other_end_too(typed):
+    found = behind_a_line_to((17.3205, 10.0), arc("CW", **X_NEAR_START, **typed))
+    assert found.piece is None
+    assert text(found) == (
+        "CIRCLE_OR_ARC sweep: The end is 0.001 from the start: full circle, short arc or arc to the other end? "
+        "Type SWEEP ANGLE 360, 0.003 or 59.997."
+    )
+
+
+def test_the_full_circle_says_that_it_does_not_end_at_its_typed_end():
+    found = solved(arc("CW", x_end=0.001, y_end=0.0, x_center=20.0, y_center=0.0, sweep=360.0))
+    assert is_full(found)
+    assert found.findings[0].severity is Severity.INFO
+    assert text(found) == (
+        "FULL_CIRCLE sweep: SWEEP ANGLE 360 makes the full circle: it ends where it starts, 0.001 from X END and Y END."
+    )
+
+
+@pytest.mark.parametrize(("off", "codes"), [(4e-6, []), (6e-6, ["ARC_ADJUSTED"])])
+def test_radii_that_differ_by_less_than_half_a_posted_digit_are_not_told(off, codes):
+    ends = {"x_end": 0.0, "y_end": 5.0 + off, "x_center": 0.0, "y_center": 0.0}
+    assert [one.code for one in solved(arc("CCW", **ends), 5.0, 0.0).findings] == codes
+    half = {"x_end": -5.0, "y_end": 0.0, "radius": 5.0 - off}
+    assert [one.code for one in solved(arc("CCW", **half), 5.0, 0.0).findings] == codes
+
+
+@pytest.mark.parametrize("end", [7.071, 7.0711, 7.07107])
+def test_a_circle_behind_a_full_circle_starts_where_that_one_started(end):
+    """Its start is calculated, whatever was typed as the end of the first circle."""
+    first = arc("CW", x_end=7.071, y_end=7.071, x_center=7.071, y_center=20.0)
+    other = arc("CW", x_end=end, y_end=end, x_center=7.071, y_center=17.0)
+    given_program = program(line(length=10.0, angle=45.0), first, other)
+    segments = solve_block(given_program.blocks[0], given_program).segments
+    assert [is_full(segment) for segment in segments[1:]] == [True, True]
+    assert segments[2].end == segments[0].end
 
 
 def test_an_arc_of_93_nanometers_is_no_circle_of_52_meters():
