@@ -20,9 +20,6 @@ from core.geometry.nearby import gathered, near_pairs
 from core.geometry.path import Flags, Floats, Path, Rows, coordinates, next_in_ring
 from core.tolerance import CLEAR, CROWDED, GOUGE, JOINED, WHISKER
 
-_ROUNDS = 32
-"""How often slices are taken away that lead nowhere; near-tangent joints leave one or two in a row."""
-
 _CUT_BACKS = 4
 """How often the ends of a bridge move away from each other, each time by its length."""
 
@@ -52,9 +49,9 @@ def bridge_limit(radius: float) -> float:
 
 
 def stitch(raw: RawOffset, cut: Slices, sign: int, surface: Path, radius: float) -> Stitched:
-    """Each clear slice with the one that follows it."""
+    """Each clear slice with the one that follows it, without the slices that lead nowhere."""
     cut = _without_dead_ends(_without_doubles(raw, cut))
-    for _ in range(_ROUNDS):
+    while True:
         following = _straight_on(cut)
         _turn_at_nodes(raw, cut, following, sign)
         _bridge(cut, following, bridge_limit(radius))
@@ -63,9 +60,8 @@ def stitch(raw: RawOffset, cut: Slices, sign: int, surface: Path, radius: float)
         begin &= ~cut.outer[cut.first]
         whisker = (end | begin) & (cut.size < WHISKER)
         if not whisker.any():
-            break
+            return Stitched(_without_overlaps(raw, cut, following, surface, radius), following, end, begin)
         cut = cut.take((~whisker).nonzero()[0])
-    return Stitched(_without_overlaps(raw, cut, following, surface, radius), following, end, begin)
 
 
 def _not_followed_onto(following: Rows) -> Flags:
@@ -89,15 +85,14 @@ def _without_doubles(raw: RawOffset, cut: Slices) -> Slices:
 def _without_dead_ends(cut: Slices) -> Slices:
     """Slices taken away that lead nowhere, are shorter than WHISKER, and branch off where another slice goes on."""
     size = len(cut.points)
-    for _ in range(_ROUNDS):
+    while True:
         begins, ends = np.bincount(cut.first, minlength=size), np.bincount(cut.last, minlength=size)
         ahead = (begins[cut.last] == 0) & ~cut.outer[cut.last] & (begins[cut.first] > 1)
         behind = (ends[cut.first] == 0) & ~cut.outer[cut.first] & (ends[cut.last] > 1)
         dead = (ahead | behind) & (cut.size < WHISKER)
         if not dead.any():
-            break
+            return cut
         cut = cut.take((~dead).nonzero()[0])
-    return cut
 
 
 def _straight_on(cut: Slices) -> Rows:

@@ -8,6 +8,9 @@ import numpy as np
 import pytest
 
 from core.comp.best_path.best_path import best_path
+from core.comp.best_path.raw_offset import raw_offset
+from core.comp.best_path.slices import Slices
+from core.comp.best_path.stitch import stitch
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from tests.core.comp.best_truth import CLOSE, assert_true, only
@@ -90,3 +93,19 @@ def test_a_scribble_no_part_can_be_is_refused_and_not_worked_on_without_end():
     best = best_path(Path.of(points, points[:-1], np.zeros(19_999, np.int8)), Side.LEFT, 1.0, closed=False)
     assert best.loops == ()
     assert [finding.code for finding in best.findings] == ["CROSSES_ITSELF", "TANGLED"]
+
+
+@pytest.mark.parametrize("count", [1, 31, 32, 33, 80])
+def test_any_number_of_tiny_slices_in_a_row_that_lead_nowhere_is_taken_away(count):
+    """A slice of 10 mm goes on over slices shorter than a thousandth each, the last of which ends nowhere."""
+    surface = lines((0, 0), (20, 0))
+    raw = raw_offset(surface, Side.LEFT, 5.0, closed=False, crossing=False).raw
+    row, size = np.arange(count + 1), np.append(10.0, np.full(count, 0.0009))
+    ends = np.cumsum(size)
+    piece, never = np.zeros(count + 1, np.intp), np.zeros(count + 1, np.bool_)
+    points, outer = np.append(0.0, ends) + 5.0j, np.zeros(count + 2, np.bool_)
+    turning = np.full(count + 1, -1)
+    cut = Slices(piece, piece, ends - size, ends, size, row, row + 1, never, turning, points, outer)
+    made = stitch(raw, cut, 1, surface, 5.0)
+    assert made.cut.size.tolist() == [10.0]
+    assert (made.following.tolist(), made.loose_end.tolist(), made.loose_begin.tolist()) == ([-1], [True], [True])
