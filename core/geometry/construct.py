@@ -8,7 +8,7 @@ Millimeters and radians, angles counterclockwise from +X.  `axis` 0 is X and 1 i
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import atan2, cos, hypot, sin, sqrt, tau
+from math import cos, hypot, sin, sqrt
 
 from core.geometry.piece import SLIVER, Arc, Point, Turn
 from core.tolerance import ARC_RADII, JOINED, ON_PATH
@@ -129,14 +129,6 @@ def rotated(point: Point, center: Point, angle: float) -> Point:
     """A point turned about `center` by `angle`, positive counterclockwise."""
     dx, dy = point[0] - center[0], point[1] - center[1]
     return center[0] + dx * cos(angle) - dy * sin(angle), center[1] + dx * sin(angle) + dy * cos(angle)
-
-
-def swept(start: Point, end: Point, center: Point, turn: Turn) -> float:
-    """The angle traveled from `start` to `end`, more than 0 and at most a full turn: equal ends are a full turn."""
-    first = atan2(start[1] - center[1], start[0] - center[0])
-    last = atan2(end[1] - center[1], end[0] - center[0])
-    angle = (turn * (last - first)) % tau
-    return tau if angle < SLIVER else angle
 
 
 def settled(start: Point, end: Point, center: Point, turn: Turn) -> Arc:

@@ -5,9 +5,8 @@ Boxes are (4, n) arrays: left, bottom, right, top.
 `near_pairs` and `near_pairs_within` are exact for boxes, up to the last digits of a double, and so a superset for what
 is inside them: `core.geometry.distance` makes it exact, pair by pair.  They come in batches of some ten thousand pairs:
 whoever needs them all at once calls `gathered`, whoever looks at each pair once does not hold them.  With 100,000
-chords inside one radius ask what is nearest (`nearest_pieces`, exact; `nearest_pairs`, a superset), never what lies
-in boxes within reach: that is all pairs.  What has a coordinate that is no number is near everything, so that whoever
-measures it sees that.
+chords inside one radius ask what is nearest (`nearest_pairs`, a superset), never what lies in boxes within reach: that
+is all pairs.  What has a coordinate that is no number is near everything, so that whoever measures it sees that.
 """
 
 from __future__ import annotations
@@ -19,7 +18,6 @@ from typing import Final
 import numpy as np
 import shapely
 
-from core.geometry.distance import distance
 from core.geometry.path import Floats, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at
 
@@ -44,9 +42,6 @@ it."""
 
 EVERYWHERE: Final = np.array([[-1e300], [-1e300], [1e300], [1e300]])
 """The box of what has no known place."""
-
-NEARLY: Final = 1e-12
-"""Share of a distance that rounding may take off it or add to it."""
 
 Batches = Iterator[tuple[Rows, Rows]]
 
@@ -142,11 +137,6 @@ class Chords:
         return Chords(self.start.take(rows), self.end.take(rows), self.slack.take(rows))
 
 
-def chords_of(pieces: PieceArrays) -> Chords:
-    """The chord of each piece; an arc is within its height over the chord, however far it turns."""
-    return Chords(pieces.start, pieces.end, pieces.radius * (1.0 - np.cos(pieces.angle / 2.0)))
-
-
 Runs = tuple[Chords, ...]
 """Chords of the pieces, of runs of FAN pieces, of FAN such runs and so on: the finest level first."""
 
@@ -176,39 +166,6 @@ def _off_chord(start: Points, end: Points, points: Points) -> Floats:
     share = np.minimum(np.maximum((away * chord.conj()).real / square, 0.0), 1.0)
     off: Floats = np.abs(away - share * chord)
     return off
-
-
-def nearest_pieces(points: Points, pieces: PieceArrays, tie: float = 0.0) -> tuple[Rows, Rows, Floats]:
-    """Triples (k, j, distance), by rising k, then j: for each point the pieces no farther than the nearest and `tie`.
-
-    Exact.  Every point has one, if there is a piece at all.
-    """
-    runs = runs_of(chords_of(pieces))
-    if not len(pieces):
-        points = points[:0]
-    parts = [_nearest_part(points, start, pieces, runs, tie) for start in range(0, len(points), BATCH_QUERIES)]
-    if not parts:
-        return np.zeros(0, np.intp), np.zeros(0, np.intp), np.zeros(0)
-    k, j, apart = zip(*parts, strict=True)
-    return np.concatenate(k), np.concatenate(j), np.concatenate(apart)
-
-
-def _nearest_part(points: Points, first: int, pieces: PieceArrays, runs: Runs, tie: float) -> tuple[Rows, Rows, Floats]:
-    """The triples of BATCH_QUERIES points from `first` on."""
-    points = points[first : first + BATCH_QUERIES]
-    k, j = np.divmod(np.arange(len(points) * len(runs[-1])), len(runs[-1]))
-    known = np.full(len(points), np.inf)
-    for level in range(len(runs) - 1, -1, -1):
-        chords = runs[level].take(j)
-        apart = distance(pieces.take(j), points[k]) if not level else np.abs(points[k] - chords.start)
-        known = np.fmin(known, np.fmin.reduceat(apart, k.searchsorted(np.arange(len(points)))))
-        least = _off_chord(chords.start, chords.end, points[k]) - chords.slack if level else apart
-        # a hair more than what is known: nothing that is exactly as near must be lost
-        near = ~(least > known[k] * (1.0 + NEARLY) + tie)
-        k, j = k[near], j[near]
-        if level:
-            j, k = _members(j, k, len(runs[level - 1]))
-    return k + first, j, apart[near]
 
 
 def nearest_pairs(pieces: PieceArrays, others: PieceArrays, tie: float) -> tuple[Rows, Rows]:

@@ -48,10 +48,23 @@ def stretches(surface: Path, wanted: Ends) -> Parts:
 
     One runs past a closed contour's start if its last segment lies before its first.
     """
-    whole, _, tails = _cut_out(surface, wanted)
-    own = np.ones(len(whole), np.bool_)
+    begins, lasts, wanted = _rows(surface, wanted)
+    if not len(begins):
+        return NO_PARTS
+    # rows of points, one more than of pieces: behind the last piece of each stretch its end
+    counts = _steps(surface, begins, lasts, wanted) + 2
+    behind = counts.cumsum()
+    heads, tails = behind - counts, behind - 1
+    rows = (np.arange(behind[-1]) + (begins - heads).repeat(counts)) % len(surface)
+    points, centers, turns = as_complex(surface.points)[rows], as_complex(surface.centers)[rows], surface.turns[rows]
+    points[heads], points[tails], turns[tails] = wanted.start, wanted.end, 0
+    # a line has its own start for a center
+    lines = (turns == 0).nonzero()[0]
+    centers[lines] = points[lines]
+    own = np.ones(len(turns) - 1, np.bool_)
     own[tails[:-1]] = False
-    return Parts(whole, own)
+    numbers = surface.numbers[rows[:-1]]
+    return Parts(Path(coordinates(points), coordinates(centers[:-1]), turns[:-1], numbers), own)
 
 
 def pieces_joined(path: Path, rows: NDArray[np.intp]) -> Parts:
@@ -63,35 +76,6 @@ def pieces_joined(path: Path, rows: NDArray[np.intp]) -> Parts:
     centers, turns, own = points[:-1].copy(), np.zeros(len(points) - 1, np.int8), np.zeros(len(points) - 1, np.bool_)
     centers[::2], turns[::2], own[::2] = as_complex(path.centers)[rows], path.turns[rows], True
     return Parts(Path(coordinates(points), coordinates(centers), turns, path.numbers[rows].repeat(2)[:-1]), own)
-
-
-def stretch_lengths(surface: Path, wanted: Ends) -> list[list[tuple[float, float]]]:
-    """Of the same stretches, each by itself, the pieces' segments and lengths."""
-    whole, heads, tails = _cut_out(surface, wanted)
-    each = list(zip(whole.numbers.tolist(), whole.lengths.tolist(), strict=True))
-    return [each[head:tail] for head, tail in zip(heads.tolist(), tails.tolist(), strict=True)]
-
-
-def _cut_out(surface: Path, wanted: Ends) -> tuple[Path, Rows, Rows]:
-    """The stretches one behind the other with a line between them, and the first row and one behind the last of each.
-
-    Those of unknown segments are left out.
-    """
-    begins, lasts, wanted = _rows(surface, wanted)
-    if not len(begins):
-        return EMPTY, begins, begins
-    # rows of points, one more than of pieces: behind the last piece of each stretch its end
-    counts = _steps(surface, begins, lasts, wanted) + 2
-    behind = counts.cumsum()
-    heads, tails = behind - counts, behind - 1
-    rows = (np.arange(behind[-1]) + (begins - heads).repeat(counts)) % len(surface)
-    points, centers, turns = as_complex(surface.points)[rows], as_complex(surface.centers)[rows], surface.turns[rows]
-    points[heads], points[tails], turns[tails] = wanted.start, wanted.end, 0
-    # a line has its own start for a center
-    lines = (turns == 0).nonzero()[0]
-    centers[lines] = points[lines]
-    whole = Path(coordinates(points), coordinates(centers[:-1]), turns[:-1], surface.numbers[rows[:-1]])
-    return whole, heads, tails
 
 
 def _rows(surface: Path, wanted: Ends) -> tuple[Rows, Rows, Ends]:

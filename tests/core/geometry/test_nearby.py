@@ -14,7 +14,6 @@ from core.geometry.nearby import (
     near_pairs,
     near_pairs_within,
     nearest_pairs,
-    nearest_pieces,
 )
 from core.geometry.path import Path
 from core.geometry.piece_arrays import PieceArrays, at, boxes, piece_arrays
@@ -94,15 +93,6 @@ def waves(count: int, radius: float) -> PieceArrays:
     return piece_arrays(Path.of(points, points[:-1], np.zeros(count, np.int8)))
 
 
-def test_of_short_chords_within_one_radius_only_the_nearest_come() -> None:
-    """All of the wall's chords lie within one radius of each point."""
-    wall, points = waves(2000, 1.0), waves(2000, 7.0).start
-    k, j, apart = nearest_pieces(points, wall, 1e-6)
-    assert len(k) <= 3 * len(points)
-    assert apart.max() < 6.02
-    assert np.abs(j - k)[:1000].max() < 40
-
-
 @pytest.mark.parametrize("arcs", [False, True])
 @pytest.mark.parametrize(("n", "m"), SIZES)
 def test_nearest_pairs_hold_the_piece_nearest_to_every_place(n: int, m: int, arcs: bool) -> None:
@@ -117,19 +107,3 @@ def test_nearest_pairs_hold_the_piece_nearest_to_every_place(n: int, m: int, arc
 def test_nearest_pairs_of_short_chords_within_one_radius_are_few() -> None:
     wall, move = waves(2000, 1.0), waves(2000, 7.0)
     assert len(nearest_pairs(move, wall, 1e-9)[0]) < 8 * 2000
-
-
-@pytest.mark.parametrize("arcs", [False, True])
-@pytest.mark.parametrize("m", [1, 5, 64, 700])
-@pytest.mark.parametrize("tie", [0.0, 0.3])
-def test_nearest_pieces_are_the_nearest_and_ties(m: int, arcs: bool, tie: float) -> None:
-    pieces = walk(6, m, arcs=arcs)
-    spots = np.random.default_rng(7).normal(size=(1500, 2)) * 10.0
-    points = np.concatenate((spots[:, 0] + 1j * spots[:, 1], pieces.start[:20]))
-    apart = distance(pieces, np.repeat(points[:, None], m, axis=1))
-    k, j, near = nearest_pieces(points, pieces, tie)
-    short, wide = (np.nonzero(apart <= apart.min(axis=1)[:, None] + tie + give) for give in (-1e-9, 1e-9))
-    assert pairs(short) <= pairs((k, j)) <= pairs(wide)
-    assert set(k.tolist()) == set(range(len(points)))
-    assert list(zip(k, j, strict=True)) == sorted(zip(k, j, strict=True))
-    np.testing.assert_allclose(near, apart[k, j], atol=1e-12)
