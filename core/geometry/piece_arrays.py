@@ -22,7 +22,7 @@ from core.tolerance import ON_PATH
 FEW_PAIRS: Final = 500
 """Pairs of which all are worked out at once: that costs less than to part lines from arcs."""
 
-BLOCK_PAIRS: Final = 16_000
+BLOCK_PAIRS: Final = 4_000
 """Pairs worked out at a time."""
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from core.geometry.distance import foot
 from core.geometry.path import Flags, Path, Rows
 from core.geometry.piece import Point
-from core.geometry.piece_arrays import at, direction, piece_arrays
+from core.geometry.piece_arrays import at, blocks, direction, piece_arrays
 from core.tolerance import ON_PATH, STOCK
 from core.verify.pairs import Pairs, along, keeping, measurable, pairs_of, rounding_of
 from core.verify.uncut import POINT, gaps_of
@@ -82,7 +82,9 @@ def _point(place: complex) -> Point:
 def backwards(pairs: Pairs, radius: float) -> tuple[int, ...]:
     """Rows of pieces that touch walls along more than a point, all of them against the walls' direction."""
     touching = (pairs.least <= radius + pairs.grant).nonzero()[0]
-    way = _way(pairs.keep(touching), radius)
+    way = np.zeros(len(touching), np.intp)
+    for block in blocks(pairs.pieces.arcs[pairs.i[touching]], pairs.others.arcs[pairs.j[touching]]):
+        way[block] = _way(pairs.keep(touching[block]), radius)
     against = np.zeros(len(pairs.pieces), np.bool_)
     against[pairs.i[touching[way < 0]]] = True
     against[pairs.i[touching[way > 0]]] = False

@@ -10,6 +10,7 @@ nearer there, that is at once.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import inf
 from typing import Final
 
@@ -24,6 +25,9 @@ from core.verify.stretches import Stretches
 
 FINE: Final = 1e-8
 """Millimeters between the bounds of a largest distance at which it counts as known."""
+
+BAND_PIECES: Final = 2_000
+"""Pieces of stretches that are worked out at a time."""
 
 MAX_DIVISIONS: Final = 100
 """Divisions after which doubles cannot part a span of any size further."""
@@ -69,6 +73,16 @@ def farthest(pairs: Pairs, stretches: Stretches, most: float = inf) -> Farthest:
 
     No distance is larger than `most`: a place as far as that is the farthest.
     """
+    # stretches know nothing of each other: some at a time bound the memory in use
+    index = pairs.stations[1:-1].searchsorted(np.array((stretches.first, stretches.last)))
+    begins = changes((index[1] - index[0] + 1).cumsum() // BAND_PIECES).tolist()
+    edges = [0, *begins[1:], len(stretches)]
+    found = [_farthest(pairs, stretches.part(*rows), most) for rows in pairwise(edges)]
+    columns = zip(*((far.place, far.point, far.apart, far.near) for far in found), strict=True)
+    return Farthest(*(np.concatenate(column) for column in columns))
+
+
+def _farthest(pairs: Pairs, stretches: Stretches, most: float) -> Farthest:
     spans, best = _begin(pairs, stretches)
     for division in range(MAX_DIVISIONS):
         spans = spans.take((best.apart[spans.owner] < most - FINE).nonzero()[0])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 
@@ -37,23 +38,25 @@ def gouging(pairs: Pairs, limit: float) -> Gouging:
         none = np.zeros(0)
         return Gouging(NO_STRETCHES, none, none, near, near)
     parts = within(pairs, near, limits[near])
-    spots, apart, pair = approaches(pairs, near)
-    deep = apart < limits[pair]
-    spots, apart, pair = spots[deep], apart[deep], pair[deep]
+    spots, apart, pair = approaches(pairs, near, limits[near])
     return _deepest(pairs, joined((parts, Parts(spots, spots, spots, apart, pair))))
 
 
-def approaches(pairs: Pairs, rows: Rows) -> tuple[Floats, Floats, Rows]:
-    """Places, in length traveled, where the pieces of these pairs may be nearest to the others, how near they are
-    there, and whose pair each place is."""
+def approaches(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats, Rows]:
+    """Places, in length traveled, where the pieces of these pairs may be nearest to the others and are nearer than
+    `limit` (m,), how near they are there, and whose pair each place is."""
     found = [np.zeros((3, 0))]
     for block in blocks(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]]):
         pair = rows[block]
         pieces, others = pairs.pieces.take(pairs.i[pair]), pairs.others.take(pairs.j[pair])
         places = nearest_places(pieces, others)
-        spots = pairs.stations[pairs.i[pair]] + places * pieces.length
         apart = between(pieces, others, places)
-        found.append(np.array((spots.ravel(), apart.ravel(), np.tile(pair, len(places)))))
+        new = (places > 0.0) & (places < 1.0)
+        # the first two are the ends
+        new[:2] = True
+        k, row = np.nonzero(new & (apart < limit[block]))
+        spots = pairs.stations[pairs.i[pair[row]]] + places[k, row] * pieces.length[row]
+        found.append(np.array((spots, apart[k, row], pair[row])))
     spots, apart, pair = np.concatenate(found, axis=1)
     return spots, apart, pair.astype(np.intp)
 
@@ -64,7 +67,8 @@ def closest(pairs: Pairs, surface: Path) -> Approach | None:
         return None
     least = pairs.least.min()
     near = pairs.least <= least + GOUGE
-    spots, apart, pair = approaches(pairs, (near & (pairs.i == pairs.i[near.argmax()])).nonzero()[0])
+    rows = (near & (pairs.i == pairs.i[near.argmax()])).nonzero()[0]
+    spots, apart, pair = approaches(pairs, rows, np.full(len(rows), inf))
     first = np.lexsort((pairs.j[pair], np.round(spots / ON_PATH), apart > least + GOUGE))[:1]
     piece, wall = pairs.pieces.take(pairs.i[pair[first]]), pairs.others.take(pairs.j[pair[first]])
     length = np.where(piece.length == 0.0, 1.0, piece.length)

@@ -185,15 +185,20 @@ def _straight(pairs: Pairs) -> Flags:
 
 def concentric(pairs: Pairs) -> Flags:
     """Pairs of arcs about one center that are beside each other only once."""
-    found = pairs.pieces.arcs[pairs.i] & pairs.others.arcs[pairs.j]
-    rows = found.nonzero()[0]
-    if len(rows):
-        one, other = pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows])
-        middles = [arc.arm * np.exp(0.5j * arc.turn * arc.angle) for arc in (one, other)]
-        between = np.abs(np.angle(middles[0] * np.conj(middles[1])))
-        once = (one.angle + other.angle) / 2.0 + between < tau - ONCE
-        found[rows] = (np.abs(one.center - other.center) <= ON_PATH) & once
+    first, second = pairs.pieces.arcs[pairs.i], pairs.others.arcs[pairs.j]
+    found = first & second
+    for rows in blocks(first, second):
+        if found[rows].any():
+            found[rows] &= _about_one_center(pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows]))
     return found
+
+
+def _about_one_center(one: PieceArrays, other: PieceArrays) -> Flags:
+    middles = [arc.arm * np.exp(0.5j * arc.turn * arc.angle) for arc in (one, other)]
+    between = np.abs(np.angle(middles[0] * np.conj(middles[1])))
+    once = (one.angle + other.angle) / 2.0 + between < tau - ONCE
+    alike: Flags = (np.abs(one.center - other.center) <= ON_PATH) & once
+    return alike
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -217,7 +222,9 @@ def nearest(pairs: Pairs, index: Rows, points: Points) -> Nearest:
     starts = counts.cumsum() - counts
     k = np.repeat(np.arange(len(index)), counts)
     j = pairs.j[np.arange(len(k)) + (begins[index] - starts)[k]]
-    apart = distance(pairs.others.take(j), points[k])
+    apart = np.empty(len(k))
+    for block in blocks(*[pairs.others.arcs[j]] * 2):
+        apart[block] = distance(pairs.others.take(j[block]), points[k[block]])
     keep = (apart <= np.minimum.reduceat(apart, starts)[k] + ON_PATH).nonzero()[0] if len(k) else k
     return Nearest(k[keep], j[keep], apart[keep])
 

@@ -44,6 +44,10 @@ class Stretches:
         """The stretches for which `chosen` (k,) is True."""
         return Stretches(self.first[chosen], self.last[chosen])
 
+    def part(self, first: int, last: int) -> Stretches:
+        """Stretches first ... last - 1."""
+        return Stretches(self.first[first:last], self.last[first:last])
+
     def cut(self, places: Floats) -> Stretches:
         """What is between these places within the stretches."""
         s = np.sort(np.concatenate((self.first, self.last, places[self.holds(places)])))

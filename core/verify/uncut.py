@@ -11,7 +11,7 @@ import numpy as np
 from core.geometry.distance import band_places, feet, foot
 from core.geometry.path import Flags, Floats, Path, Points, Rows
 from core.geometry.piece import Side
-from core.geometry.piece_arrays import PieceArrays, at
+from core.geometry.piece_arrays import PieceArrays, at, blocks
 from core.tolerance import CLOSED, ON_PATH, STOCK
 from core.verify.farthest import farthest
 from core.verify.pairs import Pairs, concentric, covering, nearest, pairs_of
@@ -116,7 +116,9 @@ def _reached(pairs: Pairs, whole: Flags, radius: float) -> Stretches:
     """
     stations, limit = pairs.stations, radius + pairs.grant
     rows = (pairs.least <= limit).nonzero()[0]
-    begin, end = _between_feet(pairs, rows, limit[rows])
+    begin, end = np.empty((2, len(rows)))
+    for block in blocks(pairs.pieces.arcs[pairs.i[rows]], pairs.others.arcs[pairs.j[rows]]):
+        begin[block], end[block] = _between_feet(pairs, rows[block], limit[rows[block]])
     piece = pairs.i[rows]
     bent = pairs.pieces.arcs[piece] | pairs.others.arcs[pairs.j[rows]]
     unsure = bent & ((end - begin) * pairs.pieces.length[piece] > POINT)

@@ -163,8 +163,9 @@ def _parts(pairs: Pairs, found: Gouging, surface: Sided, radius: float) -> Stret
     met, stretches = _meeting(pairs, radius), found.stretches
     if radius <= GOUGE:
         stretches = union(pairs.stations[pairs.i[met]], pairs.stations[pairs.i[met] + 1])
-    spots, apart, _ = approaches(pairs, met)
-    cuts = spots[apart <= JOINED], _ends_passed(pairs, stretches, surface), _joints(pairs, surface)
+    # what is exactly JOINED away is met too
+    spots, _, _ = approaches(pairs, met, np.full(len(met), np.nextafter(JOINED, 1.0)))
+    cuts = spots, _ends_passed(pairs, stretches, surface), _joints(pairs, surface)
     parts = stretches.cut(np.concatenate(cuts))
     return parts if surface.endless else parts.cut(_between_arms(pairs, parts, surface))
 
