@@ -15,7 +15,7 @@ from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
 from core.geometry.path import Path, joined
-from core.tolerance import ARC_RADII, GOUGE
+from core.tolerance import ARC_RADII, GOUGE, ROUNDING
 from core.verify.contact import AirCut, air_cuts
 from core.verify.judge import judge
 from core.verify.report import contact_findings, or_more
@@ -30,14 +30,21 @@ GIVEN_UP: Final = "LIMIT"
 FINE: Final = 0.001
 """Millimeters under which a gouge's depth cannot be shown in digits."""
 
+CAM_ROUNDING: Final = 0.0127 + ROUNDING
+"""Millimeters (0.0005 in) of tolerance that a CAM system's rounding explains; more may hide a gouge."""
+
 
 @dataclass(frozen=True, slots=True)
 class UnevenArc:
-    """The arc whose radii at its start and its end differ most, by more than any rounding, and its line."""
+    """The arc whose radii at its start and its end differ most, by more than any rounding, and its line.
+
+    `slack`: by how much the uneven arcs of surface and path raise the tolerance.
+    """
 
     first: float
     last: float
     line: int | None
+    slack: float
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -126,7 +133,7 @@ def _with_other_parts(
     """
     part, numbered = result.stretch, replace(whole, numbers=np.arange(len(whole), dtype=np.float64))
     accepted = _accepted_difference(run, whole, result.center)
-    more, unjudged = list[Gouge](), list[Judged]()
+    more, unjudged, slack = list[Gouge](), list[Judged](), 0.0
     for first, last in contours:
         edges = np.clip((first, *rows, last), first, last).tolist()
         # each by itself, for a pass of another part is no repetition of one of this part
@@ -135,11 +142,14 @@ def _with_other_parts(
         if not verdict.judged:
             unjudged.append(Judged(part, surface, result.center, _numbered(verdict, whole), frozenset()))
             continue
+        slack = max(slack, verdict.radius_slack)
         others = [gouge for gouge in verdict.gouges if not rows[0] <= gouge.surface_number < rows[1]]
         more += (replace(gouge, surface_number=float(whole.numbers[int(gouge.surface_number)])) for gouge in others)
     if not result.verdict.judged:
         return result, unjudged
     gouges = sorted((*result.verdict.gouges, *more), key=lambda gouge: -gouge.depth)
+    if slack > (result.uneven.slack if result.uneven else 0.0):
+        result = replace(result, uneven=_most_uneven(slack, whole, result.center))
     return replace(result, verdict=replace(result.verdict, gouges=tuple(gouges))), unjudged
 
 
@@ -156,7 +166,8 @@ def _judge_part(run: Run, stretch: Stretch, whole: Path, contours: Sequence[Rows
     center = without_repeats(run.moves.part(stretch.first, stretch.last).path(stretch.plane))
     accepted = _accepted_difference(run, whole, center)
     results = [_judge_contour(stretch, whole.part(*rows), center, accepted, len(contours)) for rows in contours]
-    results[0] = replace(results[0], uneven=_most_uneven(whole, center))
+    slack = max(result.verdict.radius_slack for result in results)
+    results[0] = replace(results[0], uneven=_most_uneven(slack, whole, center))
     inside = np.zeros(len(whole), np.bool_)
     for first, last in contours:
         inside[first:last] = True
@@ -188,7 +199,7 @@ def _accepted_difference(run: Run, *paths: Path) -> float:
     return max(ARC_RADII, arc_radii(run.control).largest_difference(max(radii), run.unit) + GOUGE)
 
 
-def _most_uneven(*paths: Path) -> UnevenArc | None:
+def _most_uneven(slack: float, *paths: Path) -> UnevenArc | None:
     """The arc of these paths whose radii differ most, None where all are the same but for rounding."""
     worst, difference = None, ARC_RADII
     for path in paths:
@@ -197,19 +208,21 @@ def _most_uneven(*paths: Path) -> UnevenArc | None:
         apart = np.where(path.turns != 0, np.abs(last - first), 0.0)
         row = int(apart.argmax()) if len(apart) else 0
         if len(apart) and apart[row] > difference:
-            worst, difference = UnevenArc(float(first[row]), float(last[row]), _line(path.numbers[row])), apart[row]
+            line, difference = _line(path.numbers[row]), apart[row]
+            worst = UnevenArc(float(first[row]), float(last[row]), line, slack)
     return worst
 
 
 def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
     """The verdicts as findings with lines: gouges and the wrong side are errors, the rest is a warning."""
     gouged = {gouge.surface_number for result in results for gouge in result.verdict.gouges}
+    uneven = _uneven_arcs(results)
     return tuple(
         finding
         for result in results
         for finding in (
             *_by_itself(result),
-            *_uneven_arc(result),
+            *_uneven_arc(uneven.get(result)),
             *_cuts(result),
             *_open_contour(result, gouged),
             *_leads(result),
@@ -253,14 +266,20 @@ def _by_itself(result: Judged) -> list[Finding]:
     return [Finding("SIDES", Severity.WARNING, text, line=_first_line(result.surface))]
 
 
-def _uneven_arc(result: Judged) -> list[Finding]:
-    """That an arc has two radii, which the control accepts, and how it is judged."""
-    arc = result.uneven
-    if arc is None or not result.verdict.judged:
+def _uneven_arcs(results: Sequence[Judged]) -> dict[Judged, UnevenArc]:
+    """The uneven arcs of judged parts that raise the tolerance, each line once, where it does so most."""
+    uneven = [(result, result.uneven) for result in results if result.uneven and result.verdict.judged]
+    uneven.sort(key=lambda pair: pair[1].slack)
+    return dict({arc.line: (result, arc) for result, arc in uneven if arc.slack > 0.0}.values())
+
+
+def _uneven_arc(arc: UnevenArc | None) -> list[Finding]:
+    """That an arc has two radii, which the control accepts, and how it is judged; a warning beyond CAM_ROUNDING."""
+    if arc is None:
         return []
     text = "Arc radius {0} at its start, {1} at its end: judged between both, with {value} more tolerance."
-    lengths, difference = (arc.first, arc.last), abs(arc.first - arc.last)
-    return [Finding("ARC_RADII", Severity.INFO, text, value=difference, lengths=lengths, line=arc.line)]
+    severity = Severity.WARNING if arc.slack > CAM_ROUNDING else Severity.INFO
+    return [Finding("ARC_RADII", severity, text, value=arc.slack, lengths=(arc.first, arc.last), line=arc.line)]
 
 
 def _cuts(result: Judged) -> list[Finding]:

@@ -11,7 +11,7 @@ from core.geometry.distance import between, foot, nearest_places
 from core.geometry.path import Floats, Path, Rows, coordinates
 from core.geometry.piece_arrays import at, blocks
 from core.tolerance import GOUGE, JOINED, ON_PATH
-from core.verify.pairs import Pairs, changes
+from core.verify.pairs import Pairs, changes, uneven_slack
 from core.verify.stretches import NO_STRETCHES, Parts, Stretches, joined, union, within
 from core.verify.verdict import Approach, Gouge
 
@@ -32,7 +32,7 @@ class Gouging:
 
 def gouging(pairs: Pairs, limit: float) -> Gouging:
     """Where the center path is nearer to the surface than the limit, less what uneven arcs leave open."""
-    limits = limit - pairs.pieces.slack[pairs.i] - pairs.others.slack[pairs.j]
+    limits = limit - uneven_slack(pairs.pieces, pairs.i, pairs.others, pairs.j)
     near = (pairs.least < limits).nonzero()[0]
     if not len(near):
         none = np.zeros(0)

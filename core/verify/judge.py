@@ -12,7 +12,7 @@ from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.tolerance import ARC_RADII, GOUGE
 from core.verify.contact import backwards, loose
 from core.verify.gouge import closest, gouges, gouging
-from core.verify.pairs import measurable, pairs_of, rounding_of
+from core.verify.pairs import measurable, pairs_of, rounding_of, uneven_slack
 from core.verify.surface import Surface
 from core.verify.uncut import uncut
 from core.verify.verdict import NOTHING, UnevenArc, Verdict
@@ -87,5 +87,5 @@ def _judged(surface: Surface, radius: float, moves: PieceArrays, numbers: Floats
         backwards=backwards(pairs, radius),
         crossing_at=(crossed[0].real, crossed[0].imag) if crossed else None,
         over_run_at=surface.over_run_at,
-        radius_slack=float(walls.slack.max() + moves.slack.max(initial=0.0)),
+        radius_slack=float(uneven_slack(moves, pairs.i, walls, pairs.j).max(initial=0.0)),
     )

@@ -12,7 +12,7 @@ from core.geometry.distance import distance, on_circle
 from core.geometry.nearby import nearest_pairs
 from core.geometry.path import Flags, Floats, Path, Points, Rows
 from core.geometry.piece_arrays import PieceArrays, at, blocks, traveled
-from core.tolerance import LARGEST, ON_PATH, STOCK, UNCUT
+from core.tolerance import GOUGE, LARGEST, ON_PATH, STOCK, UNCUT
 
 ONCE: Final = 1e-6
 """Radians by which two arcs about one center miss each other at one of the two places where they may overlap."""
@@ -75,8 +75,24 @@ def pairs_of(pieces: PieceArrays, others: PieceArrays, rounding: float, rows: Ro
     slack = float(pieces.slack.max(initial=0.0) + others.slack.max(initial=0.0))
     i, j = nearest_pairs(pieces if rows is None else pieces.take(rows), others, 4.0 * (rounding + slack) + ON_PATH)
     i = i if rows is None else rows[i]
-    grant = rounding + pieces.slack[i] + others.slack[j]
+    grant = rounding + uneven_slack(pieces, i, others, j)
     return Pairs(pieces, others, pieces.stations, i, j, grant, *_measured(pieces, i, others, j))
+
+
+def uneven_slack(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> Floats:
+    """(m,) what the uneven radii of both arcs of each pair leave open between them.
+
+    Once where the one is the offset of the other about the same center: both differ alike from the arcs taken for them.
+    """
+    first, second = pieces.slack[i], others.slack[j]
+    slack: Floats = first + second
+    rows = ((first > 0.0) & (np.abs(first - second) <= GOUGE)).nonzero()[0]
+    if len(rows):
+        one, other = pieces.take(i[rows]), others.take(j[rows])
+        gaps = np.abs(one.start - other.start) - np.abs(one.end - other.end)
+        about = (one.turn == other.turn) & (np.abs(one.center - other.center) <= one.slack)
+        slack[rows] = np.where(about & (np.abs(gaps) <= GOUGE), np.maximum(one.slack, other.slack), slack[rows])
+    return slack
 
 
 def rounding_of(*paths: PieceArrays) -> float:

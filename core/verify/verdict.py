@@ -174,7 +174,7 @@ class Verdict:
     `backwards` rows that run against all walls they touch.
     `crossing_at` is the first place where the surface crosses or touches itself.  `over_run_at` is where its first and
     its last element meet, and nothing else, if what lies beyond is clear of the part: that is judged as lead-in and
-    lead-out and is no surface.  `radius_slack` is how much of the radii of uneven arcs is added to the tolerance.
+    lead-out and is no surface.  `radius_slack` is how much the uneven radii of arcs add to the tolerance at most.
     `judged` is False, and `clearance` not a number, where coordinates or radius are no lengths a machine could have or
     an arc, `uneven_arc`, has two clearly different radii: nothing is known then.
     """

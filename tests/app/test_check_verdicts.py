@@ -198,21 +198,23 @@ END PGM P MM
 
 
 @pytest.mark.parametrize(
-    ("control", "text", "difference"),
+    ("control", "text", "difference", "severity"),
     [
-        ("linuxcnc", ARC.format(end="1.0003"), "0.0003"),
-        ("rosettacnc:normal", ARC.format(end="1.0003"), "0.0003"),
-        ("nine-series:a", ARC.format(end="1.0003"), "0.0003"),
-        ("klartext", KLARTEXT_ARC.format(end="20.01"), "0.010"),
+        ("linuxcnc", ARC.format(end="1.0003"), "with 0.0003 more", "info"),
+        ("linuxcnc", ARC.format(end="1.0009"), "with 0.0009 more", "warning"),
+        ("rosettacnc:normal", ARC.format(end="1.0003"), "with 0.0003 more", "info"),
+        ("nine-series:a", ARC.format(end="1.0003"), "with 0.0003 more", "info"),
+        ("klartext", KLARTEXT_ARC.format(end="20.01"), "with 0.010 more", "info"),
+        ("klartext", KLARTEXT_ARC.format(end="20.015"), "with 0.015 more", "warning"),
     ],
 )
 def test_an_arc_with_two_radii_is_judged_and_the_difference_is_said(
-    control: str, text: str, difference: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+    control: str, text: str, difference: str, severity: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     status, findings, outcome = checked(capsys, tmp_path, text, control)
     assert "UNJUDGED" not in rules(findings)
     (radii,) = [finding for finding in findings if finding["rule"] == "ARC_RADII"]
-    assert radii["severity"] == "info"
+    assert radii["severity"] == severity
     assert radii["line"] == (9 if control == "klartext" else 7)
     assert difference in str(radii["text"])
     assert status == 0

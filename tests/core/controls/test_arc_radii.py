@@ -71,3 +71,13 @@ def test_klartext_takes_sixteen_thousandths_whatever_the_radius() -> None:
     assert [limit.largest_difference(radius, unit) for radius in (1.0, 1e4) for unit in Unit] == pytest.approx(
         [0.016] * 4
     )
+
+
+@pytest.mark.parametrize("control", ["threeblock", "rosettacnc", "nine-series"])
+def test_where_papers_are_silent_no_radius_lets_the_radii_differ_more_than_three_decimals_of_an_inch(
+    control: str,
+) -> None:
+    limit = arc_radii(control)
+    for unit in Unit:
+        allowed = [limit.largest_difference(radius, unit) for radius in (1.0, 50.0, 100.0, 3000.0)]
+        assert allowed == pytest.approx([0.0127, 0.05, 0.0762, 0.0762])

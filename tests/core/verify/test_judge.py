@@ -237,7 +237,32 @@ def test_an_arc_with_two_radii_is_granted_the_difference() -> None:
     surface = Path.from_pieces([Arc((10.0, 0.0), (0.0, 10.002), (0.0, 0.0), Turn.CCW)])
     path = Path.from_pieces([Arc((9.0, 0.0), (0.0, 9.002), (0.0, 0.0), Turn.CCW)])
     assert judge(surface, Side.LEFT, 1.0, path).clean
-    assert judge(surface, Side.LEFT, 1.0, path).radius_slack == pytest.approx(0.004)
+    assert judge(surface, Side.LEFT, 1.0, path).radius_slack == pytest.approx(0.002)
+
+
+@pytest.mark.parametrize("sweep", [5.0, 45.0, 90.0, 180.0, 300.0])
+@pytest.mark.parametrize("difference", [0.002, -0.0127, 0.05])
+def test_the_difference_of_an_uneven_arc_is_granted_once_to_its_offset(sweep: float, difference: float) -> None:
+    """The offset of an uneven arc about the same center is as uneven: it is the radius away everywhere."""
+
+    def spiral(radius: float) -> Path:
+        angle, last = np.radians(sweep).item(), radius + difference
+        end = (last * np.cos(angle).item(), last * np.sin(angle).item())
+        return Path.from_pieces([Arc((radius, 0.0), end, (0.0, 0.0), Turn.CCW)])
+
+    for offset, side in ((-4.0, Side.LEFT), (4.0, Side.RIGHT)):
+        wall, center = spiral(10.0), spiral(10.0 + offset)
+        verdict = judge(wall, side, 4.0, center, arc_radii=0.1)
+        assert not verdict.gouges
+        assert verdict.radius_slack == pytest.approx(abs(difference))
+        deep = judge(wall, side, 4.0 + 1.3 * abs(difference), center, arc_radii=0.1)
+        assert deep.depth == pytest.approx(1.3 * abs(difference), rel=0.2)
+
+
+def test_uneven_arcs_about_two_centers_are_granted_the_sum_of_their_differences() -> None:
+    wall = Path.from_pieces([Arc((10.0, 0.0), (0.0, 10.002), (0.0, 0.0), Turn.CCW)])
+    path = Path.from_pieces([Arc((9.0, 0.0), (0.5, 8.501), (0.5, 0.0), Turn.CCW)])
+    assert judge(wall, Side.LEFT, 1.0, path).radius_slack == pytest.approx(0.003)
 
 
 def test_an_arc_of_two_radii_is_judged_up_to_the_difference_that_is_accepted() -> None:
