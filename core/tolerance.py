@@ -45,4 +45,4 @@ CROWDED: Final = 1e-5
 """Are two meetings on one piece apart?  Nearer ones may be one place where three pieces meet."""
 
 WHISKER: Final = 1e-3
-"""Is a loose end of the best path rounding at a near-tangent joint?  A longer one is told."""
+"""Is a loose end of the best path rounding at a near-tangent joint?  A longer one is reported."""

@@ -95,16 +95,16 @@ def convert(value: float, old: Unit, new: Unit) -> float:
     if old is new:
         return value
     exact = Fraction(value) * MM_PER[old] / MM_PER[new]
-    found = (float(round(exact, places)) for places in range(KEPT_DECIMALS[new], MOST_DECIMALS))
-    return next((one for one in found if _leads_back(one, value, old, new)), float(exact))
+    candidates = (float(round(exact, decimals)) for decimals in range(KEPT_DECIMALS[new], MOST_DECIMALS))
+    return next((candidate for candidate in candidates if _leads_back(candidate, value, old, new)), float(exact))
 
 
-def _leads_back(found: float, value: float, old: Unit, new: Unit) -> bool:
-    """Whether converting `found` back gives `value`: with the decimals that are kept if these will do."""
+def _leads_back(converted: float, value: float, old: Unit, new: Unit) -> bool:
+    """Whether converting `converted` back gives `value`: with the decimals that are kept if these will do."""
     factor = MM_PER[new] / MM_PER[old]
-    kept = float(round(Fraction(found) * factor, KEPT_DECIMALS[old]))
-    will_do = float(round(Fraction(kept) / factor, KEPT_DECIMALS[new])) == found
-    return value == (kept if will_do else float(Fraction(found) * factor))
+    kept = float(round(Fraction(converted) * factor, KEPT_DECIMALS[old]))
+    will_do = float(round(Fraction(kept) / factor, KEPT_DECIMALS[new])) == converted
+    return value == (kept if will_do else float(Fraction(converted) * factor))
 
 
 def show(value: float, kind: Kind, unit: Unit) -> str:
@@ -114,7 +114,7 @@ def show(value: float, kind: Kind, unit: Unit) -> str:
     decimals = decimals_shown(kind, unit)
     text = f"{value:.{decimals}f}"
     if len(text) > MAX_SHOWN:
-        texts = (f"{value:.{places}f}" for places in range(decimals - 1, -1, -1))
+        texts = (f"{value:.{digits}f}" for digits in range(decimals - 1, -1, -1))
         text = next((text for text in texts if len(text) <= MAX_SHOWN), f"{value:.3g}")
     return text.removeprefix("-") if not text.strip("-0.") else text
 
@@ -167,9 +167,9 @@ def _telling_digits(value: float, other: float, unit: Unit) -> str:
         return show(value, Kind.LENGTH, unit)
     apart, fewest = abs(value - other), decimals_shown(Kind.LENGTH, unit)
     enough = (
-        places
-        for places in range(fewest, fewest + EXTRA_DECIMALS)
-        if abs(abs(round(value, places) - round(other, places)) - apart) <= apart / 10.0
+        digits
+        for digits in range(fewest, fewest + EXTRA_DECIMALS)
+        if abs(abs(round(value, digits) - round(other, digits)) - apart) <= apart / 10.0
     )
     return f"{value:.{next(enough, fewest + EXTRA_DECIMALS)}f}"
 
@@ -192,7 +192,7 @@ def _scales(kind: Kind, unit: Unit) -> Mapping[str, Fraction]:
     """What each suffix that a kind takes multiplies by to give program units."""
     match kind:
         case Kind.LENGTH | Kind.FEED:
-            inch, mm = (MM_PER[one] / MM_PER[unit] for one in (Unit.IN, Unit.MM))
+            inch, mm = (MM_PER[source] / MM_PER[unit] for source in (Unit.IN, Unit.MM))
             return {"in": inch, "inch": inch, '"': inch, "mm": mm}
         case Kind.ANGLE:
             return {"\N{DEGREE SIGN}": Fraction(1), "deg": Fraction(1)}

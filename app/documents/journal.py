@@ -87,7 +87,7 @@ def altered(part: Part, values: object) -> Part:
 
 
 def _names(kind: type) -> tuple[str, ...]:
-    return tuple(one.name for one in fields(kind) if one.name != "segments")
+    return tuple(field.name for field in fields(kind) if field.name != "segments")
 
 
 def packed_segment(segment: Segment) -> list[Any]:
@@ -145,10 +145,10 @@ def whole_of(value: object) -> int:
 
 def word_of(words: type[Word], value: object) -> Word:
     """One of an Enum's words."""
-    found = next((word for word in words if word == value), None)
-    if found is None:
+    matched = next((word for word in words if word == value), None)
+    if matched is None:
         raise Damaged
-    return found
+    return matched
 
 
 def _typed(value: object) -> Typed:
@@ -179,14 +179,14 @@ _READ: Final[Mapping[str, Callable[[object], Any]]] = MappingProxyType(
 
 def delta(old: Program, new: Program) -> dict[str, Any]:
     """What makes `new` of `old`, as values for JSON."""
-    found: dict[str, Any] = {} if old.unit is new.unit else {"unit": str(new.unit)}
+    changes: dict[str, Any] = {} if old.unit is new.unit else {"unit": str(new.unit)}
     if old.parameters is not new.parameters:
-        found["parameters"] = difference(old.parameters, new.parameters)
+        changes["parameters"] = difference(old.parameters, new.parameters)
     if old.setup is not new.setup:
-        found["setup"] = difference(old.setup, new.setup)
+        changes["setup"] = difference(old.setup, new.setup)
     if old.tools is not new.tools:
-        found["tools"] = _spliced(old.tools, new.tools, packed_tool)
-    return found if old.blocks is new.blocks else found | _blocks(old.blocks, new.blocks)
+        changes["tools"] = _spliced(old.tools, new.tools, packed_tool)
+    return changes if old.blocks is new.blocks else changes | _blocks(old.blocks, new.blocks)
 
 
 def _blocks(old: tuple[Block, ...], new: tuple[Block, ...]) -> dict[str, Any]:
@@ -201,7 +201,7 @@ def _blocks(old: tuple[Block, ...], new: tuple[Block, ...]) -> dict[str, Any]:
 
 def _spliced(old: tuple[One, ...], new: tuple[One, ...], pack: Callable[[One], Any]) -> list[Any]:
     middle = splice(old, new)
-    return [middle.at, len(middle.old), [pack(one) for one in middle.new]]
+    return [middle.at, len(middle.old), [pack(item) for item in middle.new]]
 
 
 def applied(program: Program, values: object) -> Program:
@@ -321,12 +321,12 @@ def history_records(head: Head, history: History, cursor: Cursor) -> Iterator[Re
 def recovered(data: bytes) -> Recovered | None:
     """What a journal holds; None where not even its first line can be read."""
     replay, length, total = _Replay(), 0, 0
-    for line, behind, following in whole_lines(data):
+    for line, after, following in whole_lines(data):
         try:
             replay.take(json.loads(line))
         except (Damaged, ValueError, RecursionError):
             break
-        length, total = behind, following
+        length, total = after, following
     if replay.head is None or replay.cursor is None:
         return None
     history = History(replay.program, tuple(replay.past), tuple(replay.future))

@@ -162,10 +162,10 @@ class JournalFile:
         """Where the file that is written stands: somebody may have moved it aside; None where it is gone."""
         if self.handle is None:
             return None
-        own = os.fstat(self.handle)
+        status = os.fstat(self.handle)
         for path in chain((self.path,), _asides_later(self.path)):
             with suppress(OSError):
-                if os.path.samestat(path.stat(), own):
+                if os.path.samestat(path.stat(), status):
                     return path
         return None
 
@@ -206,13 +206,13 @@ def journal_path(path: Path) -> Path:
 def asides(path: Path) -> list[Path]:
     """The journals that were moved aside from a place, the last one first."""
     begin = f"{place_of(path).name}."
-    found = list[tuple[int, Path]]()
+    dated = list[tuple[int, Path]]()
     with suppress(OSError), os.scandir(path.parent) as inside:
-        for one in inside:
-            if one.name.startswith(begin):
+        for entry in inside:
+            if entry.name.startswith(begin):
                 with suppress(OSError):
-                    found.append((one.stat().st_mtime_ns, Path(one.path)))
-    return [one for _, one in sorted(found, reverse=True)]
+                    dated.append((entry.stat().st_mtime_ns, Path(entry.path)))
+    return [path for _, path in sorted(dated, reverse=True)]
 
 
 def _asides_later(path: Path) -> Iterator[Path]:
@@ -227,7 +227,7 @@ def place_of(path: Path) -> Path:
 
 
 def why_aside(path: Path) -> str:
-    """Why a journal was moved aside, as `set_aside` was told; empty where it was not."""
+    """Why a journal was moved aside, as `set_aside` recorded it; empty where it was not."""
     return path.name.partition(f"{SUFFIX}.")[2].rpartition("-")[0]
 
 

@@ -101,6 +101,6 @@ def table_of(trial: Trial) -> Table:
 
 def _verdicts(trial: Trial, cutter: float, paths: tuple[Compensated, ...]) -> list[Verdict]:
     """What a cutter of this radius does on each path; one that several values share is judged once."""
-    distinct = {one.tested: one for one in paths}
-    verdicts = {key: judge(trial.surface, trial.side, cutter, one.whole) for key, one in distinct.items()}
-    return [verdicts[one.tested] for one in paths]
+    distinct = {path.tested: path for path in paths}
+    verdicts = {key: judge(trial.surface, trial.side, cutter, path.whole) for key, path in distinct.items()}
+    return [verdicts[path.tested] for path in paths]

@@ -21,13 +21,13 @@ STEP: Final = 0.001
 """Millimeters to which the largest diameter is found."""
 
 MAX_STARTS: Final = 6
-"""So many of the longest sides are tried as the start."""
+"""The number of the longest sides that are tried as the start."""
 
 MAX_STARTS_WITHOUT_BLENDS: Final = 2
-"""So many of them without blend moves: where the path begins then matters little."""
+"""The number of them without blend moves: where the path begins then matters little."""
 
 LARGER_BY: Final = 1.02
-"""A tool that fits without blend moves is offered beside one that fits with them if it is so many times as large."""
+"""A tool that fits without blend moves is offered next to one that fits with them if it is this much larger."""
 
 FEWEST_CLOSED: Final = 3
 """Segments with which a contour can come back to where it began."""
@@ -114,11 +114,13 @@ def largest_tool(
 
 
 def _clean(trial: Trial, size: int, wanted: Callable[[], bool]) -> bool:
-    """Whether the finish path of one of the usual look-aheads is clean with a diameter of so many STEPs."""
+    """Whether the finish path of one of the usual look-aheads is clean with a diameter of `size` STEPs."""
     if not wanted():
         raise SearchCanceled
     trial = _with_tool(trial, size)
-    distinct = {id(one.path): one.whole for one in trial.paths(trial.radius, USUAL_LOOKAHEADS) if len(one.path)}
+    distinct = {
+        id(control.path): control.whole for control in trial.paths(trial.radius, USUAL_LOOKAHEADS) if len(control.path)
+    }
     return any(judge(trial.surface, trial.side, trial.radius, path).clean for path in distinct.values())
 
 

@@ -68,11 +68,11 @@ class OffsetContour:
             return self._without_path(lookahead)
         last_wins = self.closed and len(self.contour) == 2
         pruned = prune(chain, candidates.joints, candidates.within(lookahead), last_wins=last_wins)
-        found = findings.bridge_findings(self.contour, chain, pruned, self.radius)
+        path_findings = findings.bridge_findings(self.contour, chain, pruned, self.radius)
         if self.closed:
-            found += findings.most_deleted_finding(self.contour, pruned)
+            path_findings += findings.most_deleted_finding(self.contour, pruned)
         if not len(pruned.path):
-            found.append(findings.nothing_left())
+            path_findings.append(findings.nothing_left())
         return Compensated(
             contour=self.contour,
             side=self.side,
@@ -86,7 +86,7 @@ class OffsetContour:
             deleted=pruned.deleted,
             lead_in=blend_in(pruned.path, self.side, blend),
             lead_out=blend_out(pruned.path, self.side, blend, overlap, closed=self.closed),
-            findings=(*self.findings, *found),
+            findings=(*self.findings, *path_findings),
         )
 
     def _without_path(self, lookahead: int) -> Compensated:

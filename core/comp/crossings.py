@@ -42,7 +42,7 @@ class Crossings:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Candidates:
-    """All crossings of a chain: `joints` of path neighbors at inside corners, `others` with their reach in places."""
+    """All crossings of a chain: `joints` of neighbors at inside corners, `others` with their reach in half steps."""
 
     joints: Crossings
     others: Crossings
@@ -72,7 +72,7 @@ def crossings(chain: RawChain, lookahead: int, *, closed: bool) -> Candidates:
     met = meet_pieces(pieces, a, pieces, b)
     at_joint, crossed = joint[met.pair], met.kinds[met.pair] == Meeting.CROSS
     others = _chosen(met, a, b, crossed & ~at_joint)
-    return Candidates(_chosen(met, a, b, at_joint), others, chain.places[others.b] - chain.places[others.a])
+    return Candidates(_chosen(met, a, b, at_joint), others, chain.half_steps[others.b] - chain.half_steps[others.a])
 
 
 def _chosen(met: Meetings, a: Rows, b: Rows, chosen: Flags) -> Crossings:
@@ -98,10 +98,10 @@ def _near_pairs(chain: RawChain, pieces: Pieces, reach: int) -> tuple[Rows, Rows
     themselves by one, two and so on finds every pair, and no more where a thousand pieces lie on top of each other.
     """
     rows = (chain.parts <= RawPart.CORNER).nonzero()[0]
-    places, grown = chain.places[rows], _grown_boxes(pieces.take(rows))
+    half_steps, grown = chain.half_steps[rows], _grown_boxes(pieces.take(rows))
     first, second = [np.zeros(0, np.intp)], [np.zeros(0, np.intp)]
     for step in range(1, min(reach, len(rows) - 1) + 1):
-        near = places[step:] - places[:-step] <= reach
+        near = half_steps[step:] - half_steps[:-step] <= reach
         if not near.any():
             break
         near &= rows[step:] - rows[:-step] > 1

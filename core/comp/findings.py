@@ -66,16 +66,16 @@ def _not_arcs(contour: Path) -> tuple[Finding, ...]:
     pointed = (np.minimum(first, last) <= JOINED) & (np.abs(end - start) > JOINED)
     bad = (off > ARC_RADII) | pointed
     text = "Radius {0} at start, {1} at end. Check X CENTER, Y CENTER."
-    found = _arcs_named("ARC_RADII", text, contour.numbers[rows], bad, first, last)
+    errors = _arcs_named("ARC_RADII", text, contour.numbers[rows], bad, first, last)
     doubtful = (~bad & (off > JOINED)).nonzero()[0]
     if not len(doubtful):
-        return found
+        return errors
     across = (start - centers)[doubtful].conj() * (end - centers)[doubtful]
-    beside = (np.abs(across.imag) <= JOINED * first[doubtful]) & (across.real > 0.0)
+    on_one_ray = (np.abs(across.imag) <= JOINED * first[doubtful]) & (across.real > 0.0)
     text = "The arc ends next to its start, {0} and {1} from its center. "
     text += "Move the end to the start for a full circle, or farther away."
     rows, first, last = rows[doubtful], first[doubtful], last[doubtful]
-    return (*found, *_arcs_named("ARC_ENDS", text, contour.numbers[rows], beside, first, last))
+    return (*errors, *_arcs_named("ARC_ENDS", text, contour.numbers[rows], on_one_ray, first, last))
 
 
 def _arcs_named(code: str, text: str, numbers: Floats, bad: Flags, first: Floats, last: Floats) -> tuple[Finding, ...]:
@@ -113,7 +113,7 @@ def bridge_findings(contour: Path, chain: RawChain, pruned: Pruned, radius: floa
 
 
 def _vanished(contour: Path, chain: RawChain, rows: Rows, radius: float) -> list[Finding]:
-    segments = chain.places[rows] // 2
+    segments = chain.half_steps[rows] // 2
     radii = np.abs(as_complex(contour.points)[segments] - as_complex(contour.centers)[segments])
     small = radii < radius - JOINED
     text = "Inside radius {value} is too small for the tool: the path runs straight across and may gouge."
@@ -126,7 +126,7 @@ def _missed(contour: Path, chain: RawChain, rows: Rows, radius: float) -> list[F
     points = as_complex(chain.raw.points)
     rows = rows[np.abs(points[rows + 1] - points[rows]) ** 2 > 2.0 * radius * GOUGE]
     text = "Corner too tight for the tool: the path runs straight across and may gouge."
-    at = contour.points[chain.places[rows] // 2 + 1]
+    at = contour.points[chain.half_steps[rows] // 2 + 1]
     return _named("CORNER_MISSED", text, chain.raw.numbers[rows], at)
 
 
@@ -163,8 +163,8 @@ def _named(code: str, text: str, numbers: Floats, at: Floats, values: Floats | N
     first = slice(MAX_NAMED_PLACES)
     sizes = [None] * len(numbers[first]) if values is None else values[first].tolist()
     rows = zip(numbers[first].tolist(), at[first].tolist(), sizes, strict=True)
-    found = [Finding(code, Severity.WARNING, text, number, at=(x, y), value=value) for number, (x, y), value in rows]
+    named = [Finding(code, Severity.WARNING, text, number, at=(x, y), value=value) for number, (x, y), value in rows]
     if len(numbers) > MAX_NAMED_PLACES:
         total = f"There are {len(numbers)} such places; the first {MAX_NAMED_PLACES} are listed."
-        found.append(Finding(code, Severity.WARNING, total))
-    return found
+        named.append(Finding(code, Severity.WARNING, total))
+    return named

@@ -2,8 +2,8 @@
 
 Words: the chain's parts are offset SEGMENTs, CORNER arcs about outside corners, BRIDGEs (provisional lines where
 an inside corner's two offsets are to be tested), and VANISHED segments (inside arcs not larger than the tool,
-bridged likewise).  A part's `place` counts half steps: 2 k for the k-th segment (from 0), 2 k + 1 for what stands
-between it and the next, so that two parts are within a look-ahead of v when their places are within 2 v.
+bridged likewise).  The position of a part in half steps is 2 k for the k-th segment (from 0), 2 k + 1 for what lies
+between it and the next: two parts are within a look-ahead of v when they are within 2 v half steps.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ class RawPart(IntEnum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RawChain:
-    """The raw chain of m pieces: `raw`, the `parts` (m,) they are and their `places` (m,) in half steps."""
+    """The raw chain of m pieces: `raw`, the `parts` (m,) they are and their positions `half_steps` (m,)."""
 
     raw: Path
     parts: NDArray[np.uint8]
-    places: Rows
+    half_steps: Rows
 
     def __len__(self) -> int:
         return len(self.parts)
@@ -71,11 +71,11 @@ def offset(contour: Path, side: Side, radius: float) -> RawChain:
     numbers[joints] += 0.5
     taken = np.ones(slots, np.bool_)
     taken[joints] = link
-    places = taken.nonzero()[0]
-    starts = np.append(points[places], points[-1])
-    _close_circles(starts, contour, places)
-    raw = Path(coordinates(starts), coordinates(centers[places]), turns[places], numbers[places])
-    return RawChain(raw, parts[places], places)
+    half_steps = taken.nonzero()[0]
+    starts = np.append(points[half_steps], points[-1])
+    _close_circles(starts, contour, half_steps)
+    raw = Path(coordinates(starts), coordinates(centers[half_steps]), turns[half_steps], numbers[half_steps])
+    return RawChain(raw, parts[half_steps], half_steps)
 
 
 def _offsets(contour: Path, shift: float) -> _Offsets:
@@ -100,9 +100,9 @@ def _joints(normals: Points, sign: int, radius: float) -> tuple[Flags, Flags]:
     return radius * np.abs(following - before) > JOINED, (sign * bend.imag < 0.0) | reversal
 
 
-def _close_circles(starts: Points, contour: Path, places: Rows) -> None:
+def _close_circles(starts: Points, contour: Path, half_steps: Rows) -> None:
     """Keep full circles full where the next piece's start was taken for their end: equal ends are what makes them."""
     ends = as_complex(contour.points)
     circles = (ends[1:] == ends[:-1]).nonzero()[0]
-    for row in places.searchsorted(2 * circles)[::-1].tolist():
+    for row in half_steps.searchsorted(2 * circles)[::-1].tolist():
         starts[row] = starts[row + 1]

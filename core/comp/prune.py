@@ -174,7 +174,7 @@ def _deletions(chain: RawChain, others: Crossings, met: Rows, gone: Flags) -> De
     if not len(met):
         return Deletions(np.empty(0), np.empty((0, 2)), np.empty((0, 2)))
     deleted = gone.nonzero()[0]
-    deleted = deleted[chain.places[deleted] % 2 == 0]
+    deleted = deleted[chain.half_steps[deleted] % 2 == 0]
     a, b = others.a[met], others.b[met]
     # events come in the order of b: the first that ends after a piece spans it unless it begins after it too
     event = b.searchsorted(deleted, side="right")

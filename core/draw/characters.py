@@ -45,8 +45,8 @@ def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
             _name_axes(sheet, view)
         if scene.unit is not None:
             _write(sheet, rows - 1, scale_bar(view.scale, columns, scene.unit, look.bar), Style.SCALE)
-    places = view.cells([mark.at for mark in scene.marks], columns, rows)
-    for (column, row), (_, style, symbol, direction) in zip(places, scene.marks, strict=True):
+    positions = view.cells([mark.at for mark in scene.marks], columns, rows)
+    for (column, row), (_, style, symbol, direction) in zip(positions, scene.marks, strict=True):
         # what is not a number is in no cell
         if 0 <= column < columns and 0 <= row < rows:
             here, arrowed = int(row) * columns + int(column), symbol is Symbol.ARROW

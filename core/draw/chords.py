@@ -20,7 +20,7 @@ from core.draw.view import TALL, View
 from core.geometry.path import Floats, Points, Turns, as_complex
 
 SAG: Final = 0.1
-"""How far a chord may stray from its arc, in cells' widths: less than half a dot of the finest mode."""
+"""How far a chord may be from its arc, in cells' widths: less than half a dot of the finest mode."""
 STEP: Final = tau / 8
 """The most a chord turns, in radians."""
 SHORT: Final = 0.25
@@ -110,7 +110,7 @@ def _pieces(layers: Sequence[Layer], view: View) -> _Pieces:
 
 
 def _wanted(layer: Layer) -> Flags:
-    return np.ones(len(layer.path), np.bool_) if layer.own is None else layer.own
+    return np.ones(len(layer.path), np.bool_) if layer.drawn is None else layer.drawn
 
 
 def _within(points: Points) -> Flags:
@@ -124,7 +124,7 @@ def _traveled(layer: Layer) -> Floats:
 
     Where only parts of a path are drawn each piece's dashes begin with it.
     """
-    if not layer.dashed or layer.own is not None:
+    if not layer.dashed or layer.drawn is not None:
         return np.zeros(len(layer.path))
     lengths = layer.path.lengths
     traveled: Floats = np.cumsum(lengths) - lengths
@@ -168,5 +168,5 @@ def _visible(arcs: _Pieces, reach: float) -> tuple[_Pieces, Floats, Floats]:
     high = np.minimum(middle + half + turned, sweeps)
     low[:, whole], high[:, whole | hidden] = 0.0, 0.0
     high[1] = np.where(whole & ~hidden, sweeps, high[1])
-    shown, arc = np.nonzero(high > low)
-    return arcs.only(arc), low[shown, arc], (high - low)[shown, arc]
+    row, arc = np.nonzero(high > low)
+    return arcs.only(arc), low[row, arc], (high - low)[row, arc]

@@ -147,8 +147,8 @@ def _light(
     role = roles[lines.layers][chord]
     dashed = [layer.dashed and layer.style is not Style.DELETED for layer in layers]
     if any(dashed):
-        shown = _dashes(lines, np.array(dashed)[lines.layers][chord].nonzero()[0], chord, part)
-        bits, role = bits[shown], role[shown]
+        on_dash = _dashes(lines, np.array(dashed)[lines.layers][chord].nonzero()[0], chord, part)
+        bits, role = bits[on_dash], role[on_dash]
     cell = bits >> 3
     lit, styles = np.zeros(rows * columns * 8, np.bool_), np.zeros(rows * columns, np.uint8)
     lit[axes], styles[axes >> 3] = True, Style.AXIS
@@ -188,11 +188,11 @@ def _dots(lines: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Fl
 
 def _dashes(lines: Chords, rows: Rows, chord: Rows, part: Floats) -> Bits:
     """Which dots (m,) are lit: all of a whole line, part of each period of a dashed one, which has the dots `rows`."""
-    shown = np.ones(len(chord), np.bool_)
+    lit_dots = np.ones(len(chord), np.bool_)
     owners = chord[rows]
     along = lines.along[owners] + part[rows] * np.abs(lines.runs[owners])
-    shown[rows] = np.mod(along, DASH[0]) < DASH[1]
-    return shown
+    lit_dots[rows] = np.mod(along, DASH[0]) < DASH[1]
+    return lit_dots
 
 
 def _slants(lines: Chords) -> Rows:

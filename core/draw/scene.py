@@ -57,19 +57,19 @@ class Symbol(Enum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Layer:
-    """One path and its role; where `own` (n,) is given, only those of its pieces are drawn for which it is True."""
+    """One path and its role; where `drawn` (n,) is given, only those of its pieces are drawn for which it is True."""
 
     path: Path
     style: Style
     dashed: bool = False
-    own: NDArray[np.bool_] | None = None
+    drawn: NDArray[np.bool_] | None = None
 
     @property
     def parts(self) -> list[Path]:
         """The runs of pieces that are drawn."""
-        if self.own is None:
+        if self.drawn is None:
             return [self.path] if len(self.path) else []
-        return Parts(self.path, self.own).paths
+        return Parts(self.path, self.drawn).paths
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,11 +207,11 @@ def _layers(paths: Sequence[Path], style: Style, *, dashed: bool = False) -> Ite
 
 def _parts(parts: Parts, style: Style, *, dashed: bool = False) -> Iterator[Layer]:
     if len(parts.path):
-        yield Layer(parts.path, style, dashed, parts.own)
+        yield Layer(parts.path, style, dashed, parts.in_part)
 
 
-def _spots(places: Sequence[Point], style: Style, symbol: Symbol) -> list[Mark]:
-    return [Mark(at, style, symbol) for at in places]
+def _spots(points: Sequence[Point], style: Style, symbol: Symbol) -> list[Mark]:
+    return [Mark(at, style, symbol) for at in points]
 
 
 def _travel(path: Path) -> Iterator[Mark]:

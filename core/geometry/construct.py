@@ -65,13 +65,13 @@ def reach(start: Point, angle: float, axis: int, value: float) -> OnePoint | Not
 def on_circle(center: Point, radius: float, axis: int, value: float) -> OnePoint | TwoPoints | OutOfReach:
     """The points of a circle whose coordinate `axis` is `value`: the one with the greater other coordinate first.
 
-    A coordinate outside the circle by no more than `ARC_RADII` gives the one point beside it.
+    A coordinate outside the circle by no more than `ARC_RADII` gives the nearest point of the circle.
     """
-    beside = abs(value - center[axis])
-    if beside > radius + ARC_RADII:
-        return OutOfReach(beside)
+    distance = abs(value - center[axis])
+    if distance > radius + ARC_RADII:
+        return OutOfReach(distance)
     middle = center[1 - axis]
-    half = sqrt(max(0.0, (radius - beside) * (radius + beside)))
+    half = sqrt(max(0.0, (radius - distance) * (radius + distance)))
     if half <= ON_PATH:
         return OnePoint(_placed(axis, value, middle))
     return TwoPoints(_placed(axis, value, middle + half), _placed(axis, value, middle - half))

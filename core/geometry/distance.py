@@ -1,7 +1,7 @@
 """Exact distances between lines and arcs, for arrays of points and arrays of pairs of pieces.
 
 Piece k of one `PieceArrays` is held against piece k of another.  Every extreme of the distance along a piece lies at
-one of a few places that have a formula: its ends, the feet of the other's ends and center, the crossings.  Where a
+one of a few fractions that have a formula: its ends, the feet of the other's ends and center, the crossings.  Where a
 formula has no answer the place is replaced by the piece's start, which harms nobody: a place is only a proposal,
 its distance is always measured.
 """
@@ -48,9 +48,9 @@ def _line_share(line: PieceArrays, off: Points) -> Floats:
 
 
 def _arc_foot(arc: PieceArrays, points: Points) -> Floats:
-    towards = traveled(arc, points - arc.center)
-    beyond = np.where(tau - towards < towards - arc.angle, 0.0, 1.0)
-    t: Floats = np.where(towards <= arc.angle, towards / np.where(arc.angle == 0.0, 1.0, arc.angle), beyond)
+    turned = traveled(arc, points - arc.center)
+    beyond = np.where(tau - turned < turned - arc.angle, 0.0, 1.0)
+    t: Floats = np.where(turned <= arc.angle, turned / np.where(arc.angle == 0.0, 1.0, arc.angle), beyond)
     return t
 
 
@@ -103,20 +103,20 @@ def _fan(arc: PieceArrays, axis: Points, share: Floats) -> Floats:
     `share`: near a touch, where the cosine is all but 1, this keeps the digits."""
     half = 2.0 * np.arcsin(np.sqrt(share))
     turned = axis * np.conj(arc.arm)
-    towards = np.arctan2(turned.imag, turned.real) * arc.turn
-    return np.mod(np.array((towards - half, towards + half)), tau) / arc.angle
+    middle = np.arctan2(turned.imag, turned.real) * arc.turn
+    return np.mod(np.array((middle - half, middle + half)), tau) / arc.angle
 
 
 def nearest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
     """(8, n) fractions of each piece among which every local least distance from its partner in `other` is found."""
-    places = np.concatenate((_ends(pieces), _crossings(pieces, other), feet(pieces, other)))
-    return _inside(places)
+    fractions = np.concatenate((_ends(pieces), _crossings(pieces, other), feet(pieces, other)))
+    return _inside(fractions)
 
 
 def farthest_places(pieces: PieceArrays, other: PieceArrays) -> Floats:
     """(10, n) fractions among which every local greatest distance from the partner in `other` is found, ends left out.
 
-    Besides the antipodes of the feet these are the places equally far from an arc's two ends.
+    Besides the antipodes of the feet these are those of the points equally far from an arc's two ends.
     """
     even = by_kind(other.arcs, _no_places, _even_places, pieces, other)
     opposite = by_kind(pieces.arcs, _no_antipodes, _antipodes, pieces, other)
@@ -129,10 +129,10 @@ def band_places(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Float
     These are its meetings with the outline of all points within `reach` (n,) of the partner: the partner moved
     sideways both ways, and the circles about its ends; and its own ends.
     """
-    places = np.empty((10, len(pieces)))
-    places[0], places[1], places[2:] = 0.0, 1.0, _inside(_outline(pieces, other, reach))
-    places.sort(axis=0)
-    return places
+    fractions = np.empty((10, len(pieces)))
+    fractions[0], fractions[1], fractions[2:] = 0.0, 1.0, _inside(_outline(pieces, other, reach))
+    fractions.sort(axis=0)
+    return fractions
 
 
 def _outline(pieces: PieceArrays, other: PieceArrays, reach: Floats) -> Floats:
@@ -161,8 +161,8 @@ def _ends(pieces: PieceArrays) -> Floats:
     return ends
 
 
-def _inside(places: Floats) -> Floats:
-    return np.minimum(np.fmax(places, 0.0), 1.0)
+def _inside(fractions: Floats) -> Floats:
+    return np.minimum(np.fmax(fractions, 0.0), 1.0)
 
 
 def _clipped(t: Floats) -> Floats:
@@ -184,8 +184,8 @@ def _crossing_arc(pieces: PieceArrays, arc: PieceArrays) -> Floats:
 
 def feet(pieces: PieceArrays, other: PieceArrays) -> Floats:
     """(4, n) fractions at the feet of the other's two ends and, both ways, of its center or along its normal."""
-    places: Floats = by_kind(pieces.arcs, _line_feet, _arc_feet, pieces, other)
-    return places
+    fractions: Floats = by_kind(pieces.arcs, _line_feet, _arc_feet, pieces, other)
+    return fractions
 
 
 def _line_feet(line: PieceArrays, other: PieceArrays) -> Floats:
@@ -195,13 +195,13 @@ def _line_feet(line: PieceArrays, other: PieceArrays) -> Floats:
 
 def _arc_feet(arc: PieceArrays, other: PieceArrays) -> Floats:
     normal = np.where(other.arcs, other.center - arc.center, 1j * other.vector)
-    towards = np.array((other.start - arc.center, other.end - arc.center, normal, -normal))
-    return traveled(arc, towards) / arc.angle
+    directions = np.array((other.start - arc.center, other.end - arc.center, normal, -normal))
+    return traveled(arc, directions) / arc.angle
 
 
 def _antipodes(arc: PieceArrays, other: PieceArrays) -> Floats:
-    towards = np.array((arc.center - other.start, arc.center - other.end))
-    return traveled(arc, towards) / arc.angle
+    directions = np.array((arc.center - other.start, arc.center - other.end))
+    return traveled(arc, directions) / arc.angle
 
 
 def _no_antipodes(line: PieceArrays, _other: PieceArrays) -> Floats:
@@ -210,14 +210,14 @@ def _no_antipodes(line: PieceArrays, _other: PieceArrays) -> Floats:
 
 def _even_places(pieces: PieceArrays, arc: PieceArrays) -> Floats:
     middle = arc.arm / arc.radius * np.exp(0.5j * arc.turn * arc.angle)
-    places = on_line(pieces, arc.center, middle)
-    return np.concatenate((places, places))
+    fractions = on_line(pieces, arc.center, middle)
+    return np.concatenate((fractions, fractions))
 
 
 def _no_places(pieces: PieceArrays, _other: PieceArrays) -> Floats:
     return np.zeros((4, len(pieces)))
 
 
-def between(pieces: PieceArrays, other: PieceArrays, places: Floats) -> Floats:
-    """(k, n) distances of the points at `places` (k, n) of each piece from its partner in `other`."""
-    return distance(other, at(pieces, places))
+def between(pieces: PieceArrays, other: PieceArrays, fractions: Floats) -> Floats:
+    """(k, n) distances of the points at `fractions` (k, n) of each piece from its partner in `other`."""
+    return distance(other, at(pieces, fractions))

@@ -118,15 +118,15 @@ def _travel(piece: Piece, at: complex) -> float:
     return piece.radius * (angle - tau if angle > tau - JOINED / piece.radius else angle)
 
 
-def _meetings(one: _Carrier, other: _Carrier) -> list[complex]:
+def _meetings(first: _Carrier, second: _Carrier) -> list[complex]:
     """Where two carriers meet: none, one or two points."""
-    if one.along and other.along:
-        cross = (one.along.conjugate() * other.along).imag
-        reach = ((other.at - one.at).conjugate() * other.along).imag
-        return [] if abs(cross) < SLIVER else [one.at + one.along * reach / cross]
-    if other.along:
-        return _line_meets_circle(other, one)
-    return _line_meets_circle(one, other) if one.along else _circles_meet(one, other)
+    if first.along and second.along:
+        cross = (first.along.conjugate() * second.along).imag
+        reach = ((second.at - first.at).conjugate() * second.along).imag
+        return [] if abs(cross) < SLIVER else [first.at + first.along * reach / cross]
+    if second.along:
+        return _line_meets_circle(second, first)
+    return _line_meets_circle(first, second) if first.along else _circles_meet(first, second)
 
 
 def _line_meets_circle(line: _Carrier, circle: _Carrier) -> list[complex]:
@@ -138,13 +138,15 @@ def _line_meets_circle(line: _Carrier, circle: _Carrier) -> list[complex]:
     return [line.at + line.along * (seen.real + way) for way in (-half, half)]
 
 
-def _circles_meet(one: _Carrier, other: _Carrier) -> list[complex]:
-    apart = abs(other.at - one.at)
-    if apart <= JOINED or apart > one.radius + other.radius or apart < abs(one.radius - other.radius):
+def _circles_meet(first: _Carrier, second: _Carrier) -> list[complex]:
+    apart = abs(second.at - first.at)
+    if apart <= JOINED or apart > first.radius + second.radius or apart < abs(first.radius - second.radius):
         return []
-    ratio = (apart * apart + one.radius * one.radius - other.radius * other.radius) / (2 * apart * (one.radius or inf))
-    base, angle = phase(other.at - one.at), acos(max(-1.0, min(1.0, ratio)))
-    return [one.at + rect(one.radius, base + way) for way in (angle, -angle)]
+    ratio = (apart * apart + first.radius * first.radius - second.radius * second.radius) / (
+        2 * apart * (first.radius or inf)
+    )
+    base, angle = phase(second.at - first.at), acos(max(-1.0, min(1.0, ratio)))
+    return [first.at + rect(first.radius, base + way) for way in (angle, -angle)]
 
 
 def _cut(before: Piece, after: Piece, arc: Arc) -> Fillet:

@@ -1,4 +1,4 @@
-"""Where lines and arcs meet: many pairs of pieces at once, tangent and overlapping cases told apart.
+"""Where lines and arcs meet: many pairs of pieces at once, tangent and overlapping cases distinguished.
 
 Words: a pair meets CROSS where one piece passes through the other or ends on it (one or two points), TOUCH where
 they are tangent or lie end to end in one line, OVERLAP where they run along each other, APART else.
@@ -86,10 +86,10 @@ def meet_pieces(one: Pieces, a: Rows, other: Pieces, b: Rows) -> Meetings:
     for these, solve in which:
         rows = these.nonzero()[0]
         if len(rows):
-            kinds[rows], found = solve(one.take(a[rows]), other.take(b[rows]))
-            parts.append(_Points(rows[found.pair], *found[1:]))
-    found = _joined(parts)
-    return Meetings(kinds, *found[:5], coordinates(found.point))
+            kinds[rows], meetings = solve(one.take(a[rows]), other.take(b[rows]))
+            parts.append(_Points(rows[meetings.pair], *meetings[1:]))
+    meetings = _joined(parts)
+    return Meetings(kinds, *meetings[:5], coordinates(meetings.point))
 
 
 def _joined(parts: list[_Points]) -> _Points:
@@ -122,14 +122,14 @@ def _lines(a: Pieces, b: Pieces) -> _Solved:
     along_a, along_b = part * length_a, (between.conj() * span_a).imag / divisor * length_b
     on = (_within(along_a, length_a) & _within(along_b, length_b) & ~parallel).nonzero()[0]
     rests = (length_a - along_a)[on], (length_b - along_b)[on]
-    found = _Points(on, along_a[on], along_b[on], *rests, (a.start + part * span_a)[on])
+    meetings = _Points(on, along_a[on], along_b[on], *rests, (a.start + part * span_a)[on])
     kinds = np.zeros(len(cross), np.int8)
     kinds[on] = Meeting.CROSS.value
     rows = (parallel & (length_a > 0.0) & (length_b > 0.0)).nonzero()[0]
     if len(rows):
         kinds[rows], touches = _parallel(a.take(rows), b.take(rows))
-        found = _joined([found, touches._replace(pair=rows[touches.pair])])
-    return kinds, found
+        meetings = _joined([meetings, touches._replace(pair=rows[touches.pair])])
+    return kinds, meetings
 
 
 def _parallel(a: Pieces, b: Pieces) -> _Solved:
@@ -165,8 +165,8 @@ def _line_arc(line: Pieces, arc: Pieces) -> _Solved:
     near = _in_sector(points, arc.take(pair)).nonzero()[0]
     pair, along, points = pair[near], along[near], points[near]
     run, rest = _along_arc(points, arc.take(pair), radius[pair])
-    found = _on_both(_Points(pair, along, run, length[pair] - along, rest, points))
-    return _kinds(len(room), found.pair, np.abs(room) <= ON_PATH), found
+    meetings = _on_both(_Points(pair, along, run, length[pair] - along, rest, points))
+    return _kinds(len(room), meetings.pair, np.abs(room) <= ON_PATH), meetings
 
 
 def _arc_line(arc: Pieces, line: Pieces) -> _Solved:
@@ -190,25 +190,25 @@ def _arcs(a: Pieces, b: Pieces) -> _Solved:
     pair, points = pair[near], points[near]
     run_a, rest_a = _along_arc(points, a.take(pair), big[pair])
     run_b, rest_b = _along_arc(points, b.take(pair), small[pair])
-    found = _as_traveled(_on_both(_Points(pair, run_a, run_b, rest_a, rest_b, points)))
-    kinds = _kinds(len(room), found.pair, np.abs(room) <= ON_PATH)
+    meetings = _as_traveled(_on_both(_Points(pair, run_a, run_b, rest_a, rest_b, points)))
+    kinds = _kinds(len(room), meetings.pair, np.abs(room) <= ON_PATH)
     rows = (concentric & (np.abs(differ) <= ON_PATH)).nonzero()[0]
     if len(rows):
         kinds[rows[_overlap(a.take(rows), b.take(rows))]] = Meeting.OVERLAP.value
-    return kinds, found
+    return kinds, meetings
 
 
 def _in_sector(point: Points, arc: Pieces) -> Flags:
     """Which points may lie on their arc: between the rays to its ends by cross products, with room for rounding.
 
-    Of an arc of half a turn or more, and of one whose ends are nearly one point, those behind either ray.
+    Of an arc of half a turn or more, and of one whose ends are nearly one point, those past either ray.
     """
     first, last, radial = arc.start - arc.center, arc.end - arc.center, point - arc.center
     room = _ROOM * np.maximum(np.abs(first), 1.0)
-    behind_first = (first.conj() * radial).imag * arc.turn >= -room
+    after_first = (first.conj() * radial).imag * arc.turn >= -room
     before_last = (radial.conj() * last).imag * arc.turn >= -room
     minor = (first.conj() * last).imag * arc.turn > room
-    return np.where(minor, behind_first & before_last, behind_first | before_last)
+    return np.where(minor, after_first & before_last, after_first | before_last)
 
 
 def _half_chords(half: Floats, room: Floats) -> tuple[Rows, Floats]:
@@ -252,7 +252,7 @@ def _turned(arc: Pieces, point: Points) -> Floats:
 def _along_arc(point: Points, arc: Pieces, radius: Floats) -> tuple[Floats, Floats]:
     """Distance on each arc from its start to a point of its circle, and from there to its end.
 
-    A point off the arc is on the nearer end's side: the one distance is below 0 before the start, the other behind
+    A point off the arc is on the nearer end's side: the one distance is below 0 before the start, the other past
     the end.
     """
     run, length, whole = _turned(arc, point) * radius, swept(arc) * radius, tau * radius

@@ -245,7 +245,7 @@ def _jumps(runs: Runs) -> list[Floats]:
     for level in runs[1:]:
         size = FAN ** len(levels)
         inner = gap.copy()
-        # the gap behind the last member belongs to no run
+        # the gap after the last member belongs to no run
         inner[size - 1 :: size] = 0.0
         levels.append(np.maximum.reduceat(inner, np.arange(0, len(chords), size))[: len(level)])
     return levels

@@ -64,7 +64,7 @@ class Path:
         """The path of pieces that join end to start; each start is taken from the end before it."""
         if not pieces:
             return EMPTY
-        # plain numbers one behind the other become an array in half the time of pairs
+        # plain numbers one after the other become an array in half the time of pairs
         points, centers, turns = [*pieces[0].start], list[float](), list[int]()
         for piece in pieces:
             points += piece.end
@@ -252,7 +252,7 @@ def coordinates(points: Points) -> Floats:
 
 
 def next_in_ring(values: NDArray[Any]) -> NDArray[Any]:
-    """The next one of each value round a ring: that of the last is the first.  `np.roll` takes five times as long."""
+    """The next one of each value around a ring: that of the last is the first.  `np.roll` takes five times as long."""
     return np.concatenate((values[1:], values[:1]))
 
 

@@ -212,9 +212,9 @@ def _arc_direction(arc: PieceArrays, t: Floats) -> Points:
     return units
 
 
-def traveled(arc: PieceArrays, towards: Points) -> Floats:
-    """Angles in [0, tau) from each arc's start to the directions `towards` (..., n), seen from its center."""
-    turned = towards * np.conj(arc.arm)
+def traveled(arc: PieceArrays, directions: Points) -> Floats:
+    """Angles in [0, tau) from each arc's start to the directions `directions` (..., n), seen from its center."""
+    turned = directions * np.conj(arc.arm)
     angle: Floats = np.arctan2(turned.imag, turned.real) * arc.turn
     # what is within half a turn needs no division, which takes ten times as long
     angle += tau * (angle < 0.0)

@@ -25,18 +25,18 @@ class Ends(NamedTuple):
 
 
 class Parts(NamedTuple):
-    """Parts of a path one behind the other, as one path: its pieces where `own` (n,) is True; the others join them.
+    """Parts of a path one after the other, as one path: its pieces where `in_part` (n,) is True; the others join them.
 
     A hundred little paths take longer to make than all that is done with them.
     """
 
     path: Path
-    own: NDArray[np.bool_]
+    in_part: NDArray[np.bool_]
 
     @property
     def paths(self) -> list[Path]:
         """Each part by itself."""
-        edges = np.flatnonzero(np.diff(self.own, prepend=False, append=False)).reshape(-1, 2)
+        edges = np.flatnonzero(np.diff(self.in_part, prepend=False, append=False)).reshape(-1, 2)
         return [self.path.part(first, last) for first, last in edges.tolist()]
 
 
@@ -51,31 +51,32 @@ def stretches(surface: Path, wanted: Ends) -> Parts:
     begins, lasts, wanted = _rows(surface, wanted)
     if not len(begins):
         return NO_PARTS
-    # rows of points, one more than of pieces: behind the last piece of each stretch its end
+    # rows of points, one more than of pieces: after the last piece of each stretch its end
     counts = _steps(surface, begins, lasts, wanted) + 2
-    behind = counts.cumsum()
-    heads, tails = behind - counts, behind - 1
-    rows = (np.arange(behind[-1]) + (begins - heads).repeat(counts)) % len(surface)
+    bounds = counts.cumsum()
+    heads, tails = bounds - counts, bounds - 1
+    rows = (np.arange(bounds[-1]) + (begins - heads).repeat(counts)) % len(surface)
     points, centers, turns = as_complex(surface.points)[rows], as_complex(surface.centers)[rows], surface.turns[rows]
     points[heads], points[tails], turns[tails] = wanted.start, wanted.end, 0
     # a line has its own start for a center
     lines = (turns == 0).nonzero()[0]
     centers[lines] = points[lines]
-    own = np.ones(len(turns) - 1, np.bool_)
-    own[tails[:-1]] = False
+    in_part = np.ones(len(turns) - 1, np.bool_)
+    in_part[tails[:-1]] = False
     numbers = surface.numbers[rows[:-1]]
-    return Parts(Path(coordinates(points), coordinates(centers[:-1]), turns[:-1], numbers), own)
+    return Parts(Path(coordinates(points), coordinates(centers[:-1]), turns[:-1], numbers), in_part)
 
 
 def pieces_joined(path: Path, rows: NDArray[np.intp]) -> Parts:
-    """Single pieces of a path, by their rows, each a part of its own."""
+    """Single pieces of a path, by their rows, each a part by itself."""
     if not len(rows):
         return NO_PARTS
     given, points = as_complex(path.points), np.empty(2 * len(rows), np.complex128)
     points[::2], points[1::2] = given[rows], given[rows + 1]
-    centers, turns, own = points[:-1].copy(), np.zeros(len(points) - 1, np.int8), np.zeros(len(points) - 1, np.bool_)
-    centers[::2], turns[::2], own[::2] = as_complex(path.centers)[rows], path.turns[rows], True
-    return Parts(Path(coordinates(points), coordinates(centers), turns, path.numbers[rows].repeat(2)[:-1]), own)
+    centers, turns = points[:-1].copy(), np.zeros(len(points) - 1, np.int8)
+    in_part = np.zeros(len(points) - 1, np.bool_)
+    centers[::2], turns[::2], in_part[::2] = as_complex(path.centers)[rows], path.turns[rows], True
+    return Parts(Path(coordinates(points), coordinates(centers), turns, path.numbers[rows].repeat(2)[:-1]), in_part)
 
 
 def _rows(surface: Path, wanted: Ends) -> tuple[Rows, Rows, Ends]:
@@ -94,13 +95,13 @@ def _rows(surface: Path, wanted: Ends) -> tuple[Rows, Rows, Ends]:
 
 
 def _steps(surface: Path, begins: Rows, lasts: Rows, wanted: Ends) -> Rows:
-    """Rows from a point on one row to a point on another, or all round to the same one."""
+    """Rows from a point on one row to a point on another, or all around to the same one."""
     steps: Rows = (lasts - begins) % len(surface)
-    for one in (begins == lasts).nonzero()[0].tolist():
-        piece, start, end = surface[int(begins[one])], _point(wanted.start[one]), _point(wanted.end[one])
-        # from its start back to its start an arc is a full turn: what begins there ends behind that on any piece
+    for row in (begins == lasts).nonzero()[0].tolist():
+        piece, start, end = surface[int(begins[row])], _point(wanted.start[row]), _point(wanted.end[row])
+        # from its start back to its start an arc is a full turn: what begins there ends after that on any piece
         if start != piece.start and _before(piece, end, start):
-            steps[one] += len(surface)
+            steps[row] += len(surface)
     return steps
 
 

@@ -33,7 +33,7 @@ class DerivedBlock:
     """One block with everything that follows from it.
 
     `radius` is the finish path's cutter radius in millimeters, None without a usable tool; `side` is None for ON.
-    `work` is None in an outline, and when there is no surface or no radius to work with; `known` tells the two apart.
+    `work` is None in an outline, and when there is no surface or no radius to work with; `known` distinguishes the two.
     """
 
     number: int

@@ -93,9 +93,9 @@ def splice(old: tuple[Item, ...], new: tuple[Item, ...]) -> Splice[Item]:
     return Splice(front, old[front : len(old) - back], new[front : len(new) - back])
 
 
-def same(one: object, other: object) -> bool:
+def same(first: object, second: object) -> bool:
     """Whether two parts are equal, at once where they are the same object."""
-    return one is other or one == other
+    return first is second or first == second
 
 
 def differences(old: Program, new: Program) -> tuple[str, ...]:

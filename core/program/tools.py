@@ -163,12 +163,12 @@ def _fault(text: str, line: int = 1, column: int = 1) -> Finding:
 
 def _line(line: int, text: str, remark: str) -> TableLine | Finding:
     end, words, columns = 0, dict[str, float](), dict[str, int]()
-    while found := _WORD.match(text, end):
-        letter, column = found[1].upper(), found.start(1) + 1
-        trouble = _word_trouble(letter, float(found[2]), words)
+    while word := _WORD.match(text, end):
+        letter, column = word[1].upper(), word.start(1) + 1
+        trouble = _word_trouble(letter, float(word[2]), words)
         if trouble is not None:
             return _fault(trouble, line, column)
-        words[letter], columns[letter], end = float(found[2]), column, found.end()
+        words[letter], columns[letter], end = float(word[2]), column, word.end()
     if rest := text[end:].strip():
         column = end + len(text[end:]) - len(text[end:].lstrip()) + 1
         return _fault(f"{_quoted(rest)} is not a word of a tool table; {EXAMPLE}.", line, column)

@@ -229,7 +229,7 @@ class Case:
         chain = offset(self.part.contour, self.part.side, RADIUS)
         joints = crossings(chain, 1, closed=self.part.closed).joints
         rows, counts = np.unique(joints.b, return_counts=True)
-        return frozenset((chain.places[rows[counts > 1]] // 2).tolist())
+        return frozenset((chain.half_steps[rows[counts > 1]] // 2).tolist())
 
     @cached_property
     def deleted(self) -> frozenset[float]:

@@ -20,7 +20,7 @@ from core.geometry.piece_arrays import boxes, piece_arrays
 from core.tolerance import CLEAR
 
 SAMPLE: Final = 64
-"""Of a group's slices in their order the first and then one of so many are measured, and all that are long."""
+"""Of a group's slices in their order the first and then one in this number are measured, and all that are long."""
 
 
 def clear_slices(raw: RawOffset, cut: Slices, surface: Path, radius: float) -> Slices:

@@ -1,7 +1,7 @@
 """Raw offset: the offset curve of a whole contour before trimming, joined across the start, and what else cuts it.
 
 Words: the SIDE pieces are the offset segments and corner arcs on the cutter's side; of a closed contour they are
-joined across its start.  The OUTLINE pieces are the rest of the outline of all places nearer than the radius: the
+joined across its start.  The OUTLINE pieces are the rest of the outline of all points nearer than the radius: the
 other side, and the half circles about an open contour's two ends.  They only cut.
 """
 
@@ -26,7 +26,7 @@ class RawOffset:
     `start`, `end`, `center` (m,) complex; `turns` (m,); `numbers` (m,) programmed; `lengths` (m,) mm.  `following`
     (m,) is the piece whose start is this one's end, -1 where none is; `smooth` (m,) marks those joined so that nothing
     vanished between; `gaps` (m,) is by how much they missed each other before they were joined, 0 for most.  `side`
-    (m,) marks the side pieces, which belong to the surface's `segment` (m,), from 0, or to the corner behind it.
+    (m,) marks the side pieces, which belong to the surface's `segment` (m,), from 0, or to the corner after it.
     `blunt_start`, `blunt_end` (m,) mark pieces cut off inside a wall there.
     """
 
@@ -70,7 +70,7 @@ class RawOffset:
         return along
 
     def along(self, rows: Rows, points: Points) -> Floats:
-        """(k,) distances from the pieces' starts of the places abreast of points."""
+        """(k,) distances from the pieces' starts of the positions abreast of points."""
         start, center, turns = self.start[rows], self.center[rows], self.turns[rows]
         straight = turns == 0
         span = self.end[rows] - start
@@ -127,7 +127,7 @@ def raw_offset(surface: Path, side: Side, radius: float, *, closed: bool, crossi
         return _raw(chain, radius, 2 * len(surface) - 1, vertices, rings=(len(chain),))
     whole = joined((surface.part(0, 1).reversed(), surface, surface.part(len(surface) - 1, len(surface)).reversed()))
     chain = _without_cusps(offset(whole, side, radius), whole, side)
-    chain = RawChain(chain.raw, chain.parts, chain.places - 2)
+    chain = RawChain(chain.raw, chain.parts, chain.half_steps - 2)
     return _raw(chain, radius, 2 * len(surface) - 1, as_complex(surface.points), rings=())
 
 
@@ -145,8 +145,8 @@ def _around_closed(surface: Path, side: Side, radius: float, *, crossing: bool) 
 def _ring(surface: Path, side: Side, radius: float) -> RawChain:
     """The offset of a closed surface with the joint at its start: traveled on over the first segment."""
     chain = offset(joined((surface, surface.part(0, 1))), side, radius)
-    last = int(np.searchsorted(chain.places, 2 * len(surface)))
-    chain = RawChain(chain.raw.part(0, last), chain.parts[:last], chain.places[:last])
+    last = int(np.searchsorted(chain.half_steps, 2 * len(surface)))
+    chain = RawChain(chain.raw.part(0, last), chain.parts[:last], chain.half_steps[:last])
     return _without_cusps(chain, surface, side)
 
 
@@ -162,7 +162,7 @@ def _without_cusps(chain: RawChain, surface: Path, side: Side) -> RawChain:
     corners = corners[np.abs(across) <= JOINED]
     if not len(corners):
         return chain
-    there = chain.places[corners].astype(np.intp) // 2
+    there = chain.half_steps[corners].astype(np.intp) // 2
     back = (there + 1) % len(surface)
     first, last = points[corners] - centers[corners], points[corners + 1] - centers[corners]
     bend = first.conj() * last
@@ -171,7 +171,7 @@ def _without_cusps(chain: RawChain, surface: Path, side: Side) -> RawChain:
     aside = bend.imag / np.abs(bend) * before - (curvature[there] + curvature[back]) * before**2 / 2.0
     parts = chain.parts.copy()
     parts[corners[side.sign * aside > JOINED]] = RawPart.BRIDGE.value
-    return RawChain(chain.raw, parts, chain.places)
+    return RawChain(chain.raw, parts, chain.half_steps)
 
 
 def _curvature(path: Path) -> Floats:
@@ -180,8 +180,8 @@ def _curvature(path: Path) -> Floats:
     return curvature
 
 
-def _both_sides(there: RawChain, back: RawChain, places: int) -> RawChain:
-    """Two chains as one, a bridge between them; the second one's places begin at `places`."""
+def _both_sides(there: RawChain, back: RawChain, shift: int) -> RawChain:
+    """Two chains as one, a bridge between them; the second one's half steps begin at `shift`."""
     path = Path.of(
         np.concatenate((there.raw.points, back.raw.points)),
         np.concatenate((there.raw.centers, there.raw.points[-1:], back.raw.centers)),
@@ -190,14 +190,14 @@ def _both_sides(there: RawChain, back: RawChain, places: int) -> RawChain:
     )
     bridge = np.full(1, RawPart.BRIDGE.value, np.uint8)
     parts = np.concatenate((there.parts, bridge, back.parts))
-    return RawChain(path, parts, np.concatenate((there.places, there.places[-1:] + 1, back.places + places)))
+    return RawChain(path, parts, np.concatenate((there.half_steps, there.half_steps[-1:] + 1, back.half_steps + shift)))
 
 
 def _raw(chain: RawChain, radius: float, sides: int, vertices: Points, *, rings: tuple[int, ...]) -> Untrimmed:
     """The pieces of a chain that have a geometry of their own, joined over provisional bridges of no length.
 
-    Side pieces have places 0 ... `sides` - 1.  Before each of the rows `rings` a ring ends, whose last piece is joined
-    to its first; the row at its end, if there are more, is none of either ring.
+    Side pieces have half steps 0 ... `sides` - 1.  Before each of the rows `rings` a ring ends, whose last piece is joined
+    to its first; the row at its end, if there are more, belongs to neither ring.
     """
     path = chain.raw
     rows = (chain.parts <= RawPart.CORNER.value).nonzero()[0]
@@ -217,8 +217,8 @@ def _raw(chain: RawChain, radius: float, sides: int, vertices: Points, *, rings:
         np.where(gapless, order, -1),
         gapless & (rows[order] == onward[rows]),
         np.zeros(len(rows)),
-        (chain.places[rows] >= 0) & (chain.places[rows] < sides),
-        chain.places[rows].astype(np.intp) // 2,
+        (chain.half_steps[rows] >= 0) & (chain.half_steps[rows] < sides),
+        chain.half_steps[rows].astype(np.intp) // 2,
         np.zeros(len(rows), np.bool_),
         np.zeros(len(rows), np.bool_),
     )
@@ -227,7 +227,7 @@ def _raw(chain: RawChain, radius: float, sides: int, vertices: Points, *, rings:
 
 
 def _onward(rows: Rows, count: int, rings: tuple[int, ...]) -> tuple[Rows, Rows]:
-    """The row behind each of `count` rows, round each ring; and of the rows `rows` the next one of them, or -1."""
+    """The row after each of `count` rows, around each ring; and of the rows `rows` the next one of them, or -1."""
     onward = np.minimum(np.arange(1, count + 1), count - 1)
     order = np.arange(1, len(rows) + 1)
     order[-1:] = -1
@@ -246,23 +246,23 @@ def _smoothed(chain: Untrimmed, radius: float) -> Untrimmed:
     Their circles cross there at so small an angle that no formula finds where.  The middle of the gap lies off either
     offset by its square over eight radii: no more than ON_PATH (BEST_PATH.md, "Near-tangent joints").
     """
-    before, between, behind = _near_tangent(chain)
+    before, between, after = _near_tangent(chain)
     raw = chain.raw
-    gaps = np.abs(raw.start[behind] - raw.end[before])
+    gaps = np.abs(raw.start[after] - raw.end[before])
     bend = np.where(raw.turns == 0, radius, np.minimum(np.abs(raw.start - raw.center), radius))
     long = (raw.lengths > 4.0 * CROWDED) & ~chain.corner & (raw.start != raw.end)
-    fits = long[before] & long[behind] & (gaps**2 <= 8.0 * ON_PATH * np.minimum(bend[before], bend[behind]))
-    before, between, behind, gaps = before[fits], between[fits], behind[fits], gaps[fits]
+    fits = long[before] & long[after] & (gaps**2 <= 8.0 * ON_PATH * np.minimum(bend[before], bend[after]))
+    before, between, after, gaps = before[fits], between[fits], after[fits], gaps[fits]
     if not len(before):
         return chain
     start, end, size = raw.start.copy(), raw.end.copy(), raw.lengths.copy()
-    start[behind] = end[before] = (raw.end[before] + raw.start[behind]) / 2.0
-    moved = np.concatenate((before, behind))
+    start[after] = end[before] = (raw.end[before] + raw.start[after]) / 2.0
+    moved = np.concatenate((before, after))
     size[moved] = lengths(start[moved], end[moved], raw.center[moved], raw.turns[moved])
     missed, following, smooth = raw.gaps.copy(), raw.following.copy(), raw.smooth.copy()
-    missed[before], following[before], smooth[before] = gaps, behind, True
+    missed[before], following[before], smooth[before] = gaps, after, True
     order, inside = chain.order.copy(), chain.inside.copy()
-    order[before], inside[before] = behind, False
+    order[before], inside[before] = after, False
     keep = np.ones(len(raw), np.bool_)
     keep[between[between >= 0]] = False
     raw = replace(raw, start=start, end=end, lengths=size, following=following, smooth=smooth, gaps=missed)
@@ -279,9 +279,9 @@ def _near_tangent(chain: Untrimmed) -> tuple[Rows, Rows, Rows]:
     corners = corners[(previous[corners] >= 0) & raw.smooth[previous[corners]]]
     before = np.concatenate((previous[corners], inside))
     between = np.concatenate((corners, np.full(len(inside), -1)))
-    behind = np.concatenate((order[corners], order[inside]))
-    apart = before != behind
-    return before[apart], between[apart], behind[apart]
+    after = np.concatenate((order[corners], order[inside]))
+    apart = before != after
+    return before[apart], between[apart], after[apart]
 
 
 def lengths(start: Points, end: Points, center: Points, turns: Turns) -> Floats:

@@ -1,7 +1,7 @@
 """Slices: the side pieces of the raw offset cut at every self-intersection.
 
 Whether the cutter is clear of the part changes only where raw pieces meet.  Where two properly cross, the cutter may
-only come along the one and leave along the other so that it turns towards its free side; the two other stretches lie,
+only come along the one and leave along the other so that it turns toward its free side; the two other stretches lie,
 next to the point, nearer to a wall than the radius.  So a slice runs from one meeting to the next, over as many pieces
 as are joined smoothly, and at a crossing two slices are clear or not together.  Nodes are the points where slices
 begin and end; points within JOINED of each other on a piece are one node.
@@ -90,9 +90,9 @@ def _meet_next_only_at_joint(raw: RawOffset) -> Flags:
     """(m,) which pieces meet the one that follows nowhere but at their joint."""
     arm = np.abs(raw.start - raw.center)
     swept = np.where(raw.turns == 0, 0.0, raw.lengths / np.where(raw.turns == 0, 1.0, arm))
-    behind = raw.following
-    apart = swept + swept[behind] < _ALMOST_FULL_TURN
-    apart |= (raw.turns * raw.turns[behind] <= 0) & (np.maximum(swept, swept[behind]) < _NOT_WHOLE_TURN)
+    after = raw.following
+    apart = swept + swept[after] < _ALMOST_FULL_TURN
+    apart |= (raw.turns * raw.turns[after] <= 0) & (np.maximum(swept, swept[after]) < _NOT_WHOLE_TURN)
     apart &= raw.smooth
     return apart
 
@@ -171,7 +171,7 @@ class Slices:
 
 
 class _Strands(NamedTuple):
-    """Side pieces joined smoothly one behind the other: the first and the last of each, and their nodes.
+    """Side pieces joined smoothly one after the other: the first and the last of each, and their nodes.
 
     A strand that another one follows ends at that one's first node.  `nodes` is how many nodes the strands have.
     """
@@ -244,9 +244,9 @@ def _strands(raw: RawOffset) -> _Strands:
     heads = pieces[begins]
     tails = pieces[np.append(begins[1:], True)[: len(pieces)]]
     count = len(heads)
-    behind = raw.following[tails]
-    joined = (behind >= 0) & raw.side[behind]
-    ends = np.where(joined, np.searchsorted(heads, behind), np.arange(count) + count)
+    after = raw.following[tails]
+    joined = (after >= 0) & raw.side[after]
+    ends = np.where(joined, np.searchsorted(heads, after), np.arange(count) + count)
     return _Strands(heads, tails, ends, 2 * count)
 
 
@@ -297,8 +297,8 @@ def _nodes(raw: RawOffset, met: Intersections, strands: _Strands) -> tuple[Point
     count = len(strands.heads)
     points = np.concatenate((raw.start[strands.heads], raw.end[strands.tails], met.points))
     outer = np.zeros(len(points), np.bool_)
-    behind = raw.following[strands.tails]
-    outer[count : 2 * count] = (behind >= 0) & ~raw.side[behind]
+    after = raw.following[strands.tails]
+    outer[count : 2 * count] = (after >= 0) & ~raw.side[after]
     before = np.zeros(len(raw), np.bool_)
     before[raw.following[~raw.side & (raw.following >= 0)]] = True
     outer[:count] = before[strands.heads]
@@ -319,16 +319,16 @@ def _welded(cut: Slices, node: Rows, other: Rows) -> Slices:
     return joined.take((~short).nonzero()[0])
 
 
-def least_of_connected(count: int, one: Rows, other: Rows) -> Rows:
-    """(count,) the least number among all numbers that pairs one, other (p,) connect with each."""
+def least_of_connected(count: int, first: Rows, second: Rows) -> Rows:
+    """(count,) the least number among all numbers that pairs first, second (p,) connect with each."""
     same = np.arange(count)
     while True:
-        least = np.minimum(same[one], same[other])
+        least = np.minimum(same[first], same[second])
         before = same.copy()
-        np.minimum.at(same, one, least)
-        np.minimum.at(same, other, least)
-        np.minimum.at(same, before[one], least)
-        np.minimum.at(same, before[other], least)
+        np.minimum.at(same, first, least)
+        np.minimum.at(same, second, least)
+        np.minimum.at(same, before[first], least)
+        np.minimum.at(same, before[second], least)
         same = same[same]
         if np.array_equal(same, before):
             return same

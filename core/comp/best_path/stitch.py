@@ -28,7 +28,7 @@ _CUT_BACKS = 4
 class Stitched:
     """Slices `cut`, for each the one that follows it or -1, and which lead nowhere or come from nowhere.
 
-    `gaps` (s,) is the length of the bridge behind each slice, 0 where none is.
+    `gaps` (s,) is the length of the bridge after each slice, 0 where there is none.
     """
 
     cut: Slices
@@ -88,8 +88,8 @@ def _without_dead_ends(cut: Slices) -> Slices:
     while True:
         begins, ends = np.bincount(cut.first, minlength=size), np.bincount(cut.last, minlength=size)
         ahead = (begins[cut.last] == 0) & ~cut.outer[cut.last] & (begins[cut.first] > 1)
-        behind = (ends[cut.first] == 0) & ~cut.outer[cut.first] & (ends[cut.last] > 1)
-        dead = (ahead | behind) & (cut.size < WHISKER)
+        back = (ends[cut.first] == 0) & ~cut.outer[cut.first] & (ends[cut.last] > 1)
+        dead = (ahead | back) & (cut.size < WHISKER)
         if not dead.any():
             return cut
         cut = cut.take((~dead).nonzero()[0])
@@ -139,17 +139,17 @@ def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, surface: Pat
     rows = rows[np.abs(cut.points[cut.last[rows]] - cut.points[cut.first[following[rows]]]) > JOINED]
     if not len(rows):
         return cut
-    behind = following[rows]
+    after = following[rows]
     begin, end, first, last = cut.begin.copy(), cut.end.copy(), cut.first.copy(), cut.last.copy()
-    piece, until, nodes = cut.piece[behind], cut.until[rows], len(cut.points) + np.arange(len(rows))
+    piece, until, nodes = cut.piece[after], cut.until[rows], len(cut.points) + np.arange(len(rows))
     room = np.minimum(bridge_limit(radius), cut.size / 2.0)
     low = np.where(cut.piece[rows] == until, begin[rows], 0.0)
-    high = np.where(cut.until[behind] == piece, end[behind], raw.lengths[piece])
-    over = raw.along(piece, cut.points[last[rows]]) - begin[behind]
-    over[(over < 0.0) | (over > room[behind])] = 0.0
-    begin[behind] += over
-    whole = begin[behind] == cut.begin[behind]
-    starts = np.where(whole, cut.points[first[behind]], raw.at(piece, begin[behind]))
+    high = np.where(cut.until[after] == piece, end[after], raw.lengths[piece])
+    over = raw.along(piece, cut.points[last[rows]]) - begin[after]
+    over[(over < 0.0) | (over > room[after])] = 0.0
+    begin[after] += over
+    whole = begin[after] == cut.begin[after]
+    starts = np.where(whole, cut.points[first[after]], raw.at(piece, begin[after]))
     over = end[rows] - raw.along(until, starts)
     over[(over < 0.0) | (over > room[rows])] = 0.0
     end[rows] -= over
@@ -160,10 +160,10 @@ def _without_overlaps(raw: RawOffset, cut: Slices, following: Rows, surface: Pat
         if not blocked.any():
             break
         end[rows] -= np.where(blocked[: len(rows)], np.minimum(gaps, (end[rows] - low) / 2.0), 0.0)
-        begin[behind] += np.where(blocked[len(rows) :], np.minimum(gaps, (high - begin[behind]) / 2.0), 0.0)
+        begin[after] += np.where(blocked[len(rows) :], np.minimum(gaps, (high - begin[after]) / 2.0), 0.0)
         stops = np.where(blocked[: len(rows)], raw.at(until, end[rows]), stops)
-        starts = np.where(blocked[len(rows) :], raw.at(piece, begin[behind]), starts)
-    last[rows], first[behind] = nodes, nodes + len(rows)
+        starts = np.where(blocked[len(rows) :], raw.at(piece, begin[after]), starts)
+    last[rows], first[after] = nodes, nodes + len(rows)
     points, outer = np.concatenate((cut.points, stops, starts)), np.append(cut.outer, np.zeros(2 * len(rows), np.bool_))
     return replace(cut, begin=begin, end=end, first=first, last=last, points=points, outer=outer)
 
@@ -196,7 +196,7 @@ def chains(made: Stitched) -> list[tuple[Rows, bool]]:
 
 
 def _walk(heads: Rows, tails: Rows, entry: list[int]) -> list[tuple[Rows, bool]]:
-    """Runs heads[k] ... tails[k], run entry[k] behind run k, put together; open chains from their beginning."""
+    """Runs heads[k] ... tails[k], run entry[k] after run k, put together; open chains from their beginning."""
     entered = set(entry)
     unwalked = dict.fromkeys(range(len(entry)))
     walked = []

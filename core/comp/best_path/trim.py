@@ -52,20 +52,20 @@ def _mitered(chain: Untrimmed, left: _Left, sign: int, radius: float) -> tuple[R
     raw, order = chain.raw, chain.order
     rows = (chain.inside & (raw.turns == 0)).nonzero()[0]
     rows = rows[raw.turns[order[rows]] == 0]
-    behind = order[rows]
+    after = order[rows]
     unit = (raw.end[rows] - raw.start[rows]) / raw.lengths[rows]
-    bend = unit.conj() * (raw.end[behind] - raw.start[behind]) / raw.lengths[behind]
+    bend = unit.conj() * (raw.end[after] - raw.start[after]) / raw.lengths[after]
     short = radius * sign * bend.imag
-    room = (1.0 + bend.real) * np.minimum(raw.lengths[rows], raw.lengths[behind])
+    room = (1.0 + bend.real) * np.minimum(raw.lengths[rows], raw.lengths[after])
     fits = (short > 0.0) & (short <= room)
-    rows, behind, unit = rows[fits], behind[fits], unit[fits]
+    rows, after, unit = rows[fits], after[fits], unit[fits]
     short = short[fits] / (1.0 + bend.real[fits])
     left.high[rows] -= short
-    left.low[behind] = short
+    left.low[after] = short
     crowded = np.abs(left.high - left.low) <= CROWDED
-    lost = crowded[rows] | crowded[behind]
+    lost = crowded[rows] | crowded[after]
     if lost.any():
-        left.high[rows[lost]], left.low[behind[lost]] = raw.lengths[rows[lost]], 0.0
+        left.high[rows[lost]], left.low[after[lost]] = raw.lengths[rows[lost]], 0.0
         rows, unit, short = rows[~lost], unit[~lost], short[~lost]
     return rows, raw.end[rows] - short * unit
 
@@ -110,14 +110,14 @@ def _within_lines(raw: RawOffset, rows: Rows, spots: Points, limit: float) -> tu
 
 def _within_arcs(raw: RawOffset, rows: Rows, spots: Points, limit: float) -> tuple[Floats, Floats]:
     """The same of arcs, of two stretches the one nearer to an arc's middle; NaN for an arc's own center."""
-    arm, towards = raw.start[rows] - raw.center[rows], spots - raw.center[rows]
-    radius, apart = np.abs(arm), np.abs(towards)
+    arm, spokes = raw.start[rows] - raw.center[rows], spots - raw.center[rows]
+    radius, apart = np.abs(arm), np.abs(spokes)
     off_center, off = apart > JOINED, apart - radius
     # the sine of half the angle: of a large arc its cosine differs from 1 by less than rounding
     square = (limit - off) * (limit + off) / (4.0 * radius * np.where(off_center, apart, 1.0))
     half = 2.0 * np.arcsin(np.sqrt(np.where(off_center & (square > 0.0), np.minimum(square, 1.0), np.nan)))
     middle = raw.lengths[rows] / radius / 2.0
-    angle = np.angle(arm.conj() * towards) * raw.turns[rows] - middle
+    angle = np.angle(arm.conj() * spokes) * raw.turns[rows] - middle
     angle = angle - 2.0 * np.pi * np.round(angle / (2.0 * np.pi)) + middle
     return (angle - half) * radius, (angle + half) * radius
 
@@ -133,10 +133,10 @@ def _rebuilt(chain: Untrimmed, left: _Left, corners: tuple[Rows, Points], cut_lo
     start[cut_low] = raw.at(cut_low.nonzero()[0], left.low[cut_low])
     end[cut_high] = raw.at(cut_high.nonzero()[0], left.high[cut_high])
     joined = (following >= 0).nonzero()[0]
-    behind = following[joined]
-    apart = gone[joined] | cut_high[joined] | gone[behind] | cut_low[behind]
+    after = following[joined]
+    apart = gone[joined] | cut_high[joined] | gone[after] | cut_low[after]
     blunt_start, blunt_end = cut_low, cut_high
-    blunt_end[joined[apart]], blunt_start[behind[apart]] = True, True
+    blunt_end[joined[apart]], blunt_start[after[apart]] = True, True
     following[joined[apart]], smooth[joined[apart]] = -1, False
     size = left.high - left.low
     raw = replace(raw, start=start, end=end, lengths=size, following=following, smooth=smooth)

@@ -48,7 +48,7 @@ def is_start(value: float, start: float, start_typed: float | None, unit: Unit) 
     Both are compared as typed, in program units.  Where the start is calculated (`start_typed` is None, or what was
     typed is not where the segment before ends), its own value, `start` in millimeters, decides: it must read like the
     end in every digit that is typed, at least in those that a form shows.  It may do so in either unit, so that a
-    change of units leaves every part as it was.  What is nearer than two points can be told apart is the start in any
+    change of units leaves every part as it was.  What is nearer than two points can be distinguished is the start in any
     case.
     """
     if abs(to_mm(value, unit) - start) <= JOINED or value == start_typed:
@@ -147,7 +147,7 @@ def _angle_to_type(sweep: float) -> str:
     """An angle in degrees with as many decimals as tell it from nothing and from the full circle."""
     angle = degrees(sweep)
     rest = min(angle, 360.0 - angle)
-    enough = (places for places in range(3, MAX_ANGLE_DECIMALS) if abs(round(angle, places) - angle) <= rest / 20.0)
+    enough = (count for count in range(3, MAX_ANGLE_DECIMALS) if abs(round(angle, count) - angle) <= rest / 20.0)
     return f"{angle:.{next(enough, MAX_ANGLE_DECIMALS)}f}"
 
 
@@ -184,8 +184,8 @@ def _end_and_sweep(turn: Turn, given: Given) -> Outcome | None:
 
 def _by_sweep(turn: Turn, given: Given, *ends: Point) -> Outcome | None:
     """The arcs that turn by SWEEP ANGLE to each of the ends."""
-    found = [(end, construct.center_by_sweep(given.start, end, given.known["sweep"], turn)) for end in ends]
-    arcs = tuple(Arc(given.start, end, center.point, turn) for end, center in found if isinstance(center, OnePoint))
+    centers = [(end, construct.center_by_sweep(given.start, end, given.known["sweep"], turn)) for end in ends]
+    arcs = tuple(Arc(given.start, end, center.point, turn) for end, center in centers if isinstance(center, OnePoint))
     return Outcome(arcs) if arcs else None
 
 
@@ -233,8 +233,8 @@ def _disagreement(piece: Piece, name: str, value: float) -> Finding | None:
         text = f"SWEEP ANGLE is {shown_angle(value)}, but {shown_angle(abs(piece.sweep))}"
         return None if _turns(piece, value) else fault("CONTRADICTION", text, name)
     (x_end, y_end), (x_center, y_center) = piece.end, piece.center
-    places = {"x_end": x_end, "y_end": y_end, "x_center": x_center, "y_center": y_center}
-    solved = places.get(name, piece.radius)
+    coordinates = {"x_end": x_end, "y_end": y_end, "x_center": x_center, "y_center": y_center}
+    solved = coordinates.get(name, piece.radius)
     if abs(solved - value) <= ARC_RADII:
         return None
     return fault("CONTRADICTION", f"{_labels((name,))} is {{0~1}}, but {{1~0}}", name, value, solved)

@@ -69,15 +69,15 @@ def _blend(pieces: list[Piece | None], index: int, radius: float, determined: Se
     before, after = pieces[index - 1], pieces[index + 1]
     if before is None or after is None:
         return _no_neighbor(pieces, index, determined)
-    found = fillet(before, after, radius)
-    match found:
+    rounding = fillet(before, after, radius)
+    match rounding:
         case Fillet(first, arc, last):
             pieces[index - 1 : index + 2] = first, arc, last
             return None
         case NoFillet():
-            return _refusal(found, index + 1, radius)
+            return _refusal(rounding, index + 1, radius)
         case _:
-            assert_never(found)
+            assert_never(rounding)
 
 
 def _no_neighbor(pieces: Sequence[Piece | None], index: int, determined: Set[int]) -> Finding | None:

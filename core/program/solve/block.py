@@ -95,7 +95,7 @@ def _blends(block: Block, drafts: Sequence[Draft]) -> Blends:
 
 def _adjustment(drafts: Sequence[Draft]) -> dict[int, Finding]:
     """That arcs were fitted to their numbers: once, by index of the segment whose numbers differ most."""
-    adjusted = {index: finding for index, one in enumerate(drafts) if (finding := one.shape.adjustment) is not None}
+    adjusted = {index: finding for index, item in enumerate(drafts) if (finding := item.shape.adjustment) is not None}
     if not adjusted:
         return {}
     worst = max(adjusted, key=lambda index: adjusted[index].value or 0.0)

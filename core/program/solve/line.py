@@ -59,9 +59,9 @@ def _long(axis: int, given: Given) -> Outcome:
     return _lines(given.start, *points_of(ends))
 
 
-def points_of(found: OnePoint | TwoPoints) -> tuple[Point, ...]:
+def points_of(ends: OnePoint | TwoPoints) -> tuple[Point, ...]:
     """The points of a construction, in its documented order."""
-    return (found.point,) if isinstance(found, OnePoint) else (found.first, found.second)
+    return (ends.point,) if isinstance(ends, OnePoint) else (ends.first, ends.second)
 
 
 def _lines(start: Point, *ends: Point) -> Outcome:

@@ -23,7 +23,7 @@ def _all_pairs(chain: RawChain, lookahead: int, *, closed: bool) -> list[tuple[i
         (a, b)
         for a, b in combinations(partners, 2)
         if b - a > 1
-        and chain.places[b] - chain.places[a] <= 2 * lookahead
+        and chain.half_steps[b] - chain.half_steps[a] <= 2 * lookahead
         and not (b - a == 2 and chain.parts[a + 1] == RawPart.BRIDGE)
         and not (closed and (a, b) == (0, len(chain) - 1))
     ]

@@ -19,7 +19,7 @@ SEGMENT, CORNER, BRIDGE, VANISHED = RawPart
 
 def _chain(contour: Path, side: Side, radius: float) -> RawChain:
     chain = offset(contour, side, radius)
-    assert len(chain) == len(chain.raw) == len(chain.places)
+    assert len(chain) == len(chain.raw) == len(chain.half_steps)
     return chain
 
 
@@ -31,7 +31,7 @@ def test_outside_corner_gets_an_arc():
         Line((1.5, 0), (1.5, -1)),
     ]
     assert chain.parts.tolist() == [SEGMENT, CORNER, SEGMENT]
-    assert chain.places.tolist() == [0, 1, 2]
+    assert chain.half_steps.tolist() == [0, 1, 2]
     assert chain.raw.numbers.tolist() == [1, 1.5, 2]
 
 
@@ -46,7 +46,7 @@ def test_tangent_joint_gets_nothing():
     for side, radius in ((Side.LEFT, 0.75), (Side.RIGHT, 1.25)):
         chain = _chain(contour, side, 0.25)
         assert chain.parts.tolist() == [SEGMENT, SEGMENT]
-        assert chain.places.tolist() == [0, 2]
+        assert chain.half_steps.tolist() == [0, 2]
         assert chain.raw.radii[1] == pytest.approx(radius)
 
 
@@ -116,7 +116,7 @@ def test_labels_come_from_the_contour():
 @given(mixed, st.sampled_from(Side), st.floats(0.05, 2.0))
 def test_whole_pieces_keep_the_radius_from_their_own_segment(contour, side, radius):
     chain = _chain(contour, side, radius)
-    for piece, part, place in zip(chain.raw, chain.parts.tolist(), chain.places.tolist(), strict=True):
+    for piece, part, place in zip(chain.raw, chain.parts.tolist(), chain.half_steps.tolist(), strict=True):
         if part == SEGMENT:
             before = contour[place // 2]
             assert piece.length == pytest.approx(_grown(before, side, radius), abs=1e-6)
@@ -140,5 +140,5 @@ def test_long_chains_are_the_same_however_they_are_cut():
     chain, start = _chain(whole, Side.LEFT, 0.4), _chain(whole.part(0, 20_000), Side.LEFT, 0.4)
     assert np.array_equal(chain.raw.points[: len(start)], start.raw.points[:-1])
     assert np.array_equal(chain.parts[: len(start)], start.parts)
-    assert np.array_equal(chain.places[: len(start)], start.places)
+    assert np.array_equal(chain.half_steps[: len(start)], start.half_steps)
     assert np.array_equal(chain.raw.numbers[: len(start)], start.raw.numbers)

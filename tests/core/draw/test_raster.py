@@ -204,9 +204,9 @@ def test_any_zoom_has_a_picture(mode, zoom):
 @pytest.mark.parametrize("mode", list(Mode))
 @pytest.mark.parametrize("zoom", [1.0, 5.0])
 def test_parts_of_a_layer_look_like_layers_of_their_own(mode, zoom):
-    path, own = SLOT.layers[0].path, np.array([True, False, True, True])
+    path, drawn = SLOT.layers[0].path, np.array([True, False, True, True])
     zigzag = lines((1, 1), (3, 2), (5, 0), (7, 2), (8, 0))
-    layer = Layer(zigzag, Style.DELETED, dashed=True, own=own)
+    layer = Layer(zigzag, Style.DELETED, dashed=True, drawn=drawn)
     one = replace(SLOT, layers=(Layer(path, Style.PATH), layer))
     each = (Layer(part, Style.DELETED, dashed=True) for part in layer.parts)
     several = replace(SLOT, layers=(Layer(path, Style.PATH), *each))

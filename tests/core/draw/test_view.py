@@ -68,7 +68,7 @@ def test_bounds_take_in_arcs_circles_and_marks_and_pass_over_what_is_not_finite(
     )
     assert scene.bounds == pytest.approx((-1.0, -2.0, 6.0, 9.0))
     assert Scene().bounds is None
-    none = Layer(far, Style.DELETED, own=np.array([False]))
+    none = Layer(far, Style.DELETED, drawn=np.array([False]))
     assert Scene((none,)).bounds is None
 
 

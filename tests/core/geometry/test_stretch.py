@@ -86,7 +86,7 @@ def test_a_stretch_begins_on_the_first_and_ends_on_the_last_piece_of_its_segment
 
 def test_stretches_are_one_path_with_lines_between_them_that_are_not_theirs():
     found = stretches(SQUARE, ends((1, (1, 0), 2, (4, 1)), (3, (3, 4), 3, (1, 4))))
-    assert found.own.tolist() == [True, True, False, True]
+    assert found.in_part.tolist() == [True, True, False, True]
     assert points(found.path) == [[1, 0], [4, 0], [4, 1], [3, 4], [1, 4]]
     assert [points(one) for one in found.paths] == [[[1, 0], [4, 0], [4, 1]], [[3, 4], [1, 4]]]
 

@@ -160,7 +160,7 @@ def test_axes_that_pass_by_are_left_out():
 
 
 def test_each_part_of_a_layer_is_drawn_by_itself():
-    scene = Scene((Layer(CORNER, Style.UNCUT, own=np.array([True, False, True])),), axes=False)
+    scene = Scene((Layer(CORNER, Style.UNCUT, drawn=np.array([True, False, True])),), axes=False)
     assert paths(scene, "uncut")[:-1] == ["M0 0 L4 0", "M5 -1 L5 -3"]
 
 
