@@ -168,7 +168,9 @@ def test_the_look_ahead_table_of_part_of_a_contour_says_what_is_against_the_rest
 ) -> None:
     piped(monkeypatch, undetermined())
     assert main(["lookahead", "-"]) == 1
-    assert "cutcomp: block 1, segment 2: error: X CENTER and Y CENTER are the start" in capsys.readouterr().err
+    assert (
+        "cutcomp: block 1, segment 2: error: X CENTER and Y CENTER are the same as the start" in capsys.readouterr().err
+    )
 
 
 def test_the_look_ahead_document_of_part_of_a_contour_says_what_is_against_the_rest(

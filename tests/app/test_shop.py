@@ -76,7 +76,7 @@ def test_an_import_with_a_fault_changes_nothing(part: Path, capsys: pytest.Captu
     table.write_text("T7 D.5\nT8 D,5\n")
     assert main(["tools", str(part), "--import", str(table)]) == 2
     assert part.read_bytes() == before
-    assert "line 2, column 4: D,5 is no word" in capsys.readouterr().err
+    assert "line 2, column 4: D,5 is not a word" in capsys.readouterr().err
 
 
 def test_what_is_no_tool_table_is_told_alike_in_a_few_lines(part: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -97,7 +97,7 @@ def test_the_faults_of_a_table_are_told_before_its_warnings(part: Path, capsys: 
     table = part.with_name("tool.tbl")
     table.write_text("T1\nT2\nT3\nT4\nT7 D,5\n")
     assert main(["tools", str(part), "--import", str(table)]) == 2
-    assert "D,5 is no word" in capsys.readouterr().err
+    assert "D,5 is not a word" in capsys.readouterr().err
 
 
 def importing(text: str, folder: Path) -> Operator:

@@ -196,8 +196,8 @@ def _both_sides(there: RawChain, back: RawChain, shift: int) -> RawChain:
 def _raw(chain: RawChain, radius: float, sides: int, vertices: Points, *, rings: tuple[int, ...]) -> Untrimmed:
     """The pieces of a chain that have a geometry of their own, joined over provisional bridges of no length.
 
-    Side pieces have half steps 0 ... `sides` - 1.  Before each of the rows `rings` a ring ends, whose last piece is joined
-    to its first; the row at its end, if there are more, belongs to neither ring.
+    Side pieces have half steps 0 ... `sides` - 1.  Before each of the rows `rings` a ring ends, whose last piece is
+    joined to its first; the row at its end, if there are more, belongs to neither ring.
     """
     path = chain.raw
     rows = (chain.parts <= RawPart.CORNER.value).nonzero()[0]
