@@ -48,7 +48,7 @@ def is_start(value: float, start: float, start_typed: float | None, unit: Unit) 
     Both are compared as typed, in program units.  Where the start is calculated (`start_typed` is None, or what was
     typed is not where the segment before ends), its own value, `start` in millimeters, decides: it must read like the
     end in every digit that is typed, at least in those that a form shows.  It may do so in either unit, so that a
-    change of units leaves every part as it was.  What is nearer than two points can be distinguished is the start in any
+    change of units leaves every part as it was.  Points too near to be distinguished are the same in any
     case.
     """
     if abs(to_mm(value, unit) - start) <= JOINED or value == start_typed:
