@@ -1,6 +1,6 @@
 """Arithmetic an operator types into a field, read exactly as fractions: `1 1/2`, `2.5-.125`, `25.4/2`, `3mm+1in`.
 
-A suffix belongs to the product it stands in; in a sum either every term has one or none has.  A comma, and a
+A suffix belongs to the product it is in; in a sum either every term has one or none has.  A comma, and a
 dash that shop people read as "and" (`1-1/2`), may mean two things and are refused with the reason.
 """
 

@@ -23,7 +23,7 @@ MARGIN: Final = 0.04
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """`center` (x, y) in millimeters stands in the middle of the window; `scale` is millimeters to a cell's width."""
+    """`center` (x, y) in millimeters is in the middle of the window; `scale` is millimeters to a cell's width."""
 
     center: Point = (0.0, 0.0)
     scale: float = 1.0

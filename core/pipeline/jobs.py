@@ -19,7 +19,7 @@ def jobs(derived: Derived) -> tuple[Job, ...]:
 
 
 def job(block: DerivedBlock, program: Program) -> Job:
-    """One block's job; what is not known yet is zero there and stands among the findings."""
+    """One block's job; what is not known yet is zero there and is among the findings."""
     solved, tag = block.solved, f"{block.lookahead.tag} {block.lookahead.value}"
     finish_tool = _whole(block.block.finish_tool)
     return Job(

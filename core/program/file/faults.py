@@ -28,7 +28,7 @@ _TOML_FAULT: Final = re.compile(r"(.*) \(at (?:(line (\d+), column \d+)|end of d
 
 
 def key_lines(text: str) -> Mapping[KeyPath, int]:
-    """The line, from 1, of each table's header and of each key that stands on a line of its own."""
+    """The line, from 1, of each table's header and of each key that is on a line by itself."""
     lines: dict[KeyPath, int] = {(): 1}
     counts: dict[KeyPath, int] = {}
     table: KeyPath = ()

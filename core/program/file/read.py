@@ -139,7 +139,7 @@ def _written(value: object) -> str:
 
 
 def _beyond(value: float, field: Field, unit: Unit) -> bool:
-    """Whether a number is none a machine could have, in either unit."""
+    """Whether a number is larger than any machine could have, in either unit."""
     if not abs(value) <= LARGEST:
         return True
     return field.kind in (Kind.LENGTH, Kind.FEED) and round(to_mm(abs(value), unit), 3) > LARGEST
