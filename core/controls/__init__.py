@@ -7,16 +7,16 @@ Word-address controls share the reader, the modal machine and the macros of `iso
 `makers` holds what each control does differently.  `klartext` reads its own language.  All give the moves, findings
 and stretches of `control_run`.  `write` writes a compensated contour as a control's own program.
 
-Where a maker's papers are silent, a choice is made and told in a finding as an interpretation, or stands here:
+Where a maker's manual does not say, cutcomp makes a choice and says so in a finding, or it is listed here:
 
 * positions before the first motion are machine zero, and so are work offsets and reference points nobody set;
-* a corner arc, a generated block and a miter belong to the line of the element behind the corner and have its feed;
+* a corner arc, a generated block and a miter belong to the line of the element after the corner and have its feed;
 * the 9/Series makes generated blocks of any length, looks across 10 blocks without motion, and inside arcs has no
   least feed: the machine builder sets all three; its backwards moves are R8 for lines and R10 for arcs;
 * threeblock takes corners under 0.05 degrees as tangent, and T with tool data as calling that tool;
-* inside an arc that is not larger than the tool, threeblock runs about the same center beyond it: a gouge, told;
-* compensation left on at the end of a threeblock program is an error that is told and stops nothing;
+* inside an arc that is not larger than the tool, threeblock runs about the same center beyond it: a gouge, reported;
+* compensation left on at the end of a threeblock program is an error that is reported and stops nothing;
 * the orientation of a lathe tool shifts moves on LinuxCNC; on RosettaCNC they stay those of the nose's center;
-* expressions and parameters of 9/Series and threeblock programs are not worked out: the run ends there and says so;
+* expressions and parameters of 9/Series and threeblock programs are not evaluated: the run ends there and says so;
 * the radii of an arc may differ by 0.0005 in (0.0127 mm) or a thousandth: LinuxCNC and Klartext say their own limits.
 """

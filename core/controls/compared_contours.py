@@ -95,7 +95,7 @@ def apart(path: Path, other: Path, tolerance: float) -> Parting | None:
 def distances(path: Path, other: Path, shares: tuple[float, ...]) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
     """(k,) how far places at these shares of a path's pieces are from another path, and (k,) the rows of the pieces.
 
-    Both paths have pieces; of long ones only every so many places are measured.
+    Both paths have pieces; of long ones only a few places are measured.
     """
     pieces, onto = piece_arrays(path), piece_arrays(other)
     places = np.concatenate([at(pieces, np.full(len(pieces), share)) for share in shares])

@@ -10,7 +10,7 @@ from core.geometry.path import Path
 from core.tolerance import CLOSED
 
 MAX_LEAD_MOVES: Final = 2
-"""So many moves may lead in, out, or from one contour to the next: a line and an arc.  More are surface."""
+"""Most moves that may lead in, out, or from one contour to the next: a line and an arc.  More are surface."""
 
 MAX_CONTOURS: Final = 32
 """With more contours than this all moves count as surface: each contour is judged with the whole path."""

@@ -55,9 +55,9 @@ class ToolTable:
 
 
 def not_there(number: int | None) -> str:
-    """That a table has no tool of a number, and what to do; None stands for one that is no whole number."""
+    """That a table has no tool of a number, and what to do; None stands for one that is not a whole number."""
     which = "of this number" if number is None else str(number)
-    return f"The tool table has no tool {which}; enter it, or write the number of one that is there."
+    return f"The tool table has no tool {which}. Enter it, or write the number of a tool in the table."
 
 
 def read_table(text: bytes, unit: Unit | None = None) -> tuple[ToolTable, tuple[Finding, ...]]:

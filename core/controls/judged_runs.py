@@ -18,17 +18,14 @@ from core.geometry.path import Path, joined
 from core.tolerance import ARC_RADII, GOUGE, ROUNDING
 from core.verify.contact import AirCut, air_cuts
 from core.verify.judge import judge
-from core.verify.report import contact_findings, or_more
+from core.verify.report import DIGIT, SHOWN, contact_findings, or_more
 from core.verify.verdict import Gouge, Verdict
 
 MAX_GOUGES: Final = 20
 """Gouges of a stretch that have a finding each, deepest first."""
 
-GIVEN_UP: Final = "LIMIT"
+LIMIT_RULE: Final = "LIMIT"
 """The rule by which a run ends that repeats too much to be followed."""
-
-FINE: Final = 0.001
-"""Millimeters under which a gouge's depth cannot be shown in digits."""
 
 CAM_ROUNDING: Final = 0.0127 + ROUNDING
 """Millimeters (0.0005 in) of tolerance that a CAM system's rounding explains; more may hide a gouge."""
@@ -77,7 +74,7 @@ def judged(run: Run) -> tuple[Judged, ...]:
     There is none on a run that was given up as endless: it says so itself, and the same moves a thousand times over
     would be judged against one another.
     """
-    if any(finding.code == GIVEN_UP for finding in run.findings):
+    if any(finding.code == LIMIT_RULE for finding in run.findings):
         return ()
     return tuple(result for stretch in run.stretches for result in _judge_stretch(run, stretch))
 
@@ -259,10 +256,7 @@ def _by_itself(result: Judged) -> list[Finding]:
     """That a part is judged by itself."""
     if not result.by_itself:
         return []
-    text = (
-        "The side changes here. What the cutter cuts here of the contour on the other side, or there of this one, is "
-        "not judged. Write G40 between them to be sure."
-    )
+    text = "The side changes here. Cuts into the contour on the other side are not judged. Program G40 between them."
     return [Finding("SIDES", Severity.WARNING, text, line=_first_line(result.surface))]
 
 
@@ -277,7 +271,7 @@ def _uneven_arc(arc: UnevenArc | None) -> list[Finding]:
     """That an arc has two radii, which the control accepts, and how it is judged; a warning beyond CAM_ROUNDING."""
     if arc is None:
         return []
-    text = "Arc radius {0} at its start, {1} at its end: judged between both, with {value} more tolerance."
+    text = "Arc radius {0} at its start, {1} at its end: judged at a radius between them, with {value} extra tolerance."
     severity = Severity.WARNING if arc.slack > CAM_ROUNDING else Severity.INFO
     return [Finding("ARC_RADII", severity, text, value=arc.slack, lengths=(arc.first, arc.last), line=arc.line)]
 
@@ -289,12 +283,12 @@ def _cuts(result: Judged) -> list[Finding]:
     listed = [_gouge(gouge, verdict.radius) for gouge in verdict.gouges[:MAX_GOUGES]]
     left = len(verdict.gouges) - len(listed)
     if left:
-        listed.append(Finding("GOUGE", Severity.ERROR, f"There are {left} more gouges, none of them deeper."))
+        listed.append(Finding("GOUGE", Severity.ERROR, f"{left} more gouges, none deeper."))
     if verdict.wrong_side:
         line = _line(result.center.numbers[verdict.wrong_side[0]])
-        text = "The cutter is on the wrong side of the contour here."
+        text = "The cutter is on the wrong side of the contour at this line."
         if 2 * len(verdict.wrong_side) > len(result.center):
-            text = "The cutter is on the wrong side of the contour. Exchange G41 and G42, or RL and RR."
+            text = "The cutter is on the wrong side. Swap G41 and G42 (RL and RR)."
         listed.append(Finding("WRONG-SIDE", Severity.ERROR, text, line=line))
     return listed
 
@@ -312,10 +306,19 @@ def _unjudged(result: Judged) -> Finding:
 
 
 def _gouge(gouge: Gouge, radius: float) -> Finding:
-    depth = "{value}" + or_more(gouge, radius) if gouge.depth > FINE else "less than a thousandth of a millimeter"
+    fine = gouge.depth < SHOWN
+    depth = "less than {0}" if fine else "{value}" + or_more(gouge, radius)
     text = f"The cutter gouges the surface of line {int(gouge.surface_number)} by {depth} at X {{x}} Y {{y}}."
     line = _line(gouge.path_number)
-    return Finding("GOUGE", Severity.ERROR, text, at=gouge.surface_at, value=gouge.depth, line=line)
+    return Finding(
+        "GOUGE",
+        Severity.ERROR,
+        text,
+        at=gouge.surface_at,
+        value=gouge.depth,
+        lengths=(DIGIT,) if fine else (),
+        line=line,
+    )
 
 
 def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
@@ -324,24 +327,23 @@ def _open_contour(result: Judged, gouged: set[float]) -> list[Finding]:
         return []
     first, last = int(min(result.open_lines)), int(max(result.open_lines))
     text = (
-        f"Lines {first} to {last}, more than {MAX_LEAD_MOVES} moves next to a closed contour, count as a contour of "
-        "their own, and cuts into them as gouges. If they only lead from one contour to another, cancel the "
-        f"compensation before them, or lead there in {MAX_LEAD_MOVES} moves."
+        f"Lines {first}-{last} are treated as a contour because they are more than {MAX_LEAD_MOVES} moves. If they "
+        f"only connect contours, cancel compensation before them or use at most {MAX_LEAD_MOVES} moves."
     )
     return [Finding("WAY", Severity.WARNING, text, line=first)]
 
 
 def _leads(result: Judged) -> list[Finding]:
-    """That moves are taken for leads, and what is cut of them."""
+    """That moves are treated as leads, and what is cut of them."""
     if not result.leads:
         return []
-    text = f"{len(result.leads)} moves before or after a closed contour are taken for leads, not for surface."
+    text = f"{len(result.leads)} moves before or after a closed contour are treated as lead moves, not part."
     if len(result.leads) == 1:
-        text = "A move before or after a closed contour is taken for a lead, not for surface."
+        text = "A move before or after a closed contour is treated as a lead move, not part."
     listed = [Finding("LEADS", Severity.INFO, text, line=result.leads[0])]
     deepest = {gouge.surface_number: gouge for gouge in reversed(result.lead_gouges)}
     for gouge in sorted(deepest.values(), key=lambda gouge: -gouge.depth):
-        text = f"The cutter cuts {{value}} into line {int(gouge.surface_number)}. If that is no lead, it is a gouge."
+        text = f"The cutter cuts {{value}} into line {int(gouge.surface_number)}. If this is not a lead, it is a gouge."
         line = _line(gouge.path_number)
         listed.append(Finding("LEAD-GOUGE", Severity.INFO, text, at=gouge.surface_at, value=gouge.depth, line=line))
     return listed

@@ -1,6 +1,6 @@
 """Moves: what a control's axes do, in one neutral form for every control, as immutable numpy arrays.
 
-Millimeters and millimeters a minute.  A move goes from the end of the row before it to its own point; row 0 is
+Millimeters and millimeters per minute.  A move goes from the end of the row before it to its own point; row 0 is
 the start point, a rapid of line 0.  An arc's direction is seen from the positive side of the axis that
 stands on its plane; an arc that ends where it starts is a full circle; an arc that also moves along that axis is
 a helix.
@@ -54,7 +54,7 @@ def solid(first: float, second: float, third: float, plane: int) -> Point3:
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """One move: `turn` 0 is a line, +1 counter-clockwise, -1 clockwise; `feed` is 0 where none was given."""
+    """One move: `turn` 0 is a line, +1 counterclockwise, -1 clockwise; `feed` is 0 where none was given."""
 
     point: Point3
     center: Point3
@@ -69,7 +69,7 @@ class Move:
 class Moves:
     """n moves, the start point first.
 
-    `points`, `centers` (n, 3) of x, y, z; a line has its own end as center.  `turns` (n,) 0 line, +1 counter-clockwise,
+    `points`, `centers` (n, 3) of x, y, z; a line has its own end as center.  `turns` (n,) 0 line, +1 counterclockwise,
     -1 clockwise.  `planes` (n,) values of `Plane`.  `rapid` (n,) bool.  `feeds` (n,).  `lines` (n,) of the program,
     from 1; 0 for the start point.
     """
@@ -164,7 +164,7 @@ class Tape:
         self._packed += _ROW.pack(*end, *center, turn, plane, rapid, feed, line)
 
     def cut(self, rows: int) -> None:
-        """Takes back all moves but the first so many rows."""
+        """Takes back all moves but the given number of rows."""
         del self._packed[rows * _ROW.size :]
 
     def moves(self) -> Moves:

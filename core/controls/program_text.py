@@ -6,7 +6,7 @@ import re
 from typing import Final
 
 MAX_QUOTED: Final = 24
-"""Characters of a program that a message quotes at most."""
+"""Most characters of a program that a message quotes."""
 
 _BREAK: Final = re.compile(r"\r\n|\n|\r")
 
@@ -32,7 +32,7 @@ def _decoded(text: bytes) -> str:
 
 
 def capitals(text: str) -> str:
-    """A line in capitals, sign for sign: only the plain letters, lest another sign turns into one of them."""
+    """A line in capitals, character for character: only the plain letters, as others may become more than one."""
     if text.isascii():
         return text.upper()
     return "".join(sign.upper() if sign.isascii() else sign for sign in text)

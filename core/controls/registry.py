@@ -32,7 +32,7 @@ TINY_SHARE: Final = 1e-7
 _BLANKS: Final = b" \t\r\n\x00\xef\xbb\xbf\xff\xfe"
 """Blanks, line ends and the marks of encodings: of these alone is an empty program."""
 
-_EMPTY: Final = Finding("EMPTY", Severity.ERROR, "The program is empty; there is nothing to run.", line=1, column=1)
+_EMPTY: Final = Finding("EMPTY", Severity.ERROR, "The program is empty.", line=1, column=1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +98,7 @@ def resolve(control: str) -> str | UnknownControl:
     name, _, variant = control.strip().lower().partition(":")
     entry = CONTROLS.get(name)
     if entry is None or (variant and variant not in entry.variants):
-        return UnknownControl(f"There is no such control; there are {', '.join(names())}.")
+        return UnknownControl(f"No such control. Choose one of: {', '.join(names())}.")
     return _joined(name, variant or next(iter(entry.variants)))
 
 

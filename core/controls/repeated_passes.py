@@ -20,7 +20,7 @@ SWEEP_DECIMALS: Final = 3
 """Decimals of a radian to which arcs between the same ends differ: a full circle and an arc of no length do."""
 
 MIN_SHARE: Final = 4
-"""A period is tried when at least one in so many pieces of its pass was last seen a period before."""
+"""A period is tried when at least one in this number of pieces of its pass was last seen a period before."""
 
 
 def without_repeats(path: Path) -> Path:

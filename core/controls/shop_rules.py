@@ -1,4 +1,4 @@
-"""Shop rules for applying and canceling compensation, checked on any control's run when they are asked for.
+"""Shop rules for turning compensation on and off, checked on any control's run when they are asked for.
 
 They are habits that hold on every control: compensation goes on and off in a move of one axis, square to a move of
 one axis, at full depth, clear of the component.  The component is what is programmed under compensation.
@@ -97,14 +97,14 @@ def _exit(moves: Moves, stretch: Stretch, contour: Path) -> Leg | None:
 def _applying(entry: Leg, contour: Path) -> list[Finding]:
     found = []
     if entry.axes != 1:
-        text = "Compensation is applied in a move of two axes; apply it in a move of one axis, X or Y alone."
+        text = "Compensation turns on in a two-axis move; use a one-axis move, X or Y."
         found.append(_warn("H4", text, entry.line))
     way = _direction(contour.start_directions[0].tolist())
     if not _one_axis(contour, 0):
-        text = "The move behind the one that applies compensation is not of one axis; put a move of one axis before it."
+        text = "The move after compensation turns on is not along one axis. Add a one-axis move before it."
         found.append(_warn("H3", text, int(contour.numbers[0])))
     elif not entry.square_to(way):
-        text = "Compensation is not applied at 90 degrees to the next move; start square to it."
+        text = "Compensation does not turn on at 90 degrees to the next move; start square to it."
         found.append(_warn("H3", text, entry.line))
     return found
 
@@ -112,14 +112,14 @@ def _applying(entry: Leg, contour: Path) -> list[Finding]:
 def _canceling(leg: Leg, contour: Path) -> list[Finding]:
     found = []
     if leg.axes != 1:
-        text = "Compensation is canceled in a move of two axes; cancel it in a move of one axis, X or Y alone."
+        text = "Compensation turns off in a two-axis move; use a one-axis move, X or Y."
         found.append(_warn("H8", text, leg.line))
     way = _direction(contour.end_directions[-1].tolist())
     if not _one_axis(contour, -1):
-        text = "The last move before compensation is canceled is not of one axis; put a move of one axis behind it."
+        text = "The last move before compensation turns off is not along one axis. Add a one-axis move after it."
         found.append(_warn("H7", text, int(contour.numbers[-1])))
     elif not leg.square_to(way):
-        text = "Compensation is not canceled at 90 degrees to the last move; leave square to it."
+        text = "Compensation does not turn off at 90 degrees to the last move; leave square to it."
         found.append(_warn("H7", text, leg.line))
     return found
 
@@ -134,15 +134,15 @@ def _one_axis(contour: Path, piece: int) -> bool:
 
 
 def _clear(rule: str, at: Point, component: Path, stretch: Stretch, line: int) -> list[Finding]:
-    """H2 and H6: the tool is a diameter clear of the component before and behind it, if possible."""
+    """H2 and H6: the tool is a diameter clear of the part before and after the contour, if possible."""
     if not len(component):
         return []
     pieces = piece_arrays(component)
     away = float(np.min(distance(pieces, np.full(len(component), complex(*at)))))
     if away >= 2.0 * stretch.radius - JOINED:
         return []
-    where = "start before compensation is applied" if rule == "H2" else "finish before compensation is canceled"
-    text = f"The {where} is {{0}} from the component; if possible keep it a cutter diameter, {{1}}, away."
+    where = "start before compensation turns on" if rule == "H2" else "finish before compensation turns off"
+    text = f"The {where} is {{0}} from the part. Keep it a cutter diameter ({{1}}) away if you can."
     return [Finding(rule, Severity.WARNING, text, lengths=(away, 2.0 * stretch.radius), line=line, column=1)]
 
 
@@ -160,15 +160,15 @@ def _depths(moves: Moves, stretch: Stretch) -> list[Finding]:
     late = programmed.lines[sinking[sinking >= begin]].tolist()
     if not stretch.exit and len(late) == 0 and moves.points[stretch.last - 1, height] != heights[-1]:
         late.append(int(moves.lines[stretch.last - 1]))
-    text = "The tool axis moves under compensation; move it when compensation is canceled."
+    text = "The tool axis moves under compensation. Move it after compensation turns off."
     return found + [_warn("H5", text, line) for line in dict.fromkeys(late)]
 
 
 def _sunk(index: int, line: int) -> Finding:
     if index:
-        text = "The tool axis moves again after compensation is applied; move it to its final depth before."
+        text = "The tool axis moves again after compensation turns on. Move it to its final depth before."
         return _warn("H1", text, line)
-    text = "The tool axis reaches its depth after compensation is applied; once is tolerated, better is before."
+    text = "The tool reaches depth after compensation turns on. One such move is allowed; before it is better."
     return Finding("H1", Severity.INFO, text, line=line, column=1)
 
 

@@ -60,7 +60,7 @@ def control_program(
         return Refusal(written.findings, unit)
     style, notes = STYLES.get(control), _no_work_offset(jobs, control)
     if style is not None and not style.comments and part.strip():
-        text = f"PART NAME {printable(part)} is not in the file: {control} knows no comments."
+        text = f"PART NAME {printable(part)} is not in the file: {control} has no comments."
         notes += (Finding("PART_NAME", Severity.INFO, text, field="name"),)
     return Posted(written.text, notes=(*notes, *written.notes))
 
@@ -93,7 +93,7 @@ def _header(
 
 
 def _offsets(cuts: Sequence[Cut | Plain], unit: Unit, control: str) -> Iterator[str]:
-    """The offsets an operator has to enter."""
+    """The offsets an operator must enter."""
     style = STYLES.get(control)
     if style is None or style.radius is not Radius.OFFSET:
         return

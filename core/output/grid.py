@@ -1,6 +1,6 @@
 """Rounding for NC text: coordinates as whole numbers of the last posted digit, and arcs that survive it.
 
-A machine travels what is written, not what was meant.  Rounding may turn a short arc's ends round its center the
+A machine travels what is written, not what was meant.  Rounding may turn a short arc's ends around its center the
 other way, which a control reads as a full circle; or it may make them one point, which it reads as a full circle too.
 Every arc is therefore measured again as written.
 """
@@ -116,7 +116,7 @@ def _survives(start: Point, end: Point, center: Steps, sweep: float, radius: flo
 
 
 def feed_text(feed: float, grid: Grid) -> str:
-    """A feed in program units a minute, without needless zeros."""
+    """A feed in program units per minute, without needless zeros."""
     whole, _, decimal = f"{from_mm(feed, grid.unit):.{FEED_DECIMALS}f}".partition(".")
     return f"{whole}.{decimal.rstrip('0') or '0'}"
 

@@ -1,7 +1,7 @@
 """NC: jobs as the ISO G-code that LinuxCNC runs: the tool center's path, no G41 or G42.
 
 What every file states before anything moves: G17 XY plane, G20 or G21, G40 no cutter compensation, G49 no tool length,
-the work offset, G80 no canned cycle, G90 absolute, G91.1 I and J from the arc's start, G94 feed a minute, and
+the work offset, G80 no canned cycle, G90 absolute, G91.1 I and J from the arc's start, G94 feed per minute, and
 G64 P: the machine may round a corner by no more than P.  Only inside corners of the path are corners, and rounding
 those keeps the cutter off the part.  G43 H names the tool's own length offset, so that no other is in force.
 The first move after a tool change is straight up.  G53 is not used: where its zero lies is the machine's affair.
@@ -181,7 +181,7 @@ def _header(jobs: Sequence[Job], unit: Unit, head: tuple[str, ...], waived: tupl
         yield from comments(f"OVERRIDDEN BY THE OPERATOR: {OVERRIDE}")
     for finding in waived:
         yield from comments(f"OVERRIDDEN {finding.code}: {_sentence(finding, unit)}")
-    yield from comments(f"G64 P{CORNER_TOLERANCE[unit]}: THE MACHINE MAY ROUND INSIDE CORNERS BY SO MUCH")
+    yield from comments(f"G64 P{CORNER_TOLERANCE[unit]}: CORNER TOLERANCE {CORNER_TOLERANCE[unit]}")
 
 
 def _sentence(finding: Finding, unit: Unit) -> str:

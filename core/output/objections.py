@@ -1,4 +1,4 @@
-"""Objections: the findings that forbid posting, and which of them an operator may override in so many words."""
+"""Objections: the findings that forbid posting, and those an operator may override by typing POST WITH GOUGE."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from core.output.passes import Job, Run, rough_runs
 from core.tolerance import JOINED, LARGEST
 
 OVERRIDE: Final = "POST WITH GOUGE"
-"""What an operator must say, word for word, to have a path posted that the verdict is against."""
+"""What an operator must type to have a path posted that gouges."""
 
 OVERRIDABLE: Final = frozenset({"GOUGE", "BLEND_GOUGES", "ROUGH_GOUGES", "WRONG_SIDE"})
 """Findings on a path that is whole and known; whatever is unread, missing or undetermined cannot be overridden."""
@@ -23,7 +23,7 @@ MAX_LISTED: Final = 6
 """Segments named in one sentence."""
 
 MAX_PECKS: Final = 2000
-"""More depths than this are a slip of the finger in PECK DEPTH."""
+"""More depths than this are a typing mistake in PECK DEPTH."""
 
 
 def posting_errors(jobs: Sequence[Job], grid: Grid, *, override: str | None) -> tuple[Finding, ...]:
@@ -59,7 +59,7 @@ _Check = tuple[bool, str, str, str | None]
 
 
 def _tools(job: Job) -> Iterator[_Check]:
-    missing = "is not in the tool table.  Enter it in TOOL SETUP."
+    missing = "is not in the tool table. Enter it in TOOL SETUP."
     yield job.cutter is None, "TOOL_MISSING", f"TOOL {missing}", "tool"
     yield bool(job.finish_tool) and job.finisher is None, "TOOL_MISSING", f"FINISH TOOL {missing}", "finish_tool"
     for cutter in (job.cutter, job.finisher):
@@ -74,10 +74,10 @@ def _depths(job: Job) -> Iterator[_Check]:
     deep = job.z_start - job.z_bottom
     levels = [height for low, high, _ in job.levels for height in (low, high)]
     high, low = max(levels, default=job.z_start), min(levels, default=job.z_bottom)
-    yield deep < 0.0, "DEPTH", "Z BOTTOM lies above Z START.", "z_bottom"
-    yield low < job.z_bottom - JOINED, "Z_END", "A Z END lies below Z BOTTOM.  No pass goes so deep.", "z_end"
+    yield deep < 0.0, "DEPTH", "Z BOTTOM is above Z START.", "z_bottom"
+    yield low < job.z_bottom - JOINED, "Z_END", "A Z END is below Z BOTTOM. No pass goes that deep.", "z_end"
     above = deep >= 0.0 and high > job.z_start + JOINED
-    yield above, "Z_END", "A Z END lies above Z START.  Rapid moves would run into it.", "z_end"
+    yield above, "Z_END", "A Z END is above Z START. Rapids would hit it.", "z_end"
     yield stock >= deep > 0.0, "FINISH_Z", "FINISH Z leaves nothing for the roughing tool to cut.", "finish_z"
     yield job.retract_clearance <= 0.0, "CLEARANCE", "RETRACT CLEARANCE must be above 0.", "retract_clearance"
     yield job.peck_clearance < 0.0, "CLEARANCE", "PECK CLEARANCE must not be below 0.", "peck_clearance"
@@ -100,19 +100,19 @@ def _numbers(job: Job) -> Iterator[_Check]:
         *(value or 0.0 for level in job.levels for value in level),
     )
     sane = all(isfinite(value) and abs(value) <= LARGEST for value in given)
-    yield not sane, "NUMBER", "A depth, feed or speed is out of any machine's range.", None
+    yield not sane, "NUMBER", "A depth, feed or speed is not a usable number.", None
     yield not 54 <= job.work_offset <= 59, "WORK_OFFSET", "WORK OFFSET goes from 54 to 59.", "work_offset"
     yield job.speed <= 0.0, "SPEED", "SPEED must be above 0.", "speed"
 
 
 def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
     nothing = not any(len(run.path) for run in job.finish)
-    yield nothing, "NO_PATH", "There is no path to post: the cutter fits nowhere, or the contour is not known.", None
+    yield nothing, "NO_PATH", "No path to post: the cutter does not fit, or the contour is incomplete.", None
     unroughed = job.finisher is not None and not any(len(run.path) for run in rough_runs(job))
     text = "The roughing tool has no path, so the finish tool would cut solid."
     yield unroughed, "NO_ROUGH_PATH", text, "finish_tool"
     wild = not all(_reachable(run) for run in (*job.finish, *job.rough))
-    yield wild, "COORDINATE", "A point of the path is out of any machine's reach.", None
+    yield wild, "COORDINATE", "A point of the path is beyond any machine's travel.", None
     yield _no_feed(job.plunge_feed, grid), "PLUNGE_FEED", "PLUNGE FEED must be above 0.", "plunge_feed"
     unfed = sorted(_unfed(job, grid))
     listed = ", ".join(map(str, unfed[:MAX_LISTED])) + (" ..." if len(unfed) > MAX_LISTED else "")

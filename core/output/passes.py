@@ -1,4 +1,4 @@
-"""Passes: one MILL CONTOUR block as a job, and the motions that cut it, in millimeters, mm a minute and radians.
+"""Passes: one MILL CONTOUR block as a job, and the motions that cut it, in millimeters, mm per minute and radians.
 
 Words: a *run* is one center path with its blend moves, cut in one go at one depth; the *plunge point* is where it
 begins; a segment's *floor* is the height its Z START and Z END give it.
@@ -68,7 +68,7 @@ class Run:
 
 @dataclass(frozen=True, slots=True)
 class Floor:
-    """A segment's number, from 1, its heights at both ends in mm, and its feed in mm a minute, None if not known."""
+    """A segment's number, from 1, its heights at both ends in mm, and its feed in mm per minute, None if not known."""
 
     number: int
     z_start: float

@@ -63,7 +63,7 @@ def test_that_it_is_being_calculated_is_never_cut(steps: int) -> None:
 def test_what_a_control_takes_is_told_with_its_remarks() -> None:
     operator = answered(worked_out("plate-mm", "f8", "f6", *["down"] * 5))
     assert "Nothing stands against posting." in words(operator)
-    assert "nine-series:a goes round corners its own way" in words(operator)
+    assert "nine-series:a takes corners differently" in words(operator)
 
 
 def test_the_path_of_the_center_waits_for_no_control() -> None:

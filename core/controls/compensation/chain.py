@@ -99,7 +99,7 @@ NOSES: Final[Mapping[int, tuple[int, int]]] = MappingProxyType(
 )
 """Lathe orientation: in which direction of Z and X the controlled point lies from the nose's center, in radii."""
 
-NO_FIT: Final = "The cutter does not fit into this corner without gouging; use a smaller cutter or open the corner."
+NO_FIT: Final = "The cutter does not fit into this corner without gouging. Use a smaller cutter or open the corner."
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +113,7 @@ class AlarmCodes:
 
 
 class OneMoveQueue(Chain):
-    """The queue of LinuxCNC: one move of the plane is held, with the moves of Z behind it.
+    """The queue of LinuxCNC: one move of the plane is held, with the moves of Z after it.
 
     The first move ends at its own offset point.  `first`: it is still to come.
     """
@@ -191,7 +191,7 @@ class OneMoveQueue(Chain):
         """The first move: longer than the radius, to the offset point at its own end."""
         length = hypot(element.end[0] - element.start[0], element.end[1] - element.start[1])
         if length <= abs(self.offset):
-            text = "The entry move is {0} long and the radius is {1}; it has to be longer than the radius."
+            text = "The entry move is {0} long; it must be longer than the radius {1}."
             self.log.stop(self.alarms.entry, text, element.line, 1, lengths=(length, abs(self.offset)))
         self._check_radius(element)
         self.open_stretch(self.side, self.offset, element)
@@ -202,7 +202,7 @@ class OneMoveQueue(Chain):
         self.held, self.standing, self.first = self._as_entry(element), [], False
 
     def _as_entry(self, element: Element) -> Element:
-        """The entry as it runs; LinuxCNC does not look whether a later trim turns it round."""
+        """The entry as it runs; LinuxCNC does not check whether a later trim turns it around."""
         if not element.turn:
             return element._replace(leaving=(0.0, 0.0))
         return element._replace(start=element.end, center=self._entry_center(element))
@@ -223,7 +223,7 @@ class OneMoveQueue(Chain):
             self._too_small(element)
 
     def _too_small(self, element: Element) -> None:
-        text = "The arc's radius {0} is not larger than the cutter's {1}; use a smaller cutter or a larger arc."
+        text = "The arc radius {0} must be larger than the cutter radius {1}. Use a smaller cutter or a larger arc."
         self.log.stop(self.alarms.arc_radius, text, element.line, 1, lengths=(element.radius, abs(self.offset)))
 
     def _follow(self, held: Element, element: Element) -> None:
@@ -240,7 +240,7 @@ class OneMoveQueue(Chain):
         self.held, self.start = element, joint.start
 
     def _check(self, held: Element, end: Point, line: int) -> None:
-        """A held move that would run backwards, or round an arc nearly once more, stops the program."""
+        """A held move that would run backwards, or around an arc nearly once more, stops the program."""
         if self.start is None:
             return
         if held.turn:

@@ -19,7 +19,7 @@ class Element(NamedTuple):
     """A programmed line or arc in its plane, with what its control needs later.
 
     Start, end and center (of a line its start), `turn` 0, +1 or -1, unit directions at start and end ((0, 0) for a
-    line without length); standing coordinates at both ends; feed in millimeters a minute, source line and column.
+    line without length); standing coordinates at both ends; feed in millimeters per minute, source line and column.
     """
 
     start: Point
@@ -188,7 +188,7 @@ def runs_back(element: Element, start: Point, end: Point) -> bool:
     """Does a compensated element from `start` to `end` run against the programmed one?
 
     A line does when it points the other way; an arc when its trims have crossed, so that it would have to go nearly
-    all the way round: its sweep grows by more than half a turn.
+    all the way around: its sweep grows by more than half a turn.
     """
     if element.turn:
         traveled = sweep(start, end, element.center, element.turn)
@@ -198,6 +198,6 @@ def runs_back(element: Element, start: Point, end: Point) -> bool:
 
 
 def turned(at: Point, center: Point, angle: float) -> Point:
-    """A point turned about a center, counter-clockwise positive."""
+    """A point turned about a center, counterclockwise positive."""
     dx, dy = at[0] - center[0], at[1] - center[1]
     return center[0] + dx * cos(angle) - dy * sin(angle), center[1] + dx * sin(angle) + dy * cos(angle)

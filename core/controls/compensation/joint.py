@@ -42,7 +42,7 @@ class Corner(Enum):
 
 
 class Outside(Enum):
-    """How a control goes round an outside corner."""
+    """How a control goes around an outside corner."""
 
     ARC = auto()
     """An arc of the tool radius about the corner."""
@@ -191,9 +191,9 @@ def _over(first: Element, second: Element, points: tuple[Point, Point, Point, Po
 
 
 def entry(first: Element, second: Element, offset: float, rule: Outside, *, direct: bool) -> Joint:
-    """The entry move against the first element: `direct` (type A) goes straight to E2, type B round outside corners.
+    """The entry move against the first element: `direct` (type A) goes straight to E2, type B around outside corners.
 
-    The polylines of type B are read from figures and agree with those of other makers: an interpretation.
+    The polylines of type B are read from figures and agree with those of other makers; the text does not give them.
     """
     start = offset_start(second, offset)
     if direct or inward_turn(first, second, offset) >= 0.0:

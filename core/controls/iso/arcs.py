@@ -13,10 +13,10 @@ from core.geometry.piece import Point
 from core.units import Unit
 
 WHOLE_CHORD: Final = 1 - 1e-12
-"""Share of the diameter from which on a chord is one: rounding must not put the center beside it."""
+"""Share of the diameter from which on a chord counts as a diameter: rounding must not move the center off it."""
 
 SHORTEST: Final = 0.00127
-"""Millimeters (0.00005 in): an arc's radius under it is none, and so far a radius R may fall short of its chord."""
+"""Millimeters (0.00005 in): a smaller radius counts as none; a radius R may fall short of its chord by as much."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,12 +55,12 @@ class ArcRadii:
         if abs(first - last) <= self.largest_difference(max(first, last), unit):
             return None
         text = "The arc's radius is {0} at its start and {1} at its end; correct the center or the end point."
-        limit = " By how much they may differ on this control is an interpretation." if self.interpreted else ""
+        limit = " cutcomp assumes how much they may differ; the manual does not say." if self.interpreted else ""
         return NoArc(text + limit, (first, last))
 
 
 USUAL_RADII: Final = ArcRadii()
-"""What is taken where a maker's papers are silent.
+"""What is assumed where a maker's manual does not say.
 
 Never more than 0.003 in, 0.0762 mm: start, end and center rounded to three decimals of an inch part the radii by 0.0028
 in at most.
@@ -93,7 +93,7 @@ def given_center(
     """The center out of I, J, K: from the arc's start, or from an origin (in plane coordinates) where there is one."""
     first, second, standing = IN_PLANE[plane]
     if "R" in words:
-        return NoArc("The arc has R beside its center; keep one of them.")
+        return NoArc("The arc has both R and a center. Keep one of them.")
     if standing in words:
         return NoArc(f"{standing} does not lie in the arc's plane; write {first} and {second}.")
     if first not in words and second not in words:

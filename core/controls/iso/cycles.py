@@ -16,7 +16,7 @@ from core.controls.moves import Plane, Point3, flat, solid
 from core.finding import Severity
 
 CHIP_CLEARANCE: Final = 0.254
-"""Millimeters (0.010 in) by which a peck comes back, or stays off the ground at its return."""
+"""Millimeters (0.010 in) by which a peck comes back, or stays off the bottom at its return."""
 
 MAX_REPEATS: Final = 10_000
 
@@ -34,7 +34,7 @@ Leg = tuple[Point3, bool]
 
 @dataclass(frozen=True, slots=True)
 class Hole:
-    """One hole: its place in the plane, the heights of approach, R, ground and return."""
+    """One hole: its place in the plane, the heights of approach, R, bottom and return."""
 
     first: float
     second: float
@@ -53,7 +53,7 @@ def drill(state: ModalState, block: Block) -> Iterator[Leg]:
     """The moves of a block of the cycle in force; what it lacks stops the run."""
     code = state.mode or 0
     if not state.dialect.cycles or code in _NOT_FOLLOWED:
-        text = "Only the positions of this drilling cycle are followed, its depth is not."
+        text = "cutcomp follows this cycle's hole positions but not its depth."
         state.log.tell(Severity.WARNING, "CYCLE", text, block.line, 1)
         first, second, _ = flat(state.target(block.words), state.plane)
         yield solid(first, second, flat(state.position, state.plane)[2], state.plane), True
@@ -79,7 +79,7 @@ def _take_values(state: ModalState, code: int, block: Block) -> None:
         cycle.began = flat(state.position, state.plane)[2] - flat(state.shift, state.plane)[2]
     for needed in ("R", letter) if cycle.code != code else ():
         if needed not in words:
-            _stop(state, f"{needed} is missing; the first block of G{code // 10} has to say it.", block)
+            _stop(state, f"{needed} is missing: the first G{code // 10} block needs it.", block)
     if "R" in words:
         cycle.r = words["R"] * scale
     if letter in words:
@@ -97,7 +97,7 @@ def _row(state: ModalState, code: int, block: Block, *, fresh: bool) -> Iterator
     r = cycle.r + origin + (cycle.began if state.incremental else 0.0)
     ground = cycle.depth + (r if state.incremental else origin)
     if r < ground:
-        _stop(state, "R lies below the ground of the hole; correct R or the depth.", block, "RXYZG")
+        _stop(state, "R is below the bottom of the hole. Correct R or the depth.", block, "RXYZG")
     over, level = here[2], cycle.began + origin
     if level < r:
         yield solid(here[0], here[1], r, plane), True
@@ -114,10 +114,10 @@ def _row(state: ModalState, code: int, block: Block, *, fresh: bool) -> Iterator
 
 
 def _check_first(state: ModalState, code: int, block: Block) -> None:
-    """What the first block of some cycles has to say besides: the peck, the time at the ground."""
+    """What the first block of some cycles needs besides: the peck, the time at the bottom."""
     needed = "Q" if code in _PECKS else "P" if code in _DWELLS and state.dialect.table_needed else ""
     if needed and needed not in block.words:
-        _stop(state, f"{needed} is missing; the first block of G{code // 10} has to say it.", block)
+        _stop(state, f"{needed} is missing: the first G{code // 10} block needs it.", block)
 
 
 def _repeats(state: ModalState, block: Block) -> int:
@@ -159,7 +159,7 @@ def _pecks(state: ModalState, code: int, block: Block, hole: Hole) -> Iterator[L
     """G83 comes out to R between pecks, G73 only a little back."""
     peck = state.cycle.peck
     if peck <= 0.0:
-        _stop(state, "Q, the depth of a peck, has to be larger than 0.", block, "QG")
+        _stop(state, "Q, the depth of a peck, must be larger than 0.", block, "QG")
     if (hole.r - hole.ground) / peck > MAX_REPEATS:
         _stop(state, f"That is more than {MAX_REPEATS} pecks; correct Q.", block, "QG")
     depth = hole.r - peck

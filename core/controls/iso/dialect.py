@@ -41,9 +41,9 @@ class Do(Enum):
     MODE = auto()
     DATA = auto()
     BEYOND = auto()
-    """A code that the control has and that is not followed here: the run stops."""
+    """A code that the control has and cutcomp does not support: the run stops."""
     OWN = auto()
-    """Something of this control alone; its follower looks at the block."""
+    """A code of this control alone, which its `Control` handles."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +78,7 @@ COMMON: Final[Mapping[int, Code]] = MappingProxyType(
         **_group("once", Do.PRESET, 920),
     }
 )
-"""What G codes are on every control here."""
+"""What G codes are on every word-address control in cutcomp."""
 
 
 def codes(*groups: tuple[str, Do, tuple[int, ...]]) -> Mapping[int, Code]:
@@ -100,9 +100,9 @@ class Dialect:
     `group_rule`: the rule's id for two G codes of one group.  `parameters`: how it keeps those of a program, None where
     nothing is known of them.  `cycles`: its drilling cycles are known; `cycle_rule` the rule that keeps them from
     compensation; `returns_to_r`: G99 is in force at the start.  `d_anywhere`: D may stand in any block.
-    `dwell_takes_axes`: X with G4 is a time, or may be.  `tells_unused`: words that nothing takes are told.
-    `max_repeated_blocks`: so many blocks may subprograms and loops run again, and `max_o_words` O-words may run, until
-    the run is given up.
+    `dwell_takes_axes`: X with G4 is a time, or may be.  `tells_unused`: words that nothing takes are reported.
+    `max_repeated_blocks`: the number of blocks that subprograms and loops may run again, and `max_o_words` the number
+    of O-words that may run, before the run is given up.
     """
 
     codes: Mapping[int, Code]
@@ -132,7 +132,7 @@ class Dialect:
 
 
 _ALWAYS_TAKEN: Final = frozenset("NOXYZFSTABCUVW")
-"""Words that have a meaning in any block; other axes than X, Y and Z are told as axes."""
+"""Words that have a meaning in any block; other axes than X, Y and Z are reported as axes."""
 
 _TAKEN_BY_G: Final[Mapping[int, str]] = MappingProxyType(
     {40: "PXU", 100: "LPR", 400: "DIJK", 411: "DL", 421: "DL", 410: "DI", 420: "DI"}

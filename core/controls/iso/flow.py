@@ -24,8 +24,8 @@ from core.finding import Severity
 
 SIGNS_PER_BLOCK: Final = 64
 SIGNS_PER_EXPRESSION: Final = 4
-"""A line that is more than plain words counts as two blocks, and as one more for so many signs: reading takes time, and
-working out expressions a lot of it."""
+"""A line that is more than plain words counts as two blocks, and as one more for this many characters: reading takes
+time, and evaluating expressions a lot of it."""
 
 MAX_NESTED: Final = 9
 """Subprograms that may run inside each other."""
@@ -35,14 +35,14 @@ MAX_ARGUMENTS: Final = 30
 _WORDS: Final = "ENDSUB|SUB|CALL|ELSEIF|ENDIF|IF|ELSE|ENDWHILE|WHILE|DO|ENDREPEAT|REPEAT|BREAK|CONTINUE|RETURN"
 _LINE: Final = re.compile(rf"(?:N[0-9]++)?O(?:([0-9]++)|<([^<>]++)>|([#\[].*?))({_WORDS})(?=[\[#]|$)")
 _COMMENT: Final = re.compile(r"\([^)]*+(?:\)|$)|;.*")
-"""One that is not closed is found too, so that no line is searched again from each of its brackets."""
+"""An unclosed one matches too, so that no line is searched again from each of its brackets."""
 _ENDS: Final = {"WHILE": "ENDWHILE", "DO": "WHILE"}
 
 
 class OWord(NamedTuple):
     """An O-word: its row of the file from 0, label and word; the line, where the word begins, and where it ends.
 
-    The label is empty where it is worked out when it runs.
+    The label is empty where it is evaluated when it runs.
     """
 
     row: int
@@ -109,7 +109,7 @@ def _read(index: int, line: str) -> OWord | None:
 
 
 def _blank(comment: re.Match[str]) -> str:
-    """Blanks for a comment; one that is not closed is left for the words' reader to tell."""
+    """Blanks for a comment; one that is not closed is left for the words' reader to report."""
     text = comment[0]
     return " " * len(text) if text.endswith(")") or text.startswith(";") else text
 
@@ -151,7 +151,7 @@ class OWords:
     def run(self, word: OWord) -> int:
         """Runs an O-word."""
         if not word.label and word.word != "CALL":
-            self._stop(word, "Only call takes a label that is worked out; write the number itself.")
+            self._stop(word, "Only call takes an expression as label. Write the number itself.")
         return self._steps[word.word](word)
 
     def _stop(self, word: OWord, text: str) -> NoReturn:
@@ -170,14 +170,14 @@ class OWords:
         return self.scope.opened
 
     def _values(self, word: OWord, most: int) -> list[float]:
-        """The bracketed values behind a word; anything else there stops the run."""
+        """The bracketed values after a word; anything else there stops the run."""
         text, values = word.line.text, list[float]()
         reader = ExpressionReader(text, self.values, word.end)
         try:
             while reader.at < len(text) and len(values) < most:
                 values.append(reader.brackets())
             if reader.at < len(text):
-                rest = f"{quoted(text[reader.at :])} has no place behind {word.word.lower()} here."
+                rest = f"{quoted(text[reader.at :])} cannot follow {word.word.lower()}."
                 raise FaultError("OWORD", rest, reader.at)
         except FaultError as fault:
             self._fault(word, fault)
@@ -191,11 +191,11 @@ class OWords:
         return values[0] != 0.0
 
     def _seek(self, word: OWord, *wanted: str) -> OWord:
-        """The next of some words of the same label behind a word."""
+        """The next of some words of the same label after a word."""
         later = (other for other in self.by_label[word.label] if other.row > word.row and other.word in wanted)
         following = next(later, None)
         if following is None:
-            self._stop(word, f"There is no {wanted[-1].lower()} of this label behind {word.word.lower()}.")
+            self._stop(word, f"{word.word.lower()} has no matching {wanted[-1].lower()} with this label.")
         return following
 
     def _open(self, word: OWord, *wanted: str) -> OpenBlock:
@@ -208,7 +208,7 @@ class OWords:
 
     def _sub(self, word: OWord) -> int:
         """A subprogram that is met is stepped over."""
-        nested = "A subprogram begins inside a subprogram; write it behind the end of that one."
+        nested = "A subprogram begins inside a subprogram. Put it after the end of that subprogram."
         if self.scope.label is not None:
             self._stop(word, nested)
         self._fresh(word)
@@ -224,7 +224,7 @@ class OWords:
         begun = next((other for other in self.by_label.get(label, ()) if other.word == "SUB"), None)
         if begun is None:
             name = f"O{label}" if label.isdigit() else f"O<{label.lower()}>"
-            self._stop(word, f"There is no subprogram {quoted(name)} in this file; other files are not read.")
+            self._stop(word, f"There is no subprogram {quoted(name)} in this file. cutcomp reads no other files.")
         if sum(call.number is None for call in self.calls) > MAX_NESTED:
             self._stop(word, f"More than {MAX_NESTED} subprograms run inside each other; the control stops here.")
         self.values.enter(self._values(word, MAX_ARGUMENTS))
@@ -238,14 +238,14 @@ class OWords:
         except FaultError as fault:
             self._fault(word, fault)
         if reader.at != word.begin or value != round(value):
-            self._stop(word, "The label of a subprogram has to be a whole number.")
+            self._stop(word, "The label of a subprogram must be a whole number.")
         return str(round(value))
 
     def _end(self, word: OWord) -> int:
         if self.scope.label is None:
-            self._stop(word, f"{word.word.lower()} stands outside of any subprogram that was called.")
+            self._stop(word, f"{word.word.lower()} is not in a called subprogram.")
         if word.word == "ENDSUB" and self.scope.label != word.label:
-            self._stop(word, "Another subprogram is running than the one that ends here.")
+            self._stop(word, "This endsub does not match the running subprogram.")
         values = self._values(word, 1)
         self.values.leave(values[0] if values else None)
         return self.calls.pop().back
@@ -333,7 +333,7 @@ class OWords:
         return self._seek(word, _ENDS[opened.word]).row
 
 
-GIVEN_UP: Final = "The run is given up here and not judged: end the loop, or let it run less often."
+GIVEN_UP_TEXT: Final = "cutcomp stops here and does not judge the run. Fix the loop or repeat fewer times."
 
 _LABEL: Final = re.compile(r"[ \t]*+(?:[Nn][ \t]*+[0-9]++)?[ \t]*+[Oo][ \t]*+([0-9]{1,9})(?![0-9])")
 
@@ -378,7 +378,7 @@ class Flow:
             self.log.stop("OWORD", text, index + 1, word.column)
         self.o_words_left -= 1
         if self.o_words_left < 0:
-            text = f"The program has run more than {self.dialect.max_o_words} O-words. {GIVEN_UP}"
+            text = f"The program has run more than {self.dialect.max_o_words} O-words. {GIVEN_UP_TEXT}"
             self.log.stop("LIMIT", text, index + 1, word.column)
         self.at = self.o_words.run(word)
         return True
@@ -409,7 +409,7 @@ class Flow:
             self.log.stop("SUBPROGRAM", f"Subprogram O{number} calls itself without end.", block.line, column)
         start = self.labels.get(number)
         if start is None:
-            text = f"There is no subprogram O{number} in this file; write it behind the end of the program."
+            text = f"There is no subprogram O{number} in this file. Put it after the end of the program."
             self.log.stop("SUBPROGRAM", text, block.line, column)
         times = whole(block.words.get("L", 1.0))
         if times is None or times < 0:
@@ -421,13 +421,13 @@ class Flow:
 
     def _return(self, block: Block) -> bool:
         if "P" in block.words:
-            text = "M99 with P goes on at a block number, which is not followed here; write the blocks as they run."
+            text = "M99 with P goes on at a block number, which cutcomp does not follow. Write the blocks as they run."
             self.log.stop("BRANCH", text, block.line, block.column("P"))
         if len(self.calls) > 1 and self.calls[-1].number is None:
             text = "A subprogram called by its O-word ends with endsub or return, not with M99."
             self.log.stop("OWORD", text, block.line, block.column("M", 990))
         if len(self.calls) == 1:
-            text = "M99 in the main program starts it again without end; it is taken as its end here."
+            text = "M99 in the main program starts it again without end; cutcomp ends the run at it."
             self.log.tell(Severity.INFO, "SUBPROGRAM", text, block.line, block.column("M", 990))
             return False
         call = self.calls[-1]
@@ -449,10 +449,10 @@ class Flow:
         self.budget -= 1 if is_plain(text) else 2 + len(text) // signs
         if self.budget < 0:
             text = f"Subprograms or loops run more than {self.dialect.max_repeated_blocks} blocks again"
-            self.log.stop("LIMIT", f"{text}, long ones counted several times. {GIVEN_UP}", line, 1)
+            self.log.stop("LIMIT", f"{text}, long ones counted several times. {GIVEN_UP_TEXT}", line, 1)
 
     def end_of_file(self) -> None:
-        """The file is at its end; what is not closed by then is told."""
+        """End of file: reports what is still open."""
         if len(self.calls) > 1:
             text = "The file ends inside a subprogram; end the subprogram with M99."
             self.log.tell(Severity.WARNING, "SUBPROGRAM", text, len(self.lines), 1)

@@ -125,7 +125,7 @@ class Machine(ModalState):
         for number in block.g:
             code = self.dialect.codes.get(number)
             if code is None:
-                text = f"G{number / 10:g} is not known here; leave it out or write what this control has for it."
+                text = f"cutcomp does not know G{number / 10:g} on this control. Remove it or write the control's code."
                 self.log.stop("CODE", text, block.line, block.column("G", number))
             if code.group in groups:
                 text = f"G{number / 10:g} is the second G code of its group in this block; keep one."
@@ -157,7 +157,7 @@ class Machine(ModalState):
                 self._act(code, block)
 
     def _act(self, code: Code, block: Block) -> None:
-        """A code of which more is to be said or done than a value to be kept."""
+        """A code that does more than set a value."""
         match code.do:
             case Do.SIDE if code.value == 400:
                 self.control.finish(block)
@@ -170,7 +170,7 @@ class Machine(ModalState):
             case Do.OWN:
                 self.control.own_code(code.value, block)
             case Do.BEYOND:
-                text = f"G{code.value / 10:g} is not worked out here, and what follows would be wrong; nothing does."
+                text = f"cutcomp does not support G{code.value / 10:g}, and the path after it would be wrong."
                 self.log.stop("BEYOND", text, block.line, block.column("G", code.value))
 
     def _set_units(self, code: int) -> None:
@@ -188,15 +188,14 @@ class Machine(ModalState):
     def _warn_of_axes(self, block: Block) -> None:
         for letter in _OTHER_AXES:
             if letter in block.words:
-                text = f"{letter} is an axis that is not followed here; only X, Y and Z are."
+                text = f"cutcomp does not follow axis {letter}, only X, Y and Z."
                 self.log.tell(Severity.WARNING, "AXIS", text, block.line, block.column(letter))
 
     def _warn_of_unused(self, block: Block) -> None:
-        """A control may do something with such words that is not followed here."""
+        """A control may do something with such words that cutcomp does not follow."""
         unused = unused_words(block, self.mode, self.dialect)
         if unused:
-            text = f"Nothing in this block takes {' and '.join(unused)} here; "
-            text += "what the control does with it is not followed."
+            text = f"No code in this block uses {' and '.join(unused)}. cutcomp ignores it."
             self.log.tell(Severity.WARNING, "UNUSED", text, block.line, block.column("".join(unused)))
 
     def _motion(self, block: Block) -> None:
@@ -243,7 +242,7 @@ class Machine(ModalState):
         self.first_unit = self.unit
         if not self.unit_said:
             name = "inches" if self.unit is Unit.IN else "millimeters"
-            text = f"The program does not say its unit; it is taken as {name}."
+            text = f"The program does not say its unit; cutcomp takes {name}."
             self.log.tell(Severity.INFO, "UNIT", text, block.line, block.column("XYZ"))
 
     def _arc(self, block: Block, turn: int) -> None:
@@ -307,7 +306,7 @@ class Machine(ModalState):
                 self._move_in_machine(block)
 
     def _select_system(self, code: int, block: Block) -> None:
-        """Another work offset; one that the program did not set is taken as zero, and told."""
+        """Another work offset; one that the program did not set is taken as zero, and reported."""
         if code not in self.origin.systems and code != G54:
             text = f"The offset of G{code / 10:g} is not in the program; it is taken as zero."
             self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("G", code))
@@ -326,7 +325,7 @@ class Machine(ModalState):
         """G10 L2 P: a work offset is set; other data are not understood."""
         number = int(block.words.get("P", -1.0))
         if block.words.get("L") != 2.0 or not 0 <= number <= 6 or "R" in block.words:
-            text = "Only work offsets are set here: G10 L2 P1 to P6 with X, Y, Z; set other data on the control."
+            text = "cutcomp sets only work offsets: G10 L2 P1 to P6 with X, Y, Z. Set other data on the control."
             self.log.stop("DATA", text, block.line, block.column("L"))
         code = _G53 + 10 * number if number else self.origin.system
         offset = self.axis_words(block, self.origin.systems.get(code, ZERO))
@@ -335,7 +334,7 @@ class Machine(ModalState):
 
     def _home(self, block: Block) -> None:
         """G28, G30: by way of the block's point to the reference point, which is taken as machine zero."""
-        text = "The reference point is not known; it is taken as the machine's zero."
+        text = "The reference point is not known; cutcomp takes the machine's zero."
         self.log.tell(Severity.WARNING, "HOME", text, block.line, block.column("G"))
         named = [letter in block.words for letter in "XYZ"]
         if any(named):
@@ -345,13 +344,13 @@ class Machine(ModalState):
         self._straight(block, (x, y, z), rapid=True)
 
     def _dwell(self, block: Block) -> None:
-        """G4: X beside it is a time, and Y or Z have no place there; nothing moves."""
+        """G4: X in its block is a time, and Y or Z have no place there; nothing moves."""
         wrong = next((letter for letter in "YZ" if letter in block.words), None)
         if wrong is not None:
-            text = f"{wrong} beside G4 may be a move or nothing; write it in a block of its own."
+            text = f"{wrong} with G4 may or may not move the axis. Put it in its own block."
             self.log.stop("DWELL", text, block.line, block.column(wrong))
         if "X" in block.words:
-            text = "X beside G4 is taken as the time to wait; nothing moves."
+            text = "cutcomp takes X with G4 as the time to wait; nothing moves."
             self.log.tell(Severity.INFO, "DWELL", text, block.line, block.column("X"))
         if self.control.active:
             self.control.idle(block)

@@ -1,4 +1,4 @@
-"""Macro: parameters and expressions of word-address programs, worked out to words that are numbers.
+"""Macro: parameters and expressions of word-address programs, evaluated to words that are numbers.
 
 Expressions are numbers, #parameters, [brackets] and functions as LinuxCNC and RosettaCNC work them out: operators of
 one rank go from left to right, the power too; angles are degrees; two values are equal within 0.0001.  A name belongs
@@ -37,7 +37,7 @@ _MACRO_SYSTEM: Final = 5000
 
 
 class FaultError(Exception):
-    """What cannot be worked out: the rule's id, a sentence, and where in the text being read."""
+    """What cannot be evaluated: the rule's id, a sentence, and where in the text being read."""
 
     def __init__(self, code: str, text: str, at: int) -> None:
         super().__init__(text)
@@ -52,7 +52,7 @@ class Kept(Enum):
     NGC = auto()
     """As LinuxCNC: 1 to 30 are a subprogram's own; what was never set is 0."""
     MACRO_B = auto()
-    """As RosettaCNC: what was never set is empty or stands in the control's own table; #0 always is empty."""
+    """As RosettaCNC: what was never set is empty or in the control's own table; #0 always is empty."""
 
 
 MachineValue = Callable[[int | str], float | str | None]
@@ -77,22 +77,22 @@ class Parameters:
             return self._variable(index, at)
         self._within(index, at)
         if index >= _SYSTEM:
-            return self._system(index, f"#{index} belongs to the control and", at)
+            return self._system(index, f"#{index}", at)
         if index <= _LOCALS and self._outer:
             return self.numbered.get(index, 0.0)
         return self.numbered.get(index)
 
     def _within(self, index: int, at: int) -> None:
         if not 1 <= index <= _LAST:
-            raise FaultError("PARAMETER", f"#{index} is none of the parameters 1 to {_LAST}.", at)
+            raise FaultError("PARAMETER", f"#{index} is not a parameter; they go from 1 to {_LAST}.", at)
 
     def _variable(self, index: int, at: int) -> float:
         if index >= _MACRO_SYSTEM:
-            text = f"#{index} is a variable of the control, which is not known before it runs; write the number itself."
+            text = f"Only the control knows #{index} at run time. Program the number."
             raise FaultError("BEYOND", text, at)
         value = self.numbered.get(index)
         if value is None:
-            text = f"#{index} is given no value before this; it is empty, or set at the control. Give it one."
+            text = f"#{index} has no value yet in this program. Set it first."
             raise FaultError("PARAMETER", text, at)
         return value
 
@@ -100,8 +100,7 @@ class Parameters:
         value = self.machine_value(key)
         if isinstance(value, float):
             return value
-        before = "before it runs" if isinstance(key, int) else "before the control runs"
-        raise FaultError("BEYOND", value or f"{subject} is not known {before}; write the number itself.", at)
+        raise FaultError("BEYOND", value or f"Only the control knows {subject} at run time. Program the number.", at)
 
     def named(self, name: str, at: int) -> float:
         """A named value; one that has none is a fault."""
@@ -113,7 +112,7 @@ class Parameters:
             return self._system(name, f"#<{quoted(name.lower())}>", at)
         value = self._scope(name).get(name)
         if value is None:
-            text = f"#<{quoted(name.lower())}> is given no value before this; set it first."
+            text = f"#<{quoted(name.lower())}> has no value yet. Set it first."
             raise FaultError("PARAMETER", text, at)
         return value
 
@@ -298,7 +297,7 @@ class ExpressionReader:
         except (ValueError, ArithmeticError):
             value = float("nan")
         if not isfinite(value):
-            raise FaultError("MACRO", f"{name} has no value here; correct what it is worked out from.", at)
+            raise FaultError("MACRO", f"{name} has no value for these numbers. Check its arguments.", at)
         return value
 
     def _parameter(self) -> float:
@@ -311,21 +310,21 @@ class ExpressionReader:
         return value or 0.0
 
     def key(self) -> int | str:
-        """The number or the name behind a sign #."""
+        """The number or the name after a #."""
         begin = self.at
         self.at += 1
         if self.text[self.at : self.at + 1] == "<":
             return self.name()
         value = self.value()
         if abs(value - round(value)) > _WHOLE:
-            raise FaultError("PARAMETER", "The number of a parameter has to be a whole one.", begin)
+            raise FaultError("PARAMETER", "The number of a parameter must be a whole number.", begin)
         return round(value)
 
     def name(self) -> str:
         """A name between < and >."""
         name = _NAME.match(self.text, self.at)
         if name is None:
-            raise FaultError("MACRO", "The name is not closed; write > behind it.", self.at)
+            raise FaultError("MACRO", "The name is not closed. Write > after it.", self.at)
         self.at = name.end()
         return name[1]
 
@@ -339,7 +338,7 @@ class ExpressionReader:
         if name == "ATAN":
             return self._atan(begin)
         if name not in _FUNCTIONS:
-            raise FaultError("MACRO", f"{name} is no function of this control.", begin)
+            raise FaultError("MACRO", f"This control has no function {name}.", begin)
         return self._worked(begin, name, _FUNCTIONS[name], self.brackets())
 
     def _atan(self, begin: int) -> float:
@@ -366,11 +365,11 @@ class ExpressionReader:
 
 
 GAP: Final = "\x01"
-"""Stands where a comment was: words may be parted by it, numbers not."""
+"""Marks where a comment was: it may separate words, not digits."""
 
 
 class Squeezed(NamedTuple):
-    """A text in capitals without blanks, and the column less one of each of its signs."""
+    """A text in capitals without blanks, and the column less one of each of its characters."""
 
     text: str
     columns: tuple[int, ...]
@@ -382,7 +381,7 @@ class Squeezed(NamedTuple):
         return Squeezed("".join(sign for sign, _ in kept), tuple(column for _, column in kept))
 
     def column(self, at: int) -> int:
-        """The column of a place in the text, from 1; behind its end that of its last sign."""
+        """The column of a place in the text, from 1; after its end that of its last character."""
         return self.columns[min(at, len(self.columns) - 1)] + 1 if self.columns else 1
 
 
@@ -393,7 +392,7 @@ Setting = tuple[int | str, float]
 def worked_out(line: Squeezed, number: int, values: Parameters, log: Log) -> tuple[str, tuple[int, ...]]:
     """The words of a line as plain text, and the column of each; what the line sets is set.
 
-    What cannot be worked out stops the run at its place.
+    What cannot be evaluated stops the run at its place.
     """
     reader = ExpressionReader(line.text, values)
     words: list[str] = []
@@ -427,22 +426,22 @@ def _item(
         words.append(f"{sign}{plain(reader.value())}")
         columns.append(line.columns[begin] + 1)
     else:
-        raise FaultError("WORD", f"{quoted(text[begin:])} is not understood; a word is a letter and a value.", begin)
+        raise FaultError("WORD", f"{quoted(text[begin:])} is not a word. Write a letter and a value.", begin)
 
 
 def _setting(reader: ExpressionReader) -> Setting:
     begin, key = reader.at, reader.key()
     if reader.text[reader.at : reader.at + 1] != "=":
-        raise FaultError("WORD", "This value has no letter before it, and no = behind it that would set it.", begin)
+        raise FaultError("WORD", "A value needs a letter before it; to set a parameter write #n=value.", begin)
     reader.values.settable(key, begin)
     reader.at += 1
     return key, reader.value()
 
 
 def tell_unset(reader: ExpressionReader, line: Squeezed, number: int, log: Log) -> None:
-    """Tells of parameters that were read before anything set them."""
+    """Reports parameters that were read before anything set them."""
     for index, at in reader.unset:
-        text = f"#{index} is not set by the program; it is taken as 0, and the control may keep another value in it."
+        text = f"The program does not set #{index}; cutcomp takes 0, and the control may keep another value in it."
         log.tell(Severity.WARNING, "PARAMETER", text, number, line.column(at))
 
 

@@ -25,7 +25,7 @@ INVERSE: Final = 930
 PER_MINUTE: Final = 940
 
 RADIUS_ZERO: Final = frozenset(("RADIUS0", "B3-DIA0"))
-"""Rules that tell of compensation that is asked for and moves nothing."""
+"""Rules that report compensation that is asked for and moves nothing."""
 
 _SPINDLE: Final = {30: 1, 40: -1, 50: 0, 190: 0}
 _METRIC: Final = (210, 710)
@@ -73,8 +73,8 @@ class ModalState:
 
     `position` is the programmed point and `shift` the origin the program works from, x, y, z in millimeters; `tool`
     the number in force for compensation, 0 for none; `unit` that of the words, `first_unit` that of the first motion;
-    `feed` in millimeters a minute, unless `rate` (G93, G94, G95) gives F another meaning; `speed` in turns a minute,
-    under `surface_speed` (G96) that of the cutter's edge; `turning` +1 for M3, -1 for M4, 0 for none.
+    `feed` in millimeters per minute, unless `rate` (G93, G94, G95) gives F another meaning; `speed` in rpm, under
+    `surface_speed` (G96) that of the cutter's edge; `turning` +1 for M3, -1 for M4, 0 for none.
     """
 
     def __init__(self, dialect: Dialect, tools: ToolTable, log: Log) -> None:
@@ -151,7 +151,7 @@ class ModalState:
             self.turning = _SPINDLE.get(code, self.turning)
 
     def feed_over(self, block: Block, length: float) -> float:
-        """The feed of a move of this length, millimeters a minute; 0 where it is not known."""
+        """The feed of a move of this length, millimeters per minute; 0 where it is not known."""
         column = block.column("FXYZIJ")
         if self.rate == INVERSE:
             if "F" not in block.words:
@@ -161,7 +161,7 @@ class ModalState:
         if not self.feed:
             return 0.0
         if not self.speed or self.surface_speed:
-            text = "Under G95 the feed goes with the spindle, whose speed is not known here; write S in turns a minute."
+            text = "G95 needs a known spindle speed. Program S in rpm."
             if self.dialect.feed_needed and not self.surface_speed:
                 self.log.stop("FEED", text, block.line, column)
             self.log.tell(Severity.WARNING, "FEED", text, block.line, column)
@@ -182,7 +182,7 @@ class ModalState:
             return None
         number = whole(block.words["T"])
         if number is None or number < 0:
-            self.log.stop("NUMBER", "T takes a whole number, not below 0.", block.line, block.column("T"))
+            self.log.stop("NUMBER", "T must be a whole number, 0 or more.", block.line, block.column("T"))
         return number
 
     def select_tool(self, number: int, block: Block) -> None:
@@ -209,14 +209,14 @@ class ModalState:
     def nothing_compensated(
         self, why: str, line: int, column: int, *, code: str = "RADIUS0", severity: Severity = Severity.WARNING
     ) -> None:
-        """Tell that nothing is compensated and how deep the tool cuts; `why` says what to do, or what is missing."""
+        """Reports that nothing is compensated and how deep the tool cuts; `why` says what to do, or what is missing."""
         known = self.tools.tools
         tool = known.get(self.tool or (next(iter(known)) if len(known) == 1 else 0))
-        cut, lengths = "any cutter cuts by its radius", tuple[float, ...]()
+        cut, lengths = "a cutter cuts its own radius too deep", tuple[float, ...]()
         if tool is not None and tool.diameter != 0.0:
             across = abs(tool.diameter_mm(self.unit))
-            cut, lengths = f"tool {tool.number} of diameter {{0}} cuts {{1}}", (across, across / 2)
-        text = f"Nothing is compensated: {cut} into the part along the contour. {why}"
+            cut, lengths = f"tool {tool.number}, diameter {{0}}, cuts {{1}} too deep", (across, across / 2)
+        text = f"Nothing is compensated: {cut} along the contour. {why}"
         self.log.add(Finding(code, severity, text, lengths=lengths, line=line, column=column))
 
     def value(self, key: int | str, compensated: bool, standing: Point3) -> float | str | None:

@@ -113,7 +113,7 @@ class Block:
 
 
 def tenths(value: float) -> int | None:
-    """A code in tenths, None for a number that is no code."""
+    """A code in tenths, None for a number that is not a code."""
     if not 0.0 <= value < 1e5:
         return None
     code = round(value * 10)
@@ -139,7 +139,7 @@ def read_line(
 ) -> list[Block]:  # fmt: skip
     """The blocks of one line, none of an empty one; what cannot be read stops the run with its column.
 
-    With `values` parameters and expressions are worked out and set.
+    With `values` parameters and expressions are evaluated and set.
     """
     upper = capitals(text)
     if _CLEAN.fullmatch(upper):
@@ -150,7 +150,7 @@ def read_line(
 
 
 def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
-    """The blocks between semicolons; behind the last, what is no block is told and left out."""
+    """The blocks between semicolons; text after the last semicolon that is not a block is reported and skipped."""
     start, parts = 0, text.split(";")
     for index, part in enumerate(parts):
         bare = _bare(capitals(part))
@@ -159,7 +159,7 @@ def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
             yield from _closer(Block(line, part, start), bare, log, syntax)
         else:
             column = start + 1 + len(part) - len(part.lstrip())
-            words = f"Behind the end of the block {quoted(part)} is not read."
+            words = f"Text after the end of the block is ignored: {quoted(part)}"
             log.tell(Severity.INFO, "TEXT", words, line, column)
         start += len(part) + 1
 
@@ -167,14 +167,14 @@ def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
 def _closer(
     block: Block, bare: str, log: Log, syntax: Syntax, values: Parameters | None = None
 ) -> list[Block]:  # fmt: skip
-    """The block of a line that has signs besides words: tool data, block skip, the percent sign."""
+    """The block of a line that has characters besides words: tool data, block skip, the percent sign."""
     if syntax.tool_data and (data := _DATA.search(bare)):
         block.data = _tool_data(data)
         bare = bare[: data.start()] + " " * len(data[0]) + bare[data.end() :]
     if not syntax.blanks and block.text.count("(") > 1:
         _squeezed(block, log)
     if bare.lstrip().startswith("/"):
-        log.tell(Severity.INFO, "SKIP", "The block is run: block skip is taken as switched off.", block.line, 1)
+        log.tell(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block.line, 1)
         bare = bare.replace("/", " ", 1)
     if not bare.strip() or bare.strip() == "%":
         return [block] if block.data else []
@@ -192,7 +192,7 @@ def _closer(
 def _no_branch(block: Block, bare: str, log: Log) -> None:
     branch = _BRANCH.match(bare)
     if branch:
-        text = f"{branch[1]} is a branch or a loop, which is not followed here; write the blocks out as they run."
+        text = f"{branch[1]} is a branch or a loop, which cutcomp does not follow. Write the blocks out as they run."
         log.stop("BRANCH", text, block.line, block.start + branch.start(1) + 1)
 
 
@@ -207,7 +207,7 @@ def _worked_out(block: Block, log: Log, values: Parameters) -> list[Block]:
 
 
 def _squeezed(block: Block, log: Log) -> str:
-    """The block without its blanks; only a comment still parts words."""
+    """The block without its blanks; only a comment still separates words."""
     nested = _NESTED.search(block.text)
     if nested:
         text = "A comment begins inside a comment; close the first one."
@@ -227,7 +227,7 @@ def _filled(block: Block, upper: str, log: Log) -> Block:
             code = _CODES.get(number) or tenths(float(number))
             if code is None:
                 column = block.column(letter)
-                log.stop("CODE", f"{letter}{quoted(number)} is no code of any control.", block.line, column)
+                log.stop("CODE", f"{letter}{quoted(number)} is not a code of any control.", block.line, column)
             (block.g if letter == "G" else block.m).append(code)
             continue
         if letter in words:
@@ -240,7 +240,7 @@ def _filled(block: Block, upper: str, log: Log) -> Block:
 
 
 def _fault(block: Block, bare: str, log: Log) -> None:
-    """Stops the run at the first sign that belongs to no word."""
+    """Stops the run at the first character that belongs to no word."""
     clean = _CLEAN.match(bare)
     at = clean.end() if clean else 0
     at += len(bare[at:]) - len(bare[at:].lstrip())
@@ -248,13 +248,13 @@ def _fault(block: Block, bare: str, log: Log) -> None:
     if rest.startswith("("):
         log.stop("COMMENT", "The comment is not closed; write the closing bracket.", block.line, column)
     if any(sign in rest[:80] for sign in "#[<="):
-        text = f"{quoted(rest)} is an expression, which is not worked out here; write the number itself."
+        text = f"{quoted(rest)} is an expression; cutcomp evaluates none for this control. Write the number."
         log.stop("MACRO", text, block.line, column)
-    log.stop("WORD", f"{quoted(rest)} is not understood; a word is a letter and a number.", block.line, column)
+    log.stop("WORD", f"{quoted(rest)} is not a word. Write a letter and a number.", block.line, column)
 
 
 def _bare(upper: str, fill: str = " ") -> str:
-    """A line with its comments blanked out and every other sign where it was."""
+    """A line with its comments blanked out and every other character where it was."""
     if "(" not in upper and ";" not in upper:
         return upper
     out, at = [], 0

@@ -34,9 +34,9 @@ ROUNDED: Final = 1e-11
 over the angle in radians."""
 
 NO_CONTOUR: Final = "No contour element follows the start of compensation. Write the contour before its end."
-DEPTH_FIRST: Final = "The tool axis is taken to move before the arc about this outside corner."
+DEPTH_FIRST: Final = "cutcomp assumes the tool axis moves before this corner arc."
 NOT_UNDER_M120: Final = "Under M120 only moves in the working plane without M97 and M98 are supported. End it with LA0."
-LEFT_OUT: Final = "M120 skips this block: the tool of radius {0} does not reach it."
+LEFT_OUT: Final = "M120 skips this block: the {0}-radius tool cannot reach it."
 INSIDE_CIRCLE: Final = "PS or PN lies inside the circle of radius {0} of the lead. Move it out or shorten R."
 
 
@@ -295,7 +295,7 @@ class CenterPath:
             self._gather(step)
             return
         if element.turn and corners.offset_radius(element, step.offset) <= JOINED:
-            why = "the tool of radius {0} cannot run inside this arc of radius {1}"
+            why = "the {0}-radius tool cannot run inside this arc of radius {1}"
             self._stop_too_large(step, why, abs(step.offset), element.radius)
         begin = corners.offset_start(element, step.offset)
         if self.entry:
@@ -309,7 +309,7 @@ class CenterPath:
         first, offset = _at_its_end(before.element), before.offset
         joint = join(first, after.element, offset, before.corner)
         if joint.missed or (joint.corner is Corner.INSIDE and self._overruns(first, after.element, offset, joint)):
-            why = "the tool of radius {0} cannot come into the corner before this block"
+            why = "the {0}-radius tool cannot enter the corner before this block"
             self._stop_too_large(after, why, abs(offset))
         if joint.center is not None and self.depths:
             self._tell(Severity.INFO, "INTERPRETED", DEPTH_FIRST, self.depths[0])
@@ -335,7 +335,7 @@ class CenterPath:
         element = step.element
         left = remaining(element, self.begin, end, step.offset)
         if left < -JOINED:
-            self._stop_too_large(step, "between its neighbors nothing is left of this block", abs(step.offset))
+            self._stop_too_large(step, "its neighbors leave no length for this block", abs(step.offset))
         if element.turn and left > JOINED:
             if left >= tau * corners.offset_radius(element, step.offset) - JOINED:
                 end = self.begin

@@ -66,7 +66,7 @@ def _run_blocks(state: State) -> None:
             text = f"More than {MAX_REPEATED_BLOCKS} repeated blocks: the run ends here, not judged. Repeat fewer."
             state.stop("LIMIT", text, block)
         if block.skip:
-            state.tell(Severity.INFO, "SKIP", "Block skip is taken as switched off: the block runs.", block)
+            state.tell(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block)
         HEADS.get(block.head, settings.unknown)(state, block)
     _check_end(state)
 
@@ -85,7 +85,7 @@ def _check_end(state: State) -> None:
 
 
 def _labels(blocks: Sequence[Block]) -> Mapping[str, int]:
-    """Label to the block after it, the first where one stands twice; LBL 0 is the end of a subprogram, no label."""
+    """Label to the block after it, the first where one appears twice; LBL 0 is the end of a subprogram, no label."""
     labels: dict[str, int] = {}
     for index, block in enumerate(blocks):
         if block.head == "LBL" and (name := _LABEL.match(block.body)) and name[1] != "0":

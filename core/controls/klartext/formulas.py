@@ -68,7 +68,7 @@ def evaluate(text: str, parameters: Mapping[str, float]) -> float | NoValue:
     try:
         value = parser.sum()
         if parser.at < len(tokens):
-            return NoValue(f"A formula cannot have {quoted(tokens[parser.at])} here.")
+            return NoValue(f"A formula cannot have {quoted(tokens[parser.at])} at this place.")
     except _FaultError as fault:
         return NoValue(str(fault))
     except (ArithmeticError, ValueError):
@@ -139,5 +139,5 @@ class _Parser:
                 raise _FaultError(f"{token} has no value yet. Set it before.")
             return self.parameters[token]
         if not token or not (token[0].isdigit() or token[0] in ".,"):
-            raise _FaultError(f"A formula needs a number where {quoted(token) or 'it ends'} stands.")
+            raise _FaultError(f"A formula needs a number at {quoted(token) or 'its end'}.")
         return float(token.replace(",", "."))

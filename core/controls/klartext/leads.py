@@ -73,7 +73,7 @@ def _check_side(state: State, block: Block, form: Form) -> None:
         text = f"{block.head} {form} has no side without compensation. Write RL or RR with it."
         state.stop("HE4", text, block, "R0")
     if form is Form.LCT and not (state.side or state.applied):
-        text = "Without compensation this arc is taken to lie on the same side of the contour as the free point."
+        text = "cutcomp assumes this uncompensated arc is on the same side of the contour as the free point."
         state.tell(Severity.INFO, "INTERPRETED", text, block)
 
 
@@ -90,7 +90,7 @@ def _lead(state: State, block: Block, form: Form, words: Words) -> Lead:
         least = "must be above 0" if form is Form.LCT else "cannot be 0"
         state.stop("LEAD", f"The radius of {block.head} {form} {least}.", block, "R")
     if "CCA" in words and not 0.0 < angle <= 360.0:
-        state.stop("LEAD", "CCA must be above 0, up to 360 degrees. The sign of R turns the arc over.", block, "CCA")
+        state.stop("LEAD", "CCA must be above 0, up to 360 degrees. The sign of R flips the arc.", block, "CCA")
     return Lead(form, length, radius, radians(angle))
 
 

@@ -62,12 +62,12 @@ def path_ahead(elements: Sequence[Element], offset: float, depth: int, begin: Po
     side = Side.LEFT if offset > 0.0 else Side.RIGHT
     compensated = compensate(_contour(elements), side, abs(offset), depth, closed=False)
     if not len(compensated.path):
-        return Unreached(0, "the tool of radius {0} reaches nothing of this contour")
+        return Unreached(0, "the {0}-radius tool cannot reach any of this contour")
     if bool(compensated.bridged.any()):
         row = int(compensated.path.numbers[compensated.bridged][0])
         start, way = _point(compensated.path.points[0]), _point(compensated.path.start_directions[0])
         before = PathAhead(begin or start, way, tuple(run for run in _runs(compensated.path) if run.row < row), ())
-        why = "within the blocks of LA the tool of radius {0} cannot get past this block"
+        why = "the {0}-radius tool cannot get past this block within the blocks of LA"
         return Unreached(row, why, before)
     return _checked(compensated, elements, offset, begin)
 
@@ -88,15 +88,13 @@ def _checked(
     path, last = compensated.path, len(elements) - 1
     runs = tuple(_runs(path))
     if runs[0].row != 0 or runs[0].corner:
-        return Unreached(0, "the tool of radius {0} reaches nothing of this block, the first one that M120 looks at")
+        return Unreached(0, "the {0}-radius tool cannot reach any of this block, the first one of M120")
     if not _near(runs[-1].end, corners.offset_end(elements[-1], offset)) or runs[-1].row != last:
-        return Unreached(
-            last, "the tool of radius {0} does not reach the end of this block, the last one before M120 ends"
-        )
+        return Unreached(last, "the {0}-radius tool cannot reach the end of this block, the last one of M120")
     start, way = _point(path.points[0]), _point(path.start_directions[0])
     if begin is not None and not _near(begin, start):
         if _trimmed_away(elements[0], start, begin, runs[0].end):
-            return Unreached(0, "between its neighbors nothing is left of this block for the tool of radius {0}")
+            return Unreached(0, "the {0}-radius tool has no length left for this block between its neighbors")
         start = begin
     left_out = tuple(int(number) for number in compensated.deleted.segments.tolist() if number == int(number))
     return PathAhead(start, way, runs, left_out)

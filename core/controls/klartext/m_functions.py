@@ -16,7 +16,7 @@ from core.finding import Severity
 MAX_LOOK_AHEAD: Final = 99
 """Blocks that M120 can look ahead."""
 
-M120_SKIPS: Final = "M120 is taken to skip what lies between two crossings of the path within so many blocks."
+M120_SKIPS: Final = "cutcomp assumes M120 skips what lies between two crossings of the path within LA blocks."
 
 _FEEDS: Final[Mapping[int, FeedAt]] = MappingProxyType({109: FeedAt.EDGE, 110: FeedAt.INSIDE_EDGE, 111: FeedAt.CENTER})
 _CORNERS: Final[Mapping[int, CornerRules]] = MappingProxyType({97: M97, 98: M98})
@@ -30,7 +30,7 @@ _DIFFERENT: Final[Mapping[int, str]] = MappingProxyType(
         103: "the control lowers the feed of plunging moves",
         112: "the control rounds corners within a tolerance",
         124: "the control leaves out points of short lines",
-        136: "the control takes F in millimeters a revolution",
+        136: "the control takes F in millimeters per revolution",
     }
 )
 
@@ -65,7 +65,7 @@ def _function(state: State, block: Block, name: str, corner: CornerRules) -> Cor
     elif code in _DIFFERENT:
         state.tell(Severity.WARNING, "M", f"{name} is not supported: {_DIFFERENT[code]}.", block, name)
     elif code not in _SILENT:
-        state.tell(Severity.INFO, "M", f"{quoted(name)} is taken to move nothing.", block, name)
+        state.tell(Severity.INFO, "M", f"cutcomp assumes {quoted(name)} moves nothing.", block, name)
     return corner
 
 
@@ -75,7 +75,7 @@ def _look_ahead(state: State, block: Block, words: Words) -> None:
     if not 0.0 <= depth <= MAX_LOOK_AHEAD or depth != int(depth):
         state.stop("NUMBER", f"LA is a whole number of blocks up to {MAX_LOOK_AHEAD}.", block, "LA")
     if depth and not state.side:
-        text = "M120 has no effect here. Write it into a block with RL or RR."
+        text = "M120 has no effect in this block. Write it in a block with RL or RR."
         state.tell(Severity.WARNING, "M", text, block, "M120")
     elif depth:
         state.tell(Severity.INFO, "INTERPRETED", M120_SKIPS, block, "M120")

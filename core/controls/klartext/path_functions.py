@@ -27,7 +27,7 @@ ARC_RADII: Final = ArcRadii(inch=0.016 / 25.4, mm=0.016, share=0.0, interpreted=
 MAX_HELIX: Final = 5400.0
 """Degrees a helix may turn."""
 
-NOT_YET: Final = "RL, RR or R0 with the tool axis alone is taken to act in the next line of the working plane."
+NOT_YET: Final = "cutcomp assumes RL, RR or R0 with the tool axis alone acts in the next line of the working plane."
 ONE_STRAIGHT: Final = "The end point lies straight ahead or back: no tangent arc leads there. Write L."
 
 _LINE: Final = COMMON | frozenset(AXES)
@@ -160,7 +160,7 @@ def polar_circle(state: State, block: Block) -> None:
         _helix(state, block, words, end, angle, turn)
         return
     if state.flat(end)[1] != state.flat(state.position)[1]:
-        state.stop("ARC", "A helix needs its angle as IPA. Write IPA with the sign of DR.", block)
+        state.stop("ARC", "A helix needs its angle as IPA. Write IPA with the same sign as DR.", block)
     _about_pole(state, block, words, end, turn)
 
 
@@ -200,7 +200,7 @@ def _tangent_to(state: State, block: Block, words: Words, end: list[float]) -> N
     dx, dy = goal[0] - start[0], goal[1] - start[1]
     cross, chord = way[0] * dy - way[1] * dx, hypot(dx, dy)
     if chord <= JOINED:
-        state.stop("ARC", "A tangent arc needs an end point away from its start.", block)
+        state.stop("ARC", "The end point must differ from the start point.", block)
     if abs(cross) <= chord * corners.WHOLE:
         state.stop("ARC", ONE_STRAIGHT, block)
     center = corners.offset_point(start, way, chord * chord / (2.0 * cross))
@@ -225,7 +225,7 @@ def _helix(state: State, block: Block, words: Words, end: list[float], angle: fl
     """The full turns of a CP block with IPA, and the rest."""
     swept = state.number(block, words, "IPA")
     if swept * turn <= 0.0 or abs(swept) > MAX_HELIX:
-        text = f"IPA needs the sign of DR and at most {MAX_HELIX:.0f} degrees."
+        text = f"IPA needs the same sign as DR and at most {MAX_HELIX:.0f} degrees."
         state.stop("ARC", text, block, "IPA")
     center, goal = pole_of(state, block), state.flat(end)[0]
     _check_radii(state, block, center, goal)
@@ -244,7 +244,7 @@ def _helix(state: State, block: Block, words: Words, end: list[float], angle: fl
 def _direction(state: State, block: Block, words: Words) -> int:
     sign = words.pop("DR", None)
     if sign not in ("+", "-"):
-        text = "The direction is missing. Write DR+ (counter-clockwise) or DR- (clockwise)."
+        text = "The direction is missing. Write DR+ (counterclockwise) or DR- (clockwise)."
         state.stop("ARC", text, block, "" if sign is None else "DR")
     return 1 if sign == "+" else -1
 

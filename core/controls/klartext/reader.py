@@ -19,7 +19,7 @@ NUMBER: Final = r"[+-]?(?:Q[LR]?\d+|\d+[.,]?\d*|[.,]\d+)"
 
 _NAMES: Final = r"F[ \t]*(?:MAX|AUTO)|R[LR](?=[FM]|\s|$)|[A-PR-Z]+"
 WORD: Final = re.compile(rf"({_NAMES})[ \t]*({NUMBER}|[+-])?|([^ \t])", re.ASCII)
-"""A word: letters and after them a number, a bare sign or nothing; or a sign that is no word."""
+"""A word: letters and after them a number, a bare sign or nothing; or a character that is no word."""
 
 TOOL_WORD: Final = re.compile(rf"(DR2|R2(?=[+-])|{_NAMES})[ \t]*({NUMBER}|[+-])?|([^ \t])", re.ASCII)
 """The same where a second tool radius may stand."""

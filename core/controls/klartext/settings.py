@@ -1,4 +1,4 @@
-"""Settings: what a program sets without moving: its unit, tools, cycles and datum shifts."""
+"""Blocks that do not cut: unit, tools, datum shifts, cycles; and blocks that are refused or skipped."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def begin(state: State, block: Block) -> None:
     state.begun = True
     state.unit = Unit.IN if name_and_unit[2] == "INCH" else Unit.MM
     if state.unit is Unit.IN:
-        text = "F is taken as inches a minute. Some of these controls take tenths of an inch a minute."
+        text = "cutcomp takes F as inches per minute. Some of these controls take tenths of an inch per minute."
         state.tell(Severity.INFO, "UNIT", text, block)
 
 
@@ -72,7 +72,7 @@ def structure(state: State, block: Block) -> None:
 
 
 def plane(state: State, block: Block) -> None:
-    """PLANE RESET STAY, which undoes a tilting there is none of; any other PLANE is not supported."""
+    """PLANE RESET STAY, accepted because nothing is tilted; any other PLANE is not supported."""
     if block.body.split() != ["RESET", "STAY"]:
         unknown(state, block)
     ignored(state, block)
@@ -84,7 +84,7 @@ def unknown(state: State, block: Block) -> None:
         state.stop("WORD", f"This line has more than {MAX_LINE_LENGTH} characters. No control takes it.", block)
     whole = block.head + block.body
     why = next((why for pattern, why in _UNSUPPORTED if pattern.match(whole)), "")
-    state.stop("WORD", f"{quoted(whole)} {why or 'is no block of Klartext. Write L, C, CR, CT, APPR or DEP.'}", block)
+    state.stop("WORD", f"{quoted(whole)} {why or 'is not a Klartext block. Write L, C, CR, CT, APPR or DEP.'}", block)
 
 
 def tool(state: State, block: Block) -> None:
@@ -137,7 +137,7 @@ def _take_radius(state: State, block: Block, delta: float) -> None:
     if listed is not None:
         radius = listed.diameter_mm(state.unit) / 2.0
         if defined is not None and abs(radius - defined) > 0.0:
-            text = "The tool table's radius {0} is taken instead of the radius {1} of TOOL DEF."
+            text = "cutcomp takes radius {0} from the tool table, not radius {1} from TOOL DEF."
             state.tell(Severity.INFO, "TOOL", text, block, "", radius, defined)
     elif state.tool == "0":
         radius = 0.0

@@ -1,6 +1,6 @@
 """State of a Klartext program: what holds on from block to block, and the values of a block's words.
 
-Everything is millimeters and millimeters a minute whatever the program's unit; positions are programmed ones.
+Everything is millimeters and millimeters per minute whatever the program's unit; positions are programmed ones.
 """
 
 from __future__ import annotations
@@ -115,7 +115,7 @@ class State:
         else:
             column = place_of(block, name).column
             written = block.body[column - block.column :].split(maxsplit=1)[0]
-            text = f"{quoted(written)} is no word of a block {quoted(block.head)}."
+            text = f"A {quoted(block.head)} block takes no word {quoted(written)}."
         self.stop("WORD", text, block, name)
 
     def number(self, block: Block, words: Words, name: str) -> float:
@@ -209,7 +209,7 @@ class State:
             self.tell(Severity.WARNING, "FEED", text, block)
         if len(self.known) < 3 and not self.known.issuperset(self.plane.axes[:2]):
             self.known.update(self.plane.axes[:2])
-            text = "The tool's position is not programmed yet and taken as 0. Write an L block with both axes before."
+            text = "The tool's position is not programmed yet; cutcomp takes 0. Write an L block with both axes before."
             self.tell(Severity.WARNING, "POSITION", text, block)
 
     def apply(self, block: Block) -> None:

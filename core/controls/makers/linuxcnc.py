@@ -1,7 +1,7 @@
 """LinuxCNC 2.9: compensation with one move of look-ahead.
 
 The first move ends square to itself.  After that one move in the plane is held back until the next one is known; Z
-moves may stand behind it in the queue.  An outside corner gets an arc, an inside corner moves the ends of what is held,
+moves may stand after it in the queue.  An outside corner gets an arc, an inside corner moves the ends of what is held,
 and anything under 0.05 radians is taken as tangent.  G40 lets the held move end square; the next move goes straight
 from there to its own point.
 """
@@ -94,17 +94,17 @@ class LinuxCnc(OneMoveQueue, Control):
             self._arc_words(block)
         for code in block.g:
             if code // 10 == 38 and code != 380:
-                text = "Where a probe stops is not known before it runs."
+                text = "cutcomp cannot know where the probe stops."
                 self.log.stop("N-PROBE", text, block.line, block.column("G", code))
             if self.active:
                 self._refused(code, block)
 
     def _other_words(self, block: Block) -> None:
-        """M codes that exist; words that need a code beside them; the tool of an H."""
+        """M codes that exist; words that need a code in their block; the tool of an H."""
         self._alone(block)
         for code in block.m:
             if code not in _KNOWN_M:
-                text = f"M{code / 10:g} is no M code of this control; leave it out."
+                text = f"M{code / 10:g} is not an M code of this control. Remove it."
                 self.log.stop("CODE", text, block.line, block.column("M", code))
         given = {f"G{code}" for code in block.g} | {f"M{code}" for code in block.m}
         mode = self._motion(block)
@@ -112,7 +112,7 @@ class LinuxCnc(OneMoveQueue, Control):
             given.add(f"G{mode}")
         for letter, codes_for in NEEDED.items():
             if letter in block.words and given.isdisjoint(codes_for):
-                text = f"{letter} has no code in this block that takes it; leave it out."
+                text = f"No code in this block uses {letter}. Remove it."
                 self.log.stop("N-WORDALONE", text, block.line, block.column(letter))
         if 40 in block.g and "P" not in block.words:
             text = "G4 needs P and the seconds to wait."
@@ -121,13 +121,13 @@ class LinuxCnc(OneMoveQueue, Control):
             self.log.stop("TOOL", not_there(whole(block.words["H"])), block.line, block.column("H"))
 
     def _alone(self, block: Block) -> None:
-        """What has to stand alone: calls and numbers of subprograms, one code that takes the axis words."""
+        """What must stand alone: calls and numbers of subprograms, one code that takes the axis words."""
         if 980 in block.m or "O" in block.words:
             if block.g or len(block.m) > 1 or not _CALL.issuperset(block.words):
-                text = "A call or a number of a subprogram stands alone in its block; write the rest in another."
+                text = "A call or a number of a subprogram must be alone in its block. Write the rest in another block."
                 self.log.stop("SUBPROGRAM", text, block.line, block.column("OM"))
         elif not _TAKES_AXES.isdisjoint(block.g) and any(code <= 30 and code != 40 for code in block.g):
-            text = "Two G codes of this block take its axis words; write them in two blocks."
+            text = "Two G codes of this block use its axis words. Write them in two blocks."
             self.log.stop("N-TWOG", text, block.line, block.column("G"))
 
     def _motion(self, block: Block) -> int | None:
@@ -139,7 +139,7 @@ class LinuxCnc(OneMoveQueue, Control):
         """I, J, K and R go with arcs, and with codes that take no part in compensation."""
         if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g):
             column = block.column("IJKR")
-            text = "I, J, K and R go with G2 and G3 only; leave them out."
+            text = "I, J, K and R go with G2 and G3 only. Remove them."
             self.log.stop("N-WORDALONE", text, block.line, column)
 
     def _refused(self, code: int, block: Block) -> None:
@@ -202,7 +202,7 @@ class LinuxCnc(OneMoveQueue, Control):
 
     def _orientation(self, block: Block) -> int:
         if "L" in block.words and self.machine.plane is not Plane.ZX:
-            text = "L, the orientation of a lathe tool, goes with G18 only; leave it out."
+            text = "L, the orientation of a lathe tool, goes with G18 only. Remove it."
             self.log.stop("N-ORIENTATION", text, block.line, block.column("L"))
         return int(block.words.get("L", 0.0))
 
@@ -220,7 +220,7 @@ NEEDED: Final[Mapping[str, frozenset[str]]] = MappingProxyType(
         "E": frozenset(("G700", "G760", "M660", "M670", "M680")),
     }
 )
-"""Words that a block takes only beside one of these codes."""
+"""Words that a block takes only with one of these codes."""
 
 _OTHERS: Final = frozenset((*NEEDED, "O"))
 _CALL: Final = frozenset("OPLN")

@@ -1,6 +1,6 @@
 """Rockwell / Allen-Bradley 9/Series mill: `nine-series:a` and `:b`, with `-g39.1` where arcs are the default corners.
 
-D is an offset number and may stand before, in or behind the block with G41 or G42.  The first straight move of the
+D is an offset number and may stand before, in or after the block with G41 or G42.  The first straight move of the
 plane is the entry.  The side and the radius may change meanwhile; a vector I, J, K with G40 bends the exit.
 Backwards moves, inside arcs under the radius and crossing vectors are alarms.  Generated blocks of any length are made:
 the least length that the machine builder can set is taken as 0, and so is the least feed inside arcs.
@@ -95,7 +95,7 @@ class NineSeries(Chain, Control):
         self.before = Before(0, None, None, ())
 
     def watch(self, block: Block) -> None:
-        """What a block says beside its motion: D, M800 and M801, a change of origin."""
+        """What a block says besides its motion: D, M800 and M801, a change of origin."""
         if "D" in block.words:
             self._take_number(block)
         for code, on in ((8000, False), (8010, True)):
@@ -111,7 +111,7 @@ class NineSeries(Chain, Control):
         if self.active and not _CHANGES.isdisjoint(block.g):
             self._interrupt(block)
         if self.active and not _MACHINE.isdisjoint(block.g):
-            text = "What compensation does with a move to the machine's own points is not known; write G40 before."
+            text = "cutcomp does not know what compensation does with a move to a machine point. Write G40 before it."
             self.log.stop("HOME", text, block.line, block.column("G"))
         if self.active and self.exit_block is None and not PLANES.keys().isdisjoint(block.g):
             text = "The plane is not changed under compensation; write G40 before."
@@ -154,25 +154,25 @@ class NineSeries(Chain, Control):
         self.rules = CornerRules(outside=Outside.MITER_OR_ARC if code == 391 else Outside.LINES)
 
     def _continue_stretch(self, joint: Joint) -> None:
-        """The stretch has the coming side and radius behind this joint; behind its entry it had no other one."""
+        """From this joint on the stretch has the next side and radius; right after the entry, from its start."""
         if self.elements == 1:
             self.begin_stretch(self._tool_side, self.coming)
         else:
             self.change_stretch(self._tool_side, self.coming, 1 + len(self.standing), joint.moves)
 
     def _tell_generated(self, line: int) -> None:
-        """A generated block, made however short it is."""
-        text = "the least length of a generated block (AMP) is taken as 0; the control drops a shorter one."
+        """Reports that a generated block is made at any length."""
+        text = "cutcomp takes the least length of a generated block (AMP) as 0; the control drops a shorter one."
         self._assumed("AMP", text, line)
 
     def _tell_slowed(self, line: int) -> None:
-        """The feed inside an arc, however small it is."""
-        self._assumed("MFR", "the least feed inside arcs (MFR) is taken as 0; the control may feed faster.", line)
+        """Reports that the feed inside an arc has no least value."""
+        self._assumed("MFR", "cutcomp takes the least feed inside arcs (MFR) as 0; the control may feed faster.", line)
 
     def _assumed(self, rule: str, text: str, line: int) -> None:
-        """Tells once of a value that the machine builder sets."""
+        """Reports a value that the machine builder sets, once."""
         if rule not in self.log.counts:
-            words = f"The machine builder sets a value that counts here, and first here: {text}"
+            words = f"This depends on a value the machine builder sets (first at this line): {text}"
             self.log.tell(Severity.INFO, rule, words, line, 1)
 
     def begin(self, side: Side, block: Block) -> None:
@@ -205,7 +205,7 @@ class NineSeries(Chain, Control):
             return
         text = (
             f"More than {NON_MOTION} blocks without motion (an assumed limit, the machine builder sets it): the move "
-            "ends square and may cut too far; take some of them out."
+            "ends square and may overcut. Remove some of these blocks."
         )
         self.log.tell(Severity.WARNING, "R5", text, block.line, 1)
         self.release_at_end()
@@ -229,9 +229,7 @@ class NineSeries(Chain, Control):
         self.motionless += 1
         if self.held is None or self.exit_block is not None:
             what = "start" if self.exit_block is None else "end"
-            text = (
-                f"This move is not in the plane: compensation does not {what} with it, but with the next one that is."
-            )
+            text = f"Compensation will {what} at the next move in the plane, not at this one."
             self.log.tell(Severity.INFO, "R12", text, element.line, 1)
         if self.held is None:
             self.note(element)
@@ -248,7 +246,7 @@ class NineSeries(Chain, Control):
             if not self.stretch_open:
                 self.open_stretch(self._tool_side, self.coming, element)
         elif not fits(element, self.coming):
-            text = "The arc's radius {0} is not larger than the cutter's {1}; use a smaller cutter."
+            text = "The arc radius {0} must be larger than the cutter radius {1}. Use a smaller cutter."
             self.log.stop("R9", text, element.line, 1, lengths=(element.radius, abs(self.coming)))
         self.before = Before(len(self.tape), self.held, self.start, tuple(self.standing))
         self.hold(element)
@@ -268,7 +266,7 @@ class NineSeries(Chain, Control):
             self._continue_stretch(joint)
             return self._with_notice(joint, second)
         if self.coming != self.offset:
-            text = "The side or the radius changes here; the way across is an interpretation."
+            text = "The side or the radius changes at this line. cutcomp assumes the moves across; the manual has none."
             self.log.tell(Severity.INFO, "CHANGE", text, second.line, 1)
             joint = change(first, second, self.offset, self.coming)
             self._continue_stretch(joint)
@@ -279,14 +277,14 @@ class NineSeries(Chain, Control):
         return self._with_notice(joint, second) if joint.corner is Corner.OUTSIDE else joint
 
     def _with_notice(self, joint: Joint, element: Element) -> Joint:
-        """The joint; that its generated blocks are made however short they are is told."""
+        """The joint; reports that generated blocks are made at any length."""
         if joint.through or joint.center is not None or joint.end != joint.start:
             self._tell_generated(element.line)
         return joint
 
     def _interpreted(self, first: Element, second: Element) -> None:
         if not self.type_a and inward_turn(first, second, self.offset) < 0.0:
-            text = "The generated blocks of a type B entry are read from figures: an interpretation."
+            text = "cutcomp takes the generated blocks of a type B entry from figures; the manual's text lacks them."
             self.log.tell(Severity.INFO, "TYPE-B", text, first.line, 1)
 
     def _missed(self, first: Element, second: Element) -> Joint:
@@ -320,11 +318,11 @@ class NineSeries(Chain, Control):
         return element.feed * offset_radius(element, self.offset) / element.radius
 
     def _circular_exit(self, line: int) -> None:
-        text = "Block format error: the move that cancels compensation has to be straight; write G1."
+        text = "Block format error: the move that cancels compensation must be straight. Write G1."
         self.log.stop("R2", text, line, 1)
 
     def _exit(self, element: Element) -> None:
-        """The exit move: from the square end, type B's way round the corner, or as the vector bends it."""
+        """The exit move: from the square end, type B's way around the corner, or as the vector bends it."""
         if element.turn:
             self._circular_exit(element.line)
         held, block = self.held, self.exit_block

@@ -3,7 +3,7 @@
 nist: every move ends at once where it can; the first one along the tangent from its end to the tool where it stands.
 Every inside corner is an error, also that between the first two moves.  easy: the first move waits for the second one
 and ends square to its start; later inside corners are errors.  normal: inside corners are where the offsets meet; that
-the rest follows LinuxCNC is an interpretation.
+the rest follows LinuxCNC is assumed; the manual does not say.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ DIALECT: Final = Dialect(
 )
 
 CORNERS: Final = CornerRules(tangent=0.01, reversal=0.01, rapid_straight=True)
-"""The corners of NIST: under 0.01 radians a corner is none."""
+"""The corners of NIST: corners under 0.01 rad are treated as tangent."""
 
 _NOT_NOW: Final = frozenset((170, 180, 190, 280, 300, 520, 530, 920, 540, 550, 560, 570, 580, 590, 591, 592, 593))
 
@@ -68,7 +68,7 @@ class Switch(Control):
         if radius == 0.0:
             self.machine.nothing_compensated("The radius is 0.", block.line, column)
         if radius < 0.0:
-            text = "The radius is negative and changes the side; that is an interpretation."
+            text = "The radius is negative and changes the side. cutcomp assumes this; the manual does not say."
             self.log.tell(Severity.INFO, "NEGATIVE", text, block.line, column)
         return radius * side.sign
 
@@ -89,12 +89,12 @@ class Switch(Control):
         if number is None or not 0 <= number <= 9:
             self.log.stop("C4", "L, the orientation of a lathe tool, is 0 to 9.", block.line, column)
         if self.plane is not Plane.ZX:
-            self.log.stop("C5", "L goes with the plane G18 only; leave it out.", block.line, column)
+            self.log.stop("C5", "L goes with the plane G18 only. Remove it.", block.line, column)
         self._nose(number, block, column)
 
     def _nose(self, orientation: int, block: Block, column: int) -> None:
         if orientation not in (0, 9):
-            text = "The moves are those of the center of the tool's nose; the orientation does not shift them here."
+            text = "The moves are those of the tool nose center; cutcomp does not shift them by the orientation."
             self.log.tell(Severity.WARNING, "ORIENTATION", text, block.line, column)
 
     def _table(self, block: Block) -> float:
@@ -119,15 +119,15 @@ class Switch(Control):
         return radius - block.words.pop("I", 0.0) * machine.scale
 
     def watch(self, block: Block) -> None:
-        """The list of NIST, of which nobody said that it holds here."""
+        """NIST's list of what compensation does not allow; that it holds on this control is assumed."""
         if "D" in block.words and SWITCHES.isdisjoint(block.g):
-            text = "D needs G41 or G42 in its block. That is an interpretation, by the list of NIST."
+            text = "D needs G41 or G42 in its block. cutcomp assumes this from NIST's list; the manual does not say."
             self.log.stop("C8", text, block.line, block.column("D"))
         if not self.active:
             return
         for code in _NOT_NOW.intersection(block.g):
             if PLANES.get(code) is not self.plane:
-                text = f"G{code / 10:g} is not allowed under compensation. That is an interpretation, by NIST's list."
+                text = f"G{code / 10:g} is not allowed under compensation. cutcomp assumes this from NIST's list."
                 self.log.stop("C8", text, block.line, block.column("G", code))
 
 
@@ -139,7 +139,7 @@ class Normal(OneMoveQueue, Switch):
     def begin(self, side: Side, block: Block) -> None:
         """G41 and its kin."""
         self.turn_on(self.asked_offset(side, block))
-        text = "The entry follows LinuxCNC: square to its own move. That is an interpretation."
+        text = "The entry follows LinuxCNC: square to its own move. cutcomp assumes this; the manual does not say."
         self.log.tell(Severity.INFO, "ENTRY", text, block.line, block.side_column())
 
     def finish(self, block: Block) -> None:
@@ -158,10 +158,10 @@ class Nist(Chain, Switch):
         self.first = True
 
     def watch(self, block: Block) -> None:
-        """What is refused, a change of unit among it."""
+        """What is refused, a change of unit included."""
         super().watch(block)
         if self.active and not {200, 210}.isdisjoint(block.g):
-            text = "The unit is not changed under compensation. That is an interpretation, by NIST's list."
+            text = "The unit cannot change under compensation. cutcomp assumes this from NIST's list."
             self.log.stop("C8", text, block.line, block.side_column())
 
     def begin(self, side: Side, block: Block) -> None:
@@ -178,7 +178,7 @@ class Nist(Chain, Switch):
     def travel(self, element: Element) -> None:
         """One element, at once."""
         if self.leaving and element.turn:
-            self._refuse_arc(element, "The first move after G40 has to be straight")
+            self._refuse_arc(element, "The first move after G40 must be straight")
         if not self.active or not self.offset:
             super().travel(element)
         elif self.first:
@@ -195,7 +195,7 @@ class Nist(Chain, Switch):
         (sx, sy), (px, py) = element.start, element.end
         length, radius, sign = hypot(px - sx, py - sy), abs(self.offset), self.side.sign
         if element.turn:
-            self._refuse_arc(element, "An arc as first move has to touch the tool where it stands; write a line")
+            self._refuse_arc(element, "An arc as first move must touch the tool where it stands; write a line")
         if length <= radius:
             self._too_short(element, length)
         self.open_stretch(self.side, self.offset, element)
@@ -207,10 +207,10 @@ class Nist(Chain, Switch):
         self.first = False
 
     def _refuse_arc(self, element: Element, what: str) -> NoReturn:
-        self.log.stop("C8", f"{what}. That is an interpretation, by the rules of NIST.", element.line, 1)
+        self.log.stop("C8", f"{what}. cutcomp assumes this from NIST's rules.", element.line, 1)
 
     def _too_short(self, element: Element, length: float) -> None:
-        text = "The first move is {0} long and has to be longer than the radius {1}. That is an interpretation."
+        text = "The first move is {0} long and must be longer than the radius {1}. cutcomp takes this from NIST."
         self.log.stop("C8", text, element.line, 1, lengths=(length, abs(self.offset)))
 
     def _corner(self, element: Element) -> None:
@@ -218,14 +218,14 @@ class Nist(Chain, Switch):
             return
         joint = self.joint(self.before, element)
         if joint.corner is Corner.INSIDE:
-            text = "An inside corner is an error with this entry; round it in the program or use the normal entry."
+            text = "An inside corner is an error with this entry. Round it in the program or use the normal entry."
             self.log.stop("C6", text, element.line, 1, at=element.start)
         self.lead_on(joint, element, self.offset)
 
     def follow(self, element: Element) -> None:
         """A move on its offset, to the offset point at its end."""
         if not fits(element, self.offset):
-            text = "The arc's radius {0} has to be larger than the cutter's {1}; use a smaller cutter."
+            text = "The arc radius {0} must be larger than the cutter radius {1}. Use a smaller cutter."
             self.log.stop("C7", text, element.line, 1, lengths=(element.radius, abs(self.offset)))
         self.note(element)
         self.held = self.before = element
@@ -239,7 +239,7 @@ class Easy(Nist):
         """Holds the first move; with the second one it ends at the offset point of that one's start."""
         if self.held is None:
             if element.turn:
-                self._refuse_arc(element, "The first move has to be straight")
+                self._refuse_arc(element, "The first move must be straight")
             self.open_stretch(self.side, self.offset, element)
             self.note(element)
             self.held = element

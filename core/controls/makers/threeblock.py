@@ -45,7 +45,7 @@ QUICK: Final = 0.25
 """Seconds: a block that takes less makes the control dwell."""
 
 LARGEST_DIAMETER: Final = 83.23072
-"""Millimeters (3.2768 in); the 83.321 mm printed beside it has two digits swapped."""
+"""Millimeters (3.2768 in); the 83.321 mm printed next to it has two digits swapped."""
 
 _ORIGINS: Final = frozenset((40, 280, 300, 920, 540, 550, 560, 570, 580, 590, 200, 210, 700, 710))
 _POINTLESS: Final = re.compile(r"[XYZIJ][ \t]*[-+]?0*[1-9][0-9]*(?![0-9.])", re.IGNORECASE)
@@ -54,7 +54,7 @@ _POINTLESS: Final = re.compile(r"[XYZIJ][ \t]*[-+]?0*[1-9][0-9]*(?![0-9.])", re.
 class ThreeBlock(Chain, Control):
     """Compensation with the next element only, and the rules on the blocks under it.
 
-    `opening` in the block with G41 or G42; `blocks` what came behind it: line, Z moved, X or Y moved; `ratio` under
+    `opening` in the block with G41 or G42; `blocks` what came after it: line, Z moved, X or Y moved; `ratio` under
     G45.
     """
 
@@ -74,24 +74,24 @@ class ThreeBlock(Chain, Control):
         self.opening = False
         self._decimals(block)
         if self.machine.incremental and not {"I", "J"}.isdisjoint(block.words):
-            text = "Under G91 the center is taken as counted from the arc's start; that is an interpretation."
+            text = "Under G91 cutcomp counts the center from the arc's start; the manual does not say."
             self.log.tell(Severity.INFO, "G91-CENTER", text, block.line, block.column("IJ"))
         if "R" in block.words:
-            text = "Nothing is known of arcs with R on this control; write the center I, J."
+            text = "cutcomp does not know how this control takes R. Use I and J."
             self.log.tell(Severity.WARNING, "RADIUS", text, block.line, block.column("R"))
         if not self.active:
             return
         if block.m:
-            text = "No M code between the block behind G41 or G42 and the one with G40; write it before or after."
+            text = "No M code from the block after G41 or G42 to the block with G40. Write it before or after."
             self.log.stop("B14-MCODE", text, block.line, block.column("M"))
         if not {180, 190}.isdisjoint(block.g) and 170 not in block.g:
             self.wrong_plane(block)
         wrong = next((code for code in block.g if code in _ORIGINS), None)
         if wrong is not None:
-            text = f"What compensation does at G{wrong / 10:g} is not known; write G40 before."
+            text = f"cutcomp does not know what compensation does at G{wrong / 10:g}. Write G40 before it."
             self.log.stop("ORIGIN", text, block.line, block.column("G", wrong))
         if 990 in block.g:
-            text = "G99 is taken out under compensation; the control puts its own between tangent moves."
+            text = "The control drops this G99 under compensation and puts its own between tangent moves."
             self.log.tell(Severity.INFO, "B15-G99", text, block.line, block.column("G", 990))
 
     def wrong_plane(self, block: Block) -> NoReturn:
@@ -102,7 +102,7 @@ class ThreeBlock(Chain, Control):
     def _decimals(self, block: Block) -> None:
         pointless = _POINTLESS.search(block.text)
         if pointless:
-            text = "A coordinate without a decimal point is taken as whole units here; write the point."
+            text = "cutcomp reads a coordinate without a decimal point as whole units. Write the point."
             self.log.tell(Severity.WARNING, "B22-DECIMAL", text, block.line, block.start + pointless.start() + 1)
 
     def tool_called(self, number: int, block: Block) -> None:
@@ -111,13 +111,13 @@ class ThreeBlock(Chain, Control):
             text = "The tool and its diameter stay while compensation is on; write G40 before."
             self.log.stop("B9-AMOUNT", text, block.line, block.column("T"))
         if not 1 <= number <= 24:
-            text = f"Tool {number} is none of the tools 1 to 24 of this control."
+            text = f"This control has tools 1 to 24; {number} is not one of them."
             self.log.stop("B19-TRANGE", text, block.line, block.column("T"))
 
     def own_code(self, code: int, block: Block) -> None:
         """G45 and the G44 that ends it; G99 does nothing to the path."""
         if code == 450 and not self.ratio:
-            text = "G45 is taken to hold until G44; that is an interpretation."
+            text = "cutcomp assumes that G45 holds until G44; the manual does not say."
             self.log.tell(Severity.INFO, "G45", text, block.line, block.column("G", 450))
         self.ratio = code == 450 if code in (440, 450) else self.ratio
 
@@ -143,9 +143,9 @@ class ThreeBlock(Chain, Control):
     def _again(self, side: Side, block: Block) -> None:
         column = block.side_column()
         if (self.offset > 0.0) != (side is Side.LEFT) and self._radius(block) > 0.0:
-            text = "G41 and G42 cannot be exchanged while compensation is on; write G40 before."
+            text = "G41 and G42 cannot be swapped while compensation is on. Write G40 before."
             self.log.stop("B8-SIDE", text, block.line, column)
-        text = "Compensation is on already on this side; that this is allowed is an interpretation."
+        text = "Compensation is on already on this side. cutcomp assumes that is allowed; the manual does not say."
         self.log.tell(Severity.WARNING, "B8-SIDE", text, block.line, column)
 
     def _radius(self, block: Block) -> float:
@@ -154,7 +154,7 @@ class ThreeBlock(Chain, Control):
         if self.machine.tool == 0 or tool is None:
             text = f"The diameter of tool {self.machine.tool} is not entered; write T1/length/diameter before."
             if self.machine.tool == 0:
-                text = "The tool number has to stand before G41 or G42; write T and the number."
+                text = "The tool number must come before G41 or G42. Write T and the number."
             self.log.stop("B5-TOOL", text, block.line, block.side_column())
         diameter = tool.diameter_mm(self.machine.unit)
         if abs(diameter) > LARGEST_DIAMETER + 1e-6:
@@ -166,7 +166,7 @@ class ThreeBlock(Chain, Control):
     def idle(self, block: Block) -> None:
         """A block that moves nothing."""
         if not self.opening:
-            text = "Under compensation every block has to move the tool; take this one out."
+            text = "Under compensation every block must move the tool. Remove this one."
             self.log.stop("B10-NOMOVE", text, block.line, block.start + 1)
 
     def travel(self, element: Element) -> None:
@@ -177,13 +177,13 @@ class ThreeBlock(Chain, Control):
             super().travel(element)
             return
         if not element.moves and element.low == element.high:
-            text = "Under compensation every block has to move the tool; take this one out."
+            text = "Under compensation every block must move the tool. Remove this one."
             self.log.stop("B10-NOMOVE", text, element.line, 1)
         self._height(element)
         self._approach(element)
         self._collinear(element)
         if element.turn and not fits(element, self.offset):
-            text = "The arc's radius {0} is not larger than the cutter's {1}: it will be gouged without an alarm."
+            text = "The arc radius {0} is not larger than the cutter radius {1}: the cutter gouges without an alarm."
             lengths = (element.radius, abs(self.offset))
             self.log.tell(Severity.WARNING, "B16-NARROW", text, element.line, 1, lengths=lengths)
         self.hold(element)
@@ -196,10 +196,10 @@ class ThreeBlock(Chain, Control):
             text = "No Z in the first three compensated blocks; move Z in the block with G41 or after them."
             self.log.stop("B12-ZENDS", text, element.line, 1)
         if rises and element.turn:
-            text = "Z goes with straight moves only under compensation; an arc with Z is an interpretation."
+            text = "Under compensation Z goes with straight moves only. How an arc with Z runs is an assumption."
             self.log.tell(Severity.WARNING, "B12z-ZARC", text, element.line, 1)
         if not element.moves and any(moved and not flat for _, moved, flat in self.blocks[-3:-1]):
-            text = "Between two blocks of Z alone there have to be two blocks with X or Y."
+            text = "Program two blocks with X or Y between two Z-only blocks."
             self.log.stop("B13-ZSEP", text, element.line, 1)
 
     def _approach(self, element: Element) -> None:
@@ -207,7 +207,7 @@ class ThreeBlock(Chain, Control):
             return
         if self.elements == 0:
             if element.turn:
-                text = "The block behind G41 or G42 has to be straight: it is the approach."
+                text = "The block after G41 or G42 is the approach; it must be straight."
                 self.log.stop("B6-APPR", text, element.line, 1)
             self.open_stretch(self.side, self.offset, element)
 
@@ -217,11 +217,11 @@ class ThreeBlock(Chain, Control):
             return
         (ax, ay), (bx, by) = held.arriving, element.leaving
         if abs(ax * by - ay * bx) < TANGENT:
-            text = "Two straight moves on one line cannot follow each other; make one move of them."
+            text = "Two straight moves in a row lie on one line. Join them into one move."
             self.log.stop("B11-COLLINEAR", text, element.line, 1)
 
     def joint(self, first: Element, second: Element) -> Joint:
-        """The approach ends square to the next; then offsets meet inside, an arc goes round outside."""
+        """The approach ends square to the next; then offsets meet inside, an arc goes around outside."""
         if self.elements == 1:
             start = offset_start(second, self.offset)
             return Joint(start, start)
@@ -232,7 +232,7 @@ class ThreeBlock(Chain, Control):
 
     def _override(self, element: Element) -> None:
         if not self.inserted:
-            text = "Between tangent moves, first here, the control puts its own G99: it does not slow down."
+            text = "Between tangent moves, first at this line, the control puts its own G99: it does not slow down."
             self.log.tell(Severity.INFO, "G99", text, element.line, 1)
         self.inserted = True
 
@@ -277,7 +277,7 @@ class ThreeBlock(Chain, Control):
         if moves and self.machine.mode not in (0, 10):
             self._arc_exit(block.line, column)
         if len(self.blocks) < 3:
-            text = "Between G41 or G42 and G40 there have to be three compensated blocks at least."
+            text = "Program at least three compensated blocks between G41 or G42 and G40."
             self.log.stop("B7-MIN5", text, block.line, column)
         for line, rises, _ in self.blocks[-3:]:
             if rises:
@@ -288,13 +288,13 @@ class ThreeBlock(Chain, Control):
         self.active = False
 
     def _arc_exit(self, line: int, column: int) -> NoReturn:
-        text = "The move that leaves compensation has to be straight; write G0 or G1. That is inferred."
+        text = "The move that leaves compensation must be straight. Write G0 or G1. The manual only implies this."
         self.log.stop("B20-G40ARC", text, line, column)
 
     def close(self) -> None:
-        """The program ends; with compensation still on that is told."""
+        """The program ends; compensation still on is reported."""
         if self.active:
-            text = "The program ends with compensation on; write a block with G40. That is an interpretation."
+            text = "The program ends with compensation on. Write a block with G40. That it needs one is an assumption."
             line = self.blocks[-1][0] if self.blocks else self.turned_on
             self.log.tell(Severity.ERROR, "B21-NOG40", text, line, 1)
         self.release_at_end()

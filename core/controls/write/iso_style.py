@@ -12,14 +12,14 @@ from core.units import Unit
 
 
 class Entry(Enum):
-    """Where the first compensated move ends, which decides where it has to start from."""
+    """Where the first compensated move ends, which decides where it must start."""
 
     SQUARE_TO_NEXT = auto()
     """Square to the start of the next element: it may come from anywhere."""
     TANGENT = auto()
-    """On the tangent to the tool where it stands: it has to come along the tool's path."""
+    """On the tangent to the tool where it stands: it must come along the tool's path."""
     SQUARE_TO_ITSELF = auto()
-    """Square to itself: it has to run as the next element does."""
+    """Square to itself: it must run as the next element does."""
 
 
 class Radius(Enum):

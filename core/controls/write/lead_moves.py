@@ -19,7 +19,7 @@ LEAD_LENGTHS: Final = (2.0, 1.25, 1.05, 0.5, 0.25, 0.1)
 """Lengths of the straight leads in radii, longest first; the first that cuts nothing is taken."""
 
 MIN_SQUARE_LENGTH: Final = 1.0
-"""Radii that the entry has to be longer than where it ends square to itself."""
+"""Radii that the entry must be longer than where it ends square to itself."""
 
 ON_LINE: Final = 1e-6
 """Millimeters by which the joint of two lines may lie off the line they are merged to."""

@@ -39,7 +39,7 @@ class Travel(NamedTuple):
 class Line(NamedTuple):
     """A line of a program being written, the segment it cuts, and whether it only leads to that or away from it.
 
-    `travel` is the move that the line has to make where nothing is compensated.
+    `travel` is the move that the line must make where nothing is compensated.
     """
 
     text: str
@@ -50,7 +50,7 @@ class Line(NamedTuple):
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Terms:
-    """How a run along a contour at one depth is made: millimeters, millimeters a minute, revolutions a minute.
+    """How a run along a contour at one depth is made: millimeters, millimeters per minute, revolutions per minute.
 
     The run is compensated for the tool's `diameter` and the `stock` it leaves.  `feeds` are those of the segments by
     number.  The way there is at the height `travel`, rapid ends at `near`, feed goes on to `depth`, and up to `leave`.
@@ -131,7 +131,7 @@ def programmed(compensated: Compensated) -> Programmed | Finding:
         return refusal("There is no path to write.")
     if bool(compensated.bridged.any()):
         number = float(compensated.path.numbers[compensated.bridged][0])
-        return refusal("Part of the path is a bridge the tool cannot run: the control would stop there.", number)
+        return refusal("The tool cannot run a bridged part of the path: the control would stop there.", number)
     rows = _rows(compensated)
     offset = compensated.side.sign * compensated.radius
     elements = [element_of(compensated.contour[row]) for row in rows]
@@ -142,8 +142,8 @@ def programmed(compensated: Compensated) -> Programmed | Finding:
             continue
         corner = corners.meeting(first, second, 0.0)
         if corner is None:
-            text = "The look-ahead deletes what follows, which no control does by itself. Post the center path instead."
-            return refusal(text, numbers[index])
+            text = "The look-ahead deletes the next segments; no control's own compensation does that."
+            return refusal(f"{text} Post the center path.", numbers[index])
         elements[index], elements[index + 1] = first._replace(end=corner), second._replace(start=corner)
     first_run, last_run = _run_of(compensated)
     elements[0] = _whole(elements[0], elements[0]._replace(start=_surface(elements[0], first_run, offset)))

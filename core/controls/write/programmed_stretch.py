@@ -30,7 +30,7 @@ MIN_LIFT: Final = 10.0
 """Millimeters from a contour's depth up to where the tool travels, at least."""
 
 DEFAULT_FEED: Final = 100.0
-"""Millimeters a minute where the program gives no feed."""
+"""Millimeters per minute where the program gives no feed."""
 
 
 @dataclass(frozen=True, slots=True)

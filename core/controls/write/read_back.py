@@ -1,6 +1,6 @@
 """Read-back: a written program run on its own control, and its path compared with the intended one.
 
-The control's path has to be the block's within two of the last digits written, a thousandth of a millimeter at least.
+The control's path must be the block's within two of the last digits written, a thousandth of a millimeter at least.
 A path that differs passes only where it gouges nothing and leaves nothing more uncut than the block's, with a note that
 says how far it differs; everything else is refused with the place and the reason.
 """
@@ -34,7 +34,7 @@ MAX_CENTER_SHIFT: Final = 0.01
 """Millimeters by which an arc's center may be moved to even out its radii."""
 
 MAX_COMPARED_PIECES: Final = 4000
-"""Pieces of a path up to which paths that differ are compared; a longer one has to be the same piece by piece."""
+"""Pieces of a path up to which paths that differ are compared; a longer one must be the same piece by piece."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -182,8 +182,7 @@ def compare_path(made: Path, cut: Cut, intended: Intended) -> Answer:
         return Answer((refused,))
     if apart <= tolerance:
         return Answer()
-    text = f"{intended.control} goes round corners its own way, up to {{0}} off the block's path;"
-    text += " its path gouges nothing and leaves nothing more."
+    text = f"{intended.control} takes corners differently, by up to {{0}}. It does not gouge or leave more."
     return Answer((), (Finding("DIFFERS", Severity.WARNING, text, intended.segment(number), lengths=(apart,)),))
 
 

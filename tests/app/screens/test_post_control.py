@@ -38,7 +38,7 @@ def test_the_program_of_a_control_is_written(tmp_path: Path, monkeypatch: pytest
     file = tmp_path / "part.nc"
     one = operator("flange").press("down", *str(file), "enter")
     assert one.said.startswith("Posted:")
-    assert one.said.endswith("PART NAME FLANGE is not in the file: threeblock knows no comments.")
+    assert one.said.endswith("PART NAME FLANGE is not in the file: threeblock has no comments.")
     assert file.read_text().startswith("G17G70G40G90\nT1//0.5\n")
 
 
@@ -47,7 +47,7 @@ def test_what_the_control_does_otherwise_is_said(tmp_path: Path, monkeypatch: py
     one = operator("plate-mm").press(*["down"] * 5, *str(tmp_path / "a.nc"), "enter")
     assert one.said.startswith("! Posted: a.nc, ")
     assert "lines. Segment" in one.said
-    assert "nine-series:a goes round corners its own way" in one.said
+    assert "nine-series:a takes corners differently" in one.said
 
 
 def test_what_the_control_cannot_is_said_and_nothing_is_written(
@@ -64,7 +64,7 @@ def test_post_control_on_the_command_line(tmp_path: Path, capsys: pytest.Capture
     out = tmp_path / "part.nc"
     assert main(["post", str(example("plate-mm")), "--control", "nine-series:b", "-o", str(out)]) in (0, 1)
     assert "G41 D2 G1" in out.read_text()
-    assert "goes round corners its own way" in capsys.readouterr().err
+    assert "takes corners differently" in capsys.readouterr().err
 
 
 def test_refusals_on_the_command_line(capsys: pytest.CaptureFixture[str]) -> None:
@@ -74,13 +74,13 @@ def test_refusals_on_the_command_line(capsys: pytest.CaptureFixture[str]) -> Non
     assert streams.out == ""
     assert "nothing was posted. Segment 8:" in streams.err
     assert main(["post", part, "--control", "fanuc"]) == 2
-    assert "There is no such control" in capsys.readouterr().err
+    assert "No such control" in capsys.readouterr().err
     assert main(["post", part, "--control", "linuxcnc", "--override", "POST WITH GOUGE"]) == 2
     assert "leave out --control" in capsys.readouterr().err
 
 
 def test_proof_refuses_what_it_cannot_open(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["proof", str(tmp_path), "--control", "fanuc"]) == 2
-    assert "There is no such control" in capsys.readouterr().err
+    assert "No such control" in capsys.readouterr().err
     assert main(["proof", str(tmp_path / "none.nc"), "--tool", "x"]) == 2
     assert "--tool x" in capsys.readouterr().err

@@ -45,7 +45,7 @@ def test_a_difference_is_run_up_to_the_control_s_limit_and_an_alarm_beyond_it(
     (alarm,) = told(beyond, "ARC")
     assert (alarm.severity, alarm.line, beyond.stopped_at) == (Severity.ERROR, 4, 4)
     assert alarm.lengths == pytest.approx((radius * SCALE[unit], (radius + 1.01 * limit) * SCALE[unit]), abs=1e-5)
-    assert ("interpretation" in alarm.text) is (control != "linuxcnc")
+    assert ("cutcomp assumes" in alarm.text) is (control != "linuxcnc")
 
 
 @pytest.mark.skipif(WITNESS is None, reason="LinuxCNC's rs274 is not installed")

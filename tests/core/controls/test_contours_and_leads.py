@@ -112,7 +112,7 @@ def test_a_long_way_between_contours_that_is_told_as_gouged_is_told_to_be_no_sur
     assert {9.0, 10.0} & {float(one.text.split("line ")[1].split()[0]) for one in told if one.code == "GOUGE"}
     (way,) = (one for one in told if one.code == "WAY")
     assert (way.severity, way.line) == (Severity.WARNING, 9)
-    assert way.text.startswith("Lines 9 to 12, more than 2 moves next to a closed contour")
+    assert way.text.startswith("Lines 9-12 are treated as a contour")
     short = findings(judged(ran(two_rings("X-20. Y-50.\nX100. Y0.\n"), control, t1=6)))
     assert not {"WAY", "GOUGE"} & {one.code for one in short}
 
@@ -123,7 +123,7 @@ def test_a_way_on_which_the_side_changes_is_told_once_and_whole(way: str) -> Non
     assert "SIDES" in {one.code for one in told}
     (way_told,) = (one for one in told if one.code == "WAY")
     assert way_told.line == 9
-    assert way_told.text.startswith("Lines 9 to 12, more than 2 moves")
+    assert way_told.text.startswith("Lines 9-12 are treated as a contour")
 
 
 NECK = "Y30.\nX10.\nY20.\nX5.\nY10.\nX19.\nY20.\nX14.\nY30.\nX40.\nY0.\nX0.\n"

@@ -44,7 +44,7 @@ def test_a_notch_too_narrow_gouges_here_and_alarms_there() -> None:
     assert strict.run.stopped_at == 8
     other = rows["klartext"]
     assert isinstance(other, OtherLanguage)
-    assert other.why == "no control that reads the program runs it to its end"
+    assert other.why == "no control that reads this program can run it to the end"
 
 
 def test_two_paths_part_at_the_entry() -> None:
@@ -101,7 +101,7 @@ def test_with_offset_0_no_side_is_wrong_and_the_depth_that_the_tool_cuts_is_told
     done = ran(POCKET.format(load=load), control, t1=0.5, t2=0)
     assert {"WRONG-SIDE", "GOUGE"}.isdisjoint(finding.code for finding in findings(judged(done)))
     (told_of,) = told(done, "RADIUS0")
-    assert "tool 1 of diameter 0.5000 cuts 0.2500 into the part along the contour" in sentence(told_of, Unit.IN)
+    assert "tool 1, diameter 0.5000, cuts 0.2500 too deep along the contour" in sentence(told_of, Unit.IN)
 
 
 def test_an_offset_that_comes_later_is_on_the_wrong_side_all_the_same() -> None:
@@ -112,9 +112,9 @@ def test_an_offset_that_comes_later_is_on_the_wrong_side_all_the_same() -> None:
 def test_a_tool_that_is_not_loaded_is_told_of_where_it_is_the_only_one() -> None:
     for control in ("linuxcnc", "rosettacnc", "nine-series:a"):
         (only,) = told(ran(POCKET.format(load="M3"), control, t3=0.5), "RADIUS0")
-        assert "tool 3 of diameter 0.5000 cuts 0.2500 into the part" in sentence(only, Unit.IN)
+        assert "tool 3, diameter 0.5000, cuts 0.2500 too deep" in sentence(only, Unit.IN)
         (none,) = told(ran(POCKET.format(load="M3"), control, t3=0.5, t4=0.25), "RADIUS0")
-        assert "any cutter cuts by its radius into the part" in none.text
+        assert "a cutter cuts its own radius too deep along the contour" in none.text
 
 
 def test_a_real_wrong_side_with_a_radius_is_still_told() -> None:
@@ -126,7 +126,7 @@ def test_a_run_that_was_given_up_is_not_judged() -> None:
     done = ran_up_to("G21 F9\nG41 D1\nG1 X9\no1 while [1]\nX20\nY20\nX0\nY0\no1 endwhile\nM2\n", 500, t1=1)
     assert done.stretches
     assert judged(done) == ()
-    assert "not judged" in told(done, "LIMIT")[0].text
+    assert "does not judge the run" in told(done, "LIMIT")[0].text
 
 
 CHANGED = "G20 G17 G90\nT1 M6\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\nX0 Y2\n{word}\nX0 Y4\nG40 X-1 Y5\nM2\n"

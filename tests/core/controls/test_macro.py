@@ -177,7 +177,7 @@ def test_what_takes_long_to_work_out_is_given_up_sooner(kind: str) -> None:
     assert len(many.moves) > 18_000
     assert 1_000 < len(few.moves) < 3_000
     for given_up in (few, many):
-        assert "not judged: end the loop, or let it run less often." in told(given_up, "LIMIT")[0].text
+        assert "does not judge the run. Fix the loop or repeat fewer times." in told(given_up, "LIMIT")[0].text
 
 
 def test_blocks_that_run_once_are_no_repeats() -> None:
@@ -193,7 +193,7 @@ def test_lines_with_more_than_moves_may_run_often() -> None:
 
 def test_a_loop_of_o_words_that_is_given_up_says_what_to_do() -> None:
     done = ran("G20 F9\no1 while [1]\no1 endwhile\nM2\n", "linuxcnc")
-    assert "not judged: end the loop, or let it run less often." in told(done, "LIMIT")[0].text
+    assert "does not judge the run. Fix the loop or repeat fewer times." in told(done, "LIMIT")[0].text
 
 
 def test_a_long_subprogram_may_run_often() -> None:

@@ -58,7 +58,7 @@ def test_easy_enters_at_the_tangent_point_of_the_second_move() -> None:
 def test_normal_enters_as_linuxcnc_does_and_says_so() -> None:
     done = sample("rosettacnc-square.ngc", "rosettacnc:normal", t1=6)
     assert same(shape(done)[-12:], [("line", 30 - sqrt(49 - 9), 7), *BEHIND_ENTRY])
-    assert "interpretation" in told(done, "ENTRY")[0].text
+    assert "cutcomp assumes" in told(done, "ENTRY")[0].text
 
 
 @pytest.mark.parametrize("variant", ["easy", "normal"])

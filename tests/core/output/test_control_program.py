@@ -142,8 +142,8 @@ def test_a_control_that_has_the_stock_in_its_block_needs_no_offset() -> None:
 def test_what_differs_from_the_path_of_the_block_is_noted_with_its_segment() -> None:
     found = posted("nine-series:a")
     assert [(note.code, note.severity, note.segment) for note in found.notes] == [("DIFFERS", Severity.WARNING, 2.0)]
-    assert "(NOTE DIFFERS SEGMENT 2: nine-series:a goes round corners its own way, up)" in found.text
-    assert "(to 0.1036 off the block's path, its path gouges nothing and leaves)" in found.text
+    assert "(NOTE DIFFERS SEGMENT 2: nine-series:a takes corners differently, by up)" in found.text
+    assert "(to 0.1036. It does not gouge or leave more.)" in found.text
 
 
 def test_without_compensation_the_header_says_so() -> None:
@@ -167,7 +167,7 @@ def test_a_control_without_work_offsets_says_that_its_origin_has_to_be_set() -> 
 def test_a_part_name_that_a_control_cannot_hold_is_told() -> None:
     (note,) = posted("threeblock", part="A\x1bB").notes
     assert (note.code, note.severity, note.field) == ("PART_NAME", Severity.INFO, "name")
-    assert note.text == "PART NAME A?B is not in the file: threeblock knows no comments."
+    assert note.text == "PART NAME A?B is not in the file: threeblock has no comments."
     assert posted("threeblock", part="  ").notes == ()
     assert posted("klartext", part="A").notes == ()
 

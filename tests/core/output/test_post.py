@@ -37,7 +37,7 @@ def test_a_whole_program_in_inches():
         "(BLOCK 1 MILL CONTOUR CUTTER COMP. LEFT LOOKAHEAD USR 4 Z 0.0000 TO)",
         "(-0.2500)",
         "(A NOTE)",
-        "(G64 P0.0002: THE MACHINE MAY ROUND INSIDE CORNERS BY SO MUCH)",
+        "(G64 P0.0002: CORNER TOLERANCE 0.0002)",
         "G17 G20 G40 G49 G54 G80 G90 G91.1 G94",
         "G64 P0.0002",
         "T1 M6",
