@@ -215,7 +215,7 @@ def better_path_findings(best: BestPath, apart: Separation) -> tuple[Finding, ..
 def size_warning(radius: float, surface: Path) -> tuple[Finding, ...]:
     """A tool that is larger than the whole contour is usually the wrong tool."""
     boxes = surface.boxes
-    extent = max((boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0)).tolist(), default=inf)
+    extent = max((boxes[2:].max(axis=1) - boxes[:2].min(axis=1)).tolist(), default=inf)
     if 2 * radius <= extent:
         return ()
     text = "The tool is {value} across, larger than the whole contour ({0}). Check TOOL and TOOL SETUP."

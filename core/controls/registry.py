@@ -18,7 +18,7 @@ from core.controls.iso.arcs import ArcRadii
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.flow import MakeControl, execute
 from core.controls.klartext import control as klartext
-from core.controls.klartext.path_functions import ARC_RADII
+from core.controls.klartext.path_functions import KLARTEXT_RADII
 from core.controls.makers import linuxcnc, nine_series, rosettacnc, threeblock
 from core.controls.program_text import lines_of
 from core.finding import Finding, Severity
@@ -67,7 +67,7 @@ CONTROLS: Final[Mapping[str, Entry]] = MappingProxyType(
 def arc_radii(control: str) -> ArcRadii:
     """How far the radii of an arc may differ on a control, by its full or short name."""
     dialect = CONTROLS[control.partition(":")[0]].dialect
-    return dialect.arc_radii if dialect else ARC_RADII
+    return dialect.arc_radii if dialect else KLARTEXT_RADII
 
 
 def names() -> tuple[str, ...]:

@@ -118,7 +118,7 @@ class Scene:
     def _boxes(self, without: Container[Style]) -> list[Floats]:
         layers = [*(layer for layer in self.layers if layer.style not in without), *map(_outline, self.circles)]
         with np.errstate(invalid="ignore", over="ignore"):
-            return [path.boxes for layer in layers for path in layer.parts]
+            return [path.boxes.T for layer in layers for path in layer.parts]
 
 
 def _outline(circle: Circle) -> Layer:

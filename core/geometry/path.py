@@ -121,11 +121,7 @@ class Path:
     @property
     def lengths(self) -> Floats:
         """(n,) length of each piece."""
-        pieces = pieces_of(self)
-        lengths: Floats = np.abs(pieces.end - pieces.start)
-        arcs = self.turns.nonzero()[0]
-        lengths[arcs] = self.radii[arcs] * swept(pieces.take(arcs))
-        return lengths
+        return lengths(pieces_of(self))
 
     @property
     def start_directions(self) -> Floats:
@@ -147,8 +143,8 @@ class Path:
 
     @property
     def boxes(self) -> Floats:
-        """(n, 4) exact bounding boxes: left, bottom, right, top."""
-        return boxes(pieces_of(self)).T
+        """(4, n) exact bounding boxes: left, bottom, right, top."""
+        return boxes(pieces_of(self))
 
     def reversed(self) -> Path:
         """The same pieces traveled the other way; numbers stay with their pieces."""
@@ -194,6 +190,15 @@ def boxes(pieces: Pieces) -> Floats:
     reached = np.concatenate((center - radius, center + radius))
     box[:, rows] = np.where(ahead <= swept(arcs), reached, box[:, rows])
     return box
+
+
+def lengths(pieces: Pieces) -> Floats:
+    """(n,) length of each piece."""
+    size: Floats = np.abs(pieces.end - pieces.start)
+    rows = pieces.turn.nonzero()[0]
+    arcs = pieces.take(rows)
+    size[rows] = np.abs(arcs.start - arcs.center) * swept(arcs)
+    return size
 
 
 def swept(pieces: Pieces) -> Floats:

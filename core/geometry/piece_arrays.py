@@ -14,8 +14,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, as_complex, swept
-from core.geometry.path import boxes as boxes_of
+from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, as_complex, boxes, swept
 from core.geometry.piece import SLIVER
 from core.tolerance import ON_PATH
 
@@ -82,6 +81,11 @@ class PieceArrays:
         stations = np.zeros(len(self.length) + 1)
         self.length.cumsum(out=stations[1:])
         return stations
+
+    @property
+    def boxes(self) -> Floats:
+        """(4, n) exact bounding boxes: left, bottom, right, top."""
+        return boxes(Pieces(self.start, self.end, self.center, self.turn.astype(np.int8)))
 
 
 _NO_POINTS: Final = np.zeros(0, np.complex128)
@@ -227,8 +231,3 @@ def place(pieces: PieceArrays, stations: Floats, s: Floats) -> tuple[Rows, Float
     length = pieces.length.take(index)
     t = (s - stations.take(index)) / np.where(length == 0.0, 1.0, length)
     return index, np.minimum(np.maximum(t, 0.0), 1.0)
-
-
-def boxes(pieces: PieceArrays) -> Floats:
-    """(4, n) exact bounding boxes: left, bottom, right, top."""
-    return boxes_of(Pieces(pieces.start, pieces.end, pieces.center, pieces.turn.astype(np.int8)))

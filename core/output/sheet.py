@@ -151,7 +151,7 @@ def _reach(job: Job, unit: Unit) -> str:
     """The rectangle the cutters stay in, for the clamps."""
     stages = ((job.cutter, rough_runs(job)), (job.finisher, job.finish))
     swept = [
-        run.whole.boxes + np.array([-1.0, -1.0, 1.0, 1.0]) * cutter.diameter / 2
+        run.whole.boxes.T + np.array([-1.0, -1.0, 1.0, 1.0]) * cutter.diameter / 2
         for cutter, runs in stages
         for run in runs
         if cutter is not None and len(run.whole)

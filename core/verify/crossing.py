@@ -11,7 +11,7 @@ import numpy as np
 from core.geometry.distance import between, distance, foot, nearest_places
 from core.geometry.nearby import gathered, near_pairs_within
 from core.geometry.path import Flags, Floats, Points, Rows
-from core.geometry.piece_arrays import PieceArrays, at, boxes, direction
+from core.geometry.piece_arrays import PieceArrays, at, direction
 from core.tolerance import JOINED
 
 TURN: Final = 1e-6
@@ -55,7 +55,7 @@ def crossings(surface: PieceArrays, *, closed: bool) -> Crossings:
 
 def _candidates(surface: PieceArrays, *, closed: bool) -> tuple[Rows, Rows]:
     """Pairs i < j that may meet elsewhere than at a joint: any near ones, and neighbors that come back."""
-    bounds = boxes(surface)
+    bounds = surface.boxes
     i, j = gathered(near_pairs_within(bounds, JOINED))
     again = (_overlapping(bounds) & _may_come_back(surface)).nonzero()[0]
     again = again[_turned(surface, again, again + 1) > pi - TURN]

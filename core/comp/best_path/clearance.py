@@ -16,7 +16,7 @@ from core.comp.best_path.slices import Slices, least_of_connected
 from core.geometry.distance import distance
 from core.geometry.nearby import near_pairs
 from core.geometry.path import Flags, Floats, Path, Points, Rows, as_complex
-from core.geometry.piece_arrays import boxes, piece_arrays
+from core.geometry.piece_arrays import piece_arrays
 from core.tolerance import CLEAR
 
 SAMPLE: Final = 64
@@ -61,7 +61,7 @@ def clear(points: Points, segments: Rows, surface: Path, radius: float) -> Flags
     rows = good.nonzero()[0]
     if len(rows):
         walls, spots = piece_arrays(surface), points[rows]
-        for i, j in near_pairs(point_boxes(spots), boxes(walls), radius):
+        for i, j in near_pairs(point_boxes(spots), walls.boxes, radius):
             good[rows[i[distance(walls.take(j), spots[i]) < radius - CLEAR]]] = False
     return good
 

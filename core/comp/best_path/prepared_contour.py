@@ -13,14 +13,13 @@ from core.finding import Finding
 from core.geometry.intersect import Meeting, meet
 from core.geometry.nearby import near_pairs, near_pairs_within
 from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates, next_in_ring
-from core.geometry.piece import SLIVER
-from core.geometry.piece_arrays import boxes, piece_arrays
+from core.geometry.piece_arrays import piece_arrays
 from core.tolerance import JOINED, ON_PATH
 
 _UNDER_HALF_TURN: Final = 3.1
 """Radians, safely under half a turn; whether a corner sharper than this turns left or right its angle does not tell."""
 
-_NOT_WHOLE_TURN: Final = 6.0
+NOT_WHOLE_TURN: Final = 6.0
 """Radians; an arc that turns through less ends well away from its start."""
 
 RUN: Final = 16
@@ -49,24 +48,14 @@ def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
     kept = np.abs(points[1:] - points[:-1]) > JOINED
     if not kept.all():
         kept |= contour.lengths > JOINED
-    findings = tuple(comp_findings.zero_length(contour, (~kept).nonzero()[0]))
-    if not kept.all():
-        contour = _without_zero_lengths(contour, kept)
+    dropped = (~kept).nonzero()[0]
+    findings = tuple(comp_findings.zero_length(contour, dropped))
+    contour = contour.without(dropped)
     if not len(contour):
         return Surface(EMPTY, np.zeros(2), (*findings, *comp_findings.refusal(contour, radius, ())))
     origin = (contour.points.min(axis=0) + contour.points.max(axis=0)) / 2.0
     path = _even(Path.of(contour.points - origin, contour.centers - origin, contour.turns, contour.numbers))
     return Surface(_closed(path) if closed else path, origin, findings)
-
-
-def _without_zero_lengths(contour: Path, kept: Flags) -> Path:
-    """The contour's kept segments: each starts where the one kept before it ends, full circles stay full."""
-    ends = contour.points[1:][kept]
-    whole = (contour.points[1:] == contour.points[:-1]).all(axis=1)[kept].nonzero()[0]
-    points = np.concatenate((contour.points[:1], ends))
-    for row in whole[::-1].tolist():
-        points[row] = points[row + 1]
-    return Path.of(points, contour.centers[kept], contour.turns[kept], contour.numbers[kept])
 
 
 def _even(path: Path) -> Path:
@@ -135,7 +124,7 @@ def crosses_itself(path: Path, *, closed: bool) -> tuple[float, float] | None:
         return float(path.numbers[row]), float(path.numbers[row - 1 if row else 1])
     apart = _meet_next_only_at_joint(path)
     pieces = piece_arrays(path)
-    for i, j in near_pairs_within(boxes(pieces), 2.0 * ON_PATH):
+    for i, j in near_pairs_within(pieces.boxes, 2.0 * ON_PATH):
         i, j = pieces.rows[i], pieces.rows[j]
         known = apart[i] & (j == i + 1)
         if closed and apart[-1]:
@@ -159,11 +148,8 @@ def _meet_next_only_at_joint(path: Path) -> Flags:
     """
     first, last = tangents(path)
     turned = np.abs(np.angle(last.conj() * next_in_ring(first)))
-    arcs = path.turns.nonzero()[0]
-    if len(arcs):
-        swept = np.zeros(len(path))
-        swept[arcs] = np.mod(np.angle(first[arcs].conj() * last[arcs]) * path.turns[arcs], tau)
-        swept[arcs[first[arcs] == last[arcs]]] = tau
+    if path.turns.any():
+        swept = np.abs(path.sweeps)
         tangent = _tangent_and_counter_turning(path, swept, turned)
         turned += swept + next_in_ring(swept)
         turned[tangent] = 0.0
@@ -179,7 +165,7 @@ def _tangent_and_counter_turning(path: Path, swept: Floats, joint: Floats) -> Fl
     radii = np.abs(as_complex(path.points)[:-1] - as_complex(path.centers))
     tangent: Flags = 2.0 * np.minimum(radii, next_in_ring(radii)) * joint <= JOINED
     tangent &= path.turns * next_in_ring(path.turns) < 0
-    tangent &= np.maximum(swept, next_in_ring(swept)) < _NOT_WHOLE_TURN
+    tangent &= np.maximum(swept, next_in_ring(swept)) < NOT_WHOLE_TURN
     return tangent
 
 
@@ -216,12 +202,7 @@ def winds(path: Path, radius: float) -> bool:
     joints = np.angle(last[:-1].conj() * first[1:])
     if np.abs(joints).max(initial=0.0) > _UNDER_HALF_TURN:
         return True
-    swept = np.zeros(len(path))
-    arcs = path.turns.nonzero()[0]
-    if len(arcs):
-        turn = path.turns[arcs]
-        angle = np.mod(np.angle(first[arcs].conj() * last[arcs]) * turn, tau)
-        swept[arcs] = turn * np.where(angle > tau - SLIVER, 0.0, angle)
+    swept = path.sweeps
     heading = np.cumsum(np.stack((swept, np.append(joints, 0.0)), axis=1)).reshape(-1, 2)
     low, high = heading.min(axis=1), heading.max(axis=1)
     before = heading[:, 0] - swept
@@ -233,7 +214,7 @@ def _faces_itself(path: Path, radius: float, low: Floats, high: Floats) -> bool:
     """Are there segments no farther apart than the cutter is wide whose headings differ by more than half a turn?"""
     pieces = piece_arrays(path)
     low, high = low[pieces.rows], high[pieces.rows]
-    box, starts = boxes(pieces), np.arange(0, len(pieces), RUN)
+    box, starts = pieces.boxes, np.arange(0, len(pieces), RUN)
     low, high = np.minimum.reduceat(low, starts), np.maximum.reduceat(high, starts)
     least, most = np.minimum.reduceat(box[:2], starts, axis=1), np.maximum.reduceat(box[2:], starts, axis=1)
     runs = np.concatenate((least, most))

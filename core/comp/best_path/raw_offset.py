@@ -14,8 +14,8 @@ import numpy as np
 
 from core.comp.best_path.prepared_contour import winds
 from core.comp.offset import RawChain, RawPart, offset
-from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, Turns, as_complex, joined
-from core.geometry.piece import SLIVER, Side
+from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, Turns, as_complex, joined, lengths
+from core.geometry.piece import Side
 from core.tolerance import CROWDED, JOINED, ON_PATH
 
 
@@ -213,7 +213,7 @@ def _raw(chain: RawChain, radius: float, sides: int, vertices: Points, *, rings:
         center,
         turns,
         path.numbers[rows],
-        lengths(start, end, center, turns),
+        lengths(Pieces(start, end, center, turns)),
         np.where(gapless, order, -1),
         gapless & (rows[order] == onward[rows]),
         np.zeros(len(rows)),
@@ -258,7 +258,7 @@ def _smoothed(chain: Untrimmed, radius: float) -> Untrimmed:
     start, end, size = raw.start.copy(), raw.end.copy(), raw.lengths.copy()
     start[after] = end[before] = (raw.end[before] + raw.start[after]) / 2.0
     moved = np.concatenate((before, after))
-    size[moved] = lengths(start[moved], end[moved], raw.center[moved], raw.turns[moved])
+    size[moved] = lengths(Pieces(start, end, raw.center, raw.turns).take(moved))
     missed, following, smooth = raw.gaps.copy(), raw.following.copy(), raw.smooth.copy()
     missed[before], following[before], smooth[before] = gaps, after, True
     order, inside = chain.order.copy(), chain.inside.copy()
@@ -282,16 +282,3 @@ def _near_tangent(chain: Untrimmed) -> tuple[Rows, Rows, Rows]:
     after = np.concatenate((order[corners], order[inside]))
     apart = before != after
     return before[apart], between[apart], after[apart]
-
-
-def lengths(start: Points, end: Points, center: Points, turns: Turns) -> Floats:
-    """(n,) lengths of pieces; an arc whose ends are equal is a full circle."""
-    size: Floats = np.abs(end - start)
-    arcs = turns.nonzero()[0]
-    first, last, turn = start[arcs] - center[arcs], end[arcs] - center[arcs], turns[arcs]
-    angle = np.angle(first.conj() * last) * turn
-    angle[angle < 0.0] += tau
-    angle[angle > tau - SLIVER] = 0.0
-    angle[size[arcs] == 0.0] = tau
-    size[arcs] = angle * np.abs(first)
-    return size

@@ -17,7 +17,7 @@ from core.comp.best_path.best_path import BestPath
 from core.geometry.distance import distance
 from core.geometry.nearby import near_pairs
 from core.geometry.path import Floats, Path, coordinates
-from core.geometry.piece_arrays import PieceArrays, at, boxes, piece_arrays, traveled
+from core.geometry.piece_arrays import PieceArrays, at, piece_arrays, traveled
 from core.tolerance import GOUGE
 
 
@@ -53,7 +53,7 @@ def _unfollowed(control: PieceArrays, loop: PieceArrays, limit: float) -> list[t
     """The gaps between the intervals in which the control's path follows the loop, as millimeters traveled on it."""
     stations = loop.stations
     first, last = [np.zeros(1), stations[-1:]], [np.zeros(1), stations[-1:]]
-    for i, j in near_pairs(boxes(loop), boxes(control), 2.0 * limit):
+    for i, j in near_pairs(loop.boxes, control.boxes, 2.0 * limit):
         alike = loop.arcs[i] == control.arcs[j]
         i, j = i[alike], j[alike]
         piece, move = loop.take(i), control.take(j)

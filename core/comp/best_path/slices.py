@@ -15,6 +15,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
+from core.comp.best_path.prepared_contour import NOT_WHOLE_TURN
 from core.comp.best_path.raw_offset import RawOffset, renumbered
 from core.geometry.intersect import Meeting, Meetings, meet_pieces
 from core.geometry.nearby import near_pairs, near_pairs_within
@@ -29,9 +30,6 @@ MAX_INTERSECTIONS: Final = 2_000_000
 
 _ALMOST_FULL_TURN: Final = 6.28
 """Radians, a little less than a full turn."""
-
-_NOT_WHOLE_TURN: Final = 6.0
-"""Radians; an arc that turns through less ends well away from its start."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -92,7 +90,7 @@ def _meet_next_only_at_joint(raw: RawOffset) -> Flags:
     swept = np.where(raw.turns == 0, 0.0, raw.lengths / np.where(raw.turns == 0, 1.0, arm))
     after = raw.following
     apart = swept + swept[after] < _ALMOST_FULL_TURN
-    apart |= (raw.turns * raw.turns[after] <= 0) & (np.maximum(swept, swept[after]) < _NOT_WHOLE_TURN)
+    apart |= (raw.turns * raw.turns[after] <= 0) & (np.maximum(swept, swept[after]) < NOT_WHOLE_TURN)
     apart &= raw.smooth
     return apart
 

@@ -14,10 +14,10 @@ from math import sqrt
 import numpy as np
 
 from core.comp.best_path.clearance import clear, point_boxes
-from core.comp.best_path.raw_offset import RawOffset, lengths
+from core.comp.best_path.raw_offset import RawOffset
 from core.comp.best_path.slices import Slices
 from core.geometry.nearby import gathered, near_pairs
-from core.geometry.path import Flags, Floats, Path, Rows, coordinates, next_in_ring
+from core.geometry.path import Flags, Floats, Path, Pieces, Rows, coordinates, lengths, next_in_ring
 from core.tolerance import CLEAR, CROWDED, GOUGE, JOINED, WHISKER
 
 _CUT_BACKS = 4
@@ -237,7 +237,7 @@ def loop_of(raw: RawOffset, made: Stitched, rows: Rows, origin: Floats) -> Path:
     next_slice = made.following[rows[-1]]
     points = np.append(start, cut.points[cut.first[next_slice] if next_slice >= 0 else cut.last[rows[-1]]])
     tiny = ((turns != 0) & (size <= CROWDED)).nonzero()[0]
-    swept = lengths(points[tiny], points[tiny + 1], centers[tiny], turns[tiny])
+    swept = lengths(Pieces(points[:-1], points[1:], centers, turns).take(tiny))
     turns[tiny[np.abs(swept - size[tiny]) > CROWDED / 2.0]] = 0
     centers = np.where(turns == 0, points[:-1], centers)
     return Path.of(coordinates(points) + origin, coordinates(centers) + origin, turns, numbers)

@@ -21,7 +21,7 @@ from core.tolerance import JOINED
 POLAR: Final = frozenset(("PR", "PA", "IPR", "IPA", *AXES))
 """The words of a polar point, and those of the axes, of which only the tool axis's may stand with them."""
 
-ARC_RADII: Final = ArcRadii(inch=0.016 / 25.4, mm=0.016, share=0.0, interpreted=False)
+KLARTEXT_RADII: Final = ArcRadii(inch=0.016 / 25.4, mm=0.016, share=0.0, interpreted=False)
 """How far the radii at the start and the end of an arc about the pole may differ."""
 
 MAX_HELIX: Final = 5400.0
@@ -216,7 +216,7 @@ def _about_pole(state: State, block: Block, words: Words, end: list[float], turn
 def _check_radii(state: State, block: Block, center: Point, goal: Point) -> None:
     start = state.flat(state.position)[0]
     first, last = hypot(start[0] - center[0], start[1] - center[1]), hypot(goal[0] - center[0], goal[1] - center[1])
-    if abs(first - last) > ARC_RADII.mm or min(first, last) <= JOINED:
+    if abs(first - last) > KLARTEXT_RADII.mm or min(first, last) <= JOINED:
         text = "The arc's radius is {0} at its start and {1} at its end. Correct CC or the end point."
         state.stop("ARC", text, block, "", first, last)
 

@@ -56,9 +56,9 @@ def test_line_without_length_has_no_direction():
 
 
 def test_boxes():
-    assert PATH.boxes.tolist() == [[0, 0, 2, 0], [2, 0, 3, 1], [3, 0, 5, 2], [3, 1, 3, 3]]
+    assert PATH.boxes.T.tolist() == [[0, 0, 2, 0], [2, 0, 3, 1], [3, 0, 5, 2], [3, 1, 3, 3]]
     low = Arc((-1, 0), (sqrt(0.5), -sqrt(0.5)), (0, 0), Turn.CCW)
-    assert Path.from_pieces([low]).boxes.tolist() == [pytest.approx([-1, -1, sqrt(0.5), 0])]
+    assert Path.from_pieces([low]).boxes.T.tolist() == [pytest.approx([-1, -1, sqrt(0.5), 0])]
 
 
 def test_backwards():
@@ -113,7 +113,7 @@ def test_boxes_hold_every_point_of_their_piece(path, share):
     arcs = path.centers @ np.array([1, 1j]) + radial * turned
     straight = (path.starts + share * (path.ends - path.starts)) @ np.array([1, 1j])
     on = np.where(path.turns == 0, straight, arcs)
-    boxes = path.boxes
+    boxes = path.boxes.T
     assert (on.real >= boxes[:, 0] - 1e-9).all()
     assert (on.imag >= boxes[:, 1] - 1e-9).all()
     assert (on.real <= boxes[:, 2] + 1e-9).all()

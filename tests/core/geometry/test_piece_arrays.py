@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Side, Turn
-from core.geometry.piece_arrays import at, boxes, direction, piece_arrays, place
+from core.geometry.piece_arrays import at, direction, piece_arrays, place
 from core.verify.judge import judge
 from tests.core.verify import oracle
 from tests.core.verify.shapes import lines, paths
@@ -61,7 +61,7 @@ def test_an_uneven_arc_gets_a_circle_through_both_ends() -> None:
 @settings(deadline=None, max_examples=80, derandomize=True)
 @given(paths())
 def test_boxes_hold_all_points_and_are_no_larger(path: Path) -> None:
-    box = boxes(piece_arrays(path))
+    box = piece_arrays(path).boxes
     for index, piece in enumerate(path):
         x, y = oracle.along(piece, np.linspace(0.0, 1.0, 400)).T
         low_x, low_y, high_x, high_y = box[:, index]
