@@ -49,7 +49,7 @@ def test_what_a_control_refuses_is_told_before_anything_is_posted() -> None:
     assert "What linuxcnc refuses is being calculated." in words(operator)
     answered(operator)
     assert "Nothing stands" not in words(operator)
-    assert "!! Segment 8: The look-ahead deletes what follows" in words(operator)
+    assert "!! Segment 8: The look-ahead deletes the next segments" in words(operator)
     assert "Nothing can be posted for linuxcnc" in operator.said
     assert operator.desk.page.question is None
 
