@@ -70,6 +70,11 @@ def arc_radii(control: str) -> ArcRadii:
     return dialect.arc_radii if dialect else KLARTEXT_RADII
 
 
+def is_klartext(control: str) -> bool:
+    """Whether a control, by its full or short name, reads Klartext; all others read word addresses."""
+    return CONTROLS[control.partition(":")[0]].dialect is None
+
+
 def names() -> tuple[str, ...]:
     """Every control with every variant."""
     return tuple(_joined(name, variant) for name, entry in CONTROLS.items() for variant in entry.variants)
@@ -90,7 +95,7 @@ _BEGINS: Final = re.compile(r"\s*+(?:[0-9]++\s++)?BEGIN\s++PGM\b", re.IGNORECASE
 def reads(control: str, text: bytes) -> bool:
     """Whether a control reads the language a program is written in: Klartext begins with BEGIN PGM."""
     klartext_text = _BEGINS.match("\n".join(lines_of(text[:4096]))) is not None
-    return klartext_text == control.startswith("klartext")
+    return klartext_text == is_klartext(control)
 
 
 def resolve(control: str) -> str | UnknownControl:
@@ -125,5 +130,5 @@ def programmed(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -> Run | 
 
     None for another control, or where even that stops.
     """
-    made = klartext.run(text, tools, TINY_SHARE) if control == "klartext" else None
+    made = klartext.run(text, tools, TINY_SHARE) if is_klartext(control) else None
     return made if made and made.stopped_at is None else None

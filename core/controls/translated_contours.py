@@ -16,7 +16,7 @@ from core.controls.control_run import Run, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.registry import UnknownControl, run
 from core.controls.write.iso_program import Frame, tools_of, write
-from core.controls.write.iso_style import STYLES
+from core.controls.write.iso_style import FREE_ENTRY, STYLES
 from core.controls.write.klartext_program import DECIMALS, write_led
 from core.controls.write.programmed_contour import Led, Line
 from core.controls.write.programmed_stretch import NotTranslated, ProgrammedStretch, led, programmed_stretch
@@ -54,7 +54,7 @@ def translated(source: Run, control: str) -> Translated | NotTranslated:
         elements = programmed_stretch(source, stretch, sizes.index(stretch.radius) + 1)
         if isinstance(elements, NotTranslated):
             return elements
-        run_led = led(elements, style or STYLES["rosettacnc:easy"], blends=style is not None)
+        run_led = led(elements, style or FREE_ENTRY, blends=style is not None)
         if isinstance(run_led, NotTranslated):
             return run_led
         programmed.append(elements)

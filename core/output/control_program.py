@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Final
 
+from core.controls.registry import is_klartext
 from core.controls.write.iso_program import Frame, offsets
 from core.controls.write.iso_style import STYLES, Radius
 from core.controls.write.programmed_contour import Cut, Plain
@@ -50,7 +51,7 @@ def control_program(
         # a semicolon would end the block even inside a remark, or begin another one
         texts = (*program_titles(name, part), *_header(jobs, cuts, unit, control, notes))
         lines = [line for text in texts for line in comments(text.replace(";", ","))]
-        return [line[1:-1] for line in lines] if control == "klartext" else lines
+        return [line[1:-1] for line in lines] if is_klartext(control) else lines
 
     # a name every control takes: letters, digits, a dash
     short_name = "".join(sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in name)[:24]
@@ -67,7 +68,8 @@ def control_program(
 
 def _no_work_offset(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
     """That this control has no word for the jobs' work offset."""
-    if control in ("threeblock", "klartext") and jobs[0].work_offset != 54:
+    style = STYLES.get(control)
+    if (style is None or not style.writes_work_offset) and jobs[0].work_offset != 54:
         text = f"Work offset G{jobs[0].work_offset} cannot be written for {control}; set its origin on the control."
         return (Finding("WORK_OFFSET", Severity.WARNING, text),)
     return ()
@@ -81,7 +83,7 @@ def _header(
     compensation = "THE CONTROL COMPENSATES" if compensates else "NOTHING IS COMPENSATED"
     yield f"WRITTEN BY CUTCOMP FOR {control}: THE CONTOUR AS TYPED, {compensation}"
     yield f"UNITS {'INCH' if unit is Unit.IN else 'MM'}"
-    table = "" if control == "klartext" else ": THE CONTROL'S TABLE MUST SAY THE SAME"
+    table = "" if is_klartext(control) else ": THE CONTROL'S TABLE MUST SAY THE SAME"
     yield from dict.fromkeys(f"TOOL {cut.tool} DIAMETER {length_text(cut.diameter, unit)}{table}" for cut in cuts)
     yield from _offsets(cuts, unit, control)
     for job in jobs:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum, auto
 from types import MappingProxyType
 from typing import Final
@@ -42,7 +42,8 @@ class IsoStyle:
     `inch` and `metric` are its codes for the units, `safe` the codes that stand before anything moves; `{offset}` in
     them is the work offset.  `decimals` of inches and of millimeters.  `absolute`: I and J count from the origin.
     `merged`: lines on one line are written as one.  `comments`: the text may hold remarks.  `length`: G43 H names the
-    tool's length.  `spaced`: words stand apart.
+    tool's length.  `spaced`: words stand apart.  `corner_code` sets the way around outside corners, whatever was in
+    force before; empty where a control has one way only.
     """
 
     inch: str
@@ -56,6 +57,12 @@ class IsoStyle:
     comments: bool = True
     length: bool = True
     spaced: bool = True
+    corner_code: str = ""
+
+    @property
+    def writes_work_offset(self) -> bool:
+        """Whether the program selects a work offset."""
+        return any("{offset}" in line for line in self.safe)
 
     def digits(self, unit: Unit) -> int:
         """Decimals of a length."""
@@ -65,7 +72,9 @@ class IsoStyle:
 _NIST: Final = ("G17 {unit} G40 G49 {offset} G50 G69 G90",)
 _NINE: Final = ("G17 {unit} G40 G49 {offset} G80 G90 G94",)
 
-_ROSETTA: Final = IsoStyle("G20", "G21", _NIST, (6, 5), Entry.SQUARE_TO_NEXT, Radius.REDUCED)
+FREE_ENTRY: Final = IsoStyle("G20", "G21", _NIST, (6, 5), Entry.SQUARE_TO_NEXT, Radius.REDUCED)
+"""A style whose leads may come from anywhere."""
+
 _NINE_SERIES: Final = IsoStyle("G20", "G21", _NINE, (4, 3), Entry.SQUARE_TO_NEXT, Radius.OFFSET)
 
 STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
@@ -84,9 +93,13 @@ STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
             spaced=False,
         ),
         "rosettacnc:nist": IsoStyle("G20", "G21", _NIST, (6, 5), Entry.TANGENT, Radius.REDUCED),
-        "rosettacnc:easy": _ROSETTA,
+        "rosettacnc:easy": FREE_ENTRY,
         "rosettacnc:normal": IsoStyle("G20", "G21", _NIST, (6, 5), Entry.SQUARE_TO_ITSELF, Radius.REDUCED),
-        **{f"nine-series:{kind}{corners}": _NINE_SERIES for kind in ("a", "b") for corners in ("", "-g39", "-g39.1")},
+        **{
+            f"nine-series:{kind}{corners}": replace(_NINE_SERIES, corner_code=code)
+            for kind in ("a", "b")
+            for corners, code in (("", "G39"), ("-g39", "G39"), ("-g39.1", "G39.1"))
+        },
         "linuxcnc": IsoStyle(
             "G20",
             "G21",

@@ -8,6 +8,7 @@ from typing import Final
 
 from core.comp.result import Compensated
 from core.controls.control_tools import ToolTable
+from core.controls.registry import is_klartext
 from core.controls.write import iso_program, klartext_program
 from core.controls.write.iso_program import Frame, offsets, tools_of
 from core.controls.write.iso_style import STYLES, IsoStyle
@@ -43,19 +44,21 @@ def write_program(
     cuts: Sequence[Cut | Plain], control: str, frame: Frame, name: str, remarks: Remarks
 ) -> WrittenProgram | NotWritten:
     """The program of a control by its full name; `remarks` makes its first lines of the notes on it."""
-    if control == "klartext":
-        return _klartext(cuts, frame, name, remarks)
+    if is_klartext(control):
+        return _klartext(cuts, control, frame, name, remarks)
     return _iso(cuts, control, frame, remarks)
 
 
-def _klartext(cuts: Sequence[Cut | Plain], frame: Frame, name: str, remarks: Remarks) -> WrittenProgram | NotWritten:
+def _klartext(
+    cuts: Sequence[Cut | Plain], control: str, frame: Frame, name: str, remarks: Remarks
+) -> WrittenProgram | NotWritten:
     decimals = klartext_program.DECIMALS[frame.unit]
 
     def write(notes: Sequence[Finding]) -> Intended | Finding:
         lines = klartext_program.write(cuts, name, frame.unit, remarks(notes))
         if isinstance(lines, Finding):
             return lines
-        return _intended(lines, "klartext", cuts, ToolTable(), frame, decimals)
+        return _intended(lines, control, cuts, ToolTable(), frame, decimals)
 
     return _confirmed(write)
 
@@ -71,7 +74,7 @@ def _iso(cuts: Sequence[Cut | Plain], control: str, frame: Frame, remarks: Remar
     if refusals:
         return NotWritten(refusals)
     runs = [cut if isinstance(cut, Plain) else _run(cut, led, numbers[cut.tool, cut.stock]) for cut in cuts]
-    frame = replace(frame, corners=_corners(control))
+    frame = replace(frame, corners=style.corner_code)
 
     def write(notes: Sequence[Finding]) -> Intended:
         lines = iso_program.write(runs, style, frame, remarks(notes))
@@ -85,13 +88,6 @@ def _run(cut: Cut, led: dict[Compensated, Led | Finding], offset: int) -> Led:
     run = led[cut.compensated]
     assert isinstance(run, Led)
     return replace(run, terms=cut, offset=offset)
-
-
-def _corners(control: str) -> str:
-    """G39 or G39.1, where a control has them: what was in force before does not count then."""
-    if not control.startswith("nine-series"):
-        return ""
-    return "G39.1" if control.endswith("g39.1") else "G39"
 
 
 def _led(cut: Cut, style: IsoStyle, offset: int) -> Led | Finding:
@@ -115,7 +111,7 @@ def _intended(
     lines: tuple[Line, ...], control: str, cuts: Sequence[Cut | Plain], tools: ToolTable, frame: Frame, decimals: int
 ) -> Intended:
     digit = to_mm(10.0**-decimals, frame.unit)
-    return Intended(control, lines, tuple(cuts), tools, frame.unit, digit, leads=control != "klartext")
+    return Intended(control, lines, tuple(cuts), tools, frame.unit, digit, leads=not is_klartext(control))
 
 
 def _confirmed(write: Callable[[Sequence[Finding]], Intended | Finding]) -> WrittenProgram | NotWritten:
