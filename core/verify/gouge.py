@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import inf
+from typing import Final
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from core.tolerance import GOUGE, JOINED, ON_PATH
 from core.verify.pairs import Pairs, changes, uneven_slack
 from core.verify.stretches import NO_STRETCHES, Parts, Stretches, joined, union, within
 from core.verify.verdict import Approach, Gouge
+
+LOOP_GAP: Final = 1.0
+"""Millimeters between two loops, far more than ends that touch miss each other by."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -79,12 +83,19 @@ def closest(pairs: Pairs, surface: Path) -> Approach | None:
 
 
 def _deepest(pairs: Pairs, parts: Parts) -> Gouging:
-    """Parts as stretches, each with the least distance measured in it; of equal ones the earliest along the path."""
-    stretches = union(parts.first, parts.last)
-    owner, apart = stretches.index(parts.middle), np.round(parts.apart / ON_PATH)
+    """Parts as stretches, each with the least distance measured in it; of equal ones the earliest along the path.
+
+    Stretches at the end of one loop and at the beginning of the next are two: loops are held LOOP_GAP apart meanwhile.
+    """
+    moves = pairs.pieces
+    loops = np.append(0, (np.abs(moves.start[1:] - moves.end[:-1]) > JOINED).cumsum())
+    shift = LOOP_GAP * loops[pairs.i[parts.pair]]
+    shifted = union(parts.first + shift, parts.last + shift)
+    owner, apart = shifted.index(parts.middle + shift), np.round(parts.apart / ON_PATH)
     order = np.lexsort((parts.pair, apart, owner))
     best = order[changes(owner[order])]
     pair = parts.pair[best]
+    stretches = Stretches(shifted.first - shift[best], shifted.last - shift[best])
     return Gouging(stretches, parts.middle[best], parts.apart[best], pairs.i[pair], pairs.j[pair])
 
 

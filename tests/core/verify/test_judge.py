@@ -342,6 +342,18 @@ def test_a_gouge_of_the_second_loop_counts_on() -> None:
     assert gouge.depth == pytest.approx(0.5)
 
 
+@pytest.mark.parametrize("surface", [square(20.0), lines((0, 40), (0, 0), (40, 0))])
+def test_a_gouge_at_a_loops_end_and_one_where_the_next_begins_are_two(surface: Path) -> None:
+    """The first ends 1 behind the left wall, the second begins 2.9 behind it: all of the cutter gets behind there."""
+    first, second = lines((-6, 5), (1, 5)), lines((2.9, 12), (10, 12))
+    verdict = judge_together(surface, Side.RIGHT, 3.0, (first, second))
+    assert [gouge.path_piece for gouge in verdict.gouges] == [1, 0]
+    assert [gouge.depth for gouge in verdict.gouges] == pytest.approx([6.0, 4.0])
+    assert [gouge.extent for gouge in verdict.gouges] == pytest.approx([0.1, 4.0], abs=1e-5)
+    alone = judge_together(surface, Side.RIGHT, 3.0, (first, lines((9, 12), (10, 12))))
+    assert [gouge.depth for gouge in alone.gouges] == pytest.approx([4.0])
+
+
 def test_no_loop_at_all_leaves_everything() -> None:
     wall = Path.from_pieces([Line((0, 0), (10, 0))])
     assert judge_together(wall, Side.LEFT, 1.0, ()).uncut_length == pytest.approx(10.0)
