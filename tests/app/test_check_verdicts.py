@@ -200,12 +200,12 @@ END PGM P MM
 @pytest.mark.parametrize(
     ("control", "text", "difference", "severity"),
     [
-        ("linuxcnc", ARC.format(end="1.0003"), "with 0.0003 more", "info"),
-        ("linuxcnc", ARC.format(end="1.0009"), "with 0.0009 more", "warning"),
-        ("rosettacnc:normal", ARC.format(end="1.0003"), "with 0.0003 more", "info"),
-        ("nine-series:a", ARC.format(end="1.0003"), "with 0.0003 more", "info"),
-        ("klartext", KLARTEXT_ARC.format(end="20.01"), "with 0.010 more", "info"),
-        ("klartext", KLARTEXT_ARC.format(end="20.015"), "with 0.015 more", "warning"),
+        ("linuxcnc", ARC.format(end="1.0003"), "with 0.0003 extra", "info"),
+        ("linuxcnc", ARC.format(end="1.0009"), "with 0.0009 extra", "warning"),
+        ("rosettacnc:normal", ARC.format(end="1.0003"), "with 0.0003 extra", "info"),
+        ("nine-series:a", ARC.format(end="1.0003"), "with 0.0003 extra", "info"),
+        ("klartext", KLARTEXT_ARC.format(end="20.01"), "with 0.010 extra", "info"),
+        ("klartext", KLARTEXT_ARC.format(end="20.015"), "with 0.015 extra", "warning"),
     ],
 )
 def test_an_arc_with_two_radii_is_judged_and_the_difference_is_said(
