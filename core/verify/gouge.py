@@ -12,7 +12,7 @@ from core.geometry.distance import between, foot, nearest_places
 from core.geometry.path import Floats, Path, Rows, coordinates
 from core.geometry.piece_arrays import at, blocks
 from core.tolerance import GOUGE, JOINED, ON_PATH
-from core.verify.pairs import Pairs, changes, uneven_slack
+from core.verify.pairs import Pairs, changes, measured, uneven_slack
 from core.verify.stretches import NO_STRETCHES, Parts, Stretches, joined, union, within
 from core.verify.verdict import Approach, Gouge
 
@@ -35,7 +35,10 @@ class Gouging:
 
 
 def gouging(pairs: Pairs, limit: float) -> Gouging:
-    """Where the center path is nearer to the surface than the limit, less what uneven arcs leave open."""
+    """Where the center path is nearer to the surface than the limit, less what uneven arcs leave open.
+
+    Raises NotMeasurableError where a distance is not a number.
+    """
     limits = limit - uneven_slack(pairs.pieces, pairs.i, pairs.others, pairs.j)
     near = (pairs.least < limits).nonzero()[0]
     if not len(near):
@@ -54,7 +57,7 @@ def approaches(pairs: Pairs, rows: Rows, limit: Floats) -> tuple[Floats, Floats,
         pair = rows[block]
         pieces, others = pairs.pieces.take(pairs.i[pair]), pairs.others.take(pairs.j[pair])
         places = nearest_places(pieces, others)
-        apart = between(pieces, others, places)
+        apart = measured(between(pieces, others, places))
         new = (places > 0.0) & (places < 1.0)
         # the first two are the ends
         new[:2] = True

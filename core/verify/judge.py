@@ -12,7 +12,7 @@ from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.tolerance import ARC_RADII, GOUGE
 from core.verify.contact import backwards, loose
 from core.verify.gouge import closest, gouges, gouging
-from core.verify.pairs import measurable, pairs_of, rounding_of, uneven_slack
+from core.verify.pairs import NotMeasurableError, measurable, pairs_of, rounding_of, uneven_slack
 from core.verify.surface import Surface
 from core.verify.uncut import uncut
 from core.verify.verdict import NOTHING, UnevenArc, Verdict
@@ -56,7 +56,10 @@ def judge_prepared(surface: Surface, radius: float, centers: Sequence[Path], arc
             worst = int(pieces.slack.argmax()) if len(pieces) else 0
             if len(pieces) and not pieces.slack[worst] <= arc_radii:
                 return _unjudged(radius, _uneven(pieces, worst, known, on_surface=pieces is surface.walls))
-        return _judged(surface, radius, moves, numbers)
+        try:
+            return _judged(surface, radius, moves, numbers)
+        except NotMeasurableError:
+            return _unjudged(radius)
 
 
 def _unjudged(radius: float, arc: UnevenArc | None = None) -> Verdict:

@@ -58,6 +58,10 @@ class Pairs:
         )
 
 
+class NotMeasurableError(ArithmeticError):
+    """A distance that is not a number: whoever compares it would pass it over."""
+
+
 def measurable(radius: float, *paths: Path) -> bool:
     """All coordinates and the radius are lengths a machine could have."""
     arrays = [array.ravel() for path in paths for array in (path.points, path.centers)]
@@ -77,6 +81,13 @@ def pairs_of(pieces: PieceArrays, others: PieceArrays, rounding: float, rows: Ro
     i = i if rows is None else rows[i]
     grant = rounding + uneven_slack(pieces, i, others, j)
     return Pairs(pieces, others, pieces.stations, i, j, grant, *_measured(pieces, i, others, j))
+
+
+def measured(apart: Floats) -> Floats:
+    """These distances; raises NotMeasurableError where one is not a number."""
+    if np.isnan(apart).any():
+        raise NotMeasurableError
+    return apart
 
 
 def uneven_slack(pieces: PieceArrays, i: Rows, others: PieceArrays, j: Rows) -> Floats:

@@ -11,7 +11,7 @@ from core.geometry.distance import band_places, between
 from core.geometry.path import Flags, Floats, Rows
 from core.geometry.piece_arrays import blocks
 from core.tolerance import ON_PATH
-from core.verify.pairs import Pairs
+from core.verify.pairs import Pairs, measured
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -86,7 +86,7 @@ def _within(pairs: Pairs, rows: Rows, limit: Floats) -> Parts:
     pieces, others = pairs.pieces.take(pairs.i[rows]), pairs.others.take(pairs.j[rows])
     places = band_places(pieces, others, limit)
     middles = (places[1:] + places[:-1]) / 2.0
-    apart = between(pieces, others, middles)
+    apart = measured(between(pieces, others, middles))
     part, pair = ((apart < limit) & (places[1:] > places[:-1])).nonzero()
     start, length = pairs.stations[pairs.i[rows[pair]]], pieces.length[pair]
     first, last, middle = places[part, pair], places[part + 1, pair], middles[part, pair]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import nan
 
 import numpy as np
@@ -9,10 +10,13 @@ import pytest
 from numpy.typing import NDArray
 
 from core.geometry.path import Path
-from core.geometry.piece import Side
+from core.geometry.piece import Arc, Side, Turn
+from core.geometry.piece_arrays import piece_arrays
 from core.verify.contact import air_cuts
-from core.verify.judge import judge, judge_together
-from core.verify.pairs import measurable
+from core.verify.gouge import gouging
+from core.verify.judge import judge, judge_prepared, judge_together
+from core.verify.pairs import NotMeasurableError, measurable, pairs_of, rounding_of
+from core.verify.surface import Surface
 from tests.core.verify.shapes import lines
 
 WALL, DEEP = lines((0, 0), (10, 0), (20, 0)), lines((1, 0.5), (9, 0.5), (19, 0.5))
@@ -76,6 +80,36 @@ def test_of_any_path_at_all_no_finding_goes_by_a_number_that_is_none(seed: int) 
         assert verdict.depth >= radius - least - 0.01
     assert judged > 20
     assert gouged > 5
+
+
+ROUND = Path.from_pieces([Arc((0.0, 0.0), (20.0, 0.0), (10.0, 0.0), Turn.CCW)])
+
+
+@pytest.mark.parametrize(("contour", "column"), [(WALL, "vector"), (WALL, "start"), (ROUND, "start")])
+def test_a_wall_whose_distance_is_not_a_number_is_not_judged(contour: Path, column: str) -> None:
+    """A comparison passes it over: the path beside it would be clean."""
+    surface = Surface.prepare(contour, Side.LEFT)
+    far = lines((-50, 30), (-60, 30))
+    for path in (DEEP, far):
+        assert judge_prepared(surface, 1.0, [path]).judged
+        values = getattr(surface.walls, column).copy()
+        values[-1] = nan
+        spoiled = replace(surface, walls=replace(surface.walls, **{column: values}))
+        verdict = judge_prepared(spoiled, 1.0, [path])
+        assert not verdict.judged
+        assert not verdict.clean
+
+
+@pytest.mark.parametrize("column", ["start", "arm"])
+def test_gouges_at_a_distance_that_is_not_a_number_are_not_left_out(column: str) -> None:
+    contour, path = (ROUND, Path.from_pieces([Arc((1.0, 0.0), (19.0, 0.0), (10.0, 0.0), Turn.CCW)]))
+    walls, moves = piece_arrays(contour), piece_arrays(path)
+    with np.errstate(all="ignore"):
+        pairs = pairs_of(moves, walls, rounding_of(walls))
+        assert len(gouging(pairs, 2.0))
+    values = getattr(moves, column) * nan
+    with np.errstate(all="ignore"), pytest.raises(NotMeasurableError):
+        gouging(replace(pairs, pieces=replace(moves, **{column: values})), 2.0)
 
 
 @pytest.mark.parametrize("bad", [nan, np.inf, -np.inf, 1e300, 1.1e7])
