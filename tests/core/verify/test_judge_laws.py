@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from math import isnan
+from random import Random
 
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from core.comp.compensate import compensate
 from core.geometry.path import Path
 from core.geometry.piece import Side
 from core.tolerance import GOUGE
-from core.verify.judge import judge
+from core.verify.judge import judge, judge_together
 from tests.core.verify import oracle
 from tests.core.verify.shapes import lines, mirrored, moved, paths
+from tests.core.verify.test_sides import star
 
 NASTY = st.sampled_from((0.0, 1.0, -1.0, 2.0, 1e-12, 1e-9, 1e-7, 1e-6, 1e-200, 5e-324, 1e7, -9.9e6, 0.1, 1e4))
 
@@ -108,3 +111,48 @@ def test_motion_changes_nothing(surface: Path, center: Path, radius: float, angl
     assert back.depth == pytest.approx(verdict.depth, abs=1e-7)
     assert back.uncut_length == pytest.approx(verdict.uncut_length, abs=1e-4)
     assert back.wrong_side == verdict.wrong_side
+
+
+def _loops(random: Random, surface: Path) -> list[Path]:
+    """Paths beside and across a surface: correct ones of several radii, one moved, and lines across the whole."""
+    found = [
+        compensate(surface, side, random.choice((0.1, 0.3, 0.9)), 20, closed=True).path
+        for side in random.choices(list(Side), k=3)
+    ]
+    x, y = random.uniform(-6.0, 6.0), random.uniform(-6.0, 6.0)
+    shifted = moved(found[0], random.uniform(-0.1, 0.1), (random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2)))
+    return random.sample([*(path for path in found if len(path)), shifted, lines((x, -12), (x, y), (12, y))], 3)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_loops_judged_together_are_judged_as_each_alone(seed: int) -> None:
+    """Of gouges at the end of one loop and the start of the next the deeper one stands for both; less stays uncut."""
+    random = Random(seed)
+    surface, side, radius = star(random), random.choice(list(Side)), random.choice((0.1, 0.3, 0.5))
+    loops = _loops(random, surface)
+    together, alone = judge_together(surface, side, radius, loops), [judge(surface, side, radius, one) for one in loops]
+    first = np.cumsum([0, *(len(loop) for loop in loops)]).tolist()
+    depths = sorted(
+        (gouge.path_piece + row, gouge.surface_number, gouge.depth)
+        for row, verdict in zip(first, alone, strict=False)
+        for gouge in verdict.gouges
+    )
+    for gouge in together.gouges:
+        assert any(
+            (gouge.path_piece, gouge.surface_number) == (row, number) and gouge.depth == pytest.approx(depth, abs=1e-8)
+            for row, number, depth in depths
+        )
+    assert together.depth == pytest.approx(max(one.depth for one in alone), abs=1e-8)
+    gouged = sum(gouge.extent for one in alone for gouge in one.gouges)
+    assert sum(gouge.extent for gouge in together.gouges) == pytest.approx(gouged, abs=1e-5)
+    # where a contour crosses itself sides are asked outside of gouges only
+    for name in ("backwards", "loose", *(() if together.crosses_itself else ("wrong_side",))):
+        rows = [row + k for row, one in zip(first, alone, strict=False) for k in getattr(one, name)]
+        assert list(getattr(together, name)) == rows
+    assert together.clearance == pytest.approx(min(one.clearance for one in alone), abs=1e-12)
+    assert together.clean == all(one.clean for one in alone)
+    assert together.uncut_length <= min(one.uncut_length for one in alone) + 1e-9
+    assert (
+        together.uncut_length
+        >= together.surface_length - sum(one.surface_length - one.uncut_length for one in alone) - 1e-9
+    )

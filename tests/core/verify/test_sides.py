@@ -7,6 +7,7 @@ from random import Random
 import numpy as np
 import pytest
 
+from core.comp.compensate import compensate
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from core.verify.judge import judge
@@ -44,6 +45,34 @@ def test_sides_of_closed_outlines(seed: int) -> None:
         for side in Side:
             wrong = inside != (room_is_left_inside == (side is Side.LEFT))
             assert judge(outline, side, 0.05, move).wrong_side == ((0,) if wrong else ())
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_moves_far_off_a_closed_outline_are_on_the_side_of_the_path_they_belong_to(seed: int) -> None:
+    """A lead is on the wrong side where some place of it is in the part, whatever the path it leads to is beside."""
+    random, asked = Random(seed), 0
+    outline, radius = star(random), random.choice((0.005, 0.05, 0.3))
+    if judge(outline, Side.LEFT, 0.01, lines((50, 50), (51, 50))).crosses_itself:
+        outline = lines((0, 0), (9, 0), (9, 9), (4.5, 4.6), (0, 9), (0, 0))
+    room_is_left_inside = oracle.turning(outline) > 0.0
+    for side in Side:
+        path = compensate(outline, side, radius, 20, closed=True).path
+        ends = path.points[[0, -1]].tolist() if len(path) else [(0.1, 0.1), (0.2, 0.2)]
+        far = [(x + random.gauss(0.0, 2.0), y + random.gauss(0.0, 2.0)) for x, y in ends]
+        leads = lines(far[0], tuple(ends[0])), lines(tuple(ends[1]), far[1])
+        center = Path.from_pieces([*leads[0], *path, *leads[1]]) if len(path) else leads[0]
+        for judged_side in Side:
+            room_inside = room_is_left_inside == (judged_side is Side.LEFT)
+            wrong_side = judge(outline, judged_side, radius, center).wrong_side
+            for row, lead in zip((0, len(center) - 1), leads if len(path) else leads[:1], strict=False):
+                points, _ = oracle.samples(lead, 0.005)
+                in_part = oracle.encloses(outline, points) != room_inside
+                apart = oracle.apart(points, outline)
+                # between points 0.005 apart a lead crosses only what one of them is half as near to
+                if (in_part & (apart > 0.01)).any() or (not in_part.any() and apart.min() > 0.0026):
+                    asked += 1
+                    assert (row in wrong_side) == in_part.any()
+    assert asked >= 2
 
 
 HOOK = Path.from_pieces([Line((0, 0), (10, 0)), Arc((10, 0), (10, 4), (10, 2), Turn.CCW), Line((10, 4), (3, 4))])
