@@ -262,7 +262,7 @@ def _pair(pair: ContourPair, first: Unit, second: Unit) -> str:
         return f"Contour {pair.number}: the same."
     ways = ((pair.first, first, "first"), (pair.second, second, "second"))
     told = [
-        f"line {way.line} of the {name} is {_length(way.distance, unit)} {unit.value} off"
+        f"line {way.farthest} of the {name} is {_length(way.distance, unit)} {unit.value} off"
         for way, unit, name in ways
         if way
     ]

@@ -33,20 +33,12 @@ class Parting:
 
 
 @dataclass(frozen=True, slots=True)
-class ContourParting:
-    """How far one contour is from another at most, and at which line of its program."""
-
-    line: int
-    distance: float
-
-
-@dataclass(frozen=True, slots=True)
 class ContourPair:
-    """One compensated stretch of each program, counted from 1: where each leaves the other, None where nowhere."""
+    """One compensated stretch of each program, counted from 1: where each leaves the other, None if nowhere."""
 
     number: int
-    first: ContourParting | None
-    second: ContourParting | None
+    first: Parting | None
+    second: Parting | None
     same_side: bool
 
     @property
@@ -62,24 +54,14 @@ def contours(first: Run, second: Run) -> tuple[ContourPair, ...]:
 
 
 def _pair(number: int, first: Stretch, second: Stretch) -> ContourPair:
-    ours, theirs = _contour(first), _contour(second)
+    surfaces = surface_of(first), surface_of(second)
+    ours, theirs = (surface.part(*contour_of(surface)) for surface in surfaces)
     same_side = first.side is second.side and first.plane is second.plane
-    return ContourPair(number, _parting(ours, theirs), _parting(theirs, ours), same_side)
-
-
-def _contour(stretch: Stretch) -> Path:
-    whole = surface_of(stretch)
-    return whole.part(*contour_of(whole))
-
-
-def _parting(path: Path, other: Path) -> ContourParting | None:
-    """The place of a path that is farthest from the other one, None where they are the same."""
-    parting = apart(path, other, APART)
-    return None if parting is None else ContourParting(parting.farthest, parting.distance)
+    return ContourPair(number, apart(ours, theirs, APART), apart(theirs, ours, APART), same_side)
 
 
 def apart(path: Path, other: Path, tolerance: float) -> Parting | None:
-    """Where a path is further than `tolerance` from another one, by its lines; None if nowhere."""
+    """Where a path is farther than `tolerance` from another one, by its lines; None if nowhere."""
     if not path.lengths.any():
         return None
     if not other.lengths.any():

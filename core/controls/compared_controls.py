@@ -116,12 +116,12 @@ def _along(done: Run, stretch: Stretch, lines: set[int]) -> Path:
     return path.part(rows[0], rows[-1] + 1) if rows else EMPTY
 
 
-def parting(one: Moves, other: Moves) -> Parting | None:
+def parting(first: Moves, other: Moves) -> Parting | None:
     """Where two lists of moves of one program part, line by line; None if they are the same as far as both go.
 
-    Compared are the points a line's moves go through: each point of the one with the nearest of the other.
+    Each point that a line's moves go through is compared with the nearest one of the other list.
     """
-    ours, theirs = _points_by_line(one), _points_by_line(other)
+    ours, theirs = _points_by_line(first), _points_by_line(other)
     distances = {line: _distance(ours[line], theirs[line]) for line in sorted(ours.keys() & theirs.keys())}
     lines = [line for line, distance in distances.items() if distance > APART]
     if not lines:
@@ -134,18 +134,13 @@ def _points_by_line(moves: Moves) -> dict[int, Floats]:
     """Line to the points (n, 3) its moves begin and end with."""
     order = np.argsort(moves.lines[1:], kind="stable") + 1
     lines = moves.lines[order]
-    edges = np.flatnonzero(np.diff(lines)) + 1
-    groups = np.split(order, edges)
-    return {
-        int(moves.lines[rows[0]]): np.vstack((moves.points[rows - 1], moves.points[rows]))
-        for rows in groups
-        if len(rows)
-    }
+    groups = np.split(order, np.flatnonzero(np.diff(lines)) + 1) if len(order) else []
+    return {int(moves.lines[rows[0]]): np.vstack((moves.points[rows - 1], moves.points[rows])) for rows in groups}
 
 
-def _distance(one: Floats, other: Floats) -> float:
+def _distance(first: Floats, other: Floats) -> float:
     """How far the points (n, 3) of two lines are apart at most; of very many points only the last ones count."""
-    if len(one) * len(other) > MAX_POINT_PAIRS:
-        return float(np.max(np.linalg.norm(one[-1] - other[-1])))
-    between = np.linalg.norm(one[:, None, :] - other[None, :, :], axis=2)
+    if len(first) * len(other) > MAX_POINT_PAIRS:
+        return float(np.linalg.norm(first[-1] - other[-1]))
+    between = np.linalg.norm(first[:, None, :] - other[None, :, :], axis=2)
     return float(max(between.min(axis=0).max(), between.min(axis=1).max()))

@@ -36,9 +36,8 @@ class Stretch:
     `programmed` are the moves as written, without compensation, its row 0 the point they start from: the part's
     surface.  `entry` and `exit` count the moves at its beginning and end that lead in and out and are no surface.
     `first` ... `last` - 1 are the rows of the run's moves that belong to it.  `radius` is in millimeters and
-    positive: the side a negative one flips to is already in `side`.  `led_in` and `led_out`: it is entered and left
-    along leads that the control makes, not in programmed moves.  `changes`: where its side or
-    radius changes.
+    positive: the side a negative one flips to is already in `side`.  `led_in` and `led_out`: the control enters and
+    leaves it along leads of its own, not in programmed moves.  `changes`: where its side or radius changes.
     """
 
     side: Side
@@ -97,7 +96,7 @@ class AlarmError(Exception):
 
 @dataclass(slots=True)
 class Log:
-    """Findings being gathered: at most one of a rule on a line, and MAX_FINDINGS_OF_A_RULE of it."""
+    """Findings of a run: at most one of a rule on a line, and MAX_FINDINGS_OF_A_RULE of it."""
 
     findings: list[Finding] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=dict)
@@ -122,10 +121,9 @@ class Log:
         column: int | None = None,
         *,
         lengths: tuple[float, ...] = (),
-        at: tuple[float, float] | None = None,
     ) -> None:
         """Keep a finding of these values; the control continues."""
-        self.add(Finding(code, severity, text, at=at, lengths=lengths, line=line, column=column))
+        self.add(Finding(code, severity, text, lengths=lengths, line=line, column=column))
 
     def stop(
         self,
@@ -144,10 +142,9 @@ class Log:
 
     def closed(self) -> tuple[Finding, ...]:
         """All findings by line, with one more for each rule that has too many."""
-        left = {code: count - MAX_FINDINGS_OF_A_RULE for code, count in self.counts.items()}
         more = [
-            Finding(code, Severity.INFO, f"{code}: {count} more lines like these.")
-            for code, count in left.items()
-            if count > 0
+            Finding(code, Severity.INFO, f"{code}: {count - MAX_FINDINGS_OF_A_RULE} more lines like these.")
+            for code, count in self.counts.items()
+            if count > MAX_FINDINGS_OF_A_RULE
         ]
         return (*sorted(self.findings, key=lambda finding: (finding.line or 0, finding.column or 0)), *more)

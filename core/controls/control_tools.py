@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from core.controls.program_text import lines_of
 from core.finding import Finding
-from core.program.tools import TableLine, table_lines
+from core.program.tools import table_lines
 from core.units import Unit, to_mm
 
 
@@ -54,7 +54,7 @@ class ToolTable:
         return ToolTable({**self.tools, **other.tools})
 
 
-def not_there(number: int | None) -> str:
+def missing_tool(number: int | None) -> str:
     """That a table has no tool of a number, and what to do; None stands for one that is not a whole number."""
     which = "of this number" if number is None else str(number)
     return f"The tool table has no tool {which}. Enter it, or write the number of a tool in the table."
@@ -64,14 +64,11 @@ def read_table(text: bytes, unit: Unit | None = None) -> tuple[ToolTable, tuple[
     """The tools of a LinuxCNC table (`T1 P1 Z0 D.25 Q0 ;comment`, one tool a line), and what cannot be read."""
     tools: list[CutterTool] = []
     findings: list[Finding] = []
-    for one in table_lines(lines_of(text)):
-        if isinstance(one, Finding):
-            findings.append(one)
+    for line in table_lines(lines_of(text)):
+        if isinstance(line, Finding):
+            findings.append(line)
         else:
-            tools.append(_tool(one, unit))
+            words = line.words
+            diameter, length, orientation = words.get("D", 0.0), words.get("Z", 0.0), int(words.get("Q", 0.0))
+            tools.append(CutterTool(line.number, diameter, length, orientation, unit))
     return ToolTable.of(*tools), tuple(findings)
-
-
-def _tool(one: TableLine, unit: Unit | None) -> CutterTool:
-    words = one.words
-    return CutterTool(one.number, words.get("D", 0.0), words.get("Z", 0.0), int(words.get("Q", 0.0)), unit)

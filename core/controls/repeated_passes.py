@@ -33,13 +33,14 @@ def without_repeats(path: Path) -> Path:
     if len(path) < 2 or not all(bool(np.abs(array).max() <= LARGEST) for array in (path.points, path.centers)):
         return path
     names, rows = _piece_names(path), np.arange(len(path))
-    while len(rows) > len(kept := _without_periods(path, names, rows)):
-        rows = kept
-    return path if len(rows) == len(path) else _rows_of(path, rows)
-
-
-def _rows_of(path: Path, rows: Rows) -> Path:
-    """These pieces, joined: a start is where the piece before ends, which may move it by rounding."""
+    before = len(rows) + 1
+    while len(rows) < before:
+        before = len(rows)
+        for period in _periods(names[rows]):
+            rows = _cut(path, names, rows, period)
+    if len(rows) == len(path):
+        return path
+    # a start is where the piece before ends, which may move it by rounding
     points, turns = np.concatenate((path.points[:1], path.ends[rows])), path.turns[rows]
     centers = np.where(turns[:, None] == 0, points[:-1], path.centers[rows])
     return Path.of(points, centers, turns, path.numbers[rows])
@@ -67,13 +68,6 @@ def _alike(points: NDArray[np.float64]) -> tuple[int, Rows]:
     grid = np.round(points / ON_PATH)
     places, at = np.unique(grid[:, 0] + 1j * grid[:, 1], return_inverse=True)
     return len(places), at.reshape(-1)
-
-
-def _without_periods(path: Path, names: Rows, rows: Rows) -> Rows:
-    """The rows left of `rows` when each period that they have is cut once, the shortest first."""
-    for period in _periods(names[rows]):
-        rows = _cut(path, names, rows, period)
-    return rows
 
 
 def _periods(names: Rows) -> list[int]:

@@ -1,19 +1,18 @@
 """Shop rules for turning compensation on and off, checked on any control's run when they are asked for.
 
-They are habits that hold on every control: compensation goes on and off in a move of one axis, square to a move of
-one axis, at full depth, clear of the component.  The component is what is programmed under compensation.
+They are habits for every control: compensation goes on and off in a move of one axis, square to a move of one axis, at
+full depth, clear of the component.  The component is what is programmed under compensation.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import hypot
 from typing import Final
 
 import numpy as np
 
 from core.controls.control_run import Run, Stretch
-from core.controls.moves import Moves
+from core.controls.moves import Floats, Moves
 from core.finding import Finding, Severity
 from core.geometry.distance import distance
 from core.geometry.path import Path
@@ -38,40 +37,35 @@ class Leg:
         """How many axes of the plane it moves."""
         return sum(abs(b - a) > JOINED for a, b in zip(self.start, self.end, strict=True))
 
-    def square_to(self, way: Point) -> bool:
-        """Whether it is at right angles to a direction."""
-        dx, dy = self.end[0] - self.start[0], self.end[1] - self.start[1]
-        return abs(dx * way[0] + dy * way[1]) <= SQUARE * hypot(dx, dy)
+    def square_to(self, direction: Floats) -> bool:
+        """Whether it is at right angles to a unit direction (2,)."""
+        run = np.subtract(self.end, self.start)
+        return bool(abs(run @ direction) <= SQUARE * np.hypot(*run))
 
 
 def check(run: Run) -> tuple[Finding, ...]:
-    """What of a run breaks the shop rules H1 to H9, by line."""
-    found = [finding for stretch in run.stretches for finding in _stretch(run.moves, stretch)]
-    return tuple(sorted(found, key=lambda finding: (finding.line or 0, finding.code)))
+    """Where a run breaks the shop rules H1 to H9, by line."""
+    findings = [finding for stretch in run.stretches for finding in _stretch(run.moves, stretch)]
+    return tuple(sorted(findings, key=lambda finding: (finding.line or 0, finding.code)))
 
 
 def _stretch(moves: Moves, stretch: Stretch) -> list[Finding]:
     if len(stretch.programmed) <= stretch.entry:
         return []
-    contour = _contour(stretch)
-    found = [*_depths(moves, stretch), _side(stretch)]
+    # the programmed moves between entry and exit, as seen on the plane, numbered by their lines
+    contour = stretch.programmed.part(stretch.entry, len(stretch.programmed) - stretch.exit).path(stretch.plane)
+    findings = [*_depths(moves, stretch), _side(stretch)]
     if not len(contour):
-        return found
+        return findings
+    entry, leave = _entry(stretch), _exit(moves, stretch, contour)
     if not stretch.led_in:
-        found += _applying(_entry(stretch), contour)
-    found += _clear("H2", _entry(stretch).start, contour, stretch, _entry(stretch).line)
-    last = _exit(moves, stretch, contour)
-    if last is not None:
+        findings += _applying(entry, contour)
+    findings += _clear("H2", entry.start, contour, stretch, entry.line)
+    if leave is not None:
         if not stretch.led_out:
-            found += _canceling(last, contour)
-        found += _clear("H6", last.start, contour.part(0, len(contour) - 1), stretch, int(contour.numbers[-1]))
-    return found
-
-
-def _contour(stretch: Stretch) -> Path:
-    """The programmed moves between entry and exit, as seen on the plane, numbered by their lines."""
-    programmed = stretch.programmed
-    return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
+            findings += _canceling(leave, contour)
+        findings += _clear("H6", leave.start, contour.part(0, len(contour) - 1), stretch, int(contour.numbers[-1]))
+    return findings
 
 
 def _entry(stretch: Stretch) -> Leg:
@@ -95,37 +89,31 @@ def _exit(moves: Moves, stretch: Stretch, contour: Path) -> Leg | None:
 
 
 def _applying(entry: Leg, contour: Path) -> list[Finding]:
-    found = []
+    findings = []
     if entry.axes != 1:
         text = "Compensation turns on in a two-axis move; use a one-axis move, X or Y."
-        found.append(_warn("H4", text, entry.line))
-    way = _direction(contour.start_directions[0].tolist())
+        findings.append(_warn("H4", text, entry.line))
     if not _one_axis(contour, 0):
         text = "The move after compensation turns on is not along one axis. Add a one-axis move before it."
-        found.append(_warn("H3", text, int(contour.numbers[0])))
-    elif not entry.square_to(way):
+        findings.append(_warn("H3", text, int(contour.numbers[0])))
+    elif not entry.square_to(contour.start_directions[0]):
         text = "Compensation does not turn on at 90 degrees to the next move; start square to it."
-        found.append(_warn("H3", text, entry.line))
-    return found
+        findings.append(_warn("H3", text, entry.line))
+    return findings
 
 
-def _canceling(leg: Leg, contour: Path) -> list[Finding]:
-    found = []
-    if leg.axes != 1:
+def _canceling(leave: Leg, contour: Path) -> list[Finding]:
+    findings = []
+    if leave.axes != 1:
         text = "Compensation turns off in a two-axis move; use a one-axis move, X or Y."
-        found.append(_warn("H8", text, leg.line))
-    way = _direction(contour.end_directions[-1].tolist())
+        findings.append(_warn("H8", text, leave.line))
     if not _one_axis(contour, -1):
         text = "The last move before compensation turns off is not along one axis. Add a one-axis move after it."
-        found.append(_warn("H7", text, int(contour.numbers[-1])))
-    elif not leg.square_to(way):
+        findings.append(_warn("H7", text, int(contour.numbers[-1])))
+    elif not leave.square_to(contour.end_directions[-1]):
         text = "Compensation does not turn off at 90 degrees to the last move; leave square to it."
-        found.append(_warn("H7", text, leg.line))
-    return found
-
-
-def _direction(way: list[float]) -> Point:
-    return way[0], way[1]
+        findings.append(_warn("H7", text, leave.line))
+    return findings
 
 
 def _one_axis(contour: Path, piece: int) -> bool:
@@ -135,10 +123,7 @@ def _one_axis(contour: Path, piece: int) -> bool:
 
 def _clear(rule: str, at: Point, component: Path, stretch: Stretch, line: int) -> list[Finding]:
     """H2 and H6: the tool is a diameter clear of the part before and after the contour, if possible."""
-    if not len(component):
-        return []
-    pieces = piece_arrays(component)
-    away = float(np.min(distance(pieces, np.full(len(component), complex(*at)))))
+    away = float(np.min(distance(piece_arrays(component), np.full(len(component), complex(*at))), initial=np.inf))
     if away >= 2.0 * stretch.radius - JOINED:
         return []
     where = "start before compensation turns on" if rule == "H2" else "finish before compensation turns off"
@@ -156,12 +141,12 @@ def _depths(moves: Moves, stretch: Stretch) -> list[Finding]:
     moving = np.any(programmed.points[1:, flat] != programmed.points[:-1, flat], axis=1) | (programmed.turns[1:] != 0)
     contour = np.flatnonzero(moving[stretch.entry :])
     begin = stretch.entry + 1 + int(contour[0]) if len(contour) else len(programmed)
-    found = [_sunk(index, int(programmed.lines[row])) for index, row in enumerate(sinking[sinking < begin].tolist())]
+    findings = [_sunk(index, int(programmed.lines[row])) for index, row in enumerate(sinking[sinking < begin].tolist())]
     late = programmed.lines[sinking[sinking >= begin]].tolist()
     if not stretch.exit and len(late) == 0 and moves.points[stretch.last - 1, height] != heights[-1]:
         late.append(int(moves.lines[stretch.last - 1]))
     text = "The tool axis moves under compensation. Move it after compensation turns off."
-    return found + [_warn("H5", text, line) for line in dict.fromkeys(late)]
+    return findings + [_warn("H5", text, line) for line in dict.fromkeys(late)]
 
 
 def _sunk(index: int, line: int) -> Finding:

@@ -68,7 +68,7 @@ def _written(source: Run, control: str, programmed: list[ProgrammedStretch], run
         lines, tools, decimals = write_led(runs, unit), ToolTable(), DECIMALS[unit]
     else:
         lines, decimals = write(runs, style, Frame(unit)), style.digits(unit)
-        tools = tools_of([one.terms for one in runs], style)
+        tools = tools_of([run_led.terms for run_led in runs], style)
     sources, leads = _sources(lines, programmed)
     return Translated(lines, sources, leads, tools, to_mm(10.0**-decimals, unit))
 

@@ -2,7 +2,7 @@
 
 LinuxCNC's O-words go from line to line: `O100 sub` ... `O100 endsub`, `O100 call [1] [2]`, `if`, `elseif`, `else`,
 `endif`, `while`, `endwhile`, `do`, `repeat`, `endrepeat`, `break`, `continue`, `return`.  A label is a number or a
-name; where a word leads is found by its label.
+name; a word leads to where its label says.
 """
 
 from __future__ import annotations
@@ -370,9 +370,9 @@ class Flow:
 
     def follow_o_word(self, index: int) -> bool:
         """Follows the O-word of a line, if it has one."""
-        word = self.o_words.words.get(index) if self.o_words else None
-        if word is None or self.o_words is None:
+        if self.o_words is None or index not in self.o_words.words:
             return False
+        word = self.o_words.words[index]
         if word.word in ("ENDSUB", "RETURN") and self.calls[-1].number is not None:
             text = "A subprogram called by M98 ends with M99; call it with its O-word, or write M99."
             self.log.stop("OWORD", text, index + 1, word.column)

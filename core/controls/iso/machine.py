@@ -10,7 +10,7 @@ from math import dist, hypot
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.compensation.corners import Element, arc_element, element_sweep, line_element
+from core.controls.compensation.corners import arc_element, element_sweep, line_element
 from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
@@ -42,10 +42,7 @@ _CENTERS: Final = frozenset("IJKR")
 
 
 class Control(Recorder):
-    """What a control adds to the machine: its compensation, and what it says of blocks.
-
-    `machine` is set by the machine that runs it.
-    """
+    """What a control adds to the machine that runs it: its compensation, and what it says of blocks."""
 
     machine: Machine
 
@@ -203,15 +200,12 @@ class Machine(ModalState):
         if "X" in words or "Y" in words or "Z" in words or (mode in _TURNS and not _CENTERS.isdisjoint(words)):
             self._travel(block, mode)
         elif self.dialect.moves_alone and not _MOVES.isdisjoint(block.g):
-            self._move_alone(block)
+            if mode in _TURNS:
+                text = "The arc has neither end point nor center; write them."
+                self.log.stop("ARC", text, block.line, block.column("G", mode))
+            self._straight(block, self.position, rapid=mode == 0)
         elif self.control.active:
             self.control.idle(block)
-
-    def _move_alone(self, block: Block) -> None:
-        if self.mode in _TURNS:
-            text = "The arc has neither end point nor center; write them."
-            self.log.stop("ARC", text, block.line, block.column("G", self.mode))
-        self._straight(block, self.position, rapid=self.mode == 0)
 
     def _travel(self, block: Block, mode: int | None) -> None:
         if mode in _LINES:
@@ -258,14 +252,10 @@ class Machine(ModalState):
         center = self._center(block, start, stop, turn)
         self.position = end
         element = arc_element(start, stop, center, turn, low, high, self.feed, block.line)
-        self.control.travel(self._timed(element, block))
-
-    def _timed(self, element: Element, block: Block) -> Element:
-        """An arc with the feed that F means for its length."""
-        if self.rate == PER_MINUTE:
-            return element
-        length = hypot(element_sweep(element) * element.radius, element.high - element.low)
-        return element._replace(feed=self.feed_over(block, length))
+        if self.rate != PER_MINUTE:
+            length = hypot(element_sweep(element) * element.radius, high - low)
+            element = element._replace(feed=self.feed_over(block, length))
+        self.control.travel(element)
 
     def _center(self, block: Block, start: Point, end: Point, turn: int) -> Point:
         """The center of an arc; one that is impossible stops the run."""

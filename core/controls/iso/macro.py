@@ -105,8 +105,10 @@ class Parameters:
     def named(self, name: str, at: int) -> float:
         """A named value; one that has none is a fault."""
         if name in NAMES or name.startswith(("_HAL[", "_INI[")):
-            if name in ("_VALUE", "_VALUE_RETURNED"):
-                return self._result(name)
+            if name == "_VALUE":
+                return self.returned or 0.0
+            if name == "_VALUE_RETURNED":
+                return float(self.returned is not None)
             if name == "_CALL_LEVEL":
                 return float(len(self._outer))
             return self._system(name, f"#<{quoted(name.lower())}>", at)
@@ -115,11 +117,6 @@ class Parameters:
             text = f"#<{quoted(name.lower())}> has no value yet. Set it first."
             raise FaultError("PARAMETER", text, at)
         return value
-
-    def _result(self, name: str) -> float:
-        if name == "_VALUE":
-            return self.returned or 0.0
-        return 0.0 if self.returned is None else 1.0
 
     def exists(self, name: str) -> bool:
         """Whether a name has a value."""

@@ -11,7 +11,7 @@ from types import MappingProxyType
 from typing import Final
 
 from core.controls.control_run import Log
-from core.controls.control_tools import CutterTool, ToolTable, not_there
+from core.controls.control_tools import CutterTool, ToolTable, missing_tool
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.reader import Block, ToolData, whole
 from core.controls.moves import Plane, Point3
@@ -190,7 +190,7 @@ class ModalState:
         if block.data is not None:
             self._enter(block.data, block)
         if number and self.dialect.table_needed and self.tools.get(number) is None:
-            self.log.stop("TOOL", not_there(number), block.line, block.column("T"))
+            self.log.stop("TOOL", missing_tool(number), block.line, block.column("T"))
         self.next_tool = number
         if self.dialect.loads_at_t:
             self.tool = number

@@ -7,9 +7,8 @@ by two expressions; only a line with comments or with something wrong in it is l
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from types import MappingProxyType
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from typing import Final
 
 from core.controls.control_run import Log
@@ -27,10 +26,6 @@ _DATA: Final = re.compile(rf"T[ \t]*+([0-9]++)[ \t]*+/[ \t]*+({NUMBER})?[ \t]*+/
 
 _MOVE_WORDS: Final = re.compile(rf"[ \t]*+(?:[GNXYZIJKRF][ \t]*+{NUMBER}[ \t]*+)+", re.IGNORECASE | re.ASCII)
 
-_CODES: Final[Mapping[str, int]] = MappingProxyType(
-    {f"{code:{width}}": 10 * code for code in range(100) for width in ("", "02")}
-)
-"""Codes in tenths as they are mostly written."""
 
 _BRANCH: Final = re.compile(
     r"[ \t]*+(?:N[ \t]*+[0-9]++)?[ \t]*+(IF|WHILE|GOTO|DO|END(?:IF|WHILE)?|THEN|ELSE)(?=[ \t]*+(?:[\[0-9#]|$))"
@@ -69,23 +64,22 @@ class ToolData:
     diameter: float | None
 
 
+@dataclass(eq=False, slots=True)
 class Block:
     """One block: the values of its words by letter, its G and M codes in tenths, as written.
 
-    `start` is the column, less one, at which the block begins on its line.
+    `start` is the column, less one, at which the block begins on its line; `columns` are those of its words where the
+    text is worked out of expressions.
     """
 
-    __slots__ = ("columns", "data", "g", "line", "m", "start", "text", "words")
-
-    def __init__(self, line: int, text: str, start: int = 0) -> None:
-        self.line = line
-        self.text = text
-        self.start = start
-        self.words: dict[str, float] = {}
-        self.g: list[int] = []
-        self.m: list[int] = []
-        self.data: ToolData | None = None
-        self.columns: tuple[int, ...] = ()
+    line: int
+    text: str
+    start: int = 0
+    words: dict[str, float] = field(default_factory=dict)
+    g: list[int] = field(default_factory=list)
+    m: list[int] = field(default_factory=list)
+    data: ToolData | None = None
+    columns: tuple[int, ...] = ()
 
     def column(self, letters: str, code: int | None = None) -> int:
         """Where the first word of one of these letters stands, from 1; of codes the one of `code` tenths."""
@@ -159,8 +153,8 @@ def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
             yield from _closer(Block(line, part, start), bare, log, syntax)
         else:
             column = start + 1 + len(part) - len(part.lstrip())
-            words = f"Text after the end of the block is ignored: {quoted(part)}"
-            log.tell(Severity.INFO, "TEXT", words, line, column)
+            text = f"Text after the end of the block is ignored: {quoted(part)}"
+            log.tell(Severity.INFO, "TEXT", text, line, column)
         start += len(part) + 1
 
 
@@ -169,7 +163,8 @@ def _closer(
 ) -> list[Block]:  # fmt: skip
     """The block of a line that has characters besides words: tool data, block skip, the percent sign."""
     if syntax.tool_data and (data := _DATA.search(bare)):
-        block.data = _tool_data(data)
+        length, diameter = (None if part is None else float(part) for part in (data[2], data[3]))
+        block.data = ToolData(int(data[1][:9]), length, diameter)
         bare = bare[: data.start()] + " " * len(data[0]) + bare[data.end() :]
     if not syntax.blanks and block.text.count("(") > 1:
         _squeezed(block, log)
@@ -178,7 +173,9 @@ def _closer(
         bare = bare.replace("/", " ", 1)
     if not bare.strip() or bare.strip() == "%":
         return [block] if block.data else []
-    _no_branch(block, bare, log)
+    if branch := _BRANCH.match(bare):
+        text = f"{branch[1]} is a branch or a loop, which cutcomp does not follow. Write the blocks out as they run."
+        log.stop("BRANCH", text, block.line, block.start + branch.start(1) + 1)
     if values is not None and _EXPRESSION.search(bare):
         return _worked_out(block, log, values)
     if _CLEAN.fullmatch(bare) is None:
@@ -189,21 +186,12 @@ def _closer(
     return [_filled(block, bare, log)]
 
 
-def _no_branch(block: Block, bare: str, log: Log) -> None:
-    branch = _BRANCH.match(bare)
-    if branch:
-        text = f"{branch[1]} is a branch or a loop, which cutcomp does not follow. Write the blocks out as they run."
-        log.stop("BRANCH", text, block.line, block.start + branch.start(1) + 1)
-
-
 def _worked_out(block: Block, log: Log, values: Parameters) -> list[Block]:
     """The block of a line with parameters or expressions; none of one that only sets them."""
     marked = _bare(capitals(block.text), GAP)
     skip = len(marked) - len(marked.lstrip()) + 1 if marked.lstrip().startswith("/") else 0
     block.text, block.columns = worked_out(Squeezed.of(marked[skip:], block.start + skip), block.line, values, log)
-    if not block.columns:
-        return []
-    return [_filled(block, block.text, log)]
+    return [_filled(block, block.text, log)] if block.columns else []
 
 
 def _squeezed(block: Block, log: Log) -> str:
@@ -215,16 +203,11 @@ def _squeezed(block: Block, log: Log) -> str:
     return "".join(_bare(capitals(block.text), GAP).split()).replace(GAP, " ")
 
 
-def _tool_data(data: re.Match[str]) -> ToolData:
-    length, diameter = (None if part is None else float(part) for part in (data[2], data[3]))
-    return ToolData(int(data[1][:9]), length, diameter)
-
-
 def _filled(block: Block, upper: str, log: Log) -> Block:
     words = block.words
     for letter, number in _PAIR.findall(upper):
-        if letter == "G" or letter == "M":
-            code = _CODES.get(number) or tenths(float(number))
+        if letter in "GM":
+            code = tenths(float(number))
             if code is None:
                 column = block.column(letter)
                 log.stop("CODE", f"{letter}{quoted(number)} is not a code of any control.", block.line, column)
@@ -234,8 +217,8 @@ def _filled(block: Block, upper: str, log: Log) -> Block:
             log.stop("TWICE", f"{letter} is written twice in this block; keep one.", block.line, block.second(letter))
         words[letter] = value = float(number)
         if not -LARGEST < value < LARGEST:
-            words_too = f"The number of {letter} is too large for any machine."
-            log.stop("NUMBER", words_too, block.line, block.column(letter))
+            text = f"The number of {letter} is too large for any machine."
+            log.stop("NUMBER", text, block.line, block.column(letter))
     return block
 
 

@@ -220,10 +220,6 @@ class CenterPath:
         self._run_out()
         self.record.close()
 
-    def give_up(self) -> None:
-        """The control has stopped: what is recorded so far stays."""
-        self.record.close()
-
     def _enter(self, step: Step) -> None:
         self._run_out()  # an approach under compensation connects two contours
         self.record.close()

@@ -51,7 +51,7 @@ def run(text: bytes, tools: ToolTable, share: float = 1.0) -> Run:
     except AlarmError as alarm:
         log.add(alarm.finding)
         stopped_at = alarm.finding.line
-        center.give_up()
+        center.record.close()  # what is recorded so far stays
     moves, stretches = center.record.tape.moves(), tuple(center.record.stretches)
     return Run("klartext", state.unit, moves, log.closed(), stopped_at, stretches)
 
@@ -155,7 +155,6 @@ def _condition(state: State, block: Block) -> None:
     sign, label = _COMPARISON.search(question), _GOAL.match(goal)
     if sign is None or label is None:
         settings.unknown(state, block)
-        return
     first = state.value(question[: sign.start()], block)
     second = state.value(question[sign.end() :], block)
     equal = isclose(first, second, rel_tol=0.0, abs_tol=1e-9)

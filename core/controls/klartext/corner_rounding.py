@@ -9,7 +9,6 @@ from typing import Final, NoReturn
 from core.controls.compensation import corners
 from core.controls.compensation.corners import Element, arc_element, line_element
 from core.controls.klartext.center_path import PLAIN, CenterPath, Role, Step
-from core.controls.klartext.reader import Place
 from core.geometry.piece import Point
 from core.tolerance import JOINED
 
@@ -17,17 +16,11 @@ NOT_BETWEEN: Final = "RND and CHF must stand directly between two contour elemen
 
 
 @dataclass(frozen=True, slots=True)
-class NoRoom:
-    """Why two elements cannot be rounded or chamfered; a sentence."""
-
-    text: str
-
-
-@dataclass(frozen=True, slots=True)
 class Blend:
     """A rounding (its radius) or chamfer (its leg) that waits for the element after it."""
 
-    place: Place
+    line: int
+    column: int
     size: float
     round: bool
     feed: float
@@ -67,49 +60,47 @@ class WaitingElement:
         if first is None or first.role is not second.role:
             self._stop(blend, NOT_BETWEEN)
         parts = (rounding if blend.round else chamfer)(first.element, second.element, blend.size)
-        if isinstance(parts, NoRoom):
-            self._stop(blend, parts.text)
-        line, column = blend.place.line, blend.place.column
-        between = parts[1]._replace(line=line, column=column, rapid=False, feed=blend.feed)
+        if isinstance(parts, str):
+            self._stop(blend, parts)
+        between = parts[1]._replace(line=blend.line, column=blend.column, rapid=False, feed=blend.feed)
         self.center.push(first._replace(element=parts[0], corner=PLAIN))
         self.center.push(first._replace(element=between, corner=PLAIN))
         return second._replace(element=parts[2])
 
     def _stop(self, blend: Blend, text: str) -> NoReturn:
-        self.center.log.stop("CORNER", text, blend.place.line, blend.place.column)
+        self.center.log.stop("CORNER", text, blend.line, blend.column)
 
 
 Blended = tuple[Element, Element, Element]
 """The first element cut short, what is between, and the second element cut short."""
 
 
-def rounding(first: Element, second: Element, radius: float) -> Blended | NoRoom:
-    """An arc of `radius` millimeters tangent to both elements; the arc has the first one's feed, line and column."""
+def rounding(first: Element, second: Element, radius: float) -> Blended | str:
+    """An arc of `radius` millimeters tangent to both elements; or the sentence that says why there is none."""
     angle = corners.turn_angle(first, second)
     if abs(angle) < corners.WHOLE or not _level(first, second):
-        return NoRoom("There is no corner to round. Both blocks must lie in the working plane and meet at an angle.")
+        return "There is no corner to round. Both blocks must lie in the working plane and meet at an angle."
     offset = radius if angle > 0.0 else -radius
     ending = first._replace(start=first.end) if first.turn else first
     center = corners.meeting(ending, second, offset)
     if center is None:
-        return NoRoom("No arc of this radius touches both blocks. Write a smaller R.")
+        return "No arc of this radius touches both blocks. Write a smaller R."
     start, end = _touch(ending, center, offset), _touch(second, center, offset)
     if not _on(first, start) or not _on(second, end):
-        return NoRoom("The rounding is longer than the blocks it joins. Write a smaller R.")
+        return "The rounding is longer than the blocks it joins. Write a smaller R."
     turn = 1 if angle > 0.0 else -1
-    arc = arc_element(start, end, center, turn, first.high, first.high, first.feed, first.line, first.column)
+    arc = arc_element(start, end, center, turn, first.high, first.high, first.feed, first.line)
     return _cut_end(first, start), arc, _cut_start(second, end)
 
 
-def chamfer(first: Element, second: Element, leg: float) -> Blended | NoRoom:
-    """A line that cuts `leg` millimeters off both elements; they must be straight."""
+def chamfer(first: Element, second: Element, leg: float) -> Blended | str:
+    """A line that cuts `leg` millimeters off both straight elements; or the sentence that says why there is none."""
     if first.turn or second.turn or not _level(first, second):
-        return NoRoom("A chamfer needs two straight blocks in the working plane. Use RND.")
+        return "A chamfer needs two straight blocks in the working plane. Use RND."
     start, end = corners.beyond(first.end, first.arriving, -leg), corners.beyond(first.end, second.leaving, leg)
     if not _on(first, start) or not _on(second, end):
-        return NoRoom("The chamfer is longer than the blocks it joins. Write a shorter one.")
-    high, line = first.high, first.line
-    between = line_element(start, end, high, high, first.rapid, first.feed, line, first.column)
+        return "The chamfer is longer than the blocks it joins. Write a shorter one."
+    between = line_element(start, end, first.high, first.high, first.rapid, first.feed, first.line)
     return _cut_end(first, start), between, _cut_start(second, end)
 
 

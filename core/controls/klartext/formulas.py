@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
 
@@ -30,7 +30,7 @@ _FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = MappingProxyType(
         "SQRT": math.sqrt,
         "SQ": lambda x: x * x,
         "ABS": abs,
-        "INT": math.trunc,
+        "INT": lambda x: float(math.trunc(x)),
         "FRAC": lambda x: math.modf(x)[0],
         "NEG": lambda x: -x,
         "SGN": lambda x: float((x > 0.0) - (x < 0.0)),
@@ -50,47 +50,39 @@ _PRODUCTS: Final[Mapping[str, Callable[[float, float], float]]] = MappingProxyTy
 )
 
 
-@dataclass(frozen=True, slots=True)
-class NoValue:
-    """A formula without a value, and the sentence that says why."""
-
-    text: str
-
-
 class _FaultError(Exception):
-    """A private way out of the recursion, never seen outside."""
+    """Why a formula has no value; it leaves the recursion and is caught by `evaluate`."""
 
 
-def evaluate(text: str, parameters: Mapping[str, float]) -> float | NoValue:
-    """The value of a formula in upper case, its Q parameters taken from `parameters`; never raises."""
+def evaluate(text: str, parameters: Mapping[str, float]) -> float | str:
+    """The value of a formula in upper case with these Q parameters, or the sentence that says why it has none."""
     tokens = [token.group(token.lastindex or 0).strip() for token in _TOKEN.finditer(text)]
     parser = _Parser(tokens, parameters)
     try:
         value = parser.sum()
-        if parser.at < len(tokens):
-            return NoValue(f"A formula cannot have {quoted(tokens[parser.at])} at this place.")
     except _FaultError as fault:
-        return NoValue(str(fault))
+        return str(fault)
     except (ArithmeticError, ValueError):
-        return NoValue("The formula divides by zero, or a function or power is outside its range.")
-    if isinstance(value, complex) or not math.isfinite(value):
-        return NoValue("The formula's value is too large.")
-    return float(value)
+        return "The formula divides by zero, or a function or power is outside its range."
+    if parser.at < len(tokens):
+        return f"A formula cannot have {quoted(tokens[parser.at])} at this place."
+    return value if math.isfinite(value) else "The formula's value is too large."
 
 
 @dataclass(slots=True)
 class _Parser:
     tokens: list[str]
     parameters: Mapping[str, float]
-    at: int = field(default=0)
-    depth: int = field(default=0)
-
-    def take(self) -> str:
-        self.at += 1
-        return self.tokens[self.at - 1] if self.at <= len(self.tokens) else ""
+    at: int = 0
+    depth: int = 0
 
     def next(self) -> str:
         return self.tokens[self.at] if self.at < len(self.tokens) else ""
+
+    def take(self) -> str:
+        token = self.next()
+        self.at += 1
+        return token
 
     def sum(self) -> float:
         value = self.product()

@@ -78,10 +78,10 @@ def _tangent_arc(radius: float, start: Point, end: Point, way: Point, hand: int)
     apart = hypot(dx, dy)
     if apart < radius * (1.0 - LEAST):
         return None
-    # Seen from the center PS lies behind PH by the angle whose cosine is radius / distance.
+    # Seen from the center PH lies ahead of PS by the angle whose cosine is radius / distance.
     angle = atan2(dy, dx) + hand * acos(min(1.0, radius / apart))
     point = (center[0] + radius * cos(angle), center[1] + radius * sin(angle))
-    if hypot(point[0] - end[0], point[1] - end[1]) <= JOINED:  # PS lies straight behind PA'
+    if hypot(point[0] - end[0], point[1] - end[1]) <= JOINED:  # PS lies on the line through PA'
         return Curve(end, end, 0)
     return Curve(point, center, hand)
 

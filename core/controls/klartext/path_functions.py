@@ -11,7 +11,7 @@ from core.controls.iso.arcs import ArcRadii, NoArc, through
 from core.controls.klartext.center_path import Role, Step
 from core.controls.klartext.corner_rounding import Blend
 from core.controls.klartext.m_functions import functions, leaves_workpiece
-from core.controls.klartext.reader import Block, place_of
+from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXES, COMMON, SIDES, State, Words
 from core.controls.moves import solid
 from core.finding import Severity
@@ -76,7 +76,7 @@ def _line_to(state: State, block: Block, words: Words, end: list[float]) -> None
 def straight_element(state: State, block: Block, end: list[float], *, rapid: bool, feed: float) -> Element:
     """The line from where the program stands to a position."""
     (start, low), (goal, high) = state.flat(state.position), state.flat(end)
-    return line_element(start, goal, low, high, rapid, feed, block.line, block.column - len(block.head))
+    return line_element(start, goal, low, high, rapid, feed, block.line, block.start)
 
 
 def _change_side(state: State, block: Block, element: Element) -> None:
@@ -267,7 +267,7 @@ def _arc_to(
     state.moving(block, rapid=rapid, feed=feed)
     if hypot(goal[0] - start[0], goal[1] - start[1]) <= JOINED:
         goal = start
-    element = arc_element(start, goal, center, turn, low, high, feed, block.line, block.column - len(block.head))
+    element = arc_element(start, goal, center, turn, low, high, feed, block.line, block.start)
     element = element._replace(rapid=rapid)
     state.position = end
     role = Role.CONTOUR if state.applied else Role.FREE
@@ -277,7 +277,7 @@ def _arc_to(
 
 def corner(state: State, block: Block) -> None:
     """RND R and CHF: a rounding or chamfer between the element before and the one after."""
-    place, body = place_of(block), block.body.lstrip()
+    start, body = block.start, block.body.lstrip()
     if body and body[0] in "+-.0123456789Q":  # the size stands without a name, as in CHF 5
         block = block._replace(body=f"LEN{body}", column=block.column + len(block.body) - len(body) - 3)
     words = state.words(block, _CORNER)
@@ -290,4 +290,4 @@ def corner(state: State, block: Block) -> None:
     if state.waiting.step is None or state.last is None or state.waiting.blend:
         state.stop("CORNER", "RND and CHF need a contour element directly before them. Move the block.", block)
     feed = state.length(block, words, "F") if "F" in words else state.feed
-    state.waiting.blend = Blend(place, size, block.head == "RND", feed)
+    state.waiting.blend = Blend(block.line, start, size, block.head == "RND", feed)

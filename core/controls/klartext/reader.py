@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Final, NamedTuple
 
 from core.controls.program_text import capitals
@@ -44,17 +43,21 @@ class Block(NamedTuple):
     column: int
     skip: bool
 
+    @property
+    def start(self) -> int:
+        """The column of its head word."""
+        return max(1, self.column - len(self.head))
+
     def after(self, end: int) -> Block:
         """The block with the first `end` characters of its body blanked, every other one in its place."""
         return self._replace(body=" " * end + self.body[end:])
 
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """A line and a column of the program, both from 1."""
-
-    line: int
-    column: int
+    def column_of(self, name: str) -> int:
+        """Where the word `name` stands; the start of the block if there is no such word."""
+        for word in WORD.finditer(self.body) if name else ():
+            if name in (joined_name(word[1] or ""), word[3], (word[1] or "") + (word[2] or "")):
+                return self.column + word.start()
+        return self.start
 
 
 def read_blocks(lines: Iterable[str]) -> Iterator[Block]:
@@ -79,14 +82,6 @@ def _block(number: int, code: str) -> Block:
     if head is None:
         return Block(number, code[begin], code[begin:], begin + 1, skip)
     return Block(number, head[0], code[head.end() :], head.end() + 1, skip)
-
-
-def place_of(block: Block, name: str = "") -> Place:
-    """Where the word `name` stands in the block; its head word if there is no such word."""
-    for word in WORD.finditer(block.body) if name else ():
-        if name in (joined_name(word[1] or ""), word[3], (word[1] or "") + (word[2] or "")):
-            return Place(block.line, block.column + word.start())
-    return Place(block.line, max(1, block.column - len(block.head)))
 
 
 def joined_name(name: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from math import inf
-from typing import Final
+from typing import Final, NoReturn
 
 from core.controls.klartext.reader import MAX_LINE_LENGTH, TOO_LONG, TOOL_WORD, Block
 from core.controls.klartext.state import State, Words
@@ -78,7 +78,7 @@ def plane(state: State, block: Block) -> None:
     ignored(state, block)
 
 
-def unknown(state: State, block: Block) -> None:
+def unknown(state: State, block: Block) -> NoReturn:
     """A block that is not understood or not supported: the program stops."""
     if block.head == TOO_LONG:
         state.stop("WORD", f"This line has more than {MAX_LINE_LENGTH} characters. No control takes it.", block)
@@ -92,7 +92,6 @@ def tool(state: State, block: Block) -> None:
     number = _NUMBERED.match(block.body)
     if number is None:
         unknown(state, block)
-        return
     rest = block.after(number.end())
     name = number[2] if number[2] is not None else (number[3] or "").replace(",", ".").removeprefix("+")
     if number[1] == "DEF":

@@ -16,8 +16,8 @@ from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
 from core.controls.klartext.center_path import FeedAt, Role, Step
 from core.controls.klartext.corner_rounding import WaitingElement
-from core.controls.klartext.formulas import NoValue, evaluate
-from core.controls.klartext.reader import WORD, Block, joined_name, place_of
+from core.controls.klartext.formulas import evaluate
+from core.controls.klartext.reader import WORD, Block, joined_name
 from core.controls.moves import Plane
 from core.controls.program_text import quoted
 from core.finding import Severity
@@ -83,13 +83,11 @@ class State:
 
     def stop(self, code: str, text: str, block: Block, name: str = "", *lengths: float) -> NoReturn:
         """The control stops at a word of the block, or at its head."""
-        at = place_of(block, name)
-        self.log.stop(code, text, at.line, at.column, lengths=lengths)
+        self.log.stop(code, text, block.line, block.column_of(name), lengths=lengths)
 
     def tell(self, severity: Severity, code: str, text: str, block: Block, name: str = "", *lengths: float) -> None:
         """Say something about a word of the block, or about the block."""
-        at = place_of(block, name)
-        self.log.tell(severity, code, text, at.line, at.column, lengths=lengths)
+        self.log.tell(severity, code, text, block.line, block.column_of(name), lengths=lengths)
 
     def words(self, block: Block, allowed: frozenset[str], pattern: Pattern[str] = WORD) -> Words:
         """The block's words, all of them allowed and none twice; M words have their numbers in their names."""
@@ -113,8 +111,7 @@ class State:
         elif name == "R" and number in ("+", "-"):
             text = "R+ and R- are for single-axis blocks, which are not supported. Write L with R0, RL or RR."
         else:
-            column = place_of(block, name).column
-            written = block.body[column - block.column :].split(maxsplit=1)[0]
+            written = block.body[block.column_of(name) - block.column :].split(maxsplit=1)[0]
             text = f"A {quoted(block.head)} block takes no word {quoted(written)}."
         self.stop("WORD", text, block, name)
 
@@ -124,21 +121,18 @@ class State:
         try:
             value = float(raw)
         except ValueError:
-            value = self._other_number(block, name, raw)
+            if not raw or raw in "+-":
+                self.stop("NUMBER", f"{name} needs a number after it.", block, name)
+            value = self.value(raw, block, name)
         if not -LARGEST < value < LARGEST:
             self.stop("NUMBER", f"The number of {name} is too large for any machine.", block, name)
         return value
 
-    def _other_number(self, block: Block, name: str, raw: str) -> float:
-        if not raw or raw in "+-":
-            self.stop("NUMBER", f"{name} needs a number after it.", block, name)
-        return self.value(raw, block, name)
-
     def value(self, formula: str, block: Block, name: str = "") -> float:
         """The value of a formula."""
         value = evaluate(formula, self.parameters)
-        if isinstance(value, NoValue):
-            self.stop("Q", value.text, block, name)
+        if isinstance(value, str):
+            self.stop("Q", value, block, name)
         return value
 
     def length(self, block: Block, words: Words, name: str) -> float:
@@ -147,8 +141,6 @@ class State:
 
     def flat(self, position: Sequence[float]) -> tuple[Point, float]:
         """A position as a point of the plane and the tool axis's coordinate."""
-        if self.plane is Plane.XY:
-            return (position[0], position[1]), position[2]
         first, second, third = self.plane.axes
         return (position[first], position[second]), position[third]
 

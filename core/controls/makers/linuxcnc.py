@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import Final
 
 from core.controls.compensation.chain import OneMoveQueue
-from core.controls.control_tools import ToolTable, not_there
+from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso.arcs import ArcRadii
 from core.controls.iso.dialect import PLANES, Dialect, Do, codes
 from core.controls.iso.machine import Control
@@ -118,7 +118,7 @@ class LinuxCnc(OneMoveQueue, Control):
             text = "G4 needs P and the seconds to wait."
             self.log.stop("N-WORDALONE", text, block.line, block.column("G", 40))
         if "H" in block.words and _lacks(self.machine.tools, block.words["H"]):
-            self.log.stop("TOOL", not_there(whole(block.words["H"])), block.line, block.column("H"))
+            self.log.stop("TOOL", missing_tool(whole(block.words["H"])), block.line, block.column("H"))
 
     def _alone(self, block: Block) -> None:
         """What must stand alone: calls and numbers of subprograms, one code that takes the axis words."""
@@ -187,7 +187,7 @@ class LinuxCnc(OneMoveQueue, Control):
                 text = "No tool is loaded, so the radius is 0."
                 self.machine.nothing_compensated(text, block.line, block.side_column())
                 return 0.0, 0
-            self.log.stop("N-DBIG", not_there(number), block.line, block.column("D"))
+            self.log.stop("N-DBIG", missing_tool(number), block.line, block.column("D"))
         if tool.orientation not in (0, 9) and self.machine.plane is not Plane.ZX:
             text = "The tool is a lathe tool and needs the plane G18."
             self.log.stop("N-ORIENTATION", text, block.line, block.side_column())

@@ -17,7 +17,7 @@ from core.controls.compensation.chain import AlarmCodes, Chain, OneMoveQueue
 from core.controls.compensation.corners import Element, fits, offset_end, offset_start
 from core.controls.compensation.joint import Corner, CornerRules
 from core.controls.control_run import Log
-from core.controls.control_tools import not_there
+from core.controls.control_tools import missing_tool
 from core.controls.iso.dialect import PLANES, Dialect, Do, codes
 from core.controls.iso.machine import Control
 from core.controls.iso.macro import Kept
@@ -109,7 +109,7 @@ class Switch(Control):
         tool = machine.tools.get(number)
         if tool is None and number:
             column = block.column("D") if "D" in block.words else block.side_column()
-            log.stop("C1", not_there(number), block.line, column)
+            log.stop("C1", missing_tool(number), block.line, column)
         if tool is None:
             text = "No tool is loaded and there is no D, so the radius is 0."
             machine.nothing_compensated(text, block.line, block.side_column())

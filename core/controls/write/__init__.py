@@ -1,1 +1,1 @@
-"""A contour written as a control's own compensated program, and read back through its rules."""
+"""A contour written as a compensated program for a control, and read back through that control's rules."""

@@ -84,10 +84,10 @@ class _Writer:
         if self.frame.corners:
             yield Line(self.frame.corners)
         before: Terms | None = None
-        for one in cuts:
-            terms = one if isinstance(one, Plain) else one.terms
+        for run in cuts:
+            terms = run if isinstance(run, Plain) else run.terms
             yield from self.tool(terms, before)
-            yield from self.plain(one) if isinstance(one, Plain) else self.cut(one)
+            yield from self.plain(run) if isinstance(run, Plain) else self.cut(run)
             before = terms
         yield Line("M5")
         yield Line("M30")
@@ -95,44 +95,43 @@ class _Writer:
     def tool(self, cut: Terms, before: Terms | None) -> Iterator[Line]:
         """The change of tool, of its data, of the speed."""
         speed = f"S{speed_text(cut.speed)}"
-        same = before is not None and before.tool == cut.tool
-        stands = same and before is not None and before.stock == cut.stock
-        if not same and before is not None:
+        changed = before is None or before.tool != cut.tool
+        if changed and before is not None:
             yield Line("M5")
-        if self.style.radius is Radius.DATA and not stands:
+        if self.style.radius is Radius.DATA and (before is None or changed or before.stock != cut.stock):
             yield Line(f"T{cut.tool}//{self.length(cut.diameter + 2 * cut.stock)}")
-        if not same:
+        if before is None or changed:
             self.height = ""
             yield self.words(f"T{cut.tool}", "M6")
             if self.style.length:
                 yield self.words("G43", f"H{cut.tool}")
             yield self.words(speed, "M3")
-        elif before is not None and before.speed != cut.speed:
+        elif before.speed != cut.speed:
             yield Line(speed)
 
-    def cut(self, one: Led) -> Iterator[Line]:
+    def cut(self, run: Led) -> Iterator[Line]:
         """One run: down away from the part, in, along, out, up."""
-        cut, shape = one.terms, one.shape
+        cut, shape = run.terms, run.shape
         in_plunge = self.style.radius is Radius.DATA
-        down = ("G1", *((self.code(one),) if in_plunge else ()))
+        down = ("G1", self.code(run)) if in_plunge else ("G1",)
         yield from self.rapid(cut.travel)
-        yield self.words("G0", *self.place(one.start))
+        yield self.words("G0", *self.place(run.start))
         yield from self.rapid(cut.near)
         yield self.words(*down, f"Z{self.length(cut.depth)}", *self.feed_word(cut.plunge_feed))
         feeds = [cut.feeds[int(number)] for number in shape.segments]
-        words = ("G1",) if in_plunge else (*self.switch(one), "G1")
-        into = self.words(*words, *self.place(one.to), *self.feed_word(feeds[0]), segment=shape.segments[0])
+        words = ("G1",) if in_plunge else (*self.switch(run), "G1")
+        into = self.words(*words, *self.place(run.to), *self.feed_word(feeds[0]), segment=shape.segments[0])
         yield into._replace(lead=True)
         for element, feed, segment in zip(shape.elements, feeds, shape.segments, strict=True):
             yield from self.element(element, feed, segment)
-        yield self.words("G40", "G1", *self.place(one.out), segment=shape.segments[-1])._replace(lead=True)
+        yield self.words("G40", "G1", *self.place(run.out), segment=shape.segments[-1])._replace(lead=True)
         self.height = ""
         yield from self.rapid(cut.leave)
 
-    def plain(self, one: Plain) -> Iterator[Line]:
+    def plain(self, run: Plain) -> Iterator[Line]:
         """One run without compensation, as its moves are."""
-        yield from self.rapid(one.travel)
-        first, *rest = one.travels
+        yield from self.rapid(run.travel)
+        first, *rest = run.travels
         yield self.words("G0", *self.place((first.x, first.y)))._replace(travel=first)
         for travel in rest:
             yield from self.traveled(travel)
@@ -157,18 +156,18 @@ class _Writer:
             self.height = text
             yield self.words("G0", text)
 
-    def code(self, one: Led) -> str:
+    def code(self, run: Led) -> str:
         """G41 with the tool on the left."""
-        return "G41" if one.side is Side.LEFT else "G42"
+        return "G41" if run.side is Side.LEFT else "G42"
 
-    def switch(self, one: Led) -> tuple[str, ...]:
+    def switch(self, run: Led) -> tuple[str, ...]:
         """What turns compensation on in the block of the entry."""
-        code, cut = self.code(one), one.terms
+        code, cut = self.code(run), run.terms
         if cut.stock and self.style.radius is Radius.DIAMETER:
             return f"{code}.1", f"D{self.length(cut.diameter + 2 * cut.stock)}"
         if cut.stock and self.style.radius is Radius.REDUCED:
-            return code, f"D{one.offset}", f"I{self.length(-cut.stock)}"
-        return code, f"D{one.offset}"
+            return code, f"D{run.offset}", f"I{self.length(-cut.stock)}"
+        return code, f"D{run.offset}"
 
     def element(self, element: Element, feed: float, segment: float) -> Iterator[Line]:
         """One element; what is no move as written is left out."""
@@ -187,7 +186,7 @@ class _Writer:
         if not self.style.absolute:
             x, y = x - float(start[0][1:]), y - float(start[1][1:])
         digits = self.style.digits(unit)
-        return f"I{_digits(x, digits)}", f"J{_digits(y, digits)}"
+        return f"I{number_text(x, Unit.MM, digits)}", f"J{number_text(y, Unit.MM, digits)}"
 
     def place(self, point: Point) -> tuple[str, str]:
         """X and Y."""
@@ -214,7 +213,3 @@ class _Writer:
 def speed_text(speed: float) -> str:
     """A spindle speed without a needless decimal."""
     return f"{speed:.1f}".removesuffix(".0")
-
-
-def _digits(value: float, digits: int) -> str:
-    return number_text(value, Unit.MM, digits)

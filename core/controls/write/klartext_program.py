@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import degrees, hypot, tau
 from typing import Final
 
-from core.controls.compensation.corners import Element, sweep
+from core.controls.compensation.corners import sweep
 from core.controls.write.programmed_contour import (
     Cut,
     Led,
@@ -30,29 +30,29 @@ from core.units import Unit, from_mm, to_mm
 DECIMALS: Final = {Unit.IN: 5, Unit.MM: 4}
 """Decimals the control takes."""
 
-_Shaped = tuple[Cut, Programmed] | Plain
+_Run = tuple[Cut, Programmed] | Plain | Led
 
 
 def write(
     cuts: Sequence[Cut | Plain], name: str, unit: Unit, remarks: Sequence[str] = ()
 ) -> tuple[Line, ...] | Finding:
     """The lines of the program; or why the control would not run one of these paths by its own compensation."""
-    shaped: list[_Shaped] = []
+    runs: list[_Run] = []
     for cut in cuts:
         if isinstance(cut, Plain):
-            shaped.append(cut)
+            runs.append(cut)
             continue
         shape = programmed(cut.compensated)
         if isinstance(shape, Finding):
             return shape
-        shaped.append((cut, shape))
-    lines = _Writer(unit).program(shaped, name, remarks)
+        runs.append((cut, shape))
+    lines = _Writer(unit).program(runs, cuts, name, remarks)
     return tuple(line._replace(text=f"{number} {line.text}") for number, line in enumerate(lines))
 
 
 def write_led(runs: Sequence[Led], unit: Unit) -> tuple[Line, ...]:
     """The lines of a program that comes to each contour square to it and leaves it so, with APPR LN and DEP LN."""
-    return tuple(_Writer(unit).led_program(runs))
+    return tuple(_Writer(unit).program(runs, [run.terms for run in runs], "CONTOUR", ()))
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,95 +61,87 @@ class _Writer:
 
     unit: Unit
 
-    def led_program(self, runs: Sequence[Led]) -> Iterator[Line]:
-        """Runs with straight leads, from BEGIN PGM to END PGM."""
-        frame = f"PGM CONTOUR {'INCH' if self.unit is Unit.IN else 'MM'}"
-        yield Line(f"BEGIN {frame}")
-        yield from self.tools([one.terms for one in runs])
-        before: Terms | None = None
-        for one in runs:
-            yield from self.tool(one.terms, before)
-            yield from self.led(one)
-            before = one.terms
-        yield Line("M30")
-        yield Line(f"END {frame}")
-
-    def led(self, one: Led) -> Iterator[Line]:
-        """One run: down away from the contour, square to it, along, square away, up."""
-        cut, shape = one.terms, one.shape
-        (x, y), (cx, cy) = one.start, one.to
-        length = self.length(hypot(x - cx, y - cy) - cut.diameter / 2)
-        feeds = [cut.feeds[int(number)] for number in shape.segments]
-        word = "RL" if one.side is Side.LEFT else "RR"
-        yield Line(f"L {self.place(one.start)} R0 FMAX")
-        yield Line(f"L Z{self.length(cut.depth)} R0 F{self.feed(cut.plunge_feed)}")
-        into = f"APPR LN {self.place(one.to)} LEN{length} {word} F{self.feed(feeds[0])}"
-        yield Line(into, shape.segments[0], lead=True)
-        for element, feed, segment in zip(shape.elements, feeds, shape.segments, strict=True):
-            yield from self.element(element, feed, segment)
-        yield Line(f"DEP LN LEN{length}", shape.segments[-1], lead=True)
-        yield Line(f"L Z{self.length(cut.leave)} R0 FMAX")
-
-    def program(self, cuts: Sequence[_Shaped], name: str, remarks: Sequence[str]) -> Iterator[Line]:
-        """Everything from BEGIN PGM to END PGM; remarks after a semicolon."""
+    def program(
+        self, runs: Sequence[_Run], all_terms: Sequence[Terms], name: str, remarks: Sequence[str]
+    ) -> Iterator[Line]:
+        """Everything from BEGIN PGM to END PGM: remarks after a semicolon, TOOL DEF of every tool, the runs."""
         frame = f"PGM {name} {'INCH' if self.unit is Unit.IN else 'MM'}"
         yield Line(f"BEGIN {frame}")
         yield from (Line(f"; {remark}") for remark in remarks)
-        yield from self.tools([one if isinstance(one, Plain) else one[0] for one in cuts])
+        for number, diameter in {terms.tool: terms.diameter for terms in all_terms}.items():
+            yield Line(f"TOOL DEF {number} L+0 R{self.length(diameter / 2)}")
         before: Terms | None = None
-        for one in cuts:
-            terms = one if isinstance(one, Plain) else one[0]
+        for run, terms in zip(runs, all_terms, strict=True):
             yield from self.tool(terms, before)
-            yield from self.plain(one) if isinstance(one, Plain) else self.cut(*one)
+            if isinstance(run, Led):
+                yield from self.led(run)
+            else:
+                yield from self.plain(run) if isinstance(run, Plain) else self.cut(*run)
             before = terms
         yield Line("M30")
         yield Line(f"END {frame}")
 
-    def tools(self, cuts: Sequence[Terms]) -> Iterator[Line]:
-        """TOOL DEF of every tool."""
-        for number, diameter in {cut.tool: cut.diameter for cut in cuts}.items():
-            yield Line(f"TOOL DEF {number} L+0 R{self.length(diameter / 2)}")
+    def led(self, run: Led) -> Iterator[Line]:
+        """A run with straight leads: down away from the contour, square to it, along, square away, up."""
+        cut, shape = run.terms, run.shape
+        (x, y), (cx, cy) = run.start, run.to
+        length = self.length(hypot(x - cx, y - cy) - cut.diameter / 2)
+        word, feed = "RL" if run.side is Side.LEFT else "RR", self.feed(cut.feeds[int(shape.segments[0])])
+        yield Line(f"L {self.place(run.start)} R0 FMAX")
+        yield Line(f"L Z{self.length(cut.depth)} R0 F{self.feed(cut.plunge_feed)}")
+        yield Line(f"APPR LN {self.place(run.to)} LEN{length} {word} F{feed}", shape.segments[0], lead=True)
+        yield from self.elements(cut, shape)
+        yield Line(f"DEP LN LEN{length}", shape.segments[-1], lead=True)
+        yield Line(f"L Z{self.length(cut.leave)} R0 FMAX")
+
+    def elements(self, cut: Terms, shape: Programmed) -> Iterator[Line]:
+        """The elements of a run with their feeds, an arc on two lines."""
+        for element, segment in zip(shape.elements, shape.segments, strict=True):
+            end, feed = self.place(element.end), f"F{self.feed(cut.feeds[int(segment)])}"
+            if element.turn:
+                yield Line(f"CC {self.place(element.center)}", segment)
+                yield Line(f"C {end} DR{'+' if element.turn > 0 else '-'} {feed}", segment)
+            else:
+                yield Line(f"L {end} {feed}", segment)
 
     def tool(self, cut: Terms, before: Terms | None) -> Iterator[Line]:
         """TOOL CALL where the tool, its speed or what it leaves changes; then up."""
-        if before is None or (before.tool, before.stock, before.speed) != (cut.tool, cut.stock, cut.speed):
+        same = before is not None and (before.tool, before.stock, before.speed) == (cut.tool, cut.stock, cut.speed)
+        if not same:
             stock = f" DR{self.length(cut.stock)}" if cut.stock else ""
             yield Line(f"TOOL CALL {cut.tool} Z S{round(cut.speed)}{stock}")
-            yield Line(f"L Z{self.length(cut.travel)} R0 FMAX M3")
-        else:
-            yield Line(f"L Z{self.length(cut.travel)} R0 FMAX")
+        yield Line(f"L Z{self.length(cut.travel)} R0 FMAX{'' if same else ' M3'}")
 
     def cut(self, cut: Cut, shape: Programmed) -> Iterator[Line]:
         """One run: down, in, along, out, up."""
         whole = cut.compensated.whole
         (x, y), (bx, by) = whole.points[0].tolist(), whole.points[-1].tolist()
-        feeds = [cut.feeds[int(number)] for number in shape.segments]
         yield Line(f"L {self.place((x, y))} R0 FMAX")
         yield Line(f"L Z{self.length(cut.near)} R0 FMAX")
         yield Line(f"L Z{self.length(cut.depth)} R0 F{self.feed(cut.plunge_feed)}")
-        yield self.begin(cut, shape, feeds[0])
-        for element, feed, segment in zip(shape.elements, feeds, shape.segments, strict=True):
-            yield from self.element(element, feed, segment)
-        blend = blend_of(cut.compensated)
-        last = shape.segments[-1]
-        yield Line(f"DEP CT CCA+90 R{self.length(blend)}" if blend else f"L {self.place((bx, by))} R0", last)
+        first, last = shape.segments[0], shape.segments[-1]
+        word, blend = "RL" if cut.compensated.side is Side.LEFT else "RR", blend_of(cut.compensated)
+        start, radius = self.place(shape.elements[0].start), f"CCA+90 R{self.length(blend)}"
+        feed = self.feed(cut.feeds[int(first)])
+        yield Line(f"APPR CT {start} {radius} {word} F{feed}" if blend else f"L {start} {word}", first)
+        yield from self.elements(cut, shape)
+        yield Line(f"DEP CT {radius}" if blend else f"L {self.place((bx, by))} R0", last)
         yield Line(f"L Z{self.length(cut.leave)} R0 FMAX")
 
-    def plain(self, one: Plain) -> Iterator[Line]:
+    def plain(self, run: Plain) -> Iterator[Line]:
         """One run without compensation, as its moves are."""
-        x, y, z = self.at((0.0, 0.0), one.travel)
-        for travel in one.travels:
+        x, y, z = self.at((0.0, 0.0), run.travel)
+        for travel in run.travels:
             start, (x, y, z) = (x, y, z), self.at((travel.x, travel.y), travel.z)
             feed = "FMAX" if travel.feed is None else f"F{self.feed(travel.feed)}"
             if not travel.turn:
                 words = [
-                    new for new, old in zip((x, y, z), start, strict=True) if new != old or travel is one.travels[0]
+                    new for new, old in zip((x, y, z), start, strict=True) if new != old or travel is run.travels[0]
                 ]
                 if words:
                     yield Line(f"L {' '.join(words)} R0 {feed}", travel=travel)
                 continue
-            cx, cy = travel.center
-            yield Line(f"CC X{self.length(cx)} Y{self.length(cy)}")
+            yield Line(f"CC {self.place(travel.center)}")
             sense = "+" if travel.turn > 0 else "-"
             if z == start[2]:
                 yield Line(f"C {x} {y} DR{sense} R0 {feed}", travel=travel)
@@ -165,23 +157,6 @@ class _Writer:
         """Degrees that a helix turns between places as they are written."""
         (sx, sy), (ex, ey) = ([to_mm(float(word[1:]), self.unit) for word in words[:2]] for words in (start, end))
         return degrees(sweep((sx, sy), (ex, ey), travel.center, travel.turn) or tau)
-
-    def begin(self, cut: Cut, shape: Programmed, feed: float) -> Line:
-        """APPR CT onto the first element, or a straight block with RL or RR."""
-        word, blend = "RL" if cut.compensated.side is Side.LEFT else "RR", blend_of(cut.compensated)
-        start = self.place(shape.elements[0].start)
-        text = f"APPR CT {start} CCA+90 R{self.length(blend)} {word} F{self.feed(feed)}" if blend else ""
-        return Line(text or f"L {start} {word}", shape.segments[0])
-
-    def element(self, element: Element, feed: float, segment: float) -> Iterator[Line]:
-        """One element, an arc on two lines."""
-        end, at = self.place(element.end), f"F{self.feed(feed)}"
-        if element.turn:
-            cx, cy = element.center
-            yield Line(f"CC X{self.length(cx)} Y{self.length(cy)}", segment)
-            yield Line(f"C {end} DR{'+' if element.turn > 0 else '-'} {at}", segment)
-        else:
-            yield Line(f"L {end} {at}", segment)
 
     def place(self, point: Point) -> str:
         """X and Y."""

@@ -145,9 +145,10 @@ def programmed(compensated: Compensated) -> Programmed | Finding:
             text = "The look-ahead deletes the next segments; no control's own compensation does that."
             return refusal(f"{text} Post the center path.", numbers[index])
         elements[index], elements[index + 1] = first._replace(end=corner), second._replace(start=corner)
-    first_run, last_run = _run_of(compensated)
-    elements[0] = _whole(elements[0], elements[0]._replace(start=_surface(elements[0], first_run, offset)))
-    elements[-1] = _whole(elements[-1], elements[-1]._replace(end=_surface(elements[-1], last_run, offset)))
+    again = overlap(compensated)
+    first_point, last_point = _point(compensated.path, 0), _point(again if len(again) else compensated.path, -1)
+    elements[0] = _whole(elements[0], elements[0]._replace(start=_surface(elements[0], first_point, offset)))
+    elements[-1] = _whole(elements[-1], elements[-1]._replace(end=_surface(elements[-1], last_point, offset)))
     return Programmed(tuple(map(_rebuilt, elements)), tuple(numbers))
 
 
@@ -170,14 +171,6 @@ def blend_of(compensated: Compensated) -> float:
     return float(lead.radii[0]) if len(lead) else 0.0
 
 
-def _run_of(compensated: Compensated) -> tuple[Point, Point]:
-    """The first and the last point the tool runs of the contour's offset."""
-    again = overlap(compensated)
-    last = again if len(again) else compensated.path
-    (bx, by), (ex, ey) = compensated.path.points[0].tolist(), last.points[-1].tolist()
-    return (bx, by), (ex, ey)
-
-
 def element_of(piece: Piece) -> Element:
     """A line or an arc of a path as an element."""
     if isinstance(piece, Arc):
@@ -186,12 +179,12 @@ def element_of(piece: Piece) -> Element:
 
 
 def flat_line(start: Point, end: Point) -> Element:
-    """A straight element without height, feed and line."""
+    """A straight element in the plane alone."""
     return line_element(start, end, 0.0, 0.0, rapid=False, feed=0.0, line=0)
 
 
 def flat_arc(start: Point, end: Point, center: Point, turn: int) -> Element:
-    """A circular element without height, feed and line."""
+    """A circular element in the plane alone."""
     return arc_element(start, end, center, turn, 0.0, 0.0, 0.0, 0)
 
 

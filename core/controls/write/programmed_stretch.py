@@ -5,20 +5,19 @@ Elements are numbered from 1 in their order; the lead in has the number 0, the l
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.controls.compensation.corners import Element, beyond, offset_point
+from core.controls.compensation.corners import beyond, offset_point
 from core.controls.contours_and_leads import contour_of
 from core.controls.control_run import Run, Stretch
-from core.controls.moves import Moves, Plane
+from core.controls.moves import Plane
 from core.controls.write.iso_style import IsoStyle
 from core.controls.write.lead_moves import Surface, clear_leads, merged, with_blends
-from core.controls.write.programmed_contour import End, Led, Programmed, Terms, flat_arc, flat_line
+from core.controls.write.programmed_contour import End, Led, Programmed, Terms, element_of
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Point, Turn
 from core.tolerance import JOINED
@@ -74,8 +73,8 @@ def programmed_stretch(source: Run, stretch: Stretch, tool: int) -> ProgrammedSt
     uneven = np.flatnonzero((np.abs(heights - heights[0, 0]) > JOINED).any(axis=1))
     if len(uneven):
         return NotTranslated(f"the tool axis moves under compensation at line {int(moves.lines[rows[uneven[0]]])}")
-    shape = Programmed(tuple(_element(moves, row) for row in rows.tolist()), tuple(map(float, range(1, len(rows) + 1))))
     whole = moves.part(int(rows[0]) - 1, int(rows[-1]) + 1).path()
+    shape = Programmed(tuple(map(element_of, whole)), tuple(map(float, range(1, len(rows) + 1))))
     surface = whole.part(*contour_of(whole))
     lines = tuple(moves.lines[rows].tolist())
     return ProgrammedStretch(shape, lines, stretch, _terms(source, stretch, rows, tool), surface)
@@ -88,18 +87,9 @@ def _surface_rows(stretch: Stretch) -> NDArray[np.intp]:
         entry = 0
     if stretch.exit == 1 and moves.turns[-1]:
         end += 1
-    rows: NDArray[np.intp] = np.arange(entry + 1, end, dtype=np.intp)
+    rows: NDArray[np.intp] = np.arange(entry + 1, end)
     moving = (moves.turns[rows] != 0) | np.any(moves.points[rows, :2] != moves.points[rows - 1, :2], axis=1)
-    contour: NDArray[np.intp] = rows[moving]
-    return contour
-
-
-def _element(moves: Moves, row: int) -> Element:
-    (ax, ay), (bx, by) = moves.points[row - 1, :2].tolist(), moves.points[row, :2].tolist()
-    if not moves.turns[row]:
-        return flat_line((ax, ay), (bx, by))
-    cx, cy = moves.centers[row, :2].tolist()
-    return flat_arc((ax, ay), (bx, by), (cx, cy), int(moves.turns[row]))
+    return rows.compress(moving)
 
 
 def _terms(source: Run, stretch: Stretch, rows: NDArray[np.intp], tool: int) -> Terms:
@@ -116,30 +106,24 @@ def _terms(source: Run, stretch: Stretch, rows: NDArray[np.intp], tool: int) -> 
 
 def led(source: ProgrammedStretch, style: IsoStyle, *, blends: bool) -> Led | NotTranslated:
     """The stretch with the first leads that cut nothing, in a control's style; `blends`: with quarter arcs too."""
-    stretch, shape = source.stretch, source.shape
-    if style.merged:
-        shape = merged(shape)
-    radius, (first, *_, last) = stretch.radius, (shape.elements[0], *shape.elements)
+    stretch, radius, turn = source.stretch, source.stretch.radius, Turn(source.stretch.side.sign)
+    shape = merged(source.shape) if style.merged else source.shape
+    first, last = shape.elements[0], shape.elements[-1]
     surface = Surface(source.surface, stretch.side, radius)
     for blend in BLEND_RADII if blends else BLEND_RADII[:1]:
         begin = source.end(first.start, first.leaving, blend * radius, 1)
         finish = source.end(last.end, last.arriving, blend * radius, -1)
-        into, off = _blend_in(begin, stretch.side.sign), _blend_out(finish, stretch.side.sign)
-        leads = clear_leads(begin, finish, style, radius, surface, tuple(into), tuple(off))
+        leads = clear_leads(begin, finish, style, radius, surface, _blend(begin, turn, 1), _blend(finish, turn, -1))
         if not isinstance(leads, float):
             shape = with_blends(shape, begin, finish, radius, (0.0, max(shape.segments) + 1.0))
             return Led(source.terms, stretch.side, shape, leads[0], begin.corner, leads[1], source.terms.tool)
     return NotTranslated(f"at line {source.lines[0]} there is no room for a straight move into the cut and out of it")
 
 
-def _blend_in(begin: End, sense: int) -> Iterator[Piece]:
-    """The quarter arc from a straight lead onto the tool's path."""
-    if begin.blend:
-        center = beyond(begin.at, begin.way, begin.blend)
-        yield Arc(begin.at, beyond(center, begin.off, -begin.blend), center, Turn(sense))
-
-
-def _blend_out(finish: End, sense: int) -> Iterator[Piece]:
-    if finish.blend:
-        center = beyond(finish.at, finish.way, -finish.blend)
-        yield Arc(beyond(center, finish.off, -finish.blend), finish.at, center, Turn(sense))
+def _blend(end: End, turn: Turn, sense: int) -> tuple[Piece, ...]:
+    """The quarter arc between a straight lead and the tool's path, at its begin (`sense` 1) or its end (-1)."""
+    if not end.blend:
+        return ()
+    center = beyond(end.at, end.way, sense * end.blend)
+    first, last = (end.at, beyond(center, end.off, -end.blend))[::sense]
+    return (Arc(first, last, center, turn),)

@@ -39,7 +39,7 @@ MAX_COMPARED_PIECES: Final = 4000
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Intended:
-    """A program that was written, and the cuts it is for; `last_digit` in millimeters.
+    """A program as it was written, and the cuts it is for; `last_digit` in millimeters.
 
     `leads`: the control's path has a move into the block's path and one out of it that are not the block's.
     """
@@ -115,12 +115,12 @@ def different_move(made: Run, intended: Intended) -> Finding | None:
         row = int(np.searchsorted(moves.lines, number, side="right")) - 1
         differs = bool(moves.rapid[row]) != (travel.feed is None) or int(moves.turns[row]) != travel.turn
         if differs and (int(moves.lines[row]) == number or travel.turn):
-            return refusal(f"{intended.control} makes a different move of line {number} of the program.")
+            return refusal(f"{intended.control} runs line {number} of the program as a different move.")
         offs = np.abs(moves.points[row] - (travel.x, travel.y, travel.z))
         if travel.turn:
             center = np.abs(moves.centers[row, :2] - travel.center)
             offs = np.concatenate((offs, center, (_length_difference(moves, row, before, travel),)))
-        # a value that is no number is not near
+        # a comparison with NaN is false
         if not (offs <= intended.tolerance).all():
             text = f"{intended.control} ends line {number} of the program {{0}} off."
             return refusal(text, lengths=(float(offs.max()),))
@@ -199,7 +199,7 @@ def same_pieces(made: Path, whole: Path, tolerance: float) -> bool:
 def farthest(path: Path, other: Path) -> tuple[float, float]:
     """How far the ends, quarters and middles of a path's pieces are from another path at most, and that piece's number.
 
-    A distance that is no number is farther than any other; of several pieces as far off it is the first one.
+    NaN counts as the largest distance; of several pieces as far off the first one counts.
     """
     if not path.lengths.any() or not other.lengths.any():
         return (np.inf, 0.0) if path.lengths.any() or other.lengths.any() else (0.0, 0.0)

@@ -106,7 +106,7 @@ def program(control: str, rule: str) -> bytes:
 
 
 @pytest.mark.parametrize(("control", "rule"), CASES)
-def test_the_rule_is_found_where_it_is_broken(control: str, rule: str) -> None:
+def test_the_finding_names_the_place_where_a_rule_is_broken(control: str, rule: str) -> None:
     tools = {"t1": 6.0, "t2": 3.0} if control == "rosettacnc" else TOOLS
     done = ran(program(control, rule), control, **tools)
     found = told(done, rule)[0]

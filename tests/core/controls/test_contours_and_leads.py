@@ -26,14 +26,14 @@ RING = ((0, 0), (2, 0), (2, 2), (0, 0))
 OTHER = ((10, 0), (12, 0), (12, 2), (10, 2), (10, 0))
 
 
-def test_one_or_two_pieces_beside_a_closed_contour_are_leads() -> None:
+def test_one_or_two_pieces_next_to_a_closed_contour_are_leads() -> None:
     path = lines_through((-1, -1), *RING, (-1, 1), (-2, 1))
     assert contours_of(path) == ((1, 4),)
     assert contour_of(path) == (1, 4)
     assert contour_of(path.part(0, 2)) == (0, 2)
 
 
-def test_more_pieces_beside_a_closed_contour_are_a_contour() -> None:
+def test_more_pieces_next_to_a_closed_contour_are_a_contour() -> None:
     path = lines_through(*RING, (-1, 1), (-2, 1), (-2, 4))
     assert contours_of(path) == ((0, 3), (3, 6))
     assert contour_of(path) == (0, 6)
@@ -48,14 +48,14 @@ def test_a_line_forth_and_back_is_no_contour_of_its_own() -> None:
     assert contours_of(lines_through(*OTHER, (5, 5), (6, 6), (5, 5))) == ((0, 4), (4, 7))
 
 
-def test_a_full_circle_beside_a_longer_contour_is_a_contour() -> None:
+def test_a_full_circle_next_to_a_longer_contour_is_a_contour() -> None:
     points = np.array([*OTHER, (14, 0), (14, 0)], np.float64)
     centers, turns = points[:-1].copy(), np.zeros(6, np.int8)
     turns[5], centers[5] = 1, (15, 0)
     assert contours_of(Path.of(points, centers, turns, np.arange(1.0, 7.0))) == ((0, 4), (5, 6))
 
 
-def test_among_very_many_contours_no_leads_are_told() -> None:
+def test_among_very_many_contours_no_moves_count_as_leads() -> None:
     corners = [(x + 4 * row, y) for row in range(40) for x, y in RING]
     path = lines_through(*corners)
     assert contours_of(path) == ((0, len(path)),)
@@ -78,7 +78,7 @@ def errors(program: str, control: str) -> list[Finding]:
 
 @pytest.mark.parametrize("control", CONTROLS)
 @pytest.mark.parametrize("depths", [1, 2, 3, 8])
-def test_a_gouge_is_told_however_often_another_contour_is_cut_before(control: str, depths: int) -> None:
+def test_a_gouge_is_reported_however_often_another_contour_is_cut_before(control: str, depths: int) -> None:
     key = len(ring_and_key(depths).split("Z-1.\nX-70. ")[0].splitlines())
     deep = [one for one in errors(ring_and_key(depths), control) if (one.line or 0) > key]
     assert [one.value for one in deep if one.code == "GOUGE"][:2] == pytest.approx([2.0, 2.0], abs=1e-6)
@@ -92,7 +92,7 @@ OPEN_KEY = (
 
 @pytest.mark.parametrize("control", CONTROLS)
 @pytest.mark.parametrize("circle", ["", "G2 X100. Y20. I0. J-20.\nG1 "])
-def test_a_full_circle_behind_an_open_contour_does_not_hide_its_gouge(control: str, circle: str) -> None:
+def test_a_full_circle_after_an_open_contour_does_not_hide_its_gouge(control: str, circle: str) -> None:
     found = [one for one in errors(OPEN_KEY.format(circle=circle), control) if one.code == "GOUGE"]
     assert [one.value for one in found if one.line in (6, 12)] == pytest.approx([2.0, 2.0], abs=1e-6)
 
@@ -106,7 +106,7 @@ def two_rings(way: str) -> str:
 
 
 @pytest.mark.parametrize("control", CONTROLS)
-def test_a_long_way_between_contours_that_is_told_as_gouged_is_told_to_be_no_surface_perhaps(control: str) -> None:
+def test_a_gouge_on_a_long_way_between_contours_says_that_it_may_be_no_surface(control: str) -> None:
     """Nothing tells a way of three moves from an open contour: its gouges stay errors, and what to do is said."""
     told = findings(judged(ran(two_rings("X-20.\nY-50.\nX100.\nY0.\n"), control, t1=6)))
     assert {9.0, 10.0} & {float(one.text.split("line ")[1].split()[0]) for one in told if one.code == "GOUGE"}
@@ -118,7 +118,7 @@ def test_a_long_way_between_contours_that_is_told_as_gouged_is_told_to_be_no_sur
 
 
 @pytest.mark.parametrize("way", ["X-20.\nG42 Y-50.\nX100.\nY0.\n", "X-20.\nY-50.\nX100.\nG42 Y0.\n"])
-def test_a_way_on_which_the_side_changes_is_told_once_and_whole(way: str) -> None:
+def test_a_way_on_which_the_side_changes_is_reported_once_and_whole(way: str) -> None:
     told = findings(judged(ran(two_rings(way), "nine-series:a", t1=6)))
     assert "SIDES" in {one.code for one in told}
     (way_told,) = (one for one in told if one.code == "WAY")
@@ -150,7 +150,7 @@ def test_of_contours_that_are_closed_or_alone_none_is_a_way() -> None:
     assert [sum(one.code == "WAY" for one in found) for found in told] == [0, 1]
 
 
-def test_the_comparison_tells_it_too() -> None:
+def test_the_comparison_reports_it_too() -> None:
     from core.controls.control_tools import ToolTable
 
     tools = ToolTable.diameters({1: 6.0})

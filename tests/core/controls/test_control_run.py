@@ -8,7 +8,7 @@ from core.controls.control_run import MAX_FINDINGS_OF_A_RULE, AlarmError, Log
 from core.finding import Severity
 
 
-def test_a_rule_is_told_once_for_a_line() -> None:
+def test_a_rule_is_reported_once_for_a_line() -> None:
     log = Log()
     for line in (4, 4, 3):
         log.tell(Severity.WARNING, "A", "Text.", line, 1)

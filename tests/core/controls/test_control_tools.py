@@ -18,7 +18,7 @@ def test_a_table_as_linuxcnc_writes_it() -> None:
 
 
 @pytest.mark.parametrize("line", [b"1 1 .5", b"P1 D.5", b"T1.5 D1", b"T1 Dx", b"T1 D99999999999", b"\xff\xfe\x00"])
-def test_what_cannot_be_read_is_told_by_line(line: bytes) -> None:
+def test_what_cannot_be_read_is_reported_by_line(line: bytes) -> None:
     table, findings = read_table(b"T3 D1\n" + line + b"\n")
     assert [finding.line for finding in findings] == [2]
     assert table.get(3) is not None

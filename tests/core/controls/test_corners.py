@@ -84,7 +84,7 @@ def test_offset_radii_shrink_inside_and_grow_outside() -> None:
     assert element_sweep(circle) == pytest.approx(2 * pi)
 
 
-def test_backwards_is_told_of_lines_and_arcs() -> None:
+def test_backwards_is_reported_of_lines_and_arcs() -> None:
     assert runs_back(EAST, (3, 1), (2, 1))
     assert not runs_back(EAST, (2, 1), (3, 1))
     quarter = arc(2, 0, 0, 2, 0, 0, 1)

@@ -9,7 +9,7 @@ from tests.core.controls.hand import lines_and_ends, ran, told
 HEAD = "G21 G1 F100\n"
 
 
-def test_subprograms_stand_behind_the_end_and_repeat() -> None:
+def test_subprograms_stand_after_the_end_and_repeat() -> None:
     done = ran(f"{HEAD}M98 P10 L2\nM30\nO10 ; there\nG91 X1\nG90\nM99\n", "rosettacnc")
     assert lines_and_ends(done) == [(1.0, 0.0), (2.0, 0.0)]
 
@@ -42,16 +42,16 @@ def test_the_threeblock_control_has_none() -> None:
     assert told(ran("G0X1.\nM98P1\nM2\nO1\nX2.\nM99\n", "threeblock"), "SUBPROGRAM")
 
 
-def test_running_into_a_subprogram_is_told() -> None:
+def test_running_into_a_subprogram_is_reported() -> None:
     assert told(ran(f"{HEAD}X1\nO7\nX2\nM99\n", "rosettacnc"), "SUBPROGRAM")
     assert not told(ran(f"O7\n{HEAD}X1\nM2\n", "rosettacnc"), "SUBPROGRAM")
 
 
-def test_a_file_that_ends_in_a_subprogram_is_told() -> None:
+def test_a_file_that_ends_in_a_subprogram_is_reported() -> None:
     assert told(ran(f"{HEAD}M98 P1\nM2\nO1\nX1\n", "rosettacnc"), "SUBPROGRAM")
 
 
-def test_nothing_behind_the_end_runs() -> None:
+def test_nothing_after_the_end_runs() -> None:
     assert lines_and_ends(ran(f"{HEAD}X1\nM30\nX2\n", "rosettacnc")) == [(1.0, 0.0)]
     assert lines_and_ends(ran("%\nG21 F100\nG1 X1\n%\nX2\n", "linuxcnc")) == [(1.0, 0.0)]
 

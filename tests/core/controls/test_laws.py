@@ -109,7 +109,7 @@ def test_radius_0_runs_as_programmed(control: str) -> None:
 
 
 @pytest.mark.parametrize("control", ["rosettacnc:normal", "linuxcnc"])
-def test_what_runs_with_look_ahead_touches_the_contour_or_is_told(control: str) -> None:
+def test_what_runs_with_look_ahead_touches_the_contour_or_is_reported(control: str) -> None:
     """The judge, which knows no control, finds every center path of whole length at the radius somewhere."""
     found = 0
     for seed in SEEDS:

@@ -53,7 +53,7 @@ def test_generated_contours_fare_as_with_the_interpreter_itself(tmp_path: Path) 
     assert sum(one[0] == "same moves" for one in fared) >= 20
 
 
-def test_a_number_nobody_set_is_0_and_told() -> None:
+def test_a_number_nobody_set_is_0_and_reported() -> None:
     done = ran("G20 F9\nG1 X[#100 + 1]\nM2\n", "linuxcnc")
     assert lines_and_ends(done) == [(1.0, 0.0)]
     assert [(one.severity, one.line, one.column) for one in told(done, "PARAMETER")] == [(Severity.WARNING, 2, 6)]

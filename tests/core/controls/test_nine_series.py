@@ -24,7 +24,7 @@ def test_one_two_and_three_blocks_enter_alike() -> None:
     assert all(same(one, entered) for one in shapes)
 
 
-def test_d_may_stand_in_the_motion_block_behind_g41() -> None:
+def test_d_may_stand_in_the_motion_block_after_g41() -> None:
     assert same(path("G41\nX1 Y1 D1\nX3")[:2], [("line", 1, 1.25), ("line", 3, 1.25)])
 
 

@@ -89,7 +89,7 @@ def test_blanks_may_be_nothing_anywhere() -> None:
     assert fault("G4 1 X1")[0] == "WORD"
 
 
-def test_tool_data_behind_slashes() -> None:
+def test_tool_data_after_slashes() -> None:
     assert block("T4/.75/.2", Syntax(tool_data=True)).data == ToolData(4, 0.75, 0.2)
     assert block("T5//-.5", Syntax(tool_data=True)).data == ToolData(5, None, -0.5)
 
@@ -100,14 +100,14 @@ def test_a_semicolon_may_end_a_block() -> None:
     assert [one.column("XY") for one in found] == [3, 6, 9]
 
 
-def test_prose_behind_the_end_of_a_block_is_told() -> None:
+def test_text_after_the_end_of_a_block_is_reported() -> None:
     log = Log()
     (found,) = read_line("T5//-.5;        For tool 5, DIA=-.5", 1, log, Syntax(semicolon_ends=True, tool_data=True))
     assert found.data == ToolData(5, None, -0.5)
     assert [(one.code, one.column) for one in log.findings] == [("TEXT", 17)]
 
 
-def test_block_skip_is_off_and_told() -> None:
+def test_block_skip_is_off_and_reported() -> None:
     log = Log()
     (found,) = read_line("/G1X1", 1, log)
     assert found.words == {"X": 1.0}

@@ -56,7 +56,7 @@ def _chain(corners: Sequence[tuple[float, float]], turns: Sequence[int] | None =
 
 
 @pytest.mark.parametrize("control", ["linuxcnc", "rosettacnc:normal"])
-def test_forty_laps_are_judged_as_one_with_the_same_findings(control: str) -> None:
+def test_forty_passes_are_judged_as_one_with_the_same_findings(control: str) -> None:
     (one,), (forty,) = judged(_ring("M98 P7", control=control)), judged(_ring("M98 P7 L40", control=control))
     assert len(forty.surface) == len(one.surface) == 5
     # the first lap comes in from the lead, so that a second one differs from it
@@ -65,7 +65,7 @@ def test_forty_laps_are_judged_as_one_with_the_same_findings(control: str) -> No
     assert {finding.code for finding in findings((one,))} == {"GOUGE", "LEADS", "LEAD-GOUGE", "UNCUT"}
 
 
-def test_the_pieces_judged_are_as_many_for_any_number_of_laps_and_controls() -> None:
+def test_the_pieces_judged_are_as_many_for_any_number_of_passes_and_controls() -> None:
     for control in ("linuxcnc", "nine-series:a", "nine-series:b"):
         few, many = ((judged(_ring(f"M98 P7 L{laps}", control=control))) for laps in (3, 200))
         assert [len(one.center) for one in few] == [len(one.center) for one in many]
@@ -80,7 +80,7 @@ def test_depths_that_are_written_out_are_judged_by_the_first_ones_lines() -> Non
     assert {finding.line for finding in findings((result,)) if finding.code == "UNCUT"} == {10}
 
 
-def test_a_gouge_in_the_seventh_lap_alone_is_told() -> None:
+def test_a_gouge_in_the_seventh_pass_alone_is_reported() -> None:
     """Its notch goes down through what all the other laps leave as the part's top: all of the cutter is behind it."""
     lap = "G1 X0 Y30\nX40\nY0\nX0"
     notched = lap.replace("X40", "X20\nY22\nX22\nY30\nX40")
@@ -92,7 +92,7 @@ def test_a_gouge_in_the_seventh_lap_alone_is_told() -> None:
     assert {gouge.surface_number for gouge in cut[0].verdict.gouges if gouge.depth == 6.0} == {7.0}
 
 
-def test_a_lap_that_differs_in_one_piece_stays() -> None:
+def test_a_pass_that_differs_in_one_piece_stays() -> None:
     lap = [(0.0, 30.0), (40.0, 30.0), (40.0, 0.0), (0.0, 0.0)]
     other = [*lap[:1], (40.0, 29.0), *lap[2:]]
     found = without_repeats(_chain([(-5.0, 0.0), (0.0, 0.0), *lap * 6, *other, *lap * 5, (-5.0, 0.0)]))
@@ -121,17 +121,17 @@ def test_the_other_turn_and_the_other_center_are_other_pieces() -> None:
     circles = _chain([(0.0, 0.0)] * 5, [1] * 4)
     assert without_repeats(circles).numbers.tolist() == [1.0]
     centers = circles.centers + np.arange(4.0)[:, None] * (1.0, 0.0)
-    beside = Path.of(circles.points, centers, circles.turns)
-    assert without_repeats(beside) is beside
+    shifted = Path.of(circles.points, centers, circles.turns)
+    assert without_repeats(shifted) is shifted
 
 
-def test_laps_within_laps_are_cut_too() -> None:
+def test_passes_within_passes_are_cut_too() -> None:
     inner, outer = [(1.0, 0.0), (1.0, 1.0), (0.0, 0.0)], [(0.0, 9.0), (0.0, 0.0)]
     found = without_repeats(_chain([(0.0, 0.0), *(inner * 5 + outer) * 6]))
     assert found.numbers.tolist() == [1.0, 2.0, 3.0, 16.0, 17.0]
 
 
-def test_sums_that_differ_in_the_last_digit_are_one_lap_with_the_first_ones_numbers() -> None:
+def test_sums_that_differ_in_the_last_digit_are_one_pass_with_the_first_ones_numbers() -> None:
     steps = [(0.1, 0.2), *((x / 3.0, y / 7.0) for x, y in STEPS * 50)]
     points = np.vstack((np.cumsum(steps, axis=0), [(-5.0, 0.0)]))
     assert len(np.unique(points[:-1], axis=0)) > 4
@@ -183,7 +183,7 @@ def lapped(draw: st.DrawFn) -> Path:
     return _chain([draw(corner), *(at for at, _ in way)], [turn for _, turn in way])
 
 
-def _told(verdict: Verdict) -> tuple[object, ...]:
+def _values(verdict: Verdict) -> tuple[object, ...]:
     """What does not depend on how often a place is passed: laps on each other cross, which leaves sides unknown."""
     uncut = {(*np.round(one.thickest, 6), round(one.thickness, 6)) for one in verdict.uncut}
     thickest = max((one[2] for one in uncut), default=0.0)
@@ -205,12 +205,12 @@ def _gouging(surface: Path, radius: float, center: Path) -> set[tuple[float, flo
 
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(lapped(), lapped(), st.sampled_from((Side.LEFT, Side.RIGHT)), st.sampled_from((1.0, 2.0, 3.0)))
-def test_the_verdict_is_that_on_all_the_laps(surface: Path, shape: Path, side: Side, radius: float) -> None:
+def test_the_verdict_is_that_on_all_the_passes(surface: Path, shape: Path, side: Side, radius: float) -> None:
     moved = shape.points * 1.1 - 3.0
     center = Path.of(moved, shape.centers * 1.1 - 3.0, shape.turns)
     whole = judge(surface, side, radius, center)
     once = judge(without_repeats(surface), side, radius, without_repeats(center))
-    assert _told(once) == _told(whole)
+    assert _values(once) == _values(whole)
     assert _gouging(without_repeats(surface), radius, without_repeats(center)) == _gouging(surface, radius, center)
     assert once.depth >= whole.depth - 1e-9
     assert once.depth <= whole.depth + 1e-9 or once.crosses_itself < whole.crosses_itself

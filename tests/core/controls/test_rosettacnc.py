@@ -62,7 +62,7 @@ def test_normal_enters_as_linuxcnc_does_and_says_so() -> None:
 
 
 @pytest.mark.parametrize("variant", ["easy", "normal"])
-def test_the_square_is_clean_beside_its_leads(variant: str) -> None:
+def test_the_square_is_clean_apart_from_its_leads(variant: str) -> None:
     (result,) = judged(sample("rosettacnc-square.ngc", f"rosettacnc:{variant}", t1=6))
     assert result.verdict.clean
     assert not result.verdict.uncut
@@ -106,7 +106,7 @@ def test_g41_1_takes_a_diameter() -> None:
     assert same(shape(done), [("line", 10, -2), ("line", 20, -2)])
 
 
-def test_a_negative_radius_changes_the_side_and_is_told() -> None:
+def test_a_negative_radius_changes_the_side_and_is_reported() -> None:
     done = ran("G21 F100\nG41 D1 I5\nG1 X10\nX20\n", "rosettacnc:easy", t1=6)
     assert same(shape(done), [("line", 10, -2), ("line", 20, -2)])
     assert told(done, "NEGATIVE")

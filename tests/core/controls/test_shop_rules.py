@@ -32,7 +32,7 @@ def test_a_program_by_the_rules_breaks_none() -> None:
     assert broken(*APPLY, *CONTOUR, *CANCEL) == []
 
 
-def test_one_depth_move_after_applying_is_tolerated_and_told() -> None:
+def test_one_depth_move_after_applying_is_tolerated_as_information() -> None:
     blocks = ("L X-20 Y-30 Z+2 R0 FMAX", "L Y+0 RL", "L Z-5", *CONTOUR, *CANCEL)
     (depth,) = [one for one in check(klartext(*blocks)) if one.code != "H9"]
     assert (depth.code, depth.line, depth.severity) == ("H1", 6, Severity.INFO)

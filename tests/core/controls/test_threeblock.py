@@ -172,12 +172,12 @@ def test_corner_arcs_turn_by_the_corner() -> None:
     assert swept == pytest.approx(3 * pi / 2)
 
 
-def test_arcs_by_radius_are_run_and_told() -> None:
+def test_arcs_by_radius_are_run_and_reported() -> None:
     done = ran("G0X0Y0\nG2X2.Y0R1.F10.\n", "threeblock")
     assert same(shape(done)[1:], [("cw", 2, 0, 1, 0)])
     assert [finding.column for finding in told(done, "RADIUS")] == [8]
 
 
-def test_g99_between_tangent_moves_is_told_once() -> None:
+def test_g99_between_tangent_moves_is_reported_once() -> None:
     done = sample("threeblock-circle.nc", "threeblock", t1=0.5)
     assert [finding.line for finding in told(done, "G99")] == [5]

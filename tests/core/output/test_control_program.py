@@ -164,7 +164,7 @@ def test_a_control_without_work_offsets_says_that_its_origin_has_to_be_set() -> 
     assert "; NOTE WORK_OFFSET Work offset G56" in posted("klartext", jobs=(square(work_offset=56),)).text
 
 
-def test_a_part_name_that_a_control_cannot_hold_is_told() -> None:
+def test_a_part_name_that_a_control_cannot_hold_is_reported() -> None:
     (note,) = posted("threeblock", part="A\x1bB").notes
     assert (note.code, note.severity, note.field) == ("PART_NAME", Severity.INFO, "name")
     assert note.text == "PART NAME A?B is not in the file: threeblock has no comments."

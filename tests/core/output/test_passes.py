@@ -260,7 +260,7 @@ def test_a_finish_tool_as_large_pecks_where_no_roughing_has_been():
     assert meets_solid(job(SLOT)) == frozenset()
 
 
-def test_steps_between_pieces_of_the_path_are_told_with_their_place():
+def test_steps_between_pieces_of_the_path_are_reported_with_their_place():
     surface = polyline((0, 0), (2, 0), (2, 2))
     one = ramp(surface, -0.05, -0.05, finish=(Run(polyline((0, 0.5), (1.5, 0.5), (1.5, 2))),))
     (step,) = z_steps(one)

@@ -188,7 +188,7 @@ def test_a_feed_that_vanished_moves_does_not_take_effect():
 
 
 @pytest.mark.parametrize("override", [None, "", "post with gouge", "YES", OVERRIDE + " "])
-def test_a_gouge_is_refused_unless_said_in_so_many_words(override):
+def test_a_gouge_is_refused_without_the_exact_override(override):
     assert refused(job(SLOT, findings=(GOUGE,)), override) == ["GOUGE"]
 
 
@@ -352,7 +352,7 @@ def test_a_helix_in_parts_climbs_evenly():
     ]
 
 
-def test_a_bottom_above_the_top_is_told_once_though_the_contour_runs_at_it():
+def test_a_bottom_above_the_top_is_reported_once_though_the_contour_runs_at_it():
     assert refused(job(SLOT, z_bottom=1.0, floors=floors(2, z=1.0))) == ["DEPTH"]
 
 

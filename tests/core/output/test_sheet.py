@@ -315,24 +315,24 @@ def test_a_block_that_is_not_known_yet_shows_what_is():
     assert not said.keys() & {"CONTOUR START", "FIRST PLUNGE AT", "CUTTER REACHES", "CUTTING TIME"}
 
 
-def test_hours_are_told_as_hours():
+def test_hours_are_shown_as_hours():
     slow = replace(SLOT, floors=floors(1, feed=0.01), peck_depth=0.0)
     assert pairs(of(slow))["CUTTING TIME"] == "about 3.3 h, rapids not counted"
     nearly = replace(SLOT, floors=floors(1, feed=0.0201), peck_depth=0.0)
     assert pairs(of(nearly))["CUTTING TIME"] == "about 99.5 min, rapids not counted"
 
 
-def test_several_segments_of_one_feed_are_told_together():
+def test_several_segments_of_one_feed_stand_together():
     path = polyline((0, 0), (1, 0), (1, 1), (0, 1))
     assert pairs(of(job(path)))["FEEDS"] == "10.0 (segments 1-3)"
 
 
-def test_all_work_offsets_are_told():
+def test_all_work_offsets_are_listed():
     assert dict(of(SLOT, replace(SLOT, work_offset=57)).head)["WORK OFFSET"] == "G54, G57"
     assert dict(of().head)["WORK OFFSET"] == "-"
 
 
-def test_text_beside_a_label_is_wrapped_behind_its_last_column():
+def test_text_next_to_a_label_is_wrapped_at_its_last_column():
     fits, longer = "a" * 59, "a" * 40 + " " + "b" * 19
     lines = as_text(sheet([SLOT], Unit.IN, fits, longer)).splitlines()
     assert f"PROGRAM            {fits}" in lines

@@ -30,10 +30,10 @@ def clean(*blocks: str, radius: float = 5.0) -> Run:
 
 def flat(made: Run, first: int = 2) -> list[tuple[float, ...]]:
     """The moves from a row on: x, y of a line; x, y, center x, y, turn of an arc."""
-    return [_told(move) for move in list(made.moves)[first:]]
+    return [_values(move) for move in list(made.moves)[first:]]
 
 
-def _told(move: Move) -> tuple[float, ...]:
+def _values(move: Move) -> tuple[float, ...]:
     x, y, _ = move.point
     return (x, y, *move.center[:2], move.turn) if move.turn else (x, y)
 

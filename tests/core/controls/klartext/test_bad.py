@@ -21,7 +21,7 @@ def test_every_rule_of_the_control_has_a_bad_program() -> None:
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
-def test_the_rule_is_found_where_it_is_broken(file: Path) -> None:
+def test_the_finding_names_the_place_where_a_rule_is_broken(file: Path) -> None:
     text = file.read_bytes()
     wanted = WANTED.match(text.decode())
     assert wanted is not None

@@ -23,7 +23,7 @@ def test_repeats_within_repeats() -> None:
     assert xs("LBL 1", *inner) == [1, 2, 12, 13, 14, 24]
 
 
-def test_a_subprogram_behind_the_end() -> None:
+def test_a_subprogram_after_the_end() -> None:
     assert xs("CALL LBL 7", "L X+50", "CALL LBL 7", "L X+0 M2", "LBL 7", "L IX+1", "LBL 0") == [1, 50, 51, 0]
 
 
@@ -33,7 +33,7 @@ def test_subprograms_call_others_by_name() -> None:
     assert xs('CALL LBL "A"', "L IX+0.5 M30", *first, *second) == [1, 11, 11.5]
 
 
-def test_lines_run_twice_are_told_once() -> None:
+def test_lines_run_twice_are_reported_once() -> None:
     made = runs(START, "LBL 1", "L IX+5 M77", "CALL LBL 1 REP 9")
     assert codes(made) == [("M", 6)]
 

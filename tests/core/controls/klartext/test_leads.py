@@ -24,13 +24,13 @@ def near(curve: Curve | None, point: Point, center: Point, turn: int) -> bool:
 
 
 @pytest.mark.parametrize("hand", [1, -1])
-def test_lt_begins_behind_the_contour_on_either_side(hand: int) -> None:
+def test_lt_begins_before_the_contour_on_either_side(hand: int) -> None:
     assert near(approach(Lead(Form.LT, 15), FAR, HERE, EAST, hand), (-15, 0), (-15, 0), 0)
     assert near(departure(Lead(Form.LT, 15), HERE, FAR, EAST, hand), (15, 0), (15, 0), 0)
 
 
 @pytest.mark.parametrize(("hand", "y"), [(1, 15), (-1, -15)])
-def test_ln_begins_beside_the_contour_on_the_tools_side(hand: int, y: float) -> None:
+def test_ln_begins_next_to_the_contour_on_the_tools_side(hand: int, y: float) -> None:
     assert near(approach(Lead(Form.LN, 15), FAR, HERE, EAST, hand), (0, y), (0, y), 0)
     assert near(departure(Lead(Form.LN, 15), HERE, FAR, EAST, hand), (0, y), (0, y), 0)
 
@@ -58,7 +58,7 @@ def test_ct_over_a_full_turn_begins_exactly_where_it_ends() -> None:
 
 
 @pytest.mark.parametrize(("hand", "y"), [(1, 10), (-1, -10)])
-def test_lct_from_straight_behind_its_circle(hand: int, y: float) -> None:
+def test_lct_from_the_tangent_before_its_circle(hand: int, y: float) -> None:
     # Seen from the center (0, y) the start lies 10 sqrt 2 away at 180 degrees, so that PH is 45 degrees on.
     start = (-10 * sqrt(2), y)
     point = (-10 * cos(pi / 4), y - hand * 10 * sin(pi / 4))
@@ -67,7 +67,7 @@ def test_lct_from_straight_behind_its_circle(hand: int, y: float) -> None:
     assert near(departure(Lead(Form.LCT, radius=10), HERE, back, EAST, hand), (-point[0], point[1]), (0, y), hand)
 
 
-def test_lct_straight_behind_the_contour_needs_no_arc() -> None:
+def test_lct_from_straight_before_the_contour_needs_no_arc() -> None:
     curve = approach(Lead(Form.LCT, radius=10), (-40.0, 0.0), HERE, EAST, 1)
     assert curve == Curve(HERE, HERE, 0)
 

@@ -137,7 +137,7 @@ def test_chamfer_between_lines() -> None:
     assert told("L X+20", "CHF R3 F20", "L Y+40") == [NEAR(move) for move in want]
 
 
-def test_rounding_and_chamfer_one_behind_the_other() -> None:
+def test_rounding_and_chamfer_one_after_the_other() -> None:
     moves = told("L X+20", "CHF 3", "L Y+40", "RND R2", "L X+0")
     assert moves[2:] == [NEAR((20, 38)), NEAR((18, 40, 18, 38, 1)), NEAR((0, 40))]
 
@@ -164,7 +164,7 @@ def test_compensation_works_in_every_plane() -> None:
     assert made.stretches[0].plane is Plane.ZX
 
 
-def test_a_datum_shift_moves_what_is_programmed_behind_it() -> None:
+def test_a_datum_shift_moves_what_is_programmed_after_it() -> None:
     cycle = ("CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 X+100", "CYCL DEF 7.2 IY+5")
     for shift in (cycle, ("TRANS DATUM AXIS X+100 Y+5",)):
         assert told(*shift, "L X+1 Y+1", "L IX+1") == [(101, 6), (102, 6)]

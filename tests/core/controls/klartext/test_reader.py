@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from core.controls.klartext.reader import MAX_LINE_LENGTH, TOO_LONG, WORD, Block, Place, place_of, read_blocks
+from core.controls.klartext.reader import MAX_LINE_LENGTH, TOO_LONG, WORD, Block, read_blocks
 
 
 def only(line: str) -> Block:
@@ -56,6 +56,6 @@ def test_words() -> None:
 
 def test_places_of_words() -> None:
     block = only("12 L X+1 RL M3")
-    assert place_of(block, "RL") == Place(1, 10)
-    assert place_of(block, "M3") == Place(1, 13)
-    assert place_of(block, "Y") == Place(1, 4)
+    assert block.column_of("RL") == 10
+    assert block.column_of("M3") == 13
+    assert block.column_of("Y") == 4

@@ -29,43 +29,43 @@ def sample(name: str) -> Run:
     return made
 
 
-def beside(distance: float, along: float = 0.0) -> tuple[float, float]:
+def off_the_line(distance: float, along: float = 0.0) -> tuple[float, float]:
     """The point right of (30, 20) by a distance, and so far along the contour."""
     return 30 + distance * RIGHT[0] + along * WAY[0], 20 + distance * RIGHT[1] + along * WAY[1]
 
 
-def test_appr_lt_runs_the_length_along_the_contour_one_radius_beside_it() -> None:
+def test_appr_lt_runs_the_length_along_the_contour_one_radius_next_to_it() -> None:
     moves = flat(sample("appr_lt"), 1)
     assert moves[0] == (10.0, 10.0)
-    assert moves[1] == NEAR(beside(5, -15), abs=1e-6)
-    assert moves[2] == NEAR(beside(5), abs=1e-6)
+    assert moves[1] == NEAR(off_the_line(5, -15), abs=1e-6)
+    assert moves[2] == NEAR(off_the_line(5), abs=1e-6)
     assert moves[2] == NEAR((34.160251, 17.226499), abs=1e-6)
-    assert moves[3] == NEAR(beside(5, sqrt(325)), abs=1e-6)
+    assert moves[3] == NEAR(off_the_line(5, sqrt(325)), abs=1e-6)
     assert moves[4] == (60.0, 35.0)
 
 
 def test_appr_ln_comes_square_from_length_and_radius_away() -> None:
     moves = flat(sample("appr_ln"), 1)
-    assert moves[1] == NEAR(beside(20), abs=1e-6)
-    assert moves[2] == NEAR(beside(5), abs=1e-6)
+    assert moves[1] == NEAR(off_the_line(20), abs=1e-6)
+    assert moves[2] == NEAR(off_the_line(5), abs=1e-6)
 
 
 def test_appr_ct_comes_over_half_a_circle_clockwise() -> None:
     moves = flat(sample("appr_ct"), 1)
-    assert moves[1] == NEAR(beside(21), abs=1e-6)
-    assert moves[2] == NEAR((*beside(5), *beside(13), -1), abs=1e-6)
+    assert moves[1] == NEAR(off_the_line(21), abs=1e-6)
+    assert moves[2] == NEAR((*off_the_line(5), *off_the_line(13), -1), abs=1e-6)
 
 
 def test_appr_lct_comes_by_a_line_and_an_arc_tangent_to_each_other() -> None:
     moves = flat(sample("appr_lct"), 1)
-    cx, cy = beside(15)
+    cx, cy = off_the_line(15)
     reach = hypot(10 - cx, 10 - cy)
     along = sqrt(reach**2 - 100)
     vx, vy = (10 - cx) / reach, (10 - cy) / reach
     touch = (cx + 10 / reach * (10 * vx + along * vy), cy + 10 / reach * (10 * vy - along * vx))
     assert moves[1] == NEAR(touch, abs=1e-6)
     assert moves[1] == NEAR((38.918847, 21.023630), abs=1e-6)
-    assert moves[2] == NEAR((*beside(5), cx, cy, -1), abs=1e-6)
+    assert moves[2] == NEAR((*off_the_line(5), cx, cy, -1), abs=1e-6)
 
 
 @pytest.mark.parametrize("name", ["appr_lt", "appr_ln", "appr_ct"])

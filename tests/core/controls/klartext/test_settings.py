@@ -130,7 +130,7 @@ def test_what_is_not_understood_or_worked_out_stops_the_program(blocks: tuple[st
         ("L X+1", "FEED", Severity.WARNING),
     ],
 )
-def test_what_is_told_and_goes_on(block: str, rule: str, severity: Severity) -> None:
+def test_findings_that_do_not_stop_the_run(block: str, rule: str, severity: Severity) -> None:
     made = runs("L X+0 Y+0 Z+1 FMAX", block, "L X+5 F9")
     assert [(finding.code, finding.severity, finding.line) for finding in made.findings] == [(rule, severity, 5)]
     assert points(made)[-1] == (5, 0, 1)
@@ -143,7 +143,7 @@ def test_what_needs_no_word(block: str) -> None:
     assert len(clean(block).moves) == 1
 
 
-def test_m2_ends_the_program_behind_its_block() -> None:
+def test_m2_ends_the_program_after_its_block() -> None:
     made = clean("L X+1 Y+1 F9 M2", "this is never read")
     assert flat(made, 1) == [(1, 1)]
 
@@ -156,7 +156,7 @@ def test_a_program_without_its_frame() -> None:
     assert codes(run(b"", NONE)) == [("PROGRAM", 1)]
 
 
-def test_a_feed_move_from_an_unknown_place_is_told() -> None:
+def test_a_feed_move_from_an_unknown_place_is_reported() -> None:
     assert codes(runs("L X+1 F9", "L X+2")) == [("POSITION", 4)]
 
 
@@ -181,6 +181,6 @@ def test_the_datum_is_chosen_before_anything_moves() -> None:
     assert flat(made, 1) == [(1, 1)]
 
 
-def test_behind_a_machine_position_relative_words_start_from_an_unknown_place() -> None:
+def test_after_a_machine_position_relative_words_start_from_an_unknown_place() -> None:
     made = runs("L X+1 Y+1 Z+1 FMAX", "L X+0 R0 FMAX M92", "L IX+5 F9")
     assert codes(made) == [("MACHINE", 5), ("POSITION", 6)]

@@ -12,7 +12,7 @@ from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Side, Turn
 from core.geometry.piece import Line as Straight
-from tests.core.controls.own_programs import (
+from tests.core.controls.written_programs import (
     EVERY,
     INCH,
     SQUARE,
@@ -70,12 +70,12 @@ def test_nist_is_entered_along_the_path_of_the_tool() -> None:
     assert "G42 D1 G1 X0.625 Y-0.375 F10." in lines
 
 
-def test_a_9_series_program_says_how_corners_are_gone_round() -> None:
+def test_a_9_series_program_names_its_corners() -> None:
     for control, word in (("nine-series:a", "G39"), ("nine-series:b-g39.1", "G39.1")):
         assert text_of(control, cut(squared(Side.LEFT))).splitlines()[1] == word
 
 
-def test_how_each_control_is_told_of_stock() -> None:
+def test_each_control_gets_the_stock_in_its_words() -> None:
     wide = cut(compensate(SQUARE, Side.RIGHT, 0.3 * INCH, 4, closed=True, blend=0.125 * INCH), stock=0.05)
     assert "T1//0.6\n" in text_of("threeblock", wide)
     assert "G42.1 D0.6 " in text_of("linuxcnc", wide)

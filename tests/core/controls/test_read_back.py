@@ -22,7 +22,7 @@ from core.geometry.piece import Arc, Piece, Side, Turn
 from core.geometry.piece import Line as Straight
 from core.units import Unit
 from tests.core.controls.klartext.test_center_path_laws import LEGS, pieces_of
-from tests.core.controls.own_programs import (
+from tests.core.controls.written_programs import (
     EVERY,
     INCH,
     SQUARE,
@@ -59,7 +59,7 @@ def test_a_square_reads_back_or_its_corners_are_the_reason(control: str, side: S
     assert [note.code for note in found.notes] == (["DIFFERS"] if mitred else [])
 
 
-def test_how_far_mitred_corners_are_off_is_told() -> None:
+def test_a_note_gives_the_distance_of_mitered_corners() -> None:
     found = write("nine-series:a", cut(squared(Side.RIGHT)))
     assert isinstance(found, WrittenProgram)
     assert found.notes[0].lengths[0] / INCH == pytest.approx(0.25 * (sqrt(2) - 1), abs=1e-4)
@@ -134,7 +134,7 @@ def test_farthest_finds_the_piece_that_is_off() -> None:
     assert number in (3.0, 4.0)
 
 
-def test_farthest_names_the_piece_behind_those_of_no_length() -> None:
+def test_farthest_names_the_piece_after_those_of_no_length() -> None:
     bent = outline((1, 0), (1, 0), (1, 0), (2, 0), (2, 1), (2.5, 2), (0, 2))
     short = (bent.points[1:] == bent.points[:-1]).all(axis=1)
     assert short.any()
@@ -186,7 +186,7 @@ def test_a_move_that_ends_at_no_number_is_another_one(array: str, line: int, axi
 
 @settings(max_examples=120, deadline=None, derandomize=True)
 @given(LEGS, st.sampled_from(Side), st.sampled_from([name for name in names() if name != "klartext"]))
-def test_random_contours_read_back_or_the_reason_is_told(
+def test_random_contours_read_back_or_are_refused_with_a_reason(
     legs: list[tuple[float, float, int, float]], side: Side, control: str
 ) -> None:
     """Lines and arcs at any angle: the control's path is the block's, or nearly, and that is said; or nothing."""
