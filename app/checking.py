@@ -100,7 +100,7 @@ def answer(text: bytes, asked: Asked) -> Answer:
     done = run(text, asked.control, asked.tools, asked.unit)
     assert not isinstance(done, UnknownControl), done.text
     results = judged(done)
-    return _answer(done, results, _foreign(asked.control, text), "", shop=asked.shop)
+    return _answer(done, results, _foreign(done.control, text), "", shop=asked.shop)
 
 
 def answered(done: Run, results: tuple[Judged, ...], text: bytes) -> Answer:

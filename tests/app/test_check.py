@@ -76,7 +76,7 @@ def test_the_table_says_in_a_sentence_what_each_control_stops_for(capsys: pytest
     _, out, _ = output(capsys, NC / "rosettacnc-square.ngc", "--control", "all", "--tool", "1=6")
     said = [line for line in out.splitlines() if line.startswith("Line 15 (C6): ")]
     assert said == [
-        "Line 15 (C6): An inside corner is an error with this entry; round it in the program or use the normal entry."
+        "Line 15 (C6): An inside corner is an error with this entry. Round it in the program or use the normal entry."
     ]
 
 
