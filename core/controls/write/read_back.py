@@ -188,7 +188,8 @@ def compare_path(made: Path, cut: Cut, intended: Intended) -> Answer:
 
 def same_pieces(made: Path, whole: Path, tolerance: float) -> bool:
     """Whether two paths are the same piece by piece, apart from pieces of next to no length."""
-    kept, wanted = made.lengths > tolerance, whole.lengths > tolerance
+    # a length that is not a number is not short
+    kept, wanted = ~(made.lengths <= tolerance), ~(whole.lengths <= tolerance)
     if int(kept.sum()) != int(wanted.sum()) or not np.array_equal(made.turns[kept], whole.turns[wanted]):
         return False
     ends = np.abs(made.ends[kept] - whole.ends[wanted]), np.abs(made.starts[kept] - whole.starts[wanted])
@@ -224,6 +225,8 @@ def _damage(made: Path, inner: Path, cut: Cut, intended: Intended, *, differs: b
         segment = worst.gouges[0].surface_number if worst.gouges else None
         return refusal(text, segment, lengths=(worst.depth,))
     planned = judge(contour, side, cut.diameter / 2, cut.compensated.whole) if differs else verdicts[0]
+    if not planned.judged:
+        return refusal("The block's path cannot be judged.")
     if (more := _length_left(verdicts[0], intended) - _length_left(planned, intended)) > intended.tolerance:
         text = f"{intended.control} compensates this differently, and its path leaves {{0}} more of the contour uncut."
         return refusal(text, verdicts[0].uncut[0].first_number, lengths=(more,))

@@ -15,9 +15,17 @@ from core.controls.registry import names
 from core.controls.write.iso_program import Frame, tools_of
 from core.controls.write.iso_style import STYLES
 from core.controls.write.programmed_contour import Cut, Line, Travel
-from core.controls.write.read_back import Intended, compare_path, different_move, farthest, read_back, same_pieces
+from core.controls.write.read_back import (
+    Answer,
+    Intended,
+    compare_path,
+    different_move,
+    farthest,
+    read_back,
+    same_pieces,
+)
 from core.controls.write.written_program import NotWritten, WrittenProgram, write_program
-from core.geometry.path import Path
+from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Piece, Side, Turn
 from core.geometry.piece import Line as Straight
 from core.units import Unit
@@ -156,6 +164,31 @@ def test_what_is_no_number_is_never_near(row: int, end: int) -> None:
     (one,) = given.cuts
     assert isinstance(one, Cut)
     assert compare_path(bad, one, replace(given, leads=False)).errors
+
+
+def _with_lost_arc(path: Path) -> Path:
+    """The path and an arc whose center is not a number, which ends where it begins: other paths pass it over."""
+    points, centers = np.vstack((path.points, path.points[-1])), np.vstack((path.centers, (nan, nan)))
+    return Path.of(points, centers, np.append(path.turns, 1), np.append(path.numbers, path.numbers[-1]))
+
+
+@pytest.mark.parametrize("lost", ["made", "intended"])
+def test_a_distance_that_is_not_a_number_in_one_direction_is_not_near(lost: str) -> None:
+    given = replace(meant(), leads=False)
+    (one,) = given.cuts
+    assert isinstance(one, Cut)
+    whole = one.compensated.whole
+    made, cut_for = whole, one
+    if lost == "made":
+        made = _with_lost_arc(whole)
+    else:
+        bare = replace(one.compensated, path=whole, lead_in=EMPTY, lead_out=EMPTY)
+        made, cut_for = bare.whole, replace(one, compensated=replace(bare, path=_with_lost_arc(whole)))
+        assert compare_path(made, replace(one, compensated=bare), given) == Answer()
+    intended = cut_for.compensated.whole
+    apart = [farthest(made, intended)[0], farthest(intended, made)[0]]
+    assert sorted(distance <= 1e-3 for distance in apart) == [False, True]
+    assert compare_path(made, cut_for, given).errors
 
 
 UNCOMPENSATED = (
