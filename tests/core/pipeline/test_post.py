@@ -111,7 +111,7 @@ def test_what_the_control_does_otherwise_stands_in_the_header() -> None:
     result = posted(derived(SQUARE), "nine-series:a")
     assert [note.code for note in result.notes] == ["DIFFERS"]
     assert "(NOTE DIFFERS SEGMENT" in result.text
-    assert "0.1036 off" in " ".join(result.text.replace(")\n(", " ").split())
+    assert "by up to 0.1036" in " ".join(result.text.replace(")\n(", " ").split())
     assert "(OFFSET D1 RADIUS 0.2500 OF TOOL 1)" in result.text
 
 
