@@ -181,8 +181,8 @@ def test_where_nothing_helps_it_says_so():
 
 
 def test_a_mistyped_start_of_a_closed_contour_is_told():
-    """One number of START is wrong: the first line comes from beyond the last one, and no tool is small enough."""
-    found = of(trial(lines((0, 1), (2, 0), (2, 2), (0, 2), (0, 0)), Side.RIGHT, closed=False))
+    """One number of START is wrong: the first line comes from the last side but one, and no tool is small enough."""
+    found = of(trial(lines((0, 1.5), (2, 0), (2, 2), (0, 2), (0, 1.2), (0, 0)), Side.RIGHT, closed=False))
     assert codes(found)[-1] == "START_AT_END"
     assert found.start_at_end is not None
     assert found.start_at_end.at == (0.0, 0.0)
