@@ -9,8 +9,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from app.beforehand import prepare
-from app.shell import HELP, SHOP_HELP, UNUSABLE, say
+from app.cli.shell import HELP, SHOP_HELP, UNUSABLE, say
+from app.painted.beforehand import prepare
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -20,15 +20,15 @@ def main(arguments: list[str] | None = None) -> int:
         return screens(None)
     word = given[0]
     if word == "check":
-        from app.check import check
+        from app.cli.check import check
 
         return check(given[1:])
     if word == "proof":
-        from app.proof import proof
+        from app.cli.proof import proof
 
         return proof(given[1:])
     if word in SHOP_HELP:
-        from app.shop import shop
+        from app.cli.shop import shop
 
         return shop(given)
     # a file alone needs no parser: the screens stand sooner
@@ -36,8 +36,8 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _parsed(given: list[str]) -> int:
-    from app.arguments import command_parser, screen_parser
-    from app.commands import COMMANDS
+    from app.cli.arguments import command_parser, screen_parser
+    from app.cli.commands import COMMANDS
 
     if given[0] in COMMANDS:
         return COMMANDS[given[0]](command_parser(given[0]).parse_args(given[1:]))
@@ -49,11 +49,11 @@ def screens(file: Path | None, *, example: str | None = None, characters: str = 
     """The screens on a program or on an NC file, an example part, or the start screen; returns the exit status."""
     # before these imports already, not only before those of the screens
     prepare()
-    from app.files import is_nc
-    from app.main import run
+    from app.cli.screens import run
+    from app.documents.programs import is_nc
 
     if file is not None and is_nc(file):
-        from app.proof import shown
+        from app.cli.proof import shown
 
         return shown(file, characters)
     return run(file, example=example, characters=characters)

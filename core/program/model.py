@@ -94,9 +94,8 @@ class BlendSegment:
 
 
 Segment = LineSegment | ArcSegment | BlendSegment
-"""The kinds of segment.  A new kind also needs its form in `fields`, its rules in `solve.segment` and `solve.block`,
-its keys in `file.read`, a blank segment in `app.documents.journal`, and its key and help in `app.screens.new_segment`
-and `app.guide`; a new curve needs a piece in `geometry.piece`."""
+"""The kinds of segment.  A new kind also needs its form in `fields`, its rules in `solve`, and its keys in `file.read`;
+a new curve needs a piece in `geometry.piece`."""
 
 
 @dataclass(frozen=True, slots=True)

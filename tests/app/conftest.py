@@ -36,7 +36,7 @@ def part(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The pocket example in a folder of its own, which is the current one."""
     # not before the environment is clear
     from app.documents.files import load, save
-    from app.files import example
+    from app.documents.programs import example
 
     path = tmp_path / "shop" / "part.toml"
     path.parent.mkdir()

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from app.desk import Desk
 from app.documents.lock import Owner, myself
-from app.files import empty_program, opened
-from app.keeping import Keeping
-from app.screens.decide import Decide
-from app.session import Session
+from app.documents.programs import empty_program, opened
+from app.painted.desk import Desk
+from app.painted.keeping import Keeping
+from app.painted.screens.decide import Decide
+from app.painted.session import Session
 from core.pipeline.outline import outline
 from tests.app.operator import Operator
 

@@ -7,15 +7,15 @@ from typing import Any
 
 from textual.keys import _character_to_key
 
-from app.desk import Desk
-from app.engine import Known
-from app.files import empty_program
-from app.screens.draw import DrawPage
-from app.screens.frame import parts, picture
-from app.screens.page import Sketch
-from app.session import Session
-from app.surroundings import Surroundings
-from app.widgets.rows import text_of
+from app.documents.programs import empty_program
+from app.painted.desk import Desk
+from app.painted.engine import Known
+from app.painted.screens.draw import DrawPage
+from app.painted.screens.frame import parts, picture
+from app.painted.screens.page import Sketch
+from app.painted.session import Session
+from app.painted.surroundings import Surroundings
+from app.painted.widgets.rows import text_of
 from core.pipeline.outline import outline
 from core.program.model import Block, Program, Segment
 

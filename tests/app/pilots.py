@@ -9,13 +9,13 @@ from pathlib import Path
 
 from textual.pilot import Pilot
 
-from app.application import CutcompApp
 from app.documents.files import load
-from app.engine import Engine
-from app.files import empty_program, example
-from app.session import Session
-from app.widgets.painted import Rows
-from app.widgets.rows import text_of
+from app.documents.programs import empty_program, example
+from app.painted.application import CutcompApp
+from app.painted.engine import Engine
+from app.painted.session import Session
+from app.painted.widgets.painted import Rows
+from app.painted.widgets.rows import text_of
 from core.program.model import Program
 from tests.app.operator import FROZEN
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from app.desk import Desk
-from app.files import empty_program
-from app.listing import Listing
-from app.screens.proof import ProofPage
-from app.session import Session
+from app.documents.programs import empty_program
+from app.nc_proof.listing import Listing
+from app.painted.desk import Desk
+from app.painted.screens.proof import ProofPage
+from app.painted.session import Session
 from core.controls.control_tools import ToolTable
 from tests.app.operator import Operator
 

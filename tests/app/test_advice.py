@@ -10,13 +10,13 @@ from threading import Event
 
 import pytest
 
-from app.advice import about_of
-from app.application import CutcompApp
 from app.documents.files import load
-from app.files import example
-from app.screens.frame import Frame
-from app.surroundings import Surroundings
-from app.widgets.rows import Row
+from app.documents.programs import example
+from app.painted.advice import about_of
+from app.painted.application import CutcompApp
+from app.painted.screens.frame import Frame
+from app.painted.surroundings import Surroundings
+from app.painted.widgets.rows import Row
 from core.advice.why_not_clean import Needs
 from core.finding import Finding, Severity
 from core.pipeline import derive as stages

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.engine import FAST
+from app.painted.engine import FAST
 from core.finding import Finding, Severity
 from core.pipeline import derive as stages
 from core.pipeline.derived import DerivedBlock

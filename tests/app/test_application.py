@@ -9,11 +9,11 @@ from math import inf
 import pytest
 from textual.events import Key
 
-from app.application import CutcompApp
-from app.engine import Known, derived_again
-from app.screens.frame import Frame, picture
-from app.widgets.painted import Rows
-from app.widgets.rows import Row, text_of
+from app.painted.application import CutcompApp
+from app.painted.engine import Known, derived_again
+from app.painted.screens.frame import Frame, picture
+from app.painted.widgets.painted import Rows
+from app.painted.widgets.rows import Row, text_of
 from core.pipeline.derived import Derived
 from core.program.model import Entry, Program
 from tests.app.operator import FROZEN
@@ -94,7 +94,7 @@ async def test_what_was_tried_out_while_it_was_typed_is_not_derived_again(
     app.engine.limit = limit
     async with app.run_test(size=(80, 24)) as pilot:
         await loaded(pilot)
-        monkeypatch.setattr("app.engine.derived_again", counted)
+        monkeypatch.setattr("app.painted.engine.derived_again", counted)
         await pilot.press(*["tab"] * 11, "1", "enter", "tab")
         await rested(pilot)
         assert len(done) == 1

@@ -7,9 +7,9 @@ import asyncio
 import pytest
 from textual.pilot import Pilot
 
-from app.desk import ARMED
-from app.screens.parameters import ParametersPage
-from app.screens.tools import ToolsPage
+from app.painted.desk import ARMED
+from app.painted.screens.parameters import ParametersPage
+from app.painted.screens.tools import ToolsPage
 from core.program.model import Entry, Unread
 from tests.app.operator import Operator
 from tests.app.pilots import app_on, loaded
@@ -114,7 +114,7 @@ def test_esc_and_a_digit_at_once_are_the_softkey_or_both_keys() -> None:
 
 
 async def test_the_time_for_the_digit_is_over_after_a_while(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.application.ARMED_FOR", 0.05)
+    monkeypatch.setattr("app.painted.application.ARMED_FOR", 0.05)
     app = app_on("pocket")
     async with app.run_test(size=(80, 24)) as pilot:
         await loaded(pilot)
@@ -126,7 +126,7 @@ async def test_the_time_for_the_digit_is_over_after_a_while(monkeypatch: pytest.
 
 
 async def test_another_key_ends_the_wait(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.application.ARMED_FOR", 60.0)
+    monkeypatch.setattr("app.painted.application.ARMED_FOR", 60.0)
     app = app_on("pocket")
     async with app.run_test(size=(80, 24)) as pilot:
         await loaded(pilot)
@@ -137,7 +137,7 @@ async def test_another_key_ends_the_wait(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 async def test_a_second_esc_counts_from_its_own_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.application.ARMED_FOR", 0.4)
+    monkeypatch.setattr("app.painted.application.ARMED_FOR", 0.4)
     app = app_on("pocket")
     async with app.run_test(size=(80, 24)) as pilot:
         await loaded(pilot)

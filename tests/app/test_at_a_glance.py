@@ -7,16 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from app.desk import Desk
+from app.cli.screens import begin
 from app.documents.files import load
-from app.files import example
-from app.main import begin
-from app.messages import Load
-from app.screens.program import verdict_word
-from app.session import Session
-from app.survey import worst
-from app.widgets.rows import text_of
-from app.widgets.strip import strip
+from app.documents.programs import example
+from app.documents.survey import worst
+from app.painted.desk import Desk
+from app.painted.messages import Load
+from app.painted.screens.program import verdict_word
+from app.painted.session import Session
+from app.painted.widgets.rows import text_of
+from app.painted.widgets.strip import strip
 from core.pipeline.derive import derive, look_ahead_table
 from core.program.model import Entry
 from tests.app.operator import Operator

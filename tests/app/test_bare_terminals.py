@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from app.abilities import ascii_only, monochrome
 from app.documents.lock import take
-from app.driver import characters
-from app.files import example
+from app.documents.programs import example
+from app.terminal.capabilities import ascii_only, monochrome
+from app.terminal.driver import characters
 from tests.app.kept import ELSEWHERE
 from tests.terminal import running
 

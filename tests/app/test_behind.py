@@ -9,7 +9,7 @@ from threading import Event, Timer
 import pytest
 from textual.app import App
 
-from app.behind import Behind
+from app.painted.behind import Behind
 
 
 def failing() -> int:

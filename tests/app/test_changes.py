@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from app.changes import changed
-from app.session import SEGMENT
+from app.painted.session import SEGMENT
+from app.session.changes import changed
 from core.program.edit import FormPlace
 from core.program.model import Entry
 from tests.app.operator import Operator

@@ -7,8 +7,8 @@ from itertools import product
 
 import pytest
 
-from app.charset import charset, lookalike, settle
-from app.driver import characters
+from app.terminal.character_set import charset, lookalike, settle
+from app.terminal.driver import characters
 from core.draw.characters import Mode, cells
 
 BRAILLE_FIRST, BLOCK_FIRST = ("braille", "block", "ascii"), ("block", "ascii")

@@ -11,8 +11,8 @@ from subprocess import PIPE, Popen
 
 import pytest
 
-from app.check import check
-from app.checking import Asked, answer_all
+from app.cli.check import check
+from app.cli.checking import Asked, answer_all
 from core.controls.control_tools import ToolTable
 
 NC = Path(__file__).parents[1] / "data" / "nc"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from app.check import check
+from app.cli.check import check
 
 THREEBLOCK = """G70G90
 N10G0G90X-1.Y1.T1M6

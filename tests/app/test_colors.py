@@ -6,10 +6,10 @@ import pytest
 from rich.color import Color
 from rich.style import Style
 
-from app.driver import few_colors
-from app.widgets.looks import FEW, MANY, style_of
-from app.widgets.painted import Rows
-from app.widgets.rows import Look
+from app.painted.widgets.looks import FEW, MANY, style_of
+from app.painted.widgets.painted import Rows
+from app.painted.widgets.rows import Look
+from app.terminal.driver import few_colors
 from tests.app.pilots import app_on, loaded
 
 EVERY = {"ansi": (True, False), "no color": (False, True), "full": (False, False)}

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
-from app.files import example
+from app.documents.programs import example
 
 FULL = Path("/dev/full")
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from app.screens.new_segment import NewSegment
-from app.session import SEGMENT
+from app.painted.screens.new_segment import NewSegment
+from app.painted.session import SEGMENT
 from core.program.edit import FormPlace
 from core.program.model import (
     ArcSegment,

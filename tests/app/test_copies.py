@@ -7,15 +7,15 @@ from pathlib import Path
 import pytest
 
 from app.documents.files import load
-from app.screens.contour import Contour
-from app.screens.decide import Decide
+from app.painted.screens.contour import Contour
+from app.painted.screens.decide import Decide
 from core.program.model import Entry
 from tests.app.kept import DEAD, Kept, asked, names, started
 
 
 @pytest.fixture(autouse=True)
 def person(own: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.places.own_folder", lambda: own)
+    monkeypatch.setattr("app.documents.places.own_folder", lambda: own)
 
 
 def chosen(operator: Kept, words: str) -> Kept:

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.documents.files import load
-from app.engine import derived_again
-from app.files import example
+from app.documents.programs import example
+from app.painted.engine import derived_again
 from core.advice.block_paths import BlockPaths
 from core.pipeline.derive import derive
 from core.pipeline.derived import Derived

@@ -7,16 +7,16 @@ from pathlib import Path
 
 import pytest
 
-from app.desk import Desk
 from app.documents.files import load
-from app.files import example
-from app.messages import Close, Open
-from app.screens.decide import Decide
-from app.screens.help import HelpPage
-from app.screens.new_segment import NewSegment
-from app.screens.page import UNANSWERED
-from app.screens.post import PostPage
-from app.session import Session
+from app.documents.programs import example
+from app.painted.desk import Desk
+from app.painted.messages import Close, Open
+from app.painted.screens.decide import Decide
+from app.painted.screens.help import HelpPage
+from app.painted.screens.new_segment import NewSegment
+from app.painted.screens.page import UNANSWERED
+from app.painted.screens.post import PostPage
+from app.painted.session import Session
 from core.program.model import Entry
 from tests.app.operator import Operator
 

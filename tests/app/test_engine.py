@@ -6,17 +6,17 @@ from dataclasses import replace
 
 import pytest
 
-from app.desk import Desk
 from app.documents.files import load
-from app.engine import Engine, Known, derived_again
-from app.files import example
-from app.screens.contour import Contour
-from app.screens.draw import DrawPage
-from app.screens.findings import FindingsPage
-from app.screens.lookahead import LookaheadTable
-from app.screens.page import WHOLE, Surface
-from app.session import Session
-from app.widgets.rows import text_of
+from app.documents.programs import example
+from app.painted.desk import Desk
+from app.painted.engine import Engine, Known, derived_again
+from app.painted.screens.contour import Contour
+from app.painted.screens.draw import DrawPage
+from app.painted.screens.findings import FindingsPage
+from app.painted.screens.lookahead import LookaheadTable
+from app.painted.screens.page import WHOLE, Surface
+from app.painted.session import Session
+from app.painted.widgets.rows import text_of
 from core.advice.block_paths import BlockPaths
 from core.finding import Finding, Severity
 from core.pipeline.derive import derive, needs

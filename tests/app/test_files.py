@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from app.desk import Desk
 from app.documents.files import load
-from app.files import example
-from app.screens.ask import Ask
-from app.screens.contour import Contour
-from app.screens.program import ProgramPage
-from app.screens.save import SaveAsPage
-from app.session import Session
+from app.documents.programs import example
+from app.painted.desk import Desk
+from app.painted.screens.ask import Ask
+from app.painted.screens.contour import Contour
+from app.painted.screens.program import ProgramPage
+from app.painted.screens.save import SaveAsPage
+from app.painted.session import Session
 from core.output.objections import OVERRIDE
 from core.program.model import Entry
 from tests.app.operator import Operator
@@ -187,7 +187,7 @@ def test_words_that_override_are_offered_only_where_they_do(
     folder: Path, keys: tuple[str, ...], text: str, word: str
 ) -> None:
     """A gouge beside a text that cannot be read, a blend arc that does not fit: no words help."""
-    from app.posting import nc_text
+    from app.cli.posting import nc_text
     from core.output.nc import Refusal
     from core.pipeline.derive import derive
 

@@ -6,16 +6,16 @@ from dataclasses import replace
 
 import pytest
 
-from app.desk import Desk
 from app.documents.files import load
-from app.files import example
-from app.screens.contour import Contour
-from app.screens.findings import FindingsPage
-from app.screens.help import HelpPage
-from app.screens.page import Surface
-from app.session import Session
-from app.widgets.rows import Span, plain, text_of
-from app.widgets.verdict import fitted, verdict_rows
+from app.documents.programs import example
+from app.painted.desk import Desk
+from app.painted.screens.contour import Contour
+from app.painted.screens.findings import FindingsPage
+from app.painted.screens.help import HelpPage
+from app.painted.screens.page import Surface
+from app.painted.session import Session
+from app.painted.widgets.rows import Span, plain, text_of
+from app.painted.widgets.verdict import fitted, verdict_rows
 from core.pipeline.derive import derive, look_ahead_table
 from core.program.model import Entry, Program
 from tests.app.operator import Operator

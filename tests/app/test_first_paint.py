@@ -6,13 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from app.files import example
+from app.documents.programs import example
 from tests.terminal import running
 
 STARTED = """
 import sys
 from pathlib import Path
-from app import __main__, main
+from app import __main__
+from app.cli import screens as main
 
 out = Path(sys.argv.pop())
 guarded = main.guarded
@@ -23,7 +24,7 @@ def ready(app):
 
 def hooked(*given, **named):
     # not before the program itself has imported it
-    from app.application import CutcompApp
+    from app.painted.application import CutcompApp
 
     CutcompApp.on_ready = ready
     return guarded(*given, **named)
@@ -36,8 +37,8 @@ import os
 import sys
 from pathlib import Path
 from app.__main__ import guarded
-from app.application import CutcompApp
-from app.driver import TerminalDriver
+from app.painted.application import CutcompApp
+from app.terminal.driver import TerminalDriver
 
 out = Path(sys.argv.pop())
 fsync, write, ready = os.fsync, TerminalDriver.write, CutcompApp.on_ready
@@ -63,11 +64,11 @@ guarded()
 ROOT = Path(__file__).parents[2]
 FORM = {"contour", "contour_cells", "contour_keys", "doors", "forms", "frame", "page", "plan", "program"}
 LATER = {
-    "app.filing",
-    "app.guide",
-    "app.recovery",
-    "app.starting",
-    "app.commands",
+    "app.painted.filing",
+    "app.painted.guide",
+    "app.painted.recovery",
+    "app.painted.starting",
+    "app.cli.commands",
     "argparse",
     "app.documents.journal",
     "hashlib",
@@ -99,7 +100,7 @@ def told(script: str, tmp_path: Path, *arguments: str) -> list[str]:
 
 def screens(modules: set[str]) -> set[str]:
     """The modules of the screens among them."""
-    return {name.removeprefix("app.screens.") for name in modules if name.startswith("app.screens.")}
+    return {name.removeprefix("app.painted.screens.") for name in modules if name.startswith("app.painted.screens.")}
 
 
 @pytest.fixture
@@ -130,7 +131,7 @@ def test_no_more_than_the_lock_is_forced_to_the_disk_before_the_first_paint(tmp_
 
 def test_what_textual_collects_for_others_is_there_when_it_is_asked_for() -> None:
     asked = """
-from app.beforehand import prepare
+from app.painted.beforehand import prepare
 prepare()
 import sys, textual.app, textual._types
 assert "textual.widgets._tree" not in sys.modules

@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from app.desk import Desk
 from app.documents.files import load, save
-from app.files import empty_program
-from app.guide import STEPS, hint, next_step
-from app.messages import Edit, Move
-from app.screens.post import PostPage
-from app.session import Session
+from app.documents.programs import empty_program
+from app.painted.desk import Desk
+from app.painted.guide import STEPS, hint, next_step
+from app.painted.messages import Edit, Move
+from app.painted.screens.post import PostPage
+from app.painted.session import Session
 from core.pipeline.derive import derive
 from core.program.edit import FormPlace, type_field
 from core.program.fields import Form, field_of, read_typed
@@ -25,7 +25,7 @@ NAMED = {"Enter": "enter", "Down": "down", "Up": "up", "Page Down": "pagedown", 
 
 def begun() -> Operator:
     """An operator who chose the guide on the start screen."""
-    from app.guide import begin
+    from app.painted.guide import begin
 
     operator = Operator.at()
     operator.desk = begin(operator.desk)
@@ -140,7 +140,7 @@ def test_a_save_leaves_no_one_without_the_next_step(tmp_path: Path, monkeypatch:
 
 
 def test_the_guide_asks_before_unsaved_work_is_given_up() -> None:
-    from app.guide import begin
+    from app.painted.guide import begin
 
     operator = Operator.at().press("tab", "9", "enter")
     operator.desk = begin(operator.desk)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.screens.contour import Contour
+from app.painted.screens.contour import Contour
 from core.program.edit import FormPlace, Refused, type_field
 from core.program.model import CutterComp, Entry
 from tests.app.operator import Operator

@@ -11,8 +11,8 @@ from textual import events
 from textual._ansi_sequences import ANSI_SEQUENCES_KEYS
 from textual._xterm_parser import XTermParser
 
-from app.driver import messages
-from app.joined import CLICK, DELAY, ESC, LATE, MOST, PASTING, REST, TOGETHER, TORN, UNENDED, Joined, delay
+from app.terminal.driver import messages
+from app.terminal.split_keys import CLICK, DELAY, ESC, LATE, MOST, PASTING, REST, TOGETHER, TORN, UNENDED, Joined, delay
 from core.program.model import Entry
 from tests.app.operator import Operator
 

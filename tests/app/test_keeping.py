@@ -10,10 +10,10 @@ import pytest
 
 from app.documents.files import load, save
 from app.documents.lock import lock_path
-from app.files import example
-from app.screens.contour import Contour
-from app.screens.decide import Decide
-from app.session import Session
+from app.documents.programs import example
+from app.painted.screens.contour import Contour
+from app.painted.screens.decide import Decide
+from app.painted.session import Session
 from core.program.model import Entry
 from tests.app.kept import DEAD, asked, names, started
 

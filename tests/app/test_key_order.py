@@ -9,11 +9,11 @@ import pytest
 from textual.events import Event, Key, Paste
 from textual.pilot import Pilot
 
-from app.application import CutcompApp
-from app.engine import Engine
-from app.files import example, opened
-from app.screens.forms import FormPage
-from app.widgets.field import Editing
+from app.documents.programs import example, opened
+from app.painted.application import CutcompApp
+from app.painted.engine import Engine
+from app.painted.screens.forms import FormPage
+from app.painted.widgets.field import Editing
 from tests.app.operator import FROZEN
 from tests.app.pilots import app_on, at_rest, loaded, until
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.files import is_nc
-from app.listing import Listing
+from app.documents.programs import is_nc
+from app.nc_proof.listing import Listing
 from core.controls.program_text import lines_of
 
 DATA = (

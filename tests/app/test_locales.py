@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from app.charset import charset, own
+from app.terminal.character_set import charset, own
 from tests.reports.matrix import stray
 from tests.terminal import running
 

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from app.desk import Desk
 from app.documents.files import load
-from app.files import example, opened
-from app.folders import folder_told
-from app.naming import as_program, is_folder, program_named, typed, with_suffix
-from app.screens.browse import listed
+from app.documents.folders import folder_told
+from app.documents.naming import as_program, is_folder, program_named, typed, with_suffix
+from app.documents.programs import example, opened
+from app.painted.desk import Desk
+from app.painted.screens.browse import listed
 from core.pipeline.derive import derive
 from tests.app.operator import Operator
 

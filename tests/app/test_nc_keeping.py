@@ -10,17 +10,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.desk import Desk
 from app.documents.journal_file import journal_path, lines
 from app.documents.lock import Owner, lock_path, myself, take
-from app.files import empty_program
-from app.listing import Listing
-from app.nc_journal import differences, found_in, steps, whole
-from app.nc_keeping import NcKeeping
-from app.screens.decide import Decide
-from app.screens.proof import ProofPage
-from app.screens.proof_files import opening
-from app.session import Session
+from app.documents.nc_journal import differences, found_in, steps, whole
+from app.documents.programs import empty_program
+from app.nc_proof.listing import Listing
+from app.painted.desk import Desk
+from app.painted.nc_keeping import NcKeeping
+from app.painted.screens.decide import Decide
+from app.painted.screens.proof import ProofPage
+from app.painted.screens.proof_files import opening
+from app.painted.session import Session
 from tests.app.kept import DEAD, ELSEWHERE, TIME
 from tests.app.operator import Operator
 

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from app.desk import Desk
 from app.documents.journal_file import journal_path
-from app.files import empty_program
-from app.screens.decide import Decide
-from app.screens.proof_files import browsing
-from app.session import Session
+from app.documents.programs import empty_program
+from app.painted.desk import Desk
+from app.painted.screens.decide import Decide
+from app.painted.screens.proof_files import browsing
+from app.painted.session import Session
 from tests.app.kept import DEAD, TIME
 from tests.app.test_nc_keeping import ME, TEXT, Typist, asked, typist
 
@@ -25,7 +25,7 @@ BOB = replace(DEAD, user="bob")
 def file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     path = tmp_path / "part.nc"
     path.write_bytes(TEXT)
-    monkeypatch.setattr("app.places.own_folder", lambda: tmp_path / "own")
+    monkeypatch.setattr("app.documents.places.own_folder", lambda: tmp_path / "own")
     return path
 
 
@@ -127,7 +127,7 @@ def chosen(file: Path) -> Typist:
 
 
 def typist_keeping(file: Path):
-    from app.nc_keeping import NcKeeping
+    from app.painted.nc_keeping import NcKeeping
 
     return NcKeeping(ME, file.parent / "own", lambda: TIME)
 
@@ -138,5 +138,5 @@ def test_typed_on_after_a_take_over_the_changes_are_offered(file: Path, monkeypa
     first.press("x")
     first.killed()
     second.press("s", "f8")
-    monkeypatch.setattr("app.nc_recovery.alive", lambda _: False)
+    monkeypatch.setattr("app.painted.nc_recovery.alive", lambda _: False)
     assert typist(file).press("r").texts == ["\xb0 M30"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from app.documents.files import load
-from app.files import example
+from app.documents.programs import example
 from tests.app.operator import Operator
 
 

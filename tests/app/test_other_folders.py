@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from app.desk import Desk
 from app.documents.files import load, save
-from app.files import example, opened
-from app.screens.ask import Ask
-from app.session import Session
+from app.documents.programs import example, opened
+from app.painted.desk import Desk
+from app.painted.screens.ask import Ask
+from app.painted.session import Session
 from tests.app.operator import Operator
 
 
@@ -113,7 +113,7 @@ def test_saved_elsewhere_that_folder_is_the_chosen_one(other: Path) -> None:
 
 
 def test_an_nc_file_under_proof_is_saved_beside_itself(other: Path) -> None:
-    from app.screens.proof_files import opening
+    from app.painted.screens.proof_files import opening
 
     (other.parent / "job" / "a.nc").write_text("G0 X1\n")
     operator = Operator(opening(Path("../job/a.nc"))(Desk(unnamed().session)))

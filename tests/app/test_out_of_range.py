@@ -8,9 +8,9 @@ import pytest
 
 from app.documents.files import load
 from app.documents.journal import block_of, packed_block
-from app.files import example
-from app.screens.forms import FormPage
-from app.screens.tools import ToolsPage
+from app.documents.programs import example
+from app.painted.screens.forms import FormPage
+from app.painted.screens.tools import ToolsPage
 from core.pipeline.outline import outline
 from core.program.fields import TABLES, Form, check
 from core.program.file.read import loads

@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from app.documents.files import load
-from app.files import example
-from app.widgets.rows import text_of
-from app.widgets.strip import strip
+from app.documents.programs import example
+from app.painted.widgets.rows import text_of
+from app.painted.widgets.strip import strip
 from core.pipeline.derive import derive, look_ahead_table
 from core.program.edit import FormPlace, Refused, type_field
 from core.program.model import ArcSegment, Direction, Entry, Program

@@ -10,10 +10,11 @@ from typing import Any
 
 import pytest
 
-from app import patience, starting, survey
-from app.patience import within
-from app.screens.start import StartPage
-from app.settings import Settings
+from app.documents import patience, survey
+from app.documents.patience import within
+from app.painted import starting
+from app.painted.screens.start import StartPage
+from app.painted.settings import Settings
 from tests.app.operator import Operator
 
 

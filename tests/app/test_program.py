@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from app.desk import Desk
 from app.documents.files import load
-from app.files import example
-from app.screens.contour import Contour
-from app.screens.program import ProgramPage
-from app.session import Session
+from app.documents.programs import example
+from app.painted.desk import Desk
+from app.painted.screens.contour import Contour
+from app.painted.screens.program import ProgramPage
+from app.painted.session import Session
 from core.program.edit import FormPlace
 from core.program.fields import TOOL, read_typed
 from core.program.model import CutterComp, Entry, PathChoice, Tool, Unread

@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 from textual.pilot import Pilot
 
-from app.application import CutcompApp
-from app.listing import Listing
-from app.screens.proof import ProofPage
+from app.nc_proof.listing import Listing
+from app.painted.application import CutcompApp
+from app.painted.screens.proof import ProofPage
 from core.controls.control_tools import ToolTable
 from tests.app.pilots import app_on, loaded, rested
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from app.messages import Close, Open, Say
-from app.screens.ask import Ask
-from app.screens.decide import Choose, Decide
+from app.painted.messages import Close, Open, Say
+from app.painted.screens.ask import Ask
+from app.painted.screens.decide import Choose, Decide
 from tests.app.operator import Operator
 
 OPTIONS = (("c", "CONVERT", (Close(), Say("Converted."))), ("k", "KEEP", (Close(),)))

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from app.cli.screens import begin
 from app.documents.files import load, save
 from app.documents.journal_file import journal_path, set_aside
-from app.files import example
-from app.keeping import Keeping
-from app.main import begin
-from app.screens.decide import Decide
+from app.documents.programs import example
+from app.painted.keeping import Keeping
+from app.painted.screens.decide import Decide
 from core.program.file.read import StoreError
 from core.program.model import Entry
 from tests.app.kept import DEAD, TIME, Kept, started
@@ -30,7 +30,7 @@ def broken(part: Path, own: Path) -> Kept:
     started(own, part).press("tab").type("7").killed()
     part.write_bytes(part.read_bytes()[:100])
     keeping = Keeping(DEAD, own, lambda: TIME)
-    from app.desk import Desk
+    from app.painted.desk import Desk
 
     return Kept(keeping.keep(Desk(begin(part, None))), keeping)
 
@@ -71,7 +71,7 @@ def test_what_somebody_else_has_made_unreadable_is_told_as_changed(part: Path, t
 
 
 def test_opened_from_the_screens_the_work_is_offered_too(part: Path, tmp_path: Path) -> None:
-    from app.messages import Load
+    from app.painted.messages import Load
 
     started(tmp_path / "own", part).press("tab").type("7").killed()
     part.write_bytes(b"no program")
@@ -86,7 +86,7 @@ def test_one_s_own_work_that_was_moved_aside_comes_back_too(part: Path, monkeypa
     part.write_bytes(b"no program")
     with pytest.raises(StoreError):
         begin(part, None)
-    monkeypatch.setattr("app.rescue.user", lambda: DEAD.user)
+    monkeypatch.setattr("app.painted.rescue.user", lambda: DEAD.user)
     assert begin(part, None).file == part
 
 

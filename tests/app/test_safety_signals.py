@@ -12,8 +12,8 @@ import pytest
 
 from app.documents.files import load
 from app.documents.journal import Recovered
-from app.places import read
-from app.safety import GRACE
+from app.documents.places import read
+from app.terminal.signals import GRACE
 from core.program.model import Entry
 from tests.app.test_safety_terminal import PROGRAM, status
 from tests.terminal import Terminal, running

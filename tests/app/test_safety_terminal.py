@@ -92,7 +92,7 @@ def test_a_locale_of_eight_bits_gets_a_drawing_in_ascii() -> None:
 FAULTY = """
 import sys
 from pathlib import Path
-from app.desk import Desk
+from app.painted.desk import Desk
 
 press = Desk.press
 def faulty(self, key, character=None):
@@ -101,7 +101,7 @@ def faulty(self, key, character=None):
     return press(self, key, character)
 Desk.press = faulty
 
-from app.main import run
+from app.cli.screens import run
 sys.exit(run(Path(sys.argv[1])))
 """
 

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
-from app.desk import Desk
 from app.documents.files import save
-from app.files import opened
+from app.documents.programs import opened
+from app.painted.desk import Desk
 from core.pipeline.derive import derive
 from core.program.fields import TABLES, Form
 from core.program.file.read import loads

@@ -6,16 +6,16 @@ from pathlib import Path
 
 import pytest
 
-from app.desk import Desk
+from app.cli.screens import begin
 from app.documents.files import load
-from app.files import empty_program, example
-from app.main import begin
-from app.screens.ask import Ask
-from app.screens.new_segment import NewSegment
-from app.screens.post import PostPage
-from app.session import Session
-from app.widgets.rows import text_of
-from app.widgets.verdict import verdict_rows
+from app.documents.programs import empty_program, example
+from app.painted.desk import Desk
+from app.painted.screens.ask import Ask
+from app.painted.screens.new_segment import NewSegment
+from app.painted.screens.post import PostPage
+from app.painted.session import Session
+from app.painted.widgets.rows import text_of
+from app.painted.widgets.verdict import verdict_rows
 from core.pipeline.derive import derive, look_ahead_table
 from core.program.file.write import dumps
 from core.program.model import Entry

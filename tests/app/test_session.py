@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from app.files import empty_program
-from app.session import SEGMENT, Session, Tone
+from app.documents.programs import empty_program
+from app.painted.session import SEGMENT, Session, Tone
 from core.pipeline.outline import outline
 from core.program.edit import FormPlace, Refused
 from core.program.model import Entry, LineSegment, Program

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.documents.files import save
-from app.settings import MOST, Keeper, Settings, dumps, load, loads
+from app.painted.settings import MOST, Keeper, Settings, dumps, load, loads
 from core.units import Unit
 from tests.app.operator import Operator
 

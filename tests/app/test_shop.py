@@ -9,11 +9,11 @@ import pytest
 from app.__main__ import main
 from app.documents.files import load, save
 from app.documents.lock import Lock, release, take
-from app.files import example
-from app.screens.ask import Ask
-from app.screens.import_tools import FaultsPage
-from app.screens.program import ProgramPage
-from app.screens.tools import ToolsPage
+from app.documents.programs import example
+from app.painted.screens.ask import Ask
+from app.painted.screens.import_tools import FaultsPage
+from app.painted.screens.program import ProgramPage
+from app.painted.screens.tools import ToolsPage
 from core.program.model import Entry, Tool
 from tests.app.kept import ELSEWHERE
 from tests.app.operator import Operator

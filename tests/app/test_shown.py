@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.shown import Line, Picture, Shown, Texts, line_of, neighbors
-from app.slim import slim
+from app.terminal.cell_diff import Line, Picture, Shown, Texts, line_of, neighbors
+from app.terminal.fewer_bytes import slim
 
 COLUMNS, ROWS = 12, 4
 STYLES = ("", "0", "31", "44", "31;44", "1;38;2;1;2;3;48;5;4", "4", "7", "39;49", "2;44")

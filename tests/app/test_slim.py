@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.slim import PLAIN, change, read, slim
+from app.terminal.fewer_bytes import PLAIN, change, read, slim
 
 STYLES = ("1", "3", "4", "7", "31", "92", "45", "103", "38;5;188;48;5;16", "1;38;2;1;2;3;48;2;4;5;6", "39;49", "0", "")
 TEXTS = ("X", " ", "   ", "word", "│ ", "1.5 ", "é", "\r\n")
@@ -58,7 +58,7 @@ def test_the_same_cells_in_no_more_bytes(pieces: list[tuple[str, str, str]]) -> 
 @given(st.text(alphabet="\x1b[]0123456789;?$hmHJ \r\naX│\x07\x9b"))
 def test_nothing_but_styles_is_ever_left_out(data: str) -> None:
     def bare(text: str) -> str:
-        from app.slim import TOKEN
+        from app.terminal.fewer_bytes import TOKEN
 
         return TOKEN.sub(lambda one: "" if one[0].endswith("m") and one[0].startswith("\x1b[") else one[0], text)
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from app.documents.files import load
-from app.files import example
+from app.documents.programs import example
 from core.program.model import Entry
 from tests.reports.relay import Line, relayed
 from tests.terminal import Terminal, running

@@ -10,12 +10,12 @@ from typing import Any
 import pytest
 from textual.pilot import Pilot
 
-from app.application import CutcompApp
-from app.guide import begin
-from app.screens.program import ProgramPage
-from app.screens.start import Entry, Group, StartPage
-from app.survey import Facts
-from app.widgets.rows import Look
+from app.documents.survey import Facts
+from app.painted.application import CutcompApp
+from app.painted.guide import begin
+from app.painted.screens.program import ProgramPage
+from app.painted.screens.start import Entry, Group, StartPage
+from app.painted.widgets.rows import Look
 from tests.app.pilots import app_on, loaded, rested
 
 SHOP = Path("/shop")
@@ -62,7 +62,7 @@ def test_picture(screen: Callable[[Pilot[int]], Any], snap_compare: Callable[...
 
 
 async def test_verdicts_come_by_themselves_behind_the_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from app.starting import begun
+    from app.painted.starting import begun
 
     monkeypatch.chdir(tmp_path)
     app = app_on()

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from app.driver import TerminalDriver
+from app.terminal.driver import TerminalDriver
 
 
 class Loop:

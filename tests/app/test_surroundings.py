@@ -8,8 +8,8 @@ from time import strftime
 
 import pytest
 
-from app import surroundings
-from app.surroundings import Surroundings, free_memory, time_of_day
+from app.painted import surroundings
+from app.painted.surroundings import Surroundings, free_memory, time_of_day
 from tests.app.pilots import app_on, loaded
 
 TOLD = "MemTotal:       24684084 kB\nMemFree:        21775096 kB\nMemAvailable:   23715944 kB\nBuffers: 74704 kB\n"
@@ -39,7 +39,7 @@ def test_the_clock_has_hours_and_minutes() -> None:
 
 async def test_keys_ask_for_the_surroundings_once_a_second(monkeypatch: pytest.MonkeyPatch) -> None:
     asked, now = count(), [100.0]
-    monkeypatch.setattr("app.application.perf_counter", lambda: now[0])
+    monkeypatch.setattr("app.painted.application.perf_counter", lambda: now[0])
     app = app_on("pocket")
     app.around = Surroundings(lambda: "12:00", lambda: next(asked))
     async with app.run_test(size=(80, 24)) as pilot:

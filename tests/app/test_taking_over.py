@@ -10,7 +10,7 @@ import pytest
 
 from app.documents.files import load, save
 from app.documents.lock import lock_path
-from app.files import example
+from app.documents.programs import example
 from core.program.file.write import dumps
 from core.program.model import Entry
 from tests.app.kept import DEAD, ELSEWHERE, asked, names, started

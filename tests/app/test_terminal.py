@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from app.files import example
-from app.keys import VT100_PLUS
+from app.documents.programs import example
+from app.terminal.key_sequences import VT100_PLUS
 from tests.terminal import Terminal, running
 
 ROOT = Path(__file__).parents[2]

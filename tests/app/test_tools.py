@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from app.documents.files import load
-from app.files import example
-from app.screens.tools import ToolsPage
+from app.documents.programs import example
+from app.painted.screens.tools import ToolsPage
 from tests.app.operator import Operator
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from app.screens.contour import Contour
-from app.screens.new_segment import NewSegment
-from app.screens.program import ProgramPage
-from app.session import SEGMENT
+from app.painted.screens.contour import Contour
+from app.painted.screens.new_segment import NewSegment
+from app.painted.screens.program import ProgramPage
+from app.painted.session import SEGMENT
 from core.program.edit import FormPlace
 from core.program.model import Entry
 from tests.app.operator import Operator

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import pytest
 
-from app.application import CutcompApp
-from app.desk import Desk
-from app.messages import Close, Open, Say
-from app.screens.ask import Ask
-from app.screens.decide import Decide
-from app.widgets.painted import Rows
-from app.widgets.rows import text_of
+from app.painted.application import CutcompApp
+from app.painted.desk import Desk
+from app.painted.messages import Close, Open, Say
+from app.painted.screens.ask import Ask
+from app.painted.screens.decide import Decide
+from app.painted.widgets.painted import Rows
+from app.painted.widgets.rows import text_of
 from tests.app.pilots import app_on
 
 OPTIONS = (("l", "LOOK", (Close(), Say("looked"))), ("t", "TAKE OVER", (Close(), Say("taken"))))

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
-from app.web import adapted, address, command, is_local, refusal, welcome
+from app.cli.web import adapted, address, command, is_local, refusal, welcome
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "127.8.9.1", "::1", "localhost", "LOCALHOST"])
@@ -40,7 +40,7 @@ def test_an_address_that_cannot_be_served_is_a_sentence(
     def serve(*_: object) -> None:
         raise fault
 
-    monkeypatch.setattr("app.web.serve", serve)
+    monkeypatch.setattr("app.cli.web.serve", serve)
     assert main(["serve", "--port", "8123"]) == 2
     assert "http://127.0.0.1:8123 cannot be served: " in capsys.readouterr().err
 

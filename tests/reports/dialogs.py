@@ -20,9 +20,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Final
 
-from app.charset import lookalike
 from app.documents.lock import myself, take
-from app.files import example
+from app.documents.programs import example
+from app.terminal.character_set import lookalike
 from tests.app.kept import DEAD, ELSEWHERE, started
 from tests.reports.matrix import ROOT, colors_wrong, stray
 from tests.reports.terminals import Colors, Kind, sampled

@@ -24,12 +24,12 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from app.desk import Desk
 from app.documents.files import load
 from app.documents.journal_file import journal_path
-from app.files import empty_program
-from app.places import read
-from app.session import FIRST, SEGMENT, Session
+from app.documents.places import read
+from app.documents.programs import empty_program
+from app.painted.desk import Desk
+from app.painted.session import FIRST, SEGMENT, Session
 from core.program.edit import FormPlace
 from core.program.history import History, differences
 from tests.app.operator import Operator

@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Final
 
 from app.documents.files import load, save
-from app.session import Session
+from app.painted.session import Session
 from tests.bench.keys import gear
 from tests.reports.matrix import Lost, Seat, Tally
 from tests.reports.reference import Reference

@@ -20,11 +20,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Final
 
-from app.charset import lookalike
 from app.documents.files import load
-from app.files import example
-from app.session import Session
-from app.widgets.rows import Look
+from app.documents.programs import example
+from app.painted.session import Session
+from app.painted.widgets.rows import Look
+from app.terminal.character_set import lookalike
 from tests.reports.reference import Reference, keys_of
 from tests.reports.terminals import (
     FUNCTION_KEYS,

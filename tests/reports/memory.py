@@ -52,7 +52,8 @@ EXTRA: Final = {
 
 def inside(pipe: int, seed: int, part: str) -> int:
     """The program with a monkey in it; for the child process."""
-    from app import application, main
+    from app.cli import screens as main
+    from app.painted import application
 
     application.CutcompApp = _told(application.CutcompApp, Told(pipe, Random(seed), Path.cwd()))  # type: ignore[misc]  # in a process of its own
     return main.run(Path(part))
@@ -82,11 +83,11 @@ class Told:
 
 def begun(desk: Any, told: Told) -> Any:
     """The desk at the beginning of another life: a program, the start screen, or an NC program under proof."""
-    from app.files import opened
-    from app.filing import fresh
-    from app.screens.proof import ProofPage
-    from app.screens.proof_files import read
-    from app.starting import begun as at_start
+    from app.documents.programs import opened
+    from app.painted.filing import fresh
+    from app.painted.screens.proof import ProofPage
+    from app.painted.screens.proof_files import read
+    from app.painted.starting import begun as at_start
 
     part = told.chance.choice(("pocket", "plate-mm"))
     shutil.copy(ROOT / "app" / "examples" / f"{part}.toml", told.cage)

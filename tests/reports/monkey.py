@@ -24,20 +24,21 @@ from pathlib import Path
 from typing import Final
 from unittest.mock import patch
 
-from app import files, filing
+from app.cli.screens import begin, closed, keep_settings
+from app.documents import programs as files
 from app.documents.lock import take
-from app.engine import Engine
-from app.keeping import Keeping
-from app.listing import Listing
-from app.main import begin, closed, keep_settings
-from app.nc_journal import found_in
-from app.nc_keeping import NcKeeping, proofs
-from app.places import read
-from app.screens.page import Page
-from app.screens.proof import ProofPage
-from app.screens.proof_files import read as read_listing
-from app.session import Session
-from app.widgets.rows import Look, Row
+from app.documents.nc_journal import found_in
+from app.documents.places import read
+from app.nc_proof.listing import Listing
+from app.painted import filing
+from app.painted.engine import Engine
+from app.painted.keeping import Keeping
+from app.painted.nc_keeping import NcKeeping, proofs
+from app.painted.screens.page import Page
+from app.painted.screens.proof import ProofPage
+from app.painted.screens.proof_files import read as read_listing
+from app.painted.session import Session
+from app.painted.widgets.rows import Look, Row
 from core.pipeline.outline import outline
 from core.program.file.read import loads
 from core.program.file.write import dumps

@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from app.desk import Desk
-from app.screens.page import Page
-from app.session import SEGMENT
+from app.painted.desk import Desk
+from app.painted.screens.page import Page
+from app.painted.session import SEGMENT
 
 MOVES: Final = ("tab", "tab", "down", "up", "shift+tab", "left", "right", "pageup", "pagedown", "home", "end")
 RARE: Final = ("ctrl+home", "ctrl+end", "delete", "backspace", "insert", "escape", "space", "f9", "f12", "shift+f1")

@@ -8,11 +8,11 @@ from typing import Any
 
 from textual.keys import _character_to_key
 
-from app.application import CutcompApp
-from app.desk import Desk
-from app.engine import Engine
-from app.session import Session
-from app.widgets.rows import Row, text_of
+from app.painted.application import CutcompApp
+from app.painted.desk import Desk
+from app.painted.engine import Engine
+from app.painted.session import Session
+from app.painted.widgets.rows import Row, text_of
 from core.pipeline.derived import Derived
 from tests.app.operator import FROZEN
 

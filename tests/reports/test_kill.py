@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from app.documents.files import save
-from app.files import empty_program
+from app.documents.programs import empty_program
 from core.program.history import History
 from core.program.model import Entry
 from tests.reports.kill import Part, Tally, came_back, lives, report

@@ -11,12 +11,12 @@ from weakref import ref
 import pytest
 
 from app.documents.files import load
-from app.files import empty_program, example
-from app.listing import Listing
-from app.memory import Memory
-from app.nc_keeping import Kept, NcKeeping
-from app.screens.save import SaveAsPage
-from app.session import Session
+from app.documents.programs import empty_program, example
+from app.nc_proof.listing import Listing
+from app.painted.memory import Memory
+from app.painted.nc_keeping import Kept, NcKeeping
+from app.painted.screens.save import SaveAsPage
+from app.painted.session import Session
 from core.program.file.read import StoreError
 from core.program.file.write import dumps
 from tests.app.operator import Operator

@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from app.documents.files import load
-from app.files import example
-from app.screens.page import Sketch
-from app.session import Session
-from app.widgets.drawing import view_of
+from app.documents.programs import example
+from app.painted.screens.page import Sketch
+from app.painted.session import Session
+from app.painted.widgets.drawing import view_of
 from core.draw.scene import Scene, Style
 from core.geometry.piece import Point
 from core.pipeline.derive import derive

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from app.messages import Open
-from app.screens.lookahead import LookaheadTable
-from app.screens.page import Surface
-from app.widgets.rows import text_of
+from app.painted.messages import Open
+from app.painted.screens.lookahead import LookaheadTable
+from app.painted.screens.page import Surface
+from app.painted.widgets.rows import text_of
 from core.pipeline.derive import derive, look_ahead_table
 from core.program.model import CutterComp, Entry, LineSegment, Program
 from tests.app.operator import Operator

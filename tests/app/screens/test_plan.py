@@ -7,9 +7,9 @@ from itertools import combinations
 
 import pytest
 
-from app.screens.page import Layout
-from app.screens.plan import Plan, plan
-from app.widgets.rows import Area
+from app.painted.screens.page import Layout
+from app.painted.screens.plan import Plan, plan
+from app.painted.widgets.rows import Area
 
 
 def areas(places: Plan) -> list[Area]:

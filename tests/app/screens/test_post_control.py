@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 from app.__main__ import main
-from app.desk import Desk
 from app.documents.files import load
-from app.files import example
-from app.screens.post import PostPage
-from app.session import Session
+from app.documents.programs import example
+from app.painted.desk import Desk
+from app.painted.screens.post import PostPage
+from app.painted.session import Session
 from tests.app.operator import Operator
 
 

@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from app.files import empty_program
-from app.screens.page import Surface
-from app.screens.proof import ProofPage
-from app.screens.proof_compare import ComparePage
-from app.screens.proof_tool import read_tool
-from app.session import Session
-from app.widgets.rows import Look
+from app.documents.programs import empty_program
+from app.painted.screens.page import Surface
+from app.painted.screens.proof import ProofPage
+from app.painted.screens.proof_compare import ComparePage
+from app.painted.screens.proof_tool import read_tool
+from app.painted.session import Session
+from app.painted.widgets.rows import Look
 from core.controls.control_tools import CutterTool
 from core.finding import Finding, Severity
 from core.program.edit import insert_block

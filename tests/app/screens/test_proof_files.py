@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from app.desk import Desk
 from app.documents.files import save
-from app.files import empty_program
-from app.messages import Load
-from app.screens.program import ProgramPage
-from app.screens.proof import ProofPage
-from app.screens.proof_files import ProofBrowse, browsing, opening
-from app.session import Session
+from app.documents.programs import empty_program
+from app.painted.desk import Desk
+from app.painted.messages import Load
+from app.painted.screens.program import ProgramPage
+from app.painted.screens.proof import ProofPage
+from app.painted.screens.proof_files import ProofBrowse, browsing, opening
+from app.painted.session import Session
 from tests.app.prover import SQUARE, Prover, square
 
 

@@ -6,13 +6,13 @@ from itertools import product
 
 import pytest
 
-from app.desk import Desk
 from app.documents.files import load
-from app.engine import Engine
-from app.files import example
-from app.screens.frame import picture
-from app.session import Session
-from app.widgets.rows import text_of
+from app.documents.programs import example
+from app.painted.desk import Desk
+from app.painted.engine import Engine
+from app.painted.screens.frame import picture
+from app.painted.session import Session
+from app.painted.widgets.rows import text_of
 from tests.app.operator import FROZEN, Operator
 
 SCREENS = {

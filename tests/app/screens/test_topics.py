@@ -6,29 +6,29 @@ from pathlib import Path
 
 import pytest
 
-from app.desk import Desk
 from app.documents.files import load
-from app.files import empty_program, example
-from app.screens.ask import Ask
-from app.screens.browse import BrowsePage
-from app.screens.contour import Contour
-from app.screens.draw import DrawPage
-from app.screens.findings import FindingsPage
-from app.screens.help import KEYS, MARKS, HelpPage
-from app.screens.import_tools import FaultsPage, ImportPage
-from app.screens.lookahead import LookaheadTable
-from app.screens.new_segment import NewSegment
-from app.screens.page import Page
-from app.screens.parameters import ParametersPage
-from app.screens.post import PostPage
-from app.screens.program import ProgramPage
-from app.screens.save import SaveAsPage
-from app.screens.setup import SetupPage
-from app.screens.sheet import SheetPage
-from app.screens.start import StartPage
-from app.screens.tools import ToolsPage
-from app.screens.topics import TOPICS, topic_of
-from app.session import Session
+from app.documents.programs import empty_program, example
+from app.painted.desk import Desk
+from app.painted.screens.ask import Ask
+from app.painted.screens.browse import BrowsePage
+from app.painted.screens.contour import Contour
+from app.painted.screens.draw import DrawPage
+from app.painted.screens.findings import FindingsPage
+from app.painted.screens.help import KEYS, MARKS, HelpPage
+from app.painted.screens.import_tools import FaultsPage, ImportPage
+from app.painted.screens.lookahead import LookaheadTable
+from app.painted.screens.new_segment import NewSegment
+from app.painted.screens.page import Page
+from app.painted.screens.parameters import ParametersPage
+from app.painted.screens.post import PostPage
+from app.painted.screens.program import ProgramPage
+from app.painted.screens.save import SaveAsPage
+from app.painted.screens.setup import SetupPage
+from app.painted.screens.sheet import SheetPage
+from app.painted.screens.start import StartPage
+from app.painted.screens.tools import ToolsPage
+from app.painted.screens.topics import TOPICS, topic_of
+from app.painted.session import Session
 from core.program.fields import TABLES, Form, field_of
 from tests.app.operator import Operator
 

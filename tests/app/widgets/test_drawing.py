@@ -7,9 +7,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from app.screens.page import Sketch
-from app.widgets.drawing import BY_STYLE, _row, picture_rows
-from app.widgets.rows import Look
+from app.painted.screens.page import Sketch
+from app.painted.widgets.drawing import BY_STYLE, _row, picture_rows
+from app.painted.widgets.rows import Look
 from core.draw.characters import Mode
 from core.draw.raster import draw
 from core.draw.scene import Layer, Scene, Style

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.widgets.field import LONGEST, Editing, press, window
+from app.painted.widgets.field import LONGEST, Editing, press, window
 
 
 def keys(shown: str, *names: str) -> Editing | None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from app.widgets import form
-from app.widgets.field import Editing
-from app.widgets.form import WIDTH, Cell, State, cursor_line, form_rows
-from app.widgets.rows import Look, text_of
+from app.painted.widgets import form
+from app.painted.widgets.field import Editing
+from app.painted.widgets.form import WIDTH, Cell, State, cursor_line, form_rows
+from app.painted.widgets.rows import Look, text_of
 
 
 def line(*cells: Cell, cursor: str = "", editing: Editing | None = None, width: int = WIDTH) -> str:

@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from app.files import empty_program
-from app.screens.page import Softkey
-from app.session import Said, Session, Tone
-from app.widgets.header import header
-from app.widgets.prompt import needed, prompt_rows
-from app.widgets.rows import text_of
-from app.widgets.softkeys import softkey_rows
-from app.widgets.status import status_row
+from app.documents.programs import empty_program
+from app.painted.screens.page import Softkey
+from app.painted.session import Said, Session, Tone
+from app.painted.widgets.header import header
+from app.painted.widgets.prompt import needed, prompt_rows
+from app.painted.widgets.rows import text_of
+from app.painted.widgets.softkeys import softkey_rows
+from app.painted.widgets.status import status_row
 
 
 def test_eight_keys_share_the_height_and_labels_wrap() -> None:

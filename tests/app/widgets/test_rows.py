@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.widgets.rows import Area, Look, Part, Span, _side_by_side, changed, composed, padded, plain, text_of
+from app.painted.widgets.rows import Area, Look, Part, Span, _side_by_side, changed, composed, padded, plain, text_of
 
 
 def test_equal_rows_cost_nothing_however_they_are_cut() -> None:

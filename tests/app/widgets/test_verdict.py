@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from app.documents.files import load
-from app.files import example
-from app.widgets.rows import text_of
-from app.widgets.verdict import verdict_rows
+from app.documents.programs import example
+from app.painted.widgets.rows import text_of
+from app.painted.widgets.verdict import verdict_rows
 from core.finding import Finding, Severity
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.outline import outline

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.widgets.words import length, number, numbers, pair, place, segment, shortened
+from app.painted.widgets.words import length, number, numbers, pair, place, segment, shortened
 from core.units import Unit
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.documents.files import load
-from app.files import example
+from app.documents.programs import example
 from core.pipeline.derive import derive
 from core.pipeline.plot import block_scene, cutter_place, svg_of
 from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, PathChoice

@@ -1,0 +1,67 @@
+"""The arguments of the command line, but for those that `cutcomp check`, `proof` and the shop's commands read."""
+
+from __future__ import annotations
+
+import argparse
+from importlib.resources import files
+from pathlib import Path
+
+from app.cli.shell import HELP, SHOP_HELP
+
+DESCRIPTION = """\
+Type a MILL CONTOUR from the drawing, see what the cutter will do, write the NC file.
+
+  cutcomp [FILE]             the screens, on FILE or on the start screen
+  cutcomp --example [NAME]   the screens, on an example part
+"""
+
+
+def screen_parser() -> argparse.ArgumentParser:
+    """Of the screens."""
+    parser = argparse.ArgumentParser(
+        "cutcomp",
+        description=DESCRIPTION,
+        epilog="commands without a screen:\n"
+        + "".join(f"  cutcomp {name:<10} {text}\n" for name, text in (HELP | SHOP_HELP).items())
+        + "  cutcomp check      what controls do with an NC program\n\nanother screen:\n"
+        + "  cutcomp proof      an NC program, the path a control makes of it, its findings\n\n"
+        + "`cutcomp COMMAND --help` tells more.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "file", nargs="?", type=Path, metavar="FILE", help="a program file (TOML), or an NC file to prove"
+    )
+    parser.add_argument("--example", nargs="?", const="pocket", choices=example_names(), help="open an example part")
+    parser.add_argument(
+        "--characters",
+        choices=("braille", "block", "ascii"),
+        default="",
+        help="draw with these; by itself braille, half blocks on the Linux console, ASCII where LANG names no UTF-8",
+    )
+    return parser
+
+
+def command_parser(name: str) -> argparse.ArgumentParser:
+    """Of one of the commands without a screen."""
+    parser = argparse.ArgumentParser(f"cutcomp {name}", description=HELP[name])
+    parser.add_argument("file", type=Path, metavar="FILE", help="a program file (TOML), - for standard input")
+    if name in ("path", "lookahead"):
+        parser.add_argument("--block", type=int, metavar="N", help="this block only")
+        parser.add_argument("--json", action="store_true", help="machine-readable")
+    if name == "path":
+        parser.add_argument("--lookahead", metavar="N|cal", help="use this look-ahead instead of the program's")
+    if name in ("post", "plot"):
+        what = "an .svg file to write" if name == "plot" else "write here"
+        parser.add_argument("-o", "--output", type=Path, metavar="OUT", help=f"{what} instead of standard output")
+    if name == "post":
+        parser.add_argument("--override", metavar="SENTENCE", help="post in spite of a gouge; refusals name the words")
+        parser.add_argument(
+            "--control", metavar="NAME[:VARIANT]", help="as that control's own G41, G42, RL or RR program"
+        )
+    return parser
+
+
+def example_names() -> tuple[str, ...]:
+    """Names of the example parts that ship with the program."""
+    found = (entry.name for entry in files("app").joinpath("examples").iterdir())
+    return tuple(sorted(name.removesuffix(".toml") for name in found if name.endswith(".toml")))

@@ -1,0 +1,227 @@
+"""`cutcomp check`: what controls do with an NC program, for one file or an archive of them."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+import threading
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing import active_children, get_context
+from pathlib import Path
+from signal import SIG_IGN, SIGINT, signal
+from typing import Final
+
+from app.cli.checking import Answer, Asked, answer, answer_all, lines, reasons, same_contours
+from app.cli.control_options import Unusable, add_options, bytes_of, control_of, name_of, tools_of, unit_of
+from app.nc_proof.listing import SUFFIXES
+from core.controls.registry import names
+
+CLEAN: Final = 0
+FINDINGS: Final = 1
+UNUSABLE: Final = 2
+
+
+def check(arguments: list[str]) -> int:
+    """Runs the command; returns 0 for clean, 1 for errors found, 2 for what cannot be used."""
+    options = _parser().parse_args(arguments)
+    try:
+        return _done(options)
+    except Unusable as trouble:
+        print(f"cutcomp: {trouble}", file=sys.stderr)
+        return UNUSABLE
+
+
+def _done(options: argparse.Namespace) -> int:
+    asked = _asked(options)
+    paths = list(_programs(options.files))
+    if options.contour:
+        return _contours(paths, asked)
+    single = len(paths) == 1 and paths[0] == options.files[0]
+    answers = _answers(paths, asked)
+    if options.json:
+        return _as_json(answers, single=single)
+    return _as_text(answers, asked) if single else _as_summary(answers)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        "cutcomp check",
+        description="What a control does with an NC program: its moves, its alarms, what it gouges.",
+        epilog="controls: " + ", ".join(names()),
+    )
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="a program, or a folder of them")
+    parser.add_argument("--control", required=True, metavar="NAME[:VARIANT]|all", help="the control, or all of them")
+    add_options(parser)
+    parser.add_argument("--shop", action="store_true", help="the shop's rules H1 to H9 too")
+    parser.add_argument(
+        "--contour", action="store_true", help="compare two programs, of any language, by the contours they describe"
+    )
+    parser.add_argument("--json", action="store_true", help="machine-readable")
+    return parser
+
+
+def _asked(options: argparse.Namespace) -> Asked:
+    every = options.control.strip().lower() == "all"
+    return Asked("all" if every else control_of(options.control), tools_of(options), options.shop, unit_of(options))
+
+
+def _programs(files: list[Path]) -> Iterator[Path]:
+    """The files asked for, folders searched for programs."""
+    for path in files:
+        if not path.is_dir():
+            yield path
+            continue
+        found = sorted(one for one in path.rglob("*") if one.suffix.lower() in SUFFIXES and one.is_file())
+        yield from found or [path]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Checked:
+    """A file's answers, or the sentence that says why it could not be read."""
+
+    path: Path
+    answers: tuple[Answer, ...] = ()
+    unusable: str = ""
+
+
+def _one(path: Path, asked: Asked) -> _Checked:
+    try:
+        if path.is_dir():
+            raise Unusable(f"{name_of(path)} is a folder without programs ({' '.join(sorted(SUFFIXES))}).")
+        text = bytes_of(path)
+    except Unusable as trouble:
+        return _Checked(path, unusable=str(trouble))
+    found = answer_all(text, asked) if asked.control == "all" else (answer(text, asked),)
+    return _Checked(path, found)
+
+
+def _answers(paths: list[Path], asked: Asked) -> Iterator[_Checked]:
+    """Every file's answers in order; several files in several processes."""
+    workers = min(len(paths), os.cpu_count() or 1)
+    if workers < 2:
+        yield from (_one(path, asked) for path in paths)
+        return
+    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+        with _uninterrupted():
+            answers = pool.map(_one, paths, [asked] * len(paths), chunksize=max(1, len(paths) // (8 * workers)))
+        try:
+            yield from answers
+        except BrokenProcessPool:
+            raise Unusable("A process that checked files was ended from outside; the rest is not checked.") from None
+        except BaseException:
+            # nobody waits for what is being worked out, nor for the pool's own thread to say that it is canceled
+            threading.excepthook = lambda _: None
+            _end(pool)
+            raise
+
+
+def _end(pool: ProcessPoolExecutor) -> None:
+    """End a pool's processes in the middle of their work.
+
+    One that is ended while it sends a long answer leaves half of it in the pipe; the pool's thread would wait for the
+    other half for ever if this process held that end of the pipe open.
+    """
+    for process in active_children():
+        process.kill()
+    # the library has no name of its own for it
+    pool._result_queue._writer.close()  # type: ignore[attr-defined]
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Processes that begin here do not hear Ctrl+C: it is for the one that started them."""
+    try:
+        before = signal(SIGINT, SIG_IGN)
+    except ValueError:  # not in the main thread, which alone hears it
+        yield
+        return
+    try:
+        yield
+    finally:
+        signal(SIGINT, before)
+
+
+def _status(checked: _Checked) -> int:
+    if checked.unusable:
+        return UNUSABLE
+    return FINDINGS if any(one.errors for one in checked.answers) else CLEAN
+
+
+def _told(checked: _Checked) -> int:
+    """A file's status; what could not be read is said on standard error."""
+    if checked.unusable:
+        print(f"cutcomp: {checked.unusable}", file=sys.stderr)
+    return _status(checked)
+
+
+def _contours(paths: list[Path], asked: Asked) -> int:
+    """Two programs by their contours: 0 if they describe the same, 1 if not."""
+    if len(paths) != 2:
+        raise Unusable("--contour compares two files.")
+    first, second = (bytes_of(path) for path in paths)
+    same, told = same_contours(first, second, asked)
+    print(*told, sep="\n")
+    return CLEAN if same else FINDINGS
+
+
+def _as_json(answers: Iterator[_Checked], *, single: bool) -> int:
+    """One object for one program on one control; otherwise a list of them, each with its file."""
+    status, objects = CLEAN, []
+    for checked in answers:
+        status = max(status, _told(checked))
+        objects += [one.json() if single else {"file": str(checked.path), **one.json()} for one in checked.answers]
+    if not (single and status == UNUSABLE):
+        json.dump(objects[0] if single and len(objects) == 1 else objects, sys.stdout)
+        print()
+    return status
+
+
+def _as_text(answers: Iterator[_Checked], asked: Asked) -> int:
+    """Everything about one program, or the table of all controls."""
+    status = CLEAN
+    for checked in answers:
+        status = max(status, _told(checked))
+        if asked.control == "all" and checked.answers:
+            _print_table(checked.answers)
+        elif checked.answers:
+            print(*lines(checked.answers[0]), sep="\n")
+        _print_missing(checked.answers)
+    return status
+
+
+def _print_table(answers: tuple[Answer, ...]) -> None:
+    width = max(len(one.control) for one in answers)
+    outcome = max(len(one.outcome) for one in answers)
+    for one in answers:
+        print(f"{one.control:<{width}}  {one.outcome:<{outcome}}  {one.parts}".rstrip())
+    for reason in reasons(answers):
+        print(reason)
+
+
+def _print_missing(answers: tuple[Answer, ...]) -> None:
+    """How the tools are given for whose diameter a control stops."""
+    missing = sorted({one.missing for one in answers if one.missing is not None})
+    if missing:
+        told = " and ".join(map(str, missing))
+        sizes = " ".join(f"--tool {number}=0.5" for number in missing)
+        print(f"No diameter of tool {told} is known: add {sizes} with the real diameter, or --tools TABLE.")
+
+
+def _as_summary(answers: Iterator[_Checked]) -> int:
+    """One line for each file and control, and the sum of them."""
+    status, counts = CLEAN, {CLEAN: 0, FINDINGS: 0, UNUSABLE: 0}
+    for checked in answers:
+        found = _told(checked)
+        status = max(status, found)
+        counts[found] += 1
+        for one in checked.answers:
+            print(f"{name_of(checked.path)}: {one.control}: {one.outcome}", flush=True)
+    print(f"{sum(counts.values())} files: {counts[CLEAN]} clean, {counts[FINDINGS]} with errors, ", end="")
+    print(f"{counts[UNUSABLE]} not readable.")
+    return status

@@ -1,0 +1,221 @@
+"""The commands that need no screen; each takes parsed arguments and returns the exit status."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from app.cli.shell import CLEAN, FINDINGS, UNUSABLE, say
+from app.documents.files import load, load_from
+from app.painted.widgets.words import segment
+from core.comp.lookahead import HIGHEST, LOWEST
+from core.program.file.read import StoreError
+from core.program.model import Entry, Program
+from core.units import sentence
+
+if TYPE_CHECKING:
+    import argparse
+
+    from core.advice.lookahead_table import Table
+    from core.output.nc import Refusal
+    from core.pipeline.derived import Derived, DerivedBlock
+
+DASH: Final = "-"
+"""In place of a file: standard input, or standard output."""
+STDIN: Final = "standard input"
+OTHER_PICTURES: Final = frozenset(
+    (".bmp", ".dxf", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".svgz", ".tif", ".tiff", ".webp")
+)
+"""Endings of pictures that a drawing is not written as: who opens the file would be told that it is broken."""
+
+
+class Unusable(Exception):
+    """The arguments or the file cannot be used; the text says why and what to do."""
+
+
+def _derived(path: Path, block: int | None = None, lookahead: str | None = None) -> Derived:
+    from core.pipeline.derive import derive, with_better_paths
+
+    program = _program(path)
+    if block is not None and not 1 <= block <= len(program.blocks):
+        has = f"blocks 1 to {len(program.blocks)}" if len(program.blocks) > 1 else "1 block"
+        raise Unusable(f"--block {block}: {path} has {has}.")
+    return with_better_paths(derive(program if lookahead is None else _with_lookahead(program, lookahead)))
+
+
+def _program(path: Path) -> Program:
+    try:
+        return load_from(sys.stdin.buffer, STDIN) if str(path) == DASH else load(path)
+    except StoreError as error:
+        raise Unusable(str(error)) from error
+
+
+def _name(path: Path) -> str:
+    """What a program is called in what is made of it."""
+    return STDIN if str(path) == DASH else path.stem
+
+
+def _with_lookahead(program: Program, text: str) -> Program:
+    if text.lower() == "cal":
+        value = None
+    elif text.isdecimal() and LOWEST <= int(text) <= HIGHEST:
+        value = Entry(float(text))
+    else:
+        raise Unusable(f"--lookahead {text}: type {LOWEST} to {HIGHEST}, or cal.")
+    return replace(program, blocks=tuple(replace(block, lookahead=value) for block in program.blocks))
+
+
+def _command(action: Callable[[argparse.Namespace], int]) -> Callable[[argparse.Namespace], int]:
+    def run(options: argparse.Namespace) -> int:
+        try:
+            return action(options)
+        except Unusable as error:
+            say(str(error))
+            return UNUSABLE
+
+    return run
+
+
+def _chosen(derived: Derived, number: int | None) -> tuple[DerivedBlock, ...]:
+    return derived.blocks if number is None else (derived.block(number),)
+
+
+def _status(derived: Derived, number: int | None) -> int:
+    return FINDINGS if any(found.errors for found in _chosen(derived, number)) else CLEAN
+
+
+def _report(derived: Derived, number: int | None) -> None:
+    for found in _chosen(derived, number):
+        for finding in found.findings:
+            where = f", {segment(finding.segment)}" if finding.segment else ""
+            say(f"block {found.number}{where}: {finding.severity}: {sentence(finding, derived.program.unit)}")
+
+
+def path(options: argparse.Namespace) -> int:
+    """`cutcomp path`: the center path of every block."""
+    from core.pipeline.command_output import path_document, path_listing
+
+    derived = _derived(options.file, options.block, options.lookahead)
+    if options.json:
+        _deliver(f"{json.dumps(path_document(derived, options.block), allow_nan=False)}\n", None)
+    else:
+        _deliver("".join(f"{line}\n" for line in path_listing(derived, options.block)), None)
+        _report(derived, options.block)
+    return _status(derived, options.block)
+
+
+def lookahead(options: argparse.Namespace) -> int:
+    """`cutcomp lookahead`: what becomes of the path at every value, and what the contour needs."""
+    from core.pipeline.command_output import table_document, table_listing
+    from core.pipeline.derive import look_ahead_table
+
+    derived = _derived(options.file, options.block)
+    unit = derived.program.unit
+    chosen = _chosen(derived, options.block)
+    tables = [(found, _advised(found, look_ahead_table(found, derived.program), derived.program)) for found in chosen]
+    if options.json:
+        blocks = [table_document(found, table, unit) for found, table in tables]
+        text = json.dumps({"units": str(unit), "blocks": blocks}, allow_nan=False)
+    else:
+        text = "\n\n".join("\n".join(table_listing(found, table, unit)) for found, table in tables)
+    _deliver(f"{text}\n", None)
+    if not options.json:
+        _report(derived, options.block)
+    return _status(derived, options.block)
+
+
+def _advised(found: DerivedBlock, table: Table | None, program: Program) -> Table | None:
+    """The table with what the contour needs as its notes."""
+    from core.pipeline.derive import needs
+
+    told = None if table is None else needs(found, program, table)
+    return table if table is None or told is None else replace(table, notes=told.sentences)
+
+
+def post(options: argparse.Namespace) -> int:
+    """`cutcomp post`: NC text, or the reasons why there is none."""
+    from app.cli.posting import nc_text
+    from core.output.nc import Posted
+
+    control = _control(options)
+    derived = _derived(options.file)
+    result = nc_text(derived, _name(options.file), options.override, control)
+    _report(derived, None)
+    if not isinstance(result, Posted):
+        say(f"nothing was posted. {result.text}{_words(result, options)}")
+        return FINDINGS
+    if options.override is not None and not result.overridden:
+        say("--override was not needed: nothing stood against posting.")
+    for note in result.notes:
+        say(f"{note.severity}: {sentence(note, derived.program.unit)}")
+    _deliver(result.text, options.output)
+    return _status(derived, None)
+
+
+def _words(result: Refusal, options: argparse.Namespace) -> str:
+    """The words that would have it posted all the same, where words can."""
+    from core.output.objections import OVERRIDABLE, OVERRIDE
+
+    if options.control is not None or not all(one.code in OVERRIDABLE for one in result.findings):
+        return ""
+    wrong = "" if options.override is None else f" {options.override!r} are not the words."
+    return f"{wrong} To post in spite of it: --override '{OVERRIDE}'"
+
+
+def _control(options: argparse.Namespace) -> str | None:
+    """The full name of the control that is asked for, None for the path of the tool's center."""
+    if options.control is None:
+        return None
+    from core.controls.registry import UnknownControl, resolve
+
+    found = resolve(options.control)
+    if isinstance(found, UnknownControl):
+        raise Unusable(f"--control: {found.text}")
+    if options.override is not None:
+        raise Unusable("--override goes with the center path only: leave out --control.")
+    return found
+
+
+def plot(options: argparse.Namespace) -> int:
+    """`cutcomp plot`: the program as an SVG drawing."""
+    from core.pipeline.plot import svg_of
+
+    if options.output is not None and options.output.suffix.lower() in OTHER_PICTURES:
+        raise Unusable(f"-o {options.output}: plot writes SVG only; name a file that ends in .svg.")
+    derived = _derived(options.file)
+    _deliver(svg_of(derived, title=_name(options.file)), options.output)
+    _report(derived, None)
+    return _status(derived, None)
+
+
+def _deliver(text: str, output: Path | None) -> None:
+    from app.documents.files import write_output
+
+    if output is None or str(output) == DASH:
+        try:
+            sys.stdout.write(text)
+            sys.stdout.flush()
+        except BrokenPipeError:
+            raise
+        except OSError as error:
+            # what is still buffered could not be written at the end either
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            raise Unusable(f"standard output cannot be written: {error.strerror}.") from error
+        return
+    try:
+        write_output(output, text)
+    except StoreError as error:
+        raise Unusable(str(error)) from error
+
+
+COMMANDS: Final = {
+    "path": _command(path),
+    "lookahead": _command(lookahead),
+    "post": _command(post),
+    "plot": _command(plot),
+}

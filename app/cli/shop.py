@@ -1,0 +1,163 @@
+"""The commands of the shop: setup sheets, tool tables, and the screens in a browser."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterable
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import Final
+
+from app.cli.commands import DASH
+from app.cli.shell import CLEAN, FINDINGS, SHOP_HELP, UNUSABLE, say
+from app.documents import times
+from app.documents.files import load, save, write_output
+from app.documents.lock import Held, myself, release, take
+from app.painted.keeping import holder
+from core.finding import Finding
+from core.program.file.read import StoreError
+from core.program.model import Entry, Program, Tool
+from core.program.tools import ImportedTools, decode_table, read_tool_table, table_faults
+from core.units import Kind, Unit, show
+
+
+def shop(given: list[str]) -> int:
+    """Run one of these commands; returns the exit status."""
+    options = _parser(given[0]).parse_args(given[1:])
+    try:
+        return {"sheet": sheet, "tools": tools, "serve": serve}[given[0]](options)
+    except StoreError as error:
+        say(str(error))
+        return UNUSABLE
+
+
+def _parser(name: str) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(f"cutcomp {name}", description=SHOP_HELP[name])
+    optional = "?" if name == "serve" else None
+    parser.add_argument("file", nargs=optional, type=Path, metavar="FILE", help="a program file (TOML)")
+    match name:
+        case "sheet":
+            parser.add_argument("-o", "--output", type=Path, metavar="OUT", help=".html: a page; anything else: text")
+        case "tools":
+            parser.add_argument("--import", type=Path, metavar="TABLE", dest="table", help="a LinuxCNC tool table")
+            parser.add_argument("--units", type=str.upper, choices=tuple(Unit), help="of the table; else the program's")
+        case _:
+            parser.add_argument("--host", default="127.0.0.1", help="address to serve (this machine's own)")
+            parser.add_argument("--port", type=_port, default=8000, help="1 to 65535")
+            parser.add_argument("--allow-network", action="store_true", help="serve an address others can reach")
+    return parser
+
+
+def _port(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and len(text) < 6 and 1 <= int(text) <= 65535):
+        raise argparse.ArgumentTypeError(f"{text} is no port; ports go from 1 to 65535.")
+    return int(text)
+
+
+def sheet(options: argparse.Namespace) -> int:
+    """`cutcomp sheet`: the setup sheet; status 1 while it says DO NOT RUN."""
+    from app.cli.sheets import sheet_for
+    from core.output.sheet import NOT_READY
+
+    program = load(options.file)
+    text = sheet_for(program, options.output or Path("-"), name=options.file.stem)
+    if options.output in (None, Path(DASH)):
+        sys.stdout.write(text)
+    else:
+        write_output(options.output, text)
+    return FINDINGS if NOT_READY in text else CLEAN
+
+
+def tools(options: argparse.Namespace) -> int:
+    """`cutcomp tools`: the table of a program, after an import that is whole or not at all."""
+    if options.table is None:
+        return _listed(load(options.file))
+    now, lock = times.now(), None
+    with suppress(OSError):
+        # where no lock can be written, the program cannot either, and says so
+        lock = take(options.file, myself(now))
+    if isinstance(lock, Held):
+        say(f"nothing was imported: {holder(lock.owner, now)} TOOL SETUP there imports a table, too.")
+        return UNUSABLE
+    try:
+        return _imported(options)
+    finally:
+        if lock is not None:
+            release(lock)
+
+
+def _imported(options: argparse.Namespace) -> int:
+    program = load(options.file)
+    table = read_table(options.table, Unit(options.units) if options.units else program.unit, program.unit)
+    if table.errors:
+        say(table_faults(str(options.table), table.errors))
+        say("nothing was imported.")
+        return UNUSABLE
+    _warn(options.table, table.findings)
+    program = merged(program, table.tools)
+    save(program, options.file)
+    return _listed(program)
+
+
+def _listed(program: Program) -> int:
+    for tool in program.tools:
+        print(told(tool, program.unit))
+    return CLEAN
+
+
+def read_table(path: Path, unit: Unit, program: Unit) -> ImportedTools:
+    """A table's file; StoreError when it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(LARGEST + 1)
+    except (OSError, ValueError) as error:
+        why = error.strerror if isinstance(error, OSError) else "this is no file name"
+        raise StoreError(f"{path} cannot be read: {why}. Check the name.") from error
+    if len(data) > LARGEST:
+        raise StoreError(f"{path} is too large for a tool table.")
+    return read_tool_table(decode_table(data), unit, program)
+
+
+LARGEST: Final = 1_000_000
+"""Bytes of the largest tool table."""
+
+
+def _warn(path: Path, findings: Iterable[Finding]) -> None:
+    for one in findings:
+        say(f"{path}, line {one.line}, column {one.column}: warning: {one.text}")
+
+
+def merged(program: Program, tools: Iterable[Tool]) -> Program:
+    """The program with these tools in its table, in place of those of the same number."""
+    table = {tool.number: tool for tool in (*program.tools, *tools)}
+    return replace(program, tools=tuple(table[number] for number in sorted(table)))
+
+
+def told(tool: Tool, unit: Unit) -> str:
+    """One line of the table."""
+    size = show(tool.diameter.value, Kind.LENGTH, unit) if isinstance(tool.diameter, Entry) else "no diameter"
+    kind = "".join(sign if sign.isprintable() else "?" for sign in tool.type)
+    return f"T{tool.number:<5} {size:>11} {unit}  {kind}"
+
+
+def serve(options: argparse.Namespace) -> int:
+    """`cutcomp serve`: until Ctrl+C."""
+    from app.cli import web
+
+    if reason := web.refusal(options.host, allow_network=options.allow_network):
+        say(reason)
+        return UNUSABLE
+    say(f"{web.address(options.host, options.port)} in the browser. Ctrl+C ends it. {web.NO_LOGIN}")
+    say("Where the browser keeps a function key to itself, Esc and then its digit does the same.")
+    try:
+        web.serve(options.file, options.host, options.port)
+    except ImportError:
+        say(web.MISSING)
+        return UNUSABLE
+    except (OSError, UnicodeError) as error:
+        # a port that is taken or forbidden, a name that is none
+        say(f"{web.address(options.host, options.port)} cannot be served: {error}")
+        return UNUSABLE
+    return CLEAN

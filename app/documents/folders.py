@@ -1,0 +1,62 @@
+"""The chosen folder: that of the file that is open, the current one for work without a name.
+
+A name without a folder is taken beside the file that is open; nothing is written outside of it unasked.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from app.documents.lock import held_by
+from app.documents.naming import is_folder
+from app.painted.messages import Close, Message
+from app.painted.screens.ask import Ask
+from core.units import printable
+
+
+def chosen(path: Path, file: Path | None) -> Path:
+    """Where a typed name leads: one without a folder beside the file that is open."""
+    return path if file is None or path.name != str(path) else file.parent / path
+
+
+def outside(path: Path, file: Path | None) -> bool:
+    """Whether writing a path would write outside the chosen folder, be it through a link; a folder is not written."""
+    return not is_folder(path) and not Path(os.path.realpath(path)).is_relative_to(folder(file))
+
+
+def folder(file: Path | None) -> Path:
+    """The chosen folder as a whole path without links."""
+    return Path(os.path.realpath(file.parent if file is not None else Path()))
+
+
+def asking(path: Path, file: Path | None, agreed: Message, about: str = "") -> Ask:
+    """The one question before a file outside is written; it says too what would be replaced there."""
+    target = Path(os.path.realpath(path))
+    link = f"{told_path(path)} leads there." if path.is_symlink() else ""
+    whose = "current" if file is None else "program's"
+    stands = "A file of this name exists already. Its content is replaced." if target.exists() else ""
+    owner = held_by(path)
+    who = "" if owner is None else f"{printable(owner.user)} on {printable(owner.host)} has it open."
+    lines = (f"{told_path(target)} is not in the {whose} folder,", f"{told_path(folder(file))}.", link, stands, who)
+    options = (("w", "WRITE THERE", (Close(), agreed)),)
+    return Ask("WRITE IN ANOTHER FOLDER?", tuple(line for line in lines if line), options, about)
+
+
+def written_at(path: Path) -> str:
+    """A file that was written: the whole path where it is not in the current folder."""
+    here = Path(os.path.realpath(path)).parent == folder(None)
+    return told_path(path.name) if here else told_path(Path(os.path.normpath(Path.cwd() / path)))
+
+
+def told_path(path: Path | str) -> str:
+    """A whole path without control characters."""
+    return "".join(one if one.isprintable() else "?" for one in str(path))
+
+
+def folder_told(file: Path | None) -> str:
+    """The chosen folder in words, asked of no disk: a folder of a network may not answer."""
+    try:
+        return told_path(Path.cwd() if file is None else Path.cwd() / file.parent)
+    except OSError:
+        return "the folder it was started in, which is gone"

@@ -1,0 +1,1 @@
+"""NC PROOF: an NC program's text under a control's rules."""

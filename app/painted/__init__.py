@@ -1,0 +1,1 @@
+"""The screens painted row by row."""

@@ -1,0 +1,1 @@
+"""The session: what the screens are drawn from."""

@@ -1,0 +1,213 @@
+"""The terminal's side of Textual: which terminals the screens can have, and any byte that comes from them.
+
+Textual's own driver dies of the first byte that is not UTF-8, and reads for ever from a link that has dropped.
+"""
+
+from __future__ import annotations
+
+import os
+import select
+import signal
+import sys
+from codecs import getincrementaldecoder, lookup
+from collections.abc import Iterator, Mapping
+from time import monotonic
+from types import FrameType
+from typing import TYPE_CHECKING, Any, Final
+
+from textual import events
+from textual._ansi_sequences import ANSI_SEQUENCES_KEYS, SYNC_END, SYNC_START
+from textual._xterm_parser import XTermParser
+from textual.drivers.linux_driver import LinuxDriver
+from textual.message import Message
+
+from app.painted.desk import MODES
+from app.terminal.capabilities import ascii_only
+from app.terminal.cell_diff import Shown, Texts
+from app.terminal.character_set import ASCII, UTF_8, charset
+from app.terminal.split_keys import TOLD, Joined, delay
+
+if TYPE_CHECKING:
+    from textual.app import App
+
+PATIENCE: Final = 0.1
+"""Seconds between two looks whether the program ends."""
+LARGEST_READ: Final = 4096
+UNFIT: Final = ("dumb", "unknown", "")
+"""Values of TERM of what cannot place a cursor."""
+ERASING: Final = ("xterm", "putty", "linux", "rxvt", "alacritty", "kitty", "foot", "wezterm", "konsole", "vte", "gnome")
+"""How TERM begins where erased cells take the color in force; others erase in their own."""
+PLAIN: Final = ("linux", "vt1", "vt2")
+"""How TERM begins where a control sequence with a $ in it may be shown."""
+
+
+class TerminalDriver(LinuxDriver):
+    """A driver that replaces what it cannot read, and takes the end of its input for a hangup.
+
+    It sends what differs from what the terminal shows, and all of it when that may have been written over.
+    """
+
+    def __init__(
+        self, app: App[Any], *, debug: bool = False, mouse: bool = True, size: tuple[int, int] | None = None
+    ) -> None:
+        super().__init__(app, debug=debug, mouse=mouse, size=size)
+        self.shown = Shown(self._get_terminal_size, os.environ.get("TERM", "").startswith(ERASING))
+        self.suspended = False
+
+    def write(self, data: str) -> None:
+        """A picture on its way to the terminal, in as few bytes as show it."""
+        if sent := self.shown.write(data):
+            super().write(sent)
+
+    def paint(self, lines: list[tuple[int, Texts]]) -> bool:
+        """Lines of the picture as they have become, at once; False while nobody knows what stands on the terminal."""
+        if self.suspended or not self._app._running or self._app._closed:
+            return False
+        sent = self.shown.paint(lines)
+        if sent:
+            # in one piece: every piece wakes the thread that sends it
+            super().write(f"{SYNC_START}{sent}{SYNC_END}" if self._app._sync_available else sent)
+        return sent is not None
+
+    def send_message(self, message: Message) -> None:
+        """A key on its way to the App: straight into its queue, in the order of the keys, and by way of no task."""
+        self._loop.call_soon_threadsafe(self._app.post_message, message)
+
+    def anew(self) -> None:
+        """Whatever stands on the terminal, everything is sent again; may be called in a signal handler."""
+        self.shown.forget()
+        self.send_message(events.Callback(self._repaint))
+
+    def _repaint(self) -> None:
+        self._app.refresh()
+
+    def start_application_mode(self) -> None:
+        """Begin, or go on; a resize to the same size is one too, where others have lent the terminal."""
+        super().start_application_mode()  # type: ignore[no-untyped-call]  # Textual's own
+        resized = signal.getsignal(signal.SIGWINCH)
+
+        def changed(number: int, frame: FrameType | None) -> None:
+            if callable(resized):
+                resized(number, frame)
+            self.anew()
+
+        signal.signal(signal.SIGWINCH, changed)
+
+    def _sigtstp_application(self, *_: object) -> None:
+        """Stop between two tasks: a signal that comes in the middle of a write would wait for ever for its end."""
+        self._loop.call_soon_threadsafe(super()._sigtstp_application)
+
+    def _sigcont_application(self, *_: object) -> None:
+        """Go on between two tasks too."""
+        self._loop.call_soon_threadsafe(super()._sigcont_application)
+
+    def suspend_application_mode(self) -> None:
+        """The terminal is given back for a while."""
+        self.suspended = True
+        super().suspend_application_mode()
+
+    def resume_application_mode(self) -> None:
+        """Go on, also behind a stop that nobody could prepare for; the terminal shows what others left on it."""
+        if not self.suspended:
+            self.suspend_application_mode()
+        self.suspended = False
+        super().resume_application_mode()
+        self.anew()
+
+    def _request_terminal_sync_mode_support(self) -> None:
+        """Not asked of terminals that would take the end of the question for a letter to show."""
+        if not os.environ.get("TERM", "").startswith(PLAIN):
+            super()._request_terminal_sync_mode_support()
+
+    def _query_in_band_window_resize(self) -> None:
+        """Never asked: the answer would change nothing here, the signal tells the size."""
+
+    def run_input_thread(self) -> None:
+        """Read keys until the program ends or the link drops."""
+        parser, joined = XTermParser(self._debug), Joined(ANSI_SEQUENCES_KEYS, delay(os.environ))
+        decode = getincrementaldecoder(typed_in())(errors="replace").decode
+        while not self.exit_event.is_set():
+            patience = PATIENCE if joined.due is None else min(PATIENCE, max(joined.due - monotonic(), 0.0))
+            # what has come by the time it is looked for belongs together, however late this thread had its turn
+            if select.select([self.fileno], [], [], patience)[0]:
+                data = read(self.fileno)
+                if not data:
+                    os.kill(os.getpid(), signal.SIGHUP)
+                    return
+                keys = joined.feed(decode(data), monotonic())
+            else:
+                keys = joined.tick(monotonic())
+            for key in keys:
+                for message in messages(parser, key):
+                    self.process_message(message)
+
+
+def messages(parser: XTermParser, key: str) -> Iterator[Message]:
+    """What Textual's parser makes of a whole key; of one that it does not know nothing, least of all text."""
+    if key in TOLD:
+        yield events.Key(key, None)
+        return
+    yield from parser.feed(key)
+    if parser._timeout_time is not None:
+        # it waits for more, and there is no more
+        parser._timeout_time = 0.0
+        rest = list(parser.tick())
+        yield from () if key.startswith(("\x1b[", "\x1bO")) else rest
+
+
+def typed_in() -> str:
+    """The set of characters that keys arrive in: that of the screen, and UTF-8 where nobody has said."""
+    screen = ASCII if sys.__stderr__ is None else lookup(sys.__stderr__.encoding).name
+    return UTF_8 if screen == ASCII else screen
+
+
+def read(handle: int) -> bytes:
+    """What was typed, nothing at the end of the input or when the link has dropped."""
+    try:
+        return os.read(handle, LARGEST_READ)
+    except OSError:
+        return b""
+
+
+def few_colors(environment: Mapping[str, str]) -> bool:
+    """Whether the terminal's own sixteen colors are used, or none; its name and COLORTERM are all there is to go by.
+
+    Where no colors are wanted, its own ink and paper stay, and bold, underline and reverse video say the rest.
+    """
+    asked = environment.get("TEXTUAL_COLOR_SYSTEM", "auto").lower()
+    if "NO_COLOR" in environment or asked != "auto":
+        return "NO_COLOR" in environment or asked == "standard"
+    many = environment.get("COLORTERM", "") in ("truecolor", "24bit")
+    return not many and not any(word in environment.get("TERM", "") for word in ("256color", "direct", "kitty"))
+
+
+def refusal(environment: Mapping[str, str]) -> str:
+    """Why there can be no screens here, empty where there can."""
+    if not all(stream is not None and stream.isatty() for stream in (sys.__stdin__, sys.__stderr__)):
+        return (
+            "the screens need a terminal, and here is none. Start it in a terminal window, or see the commands "
+            "without a screen: cutcomp --help"
+        )
+    if environment.get("TERM", "") in UNFIT:
+        return (
+            f"the terminal says TERM={environment.get('TERM', '')}, which cannot place a cursor. Set TERM to what it "
+            "is, such as TERM=xterm or TERM=vt100, and start again."
+        )
+    return ""
+
+
+def characters(environment: Mapping[str, str], wanted: str = "") -> tuple[str, tuple[str, ...]]:
+    """The set of characters to write, and with what the drawing can be drawn, that to begin with first.
+
+    `wanted` is what the operator asks for and knows better.  The fonts of the Linux console have no braille, a VT100
+    has none of UTF-8 at all.
+    """
+    name = UTF_8 if wanted in MODES[:-1] else charset(environment)
+    if wanted not in MODES[:-1] and name == UTF_8 and ascii_only(environment):
+        name = ASCII
+    if name != UTF_8:
+        return name, MODES[-1:]
+    console = environment.get("TERM", "").startswith("linux") and wanted != MODES[0]
+    able = MODES[1:] if console else MODES
+    first = able.index(wanted) if wanted else 0
+    return name, (*able[first:], *able[:first])
