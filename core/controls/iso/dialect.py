@@ -81,6 +81,13 @@ COMMON: Final[Mapping[int, Code]] = MappingProxyType(
 """What G codes are on every word-address control in cutcomp."""
 
 
+CYCLES_APART: Final = (("cycle", Do.CYCLE, tuple(range(810, 900, 10))), ("cycle", Do.MOTION, (800,)))
+"""G80 to G89 as a group of their own: G80 then ends the cycle and leaves the motion that stood before it.
+
+In the group of the motions G80 leaves no motion in force, and counts for nothing next to another code of that group.
+"""
+
+
 def codes(*groups: tuple[str, Do, tuple[int, ...]]) -> Mapping[int, Code]:
     """The common codes with those of a control over them."""
     added = {code: entry for group, do, numbers in groups for code, entry in _group(group, do, *numbers).items()}

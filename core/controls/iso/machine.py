@@ -33,6 +33,7 @@ _TURNS: Final = {20: -1, 30: 1}
 _ORDER: Final = {Do.MOTION: 0, Do.PLANE: 1, Do.UNITS: 2, Do.DISTANCE: 3, Do.OWN: 4, Do.SIDE: 5}
 _LATEST: Final = 9
 _G53: Final = 530
+_G80: Final = 800
 _SURFACE: Final = 960
 _TOOL_CHANGE: Final = 60
 _LINES: Final = (0, 10)
@@ -124,19 +125,33 @@ class Machine(ModalState):
             if code is None:
                 text = f"cutcomp does not know G{number / 10:g} on this control. Remove it or write the control's code."
                 self.log.stop("CODE", text, block.line, block.column("G", number))
+            if number == _G80 and code.group == "motion" and self._moves_in(block):
+                continue
             if code.group in groups:
                 text = f"G{number / 10:g} is the second G code of its group in this block; keep one."
                 self.log.stop(self.dialect.group_rule, text, block.line, block.column("G", number))
             groups.add(code.group)
             known.append(code)
+        if {"motion", "cycle"} <= groups and any(code.do is Do.CYCLE for code in known):
+            text = "cutcomp does not know which counts, the motion or the cycle. Write them in two blocks."
+            self.log.stop(self.dialect.group_rule, text, block.line, block.column("G"))
         known.sort(key=lambda code: _ORDER.get(code.do, _LATEST))
         return known
 
+    def _moves_in(self, block: Block) -> bool:
+        """Whether a block has a motion or a cycle besides G80."""
+        known = (self.dialect.codes.get(number) for number in block.g if number != _G80)
+        return any(code is not None and code.group == "motion" for code in known)
+
     def _set(self, code: Code, block: Block) -> None:
         match code.do:
+            case Do.MOTION if code.value == _G80 and code.group == "cycle":
+                self.mode = self.mode if self.mode in _MOVES else self.cycle.mode_before
+                self.cycle.code = None
             case Do.MOTION:
                 self.mode, self.cycle.code = code.value, None
             case Do.CYCLE:
+                self.cycle.mode_before = self.mode if self.mode in _MOVES else self.cycle.mode_before
                 self.mode = code.value
             case Do.PLANE:
                 self.plane = self.control.plane = PLANES[code.value]

@@ -57,10 +57,11 @@ class Origin:
 class Cycle:
     """What stays from hole to hole: the cycle, the height its row began at, R, depth and peck, in millimeters.
 
-    `r` and `depth` are as written; `to_r` is G99.
+    `r` and `depth` are as written; `to_r` is G99; `mode_before` is the motion in force before the cycle.
     """
 
     code: int | None = None
+    mode_before: int | None = None
     began: float = 0.0
     r: float = 0.0
     depth: float = 0.0

@@ -132,8 +132,8 @@ class LinuxCnc(OneMoveQueue, Control):
 
     def _motion(self, block: Block) -> int | None:
         """The motion that a block's words belong to."""
-        given = (code for code in block.g if code in DIALECT.codes and DIALECT.codes[code].group == "motion")
-        return next(given, self.machine.mode)
+        given = [code for code in block.g if code in DIALECT.codes and DIALECT.codes[code].group == "motion"]
+        return next((code for code in given if code != _G80), given[0] if given else self.machine.mode)
 
     def _arc_words(self, block: Block) -> None:
         """I, J, K and R go with arcs, and with codes that take no part in compensation."""
@@ -207,6 +207,7 @@ class LinuxCnc(OneMoveQueue, Control):
         return int(block.words.get("L", 0.0))
 
 
+_G80: Final = 800
 _USER_M: Final = tuple(f"M{code}" for code in range(1000, 2000, 10))
 _SWITCHED: Final = tuple(f"M{code}" for code in (500, 510, 520, 530, 620, 630, 640, 650, 660))
 _CYCLES: Final = tuple(f"G{code}" for code in (730, *range(810, 900, 10)))

@@ -29,7 +29,7 @@ from core.controls.compensation.joint import (
 )
 from core.controls.control_run import Log
 from core.controls.iso.arcs import IN_PLANE
-from core.controls.iso.dialect import PLANES, Dialect, Do, codes
+from core.controls.iso.dialect import CYCLES_APART, PLANES, Dialect, Do, codes
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
@@ -39,6 +39,7 @@ from core.units import Unit
 
 DIALECT: Final = Dialect(
     codes(
+        *CYCLES_APART,
         ("units", Do.UNITS, (700, 710)),
         ("corners", Do.OWN, (390, 391)),
         ("path", Do.MODE, (610, 640)),

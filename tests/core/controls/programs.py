@@ -27,6 +27,9 @@ MODAL: dict[str, str] = {
     "comments and spaces": "g20 (inch) f 9\ng1 x1 (y2) y 3 ; z4\nm2\n",
     "blanks inside words": "G 2 0 F 9\nG1 X1 .5 Y- 2\nG4 P. 1\nM 2\n",
     "a preset canceled in a block of motion": "G20 F9\nG1 X1\nG92 X0\nG92.1 G1 X5\nM2\n",
+    "g80 next to another motion": "G20 F9\nG0 G17 G40 G49 G80 G90\nG0 G80 X5\nX6\nG80 G1 X7 Y1\nG80 G80 G0 X1\nM2\n",
+    "g80 next to a cycle": "G20 F9\nG81 X1 Z-1 R.1\nG80 G81 X2\nX3\nG80 G0 X4\nG1 Z1\nG80 G82 X2 Z-2 R.1 P1\nM2\n",
+    "g80 next to a code that is no motion": "G20 F9\nG1 X1\nG80 G92 X5\nG1 X2\nG80 G4 P1\nG0 X3\nM2\n",
     "a work offset set by the program": "G20 F9\nG55\nG1 X1\nG54\nG1 X1\nM2\n",
 }
 """Programs in inches for the modal machine, tool 1 of diameter .5 and tool 2 of .25, by what they are about."""

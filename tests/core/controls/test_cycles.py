@@ -103,3 +103,22 @@ def test_a_feed_by_turn_without_turns_is_not_known(start: str) -> None:
     done = ran(f"G20 {start}\nG95 G1 X3 F.01\n", "nine-series")
     assert [move.feed for move in done.moves if move.line] == [0]
     assert [one.line for one in told(done, "FEED")] == [2]
+
+
+@pytest.mark.parametrize("line", ["G00 G17 G40 G49 G80 G90", "G80 G0 G90", "G0 G80 X0 Y0"])
+@pytest.mark.parametrize("control", ["threeblock", "rosettacnc", "nine-series", "linuxcnc"])
+def test_a_safety_line_with_g80_runs_on_every_iso_control(control: str, line: str) -> None:
+    done = ran(f"G20 F9.\n{line}\nX1.\nM2\n", control)
+    assert done.stopped_at is None
+    assert [move.rapid for move in done.moves][-1]
+
+
+def test_g80_leaves_the_motion_before_the_cycle_where_it_has_a_group_of_its_own() -> None:
+    done = ran("G20 F9.\nG1 X1.\nG80 X2.\nG81 X3. Z-1. R.1\nG80\nX4.\nM2\n", "nine-series")
+    assert [(move.line, move.rapid) for move in done.moves if move.line in (3, 6)] == [(3, False), (6, False)]
+
+
+@pytest.mark.parametrize("line", ["G80 G81 X1. Z-1. R.1", "G0 G81 X1. Z-1. R.1", "G80 G80"])
+def test_two_codes_of_which_one_counts_stop_the_nine_series(line: str) -> None:
+    done = ran(f"G20 F9.\n{line}\nM2\n", "nine-series")
+    assert [finding.line for finding in told(done, "GROUP")] == [2]

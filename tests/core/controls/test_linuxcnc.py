@@ -106,6 +106,9 @@ REFUSED = {
     "a call that does not stand alone": "G20 F9\nG90 M98 P1\nM2\nO1\nM99\n",
     "an arc alone": "G20 F9\nG2\nM2\n",
     "words without their code": "G20 F9\nG1 X1 P2\nM2\n",
+    "axis words with g80": "G20 F9\nG0 X1\nG80 X2\nM2\n",
+    "axis words after g80": "G20 F9\nG0 X1\nG80\nX2\nM2\n",
+    "two motions next to g80": "G20 F9\nG0 G80 G1 X5\nM2\n",
     "no end": "G20 F9\nG1 X1\n\n",
 }
 
