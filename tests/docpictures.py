@@ -13,11 +13,11 @@ from core.pipeline.plot import svg_of
 from core.program.edit import new_block
 from core.program.model import (
     CutterComp,
-    Entry,
     LineSegment,
-    Parameters,
+    Number,
     PathChoice,
     Program,
+    ProgramParameters,
     Tool,
 )
 
@@ -78,23 +78,23 @@ PICTURES: Final = (
 
 def program(picture: Picture) -> Program:
     """The picture's program, as typed, without blend moves."""
-    tools = (Tool(1, diameter=Entry(picture.diameter)),)
+    tools = (Tool(1, diameter=Number(picture.diameter)),)
     block = replace(
         new_block(Program(tools=tools)),
-        tool=Entry(1),
+        tool=Number(1),
         cutter_comp=picture.comp,
-        x_start=Entry(picture.start[0]),
-        y_start=Entry(picture.start[1]),
-        z_bottom=Entry(-0.25),
+        x_start=Number(picture.start[0]),
+        y_start=Number(picture.start[1]),
+        z_bottom=Number(-0.25),
         lookahead=_lookahead(picture),
-        segments=tuple(LineSegment(x_end=Entry(x), y_end=Entry(y)) for x, y in picture.to),
+        segments=tuple(LineSegment(x_end=Number(x), y_end=Number(y)) for x, y in picture.to),
     )
-    plain = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0), path=picture.path)
+    plain = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0), path=picture.path)
     return Program(tools=tools, blocks=(block,), parameters=plain)
 
 
-def _lookahead(picture: Picture) -> Entry | None:
-    return None if picture.lookahead is None else Entry(picture.lookahead)
+def _lookahead(picture: Picture) -> Number | None:
+    return None if picture.lookahead is None else Number(picture.lookahead)
 
 
 def drawn() -> Iterator[tuple[Path, str]]:

@@ -16,8 +16,8 @@ NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 def _work(name: str) -> BlockPaths:
     (picture,) = (one for one in PICTURES if one.name == name)
     (found,) = derive(program(picture)).blocks
-    assert found.work is not None
-    return found.work
+    assert found.paths is not None
+    return found.paths
 
 
 @pytest.mark.parametrize(

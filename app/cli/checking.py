@@ -10,10 +10,10 @@ from typing import Final
 from core.controls import shop_rules
 from core.controls.compared_contours import ContourPair, Parting, contours
 from core.controls.compared_controls import Compared, OtherLanguage, compare
-from core.controls.control_run import Run
+from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.iso.modal_state import RADIUS_ZERO
-from core.controls.judged_runs import Judged, deepest_gouge, findings, first_unjudged, judged
+from core.controls.judged_runs import Judged, deepest_gouge, findings, first_unjudged, judge_run
 from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
 from core.finding import Finding, Severity
@@ -99,11 +99,11 @@ def answer(text: bytes, asked: Asked) -> Answer:
     """One control's answer."""
     done = run(text, asked.control, asked.tools, asked.unit)
     assert not isinstance(done, UnknownControl), done.text
-    results = judged(done)
+    results = judge_run(done)
     return _answer(done, results, _foreign(done.control, text), "", shop=asked.shop)
 
 
-def answered(done: Run, results: tuple[Judged, ...], text: bytes) -> Answer:
+def answered(done: ControlRun, results: tuple[Judged, ...], text: bytes) -> Answer:
     """The answer of a control that has run a text."""
     return _answer(done, results, _foreign(done.control, text), "", shop=False)
 
@@ -136,7 +136,9 @@ def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
     return (Finding("LANGUAGE", Severity.WARNING, said, line=1, column=1),)
 
 
-def _answer(done: Run, results: tuple[Judged, ...], before: tuple[Finding, ...], parts: str, *, shop: bool) -> Answer:
+def _answer(
+    done: ControlRun, results: tuple[Judged, ...], before: tuple[Finding, ...], parts: str, *, shop: bool
+) -> Answer:
     told = (*before, *done.findings, *findings(results), *(shop_rules.check(done) if shop else ()))
     why = None if done.stopped_at is None else _last_error(done.findings)
     row = Answer(done.control, done.unit, done.moves, _by_line(told), done.stopped_at, _outcome(done, results, why))
@@ -147,7 +149,7 @@ def _by_line(told: tuple[Finding, ...]) -> tuple[Finding, ...]:
     return tuple(sorted(told, key=lambda finding: finding.line or 0))
 
 
-def _outcome(done: Run, results: tuple[Judged, ...], why: Finding | None) -> str:
+def _outcome(done: ControlRun, results: tuple[Judged, ...], why: Finding | None) -> str:
     if any(one.code == NOTHING for one in done.findings):
         return "has nothing to run"
     cut, line = deepest_gouge(results)
@@ -250,7 +252,7 @@ def same_contours(first: bytes, second: bytes, asked: Asked) -> tuple[bool, tupl
     return bool(pairs) and whole and not odd and all(pair.same for pair in pairs), tuple(told)
 
 
-def _read(text: bytes, asked: Asked) -> Run:
+def _read(text: bytes, asked: Asked) -> ControlRun:
     iso = asked.control if asked.control not in ("all", "klartext") else "linuxcnc"
     done = run(text, "klartext" if reads("klartext", text) else iso, asked.tools, asked.unit)
     assert not isinstance(done, UnknownControl), done.text

@@ -15,7 +15,7 @@ from app.documents.files import load, load_from
 from app.painted.widgets.words import segment
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.program.file.read import StoreError
-from core.program.model import Entry, Program
+from core.program.model import Number, Program
 from core.units import sentence
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def _with_lookahead(program: Program, text: str) -> Program:
     if text.lower() == "cal":
         value = None
     elif text.isdecimal() and LOWEST <= int(text) <= HIGHEST:
-        value = Entry(float(text))
+        value = Number(float(text))
     else:
         raise Unusable(f"--lookahead {text}: type {LOWEST} to {HIGHEST}, or cal.")
     return replace(program, blocks=tuple(replace(block, lookahead=value) for block in program.blocks))

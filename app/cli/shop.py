@@ -18,7 +18,7 @@ from app.documents.lock import Held, myself, release, take
 from app.painted.keeping import holder
 from core.finding import Finding
 from core.program.file.read import StoreError
-from core.program.model import Entry, Program, Tool
+from core.program.model import Number, Program, Tool
 from core.program.tools import ImportedTools, decode_table, read_tool_table, table_faults
 from core.units import Kind, Unit, show
 
@@ -137,7 +137,7 @@ def merged(program: Program, tools: Iterable[Tool]) -> Program:
 
 def told(tool: Tool, unit: Unit) -> str:
     """One line of the table."""
-    size = show(tool.diameter.value, Kind.LENGTH, unit) if isinstance(tool.diameter, Entry) else "no diameter"
+    size = show(tool.diameter.value, Kind.LENGTH, unit) if isinstance(tool.diameter, Number) else "no diameter"
     kind = "".join(sign if sign.isprintable() else "?" for sign in tool.type)
     return f"T{tool.number:<5} {size:>11} {unit}  {kind}"
 

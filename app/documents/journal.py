@@ -28,8 +28,8 @@ from core.program.model import (
     Block,
     CutterComp,
     Direction,
-    Entry,
     LineSegment,
+    Number,
     Part,
     PathChoice,
     Program,
@@ -64,7 +64,7 @@ _KINDS: Final = MappingProxyType({type(empty): kind for kind, empty in EMPTY.ite
 def packed(value: Typed | str | int) -> float | list[str] | str | None:
     """One field's value."""
     match value:
-        case Entry(number):
+        case Number(number):
             return number
         case Unread(text, reason):
             return [text, reason]
@@ -158,7 +158,7 @@ def _typed(value: object) -> Typed:
         case [str(text), str(reason)]:
             return Unread(text, reason)
         case int() | float() if not isinstance(value, bool) and isfinite(value) and abs(value) <= LARGEST:
-            return Entry(float(value))
+            return Number(float(value))
         case _:
             raise Damaged
 

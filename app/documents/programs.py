@@ -10,7 +10,7 @@ from typing import Final
 from app.documents.files import load, stamp_of
 from app.painted.session import Session
 from core.program.edit import new_block
-from core.program.model import Entry, Program, Tool
+from core.program.model import Number, Program, Tool
 from core.units import Unit
 
 _PROGRAM: Final = re.compile(rb"^\s*format\s*=", re.MULTILINE)
@@ -30,7 +30,7 @@ def examples() -> Path:
 
 def empty_program(unit: Unit = Unit.IN) -> Program:
     """What a new program begins with: one block and an end mill."""
-    program = Program(unit, tools=(Tool(1, diameter=Entry(0.5 if unit is Unit.IN else 12.0)),))
+    program = Program(unit, tools=(Tool(1, diameter=Number(0.5 if unit is Unit.IN else 12.0)),))
     return replace(program, blocks=(new_block(program),))
 
 

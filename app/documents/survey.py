@@ -15,7 +15,7 @@ from app.documents.patience import FILE, within
 from app.painted.widgets.header import printable
 from app.painted.widgets.rows import Look
 from core.program.file.read import StoreError
-from core.program.model import Entry, Program
+from core.program.model import Number, Program
 
 if TYPE_CHECKING:
     from app.documents.journal import Recovered
@@ -117,5 +117,5 @@ def worst(derived: Derived) -> tuple[str, Look]:
 def _tools(program: Program) -> str:
     """The tools the blocks call, in order."""
     typed = [one for block in program.blocks for one in (block.tool, block.finish_tool)]
-    called = {one.value for one in typed if isinstance(one, Entry) and one.value > 0.0}
+    called = {one.value for one in typed if isinstance(one, Number) and one.value > 0.0}
     return " ".join(f"{number:g}" for number in sorted(called))

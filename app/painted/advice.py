@@ -104,9 +104,9 @@ class Advice:
             self.tabling.forget()
         elif self._at_once:
             engine.keep_table(found, program)
-        elif self.tabling.doing is not found.work:
+        elif self.tabling.doing is not found.paths:
             told = self.app.trial is None
-            self.tabling.ask(lambda: self._keep(found, program, told=told), found.work)
+            self.tabling.ask(lambda: self._keep(found, program, told=told), found.paths)
 
     @property
     def _at_once(self) -> bool:
@@ -128,8 +128,8 @@ class Advice:
             return
         if engine.fast("derive", "table", "notes", part=SMALL):
             engine.keep_notes(found)
-        elif found.work not in (self.noting.doing, self.tabling.doing):
-            self.noting.ask(lambda: engine.keep_notes(found), found.work)
+        elif found.paths not in (self.noting.doing, self.tabling.doing):
+            self.noting.ask(lambda: engine.keep_notes(found), found.paths)
 
     def _need(self) -> None:
         """What the contour needs where CAL is not clean: why, and what would help, tried one after the other."""
@@ -152,4 +152,4 @@ class Advice:
 
 def about_of(found: DerivedBlock) -> About:
     """What tells the needs of one block from those of another."""
-    return found.work, found.lookahead.calculated
+    return found.paths, found.lookahead.calculated

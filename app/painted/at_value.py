@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 from core.program.edit import FormPlace, Refused, type_field
-from core.program.model import Entry, Program
+from core.program.model import Number, Program
 
 if TYPE_CHECKING:
     from app.painted.session import Session
@@ -33,7 +33,7 @@ class AtValue:
         if value is None or value == session.found.lookahead.value:
             return None
         number = session.where.block
-        program = type_field(session.program, FormPlace(number), "lookahead", Entry(float(value)))
+        program = type_field(session.program, FormPlace(number), "lookahead", Number(float(value)))
         return None if isinstance(program, Refused) else AtValue(session, program, number, value)
 
     @property

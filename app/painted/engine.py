@@ -167,14 +167,14 @@ class Engine:
         """Make and keep the look-ahead table of a block."""
         from core.pipeline.derive import look_ahead_table
 
-        if found.work is None or self.tabulated(found):
+        if found.paths is None or self.tabulated(found):
             return
         table = self.timed("table", lambda: look_ahead_table(found, program))
-        self.tables = ((found.work, table), *self.tables)[:KEPT]
+        self.tables = ((found.paths, table), *self.tables)[:KEPT]
 
     def tabulated(self, found: DerivedBlock) -> bool:
         """Whether the table of a block is there, or the block can have none."""
-        return found.work is None or any(work is found.work for work, _ in self.tables)
+        return found.paths is None or any(work is found.paths for work, _ in self.tables)
 
     def lacks_notes(self, found: DerivedBlock) -> bool:
         """Whether the table of this block is there, and not yet what a better path would cut."""
@@ -184,9 +184,9 @@ class Engine:
         """Find out what a better path would cut."""
         from core.pipeline.derive import better_path
 
-        if found.work is not None and self._notes(found) is None:
+        if found.paths is not None and self._notes(found) is None:
             notes = self.timed("notes", lambda: better_path(found))
-            self.notes = ((found.work, notes), *self.notes)[:KEPT]
+            self.notes = ((found.paths, notes), *self.notes)[:KEPT]
 
     def lacks_needs(self, found: DerivedBlock) -> bool:
         """Whether the table of this block is there, its calculated value is not clean, and nobody has said why."""
@@ -202,27 +202,27 @@ class Engine:
         """
         from core.pipeline.derive import needs
 
-        if found.work is None or self._needing(found) is not None:
+        if found.paths is None or self._needing(found) is not None:
             return
         told = needs(found, program, self._made(found), wanted=wanted)
         if told is not None:
-            self.needs = (Needing(found.work, found.lookahead.calculated, told.sentences), *self.needs)[:KEPT]
+            self.needs = (Needing(found.paths, found.lookahead.calculated, told.sentences), *self.needs)[:KEPT]
 
     def known(self, found: DerivedBlock, trial: Session | None, accepted: DerivedBlock | None = None) -> Known:
         """What the screens may show of this block; `accepted` is it without the half-typed number, where there is one.
 
         Advice is told of what has been accepted, even if it has been found out before.
         """
-        own = accepted is None or accepted.work is found.work
+        own = accepted is None or accepted.paths is found.paths
         return Known(self._table(found, own=own), self.ready, self.memory, trial)
 
     def _made(self, found: DerivedBlock) -> Table | None:
         """The table of a block as it was made; None before that, and where the block has none."""
-        return next((table for work, table in self.tables if work is found.work), None)
+        return next((table for work, table in self.tables if work is found.paths), None)
 
     def _notes(self, found: DerivedBlock) -> tuple[Finding, ...] | None:
         """What a better path would cut; None while that is not known."""
-        return next((notes for work, notes in self.notes if work is found.work), None)
+        return next((notes for work, notes in self.notes if work is found.paths), None)
 
     def _table(self, found: DerivedBlock, *, own: bool) -> Table | None:
         """The table of a block with its notes as far as they are known, what the block needs before the others."""
@@ -238,7 +238,7 @@ class Engine:
     def _needing(self, found: DerivedBlock) -> Needing | None:
         """What a block needs, where that was found out lately."""
         calculated = found.lookahead.calculated
-        return next((one for one in self.needs if one.work is found.work and one.calculated == calculated), None)
+        return next((one for one in self.needs if one.work is found.paths and one.calculated == calculated), None)
 
 
 def derived_again(program: Program, before: Derived) -> Derived:
@@ -259,8 +259,8 @@ def derived_again(program: Program, before: Derived) -> Derived:
             blocks.append(old)
             continue
         found = derive_block(program, number)
-        if old is not None and old.work is not None and _paths_of(found, program) == _paths_of(old, then):
-            found = replace(found, work=old.work)
+        if old is not None and old.paths is not None and _paths_of(found, program) == _paths_of(old, then):
+            found = replace(found, paths=old.paths)
         blocks.append(found)
     return Derived(program, tuple(blocks))
 
@@ -284,8 +284,8 @@ def bearing(derived: Derived, program: Program) -> Derived:
 def _seen(found: DerivedBlock, segment: int) -> tuple[object, ...]:
     """All of a block that its drawing shows: another depth or feed leaves the drawing as it stands."""
     solved = found.solved
-    if found.work is None or not 0 <= segment <= len(solved.segments):
+    if found.paths is None or not 0 <= segment <= len(solved.segments):
         return (found,)
     current = solved.segments[segment - 1].piece if segment else None
     begins = solved.segments[0].start if solved.segments else None
-    return found.work, found.radius, solved.segments[solved.determined :], current, begins
+    return found.paths, found.radius, solved.segments[solved.determined :], current, begins

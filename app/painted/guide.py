@@ -21,7 +21,7 @@ from app.painted.screens.program import ProgramPage
 from app.painted.screens.save import SaveAsPage
 from app.painted.session import SEGMENT, Said, Session
 from core.program.fields import Form, field_of, form_of
-from core.program.model import CutterComp, Entry, LineSegment
+from core.program.model import CutterComp, LineSegment, Number
 from core.units import Unit
 
 if TYPE_CHECKING:
@@ -147,7 +147,7 @@ def _meets(held: object, text: str) -> bool:
         return held == text
     if not text:
         return held is None
-    return isinstance(held, Entry) and held.value == float(text)
+    return isinstance(held, Number) and held.value == float(text)
 
 
 def _on_list(session: Session) -> str:
@@ -216,7 +216,7 @@ def _difference(session: Session, step: Step) -> str:
         return ""
     label = field_of(Form.LINE if step.segment else Form.START, step.name).label.rstrip(".")
     match getattr(held, step.name):
-        case Entry(value):
+        case Number(value):
             return f", its {label} is {value:g} instead of {step.text or 'blank'}"
         case CutterComp() as side:
             return f", its {label} is {side} instead of {step.text}"

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from typing import Final
 
 from core.finding import Finding, Severity
-from core.program.fields import Form, check, default, field_of
-from core.program.model import Block, CutterComp, Entry, Program, Typed, Unread
+from core.program.fields import Form, check, default_value, field_of
+from core.program.model import Block, CutterComp, Number, Program, Typed, Unread
 from core.program.solve.solved import SolvedBlock
 from core.tolerance import JOINED, LAST_PASS, ON_PATH
 from core.units import Kind, from_mm, show, to_mm
@@ -41,7 +41,7 @@ def _z_ends(solved: SolvedBlock) -> Iterator[Finding]:
     top, bottom = solved.z_start, solved.z_bottom
     for segment in solved.segments:
         height = segment.z_end
-        if bottom - JOINED <= height <= top + JOINED or not isinstance(segment.values.get("z_end"), Entry):
+        if bottom - JOINED <= height <= top + JOINED or not isinstance(segment.values.get("z_end"), Number):
             continue
         if height > top + JOINED:
             text = "Z END {value} is above Z START {0}; rapids would hit it. Enter {1} to {0}."
@@ -90,7 +90,7 @@ def _allowances_without_finish_tool(block: Block, program: Program) -> Iterator[
         return
     for name in ("finish_xy", "finish_z"):
         typed = getattr(program.parameters, name)
-        if not isinstance(typed, Entry) or typed.value <= 0.0:
+        if not isinstance(typed, Number) or typed.value <= 0.0:
             continue
         label = field_of(Form.PARAMETERS, name).label
         text = f"{label} {{value}} has no effect: FINISH TOOL is 0. Enter FINISH TOOL on START, or 0 in {label} "
@@ -168,8 +168,8 @@ def _parameter(name: str, program: Program) -> float | None:
 def _length(typed: Typed, form: Form, name: str, program: Program) -> float | None:
     """A length or its default in millimeters; None for one that is refused."""
     if typed is None:
-        usual = default(name, program.unit)
+        usual = default_value(name, program.unit)
         return None if usual is None else to_mm(usual, program.unit)
-    if not isinstance(typed, Entry) or check(field_of(form, name), typed.value, program.unit):
+    if not isinstance(typed, Number) or check(field_of(form, name), typed.value, program.unit):
         return None
     return to_mm(typed.value, program.unit)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.controls.contours_and_leads import contour_of
-from core.controls.control_run import Run, Stretch
+from core.controls.control_run import ControlRun, Stretch
 from core.controls.judged_runs import surface_of
 from core.geometry.distance import distance
 from core.geometry.path import Path
@@ -47,7 +47,7 @@ class ContourPair:
         return self.first is None and self.second is None and self.same_side
 
 
-def contours(first: Run, second: Run) -> tuple[ContourPair, ...]:
+def contours(first: ControlRun, second: ControlRun) -> tuple[ContourPair, ...]:
     """The compensated stretches of two runs in pairs, without their leads."""
     pairs = zip(first.stretches, second.stretches, strict=False)
     return tuple(_pair(number, *pair) for number, pair in enumerate(pairs, 1))

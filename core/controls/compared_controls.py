@@ -8,13 +8,13 @@ from typing import Final
 import numpy as np
 
 from core.controls.compared_contours import Parting, apart
-from core.controls.control_run import Run, Stretch
+from core.controls.contour_translation import run_by_contour
+from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
-from core.controls.judged_runs import Judged, deepest_gouge, judged
+from core.controls.judged_runs import Judged, deepest_gouge, judge_run
 from core.controls.moves import Floats, Moves
-from core.controls.registry import UnknownControl, compared, programmed, reads, run
-from core.controls.translated_contours import run_by_contour
-from core.controls.write.programmed_stretch import NotTranslated
+from core.controls.registry import UnknownControl, compared, reads, run, run_with_tiny_tool
+from core.controls.write.rewritten_stretch import NotTranslated
 from core.geometry.path import EMPTY, Path
 from core.units import Unit
 
@@ -37,7 +37,7 @@ class Compared:
     """
 
     control: str
-    run: Run
+    run: ControlRun
     results: tuple[Judged, ...]
     gouge: float
     parts: Parting | None
@@ -59,7 +59,7 @@ def compare(text: bytes, tools: ToolTable, unit: Unit | None = None) -> tuple[Co
     A control of another language gets the contour as the first control that runs the program to its end reads it, or
     as one that stops for the tool's radius would with a thinner tool.
     """
-    first: Run | None = None
+    first: ControlRun | None = None
     rows: list[Compared | OtherLanguage] = []
     for control in compared():
         if not reads(control, text):
@@ -72,19 +72,19 @@ def compare(text: bytes, tools: ToolTable, unit: Unit | None = None) -> tuple[Co
         rows.append(_row(done, parts, of="" if first is None else first.control))
         if first is None and done.stopped_at is None:
             first = done
-    whole = first or next(filter(None, (programmed(text, row.control, tools) for row in rows)), None)
+    whole = first or next(filter(None, (run_with_tiny_tool(text, row.control, tools) for row in rows)), None)
     return tuple(
         _by_contour(row.control, whole, paths=first is not None) if isinstance(row, OtherLanguage) else row
         for row in rows
     )
 
 
-def _row(done: Run, parts: Parting | None, *, by: str = "", of: str = "") -> Compared:
-    results = judged(done)
+def _row(done: ControlRun, parts: Parting | None, *, by: str = "", of: str = "") -> Compared:
+    results = judge_run(done)
     return Compared(done.control, done, results, deepest_gouge(results)[0], parts, by, of)
 
 
-def _by_contour(control: str, first: Run | None, *, paths: bool) -> Compared | OtherLanguage:
+def _by_contour(control: str, first: ControlRun | None, *, paths: bool) -> Compared | OtherLanguage:
     """The contours of the first run on a control of another language; `paths`: where the paths part too."""
     if first is None:
         return OtherLanguage(control, "no control that reads this program can run it to the end")
@@ -96,7 +96,7 @@ def _by_contour(control: str, first: Run | None, *, paths: bool) -> Compared | O
     return _row(done, parts, by=first.control, of=first.control)
 
 
-def _centers_part(first: Run, other: Run, tolerance: float) -> Parting | None:
+def _centers_part(first: ControlRun, other: ControlRun, tolerance: float) -> Parting | None:
     """Where the paths along the contours of two runs part, leads left out; the other one may have stopped early."""
     for ours, theirs in zip(first.stretches, other.stretches, strict=False):
         lines = set(theirs.programmed.lines.tolist())
@@ -109,7 +109,7 @@ def _centers_part(first: Run, other: Run, tolerance: float) -> Parting | None:
     return None
 
 
-def _along(done: Run, stretch: Stretch, lines: set[int]) -> Path:
+def _along(done: ControlRun, stretch: Stretch, lines: set[int]) -> Path:
     """A stretch's path from the first to the last piece that belongs to a line of the contour."""
     path = done.moves.part(stretch.first, stretch.last).path(stretch.plane)
     rows = [row for row, line in enumerate(path.numbers.tolist()) if line and int(line) in lines]

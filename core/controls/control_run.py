@@ -1,4 +1,4 @@
-"""Control run: what running a program on a control gives, the moves up to its end or its alarm and the findings."""
+"""Control run: the moves, compensated stretches and findings of a program on a control, up to its end or an alarm."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class Stretch:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Run:
+class ControlRun:
     """A program on a control.
 
     `unit` is the program's; everything else is millimeters.  `stopped_at` is the line at which the control would

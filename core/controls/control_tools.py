@@ -40,11 +40,6 @@ class ToolTable:
         """A table of these tools; a later one of the same number replaces an earlier one."""
         return ToolTable({tool.number: tool for tool in tools})
 
-    @staticmethod
-    def diameters(diameters: Mapping[int, float], unit: Unit | None = None) -> ToolTable:
-        """A table of end mills of these diameters."""
-        return ToolTable.of(*(CutterTool(number, diameter, unit=unit) for number, diameter in diameters.items()))
-
     def get(self, number: int) -> CutterTool | None:
         """The tool of a number, None where the table has none."""
         return self.tools.get(number)

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from core.controls.contours_and_leads import MAX_LEAD_MOVES, Rows, contours_of, open_contours
-from core.controls.control_run import Run, Stretch
+from core.controls.control_run import ControlRun, Stretch
 from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
@@ -68,7 +68,7 @@ class Judged:
     uneven: UnevenArc | None = None
 
 
-def judged(run: Run) -> tuple[Judged, ...]:
+def judge_run(run: ControlRun) -> tuple[Judged, ...]:
     """The verdict on every compensated stretch of a run, in its own plane; paths are numbered by lines.
 
     There is none on a run that was given up as endless: it says so itself, and the same moves a thousand times over
@@ -85,7 +85,7 @@ def surface_of(stretch: Stretch) -> Path:
     return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
 
 
-def _judge_stretch(run: Run, stretch: Stretch) -> list[Judged]:
+def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
     """The verdicts on a stretch; where its side or radius changes, on each part with those that are in force there.
 
     A part may also cut the surface of another one: that counts where the tool runs on one side of all of them; where
@@ -122,7 +122,7 @@ def _with_unjudged(results: list[Judged], unjudged: Sequence[Judged]) -> list[Ju
 
 
 def _with_other_parts(
-    run: Run, result: Judged, whole: Path, contours: tuple[Rows, ...], rows: Rows
+    run: ControlRun, result: Judged, whole: Path, contours: tuple[Rows, ...], rows: Rows
 ) -> tuple[Judged, list[Judged]]:
     """With what is cut of all contours outside the part's rows, and those of them that cannot be judged.
 
@@ -158,7 +158,7 @@ def _numbered(verdict: Verdict, surface: Path) -> Verdict:
     return replace(verdict, uneven_arc=replace(arc, number=float(surface.numbers[int(arc.number)])))
 
 
-def _judge_part(run: Run, stretch: Stretch, whole: Path, contours: Sequence[Rows]) -> list[Judged]:
+def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequence[Rows]) -> list[Judged]:
     """The verdict on each contour among moves of one side and radius; the first of them has the leads."""
     center = without_repeats(run.moves.part(stretch.first, stretch.last).path(stretch.plane))
     accepted = _accepted_difference(run, whole, center)
@@ -190,7 +190,7 @@ def _judge_contour(stretch: Stretch, contour: Path, center: Path, accepted: floa
     return Judged(stretch, surface, center, verdict, lines)
 
 
-def _accepted_difference(run: Run, *paths: Path) -> float:
+def _accepted_difference(run: ControlRun, *paths: Path) -> float:
     """Millimeters by which the control that made this run lets the radii of an arc of this size differ."""
     radii = [float(path.radii[path.turns != 0].max(initial=0.0)) for path in paths]
     return max(ARC_RADII, arc_radii(run.control).largest_difference(max(radii), run.unit) + GOUGE)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.control_run import Run
+from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import ArcRadii
 from core.controls.iso.dialect import Dialect
@@ -43,7 +43,7 @@ class UnknownControl:
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class RegisteredControl:
     """One control: its dialect (None for Klartext) and what makes each of its variants, the default first."""
 
     dialect: Dialect | None
@@ -52,13 +52,13 @@ class Entry:
     """The variants a comparison shows."""
 
 
-CONTROLS: Final[Mapping[str, Entry]] = MappingProxyType(
+CONTROLS: Final[Mapping[str, RegisteredControl]] = MappingProxyType(
     {
-        "threeblock": Entry(threeblock.DIALECT, {"": threeblock.ThreeBlock}),
-        "rosettacnc": Entry(rosettacnc.DIALECT, rosettacnc.VARIANTS, tuple(rosettacnc.VARIANTS)),
-        "nine-series": Entry(nine_series.DIALECT, nine_series.VARIANTS, ("a", "b")),
-        "klartext": Entry(None, {"": None}),
-        "linuxcnc": Entry(linuxcnc.DIALECT, {"": linuxcnc.LinuxCnc}),
+        "threeblock": RegisteredControl(threeblock.DIALECT, {"": threeblock.ThreeBlock}),
+        "rosettacnc": RegisteredControl(rosettacnc.DIALECT, rosettacnc.VARIANTS, tuple(rosettacnc.VARIANTS)),
+        "nine-series": RegisteredControl(nine_series.DIALECT, nine_series.VARIANTS, ("a", "b")),
+        "klartext": RegisteredControl(None, {"": None}),
+        "linuxcnc": RegisteredControl(linuxcnc.DIALECT, {"": linuxcnc.LinuxCnc}),
     }
 )
 """The controls, in the order a comparison shows them."""
@@ -107,7 +107,9 @@ def resolve(control: str) -> str | UnknownControl:
     return _joined(name, variant or next(iter(entry.variants)))
 
 
-def run(text: bytes, control: str, tools: ToolTable = NO_TOOLS, unit: Unit | None = None) -> Run | UnknownControl:
+def run(
+    text: bytes, control: str, tools: ToolTable = NO_TOOLS, unit: Unit | None = None
+) -> ControlRun | UnknownControl:
     """A program's text on a control, by the control's full or short name; never raises for any text.
 
     `unit` counts where the text names none, None for the one in which the control usually starts.
@@ -125,7 +127,7 @@ def run(text: bytes, control: str, tools: ToolTable = NO_TOOLS, unit: Unit | Non
     return made if text.strip(_BLANKS) else replace(made, findings=(_EMPTY,))
 
 
-def programmed(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -> Run | None:
+def run_with_tiny_tool(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -> ControlRun | None:
     """The run of a Klartext program that stops, with next to no radius, so that its stretches are the whole contour.
 
     None for another control, or where even that stops.

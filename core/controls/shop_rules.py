@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.control_run import Run, Stretch
+from core.controls.control_run import ControlRun, Stretch
 from core.controls.moves import Floats, Moves
 from core.finding import Finding, Severity
 from core.geometry.distance import distance
@@ -43,7 +43,7 @@ class Leg:
         return bool(abs(run @ direction) <= SQUARE * np.hypot(*run))
 
 
-def check(run: Run) -> tuple[Finding, ...]:
+def check(run: ControlRun) -> tuple[Finding, ...]:
     """Where a run breaks the shop rules H1 to H9, by line."""
     findings = [finding for stretch in run.stretches for finding in _stretch(run.moves, stretch)]
     return tuple(sorted(findings, key=lambda finding: (finding.line or 0, finding.code)))

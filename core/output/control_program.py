@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from typing import Final
 
 from core.controls.registry import is_klartext
+from core.controls.write.contour_pass import CompensatedPass, PassToWrite
 from core.controls.write.iso_program import Frame, offsets
 from core.controls.write.iso_style import STYLES, Radius
-from core.controls.write.programmed_contour import Cut, Plain
 from core.controls.write.written_program import NotWritten, write_program
 from core.finding import Finding, Severity
 from core.output.grid import Grid, length_text
@@ -37,7 +37,13 @@ def control_program_errors(jobs: Sequence[Job], unit: Unit) -> tuple[Finding, ..
 
 
 def control_program(
-    jobs: Sequence[Job], cuts: Sequence[Cut | Plain], unit: Unit, *, name: str, control: str, part: str = ""
+    jobs: Sequence[Job],
+    cuts: Sequence[PassToWrite],
+    unit: Unit,
+    *,
+    name: str,
+    control: str,
+    part: str = "",
 ) -> Posted | Refusal:
     """The program of a control by its full name, or why there is none; `cuts` are those of the jobs, in order.
 
@@ -76,10 +82,14 @@ def _no_work_offset(jobs: Sequence[Job], control: str) -> tuple[Finding, ...]:
 
 
 def _header(
-    jobs: Sequence[Job], cuts: Sequence[Cut | Plain], unit: Unit, control: str, notes: Sequence[Finding]
+    jobs: Sequence[Job],
+    cuts: Sequence[PassToWrite],
+    unit: Unit,
+    control: str,
+    notes: Sequence[Finding],
 ) -> Iterator[str]:
     """The sentences of the header below its titles."""
-    compensates = any(isinstance(cut, Cut) for cut in cuts)
+    compensates = any(isinstance(cut, CompensatedPass) for cut in cuts)
     compensation = "THE CONTROL COMPENSATES" if compensates else "NOTHING IS COMPENSATED"
     yield f"WRITTEN BY CUTCOMP FOR {control}: THE CONTOUR AS TYPED, {compensation}"
     yield f"UNITS {'INCH' if unit is Unit.IN else 'MM'}"
@@ -94,12 +104,12 @@ def _header(
         yield f"NOTE {note.code} {where}{sentence(note, unit)}"
 
 
-def _offsets(cuts: Sequence[Cut | Plain], unit: Unit, control: str) -> Iterator[str]:
+def _offsets(cuts: Sequence[PassToWrite], unit: Unit, control: str) -> Iterator[str]:
     """The offsets an operator must enter."""
     style = STYLES.get(control)
     if style is None or style.radius is not Radius.OFFSET:
         return
-    sizes = {(cut.tool, cut.stock): cut.diameter / 2 + cut.stock for cut in cuts if isinstance(cut, Cut)}
+    sizes = {(cut.tool, cut.stock): cut.diameter / 2 + cut.stock for cut in cuts if isinstance(cut, CompensatedPass)}
     numbers = offsets(cuts, style)
     for (tool, stock), size in sizes.items():
         leaves = f", LEAVES {length_text(stock, unit)}" if stock else ""

@@ -10,7 +10,7 @@ import numpy as np
 
 from core.finding import Finding, Severity
 from core.output.grid import Grid, feed_text
-from core.output.passes import Job, Run, rough_runs
+from core.output.passes import CenterPath, Job, rough_runs
 from core.tolerance import JOINED, LARGEST
 
 OVERRIDE: Final = "POST WITH GOUGE"
@@ -120,7 +120,7 @@ def _paths(job: Job, grid: Grid) -> Iterator[_Check]:
     yield bool(unfed), "FEED", text, "feed"
 
 
-def _reachable(run: Run) -> bool:
+def _reachable(run: CenterPath) -> bool:
     arrays = [array for part in (run.lead_in, run.path, run.lead_out) for array in (part.points, part.centers)]
     # a comparison with NaN is false
     return all(bool((np.abs(array) <= LARGEST).all()) for array in arrays)

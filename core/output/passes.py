@@ -46,7 +46,7 @@ class Cutter:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Run:
+class CenterPath:
     """One center path with its blend moves, joined end to start; `offset` is the stock it leaves on the side (mm)."""
 
     path: Path
@@ -99,8 +99,8 @@ class Job:
     finisher: Cutter | None
     surface: Path
     floors: tuple[Floor, ...]
-    finish: tuple[Run, ...]
-    rough: tuple[Run, ...]
+    finish: tuple[CenterPath, ...]
+    rough: tuple[CenterPath, ...]
     z_start: float
     z_bottom: float
     peck_depth: float
@@ -175,7 +175,7 @@ def level_floor(job: Job) -> bool:
     return all(max(low, high) <= job.z_bottom + JOINED for low, high, _ in job.levels)
 
 
-def heights(job: Job, run: Run) -> Floats:
+def heights(job: Job, run: CenterPath) -> Floats:
     """(n, 2) height of the floor under both ends of each piece of `run.whole`.
 
     The blend-in lies as high as the path's first point, the blend-out as its last; an overlap past the start is lifted
@@ -275,7 +275,7 @@ class _Stage:
     """What one tool does: `runs` at each depth of `levels`, leaving `floor_stock` on the floor."""
 
     cutter: Cutter
-    runs: tuple[Run, ...]
+    runs: tuple[CenterPath, ...]
     levels: tuple[float, ...]
     floor_stock: float
     finishing: bool
@@ -286,7 +286,7 @@ def passes(job: Job) -> tuple[Pass, ...]:
     return tuple(a_pass for stage in _stages(job) for a_pass in _cut(job, stage))
 
 
-def rough_runs(job: Job) -> tuple[Run, ...]:
+def rough_runs(job: Job) -> tuple[CenterPath, ...]:
     """What TOOL cuts: its own runs, and those at full size when no finish tool does.
 
     With CUTTER COMP. ON there is no stock on the side, and both tools run the contour itself.
@@ -317,7 +317,7 @@ def meets_solid(job: Job) -> frozenset[int]:
     return frozenset() if job.finisher is None else _segments(job.finish) - _segments(job.rough[-1:])
 
 
-def _segments(runs: Sequence[Run]) -> frozenset[int]:
+def _segments(runs: Sequence[CenterPath]) -> frozenset[int]:
     return frozenset(int(number) for run in runs for number in run.path.numbers.tolist() if number == int(number))
 
 
@@ -351,7 +351,7 @@ def _cut(job: Job, stage: _Stage) -> Iterator[Pass]:
             )
 
 
-def _down(job: Job, run: Run, depth: float, before: float | None, height: float) -> Iterator[Motion]:
+def _down(job: Job, run: CenterPath, depth: float, before: float | None, height: float) -> Iterator[Motion]:
     """Rapid over the plunge point at `height`, down to the clearance, feed to `depth`; `before` was reached there."""
     assert run.plunge_point is not None
     x, y = run.plunge_point
@@ -362,7 +362,7 @@ def _down(job: Job, run: Run, depth: float, before: float | None, height: float)
     yield Motion(x, y, depth, job.plunge_feed)
 
 
-def _milled(job: Job, run: Run, floors: Floats, level: float) -> Iterator[Motion]:
+def _milled(job: Job, run: CenterPath, floors: Floats, level: float) -> Iterator[Motion]:
     """The run at `level`, held up where the floor is higher."""
     whole = run.whole
     feeds = _feeds(job, run)
@@ -374,7 +374,7 @@ def _milled(job: Job, run: Run, floors: Floats, level: float) -> Iterator[Motion
         z = max(high, level)
 
 
-def _feeds(job: Job, run: Run) -> list[float]:
+def _feeds(job: Job, run: CenterPath) -> list[float]:
     """Feed of each piece: its segment's; a blend move has that of the path's end it leads to or from."""
     by_number = {floor.number: floor.feed or 0.0 for floor in job.floors}
     path = [by_number[int(number)] for number in run.path.numbers.tolist()]

@@ -41,7 +41,7 @@ def _block(block: DerivedBlock, unit: Unit) -> Document:
 
 def _clearance(block: DerivedBlock, unit: Unit) -> float | None:
     """The smallest distance from the center path to the surface, blends included; None where there is none."""
-    verdict = None if block.work is None else block.work.verdict
+    verdict = None if block.paths is None else block.paths.verdict
     if verdict is None or not isfinite(verdict.clearance):
         return None
     return from_mm(verdict.clearance, unit)
@@ -49,7 +49,7 @@ def _clearance(block: DerivedBlock, unit: Unit) -> float | None:
 
 def _clearance_at(block: DerivedBlock, unit: Unit) -> Document | None:
     """The place of the smallest distance: the contour's segment and the point on it."""
-    place = nearest_place(block.work)
+    place = nearest_place(block.paths)
     if place is None:
         return None
     x, y = place.surface_at
@@ -57,9 +57,9 @@ def _clearance_at(block: DerivedBlock, unit: Unit) -> Document | None:
 
 
 def _block_moves(block: DerivedBlock, unit: Unit) -> Iterator[Document]:
-    if block.work is None:
+    if block.paths is None:
         return
-    for loop in block.work.loops:
+    for loop in block.paths.loops:
         yield from _moves(loop.lead_in, "blend-in", unit)
         yield from _moves(loop.path, "path", unit)
         yield from _moves(loop.lead_out, "blend-out", unit)
@@ -80,7 +80,7 @@ def _moves(path: Path, part: str, unit: Unit) -> Iterator[Document]:
 
 
 def _deleted(block: DerivedBlock, unit: Unit) -> list[Document]:
-    if block.work is None or block.work.compensated is None or block.work.best is not None:
+    if block.paths is None or block.paths.compensated is None or block.paths.best is not None:
         return []
     return [
         {
@@ -89,7 +89,7 @@ def _deleted(block: DerivedBlock, unit: Unit) -> list[Document]:
             "x": from_mm(deletion.at[0], unit),
             "y": from_mm(deletion.at[1], unit),
         }
-        for deletion in block.work.compensated.deleted
+        for deletion in block.paths.compensated.deleted
     ]
 
 
@@ -154,12 +154,12 @@ def path_listing(derived: Derived, number: int | None = None) -> Iterator[str]:
 
 def verdict_listing(block: DerivedBlock, unit: Unit) -> Iterator[str]:
     """What the cutter does to the surface: the least distance and its place, and every stretch that is not reached."""
-    place = nearest_place(block.work)
+    place = nearest_place(block.paths)
     if place is not None and block.radius is not None:
         distance, radius = (_length(from_mm(value, unit), unit) for value in (place.distance, block.radius))
         at = _place(place.surface_at, place.surface_number, unit)
         yield f"  NEAREST {distance}  TOOL RADIUS {radius}  at {at}"
-    verdict = None if block.work is None else block.work.verdict
+    verdict = None if block.paths is None else block.paths.verdict
     if verdict is None or not verdict.judged:
         return
     left, whole = (_length(from_mm(value, unit), unit) for value in (verdict.uncut_length, verdict.surface_length))

@@ -59,7 +59,7 @@ def with_better_paths(derived: Derived) -> Derived:
 
 def better_path(block: DerivedBlock) -> tuple[Finding, ...]:
     """How far the control's path is from the best one, where the control's path is the one that is posted."""
-    work = block.work
+    work = block.paths
     if work is None or work.compensated is None or work.best is not None or block.side is None:
         return ()
     best = best_path(work.surface, block.side, work.compensated.radius, closed=block.solved.closed)
@@ -145,7 +145,7 @@ def _with_findings(block: DerivedBlock, work: BlockPaths, program: Program) -> D
     if block.solved.whole:
         trouble += open_finding(work.surface, 2 * block.radius, closed=closed)
     findings = by_severity((*back, *block.findings, *trouble))
-    block = replace(block, work=work, known=True, findings=findings)
+    block = replace(block, paths=work, known=True, findings=findings)
     due = job(block, program)
     further = (*dict.fromkeys(job_errors(due, Grid(program.unit))), *z_step_findings(z_steps(due)))
     return replace(block, findings=by_severity((*findings, *further)))
@@ -159,10 +159,10 @@ def look_ahead_table(block: DerivedBlock, program: Program) -> Table | None:
 
 def trial_of(block: DerivedBlock, program: Program) -> Trial | None:
     """What a derived block cuts; None for ON and while there is nothing to compensate."""
-    if block.work is None or block.side is None or block.radius is None:
+    if block.paths is None or block.side is None or block.radius is None:
         return None
     return Trial(
-        block.work.surface,
+        block.paths.surface,
         block.side,
         block.radius,
         block.solved.closed,

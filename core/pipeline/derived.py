@@ -33,7 +33,7 @@ class DerivedBlock:
     """One block with everything that follows from it.
 
     `radius` is the finish path's cutter radius in millimeters, None without a usable tool; `side` is None for ON.
-    `work` is None in an outline, and when there is no surface or no radius to work with; `known` distinguishes the two.
+    `paths` is None in an outline and without a surface or a radius to work with; `known` distinguishes the two.
     """
 
     number: int
@@ -43,14 +43,14 @@ class DerivedBlock:
     side: Side | None
     profile: bool
     radius: float | None
-    work: BlockPaths | None
+    paths: BlockPaths | None
     known: bool
     findings: tuple[Finding, ...]
 
     @property
     def postable(self) -> bool:
         """Nothing is unread, undetermined or gouged."""
-        return self.known and self.work is not None and not self.errors
+        return self.known and self.paths is not None and not self.errors
 
     @property
     def errors(self) -> tuple[Finding, ...]:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from core.geometry.path import EMPTY
-from core.output.passes import Cutter, Floor, Job, Run
+from core.output.passes import CenterPath, Cutter, Floor, Job
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.parameters import parameter, setup_value
-from core.program.model import Entry, Program, Typed
+from core.program.model import Number, Program, Typed
 from core.program.tools import find_tool
 from core.units import Kind, Unit, from_mm, show, to_mm
 
@@ -27,7 +27,7 @@ def job(block: DerivedBlock, program: Program) -> Job:
         comp=str(block.block.cutter_comp),
         cutter=_cutter(block.block.tool, solved.tool_diameter, program),
         finisher=_cutter(block.block.finish_tool, solved.finish_diameter, program) if finish_tool else None,
-        surface=block.work.surface if block.work else EMPTY,
+        surface=block.paths.surface if block.paths else EMPTY,
         floors=tuple(
             Floor(segment.number, segment.z_start, segment.z_end, segment.feed)
             for segment in solved.segments[: solved.determined]
@@ -53,7 +53,7 @@ def job(block: DerivedBlock, program: Program) -> Job:
 
 def _notes(block: DerivedBlock, unit: Unit) -> Iterator[str]:
     """What whoever runs the file should know of the part: segments that are not cut, and surface that stays."""
-    work = block.work
+    work = block.paths
     if work is None or work.compensated is None or work.verdict is None:
         return
     if work.best is not None:
@@ -71,21 +71,23 @@ def _notes(block: DerivedBlock, unit: Unit) -> Iterator[str]:
 
 
 def _whole(typed: Typed) -> int:
-    return int(typed.value) if isinstance(typed, Entry) else 0
+    return int(typed.value) if isinstance(typed, Number) else 0
 
 
 def _cutter(number: Typed, diameter: float | None, program: Program) -> Cutter | None:
-    if diameter is None or not isinstance(number, Entry):
+    if diameter is None or not isinstance(number, Number):
         return None
     tool = find_tool(program, number.value)
     return Cutter(int(number.value), diameter, "" if tool is None else tool.type)
 
 
-def _finish_runs(block: DerivedBlock) -> tuple[Run, ...]:
-    loops = () if block.work is None else block.work.loops
-    return tuple(Run(loop.path, loop.lead_in, loop.lead_out) for loop in loops)
+def _finish_runs(block: DerivedBlock) -> tuple[CenterPath, ...]:
+    loops = () if block.paths is None else block.paths.loops
+    return tuple(CenterPath(loop.path, loop.lead_in, loop.lead_out) for loop in loops)
 
 
-def _rough_runs(block: DerivedBlock) -> tuple[Run, ...]:
-    passes = () if block.work is None else block.work.rough
-    return tuple(Run(loop.path, loop.lead_in, loop.lead_out, rough.stock) for rough in passes for loop in rough.loops)
+def _rough_runs(block: DerivedBlock) -> tuple[CenterPath, ...]:
+    passes = () if block.paths is None else block.paths.rough
+    return tuple(
+        CenterPath(loop.path, loop.lead_in, loop.lead_out, rough.stock) for rough in passes for loop in rough.loops
+    )

@@ -9,7 +9,7 @@ from core.comp.lookahead import HIGHEST, LOWEST, calculated
 from core.finding import Finding
 from core.geometry.piece import Side
 from core.pipeline.derived import Derived, DerivedBlock, LookAhead, Tag
-from core.program.model import Block, CutterComp, Entry, Program
+from core.program.model import Block, CutterComp, Number, Program
 from core.program.solve.block import solve_block
 from core.program.solve.reading import shared_findings
 from core.program.solve.solved import SolvedBlock
@@ -44,7 +44,7 @@ def outline_block(program: Program, number: int) -> DerivedBlock:
         side=side,
         profile=block.cutter_comp in (CutterComp.PROFILE_LEFT, CutterComp.PROFILE_RIGHT),
         radius=None if diameter is None else diameter / 2,
-        work=None,
+        paths=None,
         known=False,
         findings=(
             *shared_findings(program),
@@ -60,7 +60,7 @@ def _look_ahead(block: Block, solved: SolvedBlock, findings: Iterable[Finding]) 
     empty = sum(finding.code == "ZERO_LENGTH" for finding in findings)
     value = calculated(len(solved.segments) - empty, closed=solved.closed)
     match block.lookahead:
-        case Entry(typed) if LOWEST <= typed <= HIGHEST:
+        case Number(typed) if LOWEST <= typed <= HIGHEST:
             return LookAhead(int(typed), Tag.USR, value)
         case _:
             return LookAhead(value, Tag.CAL, value)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Final
 
 from core.pipeline.derived import DerivedBlock
-from core.program.fields import default
-from core.program.model import Entry, Program
+from core.program.fields import default_value
+from core.program.model import Number, Program
 from core.units import to_mm
 
 MAX_SIDE_PASSES: Final = 1000
@@ -16,7 +16,7 @@ MAX_SIDE_PASSES: Final = 1000
 def parameter(program: Program, name: str) -> float:
     """A program parameter as typed or its default; lengths in millimeters, a percentage as it is."""
     typed = getattr(program.parameters, name)
-    value = typed.value if isinstance(typed, Entry) else default(name, program.unit)
+    value = typed.value if isinstance(typed, Number) else default_value(name, program.unit)
     if value is None:
         return 0.0
     return value if name == "pocket_overlap" else to_mm(value, program.unit)
@@ -25,7 +25,7 @@ def parameter(program: Program, name: str) -> float:
 def setup_value(program: Program, name: str) -> float:
     """A number of PART SETUP as typed or its default, in program units."""
     typed = getattr(program.setup, name)
-    value = typed.value if isinstance(typed, Entry) else default(name, program.unit)
+    value = typed.value if isinstance(typed, Number) else default_value(name, program.unit)
     assert value is not None
     return value
 

@@ -30,7 +30,7 @@ def svg_of(derived: Derived, *, title: str) -> str:
 
 def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row | None = None) -> Scene:
     """The block with the cursor on `segment` (0 is START, None nowhere), or with the path of a row of the table."""
-    work, solved = block.work, block.solved
+    work, solved = block.paths, block.solved
     loops, control, verdict = (
         ((), None, None) if work is None else (work.loops, _posted_control_path(work), work.verdict)
     )
@@ -83,8 +83,8 @@ def _dashed_paths(work: BlockPaths | None) -> list[Path]:
 
 
 def _surface(block: DerivedBlock) -> Path:
-    if block.work is not None:
-        return block.work.surface
+    if block.paths is not None:
+        return block.paths.surface
     pieces = block.solved.pieces
     return Path.from_pieces([piece for _, piece in pieces], [float(number) for number, _ in pieces])
 
@@ -131,7 +131,7 @@ class Place(NamedTuple):
 
 def cutter_place(block: DerivedBlock, segment: int) -> Place | None:
     """Where the cutter is drawn for a segment of the block's own path; None where no path belongs to the segment."""
-    work = block.work
+    work = block.paths
     return None if work is None else _place(work.loops, _posted_control_path(work), segment)
 
 

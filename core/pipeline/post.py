@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import pi
 
 from core.comp.result import Compensated
-from core.controls.write.programmed_contour import Cut, Plain, Travel
+from core.controls.write.contour_pass import CenterMove, CompensatedPass, PassToWrite, UncompensatedPass
 from core.finding import Finding, Severity
 from core.geometry.construct import rotated
 from core.geometry.piece import Arc
@@ -44,17 +44,17 @@ def _best_path_refused(derived: Derived) -> tuple[Finding, ...]:
     return (Finding("NOTWRITTEN", Severity.ERROR, text, field="path"),)
 
 
-def _cuts(block: DerivedBlock, job: Job) -> list[Cut | Plain]:
+def _cuts(block: DerivedBlock, job: Job) -> list[PassToWrite]:
     if job.comp == "ON":
         return [_uncompensated(a_pass, job) for a_pass in passes(job)]
     feeds = {floor.number: floor.feed or 0.0 for floor in job.floors}
     return [_cut(a_pass, _compensated(block, job, a_pass), feeds, job) for a_pass in passes(job)]
 
 
-def _uncompensated(a_pass: Pass, job: Job) -> Plain:
+def _uncompensated(a_pass: Pass, job: Job) -> UncompensatedPass:
     """A pass with nothing to compensate: the tool's center runs on the contour."""
     heights = [motion.z for motion in a_pass.motions]
-    return Plain(
+    return UncompensatedPass(
         travels=tuple(_travels(a_pass.motions)),
         tool=a_pass.cutter.number,
         diameter=a_pass.cutter.diameter,
@@ -69,7 +69,7 @@ def _uncompensated(a_pass: Pass, job: Job) -> Plain:
     )
 
 
-def _travels(motions: Sequence[Motion]) -> Iterator[Travel]:
+def _travels(motions: Sequence[Motion]) -> Iterator[CenterMove]:
     """The moves; an arc that ends next to its start is a line, or two halves, which no control takes for a full circle.
 
     The digits of most controls cannot tell such an end from the start.
@@ -83,14 +83,14 @@ def _travels(motions: Sequence[Motion]) -> Iterator[Travel]:
             if abs(sweep) < pi:
                 turn = 0
             else:
-                yield Travel(*rotated(start, center, sweep / 2), z, motion.feed, turn, center)
-        yield Travel(*end, motion.z, motion.feed, turn, center)
+                yield CenterMove(*rotated(start, center, sweep / 2), z, motion.feed, turn, center)
+        yield CenterMove(*end, motion.z, motion.feed, turn, center)
         before = motion
 
 
 def _compensated(block: DerivedBlock, job: Job, a_pass: Pass) -> Compensated:
     """The compensated run that a pass goes along."""
-    work = block.work
+    work = block.paths
     assert work is not None
     assert work.compensated is not None
     if a_pass.finishing or (job.finisher is None and a_pass.stock == 0.0):
@@ -98,9 +98,9 @@ def _compensated(block: DerivedBlock, job: Job, a_pass: Pass) -> Compensated:
     return next(rough.compensated for rough in work.rough if rough.stock == a_pass.stock)
 
 
-def _cut(a_pass: Pass, run: Compensated, feeds: dict[int, float], job: Job) -> Cut:
+def _cut(a_pass: Pass, run: Compensated, feeds: dict[int, float], job: Job) -> CompensatedPass:
     first_feed = next(index for index, motion in enumerate(a_pass.motions) if not motion.rapid)
-    return Cut(
+    return CompensatedPass(
         compensated=run,
         tool=a_pass.cutter.number,
         diameter=a_pass.cutter.diameter,

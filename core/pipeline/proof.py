@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from core.controls.control_run import Run, Stretch
+from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
-from core.controls.judged_runs import Judged, judged
+from core.controls.judged_runs import Judged, judge_run
 from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, contour_scene, joined_scenes
@@ -24,7 +24,7 @@ from core.units import Unit
 class Proof:
     """A run and the verdicts on its compensated stretches; none of them while they are not worked out."""
 
-    run: Run
+    run: ControlRun
     results: tuple[Judged, ...]
 
     @property
@@ -41,13 +41,7 @@ def run_program(text: bytes, control: str, tools: ToolTable, unit: Unit | None =
 
 def with_verdicts(proof: Proof) -> Proof:
     """The same with its verdicts."""
-    return Proof(proof.run, judged(proof.run))
-
-
-def prove(text: bytes, control: str, tools: ToolTable, unit: Unit | None = None) -> Proof | UnknownControl:
-    """The program on a control; never raises for any text."""
-    proof = run_program(text, control, tools, unit)
-    return proof if isinstance(proof, UnknownControl) else with_verdicts(proof)
+    return Proof(proof.run, judge_run(proof.run))
 
 
 def fixed_scene(proof: Proof) -> Scene:

@@ -21,7 +21,7 @@ from core.program.fields import (
     Form,
     check,
     check_text,
-    default,
+    default_value,
     field_of,
     form_of,
     range_of,
@@ -33,8 +33,8 @@ from core.program.model import (
     Block,
     CutterComp,
     Direction,
-    Entry,
     LineSegment,
+    Number,
     Part,
     PathChoice,
     Program,
@@ -132,14 +132,14 @@ def recalculate_lookahead(program: Program, block: int) -> Edited:
 
 def new_block(program: Program) -> Block:
     """A block as the form offers it: the last block's tool (or 1), usual feeds, its place still blank."""
-    zero = Entry(0.0)
+    zero = Number(0.0)
     feed = 20.0 if program.unit is Unit.IN else 500.0
     return Block(
-        tool=program.blocks[-1].tool if program.blocks else Entry(1.0),
+        tool=program.blocks[-1].tool if program.blocks else Number(1.0),
         finish_tool=zero,
         z_start=zero,
-        plunge_feed=Entry(feed),
-        speed=Entry(300.0),
+        plunge_feed=Number(feed),
+        speed=Number(300.0),
         peck_depth=zero,
     )
 
@@ -178,7 +178,7 @@ def delete_block(program: Program, at: int) -> Edited:
 
 def set_tool(program: Program, tool: Tool) -> Edited:
     """Put a line into the tool table, in place of the one of that number; the table stays in order of numbers."""
-    fits = _misfit(field_of(Form.TOOL, "number"), Entry(tool.number), program.unit)
+    fits = _misfit(field_of(Form.TOOL, "number"), Number(tool.number), program.unit)
     if refusal := fits or _misfit(field_of(Form.TOOL, "diameter"), tool.diameter, program.unit):
         return refusal
     others = (other for other in program.tools if other.number != tool.number)
@@ -247,15 +247,15 @@ def set_unit(program: Program, unit: Unit) -> Program:
 def _converted_defaults(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Part:
     """A copy converted, its blanks written out first and its usual values blank again."""
     there = _converted(_defaults_typed(part, table, old), table, old, new)
-    usual = ((field.name, default(field.name, new)) for field in table if field.kind is Kind.LENGTH)
-    return changed(there, {name: None for name, value in usual if value and getattr(there, name) == Entry(value)})
+    usual = ((field.name, default_value(field.name, new)) for field in table if field.kind is Kind.LENGTH)
+    return changed(there, {name: None for name, value in usual if value and getattr(there, name) == Number(value)})
 
 
 def _defaults_typed(part: Part, table: tuple[Field, ...], unit: Unit) -> Part:
     """A copy whose blank lengths hold the unit's usual values, but for those that are 0 in every unit."""
     blank = (field.name for field in table if field.kind is Kind.LENGTH and getattr(part, field.name) is None)
-    usual = ((name, default(name, unit)) for name in blank)
-    return changed(part, {name: Entry(value) for name, value in usual if value})
+    usual = ((name, default_value(name, unit)) for name in blank)
+    return changed(part, {name: Number(value) for name, value in usual if value})
 
 
 def _converted_block(block: Block, old: Unit, new: Unit) -> Block:
@@ -266,7 +266,7 @@ def _converted_block(block: Block, old: Unit, new: Unit) -> Block:
 def _converted(part: Part, table: tuple[Field, ...], old: Unit, new: Unit) -> Part:
     """A copy with the lengths and feeds converted; text stays, and what is against it is said in the new unit."""
     typed = [(field, getattr(part, field.name)) for field in table if field.kind in (Kind.LENGTH, Kind.FEED)]
-    entries = {field.name: Entry(convert(held.value, old, new)) for field, held in typed if isinstance(held, Entry)}
+    entries = {field.name: Number(convert(held.value, old, new)) for field, held in typed if isinstance(held, Number)}
     texts = {
         field.name: Unread(held.text, unread_reason(held.text, field, new))
         for field, held in typed
@@ -299,7 +299,7 @@ def _misfit(field: Field, typed: Typed, unit: Unit) -> Refused | None:
     """Why a field does not take what was typed."""
     if field.kind is Kind.CHOICE:
         return _takes(field)
-    text = check(field, typed.value, unit) if isinstance(typed, Entry) else None
+    text = check(field, typed.value, unit) if isinstance(typed, Number) else None
     return None if text is None else Refused(text)
 
 
@@ -308,7 +308,7 @@ def _takes(field: Field) -> Refused:
 
 
 def _lookahead_misfit(block: Block, typed: Typed) -> Refused | None:
-    if isinstance(typed, Entry) or typed == block.lookahead:
+    if isinstance(typed, Number) or typed == block.lookahead:
         return None
     field = field_of(Form.START, "lookahead")
     unreadable = typed is not None and check_text(typed.text, field, Unit.MM) is None

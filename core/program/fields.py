@@ -18,8 +18,8 @@ from core.program.model import (
     BlendSegment,
     CutterComp,
     Direction,
-    Entry,
     LineSegment,
+    Number,
     PathChoice,
     Segment,
     Typed,
@@ -299,7 +299,7 @@ _DEFAULTS: Final[Mapping[str, tuple[float, float]]] = MappingProxyType(
 )
 
 
-def default(name: str, unit: Unit) -> float | None:
+def default_value(name: str, unit: Unit) -> float | None:
     """What a blank on PROGRAM PARAMETERS or PART SETUP stands for, in program units; None if it stands for nothing."""
     inch, millimeter = _DEFAULTS.get(name, (None, None))
     return inch if unit is Unit.IN else millimeter
@@ -317,7 +317,7 @@ def read_typed(text: str, field: Field, unit: Unit) -> Typed:
     if isinstance(value, Unreadable):
         return Unread(text, value.reason)
     refusal = check_text(text, field, unit)
-    return Entry(value) if refusal is None else Unread(text, refusal)
+    return Number(value) if refusal is None else Unread(text, refusal)
 
 
 def check_text(text: str, field: Field, unit: Unit) -> str | None:

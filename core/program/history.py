@@ -9,7 +9,7 @@ from typing import Generic, TypeVar
 
 from core.program.edit import set_unit
 from core.program.fields import TABLES, Form, form_of
-from core.program.model import Block, Entry, Parameters, PartSetup, Program, Segment, Tool, Unread
+from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Segment, Tool, Unread
 from core.units import Kind, Unit, printable, show
 
 
@@ -72,7 +72,7 @@ class History:
 
 Item = TypeVar("Item")
 
-Part = Block | Segment | Tool | Parameters | PartSetup
+Part = Block | Segment | Tool | ProgramParameters | PartSetup
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +124,7 @@ def _fields(where: str, form: Form, old: Part, new: Part, unit: Unit) -> Iterato
 
 def _text(value: object, kind: Kind, unit: Unit) -> str:
     match value:
-        case Entry(number):
+        case Number(number):
             return show(number, kind, unit)
         case Unread(text):
             return f"{printable(text)} (cannot be used)"

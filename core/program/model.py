@@ -15,7 +15,7 @@ from core.units import Unit
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class Number:
     """A number that was typed, in program units (degrees for an angle)."""
 
     value: float
@@ -29,7 +29,7 @@ class Unread:
     reason: str
 
 
-Typed = Entry | Unread | None
+Typed = Number | Unread | None
 
 
 class CutterComp(StrEnum):
@@ -126,7 +126,7 @@ class Tool:
 
 
 @dataclass(frozen=True, slots=True)
-class Parameters:
+class ProgramParameters:
     """PROGRAM PARAMETERS; a blank stands for the unit's default in `core.program.fields`."""
 
     blend_offset: Typed = None
@@ -154,13 +154,13 @@ class Program:
     """A whole program."""
 
     unit: Unit = Unit.IN
-    parameters: Parameters = field(default_factory=Parameters)
+    parameters: ProgramParameters = field(default_factory=ProgramParameters)
     setup: PartSetup = field(default_factory=PartSetup)
     tools: tuple[Tool, ...] = ()
     blocks: tuple[Block, ...] = ()
 
 
-Part = TypeVar("Part", bound=Block | LineSegment | ArcSegment | BlendSegment | Tool | Parameters | PartSetup)
+Part = TypeVar("Part", bound=Block | LineSegment | ArcSegment | BlendSegment | Tool | ProgramParameters | PartSetup)
 
 
 def changed(part: Part, values: Mapping[str, Any]) -> Part:

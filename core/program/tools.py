@@ -14,7 +14,7 @@ from typing import Final
 
 from core.finding import Finding, Severity
 from core.program.fields import TOOL, Form, check, check_text, field_of
-from core.program.model import Entry, Program, Tool, Typed
+from core.program.model import Number, Program, Tool, Typed
 from core.tolerance import LARGEST
 from core.units import Unit, convert, printable, to_mm
 
@@ -39,7 +39,7 @@ def called_tool(program: Program, typed: Typed, name: str, severity: Severity = 
     A blank and unreadable text call nothing and are reported elsewhere; 0 is no finish tool.
     `severity` weighs a diameter that cannot be used, which hurts less when the center runs on the contour.
     """
-    if not isinstance(typed, Entry) or (name == "finish_tool" and typed.value == 0.0):
+    if not isinstance(typed, Number) or (name == "finish_tool" and typed.value == 0.0):
         return CalledTool()
     tool = find_tool(program, typed.value)
     if tool is None:
@@ -48,7 +48,7 @@ def called_tool(program: Program, typed: Typed, name: str, severity: Severity = 
     trouble = _diameter_trouble(tool, program.unit)
     if trouble is not None:
         return CalledTool(tool.type, None, (Finding("TOOL_DIAMETER", severity, trouble, 0, name),))
-    assert isinstance(tool.diameter, Entry)
+    assert isinstance(tool.diameter, Number)
     return CalledTool(tool.type, to_mm(tool.diameter.value, program.unit))
 
 
@@ -58,9 +58,9 @@ def _diameter_trouble(tool: Tool, unit: Unit) -> str | None:
     missing = f"Tool {tool.number}: enter its diameter on TOOL SETUP"
     if diameter is None:
         return f"{missing}; it is blank."
-    if isinstance(diameter, Entry) and not (isfinite(diameter.value) and diameter.value > 0.0):
+    if isinstance(diameter, Number) and not (isfinite(diameter.value) and diameter.value > 0.0):
         return f"{missing}; it must be above 0, and it is {diameter.value:g}."
-    if isinstance(diameter, Entry):
+    if isinstance(diameter, Number):
         refusal = check(field, diameter.value, unit)
     elif (refusal := check_text(diameter.text, field, unit)) is None:
         return f"{missing}; {printable(diameter.text)} cannot be read."
@@ -214,6 +214,6 @@ def _twice(rows: Iterable[TableLine]) -> Iterator[Finding]:
 
 def _tool(row: TableLine, unit: Unit, program: Unit) -> Tool:
     value = row.words.get("D", 0.0)
-    size = Entry(convert(value, unit, program)) if value else None
+    size = Number(convert(value, unit, program)) if value else None
     kind = "".join(character for character in row.remark if character.isprintable())[:40].strip()
     return Tool(row.number, kind or Tool(row.number).type, size)

@@ -12,6 +12,7 @@ from app.painted.screens.proof import ProofPage
 from app.painted.session import Session
 from core.controls.control_tools import ToolTable
 from tests.app.operator import Operator
+from tests.tool_tables import end_mills
 
 DATA = Path(__file__).parents[1] / "data" / "nc"
 SQUARE = (DATA / "threeblock-square.nc").read_bytes()
@@ -26,7 +27,7 @@ class Prover(Operator):
     @staticmethod
     def of(data: bytes, control: str, file: Path | None = None, *, tool: float | None = 0.5) -> Prover:
         page = ProofPage.of(Listing.read(data), file, control=control, alone=True)
-        tools = ToolTable() if tool is None else ToolTable.diameters({1: tool})
+        tools = ToolTable() if tool is None else end_mills({1: tool})
         page = replace(page, asked=replace(page.asked, tools=tools))
         desk = replace(Desk(Session.of(empty_program())), pages=(page,))
         return Prover(desk).heard()

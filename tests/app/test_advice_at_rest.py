@@ -37,7 +37,7 @@ async def test_what_a_better_path_would_cut_is_found_out_at_rest_and_told_with_e
         assert FURTHER.text not in lines(app)
         await pilot.press("enter")
         assert FURTHER.text in lines(app)
-        assert [found.work for found in asked] == [app.shown.found.work]
+        assert [found.paths for found in asked] == [app.shown.found.paths]
 
 
 @pytest.mark.parametrize(
@@ -124,7 +124,7 @@ async def test_a_half_typed_number_that_leads_to_the_path_in_force_shows_its_not
         # of another depth the paths are the same
         await pilot.press(*["tab"] * 7, "-", ".", "3")
         assert app.trial is not None
-        assert app.shown.found.work is app.desk.session.found.work
+        assert app.shown.found.paths is app.desk.session.found.paths
         await until(pilot, lambda: FURTHER.text in lines(app))
 
 

@@ -15,7 +15,7 @@ from app.painted.screens.frame import Frame, picture
 from app.painted.widgets.painted import Rows
 from app.painted.widgets.rows import Row, text_of
 from core.pipeline.derived import Derived
-from core.program.model import Entry, Program
+from core.program.model import Number, Program
 from tests.app.operator import FROZEN
 from tests.app.pilots import app_on, loaded, rested, typed
 
@@ -37,7 +37,7 @@ async def test_the_seeds_own_screen_cal_usr_and_f3() -> None:
         await pilot.press(*["tab"] * 11)
         await typed(pilot, ["4"])
         assert "USR      4" in shown(app, "LOOKAHEAD")
-        assert app.desk.session.block.lookahead == Entry(4.0)
+        assert app.desk.session.block.lookahead == Number(4.0)
         assert shown(app, "DELETED").startswith(" DELETED 2-3  by 1 and 4 at X -0.2500 Y -0.2500")
         await pilot.press("f3")
         assert "CAL      2" in shown(app, "LOOKAHEAD")
@@ -98,7 +98,7 @@ async def test_what_was_tried_out_while_it_was_typed_is_not_derived_again(
         await pilot.press(*["tab"] * 11, "1", "enter", "tab")
         await rested(pilot)
         assert len(done) == 1
-        assert app.desk.session.block.lookahead == Entry(1.0)
+        assert app.desk.session.block.lookahead == Number(1.0)
         # a point behind a whole number, a digit taken back, undo, redo
         await pilot.press("up", "1", ".", "0", "backspace", "enter", "ctrl+z", "ctrl+y")
         await rested(pilot)
@@ -128,7 +128,7 @@ async def test_keys_that_come_at_once_are_painted_together(monkeypatch: pytest.M
         assert len(painted) == 1
         assert painted[0].split()[2] == "2.125"
         assert app.trial is not None
-        assert app.trial.block.x_start == Entry(2.125)
+        assert app.trial.block.x_start == Number(2.125)
         fresh = Known(app.engine.known(app.shown.found, None).table, ready=True, trial=app.trial)
         assert app.screen.query_one(Rows).rows == picture(app.desk, fresh, FROZEN, 80, 24)
 
@@ -149,7 +149,7 @@ async def test_every_size_works_and_loses_nothing(size: tuple[int, int]) -> None
     async with app.run_test(size=size) as pilot:
         await loaded(pilot)
         await pilot.press("tab", "9", "enter", "f7", "+", "f8", "f8", "f6", "f8", "enter", "f6", "f8")
-        assert app.desk.session.block.tool == Entry(9.0)
+        assert app.desk.session.block.tool == Number(9.0)
         assert [len(text_of(row)) for row in app.screen.query_one(Rows).rows] == [size[0]] * size[1]
 
 

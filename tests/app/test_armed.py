@@ -10,7 +10,7 @@ from textual.pilot import Pilot
 from app.painted.desk import ARMED
 from app.painted.screens.parameters import ParametersPage
 from app.painted.screens.tools import ToolsPage
-from core.program.model import Entry, Unread
+from core.program.model import Number, Unread
 from tests.app.operator import Operator
 from tests.app.pilots import app_on, loaded
 from tests.app.squares import square
@@ -21,17 +21,17 @@ X_START = ("tab", "tab", "tab", "tab")
 def test_esc_on_a_field_marked_err_brings_back_what_stood_there_and_the_next_number_is_taken_whole() -> None:
     operator = square().press(*X_START).type("1o")
     operator.press("escape")
-    assert operator.block.x_start == Entry(-1.0)
+    assert operator.block.x_start == Number(-1.0)
     assert operator.said == "X START: 1o is taken back, -1 stands again."
     assert not operator.desk.armed
-    assert operator.type("2.5").block.x_start == Entry(2.5)
+    assert operator.type("2.5").block.x_start == Number(2.5)
 
 
 def test_esc_on_a_field_marked_err_goes_back_over_every_text_that_could_not_be_read_and_over_other_fields() -> None:
     operator = square().press(*X_START).type("0.123456789012345").press("up").type("1o").press("tab", "tab").type("7")
     operator.press("up", "up", "up").type("2o").press("escape")
-    assert operator.block.x_start == Entry(0.123456789012345)
-    assert operator.block.z_start == Entry(7.0)
+    assert operator.block.x_start == Number(0.123456789012345)
+    assert operator.block.z_start == Number(7.0)
     held = operator.press("ctrl+z").block.x_start
     assert isinstance(held, Unread)
     assert held.text == "2o"
@@ -62,19 +62,19 @@ def test_on_the_other_forms_esc_takes_back_first_and_leaves_then() -> None:
     assert not isinstance(operator.press("escape").desk.page, ParametersPage)
     operator = Operator.at().press("f6", "f2").type("0.5").press("shift+tab").type("x").press("escape")
     assert isinstance(operator.desk.page, ToolsPage)
-    assert operator.session.program.tools[0].diameter == Entry(0.5)
+    assert operator.session.program.tools[0].diameter == Number(0.5)
 
 
 def test_a_digit_without_a_softkey_is_typed() -> None:
     operator = square().press(*X_START, "escape")
     assert operator.said == ARMED
-    assert operator.type("21.5").block.x_start == Entry(21.5)
-    assert operator.press("up", "ctrl+k").type("2.5").block.x_start == Entry(2.5)
+    assert operator.type("21.5").block.x_start == Number(21.5)
+    assert operator.press("up", "ctrl+k").type("2.5").block.x_start == Number(2.5)
 
 
 def test_a_softkey_without_a_label_does_not_take_the_digit() -> None:
     operator = square().press(*X_START, "escape")
-    assert operator.type("3.5").block.x_start == Entry(3.5)
+    assert operator.type("3.5").block.x_start == Number(3.5)
 
 
 @pytest.mark.parametrize("prefix", ["escape", "ctrl+k"])
@@ -108,9 +108,9 @@ def test_esc_and_a_digit_at_once_are_the_softkey_or_both_keys() -> None:
     operator = square().press("1", "enter", "alt+1")
     assert len(operator.segments) == 3
     operator = square().press(*X_START, "alt+2").type(".5")
-    assert operator.block.x_start == Entry(2.5)
+    assert operator.block.x_start == Number(2.5)
     operator = square().press(*X_START, "9", "alt+2").type(".5")
-    assert operator.block.x_start == Entry(2.5)
+    assert operator.block.x_start == Number(2.5)
 
 
 async def test_the_time_for_the_digit_is_over_after_a_while(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,7 +18,7 @@ from app.painted.session import Session
 from app.painted.widgets.rows import text_of
 from app.painted.widgets.strip import strip
 from core.pipeline.derive import derive, look_ahead_table
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.operator import Operator
 
 
@@ -40,7 +40,7 @@ def test_the_recommended_value_is_told_the_same_way_whatever_is_in_force() -> No
     program = load(example("notch"))
     told = set()
     for value in (None, *range(1, 21)):
-        block = replace(program.blocks[0], lookahead=None if value is None else Entry(float(value)))
+        block = replace(program.blocks[0], lookahead=None if value is None else Number(float(value)))
         one = replace(program, blocks=(block,))
         (found,) = derive(one).blocks
         told.add(text_of(strip(found, look_ahead_table(found, one), one.unit)).rpartition("best")[2])

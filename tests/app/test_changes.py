@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.painted.session import SEGMENT
 from app.session.changes import changed
 from core.program.edit import FormPlace
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.operator import Operator
 from tests.app.squares import square
 
@@ -17,7 +17,7 @@ def place(operator: Operator) -> tuple[FormPlace, str]:
 def test_a_field_of_a_segment() -> None:
     operator = square().type("3").press("tab", "tab").type("2.5").press("ctrl+home", "ctrl+z")
     assert place(operator) == (FormPlace(1, 3), "y_end")
-    assert operator.segments[2].y_end == Entry(2.0)
+    assert operator.segments[2].y_end == Number(2.0)
     assert place(operator.press("ctrl+home", "ctrl+y")) == (FormPlace(1, 3), "y_end")
 
 

@@ -11,8 +11,8 @@ from core.program.model import (
     ArcSegment,
     CutterComp,
     Direction,
-    Entry,
     LineSegment,
+    Number,
     Unread,
 )
 from tests.app.operator import Operator
@@ -46,7 +46,7 @@ def test_cal_2_usr_4_and_f3_back_to_cal_2() -> None:
     assert look_ahead(operator) == "CAL 2"
     assert "Not recommended unless necessary" in operator.said
     assert look_ahead(operator.type("4")) == "USR 4"
-    assert operator.block.lookahead == Entry(4.0)
+    assert operator.block.lookahead == Number(4.0)
     assert look_ahead(operator.press("f3")) == "CAL 2"
     assert operator.block.lookahead is None
 
@@ -118,7 +118,7 @@ def test_arrows_walk_and_the_last_one_offers_a_new_segment() -> None:
 
 def test_deleting_a_segment_joins_its_neighbors() -> None:
     operator = square().press("2", "enter", "f1")
-    assert operator.typed("x_end") == [Entry(2.0), Entry(0.0), Entry(0.0)]
+    assert operator.typed("x_end") == [Number(2.0), Number(0.0), Number(0.0)]
     assert "(X START            2.0000)" in operator.part("body")
 
 
@@ -142,7 +142,7 @@ def test_a_segment_is_inserted_before() -> None:
 )
 def test_what_a_field_takes(text: str, value: float) -> None:
     operator = square().press("tab", "tab", "tab", "tab").type(text)
-    assert operator.block.x_start == Entry(value)
+    assert operator.block.x_start == Number(value)
 
 
 def test_unreadable_text_stays_in_the_field_marked_with_the_reason() -> None:
@@ -158,25 +158,25 @@ def test_unreadable_text_stays_in_the_field_marked_with_the_reason() -> None:
 
 def test_escape_brings_the_old_value_back() -> None:
     operator = square().press("tab", "tab", "tab", "tab", "7", "7", "escape")
-    assert operator.block.x_start == Entry(-1.0)
+    assert operator.block.x_start == Number(-1.0)
     assert "X START            -1.0000" in operator.part("body")
     assert operator.session.history.undo_count == square().session.history.undo_count
 
 
 def test_a_text_is_changed_in_the_middle() -> None:
     operator = square().press("tab", "tab", "tab", "tab", "home", "right", "delete", "3", "enter")
-    assert operator.block.x_start == Entry(-3.0)
+    assert operator.block.x_start == Number(-3.0)
 
 
 def test_looking_at_a_rounded_number_does_not_round_it() -> None:
     operator = square().press("tab", "tab", "tab", "tab").type("1/3").press("up", "left", "right", "enter")
-    assert operator.block.x_start == Entry(1 / 3)
+    assert operator.block.x_start == Number(1 / 3)
 
 
 @pytest.mark.parametrize("key", ["delete", "backspace"])
 def test_an_emptied_field_becomes_blank(key: str) -> None:
     operator = square().press("1", "enter", "tab", key, "enter")
-    assert operator.segments[0] == LineSegment(None, Entry(0.0), None, None, None, Entry(10.0))
+    assert operator.segments[0] == LineSegment(None, Number(0.0), None, None, None, Number(10.0))
 
 
 def test_a_calculated_value_is_tagged_and_follows_an_edit_upstream() -> None:
@@ -184,7 +184,7 @@ def test_a_calculated_value_is_tagged_and_follows_an_edit_upstream() -> None:
     assert "XY LENGTH     CAL     2.0000" in operator.part("body")
     operator.press("1", "enter", "tab", "tab").type("1").press("ctrl+home", "2", "enter")
     assert "XY LENGTH     CAL     1.0000" in operator.part("body")
-    assert operator.segments[1] == LineSegment(Entry(2.0), Entry(2.0), None, None, None, Entry(10.0))
+    assert operator.segments[1] == LineSegment(Number(2.0), Number(2.0), None, None, None, Number(10.0))
 
 
 def test_a_segment_not_determined_marks_what_is_needed() -> None:

@@ -10,7 +10,7 @@ from core.program.model import (
     BlendSegment,
     CutterComp,
     Direction,
-    Entry,
+    Number,
 )
 from tests.app.operator import Operator
 from tests.app.squares import look_ahead, square
@@ -30,12 +30,12 @@ def test_undo_and_redo_reach_over_everything_and_say_what() -> None:
     assert operator.session.program == before
     assert "X START of START" in operator.said
     operator.press("ctrl+y")
-    assert operator.block.x_start == Entry(5.0)
+    assert operator.block.x_start == Number(5.0)
 
 
 def test_undo_first_takes_back_what_is_half_typed() -> None:
     operator = square().press("tab", "tab", "tab", "tab", "7", "ctrl+z")
-    assert operator.block.x_start == Entry(-1.0)
+    assert operator.block.x_start == Number(-1.0)
     assert operator.session.program == square().session.program
 
 
@@ -52,7 +52,7 @@ def test_escape_then_a_digit_is_a_softkey() -> None:
 
 def test_escape_that_takes_something_back_does_not_arm_the_digits() -> None:
     operator = square().press("1", "enter", "tab", "9", "escape", "1", "enter")
-    assert operator.typed("x_end")[0] == Entry(1.0)
+    assert operator.typed("x_end")[0] == Number(1.0)
     assert len(operator.segments) == 4
 
 
@@ -95,9 +95,9 @@ def test_the_pocket_keyed_in_from_the_drawing() -> None:
     assert found.solved.closed
     assert found.solved.determined == 11
     assert look_ahead(operator) == "CAL 8"
-    assert operator.segments[3] == BlendSegment(Entry(0.5))
+    assert operator.segments[3] == BlendSegment(Number(0.5))
     assert operator.segments[1] == ArcSegment(
-        Direction.CCW, Entry(4.75), Entry(1.0), None, Entry(4.0), Entry(1.0), None, None, None
+        Direction.CCW, Number(4.75), Number(1.0), None, Number(4.0), Number(1.0), None, None, None
     )
 
 
@@ -138,7 +138,7 @@ def test_enter_behind_the_letter_of_an_arc_takes_the_direction_that_is_shown() -
     operator = square().press("ctrl+end", "pagedown", "a", "enter").type("4.75", "1.0")
     segment = operator.block.segments[-1]
     assert isinstance(segment, ArcSegment)
-    assert (segment.direction, segment.x_end, segment.y_end) == (Direction.CW, Entry(4.75), Entry(1.0))
+    assert (segment.direction, segment.x_end, segment.y_end) == (Direction.CW, Number(4.75), Number(1.0))
 
 
 def test_enter_behind_the_letter_of_a_line_still_goes_nowhere() -> None:

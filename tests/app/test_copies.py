@@ -9,7 +9,7 @@ import pytest
 from app.documents.files import load
 from app.painted.screens.contour import Contour
 from app.painted.screens.decide import Decide
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.kept import DEAD, Kept, asked, names, started
 
 
@@ -43,7 +43,7 @@ def test_discarded_work_comes_back_by_keys(own: Path, part: Path) -> None:
     assert operator.session.history == first.session.history
     assert operator.session.file == part
     operator.press("ctrl+s", "ctrl+q")
-    assert load(part).blocks[0].tool == Entry(7.0)
+    assert load(part).blocks[0].tool == Number(7.0)
     assert [name for name in names(part) if "journal" in name] == [".part.toml.cutcomp-journal.discarded-1"]
 
 

@@ -17,7 +17,7 @@ from app.painted.screens.new_segment import NewSegment
 from app.painted.screens.page import UNANSWERED
 from app.painted.screens.post import PostPage
 from app.painted.session import Session
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.operator import Operator
 
 
@@ -61,7 +61,7 @@ def test_undo_and_redo_in_a_dialog_leave_the_program_alone(keys: tuple[str, ...]
     operator = Operator.at().press("tab", "down", "down", "down").type("2.5").press("ctrl+home", *keys)
     page = operator.desk.page
     operator.press("ctrl+z", "ctrl+y", "ctrl+z")
-    assert operator.block.x_start == Entry(2.5)
+    assert operator.block.x_start == Number(2.5)
     assert operator.desk.page is page
     assert "Esc leaves this question first" in operator.said
 
@@ -73,7 +73,7 @@ def test_undo_and_redo_over_a_dialog_leave_the_program_alone(keys: tuple[str, ..
     operator.press("ctrl+z")
     assert operator.said.endswith(("Esc goes back first: what this changes is not seen here.", UNANSWERED))
     operator.press("ctrl+y", "ctrl+z")
-    assert operator.block.x_start == Entry(2.5)
+    assert operator.block.x_start == Number(2.5)
 
 
 def test_leaving_says_in_one_meaning_of_the_word_what_becomes_of_the_work() -> None:
@@ -134,4 +134,4 @@ def test_a_question_without_a_way_around_is_answered_before_anything_else() -> N
     for key in ("ctrl+s", "ctrl+o", "ctrl+z", "ctrl+y"):
         assert operator.press(key).said == "!! Answer the question first."
     assert operator.desk.page is question
-    assert operator.block.x_start == Entry(2.5)
+    assert operator.block.x_start == Number(2.5)

@@ -23,7 +23,7 @@ from core.pipeline.derive import derive, needs
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.outline import outline
 from core.program.edit import FormPlace, copy_block, type_field
-from core.program.model import Entry, Program
+from core.program.model import Number, Program
 from tests.bench.keys import gear
 
 PART = load(example("notch"))
@@ -40,7 +40,7 @@ def engine() -> Engine:
 
 def changed(where: FormPlace, field: str, value: float) -> tuple[DerivedBlock, Program]:
     """The block after one number was typed."""
-    program = type_field(PART, where, field, Entry(value))
+    program = type_field(PART, where, field, Number(value))
     assert isinstance(program, Program)
     return derive(program).blocks[0], program
 
@@ -58,7 +58,7 @@ def test_another_depth_keeps_the_table_and_what_the_contour_needs() -> None:
     engine, before = Engine(ready=True), derive(PART)
     engine.keep_table(before.blocks[0], PART)
     engine.keep_needs(before.blocks[0], PART)
-    program = type_field(PART, FormPlace(1, 0), "z_bottom", Entry(-0.5))
+    program = type_field(PART, FormPlace(1, 0), "z_bottom", Number(-0.5))
     assert isinstance(program, Program)
     found = derived_again(program, before).blocks[0]
     assert found is not before.blocks[0]
@@ -81,7 +81,7 @@ def test_what_was_tried_out_is_what_would_be_derived_of_an_equal_program(
     name: str, where: FormPlace, field: str, text: str
 ) -> None:
     part = load(example(name))
-    tried, accepted = (type_field(part, where, field, Entry(float(text))) for _ in range(2))
+    tried, accepted = (type_field(part, where, field, Number(float(text))) for _ in range(2))
     assert isinstance(tried, Program)
     assert isinstance(accepted, Program)
     engine = Engine(ready=True)
@@ -96,7 +96,7 @@ def test_what_was_tried_out_is_what_would_be_derived_of_an_equal_program(
 def plain(found: DerivedBlock) -> tuple[object, ...]:
     """All that is derived, in values that can be compared."""
     told = (found.number, found.block, found.lookahead, found.side, found.profile, found.radius, found.known)
-    return (*told, found.solved, found.findings, None if found.work is None else cut(found.work))
+    return (*told, found.solved, found.findings, None if found.paths is None else cut(found.paths))
 
 
 def cut(work: BlockPaths) -> tuple[object, ...]:
@@ -126,7 +126,7 @@ def test_until_the_new_path_is_there_the_drawing_of_this_block_stands_and_never_
     session = Session.of(program)
     shown = drawn(known, session.knowing(derive(program)))
     assert shown
-    edited = type_field(program, FormPlace(1, 1), "x_end", Entry(2.5))
+    edited = type_field(program, FormPlace(1, 1), "x_end", Number(2.5))
     assert isinstance(edited, Program)
     stale = session.apply(edited, "X END").knowing(outline(edited))
     assert not stale.found.known
@@ -191,8 +191,8 @@ def test_what_a_better_path_would_cut_is_told_of_what_is_accepted_alone(engine: 
     accepted, (found, program) = derive(PART).blocks[0], changed(FormPlace(1, 1), "x_end", 2.5)
     note = Finding("BEST_DIFFERS", Severity.INFO, "A better path would cut more.")
     engine.keep_table(found, program)
-    assert found.work is not None
-    engine.notes = ((found.work, (note,)),)
+    assert found.paths is not None
+    engine.notes = ((found.paths, (note,)),)
     for before, told in ((accepted, False), (found, True), (None, True)):
         table = engine.known(found, None, before).table
         assert table is not None

@@ -15,7 +15,7 @@ from app.painted.screens.program import ProgramPage
 from app.painted.screens.save import SaveAsPage
 from app.painted.session import Session
 from core.output.objections import OVERRIDE
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.operator import Operator
 
 
@@ -43,7 +43,7 @@ def test_save_asks_for_a_name_first_and_then_no_more(folder: Path) -> None:
     assert operator.session.file == folder / "part.toml"
     assert isinstance(operator.desk.page, Contour)
     operator.press("tab", "9", "ctrl+s")
-    assert load(folder / "part.toml").blocks[0].tool == Entry(9.0)
+    assert load(folder / "part.toml").blocks[0].tool == Number(9.0)
     assert not operator.session.unsaved
 
 
@@ -218,18 +218,18 @@ def test_leaving_asks_only_when_something_would_be_lost(folder: Path) -> None:
     assert not operator.desk.exit
     assert not operator.press("escape").desk.exit
     assert operator.press("ctrl+q", "l").desk.exit
-    assert load(folder / "pocket.toml").blocks[0].tool == Entry(1.0)
+    assert load(folder / "pocket.toml").blocks[0].tool == Number(1.0)
 
 
 def test_save_and_leave_saves(folder: Path) -> None:
     operator = entered(opened("pocket").press("ctrl+s"), str(folder / "pocket.toml")).press("tab").type("9")
     operator.press("ctrl+q", "s")
     assert operator.desk.exit
-    assert load(folder / "pocket.toml").blocks[0].tool == Entry(9.0)
+    assert load(folder / "pocket.toml").blocks[0].tool == Number(9.0)
 
 
 def test_save_and_leave_without_a_name_asks_for_one_and_then_leaves(folder: Path) -> None:
     operator = opened("pocket").press("tab").type("9").press("ctrl+q", "s")
     assert not operator.desk.exit
     assert entered(operator, str(folder / "part.toml")).desk.exit
-    assert load(folder / "part.toml").blocks[0].tool == Entry(9.0)
+    assert load(folder / "part.toml").blocks[0].tool == Number(9.0)

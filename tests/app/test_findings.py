@@ -17,7 +17,7 @@ from app.painted.session import Session
 from app.painted.widgets.rows import Span, plain, text_of
 from app.painted.widgets.verdict import fitted, verdict_rows
 from core.pipeline.derive import derive, look_ahead_table
-from core.program.model import Entry, Program
+from core.program.model import Number, Program
 from tests.app.operator import Operator
 
 
@@ -91,7 +91,7 @@ def test_the_strip_tells_what_the_best_value_costs() -> None:
 def test_every_gouge_is_told_in_full() -> None:
     operator = derived("notch")
     operator.press("ctrl+f")
-    work = operator.session.found.work
+    work = operator.session.found.paths
     assert work is not None
     assert work.verdict is not None
     body = operator.part("body", 132, 60)
@@ -235,11 +235,11 @@ def test_the_findings_of_a_value_of_the_table_are_those_of_its_path() -> None:
 
 def test_roughing_and_blends_of_a_value_are_told_as_they_are_of_the_one_in_force() -> None:
     pocket = load(example("pocket"))
-    rough = replace(pocket, parameters=replace(pocket.parameters, finish_xy=Entry(0.05)))
+    rough = replace(pocket, parameters=replace(pocket.parameters, finish_xy=Number(0.05)))
     (block,) = rough.blocks
-    rough = replace(rough, blocks=(replace(block, finish_tool=Entry(1.0)),))
+    rough = replace(rough, blocks=(replace(block, finish_tool=Number(1.0)),))
     assert "Roughing that leaves 0.0500 gouges" in told_of(on_table(rough, "home"))
-    blend = replace(pocket, parameters=replace(pocket.parameters, blend_offset=Entry(1.6)))
+    blend = replace(pocket, parameters=replace(pocket.parameters, blend_offset=Number(1.6)))
     assert "The blend-in arc gouges" in told_of(on_table(blend, "home"))
 
 

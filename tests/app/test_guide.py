@@ -17,7 +17,7 @@ from app.painted.session import Session
 from core.pipeline.derive import derive
 from core.program.edit import FormPlace, type_field
 from core.program.fields import Form, field_of, read_typed
-from core.program.model import CutterComp, Entry
+from core.program.model import CutterComp, Number
 from tests.app.operator import Operator
 
 NAMED = {"Enter": "enter", "Down": "down", "Up": "up", "Page Down": "pagedown", "Page Up": "pageup", "L": "l"}
@@ -170,7 +170,7 @@ def test_the_next_step_is_the_first_field_that_differs() -> None:
     assert first is not None
     assert (first.segment, first.name) == (0, "cutter_comp")
     assert [step.name for step in STEPS[:6]] == ["tool", "cutter_comp", "x_start", "y_start", "z_start", "z_bottom"]
-    assert operator.block.tool == Entry(1.0)
+    assert operator.block.tool == Number(1.0)
 
 
 def test_posting_with_findings_leaves_the_words_to_the_screen() -> None:

@@ -14,7 +14,7 @@ from app.documents.programs import example
 from app.painted.screens.contour import Contour
 from app.painted.screens.decide import Decide
 from app.painted.session import Session
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.kept import DEAD, asked, names, started
 
 
@@ -188,7 +188,7 @@ def test_a_full_disk_is_told_and_the_work_goes_on(own: Path, part: Path, monkeyp
         assert "nothing is lost" not in operator.said
         operator.press("up").type("9")
         assert "the disk is full" in operator.said
-        assert operator.block.tool == Entry(9.0)
+        assert operator.block.tool == Number(9.0)
     operator.press("up").type("6")
     assert operator.said.startswith("Work is kept on the disk again.")
     operator.killed()
@@ -206,7 +206,7 @@ def test_damage_in_the_middle_is_told_and_the_whole_journal_kept(own: Path, part
     again = started(own, part)
     assert "The end of it cannot be read and is kept aside." in asked(again)
     again.press("r")
-    assert again.block.tool == Entry(7.0)
+    assert again.block.tool == Number(7.0)
     assert any("damaged" in name for name in names(part))
 
 

@@ -14,7 +14,7 @@ from app.documents.journal_file import journal_path
 from app.documents.lock import Owner, myself
 from app.painted.screens.contour import Contour
 from app.painted.screens.decide import Decide
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.kept import DEAD, ELSEWHERE, asked, names, started
 
 BOB = replace(DEAD, user="bob", pid=DEAD.pid + 1)
@@ -228,7 +228,7 @@ def test_a_disk_that_fills_up_later_loses_nothing_either(
     first.killed()
     again = started(own, part)
     assert again.press("r").session.history == first.session.history
-    assert again.block.tool == Entry(7.0)
+    assert again.block.tool == Number(7.0)
 
 
 def test_ended_by_a_signal_what_could_not_be_written_is_tried_once_more(

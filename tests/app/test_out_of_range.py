@@ -15,7 +15,7 @@ from core.pipeline.outline import outline
 from core.program.fields import TABLES, Form, check
 from core.program.file.read import loads
 from core.program.file.write import dumps
-from core.program.model import ArcSegment, BlendSegment, Block, Entry, LineSegment, Program, Unread, unread_texts
+from core.program.model import ArcSegment, BlendSegment, Block, LineSegment, Number, Program, Unread, unread_texts
 from core.units import Kind, Unit
 from tests.app.operator import Operator
 
@@ -41,12 +41,12 @@ FIELDS = [
 def program() -> Program:
     """One segment of every kind."""
     start = load(example("pocket"))
-    line = LineSegment(Entry(9.0), Entry(9.0))
+    line = LineSegment(Number(9.0), Number(9.0))
     block = Block(
-        tool=Entry(1.0),
-        z_start=Entry(0.0),
+        tool=Number(1.0),
+        z_start=Number(0.0),
         cutter_comp=start.blocks[0].cutter_comp,
-        segments=(line, ArcSegment(x_end=Entry(1.0)), BlendSegment(Entry(0.1)), line),
+        segments=(line, ArcSegment(x_end=Number(1.0)), BlendSegment(Number(0.1)), line),
     )
     return Program(Unit.IN, tools=start.tools, blocks=(block,))
 

@@ -12,7 +12,7 @@ from app.painted.widgets.rows import text_of
 from app.painted.widgets.strip import strip
 from core.pipeline.derive import derive, look_ahead_table
 from core.program.edit import FormPlace, Refused, type_field
-from core.program.model import ArcSegment, Direction, Entry, Program
+from core.program.model import ArcSegment, Direction, Number, Program
 from tests.app.operator import Operator
 
 
@@ -64,8 +64,8 @@ def test_what_is_still_to_be_typed_is_asked_for_and_is_no_error() -> None:
 def test_an_arc_that_ends_close_to_its_start_is_decided_on_sweep_angle(answer: str, closes: bool) -> None:
     part = load(example("overrun-square"))
     (block,) = part.blocks
-    zero = Entry(0.0)
-    arc = ArcSegment(Direction.CCW, x_end=Entry(2.0), y_end=Entry(0.0001), x_center=Entry(1.0), y_center=zero)
+    zero = Number(0.0)
+    arc = ArcSegment(Direction.CCW, x_end=Number(2.0), y_end=Number(0.0001), x_center=Number(1.0), y_center=zero)
     program = replace(part, blocks=(replace(block, segments=(block.segments[0], arc)),))
     operator = Operator.at(program)
     operator.desk = operator.desk.knowing(derive(program))

@@ -12,7 +12,7 @@ from app.painted.screens.program import ProgramPage
 from app.painted.session import Session
 from core.program.edit import FormPlace
 from core.program.fields import TOOL, read_typed
-from core.program.model import CutterComp, Entry, PathChoice, Tool, Unread
+from core.program.model import CutterComp, Number, PathChoice, Tool, Unread
 from core.units import Unit
 from tests.app.operator import Operator
 
@@ -76,7 +76,7 @@ def test_many_blocks_scroll_with_the_cursor() -> None:
 
 def test_a_tool_is_added_edited_and_deleted() -> None:
     operator = opened().press("f6", "f2").type("3/8")
-    assert operator.session.program.tools == (Tool(1, diameter=Entry(0.5)), Tool(2, diameter=Entry(0.375)))
+    assert operator.session.program.tools == (Tool(1, diameter=Number(0.5)), Tool(2, diameter=Number(0.375)))
     operator.press("up", "tab").press("delete").type("BALL")
     assert "BALL" in operator.part("body")
     operator.press("up")
@@ -98,7 +98,7 @@ def test_a_diameter_must_be_above_zero(text: str) -> None:
     assert operator.session.program.tools[0].diameter == read_typed(text, TOOL[2], Unit.IN)
     assert "ERR" in operator.part("body")
     operator.press("escape")
-    assert operator.session.program.tools[0].diameter == Entry(0.5)
+    assert operator.session.program.tools[0].diameter == Number(0.5)
 
 
 def test_an_unreadable_diameter_stays_visible() -> None:
@@ -118,7 +118,7 @@ def test_parameters_show_defaults_until_they_are_typed() -> None:
     operator = opened().press("f4")
     assert "BLEND OFFSET  DEF   0.1250" in operator.part("body")
     operator.press("tab").type(".2")
-    assert operator.session.program.parameters.blend_offset == Entry(0.2)
+    assert operator.session.program.parameters.blend_offset == Number(0.2)
     assert "BLEND OFFSET        0.2000" in operator.part("body")
     operator.press("up", "delete", "enter")
     assert operator.session.program.parameters.blend_offset is None
@@ -132,7 +132,7 @@ def test_another_unit_is_asked_about_and_converts() -> None:
     assert "Convert every typed length" in operator.part("body")
     assert operator.press("escape").session.program.unit is Unit.IN
     assert operator.press("m", "c").session.program.unit is Unit.MM
-    assert operator.block.x_start == Entry(50.8)
+    assert operator.block.x_start == Number(50.8)
     assert "Prog Units: MM" in operator.part("status")
     assert operator.press("ctrl+z").session.program.unit is Unit.IN
 
@@ -140,7 +140,7 @@ def test_another_unit_is_asked_about_and_converts() -> None:
 def test_part_setup_takes_a_name_and_numbers() -> None:
     operator = opened().press("f5").type("BRACKET 7?", "55", "2.5")
     setup = operator.session.program.setup
-    assert (setup.name, setup.work_offset, setup.safe_z) == ("BRACKET 7?", Entry(55.0), Entry(2.5))
+    assert (setup.name, setup.work_offset, setup.safe_z) == ("BRACKET 7?", Number(55.0), Number(2.5))
     assert "54 to 59" in operator.press("down").type("60").said
 
 
@@ -181,7 +181,7 @@ def test_the_look_ahead_table_is_stepped_over_and_one_value_taken() -> None:
     operator = opened().press(*["tab"] * 11, "f4", "down", "right")
     assert "TAKE 19 AS USR" in " ".join(operator.part("softkeys").split())
     operator.press("left", "up", "enter")
-    assert operator.block.lookahead == Entry(8.0)
+    assert operator.block.lookahead == Number(8.0)
     assert isinstance(operator.desk.page, Contour)
     operator.press("f4", "f3")
     assert operator.block.lookahead is None
@@ -206,5 +206,5 @@ def test_every_screen_says_how_to_leave(keys: tuple[str, ...]) -> None:
 def test_a_pasted_text_accepts_nothing() -> None:
     operator = opened().press("tab", "tab", "tab", "tab")
     operator.desk = operator.desk.paste("3.5\n\x1b[31m4.5\n")
-    assert operator.block.x_start == Entry(2.0)
-    assert operator.press("enter").block.x_start == Entry(3.5)
+    assert operator.block.x_start == Number(2.0)
+    assert operator.press("enter").block.x_start == Number(3.5)

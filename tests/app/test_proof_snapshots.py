@@ -13,8 +13,8 @@ from textual.pilot import Pilot
 from app.nc_proof.listing import Listing
 from app.painted.application import CutcompApp
 from app.painted.screens.proof import ProofPage
-from core.controls.control_tools import ToolTable
 from tests.app.pilots import app_on, loaded, rested
+from tests.tool_tables import end_mills
 
 DATA = Path(__file__).parents[1] / "data"
 SCREENS = {
@@ -31,7 +31,7 @@ def app(file: str, control: str) -> CutcompApp:
     """The App on a program under proof, with a half-inch tool 1."""
     path = DATA / file
     page = ProofPage.of(Listing.read(path.read_bytes()), Path(path.name), control=control, alone=True)
-    page = replace(page, asked=replace(page.asked, tools=ToolTable.diameters({1: 0.5})))
+    page = replace(page, asked=replace(page.asked, tools=end_mills({1: 0.5})))
     made = app_on()
     made.desk = replace(made.desk, pages=(page,))
     return made

@@ -13,7 +13,7 @@ from app.documents.programs import example
 from app.painted.keeping import Keeping
 from app.painted.screens.decide import Decide
 from core.program.file.read import StoreError
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.kept import DEAD, TIME, Kept, started
 
 
@@ -40,11 +40,11 @@ def test_the_work_comes_back_and_what_stands_in_the_file_is_kept(part: Path, tmp
     assert isinstance(operator.desk.page, Decide)
     assert "itself cannot be read" in " ".join(operator.part("body").split())
     operator.press("r")
-    assert operator.block.tool == Entry(7.0)
+    assert operator.block.tool == Number(7.0)
     assert len(operator.block.segments) == 11
     rest = part.read_bytes()
     operator.press("ctrl+s", "y")
-    assert load(part).blocks[0].tool == Entry(7.0)
+    assert load(part).blocks[0].tool == Number(7.0)
     assert [one.read_bytes() for one in tmp_path.glob("part.theirs-*")] == [rest]
 
 

@@ -14,7 +14,7 @@ from app.documents.files import load
 from app.documents.journal import Recovered
 from app.documents.places import read
 from app.terminal.signals import GRACE
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.test_safety_terminal import PROGRAM, status
 from tests.terminal import Terminal, running
 
@@ -66,7 +66,7 @@ def test_a_signal_ends_the_program_in_order(part: Path, number: signal.Signals) 
         end = bytes(terminal.seen[-400:])
         assert b"\x1b[?1049l" in end, "the screen from before"
         assert b"\x1b[?25h" in end, "the cursor"
-    assert left(part).history.program.blocks[0].tool == Entry(7.0)
+    assert left(part).history.program.blocks[0].tool == Number(7.0)
 
 
 def test_a_signal_with_everything_saved_leaves_nothing(part: Path) -> None:
@@ -77,7 +77,7 @@ def test_a_signal_with_everything_saved_leaves_nothing(part: Path) -> None:
         os.kill(terminal.pid, signal.SIGTERM)
         assert status(terminal, PATIENCE) == 143
     assert [one.name for one in part.parent.iterdir()] == ["part.toml"]
-    assert load(part).blocks[0].tool == Entry(7.0)
+    assert load(part).blocks[0].tool == Number(7.0)
 
 
 def drop(terminal: Terminal) -> None:
@@ -92,7 +92,7 @@ def test_a_dropped_link_ends_the_program(part: Path) -> None:
         typed(terminal)
         drop(terminal)
         assert ended(terminal.pid) == 128 + signal.SIGHUP
-    assert left(part).history.program.blocks[0].tool == Entry(7.0)
+    assert left(part).history.program.blocks[0].tool == Number(7.0)
 
 
 def test_a_dropped_link_is_noticed_without_a_signal(part: Path) -> None:
@@ -104,7 +104,7 @@ def test_a_dropped_link_is_noticed_without_a_signal(part: Path) -> None:
         lock = part.with_name(".part.toml.cutcomp-lock")
         while lock.exists() and time.monotonic() - begun < PATIENCE:
             time.sleep(0.01)
-    assert left(part).history.program.blocks[0].tool == Entry(7.0)
+    assert left(part).history.program.blocks[0].tool == Number(7.0)
 
 
 def stall(terminal: Terminal, journal: Path) -> int:
@@ -186,6 +186,6 @@ def test_two_operators_with_one_file(part: Path) -> None:
             first.until("TAKEN OVER")
             first.send(b"k")
             first.until("Saved")
-    assert load(part).blocks[0].tool == Entry(9.0)
+    assert load(part).blocks[0].tool == Number(9.0)
     mine = next(part.parent.glob("part.mine-*.toml"))
-    assert load(mine).blocks[0].tool == Entry(8.0)
+    assert load(mine).blocks[0].tool == Number(8.0)

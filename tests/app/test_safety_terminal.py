@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from app.documents.files import load
-from core.program.model import Entry
+from core.program.model import Number
 from tests.terminal import Terminal, running
 
 PROGRAM = [sys.executable, "-m", "app"]
@@ -41,7 +41,7 @@ def test_a_byte_that_is_no_utf_8_ends_nothing(tmp_path: Path) -> None:
         terminal.until("Saved")
         terminal.send(b"\x11")
         assert status(terminal) == 0
-    assert load(part).blocks[0].tool == Entry(7.0)
+    assert load(part).blocks[0].tool == Number(7.0)
 
 
 @pytest.mark.parametrize("term", ["dumb", ""])

@@ -18,7 +18,7 @@ from app.painted.widgets.rows import text_of
 from app.painted.widgets.verdict import verdict_rows
 from core.pipeline.derive import derive, look_ahead_table
 from core.program.file.write import dumps
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.kept import DEAD, ELSEWHERE, asked, started
 from tests.app.operator import Operator
 
@@ -153,7 +153,7 @@ def test_a_look_ahead_that_is_none_leaves_the_old_one_and_says_so_until_somethin
 
 def test_only_where_a_value_was_typed_is_the_way_back_to_the_calculated_one_told() -> None:
     operator = worked_out("pocket", *["tab"] * 11, "5", "enter", "up", "2", "1", "enter")
-    assert operator.session.block.lookahead == Entry(5.0)
+    assert operator.session.block.lookahead == Number(5.0)
     assert operator.said.endswith("Press F3 to go back to CAL.")
     assert "must be" not in operator.press("f3").said
 

@@ -9,7 +9,7 @@ from app.documents.programs import empty_program
 from app.painted.session import SEGMENT, Session, Tone
 from core.pipeline.outline import outline
 from core.program.edit import FormPlace, Refused
-from core.program.model import Entry, LineSegment, Program
+from core.program.model import LineSegment, Number, Program
 
 
 def session(*segments: LineSegment) -> Session:
@@ -18,7 +18,7 @@ def session(*segments: LineSegment) -> Session:
 
 
 def with_start(program: Program, x: float) -> Program:
-    return replace(program, blocks=(replace(program.blocks[0], x_start=Entry(x)),))
+    return replace(program, blocks=(replace(program.blocks[0], x_start=Number(x)),))
 
 
 def test_a_new_session_is_saved_and_stands_on_segment_of_start() -> None:

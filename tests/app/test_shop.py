@@ -14,7 +14,7 @@ from app.painted.screens.ask import Ask
 from app.painted.screens.import_tools import FaultsPage
 from app.painted.screens.program import ProgramPage
 from app.painted.screens.tools import ToolsPage
-from core.program.model import Entry, Tool
+from core.program.model import Number, Tool
 from tests.app.kept import ELSEWHERE
 from tests.app.operator import Operator
 
@@ -50,7 +50,7 @@ def test_an_import_that_is_whole(part: Path, capsys: pytest.CaptureFixture[str])
     table = part.with_name("tool.tbl")
     table.write_text("T7 P1 D12.7 ;BALL\nT8\n")
     assert main(["tools", str(part), "--import", str(table), "--units", "mm"]) == 0
-    assert load(part).tools[-2:] == (Tool(7, "BALL", Entry(0.5)), Tool(8))
+    assert load(part).tools[-2:] == (Tool(7, "BALL", Number(0.5)), Tool(8))
     said = capsys.readouterr()
     assert "line 2, column 1: warning: Tool 8 has no diameter" in said.err
     assert "T7          0.5000 IN  BALL\n" in said.out
@@ -112,12 +112,12 @@ def test_the_screen_asks_before_it_imports_and_undo_takes_it_back(tmp_path: Path
     assert "Tools: 2. New: 1. In place of one that differs: 1." in operator.part("body")
     assert "T1 0.5000 IN END MILL becomes 0.3750 IN" in " ".join(operator.part("body").split())
     operator.press("escape")
-    assert operator.session.program.tools == (Tool(1, "END MILL", Entry(0.5)),)
+    assert operator.session.program.tools == (Tool(1, "END MILL", Number(0.5)),)
     operator.press("enter", "i")
-    assert list(operator.session.program.tools) == [Tool(1, "END MILL", Entry(0.375)), Tool(2, "DRILL", Entry(0.25))]
+    assert list(operator.session.program.tools) == [Tool(1, "END MILL", Number(0.375)), Tool(2, "DRILL", Number(0.25))]
     assert isinstance(operator.desk.page, ToolsPage)
     assert operator.said.startswith("Imported: ")
-    assert operator.press("ctrl+z").session.program.tools == (Tool(1, "END MILL", Entry(0.5)),)
+    assert operator.press("ctrl+z").session.program.tools == (Tool(1, "END MILL", Number(0.5)),)
 
 
 def test_the_screen_shows_every_fault_and_imports_nothing(tmp_path: Path) -> None:
@@ -125,7 +125,7 @@ def test_the_screen_shows_every_fault_and_imports_nothing(tmp_path: Path) -> Non
     assert isinstance(operator.desk.page, FaultsPage)
     assert "line 2, column 4" in operator.part("body")
     assert all(line.isprintable() for line in operator.screen())
-    assert operator.session.program.tools == (Tool(1, "END MILL", Entry(0.5)),)
+    assert operator.session.program.tools == (Tool(1, "END MILL", Number(0.5)),)
 
 
 def test_a_table_in_the_other_unit(tmp_path: Path) -> None:
@@ -133,7 +133,7 @@ def test_a_table_in_the_other_unit(tmp_path: Path) -> None:
     operator.press("escape", "down")
     assert "in MM" in operator.part("body")
     operator.press("enter", "i")
-    assert operator.session.program.tools[1].diameter == Entry(0.5)
+    assert operator.session.program.tools[1].diameter == Number(0.5)
 
 
 def test_the_sheet_from_the_program_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

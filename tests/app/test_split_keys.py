@@ -16,7 +16,7 @@ import pytest
 
 from app.documents.files import load
 from app.documents.programs import example
-from core.program.model import Entry
+from core.program.model import Number
 from tests.reports.relay import Line, relayed
 from tests.terminal import Terminal, running
 
@@ -64,7 +64,7 @@ def test_a_split_arrow_down_takes_the_number_and_goes_on(square: Path, seconds: 
         terminal.send(b"\x13")
         terminal.until("Saved")
         assert "[B" not in terminal.text
-    assert load(square).blocks[0].x_start == Entry(2.5)
+    assert load(square).blocks[0].x_start == Number(2.5)
 
 
 @pytest.mark.parametrize(("tail", "there"), [(b"OS", "PROGRAM PARAMETERS"), (b"[17~", "TOOL SETUP")])
@@ -83,7 +83,7 @@ def test_a_rest_that_comes_later_is_told_and_neither_typed_nor_a_key(square: Pat
         assert "X START" in terminal.text
         terminal.send(b"3.25\r\x13")
         terminal.until("Saved")
-    assert load(square).blocks[0].x_start == Entry(3.25)
+    assert load(square).blocks[0].x_start == Number(3.25)
 
 
 def test_esc_and_a_digit_and_esc_alone_still_work(square: Path) -> None:
@@ -134,4 +134,4 @@ def test_keys_over_a_line_whose_bytes_come_apart_by_up_to_300_ms(square: Path) -
         terminal.send(b"\x1b[19~\x13")
         terminal.until("Saved", longest=30.0)
     block = load(square).blocks[0]
-    assert (block.x_start, block.y_start, block.z_start) == (Entry(2.5), Entry(3.5), Entry(-4.5))
+    assert (block.x_start, block.y_start, block.z_start) == (Number(2.5), Number(3.5), Number(-4.5))

@@ -12,7 +12,7 @@ from app.documents.files import load, save
 from app.documents.lock import lock_path
 from app.documents.programs import example
 from core.program.file.write import dumps
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.kept import DEAD, ELSEWHERE, asked, names, started
 
 
@@ -64,7 +64,7 @@ def test_replacing_a_file_that_somebody_has_open_says_who(own: Path, part: Path)
     started(own, part, ELSEWHERE)
     operator = started(own).press("tab").type("7").press("ctrl+s", "delete", *str(part), "enter")
     assert "bob on office has it open." in " ".join(operator.part("body").split())
-    assert load(part).blocks[0].tool == Entry(1.0)
+    assert load(part).blocks[0].tool == Number(1.0)
 
 
 def test_the_second_opener_may_take_over_with_the_work_of_the_first(own: Path, part: Path) -> None:
@@ -77,7 +77,7 @@ def test_the_second_opener_may_take_over_with_the_work_of_the_first(own: Path, p
     assert "has this program open" in first.said
     assert "SAVE AS keeps your work." in first.said
     second.press("ctrl+s")
-    assert load(part).blocks[0].tool == Entry(7.0)
+    assert load(part).blocks[0].tool == Number(7.0)
 
 
 def test_discarding_what_its_owner_has_saved_meanwhile_says_so(own: Path, part: Path) -> None:
@@ -106,11 +106,11 @@ def test_the_first_one_notices_before_it_saves(own: Path, part: Path) -> None:
     first.press("ctrl+s")
     assert "TAKEN OVER" in first.part("header")
     first.press("k")
-    assert load(part).blocks[0].tool == Entry(3.0)
+    assert load(part).blocks[0].tool == Number(3.0)
     mine = first.session.file
     assert mine is not None
     assert mine.name.startswith("part.mine-")
-    assert load(mine).blocks[0].tool == Entry(7.0)
+    assert load(mine).blocks[0].tool == Number(7.0)
 
 
 @pytest.mark.parametrize(("key", "tool", "whose"), [("t", 3.0, "mine"), ("y", 7.0, "theirs")])
@@ -131,12 +131,12 @@ def test_a_file_changed_by_another_is_noticed_and_both_are_kept(
     assert "Both are kept. Which gets the name?" in since
     assert "T THEIRS Y YOURS Esc back, nothing changes" in since
     operator.press(key)
-    assert load(part).blocks[0].tool == Entry(tool)
+    assert load(part).blocks[0].tool == Number(tool)
     copies = [name for name in names(part) if whose in name and name.endswith(".toml")]
     assert len(copies) == 1
     assert copies[0] in operator.said
     kept = load(part.with_name(copies[0]))
-    assert {kept.blocks[0].tool, load(part).blocks[0].tool} == {Entry(3.0), Entry(7.0)}
+    assert {kept.blocks[0].tool, load(part).blocks[0].tool} == {Number(3.0), Number(7.0)}
     assert not operator.session.unsaved
 
 
@@ -170,9 +170,9 @@ def test_a_link_into_another_folder_is_asked_once(own: Path, part: Path) -> None
     link.symlink_to(part)
     operator = started(own, link).press("tab").type("7").press("ctrl+s")
     assert "is a link to" in " ".join(operator.part("body").split())
-    assert load(part).blocks[0].tool == Entry(1.0)
+    assert load(part).blocks[0].tool == Number(1.0)
     operator.press("w")
-    assert load(part).blocks[0].tool == Entry(7.0)
+    assert load(part).blocks[0].tool == Number(7.0)
     assert "Saved" in operator.press("tab").type("8").press("ctrl+s").said
 
 

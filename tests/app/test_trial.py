@@ -9,7 +9,7 @@ from app.painted.screens.new_segment import NewSegment
 from app.painted.screens.program import ProgramPage
 from app.painted.session import SEGMENT
 from core.program.edit import FormPlace
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.operator import Operator
 from tests.app.squares import square
 
@@ -93,7 +93,7 @@ def test_back_over_that_enter_stays_on_the_field_and_only_then_leaves_it(back: s
     operator = square().press("ctrl+end", "right", "l", "enter", back)
     assert operator.session.field == "x_end"
     assert "X END has the cursor" in operator.said
-    assert square().press("ctrl+end", "right", "l", "enter", back).type("7").typed("x_end")[-1] == Entry(7.0)
+    assert square().press("ctrl+end", "right", "l", "enter", back).type("7").typed("x_end")[-1] == Number(7.0)
     assert operator.press(back).session.field == SEGMENT
     assert square().press("ctrl+end", "right", "l", back).session.field == SEGMENT
     assert square().press("ctrl+end", "right", "l", "enter", "enter", back).session.field == "x_end"

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from app.documents.files import load
-from core.program.model import Entry
+from core.program.model import Number
 from tests.app.test_safety_terminal import PROGRAM, status
 from tests.terminal import Terminal, running
 
@@ -55,13 +55,13 @@ def test_the_work_of_ann_is_offered_to_bob_and_still_to_ann_when_bob_has_saved(p
         bob.until("Kept for ann")
         tool(bob, "9", 1)
         saved(bob)
-    assert load(part).blocks[0].tool == Entry(9.0)
+    assert load(part).blocks[0].tool == Number(9.0)
     with operator(part, "ann") as ann:
         ann.until("TOOL 7, was 9")
         ann.send(b"r")
         ann.until("Your work is back")
         saved_over(ann)
-    assert load(part).blocks[0].tool == Entry(7.0)
+    assert load(part).blocks[0].tool == Number(7.0)
 
 
 def saved_over(terminal: Terminal) -> None:

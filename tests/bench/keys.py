@@ -35,7 +35,7 @@ from pathlib import Path
 
 from app.documents.files import save
 from core.program.edit import new_block
-from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, Program, Segment, Tool
+from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, Program, Segment, Tool
 from tests.bench.machine import EMPTY_SECONDS, Slowness, at_work, rs274_slowness, worked
 from tests.terminal import Terminal, running
 
@@ -62,20 +62,20 @@ def gear(count: int) -> Program:
     tip = max(0.2, round(0.75 * dist(corners[1], corners[2]), 5))
     segments = [_side(row, corners[(row + 1) % len(corners)], tip) for row in range(len(corners))]
     block = replace(
-        new_block(Program(tools=(Tool(1, diameter=Entry(0.25)),))),
+        new_block(Program(tools=(Tool(1, diameter=Number(0.25)),))),
         cutter_comp=CutterComp.RIGHT,
-        x_start=Entry(corners[0][0]),
-        y_start=Entry(corners[0][1]),
-        z_bottom=Entry(-0.25),
+        x_start=Number(corners[0][0]),
+        y_start=Number(corners[0][1]),
+        z_bottom=Number(-0.25),
         segments=tuple(segments),
     )
-    return Program(tools=(Tool(1, diameter=Entry(0.125)),), blocks=(block,))
+    return Program(tools=(Tool(1, diameter=Number(0.125)),), blocks=(block,))
 
 
 def _side(row: int, end: tuple[float, float], tip: float) -> Segment:
     if row % 4 != 1:
-        return LineSegment(x_end=Entry(end[0]), y_end=Entry(end[1]))
-    return ArcSegment(Direction.CCW, x_end=Entry(end[0]), y_end=Entry(end[1]), radius=Entry(tip), choice=0)
+        return LineSegment(x_end=Number(end[0]), y_end=Number(end[1]))
+    return ArcSegment(Direction.CCW, x_end=Number(end[0]), y_end=Number(end[1]), radius=Number(tip), choice=0)
 
 
 def plate(bumps: int = 24) -> Program:
@@ -91,18 +91,18 @@ def plate(bumps: int = 24) -> Program:
         before, behind = corners[row - 1], corners[(row + 1) % len(corners)]
         come, go = (_towards(corner, other, radius) for other in (before, behind))
         inside = (corner[0] - before[0]) * (behind[1] - corner[1]) < (corner[1] - before[1]) * (behind[0] - corner[0])
-        segments.append(LineSegment(x_end=Entry(come[0]), y_end=Entry(come[1])))
+        segments.append(LineSegment(x_end=Number(come[0]), y_end=Number(come[1])))
         turn = Direction.CW if inside else Direction.CCW
-        segments.append(ArcSegment(turn, x_end=Entry(go[0]), y_end=Entry(go[1]), radius=Entry(radius), choice=0))
+        segments.append(ArcSegment(turn, x_end=Number(go[0]), y_end=Number(go[1]), radius=Number(radius), choice=0))
     block = replace(
-        new_block(Program(tools=(Tool(1, diameter=Entry(0.25)),))),
+        new_block(Program(tools=(Tool(1, diameter=Number(0.25)),))),
         cutter_comp=CutterComp.RIGHT,
-        x_start=Entry(radius),
-        y_start=Entry(0.0),
-        z_bottom=Entry(-0.25),
+        x_start=Number(radius),
+        y_start=Number(0.0),
+        z_bottom=Number(-0.25),
         segments=tuple(segments),
     )
-    return Program(tools=(Tool(1, diameter=Entry(0.25)),), blocks=(block,))
+    return Program(tools=(Tool(1, diameter=Number(0.25)),), blocks=(block,))
 
 
 def _towards(corner: tuple[float, float], other: tuple[float, float], far: float) -> tuple[float, float]:
@@ -290,8 +290,8 @@ def main() -> None:
 def _ends(program: Program, number: int) -> tuple[float, float]:
     segment = program.blocks[0].segments[number - 1]
     assert isinstance(segment, LineSegment)
-    assert isinstance(segment.x_end, Entry)
-    assert isinstance(segment.y_end, Entry)
+    assert isinstance(segment.x_end, Number)
+    assert isinstance(segment.y_end, Number)
     return segment.x_end.value, segment.y_end.value
 
 

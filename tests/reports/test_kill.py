@@ -8,7 +8,7 @@ from pathlib import Path
 from app.documents.files import save
 from app.documents.programs import empty_program
 from core.program.history import History
-from core.program.model import Entry
+from core.program.model import Number
 from tests.reports.kill import Part, Tally, came_back, lives, report
 
 
@@ -46,6 +46,6 @@ def test_what_was_never_typed_is_a_loss_too(tmp_path: Path) -> None:
     part, tally = Part(tmp_path / "part.toml"), Tally()
     typed(part, "tab", "7", "enter")
     program = empty_program()
-    save(replace(program, blocks=(replace(program.blocks[0], tool=Entry(5.0)),)), part.file)
+    save(replace(program, blocks=(replace(program.blocks[0], tool=Number(5.0)),)), part.file)
     came_back(part, tally)
     assert len(tally.lost) == 1

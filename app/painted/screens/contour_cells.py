@@ -12,7 +12,7 @@ from app.painted.session import Session
 from app.painted.widgets.form import Cell, State
 from core.pipeline.derived import DerivedBlock, Tag
 from core.program.fields import SOLUTION, TABLES, Field, Form, form_of
-from core.program.model import Block, Entry, Segment, Unread
+from core.program.model import Block, Number, Segment, Unread
 from core.program.solve.block import ZERO_IF_BLANK
 from core.program.solve.solved import Solved, SolvedSegment, Value
 from core.units import Kind, Unit, from_mm, show
@@ -110,7 +110,7 @@ def _lookahead(found: DerivedBlock) -> Value:
     if isinstance(typed, Unread):
         return typed
     value = float(found.lookahead.value)
-    return Entry(value) if found.lookahead.tag is Tag.USR else Solved(value)
+    return Number(value) if found.lookahead.tag is Tag.USR else Solved(value)
 
 
 def cells_at(session: Session) -> tuple[Cell, ...]:

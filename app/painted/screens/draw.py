@@ -114,7 +114,7 @@ def _cutter_note(session: Session) -> str:
     found, segment = session.found, session.where.segment
     if segment > found.solved.determined:
         return f"Segment {segment} is not determined yet: no cutter is drawn."
-    if not segment or not found.known or found.work is None:
+    if not segment or not found.known or found.paths is None:
         return ""
     from core.pipeline.plot import cutter_place
 

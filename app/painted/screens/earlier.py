@@ -8,7 +8,7 @@ from dataclasses import replace
 from app.painted.session import Session
 from core.program.fields import Field, read_typed
 from core.program.history import History
-from core.program.model import Entry, Program, Unread
+from core.program.model import Number, Program, Unread
 from core.program.solve.solved import Value
 
 
@@ -24,7 +24,7 @@ def last_good(session: Session, one: Field, typed: Callable[[Session, str], Valu
             return ""
         held = typed(replace(session, history=History(step.program)), one.name)
         if not isinstance(held, Unread):
-            return _text(held.value, one, session) if isinstance(held, Entry) else ""
+            return _text(held.value, one, session) if isinstance(held, Number) else ""
         after = step.program
     return ""
 
@@ -32,7 +32,7 @@ def last_good(session: Session, one: Field, typed: Callable[[Session, str], Valu
 def _text(value: float, one: Field, session: Session) -> str:
     """A number as it may have been typed, nothing lost."""
     texts = (f"{value:.12g}", repr(value))
-    return next((text for text in texts if read_typed(text, one, session.program.unit) == Entry(value)), "")
+    return next((text for text in texts if read_typed(text, one, session.program.unit) == Number(value)), "")
 
 
 def _one_place(before: Program, after: Program) -> bool:

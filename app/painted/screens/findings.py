@@ -63,7 +63,7 @@ def _lines(found: DerivedBlock, table: Table | None, unit: Unit, width: int) -> 
     uncut = next((place for place, row in enumerate(rows) if text_of(row).startswith(" UNCUT")), 0)
     rows[uncut + 1 : uncut + 1] = nearest_place(found, unit)
     told = [one for row in rows[1:] for one in _wrapped(row, width)]
-    if found.work is not None and found.side is not None and (table is None or not table.complete):
+    if found.paths is not None and found.side is not None and (table is None or not table.complete):
         told.append(MORE)
     return (rows[0], (), *(told or [plain(" Nothing to report.") if found.known else UNKNOWN]))
 

@@ -23,7 +23,7 @@ from core.program.fields import (
     unread_reason,
     unread_sentence,
 )
-from core.program.model import Entry, Program, Unread
+from core.program.model import Number, Program, Unread
 from core.program.solve.solved import Solved, Value
 from core.units import Kind, Unit, sentence, show
 
@@ -120,7 +120,7 @@ class FormPage(Page):
         one, editing = self.field(session), self.editing
         if one is None or editing is None or one.kind is Kind.TEXT or editing.text == self.text(session, one):
             return None
-        if not isinstance(read_typed(editing.text, one, session.program.unit), Entry):
+        if not isinstance(read_typed(editing.text, one, session.program.unit), Number):
             return None
         outcome = self.edit(session, one, editing.text).outcome
         return None if isinstance(outcome, Refused) else outcome
@@ -136,7 +136,7 @@ class FormPage(Page):
     def text(self, session: Session, one: Field) -> str:
         """What a field shows, in full where the form's decimals would lose some of what was typed."""
         held = self.value(session, one.name)
-        if isinstance(held, Entry):
+        if isinstance(held, Number):
             shown = show(held.value, one.kind, session.program.unit)
             return shown if float(shown) == held.value else f"{held.value:.12g}"
         return shown_text(held, one, session.program.unit)
@@ -186,7 +186,7 @@ class FormPage(Page):
         if one is None or self.editing is None or one.kind is Kind.TEXT:
             return None
         typed, held = self.editing.text, self.text(session, one)
-        if typed.strip() == held or isinstance(read_typed(typed, one, session.program.unit), Entry):
+        if typed.strip() == held or isinstance(read_typed(typed, one, session.program.unit), Number):
             return None
         told = f"{_short(typed)} does not count" if typed.strip() else "A blank does not count before Enter"
         return Said(f"{told}: path and verdict are still those of {held or 'before'}.")
@@ -226,7 +226,7 @@ def unusable(held: Value | str, one: Field, unit: Unit) -> str | None:
     """Why a field cannot be used as it stands: a text that cannot be read, a number that it does not take."""
     if isinstance(held, Unread):
         return _unread_sentence(held, one, unit)
-    return check(one, held.value, unit) if isinstance(held, Entry) else None
+    return check(one, held.value, unit) if isinstance(held, Number) else None
 
 
 def _unread_sentence(unread: Unread, one: Field, unit: Unit) -> str:
@@ -276,7 +276,7 @@ def shown_text(held: Value | str, one: Field, unit: Unit) -> str:
             return text
         case Unread(text, _):
             return text
-        case Entry(value) | Solved(value):
+        case Number(value) | Solved(value):
             return show(value, one.kind, unit)
 
 
@@ -285,7 +285,7 @@ def cell_of(one: Field, held: Value | str, unit: Unit, column: int, line: int, *
     text = shown_text(held, one, unit)
     choice = one.kind is Kind.CHOICE
     match held:
-        case Unread() | Entry() if unusable(held, one, unit) is not None:
+        case Unread() | Number() if unusable(held, one, unit) is not None:
             return Cell(one.name, one.label, text, column, line, State.UNREAD, "ERR", choice)
         case Solved():
             return Cell(one.name, one.label, text, column, line, State.CALCULATED, Tag.CAL, choice)

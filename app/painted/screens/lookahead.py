@@ -13,7 +13,7 @@ from app.painted.widgets.strip import mark_of
 from app.painted.widgets.words import length, numbers
 from core.comp.lookahead import HIGHEST, LOWEST
 from core.program.edit import FormPlace, recalculate_lookahead, type_field
-from core.program.model import Entry
+from core.program.model import Number
 from core.units import Unit
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ class LookaheadTable(Page):
         """Taking the value, or going back to CAL."""
         program, block = session.program, session.where.block
         # an undo made here may have gone to a segment, which has no such field
-        usr = type_field(program, FormPlace(block), "lookahead", Entry(float(self.at)))
+        usr = type_field(program, FormPlace(block), "lookahead", Number(float(self.at)))
         taken = Edit(usr, f"CUTCOMP LOOKAHEAD {self.at}")
         cal = Edit(recalculate_lookahead(program, block), "RECALCULATE LOOKAHEAD")
         return {

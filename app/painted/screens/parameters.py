@@ -14,7 +14,7 @@ from app.painted.widgets.form import Cell, State, cursor_line, form_rows
 from app.painted.widgets.header import header
 from app.painted.widgets.rows import plain
 from core.program.edit import set_parameter, set_path_choice, set_unit
-from core.program.fields import PARAMETERS, Field, default, read_typed
+from core.program.fields import PARAMETERS, Field, default_value, read_typed
 from core.program.model import PathChoice
 from core.program.solve.solved import Value
 from core.units import Kind, Unit, show
@@ -85,7 +85,7 @@ class ParametersPage(FormPage):
         column, line = divmod(index, 5)
         held, unit = self.value(session, one.name), session.program.unit
         cell = cell_of(one, held, unit, column, line)
-        usual = default(one.name, unit)
+        usual = default_value(one.name, unit)
         if held is not None or usual is None:
             return cell
         return cell._replace(text=show(usual, one.kind, unit), tag="DEF", state=State.CALCULATED)
@@ -103,5 +103,5 @@ class ParametersPage(FormPage):
 
 
 def _prompt(one: Field, unit: Unit) -> str:
-    usual = default(one.name, unit)
+    usual = default_value(one.name, unit)
     return prompt_of(one) if usual is None else f"{one.prompt} Blank is {show(usual, one.kind, unit)}."

@@ -195,7 +195,7 @@ def _left(session: Session) -> tuple[Row, ...]:
     """One line on what the cutters leave uncut, one on the segments they delete."""
     unit, uncut, deleted = session.program.unit, list[str](), list[str]()
     for found in session.derived.blocks:
-        work, where = found.work, f"block {found.number}"
+        work, where = found.paths, f"block {found.number}"
         if work is not None and work.verdict is not None and work.verdict.uncut:
             uncut.append(f"{where} {length(work.verdict.uncut_length, unit)}")
         if work is not None and work.compensated is not None and work.best is None:

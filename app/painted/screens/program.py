@@ -16,7 +16,7 @@ from app.painted.widgets.rows import Look, Row, Span, plain
 from core.finding import Severity
 from core.pipeline.derived import DerivedBlock
 from core.program.edit import FormPlace, copy_block, delete_block, insert_block, move_block
-from core.program.model import Entry, Program
+from core.program.model import Number, Program
 
 if TYPE_CHECKING:
     from app.painted.desk import Desk
@@ -77,7 +77,7 @@ def _headings() -> Row:
 
 
 def _block_row(found: DerivedBlock, *, on_it: bool) -> Row:
-    tool = f"{found.block.tool.value:g}" if isinstance(found.block.tool, Entry) else "?"
+    tool = f"{found.block.tool.value:g}" if isinstance(found.block.tool, Number) else "?"
     text = f"{found.number:>5}  MILL CONTOUR  {found.block.cutter_comp:<15}{tool:>4}{len(found.block.segments):>5}"
     word, look = verdict_word(found)
     mark = "> " if on_it else "  "
@@ -93,7 +93,7 @@ def verdict_word(found: DerivedBlock) -> tuple[str, Look]:
         return ("GOUGE" if gouges else "not ready"), Look.ERROR
     if any(finding.severity is Severity.WARNING for finding in found.findings):
         return "warning", Look.WARNING
-    uncut = found.work is not None and found.work.verdict is not None and found.work.verdict.uncut
+    uncut = found.paths is not None and found.paths.verdict is not None and found.paths.verdict.uncut
     return ("uncut", Look.WARNING) if uncut else ("clean", Look.GOOD)
 
 

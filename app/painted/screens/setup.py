@@ -12,7 +12,7 @@ from app.painted.widgets.form import Cell, State, cursor_line, form_rows
 from app.painted.widgets.header import header
 from app.painted.widgets.rows import plain
 from core.program.edit import set_setup
-from core.program.fields import SETUP, Field, default, read_typed
+from core.program.fields import SETUP, Field, default_value, read_typed
 from core.program.solve.solved import Value
 from core.units import Kind, show
 
@@ -60,7 +60,7 @@ class SetupPage(FormPage):
     def _cell(self, session: Session, one: Field, line: int) -> Cell:
         held, unit = self.value(session, one.name), session.program.unit
         cell = cell_of(one, held, unit, 0, line)
-        usual = default(one.name, unit)
+        usual = default_value(one.name, unit)
         if held is not None or usual is None:
             return cell
         return cell._replace(text=show(usual, one.kind, unit), tag="DEF", state=State.CALCULATED)

@@ -155,14 +155,14 @@ def deepest_gouge(found: DerivedBlock, unit: Unit) -> list[Row]:
 
 def nearest_place(found: DerivedBlock, unit: Unit) -> list[Row]:
     """The least distance in full, with its place; nothing before the block is worked out."""
-    if not found.known or found.work is None:
+    if not found.known or found.paths is None:
         return []
     from core.advice.path_findings import nearest_finding
 
-    one = nearest_finding(found.work, found.radius)
+    one = nearest_finding(found.paths, found.radius)
     if one is None:
         return []
-    look = Look.ERROR if found.work.verdict is not None and found.work.verdict.gouges else Look.TYPED
+    look = Look.ERROR if found.paths.verdict is not None and found.paths.verdict.gouges else Look.TYPED
     return [(Span(" NEAREST ", Look.LABEL), Span(sentence(one, unit), look))]
 
 
@@ -226,7 +226,7 @@ def _cut(row: Row, width: int) -> Row:
 def _case(found: DerivedBlock, table: Table | None, look: int | None) -> Case | None:
     if look is not None:
         return None if table is None else Case(table.row(look).compensated, table.row(look).verdict)
-    work = found.work
+    work = found.paths
     if work is None or work.compensated is None or work.verdict is None:
         return None
     return Case(work.compensated if work.best is None else None, work.verdict)

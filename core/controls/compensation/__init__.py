@@ -1,7 +1,8 @@
 """Compensation as controls do it, block by block: the one scalar form of joining offset elements.
 
-`corners` has the elements and the points of a corner, `joint` the corner rules, `chain` the look-ahead, `recorder` the
-moves and the compensated stretches.  One corner by itself: `joint.join` of two elements (`corners.line_element`,
-`corners.arc_element`), the tool radius in millimeters, positive with the tool on the left, and `joint.CornerRules`,
-whose defaults go around outside corners by an arc and join inside corners at the meeting of the offsets.
+`elements` has the elements and their offset points, `corner_rules` the rules by which two of them are joined,
+`element_queue` the look-ahead, `recorder` the moves and the compensated stretches.  One corner by itself:
+`corner_rules.join` of two elements (`elements.line_element`, `elements.arc_element`), the tool radius in millimeters,
+positive with the tool on the left, and `CornerRules`, whose defaults go around outside corners by an arc and join
+inside corners at the meeting of the offsets.
 """

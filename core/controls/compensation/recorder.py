@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from core.controls.compensation.corners import Element
-from core.controls.compensation.joint import Joint
+from core.controls.compensation.corner_rules import Joint
+from core.controls.compensation.elements import Element
 from core.controls.control_run import Change, Log, Stretch
 from core.controls.moves import Plane, Point3, Tape, flat, solid
 from core.geometry.piece import Point, Side

@@ -18,7 +18,7 @@ from core.controls.moves import Plane
 from core.units import Unit
 
 
-class Do(Enum):
+class CodeAction(Enum):
     """What a G code makes the machine do."""
 
     MOTION = auto()
@@ -40,9 +40,9 @@ class Do(Enum):
     RETRACT = auto()
     MODE = auto()
     DATA = auto()
-    BEYOND = auto()
+    UNSUPPORTED = auto()
     """A code that the control has and cutcomp does not support: the run stops."""
-    OWN = auto()
+    OF_THIS_CONTROL = auto()
     """A code of this control alone, which its `Control` handles."""
 
 
@@ -51,12 +51,12 @@ class Code:
     """A G code: its modal group, what it does, and its value for that."""
 
     group: str
-    do: Do
+    action: CodeAction
     value: int = 0
 
 
-def _group(group: str, do: Do, *codes: int) -> dict[int, Code]:
-    return {code: Code(group, do, code) for code in codes}
+def _group(group: str, action: CodeAction, *codes: int) -> dict[int, Code]:
+    return {code: Code(group, action, code) for code in codes}
 
 
 PLANES: Final[Mapping[int, Plane]] = MappingProxyType({170: Plane.XY, 180: Plane.ZX, 190: Plane.YZ})
@@ -64,33 +64,35 @@ PLANES: Final[Mapping[int, Plane]] = MappingProxyType({170: Plane.XY, 180: Plane
 
 COMMON: Final[Mapping[int, Code]] = MappingProxyType(
     {
-        **_group("motion", Do.MOTION, 0, 10, 20, 30, 800),
-        **_group("motion", Do.CYCLE, *range(810, 900, 10)),
-        **_group("plane", Do.PLANE, 170, 180, 190),
-        **_group("units", Do.UNITS, 200, 210),
-        **_group("compensation", Do.SIDE, 400, 410, 420),
-        **_group("length", Do.MODE, 430, 490),
-        **_group("system", Do.SYSTEM, 540, 550, 560, 570, 580, 590),
-        **_group("distance", Do.DISTANCE, 900, 910),
-        **_group("feed", Do.RATE, 930, 940, 950),
-        **_group("once", Do.DWELL, 40),
-        **_group("once", Do.HOME, 280, 300),
-        **_group("once", Do.PRESET, 920),
+        **_group("motion", CodeAction.MOTION, 0, 10, 20, 30, 800),
+        **_group("motion", CodeAction.CYCLE, *range(810, 900, 10)),
+        **_group("plane", CodeAction.PLANE, 170, 180, 190),
+        **_group("units", CodeAction.UNITS, 200, 210),
+        **_group("compensation", CodeAction.SIDE, 400, 410, 420),
+        **_group("length", CodeAction.MODE, 430, 490),
+        **_group("system", CodeAction.SYSTEM, 540, 550, 560, 570, 580, 590),
+        **_group("distance", CodeAction.DISTANCE, 900, 910),
+        **_group("feed", CodeAction.RATE, 930, 940, 950),
+        **_group("once", CodeAction.DWELL, 40),
+        **_group("once", CodeAction.HOME, 280, 300),
+        **_group("once", CodeAction.PRESET, 920),
     }
 )
 """What G codes are on every word-address control in cutcomp."""
 
 
-CYCLES_APART: Final = (("cycle", Do.CYCLE, tuple(range(810, 900, 10))), ("cycle", Do.MOTION, (800,)))
+CYCLES_APART: Final = (("cycle", CodeAction.CYCLE, tuple(range(810, 900, 10))), ("cycle", CodeAction.MOTION, (800,)))
 """G80 to G89 as a group of their own: G80 then ends the cycle and leaves the motion that stood before it.
 
 In the group of the motions G80 leaves no motion in force, and counts for nothing next to another code of that group.
 """
 
 
-def codes(*groups: tuple[str, Do, tuple[int, ...]]) -> Mapping[int, Code]:
+def codes(*groups: tuple[str, CodeAction, tuple[int, ...]]) -> Mapping[int, Code]:
     """The common codes with those of a control over them."""
-    added = {code: entry for group, do, numbers in groups for code, entry in _group(group, do, *numbers).items()}
+    added = {
+        code: entry for group, action, numbers in groups for code, entry in _group(group, action, *numbers).items()
+    }
     return MappingProxyType({**COMMON, **added})
 
 

@@ -1,4 +1,4 @@
-"""Flow: runs the lines of a program in their order: subprograms by M98, O-words, the end, an alarm.
+"""Program flow: which line of a word-address program runs next: subprograms, O-words, its end or an alarm.
 
 LinuxCNC's O-words go from line to line: `O100 sub` ... `O100 endsub`, `O100 call [1] [2]`, `if`, `elseif`, `else`,
 `endif`, `while`, `endwhile`, `do`, `repeat`, `endrepeat`, `break`, `continue`, `return`.  A label is a number or a
@@ -13,11 +13,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple, NoReturn
 
-from core.controls.control_run import AlarmError, Log, Run
+from core.controls.control_run import AlarmError, ControlRun, Log
 from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.machine import Control, Machine
-from core.controls.iso.macro import ExpressionReader, FaultError, Kept, Parameters, Squeezed, tell_unset
+from core.controls.iso.macro import ExpressionReader, FaultError, Kept, MacroParameters, Squeezed, tell_unset
 from core.controls.iso.reader import Block, is_plain, read_line, whole
 from core.controls.program_text import lines_of, quoted
 from core.finding import Severity
@@ -120,7 +120,7 @@ class OWords:
     `calls` are the program and the subprograms that run, the innermost last, those that M98 called among them.
     """
 
-    def __init__(self, words: dict[int, OWord], values: Parameters, log: Log, calls: list[Call]) -> None:
+    def __init__(self, words: dict[int, OWord], values: MacroParameters, log: Log, calls: list[Call]) -> None:
         self.words = words
         self.values = values
         self.log = log
@@ -363,7 +363,7 @@ class Flow:
         self.ran = bytearray(len(lines))
         self.o_words_left = dialect.max_o_words
         self.percents = 0
-        self.values = Parameters(dialect.parameters, machine.value_of) if dialect.parameters else None
+        self.values = MacroParameters(dialect.parameters, machine.value_of) if dialect.parameters else None
         words = o_words_of(lines) if dialect.parameters is Kept.NGC else {}
         self.o_words = OWords(words, self.values, log, self.calls) if words and self.values else None
         self.labels = _labels_of(lines, words)
@@ -464,7 +464,7 @@ MakeControl = Callable[[Log], Control]
 """Makes a control that writes its findings into a log."""
 
 
-def execute(text: bytes, name: str, dialect: Dialect, tools: ToolTable, make: MakeControl) -> Run:
+def execute(text: bytes, name: str, dialect: Dialect, tools: ToolTable, make: MakeControl) -> ControlRun:
     """A program on the control of this name that `make` gives; never raises for any text."""
     log = Log()
     control = make(log)
@@ -477,7 +477,7 @@ def execute(text: bytes, name: str, dialect: Dialect, tools: ToolTable, make: Ma
         stopped_at = alarm.line
     control.close_stretch()
     unit = machine.first_unit or machine.unit
-    return Run(name, unit, control.tape.moves(), log.closed(), stopped_at, tuple(control.stretches))
+    return ControlRun(name, unit, control.tape.moves(), log.closed(), stopped_at, tuple(control.stretches))
 
 
 def _run(flow: Flow, machine: Machine) -> None:

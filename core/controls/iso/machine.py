@@ -1,4 +1,4 @@
-"""Machine of the word-address controls: runs blocks in the order the controls take them.
+"""Machine: executes the blocks of a word-address program, each block's codes in the order of the controls.
 
 Blocks come in; programmed elements go out to a `Control`, which compensates them and makes the moves.
 """
@@ -10,13 +10,13 @@ from math import dist, hypot
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.compensation.corners import arc_element, element_sweep, line_element
+from core.controls.compensation.elements import arc_element, element_sweep, line_element
 from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
 from core.controls.iso import cycles
 from core.controls.iso.arcs import NoArc, given_center, through
-from core.controls.iso.dialect import PLANES, Code, Dialect, Do, unused_words
+from core.controls.iso.dialect import PLANES, Code, CodeAction, Dialect, unused_words
 from core.controls.iso.modal_state import G54, PER_MINUTE, ZERO, ModalState, Origin
 from core.controls.iso.reader import Block
 from core.controls.moves import Point3, flat
@@ -25,12 +25,19 @@ from core.geometry.piece import Point, Side
 from core.tolerance import ON_PATH
 from core.units import Unit
 
-ONCE: Final = frozenset((Do.HOME, Do.SHIFT, Do.PRESET, Do.MACHINE, Do.DATA))
+ONCE: Final = frozenset((CodeAction.HOME, CodeAction.SHIFT, CodeAction.PRESET, CodeAction.MACHINE, CodeAction.DATA))
 """What takes a block's axis words for itself."""
 
 _OTHER_AXES: Final = "ABCUVW"
 _TURNS: Final = {20: -1, 30: 1}
-_ORDER: Final = {Do.MOTION: 0, Do.PLANE: 1, Do.UNITS: 2, Do.DISTANCE: 3, Do.OWN: 4, Do.SIDE: 5}
+_ORDER: Final = {
+    CodeAction.MOTION: 0,
+    CodeAction.PLANE: 1,
+    CodeAction.UNITS: 2,
+    CodeAction.DISTANCE: 3,
+    CodeAction.OF_THIS_CONTROL: 4,
+    CodeAction.SIDE: 5,
+}
 _LATEST: Final = 9
 _G53: Final = 530
 _G80: Final = 800
@@ -96,9 +103,9 @@ class Machine(ModalState):
         """Everything of a block but its motion; the code that takes the block's axis words for itself, if any."""
         codes = self._grouped(block)
         for code in codes:
-            if code.do is Do.RATE:
+            if code.action is CodeAction.RATE:
                 self.set_rate(code.value)
-            elif code.do is Do.UNITS and self.dialect.unit_first:
+            elif code.action is CodeAction.UNITS and self.dialect.unit_first:
                 self._set_units(code.value)
         if not self.dialect.unit_first and "F" in block.words:
             self.feed = block.words["F"] * self.scale
@@ -107,7 +114,7 @@ class Machine(ModalState):
         self._warn_of_axes(block)
         once = None
         for code in codes:
-            if code.do in ONCE or (code.do is Do.DWELL and self.dialect.dwell_takes_axes):
+            if code.action in ONCE or (code.action is CodeAction.DWELL and self.dialect.dwell_takes_axes):
                 once = code
             else:
                 self._set(code, block)
@@ -132,10 +139,10 @@ class Machine(ModalState):
                 self.log.stop(self.dialect.group_rule, text, block.line, block.column("G", number))
             groups.add(code.group)
             known.append(code)
-        if {"motion", "cycle"} <= groups and any(code.do is Do.CYCLE for code in known):
+        if {"motion", "cycle"} <= groups and any(code.action is CodeAction.CYCLE for code in known):
             text = "cutcomp does not know which counts, the motion or the cycle. Write them in two blocks."
             self.log.stop(self.dialect.group_rule, text, block.line, block.column("G"))
-        known.sort(key=lambda code: _ORDER.get(code.do, _LATEST))
+        known.sort(key=lambda code: _ORDER.get(code.action, _LATEST))
         return known
 
     def _moves_in(self, block: Block) -> bool:
@@ -144,44 +151,44 @@ class Machine(ModalState):
         return any(code is not None and code.group == "motion" for code in known)
 
     def _set(self, code: Code, block: Block) -> None:
-        match code.do:
-            case Do.MOTION if code.value == _G80 and code.group == "cycle":
+        match code.action:
+            case CodeAction.MOTION if code.value == _G80 and code.group == "cycle":
                 self.mode = self.mode if self.mode in _MOVES else self.cycle.mode_before
                 self.cycle.code = None
-            case Do.MOTION:
+            case CodeAction.MOTION:
                 self.mode, self.cycle.code = code.value, None
-            case Do.CYCLE:
+            case CodeAction.CYCLE:
                 self.cycle.mode_before = self.mode if self.mode in _MOVES else self.cycle.mode_before
                 self.mode = code.value
-            case Do.PLANE:
+            case CodeAction.PLANE:
                 self.plane = self.control.plane = PLANES[code.value]
-            case Do.UNITS:
+            case CodeAction.UNITS:
                 self._set_units(code.value)
-            case Do.DISTANCE:
+            case CodeAction.DISTANCE:
                 self.incremental = code.value == 910
-            case Do.CENTERS:
+            case CodeAction.CENTERS:
                 self.absolute_centers = code.value == 901
-            case Do.SPINDLE:
+            case CodeAction.SPINDLE:
                 self.surface_speed = code.value == _SURFACE
-            case Do.RETRACT:
+            case CodeAction.RETRACT:
                 self.cycle.to_r = code.value == 990
             case _:
                 self._act(code, block)
 
     def _act(self, code: Code, block: Block) -> None:
         """A code that does more than set a value."""
-        match code.do:
-            case Do.SIDE if code.value == 400:
+        match code.action:
+            case CodeAction.SIDE if code.value == 400:
                 self.control.finish(block)
-            case Do.SIDE:
+            case CodeAction.SIDE:
                 self.control.begin(Side.LEFT if code.value // 10 == 41 else Side.RIGHT, block)
-            case Do.SYSTEM:
+            case CodeAction.SYSTEM:
                 self._select_system(code.value, block)
-            case Do.UNSHIFT:
+            case CodeAction.UNSHIFT:
                 self.set_origin(replace(self.origin, local=ZERO))
-            case Do.OWN:
+            case CodeAction.OF_THIS_CONTROL:
                 self.control.own_code(code.value, block)
-            case Do.BEYOND:
+            case CodeAction.UNSUPPORTED:
                 text = f"cutcomp does not support G{code.value / 10:g}, and the path after it would be wrong."
                 self.log.stop("BEYOND", text, block.line, block.column("G", code.value))
 
@@ -296,16 +303,16 @@ class Machine(ModalState):
 
     def _run_once(self, code: Code, block: Block) -> None:
         """Runs a code that takes the block's axis words for itself: G28, G52, G53, G92, G10, G4."""
-        match code.do:
-            case Do.SHIFT:
+        match code.action:
+            case CodeAction.SHIFT:
                 self.set_origin(replace(self.origin, local=self.axis_words(block, self.origin.local)))
-            case Do.PRESET:
+            case CodeAction.PRESET:
                 self._preset(block)
-            case Do.DATA:
+            case CodeAction.DATA:
                 self._set_system(block)
-            case Do.HOME:
+            case CodeAction.HOME:
                 self._home(block)
-            case Do.DWELL:
+            case CodeAction.DWELL:
                 self._dwell(block)
             case _:
                 self._move_in_machine(block)

@@ -59,7 +59,7 @@ MachineValue = Callable[[int | str], float | str | None]
 """What a program reads of the machine by number or name: a value, a sentence why it has none, None if not known."""
 
 
-class Parameters:
+class MacroParameters:
     """The values of one run; `machine_value` reads those that the control itself keeps."""
 
     def __init__(self, kept: Kept, machine_value: MachineValue = lambda _: None) -> None:
@@ -232,7 +232,7 @@ class ExpressionReader:
     `unset` are the numbers read that nothing had set, and where.
     """
 
-    def __init__(self, text: str, values: Parameters, at: int = 0) -> None:
+    def __init__(self, text: str, values: MacroParameters, at: int = 0) -> None:
         self.text = text
         self.values = values
         self.at = at
@@ -386,7 +386,7 @@ Setting = tuple[int | str, float]
 """A parameter's number or name, and the value it gets."""
 
 
-def worked_out(line: Squeezed, number: int, values: Parameters, log: Log) -> tuple[str, tuple[int, ...]]:
+def worked_out(line: Squeezed, number: int, values: MacroParameters, log: Log) -> tuple[str, tuple[int, ...]]:
     """The words of a line as plain text, and the column of each; what the line sets is set.
 
     What cannot be evaluated stops the run at its place.

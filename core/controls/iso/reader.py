@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from core.controls.control_run import Log
-from core.controls.iso.macro import GAP, Parameters, Squeezed, worked_out
+from core.controls.iso.macro import GAP, MacroParameters, Squeezed, worked_out
 from core.controls.program_text import capitals, quoted
 from core.finding import Severity
 from core.tolerance import LARGEST
@@ -129,7 +129,7 @@ PLAIN: Final = Syntax()
 
 
 def read_line(
-    text: str, line: int, log: Log, syntax: Syntax = PLAIN, values: Parameters | None = None
+    text: str, line: int, log: Log, syntax: Syntax = PLAIN, values: MacroParameters | None = None
 ) -> list[Block]:  # fmt: skip
     """The blocks of one line, none of an empty one; what cannot be read stops the run with its column.
 
@@ -159,7 +159,7 @@ def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
 
 
 def _closer(
-    block: Block, bare: str, log: Log, syntax: Syntax, values: Parameters | None = None
+    block: Block, bare: str, log: Log, syntax: Syntax, values: MacroParameters | None = None
 ) -> list[Block]:  # fmt: skip
     """The block of a line that has characters besides words: tool data, block skip, the percent sign."""
     if syntax.tool_data and (data := _DATA.search(bare)):
@@ -186,7 +186,7 @@ def _closer(
     return [_filled(block, bare, log)]
 
 
-def _worked_out(block: Block, log: Log, values: Parameters) -> list[Block]:
+def _worked_out(block: Block, log: Log, values: MacroParameters) -> list[Block]:
     """The block of a line with parameters or expressions; none of one that only sets them."""
     marked = _bare(capitals(block.text), GAP)
     skip = len(marked) - len(marked.lstrip()) + 1 if marked.lstrip().startswith("/") else 0

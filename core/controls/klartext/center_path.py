@@ -11,13 +11,13 @@ from enum import Enum, auto
 from math import hypot, pi, tau
 from typing import Final, NamedTuple, NoReturn
 
-from core.controls.compensation import corners
-from core.controls.compensation.corners import Element
-from core.controls.compensation.joint import Corner, CornerRules, Inside, Joint, Outside, join
+from core.controls.compensation import elements
+from core.controls.compensation.corner_rules import Corner, CornerRules, Inside, Joint, Outside, join
+from core.controls.compensation.elements import Element
 from core.controls.control_run import Log, Stretch
 from core.controls.klartext import lead_curves
-from core.controls.klartext.lead_curves import Form, Lead
-from core.controls.klartext.m120 import PathAhead, Run, Unreached, path_ahead
+from core.controls.klartext.lead_curves import Lead, LeadShape
+from core.controls.klartext.m120 import CenterPathPiece, PathAhead, Unreached, path_ahead
 from core.controls.moves import Plane, Point3, Tape, flat, solid
 from core.finding import Severity
 from core.geometry.piece import Point, Side
@@ -91,7 +91,7 @@ class Step(NamedTuple):
     @property
     def arc_feed(self) -> float:
         """The feed of the center along the step's offset arc."""
-        share = corners.offset_radius(self.element, self.offset) / self.element.radius
+        share = elements.offset_radius(self.element, self.offset) / self.element.radius
         at_edge = self.feed_at is FeedAt.EDGE or (self.feed_at is FeedAt.INSIDE_EDGE and share < 1.0)
         return self.element.feed * share if at_edge else self.element.feed
 
@@ -199,7 +199,7 @@ class CenterPath:
                 self._contour(step)
             case Role.FREE:
                 if self.entry:  # an approach without compensation
-                    goal = corners.offset_start(step.element, self.entry.offset)
+                    goal = elements.offset_start(step.element, self.entry.offset)
                     self._arrive(self.entry, goal, step.element.leaving)
                     self.record.close()
                 self.record.plain(step, step.element.end)
@@ -239,7 +239,7 @@ class CenterPath:
         """Finish what waits: nothing follows it."""
         self._run_ahead(goes_on=False)
         if self.held:
-            self._finish(self.held, corners.offset_end(self.held.element, self.held.offset))
+            self._finish(self.held, elements.offset_end(self.held.element, self.held.offset))
         if self.entry:
             self._stop("HE7", NO_CONTOUR, self.entry)
 
@@ -258,7 +258,7 @@ class CenterPath:
         if curve is None:
             self._stop("HE5", INSIDE_CIRCLE, step, lead.radius)
         depth = step.element.high
-        if lead.form is Form.LCT:
+        if lead.shape is LeadShape.LCT:
             self.record.line(curve.point, depth, step)
         else:
             self.record.line(curve.point, height, step, lead=True)
@@ -272,7 +272,7 @@ class CenterPath:
         if curve is None:
             self._stop("HE5", INSIDE_CIRCLE, step, lead.radius)
         self._run_curve(curve.point, height, curve, step)
-        if lead.form is Form.LCT:
+        if lead.shape is LeadShape.LCT:
             self.record.line(step.element.end, height, step)
         if step.element.high != height:
             self.record.sink(step)
@@ -290,10 +290,10 @@ class CenterPath:
         if step.ahead:
             self._gather(step)
             return
-        if element.turn and corners.offset_radius(element, step.offset) <= JOINED:
+        if element.turn and elements.offset_radius(element, step.offset) <= JOINED:
             why = "the {0}-radius tool cannot run inside this arc of radius {1}"
             self._stop_too_large(step, why, abs(step.offset), element.radius)
-        begin = corners.offset_start(element, step.offset)
+        begin = elements.offset_start(element, step.offset)
         if self.entry:
             self._arrive(self.entry, begin, element.leaving)
         elif self.held:
@@ -322,8 +322,8 @@ class CenterPath:
         """Whether two offsets meet beyond what there is of them."""
         if joint.start != joint.end:
             return False
-        slack = max(JOINED, ROUNDED / max(abs(corners.turn_angle(first, second)), corners.WHOLE))
-        end, begin = corners.offset_end(first, offset), corners.offset_start(second, offset)
+        slack = max(JOINED, ROUNDED / max(abs(elements.turn_angle(first, second)), elements.WHOLE))
+        end, begin = elements.offset_end(first, offset), elements.offset_start(second, offset)
         return min(advance(first, joint.end, end), advance(second, begin, joint.end)) < -slack
 
     def _finish(self, step: Step, end: Point) -> None:
@@ -333,7 +333,7 @@ class CenterPath:
         if left < -JOINED:
             self._stop_too_large(step, "its neighbors leave no length for this block", abs(step.offset))
         if element.turn and left > JOINED:
-            if left >= tau * corners.offset_radius(element, step.offset) - JOINED:
+            if left >= tau * elements.offset_radius(element, step.offset) - JOINED:
                 end = self.begin
             self.record.arc(end, element.high, element.center, element.turn, step, step.arc_feed)
         else:
@@ -379,7 +379,7 @@ class CenterPath:
         if goes_on:
             self.held, self.begin = steps[-1], last[0].end if last else path.start
 
-    def _run_along(self, steps: list[Step], path: PathAhead, runs: tuple[Run, ...]) -> None:
+    def _run_along(self, steps: list[Step], path: PathAhead, runs: tuple[CenterPathPiece, ...]) -> None:
         """The move to a path computed ahead, and pieces of it."""
         if self.entry:
             self._arrive(self.entry, path.start, path.way)
@@ -418,7 +418,7 @@ def advance(element: Element, start: Point, end: Point) -> float:
     if not element.turn:
         (x, y), (ex, ey), way = start, end, element.leaving
         return (ex - x) * way[0] + (ey - y) * way[1]
-    angle = corners.sweep(start, end, element.center, element.turn)
+    angle = elements.sweep(start, end, element.center, element.turn)
     return (angle - tau if angle > pi else angle) * hypot(start[0] - element.center[0], start[1] - element.center[1])
 
 
@@ -426,6 +426,6 @@ def remaining(element: Element, begin: Point, end: Point, offset: float) -> floa
     """Millimeters left of an element's offset between the points its corners trim it to; negative if they cross."""
     if not element.turn:
         return advance(element, begin, end)
-    whole = corners.element_sweep(element) * corners.offset_radius(element, offset)
-    first, last = corners.offset_start(element, offset), corners.offset_end(element, offset)
+    whole = elements.element_sweep(element) * elements.offset_radius(element, offset)
+    first, last = elements.offset_start(element, offset), elements.offset_end(element, offset)
     return whole - advance(element, first, begin) - advance(element, end, last)

@@ -8,7 +8,7 @@ from math import isclose
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.control_run import AlarmError, Log, Run
+from core.controls.control_run import AlarmError, ControlRun, Log
 from core.controls.control_tools import ToolTable
 from core.controls.klartext import leads, m_functions, path_functions, settings
 from core.controls.klartext.center_path import CenterPath, Record
@@ -34,7 +34,7 @@ _GOAL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*$', re.ASCII)
 _FORMULA_OF_FN: Final = {5: "SQRT", 6: "SIN", 7: "COS"}
 
 
-def run(text: bytes, tools: ToolTable, share: float = 1.0) -> Run:
+def run(text: bytes, tools: ToolTable, share: float = 1.0) -> ControlRun:
     """A program in Klartext with these tools, run with a share of each tool's radius; never raises for any text.
 
     Tools of the table count before TOOL DEF of the same number.
@@ -53,7 +53,7 @@ def run(text: bytes, tools: ToolTable, share: float = 1.0) -> Run:
         stopped_at = alarm.finding.line
         center.record.close()  # what is recorded so far stays
     moves, stretches = center.record.tape.moves(), tuple(center.record.stretches)
-    return Run("klartext", state.unit, moves, log.closed(), stopped_at, stretches)
+    return ControlRun("klartext", state.unit, moves, log.closed(), stopped_at, stretches)
 
 
 def _run_blocks(state: State) -> None:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from math import hypot
 from typing import Final, NoReturn
 
-from core.controls.compensation import corners
-from core.controls.compensation.corners import Element, arc_element, line_element
+from core.controls.compensation import elements
+from core.controls.compensation.elements import Element, arc_element, line_element
 from core.controls.klartext.center_path import PLAIN, CenterPath, Role, Step
 from core.geometry.piece import Point
 from core.tolerance import JOINED
@@ -77,12 +77,12 @@ Blended = tuple[Element, Element, Element]
 
 def rounding(first: Element, second: Element, radius: float) -> Blended | str:
     """An arc of `radius` millimeters tangent to both elements; or the sentence that says why there is none."""
-    angle = corners.turn_angle(first, second)
-    if abs(angle) < corners.WHOLE or not _level(first, second):
+    angle = elements.turn_angle(first, second)
+    if abs(angle) < elements.WHOLE or not _level(first, second):
         return "There is no corner to round. Both blocks must lie in the working plane and meet at an angle."
     offset = radius if angle > 0.0 else -radius
     ending = first._replace(start=first.end) if first.turn else first
-    center = corners.meeting(ending, second, offset)
+    center = elements.meeting(ending, second, offset)
     if center is None:
         return "No arc of this radius touches both blocks. Write a smaller R."
     start, end = _touch(ending, center, offset), _touch(second, center, offset)
@@ -97,7 +97,7 @@ def chamfer(first: Element, second: Element, leg: float) -> Blended | str:
     """A line that cuts `leg` millimeters off both straight elements; or the sentence that says why there is none."""
     if first.turn or second.turn or not _level(first, second):
         return "A chamfer needs two straight blocks in the working plane. Use RND."
-    start, end = corners.beyond(first.end, first.arriving, -leg), corners.beyond(first.end, second.leaving, leg)
+    start, end = elements.beyond(first.end, first.arriving, -leg), elements.beyond(first.end, second.leaving, leg)
     if not _on(first, start) or not _on(second, end):
         return "The chamfer is longer than the blocks it joins. Write a shorter one."
     between = line_element(start, end, first.high, first.high, first.rapid, first.feed, first.line)
@@ -111,7 +111,7 @@ def _level(first: Element, second: Element) -> bool:
 def _touch(element: Element, center: Point, offset: float) -> Point:
     """Where a circle about `center`, `offset` to the left of the element, touches it."""
     if not element.turn:
-        return corners.offset_point(center, element.leaving, -offset)
+        return elements.offset_point(center, element.leaving, -offset)
     (x, y), (cx, cy) = center, element.center
     share = element.radius / hypot(x - cx, y - cy)
     return cx + (x - cx) * share, cy + (y - cy) * share
@@ -122,16 +122,16 @@ def _on(element: Element, at: Point) -> bool:
         (x, y), way = element.start, element.leaving
         along = (at[0] - x) * way[0] + (at[1] - y) * way[1]
         return -JOINED <= along <= hypot(element.end[0] - x, element.end[1] - y) + JOINED
-    return corners.sweep(element.start, at, element.center, element.turn) <= corners.element_sweep(element)
+    return elements.sweep(element.start, at, element.center, element.turn) <= elements.element_sweep(element)
 
 
 def _cut_end(element: Element, end: Point) -> Element:
     if not element.turn:
         return element._replace(end=end)
-    return element._replace(end=end, arriving=corners.tangent(end, element.center, element.turn))
+    return element._replace(end=end, arriving=elements.tangent(end, element.center, element.turn))
 
 
 def _cut_start(element: Element, start: Point) -> Element:
     if not element.turn:
         return element._replace(start=start, center=start)
-    return element._replace(start=start, leaving=corners.tangent(start, element.center, element.turn))
+    return element._replace(start=start, leaving=elements.tangent(start, element.center, element.turn))

@@ -13,7 +13,7 @@ from enum import StrEnum
 from math import acos, atan2, cos, hypot, sin, tau
 from typing import Final
 
-from core.controls.compensation.corners import WHOLE, beyond, offset_point, turned
+from core.controls.compensation.elements import WHOLE, beyond, offset_point, turned
 from core.geometry.piece import Point
 from core.tolerance import JOINED
 
@@ -21,7 +21,7 @@ LEAST: Final = 1e-12
 """Share of the radius by which rounding may put the start of an LCT inside its circle."""
 
 
-class Form(StrEnum):
+class LeadShape(StrEnum):
     """The shape of an approach or departure."""
 
     LT = "LT"
@@ -34,7 +34,7 @@ class Form(StrEnum):
 class Lead:
     """A programmed lead: `length` of LT and LN, signed `radius` and `angle` (radians) of CT, `radius` of LCT."""
 
-    form: Form
+    shape: LeadShape
     length: float = 0.0
     radius: float = 0.0
     angle: float = 0.0
@@ -58,13 +58,13 @@ def approach(lead: Lead, start: Point, end: Point, way: Point, hand: int) -> Cur
     `hand` is +1 with the tool on the left of the contour, -1 on the right, 0 without compensation: an LCT then has
     its circle on the side PS lies on.  Points in millimeters.  None for an LCT that starts inside its own circle.
     """
-    if lead.form is Form.LT:
+    if lead.shape is LeadShape.LT:
         point = beyond(end, way, -lead.length)
         return Curve(point, point, 0)
-    if lead.form is Form.LN:
+    if lead.shape is LeadShape.LN:
         point = offset_point(end, way, hand * lead.length)
         return Curve(point, point, 0)
-    if lead.form is Form.CT:
+    if lead.shape is LeadShape.CT:
         center = offset_point(end, way, hand * lead.radius)
         turn = hand if lead.radius > 0.0 else -hand
         whole = lead.angle >= tau - WHOLE

@@ -6,9 +6,9 @@ import re
 from math import radians
 from typing import Final
 
-from core.controls.compensation.corners import Element, offset_point
+from core.controls.compensation.elements import Element, offset_point
 from core.controls.klartext.center_path import Role, Step
-from core.controls.klartext.lead_curves import Form, Lead, departure
+from core.controls.klartext.lead_curves import Lead, LeadShape, departure
 from core.controls.klartext.m_functions import functions
 from core.controls.klartext.path_functions import POLAR, polar_target, straight_element
 from core.controls.klartext.reader import Block
@@ -17,16 +17,16 @@ from core.controls.moves import solid
 from core.finding import Severity
 
 _FORM: Final = re.compile(r"[ \t]*(P?)(LT|LN|CT|LCT)(?![A-Z])", re.ASCII)
-_NEEDED: Final = {Form.LT: ("LEN",), Form.LN: ("LEN",), Form.CT: ("CCA", "R"), Form.LCT: ("R",)}
+_NEEDED: Final = {LeadShape.LT: ("LEN",), LeadShape.LN: ("LEN",), LeadShape.CT: ("CCA", "R"), LeadShape.LCT: ("R",)}
 
 
 def approach(state: State, block: Block) -> None:
     """APPR LT, LN, CT, LCT and their polar forms: the lead to the contour's first point."""
-    form, polar, words = _read(state, block, "APPR")
+    shape, polar, words = _read(state, block, "APPR")
     end = polar_target(state, block, words)[0] if polar else state.target(block, words)
     state.chosen_side(block, words)
-    _check_side(state, block, form)
-    lead = _lead(state, block, form, words)
+    _check_side(state, block, shape)
+    lead = _lead(state, block, shape, words)
     before = state.before
     rapid, feed = state.chosen_feed(block, words)
     functions(state, block, words)
@@ -40,13 +40,13 @@ def approach(state: State, block: Block) -> None:
 
 def depart(state: State, block: Block) -> None:
     """DEP LT, LN, CT, LCT and PLCT: the lead away from the contour's last point; it cancels compensation."""
-    form, polar, words = _read(state, block, "DEP")
-    _check_side(state, block, form)
+    shape, polar, words = _read(state, block, "DEP")
+    _check_side(state, block, shape)
     last = state.last
     if last is None:
         state.stop("HE7", "DEP needs a contour element directly before it. Write an L or C block first.", block)
-    lead = _lead(state, block, form, words)
-    goal = _goal(state, block, words, form, last, lead, polar=polar)
+    lead = _lead(state, block, shape, words)
+    goal = _goal(state, block, words, shape, last, lead, polar=polar)
     rapid, feed = state.chosen_feed(block, words)
     functions(state, block, words)
     state.moving(block, rapid=rapid, feed=feed)
@@ -57,54 +57,54 @@ def depart(state: State, block: Block) -> None:
     state.release()
 
 
-def _read(state: State, block: Block, name: str) -> tuple[Form, bool, Words]:
-    """The form of a lead, whether its point is polar, and its words."""
+def _read(state: State, block: Block, name: str) -> tuple[LeadShape, bool, Words]:
+    """The shape of a lead, whether its point is polar, and its words."""
     lead = _FORM.match(block.body)
     if lead is None or (name == "DEP" and lead[1] and lead[2] != "LCT"):
-        text = f"{name} needs its form: LT, LN, CT or LCT{', or with polar coordinates PLT ...' * (name == 'APPR')}."
+        text = f"{name} needs its shape: LT, LN, CT or LCT{', or with polar coordinates PLT ...' * (name == 'APPR')}."
         state.stop("WORD", text, block)
-    form, polar = Form(lead[2]), bool(lead[1])
+    shape, polar = LeadShape(lead[2]), bool(lead[1])
     coordinates = POLAR if polar else frozenset(AXES)
-    return form, polar, state.words(block.after(lead.end()), COMMON | coordinates | set(_NEEDED[form]))
+    return shape, polar, state.words(block.after(lead.end()), COMMON | coordinates | set(_NEEDED[shape]))
 
 
-def _check_side(state: State, block: Block, form: Form) -> None:
-    if form in (Form.LN, Form.CT) and not (state.side or state.applied):
-        text = f"{block.head} {form} has no side without compensation. Write RL or RR with it."
+def _check_side(state: State, block: Block, shape: LeadShape) -> None:
+    if shape in (LeadShape.LN, LeadShape.CT) and not (state.side or state.applied):
+        text = f"{block.head} {shape} has no side without compensation. Write RL or RR with it."
         state.stop("HE4", text, block, "R0")
-    if form is Form.LCT and not (state.side or state.applied):
+    if shape is LeadShape.LCT and not (state.side or state.applied):
         text = "cutcomp assumes this uncompensated arc is on the same side of the contour as the free point."
         state.tell(Severity.INFO, "INTERPRETED", text, block)
 
 
-def _lead(state: State, block: Block, form: Form, words: Words) -> Lead:
-    for name in _NEEDED[form]:
+def _lead(state: State, block: Block, shape: LeadShape, words: Words) -> Lead:
+    for name in _NEEDED[shape]:
         if name not in words:
-            state.stop("LEAD", f"{block.head} {form} needs {name}. Write it with a number.", block)
+            state.stop("LEAD", f"{block.head} {shape} needs {name}. Write it with a number.", block)
     length = state.length(block, words, "LEN") if "LEN" in words else 0.0
     radius = state.length(block, words, "R") if "R" in words else 0.0
     angle = state.number(block, words, "CCA") if "CCA" in words else 0.0
     if length < 0.0 or ("LEN" in words and not length):
         state.stop("LEAD", "LEN must be above 0.", block, "LEN")
-    if "R" in words and (not radius or (radius < 0.0 and form is Form.LCT)):
-        least = "must be above 0" if form is Form.LCT else "cannot be 0"
-        state.stop("LEAD", f"The radius of {block.head} {form} {least}.", block, "R")
+    if "R" in words and (not radius or (radius < 0.0 and shape is LeadShape.LCT)):
+        least = "must be above 0" if shape is LeadShape.LCT else "cannot be 0"
+        state.stop("LEAD", f"The radius of {block.head} {shape} {least}.", block, "R")
     if "CCA" in words and not 0.0 < angle <= 360.0:
         state.stop("LEAD", "CCA must be above 0, up to 360 degrees. The sign of R flips the arc.", block, "CCA")
-    return Lead(form, length, radius, radians(angle))
+    return Lead(shape, length, radius, radians(angle))
 
 
 def _goal(
-    state: State, block: Block, words: Words, form: Form, last: Element, lead: Lead, *, polar: bool
+    state: State, block: Block, words: Words, shape: LeadShape, last: Element, lead: Lead, *, polar: bool
 ) -> list[float]:
     """Where a departure ends: as programmed for LCT, else where the lead itself does."""
     end = polar_target(state, block, words)[0] if polar else state.target(block, words)
     point, height = state.flat(end)
-    if form is Form.LCT:
+    if shape is LeadShape.LCT:
         return end
     here = state.flat(state.position)[0]
     if point != here:
-        text = f"DEP {form} ends where its lead ends. Only DEP LCT takes an end point."
+        text = f"DEP {shape} ends where its lead ends. Only DEP LCT takes an end point."
         state.stop("WORD", text, block)
     start = offset_point(here, last.arriving, state.offset)
     curve = departure(lead, start, here, last.arriving, _hand(state.offset, state.applied))

@@ -15,14 +15,13 @@ import numpy as np
 
 from core.comp.compensate import compensate
 from core.comp.result import Compensated
-from core.controls.compensation import corners
-from core.controls.compensation.corners import Element
+from core.controls.compensation.elements import WHOLE, Element, offset_end, sweep
 from core.geometry.path import Path
 from core.geometry.piece import Point, Side
 from core.tolerance import JOINED
 
 
-class Run(NamedTuple):
+class CenterPathPiece(NamedTuple):
     """A piece of the center path: the element it belongs to, its end, and as an arc its center and turn."""
 
     row: int
@@ -38,7 +37,7 @@ class PathAhead:
 
     start: Point
     way: Point
-    runs: tuple[Run, ...]
+    runs: tuple[CenterPathPiece, ...]
     left_out: tuple[int, ...]
 
 
@@ -89,7 +88,7 @@ def _checked(
     runs = tuple(_runs(path))
     if runs[0].row != 0 or runs[0].corner:
         return Unreached(0, "the {0}-radius tool cannot reach any of this block, the first one of M120")
-    if not _near(runs[-1].end, corners.offset_end(elements[-1], offset)) or runs[-1].row != last:
+    if not _near(runs[-1].end, offset_end(elements[-1], offset)) or runs[-1].row != last:
         return Unreached(last, "the {0}-radius tool cannot reach the end of this block, the last one of M120")
     start, way = _point(path.points[0]), _point(path.start_directions[0])
     if begin is not None and not _near(begin, start):
@@ -100,10 +99,10 @@ def _checked(
     return PathAhead(start, way, runs, left_out)
 
 
-def _runs(path: Path) -> Iterator[Run]:
+def _runs(path: Path) -> Iterator[CenterPathPiece]:
     numbers, turns = path.numbers.tolist(), path.turns.tolist()
     for number, turn, end, center in zip(numbers, turns, path.ends, path.centers, strict=True):
-        yield Run(int(number), number != int(number), _point(end), _point(center), turn)
+        yield CenterPathPiece(int(number), number != int(number), _point(end), _point(center), turn)
 
 
 def _point(row: np.ndarray[tuple[int], np.dtype[np.float64]]) -> Point:
@@ -121,5 +120,5 @@ def _trimmed_away(element: Element, start: Point, begin: Point, end: Point) -> b
         (wx, wy), dx, dy = element.leaving, end[0] - begin[0], end[1] - begin[1]
         return dx * wx + dy * wy < -JOINED
     center, turn = element.center, element.turn
-    trimmed = corners.sweep(start, begin, center, turn)
-    return trimmed > pi or trimmed > corners.sweep(start, end, center, turn) + corners.WHOLE
+    trimmed = sweep(start, begin, center, turn)
+    return trimmed > pi or trimmed > sweep(start, end, center, turn) + WHOLE

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.compensation.joint import CornerRules
+from core.controls.compensation.corner_rules import CornerRules
 from core.controls.klartext.center_path import M97, M98, PLAIN, FeedAt
 from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXES, State, Words

@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import atan2, cos, degrees, hypot, radians
 from typing import Final
 
-from core.controls.compensation import corners
-from core.controls.compensation.corners import Element, arc_element, line_element
+from core.controls.compensation import elements
+from core.controls.compensation.elements import Element, arc_element, line_element
 from core.controls.iso.arcs import ArcRadii, NoArc, through
 from core.controls.klartext.center_path import Role, Step
 from core.controls.klartext.corner_rounding import Blend
@@ -201,9 +201,9 @@ def _tangent_to(state: State, block: Block, words: Words, end: list[float]) -> N
     cross, chord = way[0] * dy - way[1] * dx, hypot(dx, dy)
     if chord <= JOINED:
         state.stop("ARC", "The end point must differ from the start point.", block)
-    if abs(cross) <= chord * corners.WHOLE:
+    if abs(cross) <= chord * elements.WHOLE:
         state.stop("ARC", ONE_STRAIGHT, block)
-    center = corners.offset_point(start, way, chord * chord / (2.0 * cross))
+    center = elements.offset_point(start, way, chord * chord / (2.0 * cross))
     _arc_to(state, block, words, end, center, 1 if cross > 0.0 else -1)
 
 

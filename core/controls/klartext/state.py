@@ -11,7 +11,7 @@ from re import Pattern
 from types import MappingProxyType
 from typing import Final, NoReturn
 
-from core.controls.compensation.corners import Element
+from core.controls.compensation.elements import Element
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
 from core.controls.klartext.center_path import FeedAt, Role, Step

@@ -12,10 +12,10 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.compensation.chain import OneMoveQueue
+from core.controls.compensation.element_queue import OneMoveQueue
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso.arcs import ArcRadii
-from core.controls.iso.dialect import PLANES, Dialect, Do, codes
+from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
 from core.controls.iso.machine import Control
 from core.controls.iso.macro import Kept
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
@@ -26,22 +26,22 @@ from core.units import Unit
 
 DIALECT: Final = Dialect(
     codes(
-        ("motion", Do.CYCLE, (382, 383, 384, 385, 730, 740)),
-        ("motion", Do.BEYOND, (50, 51, 52, 60, 61, 62, 330, 331, 700, 710, 711, 712, 720, 721, 722, 760)),
-        ("once", Do.BEYOND, (53, 281, 301, 923)),
-        ("lathe", Do.BEYOND, (70,)),
-        ("compensation", Do.SIDE, (411, 421)),
-        ("centers", Do.CENTERS, (901, 911)),
-        ("system", Do.SYSTEM, (591, 592, 593)),
-        ("length", Do.MODE, (431, 432)),
-        ("path", Do.MODE, (610, 611, 640)),
-        ("spindle", Do.SPINDLE, (960, 970)),
-        ("retract", Do.RETRACT, (980, 990)),
-        ("lathe", Do.MODE, (80,)),
-        ("once", Do.SHIFT, (520,)),
-        ("once", Do.MACHINE, (530,)),
-        ("once", Do.DATA, (100,)),
-        ("once", Do.UNSHIFT, (921, 922)),
+        ("motion", CodeAction.CYCLE, (382, 383, 384, 385, 730, 740)),
+        ("motion", CodeAction.UNSUPPORTED, (50, 51, 52, 60, 61, 62, 330, 331, 700, 710, 711, 712, 720, 721, 722, 760)),
+        ("once", CodeAction.UNSUPPORTED, (53, 281, 301, 923)),
+        ("lathe", CodeAction.UNSUPPORTED, (70,)),
+        ("compensation", CodeAction.SIDE, (411, 421)),
+        ("centers", CodeAction.CENTERS, (901, 911)),
+        ("system", CodeAction.SYSTEM, (591, 592, 593)),
+        ("length", CodeAction.MODE, (431, 432)),
+        ("path", CodeAction.MODE, (610, 611, 640)),
+        ("spindle", CodeAction.SPINDLE, (960, 970)),
+        ("retract", CodeAction.RETRACT, (980, 990)),
+        ("lathe", CodeAction.MODE, (80,)),
+        ("once", CodeAction.SHIFT, (520,)),
+        ("once", CodeAction.MACHINE, (530,)),
+        ("once", CodeAction.DATA, (100,)),
+        ("once", CodeAction.UNSHIFT, (921, 922)),
     ),
     Unit.MM,
     mode=None,

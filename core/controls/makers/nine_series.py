@@ -14,9 +14,7 @@ from math import radians
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
-from core.controls.compensation.chain import Chain
-from core.controls.compensation.corners import Element, fits, offset_end, offset_radius, offset_start
-from core.controls.compensation.joint import (
+from core.controls.compensation.corner_rules import (
     Corner,
     CornerRules,
     Joint,
@@ -27,9 +25,11 @@ from core.controls.compensation.joint import (
     inward_turn,
     vector_end,
 )
+from core.controls.compensation.element_queue import ElementQueue
+from core.controls.compensation.elements import Element, fits, offset_end, offset_radius, offset_start
 from core.controls.control_run import Log
 from core.controls.iso.arcs import IN_PLANE
-from core.controls.iso.dialect import CYCLES_APART, PLANES, Dialect, Do, codes
+from core.controls.iso.dialect import CYCLES_APART, PLANES, CodeAction, Dialect, codes
 from core.controls.iso.flow import MakeControl
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
@@ -40,15 +40,15 @@ from core.units import Unit
 DIALECT: Final = Dialect(
     codes(
         *CYCLES_APART,
-        ("units", Do.UNITS, (700, 710)),
-        ("corners", Do.OWN, (390, 391)),
-        ("path", Do.MODE, (610, 640)),
-        ("spindle", Do.SPINDLE, (960, 970)),
-        ("retract", Do.RETRACT, (980, 990)),
-        ("once", Do.SHIFT, (520,)),
-        ("once", Do.MACHINE, (530,)),
-        ("once", Do.DATA, (100,)),
-        ("once", Do.UNSHIFT, (921,)),
+        ("units", CodeAction.UNITS, (700, 710)),
+        ("corners", CodeAction.OF_THIS_CONTROL, (390, 391)),
+        ("path", CodeAction.MODE, (610, 640)),
+        ("spindle", CodeAction.SPINDLE, (960, 970)),
+        ("retract", CodeAction.RETRACT, (980, 990)),
+        ("once", CodeAction.SHIFT, (520,)),
+        ("once", CodeAction.MACHINE, (530,)),
+        ("once", CodeAction.DATA, (100,)),
+        ("once", CodeAction.UNSHIFT, (921,)),
     ),
     Unit.IN,
     syntax=Syntax(semicolon_ends=True),
@@ -74,7 +74,7 @@ class Before(NamedTuple):
     standing: tuple[Element, ...]
 
 
-class NineSeries(Chain, Control):
+class NineSeries(ElementQueue, Control):
     """The compensation of the 9/Series.
 
     `coming` is the next element's signed radius, `offset` that of what is held, in millimeters; `written_side` the side

@@ -13,12 +13,12 @@ from math import acos, atan2, cos, hypot, pi, sin
 from types import MappingProxyType
 from typing import Final, NoReturn
 
-from core.controls.compensation.chain import AlarmCodes, Chain, OneMoveQueue
-from core.controls.compensation.corners import Element, fits, offset_end, offset_start
-from core.controls.compensation.joint import Corner, CornerRules
+from core.controls.compensation.corner_rules import Corner, CornerRules
+from core.controls.compensation.element_queue import AlarmCodes, ElementQueue, OneMoveQueue
+from core.controls.compensation.elements import Element, fits, offset_end, offset_start
 from core.controls.control_run import Log
 from core.controls.control_tools import missing_tool
-from core.controls.iso.dialect import PLANES, Dialect, Do, codes
+from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
 from core.controls.iso.machine import Control
 from core.controls.iso.macro import Kept
 from core.controls.iso.reader import SWITCHES, Block, whole
@@ -29,19 +29,19 @@ from core.units import Unit
 
 DIALECT: Final = Dialect(
     codes(
-        ("compensation", Do.SIDE, (411, 421)),
-        ("system", Do.SYSTEM, (591, 592, 593)),
-        ("path", Do.MODE, (610, 640)),
-        ("spindle", Do.SPINDLE, (960, 970)),
-        ("retract", Do.RETRACT, (980, 990)),
-        ("scaling", Do.MODE, (500,)),
-        ("rotation", Do.MODE, (690,)),
-        ("once", Do.SHIFT, (520,)),
-        ("once", Do.MACHINE, (530,)),
-        ("once", Do.DATA, (100,)),
-        ("scaling", Do.BEYOND, (510,)),
-        ("rotation", Do.BEYOND, (680,)),
-        ("once", Do.BEYOND, (650, 660)),
+        ("compensation", CodeAction.SIDE, (411, 421)),
+        ("system", CodeAction.SYSTEM, (591, 592, 593)),
+        ("path", CodeAction.MODE, (610, 640)),
+        ("spindle", CodeAction.SPINDLE, (960, 970)),
+        ("retract", CodeAction.RETRACT, (980, 990)),
+        ("scaling", CodeAction.MODE, (500,)),
+        ("rotation", CodeAction.MODE, (690,)),
+        ("once", CodeAction.SHIFT, (520,)),
+        ("once", CodeAction.MACHINE, (530,)),
+        ("once", CodeAction.DATA, (100,)),
+        ("scaling", CodeAction.UNSUPPORTED, (510,)),
+        ("rotation", CodeAction.UNSUPPORTED, (680,)),
+        ("once", CodeAction.UNSUPPORTED, (650, 660)),
     ),
     Unit.MM,
     parameters=Kept.MACRO_B,
@@ -54,7 +54,7 @@ CORNERS: Final = CornerRules(tangent=0.01, reversal=0.01, rapid_straight=True)
 _NOT_NOW: Final = frozenset((170, 180, 190, 280, 300, 520, 530, 920, 540, 550, 560, 570, 580, 590, 591, 592, 593))
 
 
-class Switch(Control):
+class RosettaCnc(Control):
     """What G41, G42, G41.1 and G42.1 ask for on this control, and what is refused while they are in force."""
 
     def asked_offset(self, side: Side, block: Block) -> float:
@@ -131,7 +131,7 @@ class Switch(Control):
                 self.log.stop("C8", text, block.line, block.column("G", code))
 
 
-class Normal(OneMoveQueue, Switch):
+class NormalEntry(OneMoveQueue, RosettaCnc):
     """The entry `normal`: LinuxCNC's queue, in all three planes."""
 
     alarms = AlarmCodes("C8", "C7", "C6", "C8")
@@ -147,7 +147,7 @@ class Normal(OneMoveQueue, Switch):
         self.turn_off(block.line)
 
 
-class Nist(Chain, Switch):
+class NistEntry(ElementQueue, RosettaCnc):
     """The entry `nist`: no look-ahead at all; `before` is the element that ran last, `first` until one has."""
 
     rules = CORNERS
@@ -232,7 +232,7 @@ class Nist(Chain, Switch):
         self.run_held(offset_end(element, self.offset))
 
 
-class Easy(Nist):
+class EasyEntry(NistEntry):
     """The entry `easy`: the first move waits for the second one, in `held`."""
 
     def enter(self, element: Element) -> None:
@@ -265,5 +265,7 @@ class Easy(Nist):
             self._end_entry(offset_end(self.held, self.offset))
 
 
-VARIANTS: Final[Mapping[str, type[Control]]] = MappingProxyType({"nist": Nist, "easy": Easy, "normal": Normal})
+VARIANTS: Final[Mapping[str, type[Control]]] = MappingProxyType(
+    {"nist": NistEntry, "easy": EasyEntry, "normal": NormalEntry}
+)
 """The entries, the default first."""

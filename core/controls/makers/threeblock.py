@@ -1,4 +1,4 @@
-"""The older US mill control that reads two blocks ahead: `threeblock`, named after what it does.
+"""Three-block control: an older US mill control that compensates with three blocks in view (`threeblock`).
 
 The block with G41 or G42 runs without compensation to the turn-on point.  The next one, the approach, is straight and
 ends square to the first compensated element.  Inside corners are where the offsets meet, outside corners arcs about the
@@ -12,11 +12,11 @@ import re
 from math import hypot, radians
 from typing import Final, NoReturn
 
-from core.controls.compensation.chain import Chain
-from core.controls.compensation.corners import Element, element_sweep, fits, offset_end, offset_radius, offset_start
-from core.controls.compensation.joint import Corner, CornerRules, Joint
+from core.controls.compensation.corner_rules import Corner, CornerRules, Joint
+from core.controls.compensation.element_queue import ElementQueue
+from core.controls.compensation.elements import Element, element_sweep, fits, offset_end, offset_radius, offset_start
 from core.controls.control_run import Log
-from core.controls.iso.dialect import Dialect, Do, codes
+from core.controls.iso.dialect import CodeAction, Dialect, codes
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import Block, Syntax
 from core.controls.moves import Plane
@@ -26,9 +26,9 @@ from core.units import Unit
 
 DIALECT: Final = Dialect(
     codes(
-        ("units", Do.UNITS, (700, 710)),
-        ("ratio", Do.OWN, (440, 450)),
-        ("deceleration", Do.OWN, (990,)),
+        ("units", CodeAction.UNITS, (700, 710)),
+        ("ratio", CodeAction.OF_THIS_CONTROL, (440, 450)),
+        ("deceleration", CodeAction.OF_THIS_CONTROL, (990,)),
     ),
     Unit.IN,
     absolute_centers=True,
@@ -51,7 +51,7 @@ _ORIGINS: Final = frozenset((40, 280, 300, 920, 540, 550, 560, 570, 580, 590, 20
 _POINTLESS: Final = re.compile(r"[XYZIJ][ \t]*[-+]?0*[1-9][0-9]*(?![0-9.])", re.IGNORECASE)
 
 
-class ThreeBlock(Chain, Control):
+class ThreeBlock(ElementQueue, Control):
     """Compensation with the next element only, and the rules on the blocks under it.
 
     `opening` in the block with G41 or G42; `blocks` what came after it: line, Z moved, X or Y moved; `ratio` under

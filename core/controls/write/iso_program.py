@@ -11,10 +11,17 @@ from dataclasses import dataclass
 from itertools import count
 from typing import Final
 
-from core.controls.compensation.corners import Element
+from core.controls.compensation.elements import Element
 from core.controls.control_tools import CutterTool, ToolTable
+from core.controls.write.contour_pass import (
+    CenterMove,
+    ContourPass,
+    PassWithLeads,
+    UncompensatedPass,
+    WrittenLine,
+    number_text,
+)
 from core.controls.write.iso_style import IsoStyle, Radius
-from core.controls.write.programmed_contour import Led, Line, Plain, Terms, Travel, number_text
 from core.geometry.piece import Point, Side
 from core.units import Unit, from_mm
 
@@ -34,7 +41,7 @@ class Frame:
     corners: str = ""
 
 
-def offsets(cuts: Sequence[Terms], style: IsoStyle) -> dict[tuple[int, float], int]:
+def offsets(cuts: Sequence[ContourPass], style: IsoStyle) -> dict[tuple[int, float], int]:
     """The number under which a control finds the radius of a tool that leaves a stock."""
     numbers: dict[tuple[int, float], int] = {}
     free = count(FIRST_STOCK_OFFSET)
@@ -45,7 +52,7 @@ def offsets(cuts: Sequence[Terms], style: IsoStyle) -> dict[tuple[int, float], i
     return numbers
 
 
-def tools_of(cuts: Sequence[Terms], style: IsoStyle) -> ToolTable:
+def tools_of(cuts: Sequence[ContourPass], style: IsoStyle) -> ToolTable:
     """The tool or offset table the program counts on, in millimeters; none where the text itself has the diameters."""
     if style.radius is Radius.DATA:
         return ToolTable()
@@ -59,7 +66,9 @@ def tools_of(cuts: Sequence[Terms], style: IsoStyle) -> ToolTable:
     )
 
 
-def write(cuts: Sequence[Led | Plain], style: IsoStyle, frame: Frame, remarks: Sequence[str] = ()) -> tuple[Line, ...]:
+def write(
+    cuts: Sequence[PassWithLeads | UncompensatedPass], style: IsoStyle, frame: Frame, remarks: Sequence[str] = ()
+) -> tuple[WrittenLine, ...]:
     """The lines of the program; `remarks` are ready comment lines and stand first."""
     return tuple(_Writer(style, frame).program(cuts, remarks))
 
@@ -74,32 +83,34 @@ class _Writer:
         self.height = ""
         self.at: tuple[str, str] = ("", "")
 
-    def program(self, cuts: Sequence[Led | Plain], remarks: Sequence[str]) -> Iterator[Line]:
+    def program(
+        self, cuts: Sequence[PassWithLeads | UncompensatedPass], remarks: Sequence[str]
+    ) -> Iterator[WrittenLine]:
         """Everything from the first line to the end."""
-        yield from (Line(remark) for remark in remarks if self.style.comments)
+        yield from (WrittenLine(remark) for remark in remarks if self.style.comments)
         unit = self.style.inch if self.frame.unit is Unit.IN else self.style.metric
         offset = f"G{self.frame.work_offset}"
         for safe in self.style.safe:
-            yield Line(safe.format(unit=unit, offset=offset, rounding=CORNER_TOLERANCE[self.frame.unit]))
+            yield WrittenLine(safe.format(unit=unit, offset=offset, rounding=CORNER_TOLERANCE[self.frame.unit]))
         if self.frame.corners:
-            yield Line(self.frame.corners)
-        before: Terms | None = None
+            yield WrittenLine(self.frame.corners)
+        before: ContourPass | None = None
         for run in cuts:
-            terms = run if isinstance(run, Plain) else run.terms
-            yield from self.tool(terms, before)
-            yield from self.plain(run) if isinstance(run, Plain) else self.cut(run)
-            before = terms
-        yield Line("M5")
-        yield Line("M30")
+            contour_pass = run if isinstance(run, UncompensatedPass) else run.contour_pass
+            yield from self.tool(contour_pass, before)
+            yield from self.plain(run) if isinstance(run, UncompensatedPass) else self.cut(run)
+            before = contour_pass
+        yield WrittenLine("M5")
+        yield WrittenLine("M30")
 
-    def tool(self, cut: Terms, before: Terms | None) -> Iterator[Line]:
+    def tool(self, cut: ContourPass, before: ContourPass | None) -> Iterator[WrittenLine]:
         """The change of tool, of its data, of the speed."""
         speed = f"S{speed_text(cut.speed)}"
         changed = before is None or before.tool != cut.tool
         if changed and before is not None:
-            yield Line("M5")
+            yield WrittenLine("M5")
         if self.style.radius is Radius.DATA and (before is None or changed or before.stock != cut.stock):
-            yield Line(f"T{cut.tool}//{self.length(cut.diameter + 2 * cut.stock)}")
+            yield WrittenLine(f"T{cut.tool}//{self.length(cut.diameter + 2 * cut.stock)}")
         if before is None or changed:
             self.height = ""
             yield self.words(f"T{cut.tool}", "M6")
@@ -107,11 +118,11 @@ class _Writer:
                 yield self.words("G43", f"H{cut.tool}")
             yield self.words(speed, "M3")
         elif before.speed != cut.speed:
-            yield Line(speed)
+            yield WrittenLine(speed)
 
-    def cut(self, run: Led) -> Iterator[Line]:
+    def cut(self, run: PassWithLeads) -> Iterator[WrittenLine]:
         """One run: down away from the part, in, along, out, up."""
-        cut, shape = run.terms, run.shape
+        cut, shape = run.contour_pass, run.shape
         in_plunge = self.style.radius is Radius.DATA
         down = ("G1", self.code(run)) if in_plunge else ("G1",)
         yield from self.rapid(cut.travel)
@@ -128,7 +139,7 @@ class _Writer:
         self.height = ""
         yield from self.rapid(cut.leave)
 
-    def plain(self, run: Plain) -> Iterator[Line]:
+    def plain(self, run: UncompensatedPass) -> Iterator[WrittenLine]:
         """One run without compensation, as its moves are."""
         yield from self.rapid(run.travel)
         first, *rest = run.travels
@@ -136,7 +147,7 @@ class _Writer:
         for travel in rest:
             yield from self.traveled(travel)
 
-    def traveled(self, travel: Travel) -> Iterator[Line]:
+    def traveled(self, travel: CenterMove) -> Iterator[WrittenLine]:
         """A move with the axes that move in it; none where nothing does as written."""
         start, height = self.at, self.height
         self.height, place = f"Z{self.length(travel.z)}", self.place((travel.x, travel.y))
@@ -149,27 +160,27 @@ class _Writer:
             return
         yield self.words(*words, *(() if travel.feed is None else self.feed_word(travel.feed)))._replace(travel=travel)
 
-    def rapid(self, height: float) -> Iterator[Line]:
+    def rapid(self, height: float) -> Iterator[WrittenLine]:
         """To a height, where the tool is not there yet."""
         text = f"Z{self.length(height)}"
         if text != self.height:
             self.height = text
             yield self.words("G0", text)
 
-    def code(self, run: Led) -> str:
+    def code(self, run: PassWithLeads) -> str:
         """G41 with the tool on the left."""
         return "G41" if run.side is Side.LEFT else "G42"
 
-    def switch(self, run: Led) -> tuple[str, ...]:
+    def switch(self, run: PassWithLeads) -> tuple[str, ...]:
         """What turns compensation on in the block of the entry."""
-        code, cut = self.code(run), run.terms
+        code, cut = self.code(run), run.contour_pass
         if cut.stock and self.style.radius is Radius.DIAMETER:
             return f"{code}.1", f"D{self.length(cut.diameter + 2 * cut.stock)}"
         if cut.stock and self.style.radius is Radius.REDUCED:
             return code, f"D{run.offset}", f"I{self.length(-cut.stock)}"
         return code, f"D{run.offset}"
 
-    def element(self, element: Element, feed: float, segment: float) -> Iterator[Line]:
+    def element(self, element: Element, feed: float, segment: float) -> Iterator[WrittenLine]:
         """One element; what is no move as written is left out."""
         start, end = self.at, self.place(element.end)
         whole = element.turn != 0 and element.start == element.end
@@ -205,9 +216,9 @@ class _Writer:
         self.feed = text
         return (text,)
 
-    def words(self, *words: str, segment: float | None = None) -> Line:
+    def words(self, *words: str, segment: float | None = None) -> WrittenLine:
         """Words as a line."""
-        return Line((" " if self.style.spaced else "").join(words), segment)
+        return WrittenLine((" " if self.style.spaced else "").join(words), segment)
 
 
 def speed_text(speed: float) -> str:

@@ -11,7 +11,7 @@ from typing import Final
 from core.units import Unit
 
 
-class Entry(Enum):
+class EntryRule(Enum):
     """Where the first compensated move ends, which decides where it must start."""
 
     SQUARE_TO_NEXT = auto()
@@ -50,7 +50,7 @@ class IsoStyle:
     metric: str
     safe: tuple[str, ...]
     decimals: tuple[int, int]
-    entry: Entry
+    entry: EntryRule
     radius: Radius
     absolute: bool = False
     merged: bool = False
@@ -72,10 +72,10 @@ class IsoStyle:
 _NIST: Final = ("G17 {unit} G40 G49 {offset} G50 G69 G90",)
 _NINE: Final = ("G17 {unit} G40 G49 {offset} G80 G90 G94",)
 
-FREE_ENTRY: Final = IsoStyle("G20", "G21", _NIST, (6, 5), Entry.SQUARE_TO_NEXT, Radius.REDUCED)
+FREE_ENTRY: Final = IsoStyle("G20", "G21", _NIST, (6, 5), EntryRule.SQUARE_TO_NEXT, Radius.REDUCED)
 """A style whose leads may come from anywhere."""
 
-_NINE_SERIES: Final = IsoStyle("G20", "G21", _NINE, (4, 3), Entry.SQUARE_TO_NEXT, Radius.OFFSET)
+_NINE_SERIES: Final = IsoStyle("G20", "G21", _NINE, (4, 3), EntryRule.SQUARE_TO_NEXT, Radius.OFFSET)
 
 STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
     {
@@ -84,7 +84,7 @@ STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
             "G71",
             ("G17{unit}G40G90",),
             (4, 3),
-            Entry.SQUARE_TO_NEXT,
+            EntryRule.SQUARE_TO_NEXT,
             Radius.DATA,
             absolute=True,
             merged=True,
@@ -92,9 +92,9 @@ STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
             length=False,
             spaced=False,
         ),
-        "rosettacnc:nist": IsoStyle("G20", "G21", _NIST, (6, 5), Entry.TANGENT, Radius.REDUCED),
+        "rosettacnc:nist": IsoStyle("G20", "G21", _NIST, (6, 5), EntryRule.TANGENT, Radius.REDUCED),
         "rosettacnc:easy": FREE_ENTRY,
-        "rosettacnc:normal": IsoStyle("G20", "G21", _NIST, (6, 5), Entry.SQUARE_TO_ITSELF, Radius.REDUCED),
+        "rosettacnc:normal": IsoStyle("G20", "G21", _NIST, (6, 5), EntryRule.SQUARE_TO_ITSELF, Radius.REDUCED),
         **{
             f"nine-series:{kind}{corners}": replace(_NINE_SERIES, corner_code=code)
             for kind in ("a", "b")
@@ -105,7 +105,7 @@ STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
             "G21",
             ("G17 {unit} G40 G49 {offset} G80 G90 G91.1 G94", "G64 P{rounding}"),
             (6, 5),
-            Entry.SQUARE_TO_ITSELF,
+            EntryRule.SQUARE_TO_ITSELF,
             Radius.DIAMETER,
         ),
     }

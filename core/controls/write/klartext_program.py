@@ -11,17 +11,18 @@ from dataclasses import dataclass
 from math import degrees, hypot, tau
 from typing import Final
 
-from core.controls.compensation.corners import sweep
-from core.controls.write.programmed_contour import (
-    Cut,
-    Led,
-    Line,
-    Plain,
-    Programmed,
-    Terms,
-    Travel,
+from core.controls.compensation.elements import sweep
+from core.controls.write.contour_pass import (
+    CenterMove,
+    CompensatedPass,
+    ContourPass,
+    PassToWrite,
+    PassWithLeads,
+    ProgrammedElements,
+    UncompensatedPass,
+    WrittenLine,
     blend_of,
-    programmed,
+    programmed_elements,
 )
 from core.finding import Finding
 from core.geometry.piece import Point, Side
@@ -30,19 +31,19 @@ from core.units import Unit, from_mm, to_mm
 DECIMALS: Final = {Unit.IN: 5, Unit.MM: 4}
 """Decimals the control takes."""
 
-_Run = tuple[Cut, Programmed] | Plain | Led
+_Run = tuple[CompensatedPass, ProgrammedElements] | UncompensatedPass | PassWithLeads
 
 
 def write(
-    cuts: Sequence[Cut | Plain], name: str, unit: Unit, remarks: Sequence[str] = ()
-) -> tuple[Line, ...] | Finding:
+    cuts: Sequence[PassToWrite], name: str, unit: Unit, remarks: Sequence[str] = ()
+) -> tuple[WrittenLine, ...] | Finding:
     """The lines of the program; or why the control would not run one of these paths by its own compensation."""
     runs: list[_Run] = []
     for cut in cuts:
-        if isinstance(cut, Plain):
+        if isinstance(cut, UncompensatedPass):
             runs.append(cut)
             continue
-        shape = programmed(cut.compensated)
+        shape = programmed_elements(cut.compensated)
         if isinstance(shape, Finding):
             return shape
         runs.append((cut, shape))
@@ -50,9 +51,9 @@ def write(
     return tuple(line._replace(text=f"{number} {line.text}") for number, line in enumerate(lines))
 
 
-def write_led(runs: Sequence[Led], unit: Unit) -> tuple[Line, ...]:
+def write_led(runs: Sequence[PassWithLeads], unit: Unit) -> tuple[WrittenLine, ...]:
     """The lines of a program that comes to each contour square to it and leaves it so, with APPR LN and DEP LN."""
-    return tuple(_Writer(unit).program(runs, [run.terms for run in runs], "CONTOUR", ()))
+    return tuple(_Writer(unit).program(runs, [run.contour_pass for run in runs], "CONTOUR", ()))
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,73 +63,73 @@ class _Writer:
     unit: Unit
 
     def program(
-        self, runs: Sequence[_Run], all_terms: Sequence[Terms], name: str, remarks: Sequence[str]
-    ) -> Iterator[Line]:
+        self, runs: Sequence[_Run], passes: Sequence[ContourPass], name: str, remarks: Sequence[str]
+    ) -> Iterator[WrittenLine]:
         """Everything from BEGIN PGM to END PGM: remarks after a semicolon, TOOL DEF of every tool, the runs."""
         frame = f"PGM {name} {'INCH' if self.unit is Unit.IN else 'MM'}"
-        yield Line(f"BEGIN {frame}")
-        yield from (Line(f"; {remark}") for remark in remarks)
-        for number, diameter in {terms.tool: terms.diameter for terms in all_terms}.items():
-            yield Line(f"TOOL DEF {number} L+0 R{self.length(diameter / 2)}")
-        before: Terms | None = None
-        for run, terms in zip(runs, all_terms, strict=True):
-            yield from self.tool(terms, before)
-            if isinstance(run, Led):
+        yield WrittenLine(f"BEGIN {frame}")
+        yield from (WrittenLine(f"; {remark}") for remark in remarks)
+        for number, diameter in {contour_pass.tool: contour_pass.diameter for contour_pass in passes}.items():
+            yield WrittenLine(f"TOOL DEF {number} L+0 R{self.length(diameter / 2)}")
+        before: ContourPass | None = None
+        for run, contour_pass in zip(runs, passes, strict=True):
+            yield from self.tool(contour_pass, before)
+            if isinstance(run, PassWithLeads):
                 yield from self.led(run)
             else:
-                yield from self.plain(run) if isinstance(run, Plain) else self.cut(*run)
-            before = terms
-        yield Line("M30")
-        yield Line(f"END {frame}")
+                yield from self.plain(run) if isinstance(run, UncompensatedPass) else self.cut(*run)
+            before = contour_pass
+        yield WrittenLine("M30")
+        yield WrittenLine(f"END {frame}")
 
-    def led(self, run: Led) -> Iterator[Line]:
+    def led(self, run: PassWithLeads) -> Iterator[WrittenLine]:
         """A run with straight leads: down away from the contour, square to it, along, square away, up."""
-        cut, shape = run.terms, run.shape
+        cut, shape = run.contour_pass, run.shape
         (x, y), (cx, cy) = run.start, run.to
         length = self.length(hypot(x - cx, y - cy) - cut.diameter / 2)
         word, feed = "RL" if run.side is Side.LEFT else "RR", self.feed(cut.feeds[int(shape.segments[0])])
-        yield Line(f"L {self.place(run.start)} R0 FMAX")
-        yield Line(f"L Z{self.length(cut.depth)} R0 F{self.feed(cut.plunge_feed)}")
-        yield Line(f"APPR LN {self.place(run.to)} LEN{length} {word} F{feed}", shape.segments[0], lead=True)
+        yield WrittenLine(f"L {self.place(run.start)} R0 FMAX")
+        yield WrittenLine(f"L Z{self.length(cut.depth)} R0 F{self.feed(cut.plunge_feed)}")
+        yield WrittenLine(f"APPR LN {self.place(run.to)} LEN{length} {word} F{feed}", shape.segments[0], lead=True)
         yield from self.elements(cut, shape)
-        yield Line(f"DEP LN LEN{length}", shape.segments[-1], lead=True)
-        yield Line(f"L Z{self.length(cut.leave)} R0 FMAX")
+        yield WrittenLine(f"DEP LN LEN{length}", shape.segments[-1], lead=True)
+        yield WrittenLine(f"L Z{self.length(cut.leave)} R0 FMAX")
 
-    def elements(self, cut: Terms, shape: Programmed) -> Iterator[Line]:
+    def elements(self, cut: ContourPass, shape: ProgrammedElements) -> Iterator[WrittenLine]:
         """The elements of a run with their feeds, an arc on two lines."""
         for element, segment in zip(shape.elements, shape.segments, strict=True):
             end, feed = self.place(element.end), f"F{self.feed(cut.feeds[int(segment)])}"
             if element.turn:
-                yield Line(f"CC {self.place(element.center)}", segment)
-                yield Line(f"C {end} DR{'+' if element.turn > 0 else '-'} {feed}", segment)
+                yield WrittenLine(f"CC {self.place(element.center)}", segment)
+                yield WrittenLine(f"C {end} DR{'+' if element.turn > 0 else '-'} {feed}", segment)
             else:
-                yield Line(f"L {end} {feed}", segment)
+                yield WrittenLine(f"L {end} {feed}", segment)
 
-    def tool(self, cut: Terms, before: Terms | None) -> Iterator[Line]:
+    def tool(self, cut: ContourPass, before: ContourPass | None) -> Iterator[WrittenLine]:
         """TOOL CALL where the tool, its speed or what it leaves changes; then up."""
         same = before is not None and (before.tool, before.stock, before.speed) == (cut.tool, cut.stock, cut.speed)
         if not same:
             stock = f" DR{self.length(cut.stock)}" if cut.stock else ""
-            yield Line(f"TOOL CALL {cut.tool} Z S{round(cut.speed)}{stock}")
-        yield Line(f"L Z{self.length(cut.travel)} R0 FMAX{'' if same else ' M3'}")
+            yield WrittenLine(f"TOOL CALL {cut.tool} Z S{round(cut.speed)}{stock}")
+        yield WrittenLine(f"L Z{self.length(cut.travel)} R0 FMAX{'' if same else ' M3'}")
 
-    def cut(self, cut: Cut, shape: Programmed) -> Iterator[Line]:
+    def cut(self, cut: CompensatedPass, shape: ProgrammedElements) -> Iterator[WrittenLine]:
         """One run: down, in, along, out, up."""
         whole = cut.compensated.whole
         (x, y), (bx, by) = whole.points[0].tolist(), whole.points[-1].tolist()
-        yield Line(f"L {self.place((x, y))} R0 FMAX")
-        yield Line(f"L Z{self.length(cut.near)} R0 FMAX")
-        yield Line(f"L Z{self.length(cut.depth)} R0 F{self.feed(cut.plunge_feed)}")
+        yield WrittenLine(f"L {self.place((x, y))} R0 FMAX")
+        yield WrittenLine(f"L Z{self.length(cut.near)} R0 FMAX")
+        yield WrittenLine(f"L Z{self.length(cut.depth)} R0 F{self.feed(cut.plunge_feed)}")
         first, last = shape.segments[0], shape.segments[-1]
         word, blend = "RL" if cut.compensated.side is Side.LEFT else "RR", blend_of(cut.compensated)
         start, radius = self.place(shape.elements[0].start), f"CCA+90 R{self.length(blend)}"
         feed = self.feed(cut.feeds[int(first)])
-        yield Line(f"APPR CT {start} {radius} {word} F{feed}" if blend else f"L {start} {word}", first)
+        yield WrittenLine(f"APPR CT {start} {radius} {word} F{feed}" if blend else f"L {start} {word}", first)
         yield from self.elements(cut, shape)
-        yield Line(f"DEP CT {radius}" if blend else f"L {self.place((bx, by))} R0", last)
-        yield Line(f"L Z{self.length(cut.leave)} R0 FMAX")
+        yield WrittenLine(f"DEP CT {radius}" if blend else f"L {self.place((bx, by))} R0", last)
+        yield WrittenLine(f"L Z{self.length(cut.leave)} R0 FMAX")
 
-    def plain(self, run: Plain) -> Iterator[Line]:
+    def plain(self, run: UncompensatedPass) -> Iterator[WrittenLine]:
         """One run without compensation, as its moves are."""
         x, y, z = self.at((0.0, 0.0), run.travel)
         for travel in run.travels:
@@ -139,21 +140,21 @@ class _Writer:
                     new for new, old in zip((x, y, z), start, strict=True) if new != old or travel is run.travels[0]
                 ]
                 if words:
-                    yield Line(f"L {' '.join(words)} R0 {feed}", travel=travel)
+                    yield WrittenLine(f"L {' '.join(words)} R0 {feed}", travel=travel)
                 continue
-            yield Line(f"CC {self.place(travel.center)}")
+            yield WrittenLine(f"CC {self.place(travel.center)}")
             sense = "+" if travel.turn > 0 else "-"
             if z == start[2]:
-                yield Line(f"C {x} {y} DR{sense} R0 {feed}", travel=travel)
+                yield WrittenLine(f"C {x} {y} DR{sense} R0 {feed}", travel=travel)
             else:
                 angle = self.turned(start, (x, y), travel)
-                yield Line(f"CP IPA{sense}{angle:.6f} {z} DR{sense} R0 {feed}", travel=travel)
+                yield WrittenLine(f"CP IPA{sense}{angle:.6f} {z} DR{sense} R0 {feed}", travel=travel)
 
     def at(self, point: Point, height: float) -> tuple[str, str, str]:
         """X, Y and Z as words."""
         return f"X{self.length(point[0])}", f"Y{self.length(point[1])}", f"Z{self.length(height)}"
 
-    def turned(self, start: tuple[str, str, str], end: tuple[str, str], travel: Travel) -> float:
+    def turned(self, start: tuple[str, str, str], end: tuple[str, str], travel: CenterMove) -> float:
         """Degrees that a helix turns between places as they are written."""
         (sx, sy), (ex, ey) = ([to_mm(float(word[1:]), self.unit) for word in words[:2]] for words in (start, end))
         return degrees(sweep((sx, sy), (ex, ey), travel.center, travel.turn) or tau)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from math import hypot
 from typing import Final
 
-from core.controls.compensation.corners import Element, beyond
-from core.controls.write.iso_style import Entry, IsoStyle
-from core.controls.write.programmed_contour import End, Programmed, flat_arc, flat_line
+from core.controls.compensation.elements import Element, beyond
+from core.controls.write.contour_pass import PathEnd, ProgrammedElements, flat_arc, flat_line
+from core.controls.write.iso_style import EntryRule, IsoStyle
 from core.geometry.path import Path
 from core.geometry.piece import Line, Piece, Point, Side
 from core.tolerance import GOUGE
@@ -40,8 +40,8 @@ class Surface:
 
 
 def clear_leads(
-    first: End,
-    last: End,
+    first: PathEnd,
+    last: PathEnd,
     style: IsoStyle,
     radius: float,
     surface: Surface,
@@ -54,7 +54,7 @@ def clear_leads(
     """
     depth = 0.0
     for length in LEAD_LENGTHS:
-        if style.entry is Entry.SQUARE_TO_ITSELF and length <= MIN_SQUARE_LENGTH:
+        if style.entry is EntryRule.SQUARE_TO_ITSELF and length <= MIN_SQUARE_LENGTH:
             continue
         start, out = _start(first, style, length * radius), beyond(last.at, last.off, length * radius)
         leads = (Line(start, first.at), *into), (*off, Line(last.at, out))
@@ -64,17 +64,19 @@ def clear_leads(
     return depth
 
 
-def _start(end: End, style: IsoStyle, length: float) -> Point:
+def _start(end: PathEnd, style: IsoStyle, length: float) -> Point:
     """Where the entry starts: `length` away from where it ends, on the line the control needs it on."""
-    at = end.corner if style.entry is Entry.SQUARE_TO_ITSELF else end.at
+    at = end.corner if style.entry is EntryRule.SQUARE_TO_ITSELF else end.at
     if end.blend:
         return beyond(at, end.off, length)
-    if style.entry is Entry.SQUARE_TO_NEXT:
+    if style.entry is EntryRule.SQUARE_TO_NEXT:
         return beyond(end.at, end.off, length)
     return beyond(at, end.way, -length)
 
 
-def with_blends(shape: Programmed, first: End, last: End, radius: float, segments: tuple[float, float]) -> Programmed:
+def with_blends(
+    shape: ProgrammedElements, first: PathEnd, last: PathEnd, radius: float, segments: tuple[float, float]
+) -> ProgrammedElements:
     """With the blends as programmed arcs, a tool's radius larger than those of the center: the tool runs inside them.
 
     `segments` are the numbers of both arcs.
@@ -85,10 +87,10 @@ def with_blends(shape: Programmed, first: End, last: End, radius: float, segment
     turn = 1 if first.off[1] * first.way[0] - first.off[0] * first.way[1] > 0.0 else -1
     into = flat_arc(first.corner, elements[0].start, beyond(first.corner, first.way, size), turn)
     off = flat_arc(elements[-1].end, last.corner, beyond(last.corner, last.way, -size), turn)
-    return Programmed((into, *elements, off), (segments[0], *shape.segments, segments[1]))
+    return ProgrammedElements((into, *elements, off), (segments[0], *shape.segments, segments[1]))
 
 
-def merged(shape: Programmed) -> Programmed:
+def merged(shape: ProgrammedElements) -> ProgrammedElements:
     """With lines that continue one another as one, under the first one's segment."""
     elements, segments = [shape.elements[0]], [shape.segments[0]]
     for element, segment in zip(shape.elements[1:], shape.segments[1:], strict=True):
@@ -97,7 +99,7 @@ def merged(shape: Programmed) -> Programmed:
         else:
             elements.append(element)
             segments.append(segment)
-    return Programmed(tuple(elements), tuple(segments))
+    return ProgrammedElements(tuple(elements), tuple(segments))
 
 
 def _continues(first: Element, second: Element) -> bool:

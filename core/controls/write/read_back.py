@@ -14,12 +14,18 @@ from typing import Final
 import numpy as np
 
 from core.controls.compared_contours import distances
-from core.controls.compensation.corners import sweep
-from core.controls.control_run import Run, Stretch
+from core.controls.compensation.elements import sweep
+from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, run
-from core.controls.write.programmed_contour import Cut, Line, Plain, Travel, refusal
+from core.controls.write.contour_pass import (
+    CenterMove,
+    CompensatedPass,
+    PassToWrite,
+    WrittenLine,
+    refusal,
+)
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Point
@@ -45,8 +51,8 @@ class Intended:
     """
 
     control: str
-    lines: tuple[Line, ...]
-    cuts: tuple[Cut | Plain, ...]
+    lines: tuple[WrittenLine, ...]
+    cuts: tuple[PassToWrite, ...]
     tools: ToolTable
     unit: Unit
     last_digit: float
@@ -68,41 +74,41 @@ class Intended:
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class ReadBackResult:
     """Why a program is refused, or the notes on one that passes."""
 
     errors: tuple[Finding, ...] = ()
     notes: tuple[Finding, ...] = ()
 
 
-def read_back(intended: Intended) -> Answer:
+def read_back(intended: Intended) -> ReadBackResult:
     """The control's answer to its program."""
     made = run(intended.text.encode("ascii"), intended.control, intended.tools, intended.unit)
     assert not isinstance(made, UnknownControl), made.text
     stopped = _stopped(made, intended)
     if stopped:
-        return Answer(stopped)
-    cuts = [cut for cut in intended.cuts if isinstance(cut, Cut)]
+        return ReadBackResult(stopped)
+    cuts = [cut for cut in intended.cuts if isinstance(cut, CompensatedPass)]
     if len(made.stretches) != len(cuts):
         text = f"The control makes {len(made.stretches)} compensated runs instead of {len(cuts)}."
-        return Answer((refusal(text),))
+        return ReadBackResult((refusal(text),))
     if (different := different_move(made, intended)) is not None:
-        return Answer((different,))
-    answers: dict[tuple[int, bytes], Answer] = {}
+        return ReadBackResult((different,))
+    answers: dict[tuple[int, bytes], ReadBackResult] = {}
     for cut, stretch in zip(cuts, made.stretches, strict=True):
         moves = made.moves.part(stretch.first, stretch.last)
         key = (id(cut.compensated), moves.points[:, :2].tobytes())
         if not _level(made, stretch, cut, intended):
-            return Answer((refusal("A compensated run does not stay at its depth."),))
+            return ReadBackResult((refusal("A compensated run does not stay at its depth."),))
         if key not in answers:
             answers[key] = compare_path(moves.path(), cut, intended)
     errors = tuple(dict.fromkeys(error for answer in answers.values() for error in answer.errors))
     differing = [note for answer in answers.values() for note in answer.notes]
     worst = sorted(differing, key=lambda note: note.lengths)[-1:]
-    return Answer(errors, (*worst, *_warnings(made, intended)))
+    return ReadBackResult(errors, (*worst, *_warnings(made, intended)))
 
 
-def different_move(made: Run, intended: Intended) -> Finding | None:
+def different_move(made: ControlRun, intended: Intended) -> Finding | None:
     """A move without compensation that the control does not make as intended."""
     moves = made.moves
     here: Point | None = None
@@ -127,7 +133,7 @@ def different_move(made: Run, intended: Intended) -> Finding | None:
     return None
 
 
-def _length_difference(moves: Moves, row: int, before: Point | None, travel: Travel) -> float:
+def _length_difference(moves: Moves, row: int, before: Point | None, travel: CenterMove) -> float:
     """Millimeters by which an arc's length differs: by a turn, where its ends became one point."""
     if before is None:
         return 0.0
@@ -137,7 +143,7 @@ def _length_difference(moves: Moves, row: int, before: Point | None, travel: Tra
     return abs(turned - wanted) * hypot(travel.x - travel.center[0], travel.y - travel.center[1])
 
 
-def _stopped(made: Run, intended: Intended) -> tuple[Finding, ...]:
+def _stopped(made: ControlRun, intended: Intended) -> tuple[Finding, ...]:
     """The alarms, with the segments they belong to."""
     alarms = tuple(_alarm(finding, intended) for finding in made.findings if finding.severity is Severity.ERROR)
     return alarms or ((refusal("The control stops."),) if made.stopped_at is not None else ())
@@ -148,7 +154,7 @@ def _alarm(finding: Finding, intended: Intended) -> Finding:
     return refusal(text, intended.segment(finding.line), lengths=finding.lengths)
 
 
-def _warnings(made: Run, intended: Intended) -> tuple[Finding, ...]:
+def _warnings(made: ControlRun, intended: Intended) -> tuple[Finding, ...]:
     """The control's warnings, each rule once."""
     first = {finding.code: finding for finding in reversed(made.findings) if finding.severity is Severity.WARNING}
     return tuple(
@@ -157,21 +163,21 @@ def _warnings(made: Run, intended: Intended) -> tuple[Finding, ...]:
     )
 
 
-def _level(made: Run, stretch: Stretch, cut: Cut, intended: Intended) -> bool:
+def _level(made: ControlRun, stretch: Stretch, cut: CompensatedPass, intended: Intended) -> bool:
     """All of a compensated run is at feed and at its depth."""
     rows = slice(stretch.first + 1, stretch.last)
     heights = made.moves.points[rows, 2]
     return not bool(made.moves.rapid[rows].any()) and bool((np.abs(heights - cut.depth) <= intended.tolerance).all())
 
 
-def compare_path(made: Path, cut: Cut, intended: Intended) -> Answer:
+def compare_path(made: Path, cut: CompensatedPass, intended: Intended) -> ReadBackResult:
     """The path the control makes, against the block's."""
     whole, tolerance = cut.compensated.whole, intended.tolerance
     inner = made.part(1, len(made) - 1) if intended.leads and len(made) > 2 else made
     if same_pieces(inner, whole, tolerance):
         apart, number = 0.0, 0.0
     elif max(len(inner), len(whole)) > MAX_COMPARED_PIECES:
-        return Answer((refusal("The control's path differs, and is too long to compare."),))
+        return ReadBackResult((refusal("The control's path differs, and is too long to compare."),))
     else:
         # seen from the block's side a distance has no line of the program, so the path's first one stands for it
         first = float(inner.numbers[0]) if len(inner) else 0.0
@@ -179,11 +185,11 @@ def compare_path(made: Path, cut: Cut, intended: Intended) -> Answer:
         apart, number = both[int(np.argmax([distance for distance, _ in both]))]
     refused = _damage(made, inner, cut, intended, differs=not apart <= tolerance)
     if refused is not None:
-        return Answer((refused,))
+        return ReadBackResult((refused,))
     if apart <= tolerance:
-        return Answer()
+        return ReadBackResult()
     text = f"{intended.control} takes corners differently, by up to {{0}}. It does not gouge or leave more."
-    return Answer((), (Finding("DIFFERS", Severity.WARNING, text, intended.segment(number), lengths=(apart,)),))
+    return ReadBackResult((), (Finding("DIFFERS", Severity.WARNING, text, intended.segment(number), lengths=(apart,)),))
 
 
 def same_pieces(made: Path, whole: Path, tolerance: float) -> bool:
@@ -209,7 +215,7 @@ def farthest(path: Path, other: Path) -> tuple[float, float]:
     return float(apart[worst]), float(path.numbers[rows[worst]])
 
 
-def _damage(made: Path, inner: Path, cut: Cut, intended: Intended, *, differs: bool) -> Finding | None:
+def _damage(made: Path, inner: Path, cut: CompensatedPass, intended: Intended, *, differs: bool) -> Finding | None:
     """What the control's path does wrong: leads that cut, and where the path differs, gouges and what is left."""
     contour, side = cut.compensated.contour, cut.compensated.side
     verdicts = [judge(contour, side, *judged) for judged in _judged_paths(made, inner, cut, differs=differs)]
@@ -233,7 +239,7 @@ def _damage(made: Path, inner: Path, cut: Cut, intended: Intended, *, differs: b
     return None
 
 
-def _judged_paths(made: Path, inner: Path, cut: Cut, *, differs: bool) -> list[tuple[float, Path]]:
+def _judged_paths(made: Path, inner: Path, cut: CompensatedPass, *, differs: bool) -> list[tuple[float, Path]]:
     """The radius and the path to be judged: all of a path that differs, and its stock too, or the leads alone."""
     size = cut.diameter / 2
     if differs:

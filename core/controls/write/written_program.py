@@ -10,10 +10,20 @@ from core.comp.result import Compensated
 from core.controls.control_tools import ToolTable
 from core.controls.registry import is_klartext
 from core.controls.write import iso_program, klartext_program
+from core.controls.write.contour_pass import (
+    CompensatedPass,
+    PassToWrite,
+    PassWithLeads,
+    UncompensatedPass,
+    WrittenLine,
+    begin,
+    finish,
+    programmed_elements,
+    refusal,
+)
 from core.controls.write.iso_program import Frame, offsets, tools_of
 from core.controls.write.iso_style import STYLES, IsoStyle
 from core.controls.write.lead_moves import Surface, clear_leads, merged, with_blends
-from core.controls.write.programmed_contour import Cut, Led, Line, Plain, begin, finish, programmed, refusal
 from core.controls.write.read_back import Intended, read_back
 from core.finding import Finding
 from core.units import to_mm
@@ -41,7 +51,7 @@ class NotWritten:
 
 
 def write_program(
-    cuts: Sequence[Cut | Plain], control: str, frame: Frame, name: str, remarks: Remarks
+    cuts: Sequence[PassToWrite], control: str, frame: Frame, name: str, remarks: Remarks
 ) -> WrittenProgram | NotWritten:
     """The program of a control by its full name; `remarks` makes its first lines of the notes on it."""
     if is_klartext(control):
@@ -50,7 +60,7 @@ def write_program(
 
 
 def _klartext(
-    cuts: Sequence[Cut | Plain], control: str, frame: Frame, name: str, remarks: Remarks
+    cuts: Sequence[PassToWrite], control: str, frame: Frame, name: str, remarks: Remarks
 ) -> WrittenProgram | NotWritten:
     decimals = klartext_program.DECIMALS[frame.unit]
 
@@ -63,17 +73,17 @@ def _klartext(
     return _confirmed(write)
 
 
-def _iso(cuts: Sequence[Cut | Plain], control: str, frame: Frame, remarks: Remarks) -> WrittenProgram | NotWritten:
+def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remarks) -> WrittenProgram | NotWritten:
     style = STYLES[control]
     numbers = offsets(cuts, style)
-    led: dict[Compensated, Led | Finding] = {}
+    led: dict[Compensated, PassWithLeads | Finding] = {}
     for cut in cuts:
-        if isinstance(cut, Cut) and cut.compensated not in led:
+        if isinstance(cut, CompensatedPass) and cut.compensated not in led:
             led[cut.compensated] = _led(cut, style, numbers[cut.tool, cut.stock])
     refusals = tuple(dict.fromkeys(run for run in led.values() if isinstance(run, Finding)))
     if refusals:
         return NotWritten(refusals)
-    runs = [cut if isinstance(cut, Plain) else _run(cut, led, numbers[cut.tool, cut.stock]) for cut in cuts]
+    runs = [cut if isinstance(cut, UncompensatedPass) else _run(cut, led, numbers[cut.tool, cut.stock]) for cut in cuts]
     frame = replace(frame, corners=style.corner_code)
 
     def write(notes: Sequence[Finding]) -> Intended:
@@ -83,14 +93,14 @@ def _iso(cuts: Sequence[Cut | Plain], control: str, frame: Frame, remarks: Remar
     return _confirmed(write)
 
 
-def _run(cut: Cut, led: dict[Compensated, Led | Finding], offset: int) -> Led:
+def _run(cut: CompensatedPass, led: dict[Compensated, PassWithLeads | Finding], offset: int) -> PassWithLeads:
     """A cut with the leads that all cuts of its contour have."""
     run = led[cut.compensated]
-    assert isinstance(run, Led)
-    return replace(run, terms=cut, offset=offset)
+    assert isinstance(run, PassWithLeads)
+    return replace(run, contour_pass=cut, offset=offset)
 
 
-def _led(cut: Cut, style: IsoStyle, offset: int) -> Led | Finding:
+def _led(cut: CompensatedPass, style: IsoStyle, offset: int) -> PassWithLeads | Finding:
     """The cut with the longest leads that cut nothing."""
     compensated, radius = cut.compensated, cut.compensated.radius
     first, last = begin(compensated), finish(compensated)
@@ -99,16 +109,21 @@ def _led(cut: Cut, style: IsoStyle, offset: int) -> Led | Finding:
         text = "There is no room for the straight move into the cut and out of it: it gouges by {0}."
         text += " Start elsewhere." if first.blend else " Enter BLEND OFFSET, or start elsewhere."
         return refusal(text, lengths=(leads,))
-    shape = programmed(compensated)
+    shape = programmed_elements(compensated)
     if isinstance(shape, Finding):
         return shape
     ends = shape.segments[0], shape.segments[-1]
     shape = with_blends(merged(shape) if style.merged else shape, first, last, radius, ends)
-    return Led(cut, compensated.side, shape, leads[0], first.corner, leads[1], offset)
+    return PassWithLeads(cut, compensated.side, shape, leads[0], first.corner, leads[1], offset)
 
 
 def _intended(
-    lines: tuple[Line, ...], control: str, cuts: Sequence[Cut | Plain], tools: ToolTable, frame: Frame, decimals: int
+    lines: tuple[WrittenLine, ...],
+    control: str,
+    cuts: Sequence[PassToWrite],
+    tools: ToolTable,
+    frame: Frame,
+    decimals: int,
 ) -> Intended:
     digit = to_mm(10.0**-decimals, frame.unit)
     return Intended(control, lines, tuple(cuts), tools, frame.unit, digit, leads=not is_klartext(control))

@@ -23,12 +23,12 @@ from core.program.model import (
     Block,
     CutterComp,
     Direction,
-    Entry,
     LineSegment,
-    Parameters,
+    Number,
     PartSetup,
     PathChoice,
     Program,
+    ProgramParameters,
     Segment,
     Tool,
     Typed,
@@ -197,7 +197,7 @@ def _numbers(table: _Table, form: Form) -> dict[str, Typed]:
     """The typed numbers of a form by name: entries out of the table, texts out of its `unread` table."""
     fields = NUMBER_FIELDS[form]
     typed: dict[str, Typed] = {
-        field.name: Entry(table.number(field.name, field)) for field in fields if field.name in table.data
+        field.name: Number(table.number(field.name, field)) for field in fields if field.name in table.data
     }
     return typed | _unread_numbers(table, fields) if UNREAD in table.data else typed
 
@@ -224,10 +224,10 @@ def _keys(form: Form, *others: str) -> tuple[str, ...]:
     return (*others, *(field.name for field in TABLES[form]), UNREAD)
 
 
-def _parameters(table: _Table) -> Parameters:
+def _parameters(table: _Table) -> ProgramParameters:
     table.only(_keys(Form.PARAMETERS))
     path = table.chosen("path", PathChoice) if "path" in table.data else PathChoice.CONTROL
-    return Parameters(**_numbers(table, Form.PARAMETERS), path=path)
+    return ProgramParameters(**_numbers(table, Form.PARAMETERS), path=path)
 
 
 def _setup(table: _Table) -> PartSetup:
@@ -250,7 +250,7 @@ def _tool(table: _Table) -> Tool:
     typed = _numbers(table, Form.TOOL)
     number = typed.get("number")
     field = TABLES[Form.TOOL][0]
-    if not isinstance(number, Entry) or check(field, number.value, table.unit):
+    if not isinstance(number, Number) or check(field, number.value, table.unit):
         raise table.fault(
             "number", f"number {'is missing' if number is None else 'is no tool number'}: write 1 to 9999."
         )
@@ -263,7 +263,7 @@ def _block(table: _Table) -> Block:
         raise table.fault("kind", f'kind must be "{KIND}".')
     typed = _numbers(table, Form.START)
     lookahead = typed.get("lookahead")
-    if isinstance(lookahead, Entry) and (trouble := check(TABLES[Form.START][-1], lookahead.value, table.unit)):
+    if isinstance(lookahead, Number) and (trouble := check(TABLES[Form.START][-1], lookahead.value, table.unit)):
         raise table.fault("lookahead", f"lookahead is {lookahead.value:g}: {trouble}")
     segments = tuple(_segment(segment) for segment in table.array("segment"))
     return Block(**typed, cutter_comp=table.chosen("cutter_comp", CutterComp), segments=segments)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from core.program.fields import TABLES, Form, form_of
-from core.program.model import Block, Entry, Parameters, PartSetup, Program, Segment, Tool, Unread
+from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Segment, Tool, Unread
 from core.units import Kind
 
 FORMAT: Final = 1
@@ -41,7 +41,7 @@ def dumps(program: Program) -> str:
     return "\n".join((*lines, "", END)) + "\n"
 
 
-Typable = Parameters | PartSetup | Tool | Block | Segment
+Typable = ProgramParameters | PartSetup | Tool | Block | Segment
 
 
 def _table(header: str, name: str, form: Form, part: Typable, kind: str | None = None) -> list[str]:
@@ -58,7 +58,7 @@ def _table(header: str, name: str, form: Form, part: Typable, kind: str | None =
 def _keys(form: Form, part: Typable) -> Iterator[str]:
     for field in TABLES[form]:
         value = getattr(part, field.name)
-        if isinstance(value, Entry):
+        if isinstance(value, Number):
             yield f"{field.name} = {_number(value.value, field.kind)}"
         elif isinstance(value, int | str) and (field.name, value) != ("name", ""):
             yield f"{field.name} = {_quoted(value) if isinstance(value, str) else value}"

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from core.finding import Finding, Severity
 from core.program.fields import NUMBER_FIELDS, Field, Form, check, check_text, unread_sentence
-from core.program.model import Block, Entry, Parameters, PartSetup, Program, Segment, Unread
+from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Segment, Unread
 from core.program.solve.solved import Solved, Value
 from core.units import Kind, Unit, to_mm, to_radians
 
@@ -26,7 +26,9 @@ class Reading:
             self.values[name] = Solved(value)
 
 
-def read_form(form: Form, part: Block | Segment | Parameters | PartSetup, unit: Unit, number: int | None) -> Reading:
+def read_form(
+    form: Form, part: Block | Segment | ProgramParameters | PartSetup, unit: Unit, number: int | None
+) -> Reading:
     """Read all numbers of a form, of segment `number`; what cannot be used is not known and has a finding."""
     values: dict[str, Value] = {}
     known: dict[str, float] = {}
@@ -37,7 +39,7 @@ def read_form(form: Form, part: Block | Segment | Parameters | PartSetup, unit: 
             continue
         trouble = _trouble(field, typed, unit)
         if trouble is None:
-            assert isinstance(typed, Entry)
+            assert isinstance(typed, Number)
             known[field.name] = _internal(typed.value, field.kind, unit)
         else:
             code, text = trouble
@@ -45,9 +47,9 @@ def read_form(form: Form, part: Block | Segment | Parameters | PartSetup, unit: 
     return Reading(values, known, tuple(findings))
 
 
-def _trouble(field: Field, typed: Entry | Unread, unit: Unit) -> tuple[str, str] | None:
+def _trouble(field: Field, typed: Number | Unread, unit: Unit) -> tuple[str, str] | None:
     """Code and sentence about a field that cannot be used."""
-    if isinstance(typed, Entry):
+    if isinstance(typed, Number):
         refusal = check(field, typed.value, unit)
     elif (refusal := check_text(typed.text, field, unit)) is None:
         return "UNREADABLE", f"{field.label}: {unread_sentence(typed)}"

@@ -8,7 +8,7 @@ from typing import Final, assert_never
 from core.finding import Finding, Severity
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.program.fields import FARTHEST, form_of
-from core.program.model import ArcSegment, BlendSegment, Entry, LineSegment, Segment
+from core.program.model import ArcSegment, BlendSegment, LineSegment, Number, Segment
 from core.program.solve.arc import ARC_TASKS, adjustment, arc_sketch, circle_finding, is_start
 from core.program.solve.line import LINE_TASK, heading, line_sketch
 from core.program.solve.reading import Reading, read_form
@@ -58,7 +58,7 @@ class Draft:
 def typed_point(values: dict[str, Value], names: tuple[str, str]) -> tuple[float | None, float | None]:
     """X and Y of a point as typed, in program units; None where they are not typed."""
     x, y = values.get(names[0]), values.get(names[1])
-    return x.value if isinstance(x, Entry) else None, y.value if isinstance(y, Entry) else None
+    return x.value if isinstance(x, Number) else None, y.value if isinstance(y, Number) else None
 
 
 def draft(segment: Segment, number: int, before: Carried, unit: Unit) -> Draft:

@@ -1,6 +1,6 @@
 """A block with its blanks calculated: what `core.program.solve.block` yields.
 
-`Solved` is a calculated number and never an `Entry`: the form shows it with the tag CAL and no edit turns
+`Solved` is a calculated number and never an `Number`: the form shows it with the tag CAL and no edit turns
 it into something typed.  Needs no numpy.
 """
 
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Piece, Point
-from core.program.model import Entry, Unread
+from core.program.model import Number, Unread
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +21,7 @@ class Solved:
     value: float
 
 
-Value = Entry | Solved | Unread | None
+Value = Number | Solved | Unread | None
 
 
 @dataclass(frozen=True, slots=True)

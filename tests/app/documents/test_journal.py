@@ -31,7 +31,7 @@ from app.documents.journal_file import LARGEST_KEPT, JournalFile, journal_path, 
 from app.documents.lock import Owner
 from core.program.edit import FormPlace, delete_segment, insert_segment, type_field
 from core.program.history import History
-from core.program.model import Entry, LineSegment, Program, Unread
+from core.program.model import LineSegment, Number, Program, Unread
 from tests.core.program.parts import line, program, programs
 
 PART = program(line(x_end=1.0), line(y_end=1.0), line(x_end=0.0))
@@ -46,7 +46,7 @@ def typed(number: float) -> Step:
     """An edit: this number into Y END of segment 2."""
 
     def do(history: History) -> History:
-        edited = type_field(history.program, FormPlace(1, 2), "y_end", Entry(number))
+        edited = type_field(history.program, FormPlace(1, 2), "y_end", Number(number))
         assert isinstance(edited, Program)
         return history.do(edited, f"Y END {number}")
 
@@ -312,7 +312,7 @@ def test_any_two_programs(old: Program, new: Program) -> None:
 
 
 def test_one_field_is_one_small_record() -> None:
-    edited = type_field(PART, FormPlace(1, 2), "y_end", Entry(2.5))
+    edited = type_field(PART, FormPlace(1, 2), "y_end", Number(2.5))
     assert isinstance(edited, Program)
     assert delta(PART, edited) == {"block": [0, {}, [1, 1, [["LINE", {"y_end": 2.5}]]]]}
 
@@ -365,7 +365,7 @@ def test_what_is_no_difference_is_refused(values: object) -> None:
 
 def test_a_thousand_segments_share_all_but_one() -> None:
     long = program(*(line(x_end=float(number)) for number in range(1000)))
-    edited = type_field(long, FormPlace(1, 500), "x_end", Entry(0.5))
+    edited = type_field(long, FormPlace(1, 500), "x_end", Number(0.5))
     assert isinstance(edited, Program)
     again = applied(long, delta(long, edited))
     assert again == edited

@@ -9,7 +9,7 @@ from app.painted.screens.lookahead import LookaheadTable
 from app.painted.screens.page import Surface
 from app.painted.widgets.rows import text_of
 from core.pipeline.derive import derive, look_ahead_table
-from core.program.model import CutterComp, Entry, LineSegment, Program
+from core.program.model import CutterComp, LineSegment, Number, Program
 from tests.app.operator import Operator
 from tests.app.squares import square
 
@@ -21,7 +21,7 @@ def saw() -> Operator:
     """Ten lines straight on, the teeth, and a line."""
     operator = square()
     points = (*((0.2 * step, 0.0) for step in range(10)), *SAW, (6.0, 0.0))
-    segments = tuple(LineSegment(x_end=Entry(x), y_end=Entry(y), feed=Entry(10.0)) for x, y in points)
+    segments = tuple(LineSegment(x_end=Number(x), y_end=Number(y), feed=Number(10.0)) for x, y in points)
     block = replace(operator.block, cutter_comp=CutterComp.LEFT, segments=segments, lookahead=None)
     return Operator.at(replace(operator.session.program, blocks=(block,)))
 
@@ -50,4 +50,4 @@ def test_a_value_is_taken_though_an_undo_in_the_table_has_gone_to_a_segment() ->
     assert isinstance(operator.desk.page, LookaheadTable)
     assert operator.session.where.segment == 1
     operator.press("down", "enter")
-    assert operator.block.lookahead == Entry(3.0)
+    assert operator.block.lookahead == Number(3.0)

@@ -9,14 +9,14 @@ from app.nc_proof.listing import Listing
 from app.painted.desk import Desk
 from app.painted.screens.proof import ProofPage
 from app.painted.session import Session
-from core.controls.control_tools import ToolTable
 from tests.app.operator import Operator
 from tests.app.prover import SQUARE
+from tests.tool_tables import end_mills
 
 
 def test_a_long_program_is_run_first_and_judged_then() -> None:
     page = ProofPage.of(Listing.read(SQUARE + b"(x)\n" * 2100), control="threeblock")
-    page = replace(page, asked=replace(page.asked, tools=ToolTable.diameters({1: 0.5})))
+    page = replace(page, asked=replace(page.asked, tools=end_mills({1: 0.5})))
     first = page.hearing(page.asked.answer())
     assert isinstance(first, ProofPage)
     assert first.told.proof.run.stretches

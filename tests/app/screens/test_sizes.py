@@ -53,7 +53,7 @@ def test_a_screen_fills_every_terminal_exactly(name: str, engine: Engine) -> Non
     operator = Operator(Desk(Session.of(load(example("pocket"))))).press(*SCREENS[name])
     derived = engine.derive(operator.session.program, operator.session.derived)
     desk = operator.desk.knowing(derived)
-    if desk.session.found.work is not None:
+    if desk.session.found.paths is not None:
         engine.keep_table(desk.session.found, desk.session.program)
     known = engine.known(desk.session.found, None)
     for width, height in SIZES:

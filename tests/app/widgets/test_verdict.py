@@ -13,7 +13,7 @@ from app.painted.widgets.verdict import verdict_rows
 from core.finding import Finding, Severity
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.outline import outline
-from core.program.model import Entry
+from core.program.model import Number
 from core.units import Unit
 from tests.app.squares import square
 
@@ -29,7 +29,7 @@ def test_error_warning_and_information_have_marks_of_their_own(weight: str, mark
 def test_where_start_lies_elsewhere_that_is_told_before_what_comes_of_it() -> None:
     pocket = load(example("pocket"))
     (block,) = pocket.blocks
-    (found,) = derive(replace(pocket, blocks=(replace(block, y_start=Entry(7.0)),))).blocks
+    (found,) = derive(replace(pocket, blocks=(replace(block, y_start=Number(7.0)),))).blocks
     told = [text_of(row) for row in verdict_rows(found, None, Unit.IN, None)]
     assert told[1] == " i  The contour is open: it ends 6.7500 from START."
     assert told[2].startswith(" GOUGE ")
@@ -46,7 +46,7 @@ def test_an_over_run_gouges_nothing_and_is_told() -> None:
 def test_a_contour_that_does_not_cross_itself_begins_with_its_gouge_and_where_it_is_not_closed() -> None:
     pocket = load(example("pocket"))
     (block,) = pocket.blocks
-    (found,) = derive(replace(pocket, blocks=(replace(block, y_start=Entry(0.5)),))).blocks
+    (found,) = derive(replace(pocket, blocks=(replace(block, y_start=Number(0.5)),))).blocks
     assert "CROSSES_ITSELF" not in {one.code for one in found.findings}
     _, gouge, end, *_ = (text_of(row) for row in verdict_rows(found, None, Unit.IN, None))
     assert gouge.startswith(" GOUGE ")
@@ -67,7 +67,7 @@ def test_beside_every_value_of_the_table_stands_what_the_contour_needs_and_nothi
 
 def test_what_stays_uncut_stands_behind_the_first_pair_that_deletes() -> None:
     pocket = load(example("pocket"))
-    program = replace(pocket, tools=tuple(replace(tool, diameter=Entry(2.625)) for tool in pocket.tools))
+    program = replace(pocket, tools=tuple(replace(tool, diameter=Number(2.625)) for tool in pocket.tools))
     (found,) = derive(program).blocks
     told = [text_of(row) for row in verdict_rows(found, None, Unit.IN, None)]
     begins = [row.split()[0] for row in told if row.split()[0] in ("DELETED", "UNCUT")]
@@ -79,7 +79,7 @@ def test_what_stays_uncut_stands_behind_the_first_pair_that_deletes() -> None:
 def test_lines_that_nobody_reads_are_counted_and_the_others_are_the_same(look: int | None) -> None:
     for name, diameter in (("pocket", 2.625), ("notch", 0.5), ("overrun-square", 0.25)):
         program = load(example(name))
-        program = replace(program, tools=tuple(replace(tool, diameter=Entry(diameter)) for tool in program.tools))
+        program = replace(program, tools=tuple(replace(tool, diameter=Number(diameter)) for tool in program.tools))
         (found,) = derive(program).blocks
         table = look_ahead_table(found, program)
         every = verdict_rows(found, table, Unit.IN, look)

@@ -6,7 +6,16 @@ import pytest
 
 from core.advice.field_findings import field_findings, typed_lookahead_warning
 from core.finding import Severity
-from core.program.model import ArcSegment, CutterComp, Entry, LineSegment, Parameters, PartSetup, Unread, changed
+from core.program.model import (
+    ArcSegment,
+    CutterComp,
+    LineSegment,
+    Number,
+    PartSetup,
+    ProgramParameters,
+    Unread,
+    changed,
+)
 from core.program.solve.block import solve_block
 from core.program.solve.reading import shared_findings
 from core.units import Unit, sentence
@@ -22,11 +31,11 @@ def told(part, code):
 def fed(*feeds, plunge=5.0):
     """A contour whose segments have these feeds, None for blank."""
     segments = tuple(
-        LineSegment(x_end=Entry(float(x)), y_end=Entry(0.0), feed=None if feed is None else Entry(feed))
+        LineSegment(x_end=Number(float(x)), y_end=Number(0.0), feed=None if feed is None else Number(feed))
         for x, feed in enumerate(feeds, 1)
     )
     plain = block(NOTCH, CutterComp.LEFT)
-    return program(replace(plain, segments=segments, plunge_feed=None if plunge is None else Entry(plunge)))
+    return program(replace(plain, segments=segments, plunge_feed=None if plunge is None else Number(plunge)))
 
 
 @pytest.mark.parametrize(
@@ -68,9 +77,9 @@ def test_a_segment_that_is_still_being_typed_is_not_told_of_its_feed():
 
 
 @pytest.mark.parametrize(("name", "label"), [("finish_xy", "FINISH XY"), ("finish_z", "FINISH Z")])
-@pytest.mark.parametrize("number", [None, Entry(0.0)])
+@pytest.mark.parametrize("number", [None, Number(0.0)])
 def test_a_finish_allowance_without_a_finish_tool_is_told(name, label, number):
-    parameters = changed(Parameters(), {name: Entry(2.6)})
+    parameters = changed(ProgramParameters(), {name: Number(2.6)})
     part = program(block(NOTCH, CutterComp.LEFT, finish_tool=number), parameters=parameters)
     ((one, text),) = told(part, "NOT_LEFT")
     assert (one.severity, one.segment, one.field) == (Severity.WARNING, 0, "finish_tool")
@@ -81,17 +90,18 @@ def test_a_finish_allowance_without_a_finish_tool_is_told(name, label, number):
 
 
 @pytest.mark.parametrize(
-    ("tool", "allowance"), [(Entry(2.0), Entry(0.1)), (Entry(0.0), Entry(0.0)), (Entry(0.0), None), (None, None)]
+    ("tool", "allowance"), [(Number(2.0), Number(0.1)), (Number(0.0), Number(0.0)), (Number(0.0), None), (None, None)]
 )
 def test_nothing_is_told_of_an_allowance_that_is_left_or_that_is_none(tool, allowance):
-    parameters = Parameters(finish_xy=allowance, finish_z=allowance)
+    parameters = ProgramParameters(finish_xy=allowance, finish_z=allowance)
     assert told(program(block(NOTCH, CutterComp.LEFT, finish_tool=tool), parameters=parameters), "NOT_LEFT") == []
 
 
 def pecked(clearance, peck=0.1, unit=Unit.IN):
     """A slot 0.25 deep with this PECK CLEARANCE and PECK DEPTH."""
     part = program(
-        block(NOTCH, CutterComp.LEFT, peck_depth=Entry(peck)), parameters=Parameters(peck_clearance=Entry(clearance))
+        block(NOTCH, CutterComp.LEFT, peck_depth=Number(peck)),
+        parameters=ProgramParameters(peck_clearance=Number(clearance)),
     )
     return replace(part, unit=unit)
 
@@ -114,14 +124,14 @@ def test_a_rapid_onto_the_floor_just_cut_is_told(clearance):
         pecked(0.0, peck=0.0),
         pecked(0.0, peck=0.25),
         pecked(0.0, peck=0.3),
-        program(block(NOTCH, CutterComp.LEFT, peck_depth=Entry(0.1)), parameters=Parameters()),
+        program(block(NOTCH, CutterComp.LEFT, peck_depth=Number(0.1)), parameters=ProgramParameters()),
         program(
-            block(NOTCH, CutterComp.LEFT, peck_depth=Entry(0.1)),
-            parameters=Parameters(peck_clearance=Unread("x", "no number")),
+            block(NOTCH, CutterComp.LEFT, peck_depth=Number(0.1)),
+            parameters=ProgramParameters(peck_clearance=Unread("x", "no number")),
         ),
         program(
-            block(NOTCH, CutterComp.LEFT, peck_depth=Entry(0.1), z_bottom=None),
-            parameters=Parameters(peck_clearance=Entry(0.0)),
+            block(NOTCH, CutterComp.LEFT, peck_depth=Number(0.1), z_bottom=None),
+            parameters=ProgramParameters(peck_clearance=Number(0.0)),
         ),
     ],
 )
@@ -130,7 +140,7 @@ def test_nothing_is_told_where_no_rapid_comes_down_onto_a_floor(part):
 
 
 def test_a_retract_clearance_that_a_field_shows_as_nothing_is_told():
-    part = replace(pecked(0.1, unit=Unit.MM), parameters=Parameters(retract_clearance=Entry(0.0004)))
+    part = replace(pecked(0.1, unit=Unit.MM), parameters=ProgramParameters(retract_clearance=Number(0.0004)))
     ((one, text),) = told(part, "NO_CLEARANCE")
     assert (one.severity, one.field) == (Severity.WARNING, "retract_clearance")
     assert text == (
@@ -141,7 +151,7 @@ def test_a_retract_clearance_that_a_field_shows_as_nothing_is_told():
 
 @pytest.mark.parametrize("clearance", [0.0, -0.1])
 def test_no_retract_clearance_and_one_below_zero_are_refused_in_the_same_words(clearance):
-    part = replace(pecked(0.05), parameters=Parameters(retract_clearance=Entry(clearance)))
+    part = replace(pecked(0.05), parameters=ProgramParameters(retract_clearance=Number(clearance)))
     ((one, text),) = told(part, "OUT_OF_RANGE")
     assert (one.severity, one.field) == (Severity.ERROR, "retract_clearance")
     assert text == "PROGRAM PARAMETERS: RETRACT CLEARANCE must be above 0, at most 10000."
@@ -149,12 +159,12 @@ def test_no_retract_clearance_and_one_below_zero_are_refused_in_the_same_words(c
 
 
 def profiled(comp, offset, finish_xy=None, **changes):
-    parameters = Parameters(max_offset=offset, finish_xy=finish_xy)
+    parameters = ProgramParameters(max_offset=offset, finish_xy=finish_xy)
     return program(block(MID_SIDE_SQUARE, comp, **changes), parameters=parameters)
 
 
 @pytest.mark.parametrize(("comp", "plain"), [(CutterComp.PROFILE_LEFT, "LEFT"), (CutterComp.PROFILE_RIGHT, "RIGHT")])
-@pytest.mark.parametrize("offset", [None, Entry(0.0)])
+@pytest.mark.parametrize("offset", [None, Number(0.0)])
 def test_a_profile_without_max_offset_is_told_to_be_one_pass(comp, plain, offset):
     ((one, text),) = told(profiled(comp, offset), "ONE_PASS")
     assert (one.severity, one.segment, one.field) == (Severity.WARNING, 0, "cutter_comp")
@@ -165,7 +175,7 @@ def test_a_profile_without_max_offset_is_told_to_be_one_pass(comp, plain, offset
 
 
 def test_a_profile_whose_finish_allowance_is_all_of_max_offset_is_told():
-    part = profiled(CutterComp.PROFILE_LEFT, Entry(0.1), Entry(0.1), finish_tool=Entry(2))
+    part = profiled(CutterComp.PROFILE_LEFT, Number(0.1), Number(0.1), finish_tool=Number(2))
     ((one, text),) = told(part, "ONE_PASS")
     assert one.severity is Severity.WARNING
     assert text == (
@@ -177,11 +187,11 @@ def test_a_profile_whose_finish_allowance_is_all_of_max_offset_is_told():
 @pytest.mark.parametrize(
     "part",
     [
-        profiled(CutterComp.PROFILE_LEFT, Entry(0.1)),
-        profiled(CutterComp.PROFILE_LEFT, Entry(0.1), Entry(0.2)),
-        profiled(CutterComp.PROFILE_LEFT, Entry(0.2), Entry(0.1), finish_tool=Entry(2)),
+        profiled(CutterComp.PROFILE_LEFT, Number(0.1)),
+        profiled(CutterComp.PROFILE_LEFT, Number(0.1), Number(0.2)),
+        profiled(CutterComp.PROFILE_LEFT, Number(0.2), Number(0.1), finish_tool=Number(2)),
         profiled(CutterComp.PROFILE_LEFT, Unread("x", "no number")),
-        profiled(CutterComp.PROFILE_LEFT, Entry(-1.0)),
+        profiled(CutterComp.PROFILE_LEFT, Number(-1.0)),
         profiled(CutterComp.LEFT, None),
         profiled(CutterComp.ON, None),
     ],
@@ -194,12 +204,12 @@ def alone(segment, comp=CutterComp.LEFT):
     return program(replace(block(((0, 0),), comp), segments=(segment,)))
 
 
-LINE = LineSegment(x_end=Entry(2.0), y_end=Entry(1.0), feed=Entry(8.0))
-ARC = ArcSegment(x_center=Entry(0.0), y_center=Entry(1.0), feed=Entry(8.0))
+LINE = LineSegment(x_end=Number(2.0), y_end=Number(1.0), feed=Number(8.0))
+ARC = ArcSegment(x_center=Number(0.0), y_center=Number(1.0), feed=Number(8.0))
 
 
 @pytest.mark.parametrize("comp", [CutterComp.ON, CutterComp.LEFT])
-@pytest.mark.parametrize("segment", [LINE, replace(ARC, sweep=Entry(90.0))])
+@pytest.mark.parametrize("segment", [LINE, replace(ARC, sweep=Number(90.0))])
 def test_a_contour_of_one_segment_is_told_to_be_an_open_path(segment, comp):
     ((one, text),) = told(alone(segment, comp), "ONE_SEGMENT")
     x, y = (2.0, 1.0) if segment is LINE else (-1.0, 1.0)
@@ -213,10 +223,10 @@ def test_a_contour_of_one_segment_is_told_to_be_an_open_path(segment, comp):
 @pytest.mark.parametrize(
     "part",
     [
-        alone(replace(ARC, sweep=Entry(360.0))),
-        alone(replace(ARC, x_end=Entry(0.0), y_end=Entry(0.0))),
-        alone(LineSegment(x_end=Entry(2.0))),
-        alone(replace(LINE, x_end=Entry(0.0), y_end=Entry(0.0))),
+        alone(replace(ARC, sweep=Number(360.0))),
+        alone(replace(ARC, x_end=Number(0.0), y_end=Number(0.0))),
+        alone(LineSegment(x_end=Number(2.0))),
+        alone(replace(LINE, x_end=Number(0.0), y_end=Number(0.0))),
         fed(8.0, None),
         fed(),
     ],
@@ -228,12 +238,12 @@ def test_a_full_circle_is_a_closed_contour_and_what_is_not_known_yet_is_told_by_
 def test_segments_without_length_do_not_count():
     part = alone(LINE)
     (one,) = part.blocks
-    nothing = LineSegment(x_end=Entry(2.0), y_end=Entry(1.0))
+    nothing = LineSegment(x_end=Number(2.0), y_end=Number(1.0))
     ((found, _),) = told(replace(part, blocks=(replace(one, segments=(LINE, nothing)),)), "ONE_SEGMENT")
     assert found.segment == 1
 
 
-POINT = LineSegment(x_end=Entry(0.0), y_end=Entry(0.0))
+POINT = LineSegment(x_end=Number(0.0), y_end=Number(0.0))
 
 
 @pytest.mark.parametrize("comp", [CutterComp.ON, CutterComp.LEFT, CutterComp.PROFILE_RIGHT])
@@ -246,7 +256,7 @@ def test_a_contour_without_any_length_is_an_error(count, comp):
     assert text == "No segment has a length: the contour is a point, and there is no path. Correct X END or Y END."
 
 
-@pytest.mark.parametrize("segments", [(), (POINT, LINE), (LINE, POINT), (POINT, LineSegment(x_end=Entry(1.0)))])
+@pytest.mark.parametrize("segments", [(), (POINT, LINE), (LINE, POINT), (POINT, LineSegment(x_end=Number(1.0)))])
 def test_a_contour_that_has_a_length_or_may_get_one_is_no_point(segments):
     part = alone(POINT)
     (one,) = part.blocks
@@ -254,12 +264,12 @@ def test_a_contour_that_has_a_length_or_may_get_one_is_no_point(segments):
 
 
 def safe_z_told(safe, *, z_start=0.0, retract=None):
-    one = replace(block(MID_SIDE_SQUARE, CutterComp.LEFT), z_start=Entry(z_start))
-    part = replace(program(one), setup=PartSetup(safe_z=safe), parameters=Parameters(retract_clearance=retract))
+    one = replace(block(MID_SIDE_SQUARE, CutterComp.LEFT), z_start=Number(z_start))
+    part = replace(program(one), setup=PartSetup(safe_z=safe), parameters=ProgramParameters(retract_clearance=retract))
     return [(finding.severity, finding.field, text) for finding, text in told(part, "SAFE_Z")]
 
 
-@pytest.mark.parametrize("safe", [Entry(-1.0), Entry(0.0999)])
+@pytest.mark.parametrize("safe", [Number(-1.0), Number(0.0999)])
 def test_a_safe_z_in_the_part_or_below_the_clearance_is_a_warning(safe):
     ((severity, field, text),) = safe_z_told(safe)
     assert (severity, field) == (Severity.WARNING, "safe_z")
@@ -273,13 +283,13 @@ def test_the_usual_safe_z_is_told_when_z_start_is_above_it():
     assert text.startswith("SAFE Z 1.0000 is below Z 2.1000")
 
 
-@pytest.mark.parametrize("safe", [None, Entry(0.1), Unread("x", "no number"), Entry(1e300)])
+@pytest.mark.parametrize("safe", [None, Number(0.1), Unread("x", "no number"), Number(1e300)])
 def test_nothing_is_told_of_one_that_is_high_enough_or_refused(safe):
     assert safe_z_told(safe) == []
 
 
 def test_nothing_is_told_where_the_clearance_is_refused():
-    assert safe_z_told(Entry(-1.0), retract=Unread("x", "no number")) == []
+    assert safe_z_told(Number(-1.0), retract=Unread("x", "no number")) == []
 
 
 @pytest.mark.parametrize(
@@ -291,7 +301,7 @@ def test_nothing_is_told_where_the_clearance_is_refused():
 )
 def test_a_z_end_outside_the_block_is_an_error_that_names_the_range(height, expected):
     typed = block(MID_SIDE_SQUARE, CutterComp.LEFT)
-    steep = changed(typed.segments[1], {"z_end": Entry(height)})
+    steep = changed(typed.segments[1], {"z_end": Number(height)})
     part = program(replace(typed, segments=(typed.segments[0], steep, *typed.segments[2:])))
     ((finding, text),) = told(part, "Z_END")
     assert (finding.severity, finding.segment, finding.field) == (Severity.ERROR, 2.0, "z_end")
@@ -300,7 +310,7 @@ def test_a_z_end_outside_the_block_is_an_error_that_names_the_range(height, expe
 
 def test_z_ends_at_the_top_and_at_the_bottom_are_in_order():
     segments = tuple(
-        LineSegment(x_end=Entry(x), y_end=Entry(0.0), z_end=Entry(z)) for x, z in ((1.0, 0.0), (2.0, -0.25))
+        LineSegment(x_end=Number(x), y_end=Number(0.0), z_end=Number(z)) for x, z in ((1.0, 0.0), (2.0, -0.25))
     )
     assert told(program(replace(block(NOTCH, CutterComp.LEFT), segments=segments)), "Z_END") == []
 

@@ -13,8 +13,8 @@ import pytest
 from core.comp.compensate import compensate
 from core.comp.crossings import crossings
 from core.comp.offset import RawPart, offset
-from core.controls.compensation.corners import Element, arc_element, line_element, meetings, offset_end, offset_start
-from core.controls.compensation.joint import Corner, CornerRules, join
+from core.controls.compensation.corner_rules import Corner, CornerRules, join
+from core.controls.compensation.elements import Element, arc_element, line_element, meetings, offset_end, offset_start
 from core.geometry.distance import distance
 from core.geometry.path import Path, as_complex
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn

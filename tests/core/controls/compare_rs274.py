@@ -19,7 +19,7 @@ from resource import RUSAGE_CHILDREN, RUSAGE_SELF, getrusage
 from statistics import median
 from subprocess import DEVNULL
 
-from core.controls.control_run import Run
+from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.registry import UnknownControl, run
 from core.units import Unit
@@ -38,6 +38,7 @@ from tests.core.controls.programs import (
 )
 from tests.core.controls.rs274 import Witnessed, difference, printed, table_text, witness
 from tests.rs274 import process
+from tests.tool_tables import end_mills
 
 DIAMETERS = {1: 2 * RADIUS}
 
@@ -47,12 +48,12 @@ def outcome(
 ) -> tuple[str, str]:  # fmt: skip
     """How a program fares on both: a word for the table, and what differs."""
     theirs = witness(text, folder, diameters, unit)
-    ours = run(text.encode(), "linuxcnc", ToolTable.diameters(diameters, unit))
+    ours = run(text.encode(), "linuxcnc", end_mills(diameters, unit))
     assert not isinstance(ours, UnknownControl)
     return _fared(ours, theirs)
 
 
-def _fared(ours: Run, theirs: Witnessed) -> tuple[str, str]:
+def _fared(ours: ControlRun, theirs: Witnessed) -> tuple[str, str]:
     if ours.stopped_at and theirs.refusal:
         apart = difference(printed(ours), theirs.moves)
         return ("moves before the refusal differ", apart) if apart else (f"both refuse: {theirs.refusal}", "")
@@ -107,7 +108,7 @@ def compare_speed(runs: int) -> int:
     theirs, silent = list[float](), list[float]()
     ours: dict[str, list[float]] = {name: [] for name in LONG}
     texts = {name: make(100_000).encode() for name, make in LONG.items()}
-    tools = ToolTable.diameters({1: 1.0}, Unit.MM)
+    tools = end_mills({1: 1.0}, Unit.MM)
     with tempfile.TemporaryDirectory() as name:
         program, table = Path(name) / "long.ngc", Path(name) / "tools.tbl"
         program.write_text(long(100_000))

@@ -7,44 +7,44 @@ from dataclasses import replace
 from pathlib import Path
 
 from core.controls import registry
-from core.controls.control_run import Run
-from core.controls.control_tools import ToolTable
+from core.controls.control_run import ControlRun
 from core.controls.iso.flow import execute
 from core.controls.makers import linuxcnc
 from core.controls.registry import UnknownControl
 from core.finding import Finding
 from core.units import from_mm
+from tests.tool_tables import end_mills
 
 DATA = Path(__file__).parents[2] / "data"
 
 
-def ran(text: str | bytes, control: str, **diameters: float) -> Run:
+def ran(text: str | bytes, control: str, **diameters: float) -> ControlRun:
     """The run of a program with tools named t1, t2 ... of these diameters in program units."""
-    table = ToolTable.diameters({int(name[1:]): value for name, value in diameters.items()})
+    table = end_mills({int(name[1:]): value for name, value in diameters.items()})
     program = text.encode() if isinstance(text, str) else text
     done = registry.run(program, control, table)
     assert not isinstance(done, UnknownControl)
     return done
 
 
-def ran_up_to(text: str, blocks: int, **diameters: float) -> Run:
+def ran_up_to(text: str, blocks: int, **diameters: float) -> ControlRun:
     """The run of a program on LinuxCNC, given up when so many blocks have run again."""
-    table = ToolTable.diameters({int(name[1:]): value for name, value in diameters.items()})
+    table = end_mills({int(name[1:]): value for name, value in diameters.items()})
     dialect = replace(linuxcnc.DIALECT, max_repeated_blocks=blocks)
     return execute(text.encode(), "linuxcnc", dialect, table, linuxcnc.LinuxCnc)
 
 
-def sample(name: str, control: str, **diameters: float) -> Run:
+def sample(name: str, control: str, **diameters: float) -> ControlRun:
     """The run of a sample program."""
     return ran((DATA / "nc" / name).read_bytes(), control, **diameters)
 
 
-def told(done: Run, code: str) -> list[Finding]:
+def told(done: ControlRun, code: str) -> list[Finding]:
     """The findings of one rule."""
     return [finding for finding in done.findings if finding.code == code]
 
 
-def lines_and_ends(done: Run, line: int | None = None) -> list[tuple[float, float]]:
+def lines_and_ends(done: ControlRun, line: int | None = None) -> list[tuple[float, float]]:
     """The end points X, Y of the moves (of one line), in program units, to nine decimals."""
     return [
         (round(from_mm(move.point[0], done.unit), 9), round(from_mm(move.point[1], done.unit), 9))
@@ -53,7 +53,7 @@ def lines_and_ends(done: Run, line: int | None = None) -> list[tuple[float, floa
     ]
 
 
-def shape(done: Run, start: int = 1) -> list[tuple[object, ...]]:
+def shape(done: ControlRun, start: int = 1) -> list[tuple[object, ...]]:
     """Every move from a row on: its turn as letter, its end and an arc's center in X, Y, program units."""
     letters = {0: "line", 1: "ccw", -1: "cw"}
     out: list[tuple[object, ...]] = []

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from core.controls.control_run import Run
+from core.controls.control_run import ControlRun
 from core.controls.moves import Moves, Plane
 from core.units import Unit
 from tests.rs274 import process
@@ -119,7 +119,7 @@ def _arc(numbers: list[float], plane: Plane, origin: tuple[float, float, float],
     return Printed((end[0], end[1], end[2]), False, (cx + origin[axes[0]], cy + origin[axes[1]]), int(turn))
 
 
-def printed(run: Run) -> tuple[Printed, ...]:
+def printed(run: ControlRun) -> tuple[Printed, ...]:
     """A run's moves in the same form."""
     return tuple(_printed(run.moves))
 

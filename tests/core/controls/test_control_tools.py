@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from core.controls.control_tools import CutterTool, ToolTable, read_table
+from core.controls.control_tools import CutterTool, read_table
 from core.units import Unit
+from tests.tool_tables import end_mills
 
 
 def test_a_table_as_linuxcnc_writes_it() -> None:
@@ -31,5 +32,5 @@ def test_a_diameter_without_unit_is_the_program_s() -> None:
 
 
 def test_tools_given_later_replace_those_of_the_table() -> None:
-    both = ToolTable.diameters({1: 1.0, 2: 2.0}).with_tools(ToolTable.diameters({2: 3.0}))
+    both = end_mills({1: 1.0, 2: 2.0}).with_tools(end_mills({2: 3.0}))
     assert [both.tools[number].diameter for number in (1, 2)] == [1.0, 3.0]

@@ -6,7 +6,8 @@ from math import cos, pi, radians, sin, sqrt, tan
 
 import pytest
 
-from core.controls.compensation.corners import (
+from core.controls.compensation.corner_rules import Corner, CornerRules, Inside, Joint, Outside, join
+from core.controls.compensation.elements import (
     Element,
     arc_element,
     element_sweep,
@@ -22,7 +23,6 @@ from core.controls.compensation.corners import (
     turn_angle,
     turned,
 )
-from core.controls.compensation.joint import Corner, CornerRules, Inside, Joint, Outside, join
 
 
 def line(ax: float, ay: float, bx: float, by: float) -> Element:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from core.controls.control_run import Run
+from core.controls.control_run import ControlRun
 from core.finding import Severity
 from core.units import Unit, from_mm
 from tests.core.controls.compare_rs274 import outcome
@@ -28,7 +28,7 @@ def test_random_programs_fare_as_with_the_interpreter_itself(kind, tmp_path: Pat
     assert sum(one[1] == "same moves" for one in fared) >= 15
 
 
-def heights(done: Run) -> list[tuple[str, float]]:
+def heights(done: ControlRun) -> list[tuple[str, float]]:
     """Every move as rapid or feed and where it goes in Z, program units."""
     return [
         ("rapid" if move.rapid else "feed", round(from_mm(move.point[2], done.unit), 6))

@@ -8,21 +8,21 @@ import numpy as np
 import pytest
 
 from core.controls.compared_controls import Compared, OtherLanguage, compare, parting
-from core.controls.control_tools import ToolTable
-from core.controls.judged_runs import deepest_gouge, findings, first_unjudged, judged
+from core.controls.judged_runs import deepest_gouge, findings, first_unjudged, judge_run
 from core.controls.registry import compared, names, reads, resolve
 from core.finding import Severity
 from core.geometry.path import Path
 from core.units import Unit, from_mm, sentence
 from core.verify.judge import judge
 from tests.core.controls.hand import DATA, ran, ran_up_to, sample, told
+from tests.tool_tables import end_mills
 
 NOTCH = "G20 G17 F10\nG0 X-1 Y2\nG41 D1\nG1 X0 Y0\nX2\nY-.3\nX2.3\nY0\nX5\nG40\nG0 Y2\nM2\n"
 
 
 def test_a_gouge_is_told_with_its_depth_and_lines() -> None:
     done = sample("threeblock-outside.nc", "threeblock", t1=0.6)
-    results = judged(done)
+    results = judge_run(done)
     cut, line = deepest_gouge(results)
     assert (round(from_mm(cut, Unit.IN), 9), line) == (0.05, 5)
     (gouge,) = [finding for finding in findings(results) if finding.code == "GOUGE"]
@@ -31,11 +31,11 @@ def test_a_gouge_is_told_with_its_depth_and_lines() -> None:
 
 def test_a_clean_path_has_no_finding() -> None:
     done = ran("G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n", "rosettacnc:easy", t1=0.5)
-    assert not findings(judged(done))
+    assert not findings(judge_run(done))
 
 
 def test_a_notch_too_narrow_gouges_here_and_alarms_there() -> None:
-    rows = {row.control: row for row in compare(NOTCH.encode(), ToolTable.diameters({1: 0.5}))}
+    rows = {row.control: row for row in compare(NOTCH.encode(), end_mills({1: 0.5}))}
     assert set(rows) == set(compared())
     lenient, strict = rows["threeblock"], rows["linuxcnc"]
     assert isinstance(lenient, Compared)
@@ -73,7 +73,7 @@ def test_names_are_whole_or_short() -> None:
 
 def test_a_path_that_leaves_the_surface_or_turns_back_is_told_by_line() -> None:
     done = ran("G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n", "rosettacnc:easy", t1=0.5)
-    (result,) = judged(done)
+    (result,) = judge_run(done)
     assert not {"AWAY", "BACKWARDS"} & {finding.code for finding in findings((result,))}
     way = result.center.points.tolist()
     row = int(np.argmax(result.center.lengths * np.isin(result.center.numbers, result.surface.numbers)))
@@ -99,14 +99,14 @@ POCKET = "G20 G17 G90\n{load}\nG0 X1.5 Y1.2\nG1 F10.\nG41 X2. Y0.5\nX3.\nY2.\nX0
 @pytest.mark.parametrize("load", ["T1 M6", "T1 M6 D0", "T1 M6 D2"])
 def test_with_offset_0_no_side_is_wrong_and_the_depth_that_the_tool_cuts_is_told(control: str, load: str) -> None:
     done = ran(POCKET.format(load=load), control, t1=0.5, t2=0)
-    assert {"WRONG-SIDE", "GOUGE"}.isdisjoint(finding.code for finding in findings(judged(done)))
+    assert {"WRONG-SIDE", "GOUGE"}.isdisjoint(finding.code for finding in findings(judge_run(done)))
     (told_of,) = told(done, "RADIUS0")
     assert "tool 1, diameter 0.5000, cuts 0.2500 too deep along the contour" in sentence(told_of, Unit.IN)
 
 
 def test_an_offset_that_comes_later_is_on_the_wrong_side_all_the_same() -> None:
     program = POCKET.format(load="T1 M6").replace("X3.\n", "X3.\nD9\n")
-    assert "WRONG-SIDE" in {finding.code for finding in findings(judged(ran(program, "nine-series:a", t9=-0.5)))}
+    assert "WRONG-SIDE" in {finding.code for finding in findings(judge_run(ran(program, "nine-series:a", t9=-0.5)))}
 
 
 def test_a_tool_that_is_not_loaded_is_told_of_where_it_is_the_only_one() -> None:
@@ -119,13 +119,13 @@ def test_a_tool_that_is_not_loaded_is_told_of_where_it_is_the_only_one() -> None
 
 def test_a_real_wrong_side_with_a_radius_is_still_told() -> None:
     done = ran(POCKET.format(load="T1 M6 D1").replace("G41", "G42"), "nine-series:a", t1=0.5)
-    assert "WRONG-SIDE" in {finding.code for finding in findings(judged(done))}
+    assert "WRONG-SIDE" in {finding.code for finding in findings(judge_run(done))}
 
 
 def test_a_run_that_was_given_up_is_not_judged() -> None:
     done = ran_up_to("G21 F9\nG41 D1\nG1 X9\no1 while [1]\nX20\nY20\nX0\nY0\no1 endwhile\nM2\n", 500, t1=1)
     assert done.stretches
-    assert judged(done) == ()
+    assert judge_run(done) == ()
     assert "does not judge the run" in told(done, "LIMIT")[0].text
 
 
@@ -135,7 +135,7 @@ CHANGED = "G20 G17 G90\nT1 M6\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\nX0 Y2\n{word}\
 @pytest.mark.parametrize("word", ["D2", "G41 D2"])
 @pytest.mark.parametrize("sizes", [(0.5, 0.75), (0.75, 0.5)])
 def test_a_radius_that_changes_is_judged_where_it_is_in_force(word: str, sizes: tuple[float, float]) -> None:
-    results = judged(ran(CHANGED.format(word=word), "nine-series:a", t1=sizes[0], t2=sizes[1]))
+    results = judge_run(ran(CHANGED.format(word=word), "nine-series:a", t1=sizes[0], t2=sizes[1]))
     assert [round(from_mm(one.stretch.radius, Unit.IN), 9) * 2 for one in results] == [*sizes]
     assert [one.surface.numbers.tolist() for one in results] == [[6.0], [8.0]]
     assert {finding.code for finding in findings(results)} <= {"UNCUT"}
@@ -143,7 +143,7 @@ def test_a_radius_that_changes_is_judged_where_it_is_in_force(word: str, sizes: 
 
 def test_a_radius_that_changes_before_the_first_element_is_that_of_the_stretch() -> None:
     text = CHANGED.replace("X0 Y2\n{word}", "D2\nX0 Y2")
-    (result,) = judged(ran(text, "nine-series:a", t1=0.5, t2=0.75))
+    (result,) = judge_run(ran(text, "nine-series:a", t1=0.5, t2=0.75))
     assert round(from_mm(result.stretch.radius, Unit.IN), 9) == 0.375
     assert not findings((result,))
 
@@ -151,7 +151,7 @@ def test_a_radius_that_changes_before_the_first_element_is_that_of_the_stretch()
 def test_a_larger_radius_cuts_into_what_was_before_it() -> None:
     """A slot .6 wide, down its second wall with a radius of .375: .225 from the first one, which it cuts by .15."""
     text = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\nY2\nX-.6\nY1.5\nD2\nY0\nG40 X-.225 Y-1\nM2\n"
-    results = judged(ran(text, "nine-series:a", t1=0.4, t2=0.75))
+    results = judge_run(ran(text, "nine-series:a", t1=0.4, t2=0.75))
     deepest = {gouge.surface_number: gouge.depth for gouge in reversed(results[1].verdict.gouges)}
     assert round(from_mm(deepest[6.0], Unit.IN), 9) == 0.15
     assert 6.0 not in {gouge.surface_number for gouge in results[0].verdict.gouges}
@@ -162,7 +162,7 @@ def test_what_a_subprogram_cuts_with_another_radius_is_judged_against_its_other_
     """The second call runs .3 beside the first, into its material."""
     head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\n"
     text = f"{head}M98 P1\nX5 Y2\nY-1\nX.3\nD2\nY0\nM98 P1\nG40 X-5 Y3\nM2\nO1\nG91 Y2\nG90\nM99\n"
-    results = judged(ran(text, "nine-series:a", t1=0.4, t2=0.75))
+    results = judge_run(ran(text, "nine-series:a", t1=0.4, t2=0.75))
     line = float(1 + text.split("\n").index("G91 Y2"))
     cut = [gouge.depth for gouge in results[-1].verdict.gouges if gouge.surface_number == line]
     assert any(abs(from_mm(depth, Unit.IN) - 0.3) < 1e-6 for depth in cut)
@@ -173,9 +173,9 @@ def test_parts_on_two_sides_say_that_they_are_judged_each_by_itself(control: str
     """Behind the change the tool cuts 2 into the first wall; nothing asks for that, so it is said."""
     head = "G21 G90 F100\nT1 M6\nG0 X-20 Y-20\nG41 D1 G1 X0 Y0\nX0 Y100\n"
     text = f"{head}{{side}}X50 Y100\nX50 Y50\nX2 Y50\nX2 Y20\nG40 X-40 Y20\nM2\n"
-    changed = findings(judged(ran(text.format(side="G42 "), control, t1=10)))
+    changed = findings(judge_run(ran(text.format(side="G42 "), control, t1=10)))
     assert [(one.line, one.severity) for one in changed if one.code == "SIDES"] == [(6, Severity.WARNING)]
-    assert "SIDES" not in {one.code for one in findings(judged(ran(text.format(side=""), control, t1=10)))}
+    assert "SIDES" not in {one.code for one in findings(judge_run(ran(text.format(side=""), control, t1=10)))}
 
 
 @pytest.mark.parametrize("arm", [".2999", ".3"])
@@ -183,7 +183,7 @@ def test_an_uneven_arc_that_the_control_accepts_hides_no_gouge_of_another_part(a
     """The second part runs .225 beside the first wall with a radius of .375."""
     head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X0 Y0\nY2\n"
     text = f"{head}G3 X-.6 Y2 I-{arm} J0\nG1 Y1.5\nD2\nY0\nG40 X-.225 Y-1\nM2\n"
-    results = judged(ran(text, "nine-series:a", t1=0.4, t2=0.75))
+    results = judge_run(ran(text, "nine-series:a", t1=0.4, t2=0.75))
     cut, line = deepest_gouge(results)
     assert from_mm(cut, Unit.IN) == pytest.approx(0.15, abs=1e-6)
     assert line == 10
@@ -195,7 +195,7 @@ def test_leads_that_cannot_be_judged_are_an_error() -> None:
     head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X-.5 Y0\n"
     lead = "G3 X-.4999 Y0 I.2 J0\nG1 X0 Y0\n"
     text = f"{head}{lead}Y2\nX2\nY0\nX0\nG40 X-1\nM2\n"
-    results = judged(ran(text, "nine-series:a", t1=0.05))
+    results = judge_run(ran(text, "nine-series:a", t1=0.05))
     assert results[0].verdict.judged
     assert not results[0].lead_gouges
     unknown = [one for one in findings(results) if one.code == "UNJUDGED"]

@@ -7,9 +7,9 @@ import re
 import numpy as np
 import pytest
 
-from core.controls.compensation.chain import NO_FIT
-from core.controls.control_run import Run
-from core.controls.judged_runs import judged
+from core.controls.compensation.element_queue import NO_FIT
+from core.controls.control_run import ControlRun
+from core.controls.judged_runs import judge_run
 from core.controls.moves import Moves, Plane
 from tests.core.controls.hand import ran
 from tests.core.controls.programs import RADIUS, program, turned_to_zx
@@ -31,7 +31,7 @@ def text(seed: int) -> str:
     return re.sub(r"(G4[12])\.1 D-?[0-9.]+", r"\1 D1", program(seed)).replace("M2", "M30")
 
 
-def run(source: str, control: str, diameter: float = 2 * RADIUS) -> Run:
+def run(source: str, control: str, diameter: float = 2 * RADIUS) -> ControlRun:
     return ran(source, control, t1=diameter)
 
 
@@ -75,7 +75,7 @@ def test_a_shifted_origin_shifts_the_moves(control: str) -> None:
         assert agree(changed(there.moves, (1, 1, 1), (700, -300, 0)), moved.moves), seed
 
 
-def by_its_unit(done: Run) -> bool:
+def by_its_unit(done: ControlRun) -> bool:
     """Whether LinuxCNC's rule stops the run that lets an arc grow further in millimeters than in inches."""
     return done.findings[-1].text == NO_FIT
 
@@ -114,7 +114,7 @@ def test_what_runs_with_look_ahead_touches_the_contour_or_is_reported(control: s
     found = 0
     for seed in SEEDS:
         done = run(text(seed), control)
-        for result in judged(done):
+        for result in judge_run(done):
             if done.stopped_at is None and len(result.surface) and result.verdict.judged:
                 assert result.verdict.clearance <= RADIUS * (1 + 1e-9), seed
                 found += 1

@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
 from core.controls.registry import names
+from core.controls.write.contour_pass import CenterMove, CompensatedPass, WrittenLine
 from core.controls.write.iso_program import Frame, tools_of
 from core.controls.write.iso_style import STYLES
-from core.controls.write.programmed_contour import Cut, Line, Travel
 from core.controls.write.read_back import (
-    Answer,
     Intended,
+    ReadBackResult,
     compare_path,
     different_move,
     farthest,
@@ -107,7 +107,7 @@ def test_passes_and_stock_are_runs_of_their_own(control: str) -> None:
 def meant(control: str = "linuxcnc") -> Intended:
     """A program that is right."""
     one = cut(squared(Side.RIGHT))
-    lines = tuple(Line(text, 3.0) for text in text_of(control, one).splitlines())
+    lines = tuple(WrittenLine(text, 3.0) for text in text_of(control, one).splitlines())
     return Intended(control, lines, (one,), tools_of((one,), STYLES[control]), Unit.IN, 1e-6 * INCH, leads=True)
 
 
@@ -162,7 +162,7 @@ def test_what_is_no_number_is_never_near(row: int, end: int) -> None:
     assert farthest(bad, SQUARE)[1] in (row, row + 1)
     given = meant()
     (one,) = given.cuts
-    assert isinstance(one, Cut)
+    assert isinstance(one, CompensatedPass)
     assert compare_path(bad, one, replace(given, leads=False)).errors
 
 
@@ -176,7 +176,7 @@ def _with_lost_arc(path: Path) -> Path:
 def test_a_distance_that_is_not_a_number_in_one_direction_is_not_near(lost: str) -> None:
     given = replace(meant(), leads=False)
     (one,) = given.cuts
-    assert isinstance(one, Cut)
+    assert isinstance(one, CompensatedPass)
     whole = one.compensated.whole
     made, cut_for = whole, one
     if lost == "made":
@@ -184,7 +184,7 @@ def test_a_distance_that_is_not_a_number_in_one_direction_is_not_near(lost: str)
     else:
         bare = replace(one.compensated, path=whole, lead_in=EMPTY, lead_out=EMPTY)
         made, cut_for = bare.whole, replace(one, compensated=replace(bare, path=_with_lost_arc(whole)))
-        assert compare_path(made, replace(one, compensated=bare), given) == Answer()
+        assert compare_path(made, replace(one, compensated=bare), given) == ReadBackResult()
     intended = cut_for.compensated.whole
     apart = [farthest(made, intended)[0], farthest(intended, made)[0]]
     assert sorted(distance <= 1e-3 for distance in apart) == [False, True]
@@ -192,11 +192,11 @@ def test_a_distance_that_is_not_a_number_in_one_direction_is_not_near(lost: str)
 
 
 UNCOMPENSATED = (
-    Line("G21 G17 G90 G94 F100"),
-    Line("G0 X10. Y0. Z5.", travel=Travel(10.0, 0.0, 5.0, None, 0, (10.0, 0.0))),
-    Line("G1 X20.", travel=Travel(20.0, 0.0, 5.0, 100.0, 0, (20.0, 0.0))),
-    Line("G3 X30. Y10. I0. J10.", travel=Travel(30.0, 10.0, 5.0, 100.0, 1, (20.0, 10.0))),
-    Line("M2"),
+    WrittenLine("G21 G17 G90 G94 F100"),
+    WrittenLine("G0 X10. Y0. Z5.", travel=CenterMove(10.0, 0.0, 5.0, None, 0, (10.0, 0.0))),
+    WrittenLine("G1 X20.", travel=CenterMove(20.0, 0.0, 5.0, 100.0, 0, (20.0, 0.0))),
+    WrittenLine("G3 X30. Y10. I0. J10.", travel=CenterMove(30.0, 10.0, 5.0, 100.0, 1, (20.0, 10.0))),
+    WrittenLine("M2"),
 )
 
 

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.controls.control_run import Run
-from core.controls.judged_runs import deepest_gouge, findings, judged
+from core.controls.control_run import ControlRun
+from core.controls.judged_runs import deepest_gouge, findings, judge_run
 from core.controls.repeated_passes import without_repeats
 from core.geometry.path import Path
 from core.geometry.piece import Side
@@ -41,7 +41,7 @@ SHARES = 7
 STEPS = ((0.0, 30.0), (40.1, 0.0), (0.0, -30.0), (-40.1, 0.0))
 
 
-def _ring(calls: str, lap: str = LAP, control: str = "linuxcnc") -> Run:
+def _ring(calls: str, lap: str = LAP, control: str = "linuxcnc") -> ControlRun:
     return ran(RING.format(calls=calls, lap=lap), control, t1=6)
 
 
@@ -57,7 +57,7 @@ def _chain(corners: Sequence[tuple[float, float]], turns: Sequence[int] | None =
 
 @pytest.mark.parametrize("control", ["linuxcnc", "rosettacnc:normal"])
 def test_forty_passes_are_judged_as_one_with_the_same_findings(control: str) -> None:
-    (one,), (forty,) = judged(_ring("M98 P7", control=control)), judged(_ring("M98 P7 L40", control=control))
+    (one,), (forty,) = judge_run(_ring("M98 P7", control=control)), judge_run(_ring("M98 P7 L40", control=control))
     assert len(forty.surface) == len(one.surface) == 5
     # the first lap comes in from the lead, so that a second one differs from it
     assert len(forty.center) <= 2 * len(one.center)
@@ -67,14 +67,14 @@ def test_forty_passes_are_judged_as_one_with_the_same_findings(control: str) -> 
 
 def test_the_pieces_judged_are_as_many_for_any_number_of_passes_and_controls() -> None:
     for control in ("linuxcnc", "nine-series:a", "nine-series:b"):
-        few, many = ((judged(_ring(f"M98 P7 L{laps}", control=control))) for laps in (3, 200))
+        few, many = ((judge_run(_ring(f"M98 P7 L{laps}", control=control))) for laps in (3, 200))
         assert [len(one.center) for one in few] == [len(one.center) for one in many]
         assert findings(few) == findings(many)
 
 
 def test_depths_that_are_written_out_are_judged_by_the_first_ones_lines() -> None:
     laps = "\n".join(f"G1 Z{-depth}\n{LAP}" for depth in range(1, 10))
-    (result,) = judged(_ring(laps))
+    (result,) = judge_run(_ring(laps))
     assert result.surface.numbers.tolist() == [7.0, 8.0, 9.0, 10.0, 11.0]
     assert len(result.lines) == 45
     assert {finding.line for finding in findings((result,)) if finding.code == "UNCUT"} == {10}
@@ -85,7 +85,9 @@ def test_a_gouge_in_the_seventh_pass_alone_is_reported() -> None:
     lap = "G1 X0 Y30\nX40\nY0\nX0"
     notched = lap.replace("X40", "X20\nY22\nX22\nY30\nX40")
     laps = [lap] * 6 + [notched] + [lap] * 3
-    even, cut = (judged(_ring("G1 Y0\n" + "\n".join(all_of), control="nine-series:b")) for all_of in ([lap] * 10, laps))
+    even, cut = (
+        judge_run(_ring("G1 Y0\n" + "\n".join(all_of), control="nine-series:b")) for all_of in ([lap] * 10, laps)
+    )
     seventh = range(6 + 6 * 4, 6 + 6 * 4 + 8)
     assert deepest_gouge(even)[0] < 0.1
     assert deepest_gouge(cut) == (6.0, seventh[2])

@@ -6,8 +6,8 @@ from math import acos, cos, radians, sin, sqrt
 
 import pytest
 
-from core.controls.control_run import Run
-from core.controls.judged_runs import judged
+from core.controls.control_run import ControlRun
+from core.controls.judged_runs import judge_run
 from tests.core.controls.hand import lines_and_ends, ran, same, sample, shape, told
 
 BEHIND_ENTRY = [
@@ -63,13 +63,13 @@ def test_normal_enters_as_linuxcnc_does_and_says_so() -> None:
 
 @pytest.mark.parametrize("variant", ["easy", "normal"])
 def test_the_square_is_clean_apart_from_its_leads(variant: str) -> None:
-    (result,) = judged(sample("rosettacnc-square.ngc", f"rosettacnc:{variant}", t1=6))
+    (result,) = judge_run(sample("rosettacnc-square.ngc", f"rosettacnc:{variant}", t1=6))
     assert result.verdict.clean
     assert not result.verdict.uncut
     assert (len(result.surface), result.leads) == (9, (15,))
 
 
-def window(done: Run, first: int, second: int) -> list[tuple[float, float]]:
+def window(done: ControlRun, first: int, second: int) -> list[tuple[float, float]]:
     """The compensated window in the coordinates of its plane, in order."""
     stretch = next(one for one in done.stretches if one.plane.axes[:2] == (first, second))
     moves = done.moves.part(stretch.first + 1, stretch.first + 7)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from core.controls.control_run import Run
-from core.controls.control_tools import ToolTable
+from core.controls.control_run import ControlRun
 from core.controls.registry import run
 from core.controls.shop_rules import check
 from core.finding import Severity
+from tests.tool_tables import end_mills
 
 HEAD = "BEGIN PGM P MM\nTOOL DEF 1 L+0 R+5\nTOOL CALL 1 Z F100\n"
 APPLY = ("L X-20 Y-30 Z+2 R0 FMAX", "L Z-5", "L Y+0 RL")
@@ -16,9 +16,9 @@ CONTOUR = ("L X+40", "L Y-60", "L X-20")
 CANCEL = ("L Y-90 R0", "L Z+50 FMAX")
 
 
-def klartext(*blocks: str) -> Run:
+def klartext(*blocks: str) -> ControlRun:
     made = run((HEAD + "\n".join(blocks) + "\nEND PGM P MM\n").encode(), "klartext")
-    assert isinstance(made, Run)
+    assert isinstance(made, ControlRun)
     assert made.stopped_at is None, made.findings
     return made
 
@@ -120,7 +120,7 @@ ISO = "G21 G90 G17 T1 M6\nG0 X-20 Y-30\nG1 Z-5 F100\n{}G1 X-20\nG40 {}\nM2\n"
     ],
 )
 def test_the_same_rules_on_iso_text(control: str, entry: str, leaving: str, rules: list[str]) -> None:
-    made = run(ISO.format(entry, leaving).encode(), control, ToolTable.diameters({1: 10.0}))
-    assert isinstance(made, Run)
+    made = run(ISO.format(entry, leaving).encode(), control, end_mills({1: 10.0}))
+    assert isinstance(made, ControlRun)
     assert made.stopped_at is None, made.findings
     assert sorted({finding.code for finding in check(made)} - {"H9"}) == rules

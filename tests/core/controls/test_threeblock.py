@@ -6,7 +6,7 @@ from math import pi, sqrt
 
 import pytest
 
-from core.controls.judged_runs import deepest_gouge, judged
+from core.controls.judged_runs import deepest_gouge, judge_run
 from core.finding import Severity
 from core.units import from_mm
 from tests.core.controls.hand import ran, same, sample, shape, told
@@ -71,7 +71,7 @@ def test_a_step_smaller_than_the_radius_gouges_without_an_alarm() -> None:
     done = sample("threeblock-outside.nc", "threeblock", t1=0.6)
     assert done.stopped_at is None
     assert told(done, "B17-STEP")[0].line == 5
-    cut, line = deepest_gouge(judged(done))
+    cut, line = deepest_gouge(judge_run(done))
     assert from_mm(cut, done.unit) == pytest.approx(0.05)
     assert line == 5
 

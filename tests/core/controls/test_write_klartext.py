@@ -14,8 +14,8 @@ from core.comp.compensate import compensate
 from core.comp.result import Compensated
 from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run
+from core.controls.write.contour_pass import CompensatedPass
 from core.controls.write.iso_program import Frame
-from core.controls.write.programmed_contour import Cut
 from core.controls.write.read_back import MIN_TOLERANCE
 from core.controls.write.written_program import NotWritten, WrittenProgram, write_program
 from core.geometry.path import Path
@@ -23,11 +23,13 @@ from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.units import Unit
 
 
-def cut(compensated: Compensated, depth: float = -5.0, feeds: dict[int, float] | None = None, tool: int = 1) -> Cut:
+def cut(
+    compensated: Compensated, depth: float = -5.0, feeds: dict[int, float] | None = None, tool: int = 1
+) -> CompensatedPass:
     """One run at a depth, at 200 mm a minute unless a segment has its own feed."""
     every = {int(number): 200.0 for number in compensated.contour.numbers} | (feeds or {})
     size = 2 * compensated.radius
-    return Cut(
+    return CompensatedPass(
         compensated=compensated, tool=tool, diameter=size, stock=0.0, speed=900.0, feeds=every, plunge_feed=100.0,
         travel=50.0, near=2.0, depth=depth, leave=50.0,
     )  # fmt: skip
@@ -38,7 +40,7 @@ def write(compensated: Compensated, unit: Unit = Unit.MM) -> str | NotWritten:
     return written([cut(compensated)], unit)
 
 
-def written(cuts: list[Cut], unit: Unit = Unit.MM) -> str | NotWritten:
+def written(cuts: list[CompensatedPass], unit: Unit = Unit.MM) -> str | NotWritten:
     """The program of some runs."""
     found = write_program(cuts, "klartext", Frame(unit), "PART", lambda _: ())
     return found.text if isinstance(found, WrittenProgram) else found

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core.comp.compensate import compensate
-from core.controls.write.programmed_contour import begin, finish, programmed
+from core.controls.write.contour_pass import begin, finish, programmed_elements
 from core.controls.write.written_program import WrittenProgram
 from core.finding import Finding
 from core.geometry.path import Path
@@ -126,7 +126,7 @@ def test_a_bridge_is_refused() -> None:
     slot = Path.from_pieces([Straight((0.0, 0.0), (10.0, 0.0)), Arc((10.0, 0.0), (12.0, 2.0), (10.0, 2.0), Turn.CCW)])
     one = compensate(slot, Side.LEFT, 5.0, 1, closed=False, blend=2.0)
     assert one.bridged.any()
-    assert isinstance(programmed(one), Finding)
+    assert isinstance(programmed_elements(one), Finding)
     assert refused("linuxcnc", cut(one)).code == "NOTWRITTEN"
 
 

@@ -6,11 +6,11 @@ from itertools import pairwise
 
 from core.comp.compensate import compensate
 from core.comp.result import Compensated
-from core.controls.control_run import Run
+from core.controls.control_run import ControlRun
 from core.controls.registry import names, run
+from core.controls.write.contour_pass import CompensatedPass
 from core.controls.write.iso_program import Frame, tools_of
 from core.controls.write.iso_style import STYLES
-from core.controls.write.programmed_contour import Cut
 from core.controls.write.written_program import NotWritten, WrittenProgram, write_program
 from core.finding import Finding
 from core.geometry.path import Path
@@ -36,37 +36,37 @@ def squared(side: Side, blend: float = 0.125, overlap: float = 0.0) -> Compensat
     return compensate(SQUARE, side, 0.25 * INCH, 4, closed=True, blend=blend * INCH, overlap=overlap * INCH)
 
 
-def cut(one: Compensated, *, tool: int = 1, stock: float = 0.0, depth: float = -0.25) -> Cut:
+def cut(one: Compensated, *, tool: int = 1, stock: float = 0.0, depth: float = -0.25) -> CompensatedPass:
     """One run at a depth (inches), 10 inches a minute."""
     feeds = {int(number): 10.0 * INCH for number in one.contour.numbers}
     size = 2 * (one.radius - stock * INCH)
     up, near = 1.0 * INCH, 0.1 * INCH
-    return Cut(
+    return CompensatedPass(
         compensated=one, tool=tool, diameter=size, stock=stock * INCH, speed=300.0, feeds=feeds,
         plunge_feed=20.0 * INCH, travel=up, near=near, depth=depth * INCH, leave=up,
     )  # fmt: skip
 
 
-def write(control: str, *cuts: Cut) -> WrittenProgram | NotWritten:
+def write(control: str, *cuts: CompensatedPass) -> WrittenProgram | NotWritten:
     """The program in inches, without remarks."""
     return write_program(cuts, control, Frame(Unit.IN), "PART", lambda _: ())
 
 
-def text_of(control: str, *cuts: Cut) -> str:
+def text_of(control: str, *cuts: CompensatedPass) -> str:
     found = write(control, *cuts)
     assert isinstance(found, WrittenProgram), found
     return found.text
 
 
-def made_by(control: str, text: str, *cuts: Cut) -> Run:
+def made_by(control: str, text: str, *cuts: CompensatedPass) -> ControlRun:
     """What the control does with a program and the tools it counts on."""
     tools = tools_of(cuts, STYLES[control]) if control in STYLES else tools_of(cuts, STYLES["linuxcnc"])
     made = run(text.encode(), control, tools, Unit.IN)
-    assert isinstance(made, Run)
+    assert isinstance(made, ControlRun)
     return made
 
 
-def refused(control: str, *cuts: Cut) -> Finding:
+def refused(control: str, *cuts: CompensatedPass) -> Finding:
     found = write(control, *cuts)
     assert isinstance(found, NotWritten), found
     return found.findings[0]

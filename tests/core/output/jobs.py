@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
-from core.output.passes import Cutter, Floor, Job, Run
+from core.output.passes import CenterPath, Cutter, Floor, Job
 
 INCH = 25.4
 
@@ -44,7 +44,7 @@ def job(path: Path, **changes: object) -> Job:
         finisher=None,
         surface=path,
         floors=floors(len(path)),
-        finish=(Run(path),),
+        finish=(CenterPath(path),),
         rough=(),
         z_start=0.0,
         z_bottom=-0.25 * INCH,

@@ -7,49 +7,55 @@ from dataclasses import replace
 import pytest
 
 from core.comp.compensate import compensate
-from core.controls.write.programmed_contour import Cut, Plain, Travel
+from core.controls.write.contour_pass import CenterMove, CompensatedPass, PassToWrite, UncompensatedPass
 from core.finding import Finding, Severity
 from core.geometry.piece import Side
 from core.output.control_program import control_program, control_program_errors
 from core.output.nc import Posted, Refusal
-from core.output.passes import Floor, Job, Run
+from core.output.passes import CenterPath, Floor, Job
 from core.units import Unit
 from tests.core.output.jobs import INCH, job, polyline
 
 SQUARE = polyline((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0))
 
 
-def cut(stock: float = 0.0, tool: int = 1, diameter: float = 0.5) -> Cut:
+def cut(stock: float = 0.0, tool: int = 1, diameter: float = 0.5) -> CompensatedPass:
     """A run around the square's outside at 10 inches a minute, with blend moves of 0.125; inches."""
     radius = (diameter / 2 + stock) * INCH
     compensated = compensate(SQUARE, Side.RIGHT, radius, 8, closed=True, blend=0.125 * INCH, overlap=0.125 * INCH)
-    return Cut(
+    return CompensatedPass(
         compensated=compensated, tool=tool, diameter=diameter * INCH, stock=stock * INCH, speed=300.0,
         feeds={number: 10.0 * INCH for number in range(1, 6)}, plunge_feed=20.0 * INCH,
         travel=INCH, near=0.1 * INCH, depth=-0.25 * INCH, leave=INCH,
     )  # fmt: skip
 
 
-def plain() -> Plain:
+def plain() -> UncompensatedPass:
     """A run along a line without compensation."""
     travels = (
-        Travel(0.0, 0.0, INCH, None, 0, (0.0, 0.0)),
-        Travel(0.0, 0.0, 0.1 * INCH, None, 0, (0.0, 0.0)),
-        Travel(0.0, 0.0, -0.25 * INCH, 20.0 * INCH, 0, (0.0, 0.0)),
-        Travel(2.0 * INCH, 0.0, -0.25 * INCH, 10.0 * INCH, 0, (0.0, 0.0)),
-        Travel(2.0 * INCH, 0.0, INCH, None, 0, (0.0, 0.0)),
+        CenterMove(0.0, 0.0, INCH, None, 0, (0.0, 0.0)),
+        CenterMove(0.0, 0.0, 0.1 * INCH, None, 0, (0.0, 0.0)),
+        CenterMove(0.0, 0.0, -0.25 * INCH, 20.0 * INCH, 0, (0.0, 0.0)),
+        CenterMove(2.0 * INCH, 0.0, -0.25 * INCH, 10.0 * INCH, 0, (0.0, 0.0)),
+        CenterMove(2.0 * INCH, 0.0, INCH, None, 0, (0.0, 0.0)),
     )
-    return Plain(
+    return UncompensatedPass(
         travels=travels, tool=1, diameter=0.5 * INCH, stock=0.0, speed=300.0, feeds={1: 10.0 * INCH},
         plunge_feed=20.0 * INCH, travel=INCH, near=0.1 * INCH, depth=-0.25 * INCH, leave=INCH,
     )  # fmt: skip
 
 
 def square(**changes: object) -> Job:
-    return job(SQUARE, comp="RIGHT", finish=(Run(cut().compensated.path),), peck_depth=0.0, **changes)
+    return job(SQUARE, comp="RIGHT", finish=(CenterPath(cut().compensated.path),), peck_depth=0.0, **changes)
 
 
-def posted(control: str, *cuts: Cut | Plain, jobs: tuple[Job, ...] = (), name: str = "KEY", part: str = "") -> Posted:
+def posted(
+    control: str,
+    *cuts: PassToWrite,
+    jobs: tuple[Job, ...] = (),
+    name: str = "KEY",
+    part: str = "",
+) -> Posted:
     found = control_program(jobs or (square(),), cuts or (cut(),), Unit.IN, name=name, control=control, part=part)
     assert isinstance(found, Posted), found
     return found

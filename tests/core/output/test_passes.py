@@ -7,7 +7,19 @@ from hypothesis import strategies as st
 
 from core.geometry.path import Path
 from core.geometry.piece import Line, Turn
-from core.output.passes import Cutter, Floor, Job, Motion, Pass, Run, heights, levels, meets_solid, passes, z_steps
+from core.output.passes import (
+    CenterPath,
+    Cutter,
+    Floor,
+    Job,
+    Motion,
+    Pass,
+    heights,
+    levels,
+    meets_solid,
+    passes,
+    z_steps,
+)
 from tests.core.output.jobs import INCH, arc, job, path_of, polyline
 
 SLOT = polyline((0, 0), (2, 0), (2, 1))
@@ -102,7 +114,7 @@ def test_feeds_are_the_plunge_feed_down_and_the_segments_own_along():
 
 
 def test_blend_moves_take_the_feed_and_height_of_the_end_they_stand_at():
-    run = Run(SLOT, lead_in=polyline((-1, 0), (0, 0)), lead_out=polyline((2, 1), (2, 2)))
+    run = CenterPath(SLOT, lead_in=polyline((-1, 0), (0, 0)), lead_out=polyline((2, 1), (2, 2)))
     one = job(SLOT, finish=(run,), peck_depth=0.0, floors=(Floor(1, -6.35, -6.35, 1.0), Floor(2, -6.35, -6.35, 2.0)))
     (found,) = passes(one)
     assert [motion.feed for motion in found.motions[3:-1]] == [1.0, 1.0, 2.0, 2.0]
@@ -114,7 +126,7 @@ def told(one: Pass) -> tuple[int, float, float, bool]:
 
 
 def test_all_offsets_of_a_depth_come_before_the_next_depth_and_the_full_size_last():
-    outer, inner = Run(OUTER, offset=2.0), Run(SLOT, offset=1.0)
+    outer, inner = CenterPath(OUTER, offset=2.0), CenterPath(SLOT, offset=1.0)
     one = job(SLOT, rough=(outer, inner), z_bottom=-0.2 * INCH)
     assert [told(each) for each in passes(one)] == [
         (1, -0.1, 2.0, False),
@@ -128,7 +140,7 @@ def test_all_offsets_of_a_depth_come_before_the_next_depth_and_the_full_size_las
 
 def with_finisher(diameter: float, **changes: object) -> Job:
     finisher = Cutter(2, diameter * INCH)
-    given = {"rough": (Run(OUTER, offset=0.5),), "finish_z": 0.05 * INCH, **changes}
+    given = {"rough": (CenterPath(OUTER, offset=0.5),), "finish_z": 0.05 * INCH, **changes}
     return job(SLOT, finisher=finisher, finish_tool=2, **given)
 
 
@@ -206,7 +218,7 @@ def test_a_piece_shortened_at_a_corner_has_the_height_the_drawing_gives_there():
     """The line of 2 in climbs 0.2; its center path stops 0.5 before the corner, then the tool lifts straight up."""
     surface = polyline((0, 0), (2, 0), (2, 2))
     center = polyline((0, 0.5), (1.5, 0.5), (1.5, 2))
-    one = ramp(surface, -0.05, -0.05, finish=(Run(center),), peck_depth=0.0)
+    one = ramp(surface, -0.05, -0.05, finish=(CenterPath(center),), peck_depth=0.0)
     assert all_shown(one)[2:-1] == [
         ("G1", 0, 0.5, -0.25),
         ("G1", 1.5, 0.5, -0.1),
@@ -220,14 +232,14 @@ def test_a_corner_arc_keeps_its_corners_height():
     corner = arc((1, -0.5), (1.5, 0), (1, 0), Turn.CCW)
     first, last = polyline((0, -0.5), (1, -0.5))[0], polyline((1.5, 0), (1.5, 1))[0]
     center = Path.from_pieces((first, corner, last), (1.0, 1.5, 2.0))
-    one = ramp(surface, -0.15, -0.05, finish=(Run(center),), peck_depth=0.0)
+    one = ramp(surface, -0.15, -0.05, finish=(CenterPath(center),), peck_depth=0.0)
     assert [motion[3] for motion in all_shown(one)[2:-1]] == [-0.25, -0.15, -0.15, -0.05]
 
 
 def test_heights_on_an_arc_follow_its_angle():
     surface = path_of(arc((1, 0), (-1, 0), (0, 0), Turn.CCW))
     quarter = path_of(arc((0.5, 0), (0, 0.5), (0, 0), Turn.CCW))
-    one = ramp(surface, -0.05, finish=(Run(quarter),))
+    one = ramp(surface, -0.05, finish=(CenterPath(quarter),))
     assert (heights(one, one.finish[0])[0] / INCH).tolist() == pytest.approx([-0.25, -0.15])
 
 
@@ -235,25 +247,25 @@ def test_rounding_before_an_arcs_first_point_puts_it_not_at_the_arcs_end():
     surface = path_of(arc((1, 0), (-1, 0), (0, 0), Turn.CCW))
     for hair in (1e-9, -1e-9):
         begun = path_of(arc((0.5, hair), (0, 0.5), (0, 0), Turn.CCW))
-        one = ramp(surface, -0.05, finish=(Run(begun),))
+        one = ramp(surface, -0.05, finish=(CenterPath(begun),))
         assert (heights(one, one.finish[0])[0] / INCH).tolist() == pytest.approx([-0.25, -0.15])
 
 
 def test_a_piece_beyond_its_line_keeps_the_height_of_the_lines_end():
     surface = polyline((0, 0), (2, 0))
-    one = ramp(surface, -0.05, finish=(Run(polyline((-1, 1), (3, 1))),))
+    one = ramp(surface, -0.05, finish=(CenterPath(polyline((-1, 1), (3, 1))),))
     assert (heights(one, one.finish[0])[0] / INCH).tolist() == pytest.approx([-0.25, -0.05])
 
 
 def test_heights_count_from_a_lines_own_start():
     surface = polyline((3, 1), (5, 1))
-    one = ramp(surface, -0.05, finish=(Run(polyline((3.5, 1.5), (4, 1.5))),))
+    one = ramp(surface, -0.05, finish=(CenterPath(polyline((3.5, 1.5), (4, 1.5))),))
     assert (heights(one, one.finish[0])[0] / INCH).tolist() == pytest.approx([-0.2, -0.15])
 
 
 def test_a_finish_tool_as_large_pecks_where_no_roughing_has_been():
-    short = Run(polyline((0, 0), (2, 0)), offset=0.5)
-    rough_everywhere, rough_once = (with_finisher(0.5, rough=(run,)) for run in (Run(SLOT, offset=0.5), short))
+    short = CenterPath(polyline((0, 0), (2, 0)), offset=0.5)
+    rough_everywhere, rough_once = (with_finisher(0.5, rough=(run,)) for run in (CenterPath(SLOT, offset=0.5), short))
     assert [told(each)[1] for each in passes(rough_everywhere) if each.finishing] == [-0.25]
     assert [told(each)[1] for each in passes(rough_once) if each.finishing] == [-0.1, -0.2, -0.25]
     assert meets_solid(rough_once) == {2}
@@ -262,7 +274,7 @@ def test_a_finish_tool_as_large_pecks_where_no_roughing_has_been():
 
 def test_steps_between_pieces_of_the_path_are_reported_with_their_place():
     surface = polyline((0, 0), (2, 0), (2, 2))
-    one = ramp(surface, -0.05, -0.05, finish=(Run(polyline((0, 0.5), (1.5, 0.5), (1.5, 2))),))
+    one = ramp(surface, -0.05, -0.05, finish=(CenterPath(polyline((0, 0.5), (1.5, 0.5), (1.5, 2))),))
     (step,) = z_steps(one)
     assert step.rise / INCH == pytest.approx(0.05)
     assert step.number == 2.0
@@ -280,6 +292,6 @@ def test_an_overlap_past_the_start_is_lifted_over_a_higher_floor():
     """Closed: the first segment begins at -0.05, the last ends at -0.25; the overlap runs over the first again."""
     floors = (Floor(1, -0.05 * INCH, -0.05 * INCH, 254.0), *(Floor(k, -6.35, -6.35, 254.0) for k in (2, 3, 4)))
     overlap = Path.from_pieces([Line((0.0, 0.0), (5.0, 0.0))], [1.0])
-    run = Run(RING, lead_out=overlap)
+    run = CenterPath(RING, lead_out=overlap)
     one = job(RING, floors=floors, finish=(run,))
     assert heights(one, run)[-1].tolist() == pytest.approx([-0.05 * INCH, -0.05 * INCH])

@@ -7,7 +7,7 @@ from core.finding import Finding, Severity
 from core.geometry.piece import Turn
 from core.output.nc import Posted, Refusal, center_path_program
 from core.output.objections import OVERRIDE
-from core.output.passes import Cutter, Floor, Job, Run, passes
+from core.output.passes import CenterPath, Cutter, Floor, Job, passes
 from core.units import Unit
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
@@ -103,7 +103,7 @@ def test_the_same_in_millimeters():
 
 
 def test_the_finish_tool_is_called_after_the_spindle_stops():
-    one = job(SLOT, rough=(Run(SLOT, offset=0.0),), finisher=Cutter(7, 12.7, "BALL"), finish_tool=7)
+    one = job(SLOT, rough=(CenterPath(SLOT, offset=0.0),), finisher=Cutter(7, 12.7, "BALL"), finish_tool=7)
     found = [line for line in text(one).splitlines() if re.match(r"[TMS]|G43|G0 Z1\.0", line)]
     assert found == [
         "T1 M6",
@@ -239,8 +239,8 @@ NAN, INFINITE = float("nan"), float("inf")
         ({"speed": 0.0}, "SPEED"),
         ({"work_offset": 53}, "WORK_OFFSET"),
         ({"finish": ()}, "NO_PATH"),
-        ({"finish": (Run(polyline((0, 0), (NAN, 0))),)}, "COORDINATE"),
-        ({"finish": (Run(polyline((0, 0), (1e9, 0))),)}, "COORDINATE"),
+        ({"finish": (CenterPath(polyline((0, 0), (NAN, 0))),)}, "COORDINATE"),
+        ({"finish": (CenterPath(polyline((0, 0), (1e9, 0))),)}, "COORDINATE"),
         ({"plunge_feed": 0.0}, "PLUNGE_FEED"),
         ({"plunge_feed": 1e-9}, "PLUNGE_FEED"),
         ({"floors": floors(1)}, "FEED"),
@@ -264,7 +264,7 @@ def test_segments_without_a_feed_are_named_up_to_six():
     path = polyline(*((x, 0) for x in range(8)))
     for count, listed in ((1, "segment 1"), (6, "segments 1, 2, 3, 4, 5, 6"), (7, "segments 1, 2, 3, 4, 5, 6 ...")):
         given = (*floors(count, feed=0.0), *floors(7)[count:])
-        said = sentence_of("FEED", surface=path, finish=(Run(path),), floors=given)
+        said = sentence_of("FEED", surface=path, finish=(CenterPath(path),), floors=given)
         assert said == f"Block 1: There is no FEED above 0 on {listed}."
 
 

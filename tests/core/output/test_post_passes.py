@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from core.output.nc import Posted, center_path_program
-from core.output.passes import Cutter, Job, Run
+from core.output.passes import CenterPath, Cutter, Job
 from core.units import Unit
 from tests.core.output.jobs import INCH, job, polyline
 
@@ -17,8 +17,8 @@ def pass_titles(one: Job) -> list[str]:
 
 
 def test_every_pass_says_which_side_pass_and_which_peck_it_is():
-    half = Run(SLOT, offset=INCH / 2)
-    rough = (Run(SLOT, offset=INCH), half, half)
+    half = CenterPath(SLOT, offset=INCH / 2)
+    rough = (CenterPath(SLOT, offset=INCH), half, half)
     assert pass_titles(job(SLOT, rough=rough, peck_depth=0.0)) == [
         "(BLOCK 1 SIDE PASS 1 OF 3 Z -0.2500 LEAVES 1.0000 ON SIDE)",
         "(BLOCK 1 SIDE PASS 2 OF 3 Z -0.2500 LEAVES 0.5000 ON SIDE)",
@@ -34,7 +34,9 @@ def test_every_pass_says_which_side_pass_and_which_peck_it_is():
 
 
 def test_the_finish_tool_counts_its_own_passes():
-    one = job(SLOT, rough=(Run(SLOT, offset=INCH),), finisher=Cutter(7, 12.7, "BALL"), finish_tool=7, peck_depth=0.0)
+    one = job(
+        SLOT, rough=(CenterPath(SLOT, offset=INCH),), finisher=Cutter(7, 12.7, "BALL"), finish_tool=7, peck_depth=0.0
+    )
     assert pass_titles(one) == [
         "(BLOCK 1 PASS 1 OF 1 Z -0.2500 LEAVES 1.0000 ON SIDE)",
         "(BLOCK 1 FINISH PASS 1 OF 1 Z -0.2500)",

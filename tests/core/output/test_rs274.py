@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from core.geometry.piece import Arc, Line, Piece, Point, Turn
 from core.output.nc import Posted, center_path_program
-from core.output.passes import Cutter, Job, Motion, Run, passes
+from core.output.passes import CenterPath, Cutter, Job, Motion, passes
 from core.units import Unit
 from tests import rs274
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
@@ -80,8 +80,8 @@ def test_a_finish_tool_with_blend_moves(unit, tmp_path):
     blend_out = path_of(arc((3, 2), (2.875, 2.125), (2.875, 2), Turn.CCW))
     one = job(
         contour,
-        finish=(Run(contour, blend_in, blend_out),),
-        rough=(Run(contour, blend_in, offset=0.5),),
+        finish=(CenterPath(contour, blend_in, blend_out),),
+        rough=(CenterPath(contour, blend_in, offset=0.5),),
         finisher=Cutter(2, 0.25 * INCH, "END MILL"),
         finish_tool=2,
         finish_z=0.254,

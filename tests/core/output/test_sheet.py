@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
-from core.output.passes import Cutter, Job, Run
+from core.output.passes import CenterPath, Cutter, Job
 from core.output.sheet import NOT_READY, READY, WIDTH, Sheet, as_page, as_text, sheet
 from core.units import Unit
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
@@ -74,7 +74,7 @@ def test_the_cutter_reaches_over_the_top_of_an_arc():
 
 def test_a_finish_tool_has_its_own_line_and_its_own_pass():
     path = SLOT.finish[0].path
-    both = replace(SLOT, finisher=Cutter(2, 0.25 * INCH), finish_tool=2, rough=(Run(path, offset=0.01 * INCH),))
+    both = replace(SLOT, finisher=Cutter(2, 0.25 * INCH), finish_tool=2, rough=(CenterPath(path, offset=0.01 * INCH),))
     one = of(both)
     assert [row[0] for row in one.tools.table[1:]] == ["1", "2"]
     assert one.tools.table[2][4] == "1 finish"
@@ -159,7 +159,7 @@ def two_blocks() -> tuple[Job, Job]:
         floors=(first, second),
         finisher=Cutter(7, 0.25 * INCH, "BALL"),
         finish_tool=7,
-        rough=(Run(path, offset=0.02 * INCH),),
+        rough=(CenterPath(path, offset=0.02 * INCH),),
         finish_z=0.01 * INCH,
         findings=(uncut, Finding("NEAR", Severity.WARNING, "Near.")),
     )

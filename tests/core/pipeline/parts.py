@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from core.program.edit import new_block
-from core.program.model import Block, CutterComp, Entry, LineSegment, Parameters, Program, Tool, Typed, changed
+from core.program.model import Block, CutterComp, LineSegment, Number, Program, ProgramParameters, Tool, Typed, changed
 
 OVER_RUN_SQUARE = ((-1, 0), (2, 0), (2, 2), (0, 2), (0, -1))
 NOTCH = ((0, 0), (2, 0), (2, -0.3), (2.3, -0.3), (2.3, 0), (5, 0))
@@ -17,14 +17,14 @@ Points = tuple[tuple[float, float], ...]
 
 def block(points: Points, comp: CutterComp, **changes: Typed) -> Block:
     """A block of lines through these points."""
-    segments = tuple(LineSegment(x_end=Entry(x), y_end=Entry(y)) for x, y in points[1:])
-    (x, y), tool, bottom = points[0], Entry(1), Entry(-0.25)
-    plain = replace(new_block(Program()), tool=tool, x_start=Entry(x), y_start=Entry(y), z_bottom=bottom)
+    segments = tuple(LineSegment(x_end=Number(x), y_end=Number(y)) for x, y in points[1:])
+    (x, y), tool, bottom = points[0], Number(1), Number(-0.25)
+    plain = replace(new_block(Program()), tool=tool, x_start=Number(x), y_start=Number(y), z_bottom=bottom)
     return changed(replace(plain, cutter_comp=comp, segments=segments), changes)
 
 
-def program(*blocks: Block, parameters: Parameters | None = None) -> Program:
+def program(*blocks: Block, parameters: ProgramParameters | None = None) -> Program:
     """A program of these blocks with tools 1 (0.5) and 2 (0.25), and no blend moves unless parameters say so."""
-    tools = (Tool(1, diameter=Entry(0.5)), Tool(2, diameter=Entry(0.25)))
-    plain = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0))
+    tools = (Tool(1, diameter=Number(0.5)), Tool(2, diameter=Number(0.25)))
+    plain = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0))
     return Program(tools=tools, blocks=blocks, parameters=parameters or plain)

@@ -7,11 +7,11 @@ from core.pipeline.command_output import path_document, path_listing, table_docu
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.jobs import jobs
 from core.pipeline.plot import block_scene, svg_of
-from core.program.model import CutterComp, Entry, Parameters
+from core.program.model import CutterComp, Number, ProgramParameters
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
 
-BLENDS = Parameters(blend_offset=Entry(0.125), blend_overlap=Entry(0.125))
+BLENDS = ProgramParameters(blend_offset=Number(0.125), blend_overlap=Number(0.125))
 
 
 def test_moves_are_joined_in_program_units_and_tell_their_part():
@@ -34,7 +34,7 @@ def test_moves_are_joined_in_program_units_and_tell_their_part():
 
 
 def test_corner_arcs_have_half_numbers_and_deletions_their_causes():
-    derived = derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3))))
+    derived = derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Number(3))))
     (found,) = path_document(derived)["blocks"]
     assert [move["segment"] for move in found["moves"]] == [1, 1.5, 4.5, 5]
     assert [(one["segment"], one["by"]) for one in found["deleted"]] == [
@@ -78,7 +78,7 @@ def test_the_table_as_a_document_and_as_lines():
 
 
 def test_the_listing_names_every_move():
-    derived = derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3))))
+    derived = derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Number(3))))
     lines = list(path_listing(derived))
     assert lines[0] == "BLOCK 1  CUTTER COMP. LEFT  open  LOOKAHEAD USR 3  IN"
     assert len(lines) == 1 + 4 + 3 + 3
@@ -121,7 +121,7 @@ def test_a_drawing_of_a_block_that_is_not_determined_yet():
 
 
 def test_the_posted_header_tells_what_is_deleted_and_what_stays():
-    derived = derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3))))
+    derived = derive(program(block(NOTCH, CutterComp.LEFT, lookahead=Number(3))))
     (noted,) = jobs(derived)
     assert noted.notes[0] == "DELETED BY THE LOOK-AHEAD: SEGMENTS 2, 3, 4"
     assert noted.notes[1].startswith("UNCUT 0.9")

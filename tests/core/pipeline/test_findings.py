@@ -11,7 +11,7 @@ from core.pipeline.derive import derive
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.outline import outline
 from core.pipeline.parameters import stocks
-from core.program.model import BlendSegment, CutterComp, Entry, LineSegment, Parameters, Segment, Unread
+from core.program.model import BlendSegment, CutterComp, LineSegment, Number, ProgramParameters, Segment, Unread
 from core.units import Unit, sentence
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, OUTSIDE_SQUARE, OVER_RUN_SQUARE, Points, block, program
 
@@ -59,7 +59,7 @@ def sloped(*segments: Segment, comp: CutterComp = CutterComp.ON) -> DerivedBlock
 
 
 def line(x: float, y: float, z: float | None = None) -> LineSegment:
-    return LineSegment(x_end=Entry(x), y_end=Entry(y), z_end=None if z is None else Entry(z))
+    return LineSegment(x_end=Number(x), y_end=Number(y), z_end=None if z is None else Number(z))
 
 
 def steps(found: DerivedBlock) -> list[tuple[float | None, float, str]]:
@@ -70,7 +70,7 @@ def steps(found: DerivedBlock) -> list[tuple[float | None, float, str]]:
 
 
 def test_a_blend_arc_that_takes_all_of_a_slope_leaves_a_step():
-    found = sloped(line(2, 0), BlendSegment(radius=Entry(1)), line(2, 1, -0.1), line(0, 1))
+    found = sloped(line(2, 0), BlendSegment(radius=Number(1)), line(2, 1, -0.1), line(0, 1))
     ((segment, value, text),) = steps(found)
     assert (segment, value) == (4, 0.15)
     assert text == "The tool goes straight up 0.1500 at X 2.0000 Y 1.0000: the ramp to Z END is shortened there."
@@ -87,7 +87,7 @@ def test_a_slope_that_an_inside_corner_or_the_look_ahead_takes_leaves_a_step():
     notch = (line(2, 0), line(2, -0.3, -0.1), line(2.3, -0.3), line(2.3, 0), line(5, 0))
     found = sloped(*notch, comp=CutterComp.LEFT)
     assert [(segment, value) for segment, value, _ in steps(found)] == [(3, 0.125)]
-    (deleted,) = derive(program(replace(found.block, lookahead=Entry(3)))).blocks
+    (deleted,) = derive(program(replace(found.block, lookahead=Number(3)))).blocks
     assert [(segment, value) for segment, value, _ in steps(deleted)] == [(4.5, 0.15)]
 
 
@@ -100,14 +100,14 @@ def test_the_deepest_of_several_steps_is_told_with_their_number():
 
 @pytest.mark.parametrize("comp", [CutterComp.ON, CutterComp.LEFT, CutterComp.RIGHT])
 def test_slopes_that_follow_each_other_are_no_step(comp):
-    found = sloped(line(2, 0, -0.1), line(4, 0, -0.2), BlendSegment(radius=Entry(0.3)), line(4, 2), comp=comp)
+    found = sloped(line(2, 0, -0.1), line(4, 0, -0.2), BlendSegment(radius=Number(0.3)), line(4, 2), comp=comp)
     assert not steps(found)
 
 
 @pytest.mark.parametrize("offset", [0.25, 1.0, 1.4, 3.0])
 def test_a_blend_arc_that_begins_and_ends_beyond_a_wall_is_named(offset):
     square = ((1, 0), (2, 0), (2, 2), (0, 2), (0, 0), (1, 0))
-    parameters = Parameters(blend_offset=Entry(offset), blend_overlap=Entry(0))
+    parameters = ProgramParameters(blend_offset=Number(offset), blend_overlap=Number(0))
     (found,) = derive(program(block(square, CutterComp.LEFT), parameters=parameters)).blocks
     told = [sentence(one, Unit.IN) for one in found.findings if one.code == "BLEND_LEAVES"]
     far = [f"{place:.4f}" for place in (1 - offset, 1 + offset, 0.25 + offset)]
@@ -118,7 +118,7 @@ def test_a_blend_arc_that_begins_and_ends_beyond_a_wall_is_named(offset):
     assert told == (expected if offset > 1.0 else [])
 
 
-@pytest.mark.parametrize("typed", [Unread("abc", "why"), Entry(-1.0)])
+@pytest.mark.parametrize("typed", [Unread("abc", "why"), Number(-1.0)])
 def test_a_program_parameter_that_cannot_be_used_forbids_posting(typed):
     """It would otherwise be posted with the usual value, as if nothing had been typed."""
     part = program(block(MID_SIDE_SQUARE, CutterComp.LEFT))
@@ -128,26 +128,26 @@ def test_a_program_parameter_that_cannot_be_used_forbids_posting(typed):
     assert [finding.field for finding in after.blocks[0].errors] == ["retract_clearance"]
 
 
-@pytest.mark.parametrize("typed", [Unread("abc", "why"), Entry(1e9)])
+@pytest.mark.parametrize("typed", [Unread("abc", "why"), Number(1e9)])
 def test_a_safe_z_that_cannot_be_used_forbids_posting_and_changes_no_path(typed):
     part = program(block(MID_SIDE_SQUARE, CutterComp.LEFT))
     before = derive(part)
     after = derive(replace(part, setup=replace(part.setup, safe_z=typed)))
     assert "safe_z" in [finding.field for finding in after.blocks[0].errors]
-    ours, theirs = (one.blocks[0].work.center.points.tolist() for one in (before, after))
+    ours, theirs = (one.blocks[0].paths.center.points.tolist() for one in (before, after))
     assert ours == theirs
 
 
 def profiled(comp, offset, finish_xy=None, **changes):
-    parameters = Parameters(max_offset=offset, finish_xy=finish_xy)
+    parameters = ProgramParameters(max_offset=offset, finish_xy=finish_xy)
     return program(block(MID_SIDE_SQUARE, comp, **changes), parameters=parameters)
 
 
 @pytest.mark.parametrize("offset", [0.0, 0.05, 0.1, 0.3])
 @pytest.mark.parametrize("finish", [None, 0.0, 0.1])
 def test_one_pass_is_told_exactly_where_there_is_one(offset, finish):
-    changes = {} if finish is None else {"finish_tool": Entry(2)}
-    part = profiled(CutterComp.PROFILE_LEFT, Entry(offset), None if finish is None else Entry(finish), **changes)
+    changes = {} if finish is None else {"finish_tool": Number(2)}
+    part = profiled(CutterComp.PROFILE_LEFT, Number(offset), None if finish is None else Number(finish), **changes)
     (found,) = outline(part).blocks
     passes = len(stocks(found, part)) - (finish is not None)
     assert ("ONE_PASS" in [finding.code for finding in found.findings]) is (passes == 0)

@@ -9,7 +9,7 @@ from core.output.passes import meets_solid
 from core.pipeline.derive import derive, look_ahead_table, needs
 from core.pipeline.jobs import job
 from core.program.edit import set_unit
-from core.program.model import CutterComp, Entry, Parameters, PathChoice, Tool
+from core.program.model import CutterComp, Number, PathChoice, ProgramParameters, Tool
 from core.units import Unit, sentence
 from core.verify.judge import judge
 from tests.bench.keys import gear
@@ -54,14 +54,14 @@ def _values(verdict):
 @pytest.mark.parametrize("choice", list(PathChoice))
 @pytest.mark.parametrize("points", [NOTCH, OUTSIDE_SQUARE, OVER_RUN_SQUARE])
 def test_every_value_is_judged_by_its_own_path(points, choice):
-    part = program(block(points, CutterComp.RIGHT), parameters=Parameters(path=choice))
+    part = program(block(points, CutterComp.RIGHT), parameters=ProgramParameters(path=choice))
     (found,) = derive(part).blocks
-    assert found.work is not None
+    assert found.paths is not None
     assert found.side is not None
     assert found.radius is not None
     rows = look_ahead_table(found, part).rows
     for row in rows:
-        assert told(row.verdict) == told(judge(found.work.surface, found.side, found.radius, row.compensated.whole))
+        assert told(row.verdict) == told(judge(found.paths.surface, found.side, found.radius, row.compensated.whole))
 
 
 class Fate:
@@ -81,8 +81,8 @@ SLOT = ((0, 0), (40, 0), (40, -5), (52, -5), (52, 0), (90, 0))
 
 def test_a_value_is_clean_only_if_its_roughing_passes_are():
     """The cutter of 8 fits into the slot of 12; the pass that leaves 8 does not, and needs a look-ahead of 3."""
-    tools = (Tool(1, diameter=Entry(8.0)),)
-    parameters = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0), max_offset=Entry(8.0))
+    tools = (Tool(1, diameter=Number(8.0)),)
+    parameters = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0), max_offset=Number(8.0))
     part = replace(program(block(SLOT, CutterComp.PROFILE_LEFT), parameters=parameters), unit=Unit.MM, tools=tools)
     (found,) = derive(part).blocks
     table = look_ahead_table(found, part)
@@ -92,9 +92,9 @@ def test_a_value_is_clean_only_if_its_roughing_passes_are():
 
 
 def test_segments_that_only_roughing_deletes_are_told():
-    tools = (Tool(1, diameter=Entry(8.0)), Tool(2, diameter=Entry(8.0)))
-    parameters = Parameters(blend_offset=Entry(0), blend_overlap=Entry(0), finish_xy=Entry(3.0))
-    typed = block(SLOT, CutterComp.LEFT, finish_tool=Entry(2), lookahead=Entry(3))
+    tools = (Tool(1, diameter=Number(8.0)), Tool(2, diameter=Number(8.0)))
+    parameters = ProgramParameters(blend_offset=Number(0), blend_overlap=Number(0), finish_xy=Number(3.0))
+    typed = block(SLOT, CutterComp.LEFT, finish_tool=Number(2), lookahead=Number(3))
     part = replace(program(typed, parameters=parameters), unit=Unit.MM, tools=tools)
     (found,) = derive(part).blocks
     (told,) = [finding for finding in found.findings if finding.code == "ROUGH_DELETES"]
@@ -111,7 +111,7 @@ def test_a_gap_of_the_forms_last_digit_is_closed_wherever_it_is(start, unit):
 
 
 def test_what_forbids_posting_is_a_finding_of_the_block():
-    part = program(block(NOTCH, CutterComp.LEFT, lookahead=Entry(3), speed=Entry(0)))
+    part = program(block(NOTCH, CutterComp.LEFT, lookahead=Number(3), speed=Number(0)))
     assert [finding.code for finding in derive(part).blocks[0].errors] == ["OUT_OF_RANGE"]
 
 

@@ -13,7 +13,7 @@ from core.pipeline.derived import DerivedBlock
 from core.pipeline.jobs import jobs
 from core.pipeline.plot import block_scene
 from core.pipeline.post import post_center_path
-from core.program.model import CutterComp, Entry
+from core.program.model import CutterComp, Number
 from core.units import Unit, sentence
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, OVER_RUN_SQUARE, Points, block, program
 
@@ -22,7 +22,7 @@ OVER_RUN_L = ((-1, 0), (4, 0), (4, 2), (2, 2), (2, 4), (0, 4), (0, -1), (-1, -1)
 
 
 def derived(points: Points, lookahead: int | None = None, comp: CutterComp = CutterComp.RIGHT) -> DerivedBlock:
-    typed = block(points, comp, lookahead=None if lookahead is None else Entry(float(lookahead)))
+    typed = block(points, comp, lookahead=None if lookahead is None else Number(float(lookahead)))
     return derive(program(typed)).blocks[0]
 
 
@@ -34,19 +34,21 @@ def codes(found: DerivedBlock) -> list[str]:
 def test_a_look_ahead_of_one_or_two_keeps_all_of_the_over_run_square(lookahead):
     found = derived(OVER_RUN_SQUARE, lookahead)
     assert found.lookahead.calculated == 2
-    assert found.work.compensated.path.numbers.tolist() == [1, 1.5, 2, 2.5, 3, 3.5, 4]
-    assert found.work.verdict.clean
-    assert found.work.verdict.uncut_length == 0.0
-    assert found.work.verdict.surface_length == pytest.approx(8 * IN)
+    assert found.paths.compensated.path.numbers.tolist() == [1, 1.5, 2, 2.5, 3, 3.5, 4]
+    assert found.paths.verdict.clean
+    assert found.paths.verdict.uncut_length == 0.0
+    assert found.paths.verdict.surface_length == pytest.approx(8 * IN)
     assert found.postable
 
 
 @pytest.mark.parametrize("lookahead", range(3, 21))
 def test_a_larger_look_ahead_deletes_the_part_between_the_ends(lookahead):
     found = derived(OVER_RUN_SQUARE, lookahead)
-    assert found.work.compensated.path.numbers.tolist() == [1, 4]
-    assert [deletion.at for deletion in found.work.compensated.deleted] == [pytest.approx((-0.25 * IN, -0.25 * IN))] * 2
-    assert found.work.verdict.uncut_length == pytest.approx(8 * IN)
+    assert found.paths.compensated.path.numbers.tolist() == [1, 4]
+    assert [deletion.at for deletion in found.paths.compensated.deleted] == [
+        pytest.approx((-0.25 * IN, -0.25 * IN))
+    ] * 2
+    assert found.paths.verdict.uncut_length == pytest.approx(8 * IN)
 
 
 @pytest.mark.parametrize("lookahead", [None, 1, 4])
@@ -83,7 +85,7 @@ def test_the_table_recommends_what_keeps_the_part():
 def test_an_l_whose_last_segment_does_not_cross_the_first_crosses_itself(lookahead, kept):
     found = derived(OVER_RUN_L, lookahead)
     assert found.lookahead.calculated == 4
-    assert found.work.compensated.path.numbers.tolist() == kept
+    assert found.paths.compensated.path.numbers.tolist() == kept
     assert "OVER_RUN" not in codes(found)
     (told,) = [finding for finding in found.findings if finding.code == "CROSSES_ITSELF"]
     assert told.severity is Severity.WARNING
@@ -118,7 +120,7 @@ def test_an_end_that_stops_at_the_crossing_is_no_lead():
 
 
 def test_the_head_of_the_nc_file_says_what_the_ends_are():
-    part = derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT, plunge_feed=Entry(5.0), speed=Entry(900.0))))
+    part = derive(program(block(OVER_RUN_SQUARE, CutterComp.RIGHT, plunge_feed=Number(5.0), speed=Number(900.0))))
     note = "OVER-RUN AT X 0.0000 Y 0.0000: THE ENDS ARE LEAD-IN AND LEAD-OUT"
     assert jobs(part)[0].notes == (note,)
     assert f"({note})" in post_center_path(part, name="square").text

@@ -9,7 +9,7 @@ from app.documents.files import load
 from app.documents.programs import example
 from core.pipeline.derive import derive
 from core.pipeline.plot import block_scene, cutter_place, svg_of
-from core.program.model import ArcSegment, CutterComp, Direction, Entry, LineSegment, PathChoice
+from core.program.model import ArcSegment, CutterComp, Direction, LineSegment, Number, PathChoice
 from core.units import Unit
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, OVER_RUN_SQUARE, block, program
 
@@ -18,7 +18,7 @@ def derived(part):
     return derive(part).blocks[0]
 
 
-@pytest.mark.parametrize("lookahead", [None, Entry(5.0)])
+@pytest.mark.parametrize("lookahead", [None, Number(5.0)])
 def test_on_a_deleted_segment_the_cutter_stands_where_the_path_passes_it(lookahead):
     pocket = load(example("pocket"))
     part = replace(pocket, blocks=(replace(pocket.blocks[0], lookahead=lookahead),))
@@ -27,7 +27,7 @@ def test_on_a_deleted_segment_the_cutter_stands_where_the_path_passes_it(lookahe
     place = cutter_place(found, 9)
     assert circle.center == place.at
     assert place.by == (8.0, 10.0)
-    (meeting,) = [one.at for one in found.work.compensated.deleted if one.segment == 9]
+    (meeting,) = [one.at for one in found.paths.compensated.deleted if one.segment == 9]
     assert circle.center == pytest.approx(meeting)
 
 
@@ -35,11 +35,11 @@ def test_a_deletion_within_a_later_one_leads_to_where_the_path_passes():
     """At 3 and more the notch's floor falls first to its walls' corner arcs or to both sides: always on the path."""
     for points, comp in ((NOTCH, CutterComp.LEFT), (OVER_RUN_SQUARE, CutterComp.RIGHT)):
         for value in range(1, 21):
-            found = derived(program(block(points, comp, lookahead=Entry(float(value)))))
+            found = derived(program(block(points, comp, lookahead=Number(float(value)))))
             for segment in range(1, len(points)):
                 place = cutter_place(found, segment)
                 assert place is not None
-                apart = found.work.loops[0].whole.points - place.at
+                apart = found.paths.loops[0].whole.points - place.at
                 assert min(np.hypot(*apart.T)) < 1e-9
 
 
@@ -54,7 +54,7 @@ def test_where_nothing_is_determined_no_cutter_is_drawn():
 
 
 def test_segments_that_are_not_determined_are_drawn_each_by_itself():
-    arc = ArcSegment(Direction.CCW, x_end=Entry(-1.0), y_end=Entry(0.0), radius=Entry(2.0))
+    arc = ArcSegment(Direction.CCW, x_end=Number(-1.0), y_end=Number(0.0), radius=Number(2.0))
     one = block(((0.0, 0.0), (1.0, 0.0)), CutterComp.LEFT)
     found = derived(program(replace(one, segments=(*one.segments, arc))))
     choices = found.solved.segments[1].choices
@@ -67,14 +67,14 @@ def test_the_best_path_has_its_cutter_in_every_loop_and_none_where_it_does_not_r
     pocket = load(example("pocket"))
     part = replace(pocket, parameters=replace(pocket.parameters, path=PathChoice.BEST))
     found = derived(part)
-    numbers = {number for loop in found.work.loops for number in loop.whole.numbers.tolist()}
+    numbers = {number for loop in found.paths.loops for number in loop.whole.numbers.tolist()}
     for segment in range(1, 12):
         assert (cutter_place(found, segment) is not None) is (segment in numbers)
 
 
 def test_start_has_the_cutter_where_it_goes_down():
     found = derived(program(block(MID_SIDE_SQUARE, CutterComp.LEFT)))
-    assert cutter_place(found, 0).at == tuple(found.work.center.points[0].tolist())
+    assert cutter_place(found, 0).at == tuple(found.paths.center.points[0].tolist())
 
 
 def test_the_legend_does_not_call_the_controls_path_behind_the_best_one_a_roughing_pass_alone():

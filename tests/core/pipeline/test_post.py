@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from app.documents.files import load
-from core.controls.control_run import Run
+from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.registry import NO_TOOLS, names, run
-from core.controls.write.programmed_contour import Travel
+from core.controls.write.contour_pass import CenterMove
 from core.geometry.distance import distance
 from core.geometry.path import Path as Line
 from core.geometry.piece_arrays import at, piece_arrays
@@ -29,23 +29,24 @@ from core.program.model import (
     Block,
     CutterComp,
     Direction,
-    Entry,
     LineSegment,
-    Parameters,
+    Number,
     PathChoice,
     Program,
+    ProgramParameters,
     changed,
 )
 from core.units import Unit, from_mm
 from tests import rs274
 from tests.core.pipeline.parts import MID_SIDE_SQUARE, NOTCH, block, program
+from tests.tool_tables import end_mills
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "app" / "examples").glob("*.toml"))
-BLENDS = Parameters(blend_offset=Entry(0.125), blend_overlap=Entry(0.125))
-SQUARE = replace(block(MID_SIDE_SQUARE, CutterComp.RIGHT), peck_depth=Entry(0.1))
+BLENDS = ProgramParameters(blend_offset=Number(0.125), blend_overlap=Number(0.125))
+SQUARE = replace(block(MID_SIDE_SQUARE, CutterComp.RIGHT), peck_depth=Number(0.1))
 
 
-def derived(*blocks: Block, parameters: Parameters = BLENDS) -> Derived:
+def derived(*blocks: Block, parameters: ProgramParameters = BLENDS) -> Derived:
     return derive(program(*blocks, parameters=parameters))
 
 
@@ -57,12 +58,12 @@ def posted(found: Derived, control: str) -> Posted:
 
 def table(of: Program, text: str) -> ToolTable:
     """The program's tools, and the offsets its header tells."""
-    told = {tool.number: tool.diameter.value for tool in of.tools if isinstance(tool.diameter, Entry)}
+    told = {tool.number: tool.diameter.value for tool in of.tools if isinstance(tool.diameter, Number)}
     for line in text.splitlines():
         if line.startswith("(OFFSET D"):
             words = line.split()
             told[int(words[1][1:])] = 2 * float(words[3].strip(",)"))
-    return ToolTable.diameters(told, of.unit)
+    return end_mills(told, of.unit)
 
 
 def apart(one: Line, other: Line) -> float:
@@ -75,7 +76,7 @@ def apart(one: Line, other: Line) -> float:
 def runs_of(text: str, control: str, tools: ToolTable, unit: Unit) -> list[Line]:
     """The paths of a program's compensated runs, without the moves into them and out of them."""
     made = run(text.encode(), control, tools, unit)
-    assert isinstance(made, Run)
+    assert isinstance(made, ControlRun)
     assert made.stopped_at is None, made.findings
     paths = [made.moves.part(one.first, one.last).path() for one in made.stretches]
     return paths if control == "klartext" else [path.part(1, len(path) - 1) for path in paths]
@@ -92,8 +93,8 @@ def test_every_example_reads_back_or_says_why_not(example: Path, control: str) -
         return
     unit = found.program.unit
     tools = NO_TOOLS if control in ("klartext", "threeblock") else table(found.program, result.text)
-    wanted = [one.compensated.whole for each in found.blocks for one in each.work.rough]
-    wanted += [each.work.compensated.whole for each in found.blocks]
+    wanted = [one.compensated.whole for each in found.blocks for one in each.paths.rough]
+    wanted += [each.paths.compensated.whole for each in found.blocks]
     allowed = 0.006 + sum(note.lengths[0] for note in result.notes if note.code == "DIFFERS")
     for path in runs_of(result.text, control, tools, unit):
         assert min(max(apart(path, one), apart(one, path)) for one in wanted) <= allowed
@@ -131,7 +132,7 @@ def test_nothing_is_posted_against_an_error_whatever_is_said() -> None:
 
 def test_heights_under_compensation_and_best_are_refused() -> None:
     best = derived(SQUARE, parameters=replace(BLENDS, path=PathChoice.BEST))
-    climbing = replace(SQUARE, segments=(changed(SQUARE.segments[0], {"z_end": Entry(-0.1)}), *SQUARE.segments[1:]))
+    climbing = replace(SQUARE, segments=(changed(SQUARE.segments[0], {"z_end": Number(-0.1)}), *SQUARE.segments[1:]))
     for found, word in ((best, "BEST"), (derived(climbing), "Z END")):
         result = post_control_program(found, name="PART", control="linuxcnc")
         assert isinstance(result, Refusal)
@@ -140,14 +141,14 @@ def test_heights_under_compensation_and_best_are_refused() -> None:
 
 def climbing() -> Block:
     """A square without compensation whose first side climbs."""
-    plain = replace(block(MID_SIDE_SQUARE, CutterComp.ON), peck_depth=Entry(0.1))
-    return replace(plain, segments=(changed(plain.segments[0], {"z_end": Entry(-0.1)}), *plain.segments[1:]))
+    plain = replace(block(MID_SIDE_SQUARE, CutterComp.ON), peck_depth=Number(0.1))
+    return replace(plain, segments=(changed(plain.segments[0], {"z_end": Number(-0.1)}), *plain.segments[1:]))
 
 
 def arc(way: Direction, end: tuple[float, float], height: float, center: tuple[float, float]) -> ArcSegment:
     """An arc that climbs or falls to a height."""
-    (x, y), (cx, cy) = map(Entry, end), map(Entry, center)
-    return ArcSegment(way, x_end=x, y_end=y, z_end=Entry(height), x_center=cx, y_center=cy)
+    (x, y), (cx, cy) = map(Number, end), map(Number, center)
+    return ArcSegment(way, x_end=x, y_end=y, z_end=Number(height), x_center=cx, y_center=cy)
 
 
 HELIX = replace(
@@ -159,11 +160,11 @@ HELIX = replace(
 )
 
 
-def made_by(of: Program, control: str) -> tuple[Derived, str, Run]:
+def made_by(of: Program, control: str) -> tuple[Derived, str, ControlRun]:
     found = derive(of)
     text = posted(found, control).text
     made = run(text.encode(), control, NO_TOOLS if control == "threeblock" else table(of, text), of.unit)
-    assert isinstance(made, Run)
+    assert isinstance(made, ControlRun)
     assert made.stopped_at is None
     return found, text, made
 
@@ -196,12 +197,12 @@ NEARLY = [0.0005, 0.001, 0.004, 359.9, 359.998, 359.9985, 360.0]
 def circling(sweep: float, unit: Unit, comp: CutterComp, direction: Direction) -> Program:
     """A line, an arc of so many degrees about a center one above its end, and a line away from there."""
     scale = 1.0 if unit is Unit.IN else 25.4
-    there = LineSegment(length=Entry(2.0 * scale), angle=Entry(45.0), feed=Entry(8.0 * scale))
+    there = LineSegment(length=Number(2.0 * scale), angle=Number(45.0), feed=Number(8.0 * scale))
     x, y = (round(value * scale, 4) for value in (1.4142, 2.4142))
-    around = ArcSegment(direction, x_center=Entry(x), y_center=Entry(y), sweep=Entry(sweep))
-    plain = changed(block(((0.0, 0.0),), comp), {"z_bottom": Entry(-0.25 * scale), "plunge_feed": Entry(5.0 * scale)})
-    made = program(replace(plain, segments=(there, around)), parameters=Parameters(blend_offset=Entry(0.0)))
-    return replace(made, unit=unit, tools=(replace(made.tools[0], diameter=Entry(0.5 * scale)),))
+    around = ArcSegment(direction, x_center=Number(x), y_center=Number(y), sweep=Number(sweep))
+    plain = changed(block(((0.0, 0.0),), comp), {"z_bottom": Number(-0.25 * scale), "plunge_feed": Number(5.0 * scale)})
+    made = program(replace(plain, segments=(there, around)), parameters=ProgramParameters(blend_offset=Number(0.0)))
+    return replace(made, unit=unit, tools=(replace(made.tools[0], diameter=Number(0.5 * scale)),))
 
 
 @pytest.mark.parametrize("control", names())
@@ -217,11 +218,11 @@ def test_an_arc_that_ends_beside_its_start_is_as_long_for_every_control(
     assert isinstance(result, Posted), result
     tools = NO_TOOLS if control in ("klartext", "threeblock") else table(found.program, result.text)
     made = run(result.text.encode(), control, tools, unit)
-    assert isinstance(made, Run)
+    assert isinstance(made, ControlRun)
     assert made.stopped_at is None
     path = made.moves.path()
     fed = np.isin(path.numbers, made.moves.lines[~made.moves.rapid])
-    assert path.lengths[fed].sum() == pytest.approx(found.blocks[0].work.surface.lengths.sum(), abs=0.01)
+    assert path.lengths[fed].sum() == pytest.approx(found.blocks[0].paths.surface.lengths.sum(), abs=0.01)
     circles = (path.turns != 0) & (path.points[:-1] == path.points[1:]).all(axis=1)
     assert circles.sum() == (sweep == 360.0)
 
@@ -246,7 +247,7 @@ def test_an_arc_that_a_control_runs_as_a_full_circle_is_not_handed_out(
 ) -> None:
     """Whoever writes it: what is read back is piece_arrays."""
     monkeypatch.setattr(
-        post, "_travels", lambda motions: [Travel(m.x, m.y, m.z, m.feed, int(m.turn), m.center) for m in motions]
+        post, "_travels", lambda motions: [CenterMove(m.x, m.y, m.z, m.feed, int(m.turn), m.center) for m in motions]
     )
     found = derive(circling(0.001, unit, CutterComp.ON, Direction.CW))
     result = post_control_program(found, name="PART", control=control)
@@ -256,7 +257,7 @@ def test_an_arc_that_a_control_runs_as_a_full_circle_is_not_handed_out(
 
 def test_another_work_offset_is_told_where_it_cannot_be_written() -> None:
     plain = program(SQUARE, parameters=BLENDS)
-    moved = derive(replace(plain, setup=replace(plain.setup, work_offset=Entry(55))))
+    moved = derive(replace(plain, setup=replace(plain.setup, work_offset=Number(55))))
     assert "G55" in posted(moved, "linuxcnc").text.split("\n(")[-1]
     assert [note.code for note in posted(moved, "threeblock").notes] == ["WORK_OFFSET"]
 
@@ -271,7 +272,7 @@ def test_linuxcnc_itself_runs_what_is_written_for_it(example: Path, tmp_path: Pa
     witness = rs274.run(result.text, tools, tmp_path)
     assert witness.accepted, witness.said
     ours = run(result.text.encode(), "linuxcnc", table(found.program, result.text), unit)
-    assert isinstance(ours, Run)
+    assert isinstance(ours, ControlRun)
     wanted = [[from_mm(value, unit) for value in point] for point in ours.moves.points[1:].tolist()]
     made = [list(move[1:4]) for move in witness.moves]
     assert _distinct(made) == pytest.approx(np.array(_distinct(wanted)), abs=1e-4)

@@ -10,8 +10,9 @@ from core.controls.control_tools import ToolTable
 from core.controls.moves import Plane
 from core.controls.registry import NO_TOOLS, UnknownControl
 from core.draw.scene import Scene, Style
-from core.pipeline.proof import Proof, cutter_place, fixed_scene, prove, scene_at_line
+from core.pipeline.proof import Proof, cutter_place, fixed_scene, run_program, scene_at_line, with_verdicts
 from core.units import Unit
+from tests.tool_tables import end_mills
 
 SQUARE = b"""G20 G17 G40 G90 F10
 T1 M6
@@ -24,13 +25,13 @@ G40 G1 X3 Y3
 G0 X-1
 M30
 """
-TOOLS = ToolTable.diameters({1: 0.5})
+TOOLS = end_mills({1: 0.5})
 
 
-def proof(text: bytes = SQUARE, control: str = "nine-series:a") -> Proof:
-    found = prove(text, control, TOOLS)
+def proof(text: bytes = SQUARE, control: str = "nine-series:a", tools: ToolTable = TOOLS) -> Proof:
+    found = run_program(text, control, tools)
     assert isinstance(found, Proof)
-    return found
+    return with_verdicts(found)
 
 
 def styles(scene: Scene) -> set[Style]:
@@ -87,10 +88,9 @@ def test_the_plane_of_the_first_stretch_is_drawn() -> None:
 @pytest.mark.parametrize("text", [b"", b"\x00\xff\xfe", b"G1 X", b"G41\n" * 5, bytes(range(256))])
 def test_any_text_can_be_drawn(text: bytes) -> None:
     for control in ("threeblock", "rosettacnc:nist", "nine-series:b", "klartext", "linuxcnc"):
-        found = prove(text, control, NO_TOOLS)
-        assert isinstance(found, Proof)
+        found = proof(text, control, NO_TOOLS)
         assert scene_at_line(fixed_scene(found), found, 1).marks
 
 
 def test_an_unknown_control_is_said() -> None:
-    assert isinstance(prove(SQUARE, "fanuc", TOOLS), UnknownControl)
+    assert isinstance(run_program(SQUARE, "fanuc", TOOLS), UnknownControl)

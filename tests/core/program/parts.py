@@ -13,12 +13,12 @@ from core.program.model import (
     Block,
     CutterComp,
     Direction,
-    Entry,
     LineSegment,
-    Parameters,
+    Number,
     PartSetup,
     PathChoice,
     Program,
+    ProgramParameters,
     Segment,
     Tool,
     Typed,
@@ -29,16 +29,16 @@ from core.program.solve.solved import Solved, SolvedBlock, SolvedSegment
 from core.units import Kind, Unit, Unreadable, parse
 
 BLOCK = Block(
-    tool=Entry(1.0),
+    tool=Number(1.0),
     cutter_comp=CutterComp.LEFT,
-    finish_tool=Entry(0.0),
-    x_start=Entry(0.0),
-    y_start=Entry(0.0),
-    z_start=Entry(0.0),
-    z_bottom=Entry(-0.25),
-    plunge_feed=Entry(20.0),
-    speed=Entry(300.0),
-    peck_depth=Entry(0.0),
+    finish_tool=Number(0.0),
+    x_start=Number(0.0),
+    y_start=Number(0.0),
+    z_start=Number(0.0),
+    z_bottom=Number(-0.25),
+    plunge_feed=Number(20.0),
+    speed=Number(300.0),
+    peck_depth=Number(0.0),
 )
 """START at X 0 Y 0 with everything typed."""
 
@@ -53,33 +53,33 @@ def arc(direction: str, **typed: float) -> ArcSegment:
     return changed(ArcSegment(Direction(direction)), _typed(typed))
 
 
-def _typed(typed: dict[str, float]) -> dict[str, Entry | int]:
-    return {name: int(value) if name == "choice" else Entry(value) for name, value in typed.items()}
+def _typed(typed: dict[str, float]) -> dict[str, Number | int]:
+    return {name: int(value) if name == "choice" else Number(value) for name, value in typed.items()}
 
 
 def blend(radius: float) -> BlendSegment:
     """A BLEND ARC of this radius."""
-    return BlendSegment(Entry(radius))
+    return BlendSegment(Number(radius))
 
 
 def program(
     *segments: Segment, unit: Unit = Unit.MM, x: float = 0.0, y: float = 0.0, start: Mapping[str, object] | None = None
 ) -> Program:
     """A program of one block from x, y, with tool 1 of diameter 0.5; `start` changes fields of START."""
-    block = changed(BLOCK, {"segments": segments, "x_start": Entry(x), "y_start": Entry(y), **(start or {})})
-    return Program(unit=unit, tools=(Tool(1, "END MILL", Entry(0.5)),), blocks=(block,))
+    block = changed(BLOCK, {"segments": segments, "x_start": Number(x), "y_start": Number(y), **(start or {})})
+    return Program(unit=unit, tools=(Tool(1, "END MILL", Number(0.5)),), blocks=(block,))
 
 
 def tags(segment: SolvedSegment | SolvedBlock) -> dict[str, str]:
     """Which fields were typed, which calculated, which are neither."""
-    names = {Entry: "typed", Solved: "CAL", Unread: "unread", type(None): "blank"}
+    names = {Number: "typed", Solved: "CAL", Unread: "unread", type(None): "blank"}
     return {name: names[type(value)] for name, value in segment.values.items()}
 
 
 def number(segment: SolvedSegment, name: str) -> float:
     """A typed or calculated field's number."""
     value = segment.values[name]
-    assert isinstance(value, Entry | Solved)
+    assert isinstance(value, Number | Solved)
     return value.value
 
 
@@ -101,7 +101,7 @@ def _unread(one: Field, unit: Unit) -> st.SearchStrategy[Unread]:
 
 def typed(one: Field, unit: Unit) -> st.SearchStrategy[Typed]:
     """A blank, a number the field takes, or text that cannot be read."""
-    return st.one_of(st.none(), _numbers(one).map(Entry), _unread(one, unit))
+    return st.one_of(st.none(), _numbers(one).map(Number), _unread(one, unit))
 
 
 def _entries(form: Form, unit: Unit, *but: str) -> dict[str, st.SearchStrategy[Typed]]:
@@ -136,7 +136,7 @@ def _programs(unit: Unit) -> st.SearchStrategy[Program]:
     return st.builds(
         Program,
         st.just(unit),
-        st.builds(Parameters, **_entries(Form.PARAMETERS, unit), path=st.sampled_from(PathChoice)),
+        st.builds(ProgramParameters, **_entries(Form.PARAMETERS, unit), path=st.sampled_from(PathChoice)),
         st.builds(PartSetup, names, **_entries(Form.SETUP, unit)),
         tools.map(lambda some: tuple(sorted(some, key=lambda one: one.number))),
         st.lists(blocks(unit), max_size=2).map(tuple),

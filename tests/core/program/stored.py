@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from core.program.model import Entry, Unread
+from core.program.model import Number, Unread
 from core.units import Unit
 from tests.core.program.parts import arc, blend, line, program
 
@@ -12,7 +12,7 @@ PART = program(
     arc("CCW", x_end=2.5, y_end=0.5, radius=0.5, choice=1),
     unit=Unit.IN,
     x=-1.0,
-    start={"lookahead": Entry(4.0), "z_bottom": Unread("-1/4x", "why")},
+    start={"lookahead": Number(4.0), "z_bottom": Unread("-1/4x", "why")},
 )
 
 

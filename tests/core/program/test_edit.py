@@ -18,12 +18,12 @@ from core.program.model import (
     Block,
     CutterComp,
     Direction,
-    Entry,
     LineSegment,
-    Parameters,
+    Number,
     PartSetup,
     PathChoice,
     Program,
+    ProgramParameters,
     Segment,
     Tool,
     Unread,
@@ -42,9 +42,9 @@ def made(edited: edit.Edited) -> Program:
 
 
 def test_typing_into_start_and_into_a_segment():
-    typed = made(edit.type_field(SQUARE, FormPlace(1), "x_start", Entry(-1.0)))
-    assert typed.blocks[0] == replace(SQUARE.blocks[0], x_start=Entry(-1.0))
-    typed = made(edit.type_field(SQUARE, FormPlace(1, 2), "feed", Entry(10.0)))
+    typed = made(edit.type_field(SQUARE, FormPlace(1), "x_start", Number(-1.0)))
+    assert typed.blocks[0] == replace(SQUARE.blocks[0], x_start=Number(-1.0))
+    typed = made(edit.type_field(SQUARE, FormPlace(1, 2), "feed", Number(10.0)))
     assert typed.blocks[0].segments[1] == line(x_end=2.0, y_end=2.0, feed=10.0)
     assert typed.blocks[0].segments[::2] == SQUARE.blocks[0].segments[::2]
 
@@ -53,7 +53,7 @@ def test_a_blank_and_unreadable_text_are_kept():
     assert made(edit.type_field(SQUARE, FormPlace(1), "x_start", None)).blocks[0].x_start is None
     unread = Unread("x", "why")
     first = made(edit.type_field(SQUARE, FormPlace(1, 1), "x_end", unread)).blocks[0].segments[0]
-    assert first == LineSegment(x_end=unread, y_end=Entry(0.0))
+    assert first == LineSegment(x_end=unread, y_end=Number(0.0))
 
 
 @pytest.mark.parametrize(
@@ -69,7 +69,7 @@ def test_a_blank_and_unreadable_text_are_kept():
     ],
 )
 def test_typing_is_refused(where, name, value, text):
-    assert edit.type_field(SQUARE, where, name, Entry(value)) == Refused(text)
+    assert edit.type_field(SQUARE, where, name, Number(value)) == Refused(text)
 
 
 def test_there_is_no_block_in_an_empty_program():
@@ -79,19 +79,19 @@ def test_there_is_no_block_in_an_empty_program():
 
 
 def test_lookahead_is_typed_and_calculated_again():
-    user = made(edit.type_field(SQUARE, FormPlace(1), "lookahead", Entry(4.0)))
-    assert user.blocks[0].lookahead == Entry(4.0)
-    moved = made(edit.type_field(user, FormPlace(1, 1), "x_end", Entry(3.0)))
-    assert moved.blocks[0].lookahead == Entry(4.0)
+    user = made(edit.type_field(SQUARE, FormPlace(1), "lookahead", Number(4.0)))
+    assert user.blocks[0].lookahead == Number(4.0)
+    moved = made(edit.type_field(user, FormPlace(1, 1), "x_end", Number(3.0)))
+    assert moved.blocks[0].lookahead == Number(4.0)
     hidden = made(edit.choose(user, FormPlace(1), "cutter_comp", "ON"))
-    assert hidden.blocks[0].lookahead == Entry(4.0)
+    assert hidden.blocks[0].lookahead == Number(4.0)
     assert made(edit.recalculate_lookahead(user, 1)) == SQUARE
     assert edit.recalculate_lookahead(user, 2) == Refused("Block 2 does not exist; the last is 1.")
 
 
-@pytest.mark.parametrize("typed", [Entry(0.0), Entry(21.0), Entry(2.5), Unread("x", "why"), None])
+@pytest.mark.parametrize("typed", [Number(0.0), Number(21.0), Number(2.5), Unread("x", "why"), None])
 def test_another_lookahead_is_refused_with_the_range(typed):
-    user = made(edit.type_field(SQUARE, FormPlace(1), "lookahead", Entry(4.0)))
+    user = made(edit.type_field(SQUARE, FormPlace(1), "lookahead", Number(4.0)))
     refused = edit.type_field(user, FormPlace(1), "lookahead", typed)
     assert isinstance(refused, Refused)
     assert refused.text.startswith("CUTCOMP LOOKAHEAD must be a whole number from 1 to 20.")
@@ -131,9 +131,9 @@ def test_choosing_is_refused(where, name, value, text):
 
 def test_a_picked_solution_is_dropped_when_other_fields_decide():
     picked = program(arc("CW", x_end=1.0, y_end=1.0, radius=3.0, choice=1))
-    kept = made(edit.type_field(picked, FormPlace(1, 1), "radius", Entry(4.0))).blocks[0].segments[0]
+    kept = made(edit.type_field(picked, FormPlace(1, 1), "radius", Number(4.0))).blocks[0].segments[0]
     assert kept == arc("CW", x_end=1.0, y_end=1.0, radius=4.0, choice=1)
-    kept = made(edit.type_field(picked, FormPlace(1, 1), "feed", Entry(4.0))).blocks[0].segments[0]
+    kept = made(edit.type_field(picked, FormPlace(1, 1), "feed", Number(4.0))).blocks[0].segments[0]
     assert kept == arc("CW", x_end=1.0, y_end=1.0, radius=3.0, feed=4.0, choice=1)
     dropped = made(edit.type_field(picked, FormPlace(1, 1), "x_end", None)).blocks[0].segments[0]
     assert dropped == arc("CW", y_end=1.0, radius=3.0)
@@ -183,25 +183,25 @@ def test_delete_segment():
 
 def test_new_block():
     block = edit.new_block(Program())
-    assert block.tool == Entry(1.0)
+    assert block.tool == Number(1.0)
     assert block.cutter_comp is CutterComp.ON
-    assert (block.finish_tool, block.z_start, block.peck_depth) == (Entry(0.0),) * 3
-    assert (block.plunge_feed, block.speed) == (Entry(20.0), Entry(300.0))
+    assert (block.finish_tool, block.z_start, block.peck_depth) == (Number(0.0),) * 3
+    assert (block.plunge_feed, block.speed) == (Number(20.0), Number(300.0))
     assert (block.x_start, block.y_start, block.z_bottom, block.lookahead) == (None,) * 4
-    assert edit.new_block(Program(unit=Unit.MM)).plunge_feed == Entry(500.0)
+    assert edit.new_block(Program(unit=Unit.MM)).plunge_feed == Number(500.0)
 
 
 def test_insert_block_takes_the_tool_of_the_block_before():
-    two = Program(blocks=(replace(BLOCK, tool=Entry(7.0)), replace(BLOCK, tool=Entry(8.0))))
-    assert [block.tool for block in made(edit.insert_block(two, 2)).blocks] == [Entry(7.0), Entry(7.0), Entry(8.0)]
-    assert [block.tool for block in made(edit.insert_block(two, 1)).blocks] == [Entry(1.0), Entry(7.0), Entry(8.0)]
-    assert [block.tool for block in made(edit.insert_block(two, 3)).blocks] == [Entry(7.0), Entry(8.0), Entry(8.0)]
+    two = Program(blocks=(replace(BLOCK, tool=Number(7.0)), replace(BLOCK, tool=Number(8.0))))
+    assert [block.tool for block in made(edit.insert_block(two, 2)).blocks] == [Number(7.0), Number(7.0), Number(8.0)]
+    assert [block.tool for block in made(edit.insert_block(two, 1)).blocks] == [Number(1.0), Number(7.0), Number(8.0)]
+    assert [block.tool for block in made(edit.insert_block(two, 3)).blocks] == [Number(7.0), Number(8.0), Number(8.0)]
     assert edit.insert_block(two, 4) == Refused("Block 4 does not exist; the last is 2.")
     assert edit.insert_block(two, 0) == Refused("Block 0 does not exist; the last is 2.")
 
 
 def test_copy_move_and_delete_blocks():
-    one, two, three = (replace(BLOCK, tool=Entry(tool)) for tool in (1.0, 2.0, 3.0))
+    one, two, three = (replace(BLOCK, tool=Number(tool)) for tool in (1.0, 2.0, 3.0))
     given = Program(blocks=(one, two, three))
     assert made(edit.copy_block(given, 1)).blocks == (one, one, two, three)
     assert made(edit.copy_block(given, 3)).blocks == (one, two, three, three)
@@ -217,28 +217,28 @@ def test_copy_move_and_delete_blocks():
 
 
 def test_the_tool_table():
-    three, two = Tool(3, "BALL MILL", Entry(0.25)), Tool(2, diameter=Entry(1.0))
+    three, two = Tool(3, "BALL MILL", Number(0.25)), Tool(2, diameter=Number(1.0))
     both = made(edit.set_tool(made(edit.set_tool(Program(), three)), two))
     assert both.tools == (two, three)
-    larger = Tool(2, diameter=Entry(2.0))
+    larger = Tool(2, diameter=Number(2.0))
     assert made(edit.set_tool(both, larger)).tools == (larger, three)
     assert made(edit.delete_tool(both, 2)).tools == (three,)
     assert edit.delete_tool(both, 9) == Refused("Tool 9 is not in the tool table.")
     wrong = Refused("TOOL DIAMETER must be above 0, at most 10000.")
-    assert edit.set_tool(both, Tool(1, diameter=Entry(0.0))) == wrong
-    assert edit.set_tool(both, Tool(1, diameter=Entry(-0.5))) == wrong
+    assert edit.set_tool(both, Tool(1, diameter=Number(0.0))) == wrong
+    assert edit.set_tool(both, Tool(1, diameter=Number(-0.5))) == wrong
     assert edit.set_tool(both, Tool(0)) == Refused("TOOL must be a whole number from 1 to 9999.")
 
 
 def test_parameters_and_setup():
-    assert made(edit.set_parameter(SQUARE, "max_offset", Entry(0.5))).parameters.max_offset == Entry(0.5)
+    assert made(edit.set_parameter(SQUARE, "max_offset", Number(0.5))).parameters.max_offset == Number(0.5)
     refused = Refused("POCKET OVERLAP must be from 0 to 99.")
-    assert edit.set_parameter(SQUARE, "pocket_overlap", Entry(100.0)) == refused
+    assert edit.set_parameter(SQUARE, "pocket_overlap", Number(100.0)) == refused
     assert edit.set_path_choice(SQUARE, PathChoice.BEST).parameters.path is PathChoice.BEST
     assert made(edit.set_setup(SQUARE, "name", "COVER 7")).setup.name == "COVER 7"
     assert made(edit.set_setup(SQUARE, "safe_z", None)).setup.safe_z is None
     refused = Refused("WORK OFFSET must be a whole number from 54 to 59.")
-    assert edit.set_setup(SQUARE, "work_offset", Entry(60.0)) == refused
+    assert edit.set_setup(SQUARE, "work_offset", Number(60.0)) == refused
     refused = Refused("PART NAME: character 6 (U+00A0) cannot be displayed. Type the text again without it.")
     assert edit.set_setup(SQUARE, "name", "COVER\u00a07") == refused
     assert isinstance(edit.set_setup(SQUARE, "name", "two\nlines"), Refused)
@@ -248,21 +248,21 @@ def test_set_unit_converts_lengths_and_feeds_and_nothing_else():
     given = program(
         line(length=1.0, angle=30.0, feed=10.0), arc("CW", radius=0.5, sweep=90.0), blend(0.125), unit=Unit.IN, x=-1.0
     )
-    given = replace(given, parameters=replace(given.parameters, pocket_overlap=Entry(40.0), max_offset=Entry(1.0)))
+    given = replace(given, parameters=replace(given.parameters, pocket_overlap=Number(40.0), max_offset=Number(1.0)))
     metric = edit.set_unit(given, Unit.MM)
     block = metric.blocks[0]
     assert metric.unit is Unit.MM
-    assert (block.x_start, block.z_bottom) == (Entry(-25.4), Entry(-6.35))
-    assert (block.plunge_feed, block.speed, block.tool) == (Entry(508.0), Entry(300.0), Entry(1.0))
+    assert (block.x_start, block.z_bottom) == (Number(-25.4), Number(-6.35))
+    assert (block.plunge_feed, block.speed, block.tool) == (Number(508.0), Number(300.0), Number(1.0))
     assert block.segments == (
         line(length=25.4, angle=30.0, feed=254.0),
         arc("CW", radius=12.7, sweep=90.0),
         blend(3.175),
     )
-    assert metric.parameters.max_offset == Entry(25.4)
-    assert metric.parameters.blend_offset == Entry(3.175), "the inch program's usual value, not the metric one's 3.0"
+    assert metric.parameters.max_offset == Number(25.4)
+    assert metric.parameters.blend_offset == Number(3.175), "the inch program's usual value, not the metric one's 3.0"
     assert metric.parameters.finish_xy is None
-    assert metric.tools == (Tool(1, "END MILL", Entry(12.7)),)
+    assert metric.tools == (Tool(1, "END MILL", Number(12.7)),)
     back = edit.set_unit(metric, Unit.IN)
     assert back == given
 
@@ -270,7 +270,7 @@ def test_set_unit_converts_lengths_and_feeds_and_nothing_else():
 def test_set_unit_keeps_what_could_not_be_read():
     unread = Unread("1,5", unread_reason("1,5", field_of(Form.LINE, "x_end"), Unit.IN))
     given = made(edit.type_field(SQUARE, FormPlace(1, 1), "x_end", unread))
-    assert edit.set_unit(given, Unit.IN).blocks[0].segments[0] == LineSegment(x_end=unread, y_end=Entry(0.0))
+    assert edit.set_unit(given, Unit.IN).blocks[0].segments[0] == LineSegment(x_end=unread, y_end=Number(0.0))
 
 
 @settings(derandomize=True, max_examples=30, suppress_health_check=[HealthCheck.too_slow])
@@ -288,9 +288,9 @@ def test_set_unit_loses_no_field(given_program):
 SEGMENTS: dict[Form, Segment] = {Form.LINE: LineSegment(), Form.ARC: ArcSegment(), Form.BLEND: BlendSegment()}
 
 
-def expected(kind: Kind) -> Entry:
+def expected(kind: Kind) -> Number:
     """What 2 inches, or 2 of anything else, is in a metric program."""
-    return Entry(50.8) if kind in (Kind.LENGTH, Kind.FEED) else Entry(2.0)
+    return Number(50.8) if kind in (Kind.LENGTH, Kind.FEED) else Number(2.0)
 
 
 def numbers(form: Form) -> list[tuple[str, Kind]]:
@@ -299,7 +299,7 @@ def numbers(form: Form) -> list[tuple[str, Kind]]:
 
 @pytest.mark.parametrize(("name", "kind"), numbers(Form.START))
 def test_start(name, kind):
-    part = set_unit(Program(Unit.IN, blocks=(changed(Block(), {name: Entry(2.0)}),)), Unit.MM)
+    part = set_unit(Program(Unit.IN, blocks=(changed(Block(), {name: Number(2.0)}),)), Unit.MM)
     assert getattr(part.blocks[0], name) == expected(kind)
     others = [one.name for one in START if one.kind is not Kind.CHOICE and one.name != name]
     assert all(getattr(part.blocks[0], other) is None for other in others)
@@ -308,49 +308,49 @@ def test_start(name, kind):
 @pytest.mark.parametrize("form", SEGMENTS)
 def test_segments(form):
     for name, kind in numbers(form):
-        segment = changed(SEGMENTS[form], {name: Entry(2.0)})
+        segment = changed(SEGMENTS[form], {name: Number(2.0)})
         part = set_unit(Program(Unit.IN, blocks=(Block(segments=(segment,)),)), Unit.MM)
         assert part.blocks[0].segments == (changed(SEGMENTS[form], {name: expected(kind)}),)
 
 
 @pytest.mark.parametrize(("name", "kind"), numbers(Form.PARAMETERS))
 def test_parameters(name, kind):
-    part = set_unit(Program(Unit.IN, changed(Parameters(), {name: Entry(2.0)})), Unit.MM)
+    part = set_unit(Program(Unit.IN, changed(ProgramParameters(), {name: Number(2.0)})), Unit.MM)
     usual = {
-        "blend_offset": Entry(3.175),
-        "blend_overlap": Entry(3.175),
-        "retract_clearance": Entry(2.54),
-        "peck_clearance": Entry(1.27),
+        "blend_offset": Number(3.175),
+        "blend_overlap": Number(3.175),
+        "retract_clearance": Number(2.54),
+        "peck_clearance": Number(1.27),
     }
-    assert part.parameters == changed(Parameters(), usual | {name: expected(kind)})
+    assert part.parameters == changed(ProgramParameters(), usual | {name: expected(kind)})
     assert len(numbers(Form.PARAMETERS)) == len(PARAMETERS) - 1
 
 
 @pytest.mark.parametrize(("name", "kind"), numbers(Form.SETUP))
 def test_setup(name, kind):
-    part = set_unit(Program(Unit.IN, setup=changed(PartSetup("A"), {name: Entry(2.0)})), Unit.MM)
-    assert part.setup == changed(PartSetup("A"), {"safe_z": Entry(25.4)} | {name: expected(kind)})
+    part = set_unit(Program(Unit.IN, setup=changed(PartSetup("A"), {name: Number(2.0)})), Unit.MM)
+    assert part.setup == changed(PartSetup("A"), {"safe_z": Number(25.4)} | {name: expected(kind)})
     assert len(numbers(Form.SETUP)) == len(SETUP) - 1
 
 
 def test_tools():
-    part = set_unit(Program(Unit.IN, tools=(Tool(2, "BALL MILL", Entry(2.0)), Tool(3))), Unit.MM)
-    assert part.tools == (Tool(2, "BALL MILL", Entry(50.8)), Tool(3))
+    part = set_unit(Program(Unit.IN, tools=(Tool(2, "BALL MILL", Number(2.0)), Tool(3))), Unit.MM)
+    assert part.tools == (Tool(2, "BALL MILL", Number(50.8)), Tool(3))
 
 
 def test_what_the_blanks_stood_for_is_blank_again_on_the_way_back():
-    part = Program(Unit.IN, changed(Parameters(), {"blend_offset": Entry(0.25)}))
+    part = Program(Unit.IN, changed(ProgramParameters(), {"blend_offset": Number(0.25)}))
     there = set_unit(part, Unit.MM)
-    assert there.parameters.blend_overlap == Entry(3.175)
-    assert there.setup.safe_z == Entry(25.4)
+    assert there.parameters.blend_overlap == Number(3.175)
+    assert there.setup.safe_z == Number(25.4)
     assert set_unit(there, Unit.IN) == part
     assert set_unit(set_unit(Program(Unit.MM), Unit.IN), Unit.MM) == Program(Unit.MM)
 
 
 def test_a_typed_zero_stays_typed():
-    part = Program(Unit.IN, changed(Parameters(), {"blend_offset": Entry(0.0), "finish_xy": Entry(0.0)}))
+    part = Program(Unit.IN, changed(ProgramParameters(), {"blend_offset": Number(0.0), "finish_xy": Number(0.0)}))
     there = set_unit(part, Unit.MM).parameters
-    assert (there.blend_offset, there.finish_xy) == (Entry(0.0), Entry(0.0))
+    assert (there.blend_offset, there.finish_xy) == (Number(0.0), Number(0.0))
     assert set_unit(set_unit(part, Unit.MM), Unit.IN) == part
 
 

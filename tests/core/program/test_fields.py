@@ -13,13 +13,23 @@ from core.program.fields import (
     Form,
     check,
     check_text,
-    default,
+    default_value,
     field_of,
     form_of,
     read_typed,
     unread_reason,
 )
-from core.program.model import ArcSegment, BlendSegment, Block, Entry, LineSegment, Parameters, PartSetup, Tool, Unread
+from core.program.model import (
+    ArcSegment,
+    BlendSegment,
+    Block,
+    LineSegment,
+    Number,
+    PartSetup,
+    ProgramParameters,
+    Tool,
+    Unread,
+)
 from core.units import Kind, Unit
 
 PARTS = {
@@ -28,7 +38,7 @@ PARTS = {
     Form.ARC: (ArcSegment, {"choice"}),
     Form.BLEND: (BlendSegment, set()),
     Form.TOOL: (Tool, set()),
-    Form.PARAMETERS: (Parameters, set()),
+    Form.PARAMETERS: (ProgramParameters, set()),
     Form.SETUP: (PartSetup, set()),
 }
 
@@ -136,13 +146,13 @@ def test_check_takes(form, name, value):
 
 
 def test_defaults():
-    assert default("blend_offset", Unit.IN) == 0.125
-    assert default("blend_offset", Unit.MM) == 3.0
-    assert default("pocket_overlap", Unit.MM) == 50.0
-    assert default("retract_clearance", Unit.MM) == 2.5
-    assert default("peck_clearance", Unit.IN) == 0.05
-    assert default("safe_z", Unit.IN) == 1.0
-    assert default("x_start", Unit.IN) is None
+    assert default_value("blend_offset", Unit.IN) == 0.125
+    assert default_value("blend_offset", Unit.MM) == 3.0
+    assert default_value("pocket_overlap", Unit.MM) == 50.0
+    assert default_value("retract_clearance", Unit.MM) == 2.5
+    assert default_value("peck_clearance", Unit.IN) == 0.05
+    assert default_value("safe_z", Unit.IN) == 1.0
+    assert default_value("x_start", Unit.IN) is None
 
 
 def test_a_field_takes_the_same_part_in_both_units():
@@ -166,7 +176,7 @@ def test_a_standing_spindle_is_refused_where_it_is_typed():
 def test_every_number_on_the_parameter_screens_has_a_default_it_would_take(unit):
     for one in (*fields.PARAMETERS, *fields.SETUP):
         if one.kind not in (Kind.CHOICE, Kind.TEXT):
-            value = default(one.name, unit)
+            value = default_value(one.name, unit)
             assert value is not None
             assert check(one, value, unit) is None
 
@@ -174,7 +184,7 @@ def test_every_number_on_the_parameter_screens_has_a_default_it_would_take(unit)
 def test_read_keeps_what_it_cannot_read():
     one = field_of(Form.LINE, "x_end")
     assert read_typed("  ", one, Unit.IN) is None
-    assert read_typed("1 1/2", one, Unit.IN) == Entry(1.5)
+    assert read_typed("1 1/2", one, Unit.IN) == Number(1.5)
     unread = read_typed("1,5", one, Unit.IN)
     assert isinstance(unread, Unread)
     assert unread.text == "1,5"

@@ -13,7 +13,7 @@ from core.program.edit import set_unit
 from core.program.file.faults import key_lines, line_of
 from core.program.file.read import StoreError, loads, loads_bytes
 from core.program.file.write import dumps
-from core.program.model import Entry, Program, Unread
+from core.program.model import Number, Program, Unread
 from core.units import Unit
 from tests.core.program.parts import program, programs
 from tests.core.program.stored import PART, TEXT
@@ -54,7 +54,7 @@ def test_half_characters_do_not_stop_saving():
 
 
 def test_a_whole_number_may_stand_for_a_length():
-    assert loads(TEXT.replace("x_start = -1.0", "x_start = -1"), "x").blocks[0].x_start == Entry(-1.0)
+    assert loads(TEXT.replace("x_start = -1.0", "x_start = -1"), "x").blocks[0].x_start == Number(-1.0)
 
 
 def test_blanks_stay_blank():
@@ -66,8 +66,8 @@ def test_blanks_stay_blank():
 
 def test_a_number_out_of_its_fields_range_is_kept_for_the_form_to_show():
     text = TEXT.replace("diameter = 0.5", "diameter = -0.5").replace("speed = 300", "speed = -1")
-    assert loads(text, "x").tools[0].diameter == Entry(-0.5)
-    assert loads(text, "x").blocks[0].speed == Entry(-1.0)
+    assert loads(text, "x").tools[0].diameter == Number(-0.5)
+    assert loads(text, "x").blocks[0].speed == Number(-1.0)
 
 
 @pytest.mark.parametrize("path", sorted(BAD.glob("*.toml")), ids=lambda path: path.stem)
@@ -121,7 +121,7 @@ def test_examples_are_as_this_program_writes_them(path):
 @settings(derandomize=True, max_examples=100, deadline=None)
 @given(st.floats(-393700.0, 393700.0), st.sampled_from(Unit))
 def test_what_could_be_read_can_be_read_in_the_other_unit_too(value, unit):
-    text = dumps(program(start={"x_start": Entry(value)}, unit=unit))
+    text = dumps(program(start={"x_start": Number(value)}, unit=unit))
     part = loads(text, "x")
     other = Unit.IN if unit is Unit.MM else Unit.MM
     turned = set_unit(part, other)

@@ -20,7 +20,7 @@ from core.program.edit import (
     type_field,
 )
 from core.program.history import History, differences, splice
-from core.program.model import ArcSegment, CutterComp, Entry, LineSegment, PartSetup, Program, Tool, Unread
+from core.program.model import ArcSegment, CutterComp, LineSegment, Number, PartSetup, Program, Tool, Unread
 from core.units import Unit
 from tests.core.program.parts import line, program, programs
 
@@ -83,7 +83,7 @@ def told(edited: object) -> tuple[str, ...]:
 
 
 def test_fields() -> None:
-    assert told(type_field(PART, FormPlace(1, 2), "y_end", Entry(2.5))) == (
+    assert told(type_field(PART, FormPlace(1, 2), "y_end", Number(2.5))) == (
         "Block 1, segment 2: Y END 2.5000, was 1.0000.",
     )
     assert told(type_field(PART, FormPlace(1), "x_start", None)) == ("Block 1: X START blank, was 0.0000.",)
@@ -110,7 +110,7 @@ def test_blocks_and_tools() -> None:
     assert told(copy_block(PART, 1)) == ("Block 2 is new.",)
     assert told(set_tool(PART, Tool(7))) == ("Tool 7 is new.",)
     assert told(delete_tool(PART, 1)) == ("Tool 1 is deleted.",)
-    assert told(set_tool(PART, Tool(1, "BALL", Entry(0.5)))) == ("Tool 1: TYPE BALL, was END MILL.",)
+    assert told(set_tool(PART, Tool(1, "BALL", Number(0.5)))) == ("Tool 1: TYPE BALL, was END MILL.",)
 
 
 def test_setup_and_units() -> None:

@@ -14,7 +14,7 @@ from core.geometry.piece import Arc, Piece, Point
 from core.program import edit
 from core.program.edit import FormPlace
 from core.program.fields import check, field_of, form_of
-from core.program.model import ArcSegment, BlendSegment, Direction, Entry, Program, Segment
+from core.program.model import ArcSegment, BlendSegment, Direction, Number, Program, Segment
 from core.program.solve.block import solve_block
 from core.program.solve.solved import Solved, SolvedBlock
 from core.units import Unit
@@ -89,22 +89,22 @@ def moved(part: Program, dx: float, dy: float) -> Program:
     """The same part elsewhere: every typed coordinate shifted."""
     block = part.blocks[0]
     segments = tuple(shifted(segment, dx, dy) for segment in block.segments)
-    x, y = Entry(value(block.x_start) + dx), Entry(value(block.y_start) + dy)
+    x, y = Number(value(block.x_start) + dx), Number(value(block.y_start) + dy)
     return replace(part, blocks=(replace(block, segments=segments, x_start=x, y_start=y),))
 
 
 def value(typed: object) -> float:
-    assert isinstance(typed, Entry)
+    assert isinstance(typed, Number)
     return typed.value
 
 
 def shifted(segment: Segment, dx: float, dy: float) -> Segment:
     if isinstance(segment, BlendSegment):
         return segment
-    found = replace(segment, x_end=Entry(value(segment.x_end) + dx), y_end=Entry(value(segment.y_end) + dy))
+    found = replace(segment, x_end=Number(value(segment.x_end) + dx), y_end=Number(value(segment.y_end) + dy))
     if isinstance(found, ArcSegment):
         x, y = value(found.x_center) + dx, value(found.y_center) + dy
-        return replace(found, x_center=Entry(x), y_center=Entry(y))
+        return replace(found, x_center=Number(x), y_center=Number(y))
     return found
 
 
@@ -112,16 +112,16 @@ def mirrored(part: Program) -> Program:
     """The same part seen in a mirror along Y."""
     block = part.blocks[0]
     segments = tuple(mirrored_segment(segment) for segment in block.segments)
-    return replace(part, blocks=(replace(block, x_start=Entry(-value(block.x_start)), segments=segments),))
+    return replace(part, blocks=(replace(block, x_start=Number(-value(block.x_start)), segments=segments),))
 
 
 def mirrored_segment(segment: Segment) -> Segment:
     if isinstance(segment, BlendSegment):
         return segment
-    found = replace(segment, x_end=Entry(-value(segment.x_end)))
+    found = replace(segment, x_end=Number(-value(segment.x_end)))
     if isinstance(found, ArcSegment):
         turned = Direction.CW if found.direction is Direction.CCW else Direction.CCW
-        return replace(found, x_center=Entry(-value(found.x_center)), direction=turned)
+        return replace(found, x_center=Number(-value(found.x_center)), direction=turned)
     return found
 
 
@@ -163,7 +163,7 @@ def test_lines_by_length_and_angle_turn_with_the_part(part, degrees):
 
 
 def number(given_value: object) -> float:
-    assert isinstance(given_value, Entry | Solved)
+    assert isinstance(given_value, Number | Solved)
     return given_value.value
 
 
@@ -185,7 +185,7 @@ def test_what_was_calculated_may_be_typed_and_changes_nothing(part):
     for segment in before.segments:
         for name, found in segment.values.items():
             if isinstance(found, Solved):
-                typed = program_of(edit.type_field(typed, FormPlace(1, segment.number), name, Entry(found.value)))
+                typed = program_of(edit.type_field(typed, FormPlace(1, segment.number), name, Number(found.value)))
     after = solved(typed)
     assert after.every_finding == ()
     assert same(before, after)

@@ -20,11 +20,11 @@ from core.program.model import (
     BlendSegment,
     Block,
     CutterComp,
-    Entry,
     LineSegment,
-    Parameters,
+    Number,
     PartSetup,
     Program,
+    ProgramParameters,
     Tool,
     Unread,
     changed,
@@ -103,7 +103,7 @@ def test_feeds_and_z_are_carried_over():
     ]
     first, second, third = block.segments
     assert (first.values["feed"], first.values["z_end"]) == (Solved(20.0), Solved(-0.25))
-    assert (second.values["feed"], second.values["z_end"]) == (Entry(7.0), Entry(-0.5))
+    assert (second.values["feed"], second.values["z_end"]) == (Number(7.0), Number(-0.5))
     assert (third.values["feed"], third.values["z_end"]) == (Solved(7.0), Solved(-0.5))
 
 
@@ -174,7 +174,7 @@ def test_a_segment_without_length_is_passed_over():
 
 
 def test_unreadable_text_blocks_posting_and_is_said_once():
-    block = solved(program(LineSegment(x_end=Unread("1,5", "Type a point."), y_end=Entry(0.0))))
+    block = solved(program(LineSegment(x_end=Unread("1,5", "Type a point."), y_end=Number(0.0))))
     (finding,) = block.every_finding
     assert (finding.code, finding.segment, finding.field) == ("UNREADABLE", 1, "x_end")
     assert sentence(finding, Unit.IN) == "X END: 1,5 cannot be read. Type a point."
@@ -183,7 +183,7 @@ def test_unreadable_text_blocks_posting_and_is_said_once():
 
 
 def test_unreadable_text_in_a_feed_leaves_the_shape_known():
-    block = solved(program(LineSegment(x_end=Entry(1.0), y_end=Entry(0.0), feed=Unread("x", "Type a number."))))
+    block = solved(program(LineSegment(x_end=Number(1.0), y_end=Number(0.0), feed=Unread("x", "Type a number."))))
     assert block.segments[0].piece == Line((0.0, 0.0), (1.0, 0.0))
     assert codes(block) == [("UNREADABLE", 1)]
     assert not block.postable
@@ -214,7 +214,7 @@ def test_any_program_is_solved_without_raising(given_program):
         for typed, one in zip(block.segments, found.segments, strict=True):
             for name, value in one.values.items():
                 entered = getattr(typed, name)
-                assert value == entered if entered is not None else not isinstance(value, Entry | Unread)
+                assert value == entered if entered is not None else not isinstance(value, Number | Unread)
         for finding in found.every_finding:
             assert sentence(finding, given_program.unit).endswith((".", "?", "!"))
         for segment in found.segments:
@@ -257,7 +257,7 @@ def test_a_segment_that_leads_too_far_is_refused():
 
 
 def test_text_in_a_message_moves_no_cursor():
-    block = solved(program(LineSegment(x_end=Unread("\x1b[2J", "why."), y_end=Entry(0.0))))
+    block = solved(program(LineSegment(x_end=Unread("\x1b[2J", "why."), y_end=Number(0.0))))
     assert block.every_finding[0].text == "X END: ?[2J cannot be read. why."
 
 
@@ -282,7 +282,7 @@ def test_blanks_are_named(name):
 
 
 def test_a_wrong_tool_comes_before_what_is_still_blank():
-    found = findings(tool=Entry(7.0), finish_tool=Entry(8.0), x_start=None, y_start=None)
+    found = findings(tool=Number(7.0), finish_tool=Number(8.0), x_start=None, y_start=None)
     assert [text.split(":")[0] for text in found] == [
         "TOOL_MISSING error tool",
         "TOOL_MISSING error finish_tool",
@@ -302,16 +302,16 @@ def test_blanks_that_stand_for_zero_are_calculated():
 @pytest.mark.parametrize(
     ("start", "text"),
     [
-        ({"tool": Entry(5.0)}, "TOOL_MISSING error tool: Tool 5 is not in the tool table"),
-        ({"finish_tool": Entry(5.0)}, "TOOL_MISSING error finish_tool: Tool 5 is not in the tool table"),
-        ({"tool": Entry(2.5)}, "OUT_OF_RANGE error tool: TOOL must be a whole number from 1 to 9999."),
-        ({"lookahead": Entry(21.0)}, "OUT_OF_RANGE error lookahead: CUTCOMP LOOKAHEAD must be a whole number"),
+        ({"tool": Number(5.0)}, "TOOL_MISSING error tool: Tool 5 is not in the tool table"),
+        ({"finish_tool": Number(5.0)}, "TOOL_MISSING error finish_tool: Tool 5 is not in the tool table"),
+        ({"tool": Number(2.5)}, "OUT_OF_RANGE error tool: TOOL must be a whole number from 1 to 9999."),
+        ({"lookahead": Number(21.0)}, "OUT_OF_RANGE error lookahead: CUTCOMP LOOKAHEAD must be a whole number"),
         ({"speed": Unread("x", "Type a number.")}, "UNREADABLE error speed: SPEED (RPM): x cannot be read."),
         (
-            {"z_bottom": Entry(0.5)},
+            {"z_bottom": Number(0.5)},
             "Z_ORDER error z_bottom: Z BOTTOM 0.5000 is above Z START 0.0000: it must be below.",
         ),
-        ({"z_bottom": Entry(0.0)}, "Z_ORDER warning z_bottom: Z BOTTOM is at Z START: nothing is cut."),
+        ({"z_bottom": Number(0.0)}, "Z_ORDER warning z_bottom: Z BOTTOM is at Z START: nothing is cut."),
     ],
 )
 def test_trouble_of_start(start, text):
@@ -327,7 +327,7 @@ def test_no_segments():
     assert not block.closed
 
 
-@pytest.mark.parametrize("diameter", [None, Entry(0.0), Entry(-0.5)])
+@pytest.mark.parametrize("diameter", [None, Number(0.0), Number(-0.5)])
 @pytest.mark.parametrize(("comp", "severity"), [(CutterComp.RIGHT, Severity.ERROR), (CutterComp.ON, Severity.WARNING)])
 def test_a_tool_without_size_matters_less_on_the_contour(diameter, comp, severity):
     given = replace(program(ALONG, start={"cutter_comp": comp}), tools=(Tool(1, diameter=diameter),))
@@ -338,8 +338,8 @@ def test_a_tool_without_size_matters_less_on_the_contour(diameter, comp, severit
 
 
 def test_both_tools():
-    given = program(ALONG, start={"finish_tool": Entry(2.0)})
-    given = replace(given, tools=(*given.tools, Tool(2, "FINISHER", Entry(0.25))))
+    given = program(ALONG, start={"finish_tool": Number(2.0)})
+    given = replace(given, tools=(*given.tools, Tool(2, "FINISHER", Number(0.25))))
     block = solve_block(given.blocks[0], given)
     assert (block.tool_diameter, block.tool_type, block.finish_diameter) == (0.5, "END MILL", 0.25)
 
@@ -348,12 +348,12 @@ def test_lengths_feeds_and_angles_are_converted_and_counts_are_not():
     reading = read_form(Form.LINE, line(x_end=2.0, angle=180.0, feed=10.0), Unit.IN, 1)
     assert reading.known == {"x_end": 50.8, "angle": pi, "feed": 254.0}
     assert reading.findings == ()
-    assert reading.values["x_end"] == Entry(2.0)
+    assert reading.values["x_end"] == Number(2.0)
     assert reading.values["y_end"] is None
 
 
 def test_faults_are_told_and_not_known():
-    segment = LineSegment(x_end=Unread("1,5", "Type a point."), length=Entry(-2.0), y_end=Entry(float("inf")))
+    segment = LineSegment(x_end=Unread("1,5", "Type a point."), length=Number(-2.0), y_end=Number(float("inf")))
     reading = read_form(Form.LINE, segment, Unit.MM, 7)
     assert reading.known == {}
     assert [(one.code, one.segment, one.field) for one in reading.findings] == [
@@ -364,7 +364,7 @@ def test_faults_are_told_and_not_known():
     assert reading.values["x_end"] == Unread("1,5", "Type a point.")
 
 
-@pytest.mark.parametrize("typed", [Entry(1.0), Unread("x", "why")])
+@pytest.mark.parametrize("typed", [Number(1.0), Unread("x", "why")])
 def test_only_blanks_are_filled(typed):
     reading = read_form(Form.LINE, LineSegment(x_end=typed), Unit.IN, 1)
     for name, value in (("x_end", 3.0), ("y_end", 2.0), ("feed", None)):
@@ -380,7 +380,7 @@ PARTS: dict[Form, Any] = {
     Form.LINE: LineSegment(),
     Form.ARC: ArcSegment(),
     Form.BLEND: BlendSegment(),
-    Form.PARAMETERS: Parameters(),
+    Form.PARAMETERS: ProgramParameters(),
     Form.SETUP: PartSetup(),
 }
 
@@ -401,7 +401,7 @@ def test_a_number_is_known_exactly_where_its_field_takes_it(form: Form, unit: Un
             *(edge for edge in (*bounds(one, unit), one.above) if edge is not None),
         }
         for value in (nan, inf, -inf, *(near for edge in edges for near in _about(edge))):
-            reading = read_form(form, changed(PARTS[form], {one.name: Entry(value)}), unit, 1)
+            reading = read_form(form, changed(PARTS[form], {one.name: Number(value)}), unit, 1)
             taken = check(one, value, unit) is None
             assert (one.name in reading.known) is taken
             assert len(reading.findings) == (not taken)
@@ -417,7 +417,7 @@ def told(program):
 
 def test_blanks_and_usual_values_are_no_trouble():
     assert told(Program()) == []
-    part = Program(Unit.MM, parameters=changed(Program().parameters, {"blend_offset": Entry(3.0)}))
+    part = Program(Unit.MM, parameters=changed(Program().parameters, {"blend_offset": Number(3.0)}))
     assert told(part) == []
 
 
@@ -426,14 +426,14 @@ def test_unreadable_text_and_numbers_out_of_range_are_errors_of_their_screen(one
     parameters = changed(Program().parameters, {one.name: Unread("1..2", "Two points.")})
     text = f"PROGRAM PARAMETERS: {one.label}: 1..2 cannot be read. Two points."
     assert told(Program(parameters=parameters)) == [("UNREADABLE", one.name, None, text)]
-    parameters = changed(Program().parameters, {one.name: Entry(-1.0)})
+    parameters = changed(Program().parameters, {one.name: Number(-1.0)})
     ((code, field, _, text),) = told(Program(parameters=parameters))
     assert (code, field) == ("OUT_OF_RANGE", one.name)
     assert text.startswith(f"PROGRAM PARAMETERS: {one.label} must be ")
 
 
 def test_part_setup_too():
-    setup = replace(Program().setup, work_offset=Entry(54.5), safe_z=Unread("x", "Why."))
+    setup = replace(Program().setup, work_offset=Number(54.5), safe_z=Unread("x", "Why."))
     assert len(SETUP) == 3
     assert told(Program(setup=setup)) == [
         ("OUT_OF_RANGE", "work_offset", None, "PART SETUP: WORK OFFSET must be a whole number from 54 to 59."),

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from core.controls.control_tools import read_table
 from core.finding import Finding, Severity
-from core.program.model import Entry, Program, Tool, Unread
+from core.program.model import Number, Program, Tool, Unread
 from core.program.tools import (
     MAX_TABLE_LINES,
     ImportedTools,
@@ -20,26 +20,28 @@ from core.program.tools import (
 from core.units import Unit
 from tests.properties import exercised, must_exercise
 
-TABLE = Program(tools=(Tool(1, "END MILL", Entry(0.5)), Tool(4, "BALL MILL")))
+TABLE = Program(tools=(Tool(1, "END MILL", Number(0.5)), Tool(4, "BALL MILL")))
 
 
 def test_find():
-    assert find_tool(TABLE, 1) == Tool(1, "END MILL", Entry(0.5))
+    assert find_tool(TABLE, 1) == Tool(1, "END MILL", Number(0.5))
     assert find_tool(TABLE, 2) is None
 
 
 def test_a_tool_that_is_there():
-    tool = called_tool(TABLE, Entry(1.0), "tool")
+    tool = called_tool(TABLE, Number(1.0), "tool")
     assert (tool.type, tool.diameter, tool.findings) == ("END MILL", 12.7, ())
 
 
 def test_a_missing_tool():
-    (finding,) = called_tool(TABLE, Entry(2.0), "finish_tool").findings
+    (finding,) = called_tool(TABLE, Number(2.0), "finish_tool").findings
     assert (finding.code, finding.severity, finding.field) == ("TOOL_MISSING", Severity.ERROR, "finish_tool")
     assert finding.text == "Tool 2 is not in the tool table: add it on TOOL SETUP, or call another."
 
 
-@pytest.mark.parametrize(("typed", "name"), [(None, "tool"), (Unread("x", "why"), "tool"), (Entry(0.0), "finish_tool")])
+@pytest.mark.parametrize(
+    ("typed", "name"), [(None, "tool"), (Unread("x", "why"), "tool"), (Number(0.0), "finish_tool")]
+)
 def test_nothing_is_called(typed, name):
     tool = called_tool(TABLE, typed, name)
     assert (tool.type, tool.diameter, tool.findings) == ("", None, ())
@@ -49,23 +51,23 @@ def test_nothing_is_called(typed, name):
     ("typed", "words"),
     [
         (None, "it is blank"),
-        (Entry(0.0), "must be above 0, and it is 0"),
-        (Entry(-0.5), "must be above 0, and it is -0.5"),
-        (Entry(float("nan")), "must be above 0, and it is nan"),
+        (Number(0.0), "must be above 0, and it is 0"),
+        (Number(-0.5), "must be above 0, and it is -0.5"),
+        (Number(float("nan")), "must be above 0, and it is nan"),
         (Unread("1,5", "why"), "1,5 cannot be read"),
     ],
 )
 def test_a_diameter_that_cannot_be_used(typed, words):
     tool = Tool(3, diameter=typed)
-    found = called_tool(Program(tools=(tool,)), Entry(3.0), "tool", Severity.WARNING)
+    found = called_tool(Program(tools=(tool,)), Number(3.0), "tool", Severity.WARNING)
     assert found.diameter is None
     assert (found.findings[0].code, found.findings[0].severity) == ("TOOL_DIAMETER", Severity.WARNING)
     assert words in found.findings[0].text
 
 
 def test_a_diameter_beyond_any_tool_is_refused_as_a_typed_one_is():
-    part = Program(tools=(Tool(1, diameter=Entry(20000.0)),))
-    found = called_tool(part, Entry(1.0), "tool")
+    part = Program(tools=(Tool(1, diameter=Number(20000.0)),))
+    found = called_tool(part, Number(1.0), "tool")
     assert found.diameter is None
     assert [one.text for one in found.findings] == ["Tool 1: TOOL DIAMETER must be above 0, at most 10000."]
 
@@ -93,9 +95,9 @@ def refused(text: str) -> Finding:
 def test_a_table_in_order_of_numbers_with_remarks_as_types():
     table = read(LINUXCNC_TABLE)
     assert table.tools == (
-        Tool(1, "END MILL", Entry(0.5)),
-        Tool(2, "BALL MILL 3/8", Entry(0.375)),
-        Tool(10, "FACE MILL", Entry(1.0)),
+        Tool(1, "END MILL", Number(0.5)),
+        Tool(2, "BALL MILL 3/8", Number(0.375)),
+        Tool(10, "FACE MILL", Number(1.0)),
     )
     assert table.findings == ()
 
@@ -105,7 +107,7 @@ def test_a_table_in_order_of_numbers_with_remarks_as_types():
     [(Unit.MM, Unit.IN, 0.5), (Unit.MM, Unit.MM, 12.7), (Unit.IN, Unit.MM, 322.58)],
 )
 def test_lengths_are_converted_from_the_tables_unit(unit, program, value):
-    assert read("T1 D12.7", unit, program).tools == (Tool(1, "END MILL", Entry(value)),)
+    assert read("T1 D12.7", unit, program).tools == (Tool(1, "END MILL", Number(value)),)
 
 
 @pytest.mark.parametrize("line", ["T3 P3", "T3 P3 D0", "T3 P3 D-0.0"])

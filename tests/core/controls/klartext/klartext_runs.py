@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from core.controls.control_run import Run
+from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run
 from core.controls.moves import Move
@@ -14,13 +14,13 @@ HEAD = "BEGIN PGM P MM\nTOOL DEF 1 L+0 R+{radius}\nTOOL CALL 1 Z S1000\n"
 TOOLS = ToolTable()
 
 
-def runs(*blocks: str, radius: float = 5.0, tools: ToolTable = TOOLS) -> Run:
+def runs(*blocks: str, radius: float = 5.0, tools: ToolTable = TOOLS) -> ControlRun:
     """The blocks with a tool of this radius in the spindle; the first of them is line 4."""
     text = HEAD.format(radius=radius) + "".join(f"{block}\n" for block in blocks) + "END PGM P MM\n"
     return run(text.encode(), tools)
 
 
-def clean(*blocks: str, radius: float = 5.0) -> Run:
+def clean(*blocks: str, radius: float = 5.0) -> ControlRun:
     """The same of a program that runs to its end with nothing to be said."""
     made = runs(*blocks, radius=radius)
     assert not made.findings, made.findings
@@ -28,7 +28,7 @@ def clean(*blocks: str, radius: float = 5.0) -> Run:
     return made
 
 
-def flat(made: Run, first: int = 2) -> list[tuple[float, ...]]:
+def flat(made: ControlRun, first: int = 2) -> list[tuple[float, ...]]:
     """The moves from a row on: x, y of a line; x, y, center x, y, turn of an arc."""
     return [_values(move) for move in list(made.moves)[first:]]
 
@@ -38,11 +38,11 @@ def _values(move: Move) -> tuple[float, ...]:
     return (x, y, *move.center[:2], move.turn) if move.turn else (x, y)
 
 
-def points(made: Run, first: int = 2) -> list[tuple[float, float, float]]:
+def points(made: ControlRun, first: int = 2) -> list[tuple[float, float, float]]:
     """The ends of the moves from a row on."""
     return [move.point for move in list(made.moves)[first:]]
 
 
-def codes(made: Run) -> list[tuple[str, int | None]]:
+def codes(made: ControlRun) -> list[tuple[str, int | None]]:
     """Rule and line of every finding."""
     return [(finding.code, finding.line) for finding in made.findings]

@@ -6,7 +6,7 @@ from math import sqrt
 
 import pytest
 
-from core.controls.compensation.corners import arc_element
+from core.controls.compensation.elements import arc_element
 from core.controls.klartext.center_path import remaining
 from tests.core.controls.klartext.klartext_runs import clean, codes, flat, points, runs
 

@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
-from core.controls.control_run import Run
+from core.controls.control_run import ControlRun
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
 from core.verify.judge import judge
@@ -43,7 +43,7 @@ def spot(point: Point, flip: int = 1) -> str:
     return f"X{point[0]:+.12f} Y{flip * point[1]:+.12f}"
 
 
-def programmed(pieces: list[Piece], side: Side, flip: int = 1) -> Run:
+def programmed(pieces: list[Piece], side: Side, flip: int = 1) -> ControlRun:
     """The pieces run by the control, with `flip` -1 in the mirror of the X axis."""
     word = "RL" if (side is Side.LEFT) == (flip == 1) else "RR"
     blocks = [f"L X{-FAR} Y{-FAR * flip} R0 FMAX", f"L {spot(pieces[0].start, flip)} {word} F100"]
@@ -56,7 +56,7 @@ def programmed(pieces: list[Piece], side: Side, flip: int = 1) -> Run:
     return runs(*blocks, f"L X{FAR} Y{FAR * flip} R0", radius=4.0)
 
 
-def contour_path(made: Run) -> Path:
+def contour_path(made: ControlRun) -> Path:
     """The compensated moves without entry and exit."""
     return made.moves.part(2, len(made.moves) - 1).path()
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.controls.control_run import Run
-from core.controls.judged_runs import findings, judged
+from core.controls.control_run import ControlRun
+from core.controls.judged_runs import findings, judge_run
 from core.finding import Severity
 from tests.core.controls.klartext.klartext_runs import codes, flat, runs
 
@@ -20,7 +20,7 @@ GROOVE = ("L Y+20", "L X+3", "L Y+24", "L X+0", "L Y+50")
 OVER = [(-5, 0), (-5, 20), (-sqrt(21), 22, 0, 20, -1), (-5, 24, 0, 24, -1), (-5, 50)]
 
 
-def left_out(made: Run) -> list[int | None]:
+def left_out(made: ControlRun) -> list[int | None]:
     return [one.line for one in made.findings if one.code == "M120"]
 
 
@@ -34,7 +34,7 @@ def test_with_it_the_tool_runs_over_the_groove() -> None:
     assert made.stopped_at is None
     assert flat(made) == [NEAR(want) for want in [*OVER, (-30, 50)]]
     assert left_out(made) == [7, 8, 9]
-    told = findings(judged(made))
+    told = findings(judge_run(made))
     assert [one.code for one in told] == ["UNCUT"]
 
 

@@ -11,7 +11,7 @@ from time import perf_counter
 
 import pytest
 
-from core.controls.control_run import Run
+from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run
 from tests.core.controls.klartext.klartext_runs import DATA
@@ -43,7 +43,7 @@ def mutated(text: bytes, random: Random) -> bytes:
     return text
 
 
-def sound(made: Run) -> bool:
+def sound(made: ControlRun) -> bool:
     """Moves that are numbers, and findings that say where."""
     finite = bool((abs(made.moves.points) < 1e9).all() and (abs(made.moves.centers) < 1e12).all())
     return finite and all(finding.line is not None for finding in made.findings)

@@ -11,7 +11,7 @@ from math import hypot, sqrt
 
 import pytest
 
-from core.controls.control_run import Run
+from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.klartext.control import run
 from core.verify.judge import judge
@@ -22,7 +22,7 @@ RIGHT = (3 / sqrt(13), -2 / sqrt(13))
 NEAR = pytest.approx
 
 
-def sample(name: str) -> Run:
+def sample(name: str) -> ControlRun:
     made = run((DATA / "klartext" / f"{name}.h").read_bytes(), ToolTable())
     assert made.stopped_at is None
     assert not made.findings

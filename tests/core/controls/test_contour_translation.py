@@ -9,17 +9,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.controls.compared_controls import Compared, OtherLanguage, compare
-from core.controls.control_run import Run
+from core.controls.contour_translation import run_by_contour, translate_contours
+from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.moves import Move
 from core.controls.registry import UnknownControl, run
-from core.controls.translated_contours import run_by_contour, translated
-from core.controls.write.programmed_stretch import NotTranslated
+from core.controls.write.rewritten_stretch import NotTranslated
 from core.finding import Severity
 from core.geometry.piece import Side
 from core.units import Unit, from_mm
 from tests.core.controls.klartext.klartext_runs import HEAD
 from tests.core.controls.klartext.test_center_path_laws import LEGS, pieces_of, programmed
+from tests.tool_tables import end_mills
 
 NEAR = pytest.approx
 HOOK = ("L X-30 Y-30 R0 FMAX", "L Z-5", "L X+0 Y+0 RL F200", "L Y+50", "L X+40", "L X-30 R0")
@@ -33,7 +34,7 @@ def klartext(*blocks: str) -> bytes:
     return (HEAD.format(radius=5.0) + "\n".join(blocks) + "\nEND PGM P MM\n").encode()
 
 
-def on(text: bytes, control: str, tools: ToolTable | None = None) -> Run:
+def on(text: bytes, control: str, tools: ToolTable | None = None) -> ControlRun:
     made = run(text, control, tools or ToolTable())
     assert not isinstance(made, UnknownControl)
     return made
@@ -43,7 +44,7 @@ def rows(text: bytes, tools: ToolTable | None = None) -> dict[str, Compared | Ot
     return {row.control: row for row in compare(text, tools or ToolTable())}
 
 
-def by_contour(source: Run, control: str) -> Run:
+def by_contour(source: ControlRun, control: str) -> ControlRun:
     made = run_by_contour(source, control)
     assert not isinstance(made, NotTranslated), made.text
     return made[0]
@@ -77,7 +78,7 @@ def test_a_control_with_mitres_parts_at_the_corner(control: str) -> None:
 
 
 def test_an_iso_contour_on_klartext() -> None:
-    tools = ToolTable.diameters({1: 0.5})
+    tools = end_mills({1: 0.5})
     row = rows(ISO.encode(), tools)["klartext"]
     assert isinstance(row, Compared)
     assert (row.run.stopped_at, row.gouge) == (None, 0.0)
@@ -138,7 +139,7 @@ def test_the_path_is_that_of_klartext(legs: list[tuple[float, float, int, float]
     source = programmed(pieces_of(legs), side)
     if source.stopped_at is not None or not source.stretches:
         return
-    found = translated(source, control)
+    found = translate_contours(source, control)
     if isinstance(found, NotTranslated):
         assert "no room" in found.text
         return

@@ -1,4 +1,4 @@
-"""Programmed contour: a compensated contour as the elements that a control's own compensation runs along.
+"""Contour pass: one pass along a contour at one depth, as the elements that a control's own compensation runs along.
 
 What the look-ahead deleted is left out, and its neighbors meet where their own lines and arcs do.  A blend arc on the
 tool's path is programmed as an arc about the same center, larger by the tool's radius: the tool inside of it runs the
@@ -13,8 +13,16 @@ from math import hypot, pi
 from typing import Final, NamedTuple
 
 from core.comp.result import Compensated
-from core.controls.compensation import corners
-from core.controls.compensation.corners import Element, arc_element, line_element
+from core.controls.compensation.elements import (
+    Element,
+    arc_element,
+    beyond,
+    element_sweep,
+    line_element,
+    meeting,
+    offset_point,
+    offset_radius,
+)
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Point, Side
@@ -25,7 +33,7 @@ APART: Final = 0.001
 """Millimeters from which on two programmed elements do not join."""
 
 
-class Travel(NamedTuple):
+class CenterMove(NamedTuple):
     """A move of the tool's center as it is to be made: its end, its feed (None at rapid), as an arc turn and center."""
 
     x: float
@@ -36,7 +44,7 @@ class Travel(NamedTuple):
     center: Point
 
 
-class Line(NamedTuple):
+class WrittenLine(NamedTuple):
     """A line of a program being written, the segment it cuts, and whether it only leads to that or away from it.
 
     `travel` is the move that the line must make where nothing is compensated.
@@ -45,14 +53,14 @@ class Line(NamedTuple):
     text: str
     segment: float | None = None
     lead: bool = False
-    travel: Travel | None = None
+    travel: CenterMove | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class Terms:
-    """How a run along a contour at one depth is made: millimeters, millimeters per minute, revolutions per minute.
+class ContourPass:
+    """How a pass along a contour at one depth is made: millimeters, millimeters per minute, revolutions per minute.
 
-    The run is compensated for the tool's `diameter` and the `stock` it leaves.  `feeds` are those of the segments by
+    The pass is compensated for the tool's `diameter` and the `stock` it leaves.  `feeds` are those of the segments by
     number.  The way there is at the height `travel`, rapid ends at `near`, feed goes on to `depth`, and up to `leave`.
     """
 
@@ -69,21 +77,24 @@ class Terms:
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class Cut(Terms):
-    """A run and the compensated contour it goes along."""
+class CompensatedPass(ContourPass):
+    """A pass and the compensated contour it goes along."""
 
     compensated: Compensated
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class Plain(Terms):
-    """A run without compensation, move by move; the first one is a rapid in the plane at the height `travel`."""
+class UncompensatedPass(ContourPass):
+    """A pass without compensation, move by move; the first one is a rapid in the plane at the height `travel`."""
 
-    travels: tuple[Travel, ...]
+    travels: tuple[CenterMove, ...]
+
+
+PassToWrite = CompensatedPass | UncompensatedPass
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Programmed:
+class ProgrammedElements:
     """The elements of a contour in order, and the segment each belongs to."""
 
     elements: tuple[Element, ...]
@@ -91,15 +102,15 @@ class Programmed:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Led:
-    """A run with its leads: the elements, the points it is entered from and left to, and its offset's number.
+class PassWithLeads:
+    """A pass with its leads: the elements, the points it is entered from and left to, and its offset's number.
 
     The entry ends at the programmed point `to`.
     """
 
-    terms: Terms
+    contour_pass: ContourPass
     side: Side
-    shape: Programmed
+    shape: ProgrammedElements
     start: Point
     to: Point
     out: Point
@@ -107,7 +118,7 @@ class Led:
 
 
 @dataclass(frozen=True, slots=True)
-class End:
+class PathEnd:
     """One end of the tool's path: `at` on it, the direction `way` along it and `off` away from the part.
 
     `corner` is the programmed point that belongs to `at`.  With a blend the path is entered and left along `off`.
@@ -125,7 +136,7 @@ def refusal(text: str, segment: float | None = None, *, lengths: tuple[float, ..
     return Finding("NOTWRITTEN", Severity.ERROR, text, segment=segment, lengths=lengths)
 
 
-def programmed(compensated: Compensated) -> Programmed | Finding:
+def programmed_elements(compensated: Compensated) -> ProgrammedElements | Finding:
     """The elements that survive, the overlap's once more, cut to what is run of them; or why there are none."""
     if not len(compensated.path):
         return refusal("There is no path to write.")
@@ -140,7 +151,7 @@ def programmed(compensated: Compensated) -> Programmed | Finding:
         first, second = elements[index], elements[index + 1]
         if hypot(first.end[0] - second.start[0], first.end[1] - second.start[1]) <= APART:
             continue
-        corner = corners.meeting(first, second, 0.0)
+        corner = meeting(first, second, 0.0)
         if corner is None:
             text = "The look-ahead deletes the next segments; no control's own compensation does that."
             return refusal(f"{text} Post the center path.", numbers[index])
@@ -149,7 +160,7 @@ def programmed(compensated: Compensated) -> Programmed | Finding:
     first_point, last_point = _point(compensated.path, 0), _point(again if len(again) else compensated.path, -1)
     elements[0] = _whole(elements[0], elements[0]._replace(start=_surface(elements[0], first_point, offset)))
     elements[-1] = _whole(elements[-1], elements[-1]._replace(end=_surface(elements[-1], last_point, offset)))
-    return Programmed(tuple(map(_rebuilt, elements)), tuple(numbers))
+    return ProgrammedElements(tuple(map(_rebuilt, elements)), tuple(numbers))
 
 
 def _rows(compensated: Compensated) -> list[int]:
@@ -201,7 +212,7 @@ def _rebuilt(element: Element) -> Element:
     """
     (x, y), (ex, ey) = element.start, element.end
     short = (x, y) != (ex, ey) and max(abs(ex - x), abs(ey - y)) <= CLOSED
-    if element.turn and not (short and corners.element_sweep(element) < pi):
+    if element.turn and not (short and element_sweep(element) < pi):
         return flat_arc(element.start, element.end, element.center, element.turn)
     return flat_line(element.start, element.end)
 
@@ -209,23 +220,23 @@ def _rebuilt(element: Element) -> Element:
 def _surface(element: Element, point: Point, offset: float) -> Point:
     """The point of an element that belongs to a point of its offset."""
     if not element.turn:
-        return corners.offset_point(point, element.leaving, -offset)
-    share = element.radius / corners.offset_radius(element, offset)
+        return offset_point(point, element.leaving, -offset)
+    share = element.radius / offset_radius(element, offset)
     (x, y), (cx, cy) = point, element.center
     return cx + (x - cx) * share, cy + (y - cy) * share
 
 
-def begin(compensated: Compensated) -> End:
+def begin(compensated: Compensated) -> PathEnd:
     """Where and how the tool's path begins."""
     return _end(compensated, compensated.whole, compensated.lead_in, 1)
 
 
-def finish(compensated: Compensated) -> End:
+def finish(compensated: Compensated) -> PathEnd:
     """Where and how the tool's path ends; `way` is still the direction of travel."""
     return _end(compensated, compensated.whole.reversed(), compensated.lead_out.reversed(), -1)
 
 
-def _end(compensated: Compensated, whole: Path, lead: Path, sense: int) -> End:
+def _end(compensated: Compensated, whole: Path, lead: Path, sense: int) -> PathEnd:
     """The end a path begins with; `sense` -1 for a reversed one."""
     at, blend = _point(whole, 0), blend_of(compensated)
     if blend:
@@ -236,10 +247,10 @@ def _end(compensated: Compensated, whole: Path, lead: Path, sense: int) -> End:
     else:
         dx, dy = whole.start_directions[0].tolist()
         way = (sense * dx, sense * dy)
-        off = side = corners.offset_point((0.0, 0.0), way, compensated.side.sign)
+        off = side = offset_point((0.0, 0.0), way, compensated.side.sign)
         side = (-side[0], -side[1])
-    corner = corners.beyond(at, side, compensated.radius)
-    return End(at, corner, way, off, blend)
+    corner = beyond(at, side, compensated.radius)
+    return PathEnd(at, corner, way, off, blend)
 
 
 def _point(path: Path, index: int) -> Point:

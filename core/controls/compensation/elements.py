@@ -1,4 +1,4 @@
-"""Corners: elements of a plane, their offset points, and where the offsets of two elements meet.
+"""Elements: programmed lines and arcs in a plane, their offset points, and where the offsets of two of them meet.
 
 The tool radius comes signed: positive with the tool on the left.  P is the programmed corner, E1 the offset point at
 the end of the first element, E2 that at the start of the second, both at right angles to their element.

@@ -1,4 +1,4 @@
-"""Joint: how the offsets of two elements are joined at their corner, by the rules of a control.
+"""Corner rules: how a control joins the offsets of two elements at their corner, at its entry and at its exit.
 
 `join` is the one algorithm: it takes two elements, the signed tool radius and a control's `CornerRules`, and gives the
 `Joint`: where the first offset ends, what leads from there, and where the second one starts.  E1 is the offset point at
@@ -12,7 +12,7 @@ from enum import Enum, auto
 from math import hypot, pi
 from typing import Final, NamedTuple
 
-from core.controls.compensation.corners import (
+from core.controls.compensation.elements import (
     WHOLE,
     Element,
     beyond,

@@ -1,4 +1,4 @@
-"""Programmed stretch: a compensated stretch of a run as elements to be written anew, with leads that cut nothing.
+"""Rewritten stretch: a compensated stretch of a run as a pass for another control, with leads that cut nothing.
 
 Elements are numbered from 1 in their order; the lead in has the number 0, the lead out one more than the last.
 """
@@ -11,13 +11,13 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.controls.compensation.corners import beyond, offset_point
+from core.controls.compensation.elements import beyond, offset_point
 from core.controls.contours_and_leads import contour_of
-from core.controls.control_run import Run, Stretch
+from core.controls.control_run import ControlRun, Stretch
 from core.controls.moves import Plane
+from core.controls.write.contour_pass import ContourPass, PassWithLeads, PathEnd, ProgrammedElements, element_of
 from core.controls.write.iso_style import IsoStyle
 from core.controls.write.lead_moves import Surface, clear_leads, merged, with_blends
-from core.controls.write.programmed_contour import End, Led, Programmed, Terms, element_of
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Point, Turn
 from core.tolerance import JOINED
@@ -40,25 +40,25 @@ class NotTranslated:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class ProgrammedStretch:
+class RewrittenStretch:
     """A stretch's programmed elements, their lines in the program, its surface, and how it is run."""
 
-    shape: Programmed
+    shape: ProgrammedElements
     lines: tuple[int, ...]
     stretch: Stretch
-    terms: Terms
+    contour_pass: ContourPass
     surface: Path
 
-    def end(self, corner: Point, way: Point, blend: float, sense: int) -> End:
+    def end(self, corner: Point, way: Point, blend: float, sense: int) -> PathEnd:
         """The path's begin (`sense` 1) or its end (-1), with a quarter arc of radius `blend` or 0."""
         radius, off = self.stretch.radius, offset_point((0.0, 0.0), way, self.stretch.side.sign)
         at = beyond(beyond(corner, off, radius + blend), way, -sense * blend)
         if not blend:
-            return End(at, corner, way, off, 0.0)
-        return End(at, beyond(at, way, -sense * radius), way, off, blend)
+            return PathEnd(at, corner, way, off, 0.0)
+        return PathEnd(at, beyond(at, way, -sense * radius), way, off, blend)
 
 
-def programmed_stretch(source: Run, stretch: Stretch, tool: int) -> ProgrammedStretch | NotTranslated:
+def stretch_to_rewrite(source: ControlRun, stretch: Stretch, tool: int) -> RewrittenStretch | NotTranslated:
     """A stretch of a run, with a tool's number; or why it cannot be written for another control."""
     moves = stretch.programmed
     line = int(moves.lines[min(1, len(moves) - 1)])
@@ -74,10 +74,10 @@ def programmed_stretch(source: Run, stretch: Stretch, tool: int) -> ProgrammedSt
     if len(uneven):
         return NotTranslated(f"the tool axis moves under compensation at line {int(moves.lines[rows[uneven[0]]])}")
     whole = moves.part(int(rows[0]) - 1, int(rows[-1]) + 1).path()
-    shape = Programmed(tuple(map(element_of, whole)), tuple(map(float, range(1, len(rows) + 1))))
+    shape = ProgrammedElements(tuple(map(element_of, whole)), tuple(map(float, range(1, len(rows) + 1))))
     surface = whole.part(*contour_of(whole))
     lines = tuple(moves.lines[rows].tolist())
-    return ProgrammedStretch(shape, lines, stretch, _terms(source, stretch, rows, tool), surface)
+    return RewrittenStretch(shape, lines, stretch, _contour_pass(source, stretch, rows, tool), surface)
 
 
 def _surface_rows(stretch: Stretch) -> NDArray[np.intp]:
@@ -92,19 +92,19 @@ def _surface_rows(stretch: Stretch) -> NDArray[np.intp]:
     return rows.compress(moving)
 
 
-def _terms(source: Run, stretch: Stretch, rows: NDArray[np.intp], tool: int) -> Terms:
+def _contour_pass(source: ControlRun, stretch: Stretch, rows: NDArray[np.intp], tool: int) -> ContourPass:
     moves = stretch.programmed
     depth = float(moves.points[rows[0], 2])
     up = max(float(source.moves.points[:, 2].max()), depth + MIN_LIFT)
     given = [float(feed) or DEFAULT_FEED for feed in moves.feeds[rows].tolist()]
     feeds = dict(enumerate((given[0], *given, given[-1])))
-    return Terms(
+    return ContourPass(
         tool=tool, diameter=2 * stretch.radius, stock=0.0, speed=1000.0, feeds=feeds, plunge_feed=DEFAULT_FEED,
         travel=up, near=up, depth=depth, leave=up,
     )  # fmt: skip
 
 
-def led(source: ProgrammedStretch, style: IsoStyle, *, blends: bool) -> Led | NotTranslated:
+def with_leads(source: RewrittenStretch, style: IsoStyle, *, blends: bool) -> PassWithLeads | NotTranslated:
     """The stretch with the first leads that cut nothing, in a control's style; `blends`: with quarter arcs too."""
     stretch, radius, turn = source.stretch, source.stretch.radius, Turn(source.stretch.side.sign)
     shape = merged(source.shape) if style.merged else source.shape
@@ -116,11 +116,13 @@ def led(source: ProgrammedStretch, style: IsoStyle, *, blends: bool) -> Led | No
         leads = clear_leads(begin, finish, style, radius, surface, _blend(begin, turn, 1), _blend(finish, turn, -1))
         if not isinstance(leads, float):
             shape = with_blends(shape, begin, finish, radius, (0.0, max(shape.segments) + 1.0))
-            return Led(source.terms, stretch.side, shape, leads[0], begin.corner, leads[1], source.terms.tool)
+            return PassWithLeads(
+                source.contour_pass, stretch.side, shape, leads[0], begin.corner, leads[1], source.contour_pass.tool
+            )
     return NotTranslated(f"at line {source.lines[0]} there is no room for a straight move into the cut and out of it")
 
 
-def _blend(end: End, turn: Turn, sense: int) -> tuple[Piece, ...]:
+def _blend(end: PathEnd, turn: Turn, sense: int) -> tuple[Piece, ...]:
     """The quarter arc between a straight lead and the tool's path, at its begin (`sense` 1) or its end (-1)."""
     if not end.blend:
         return ()

@@ -1,6 +1,6 @@
-"""Chain: offset elements, each held until the next one is known and joined to it by the control's corner rules.
+"""Element queue: holds each offset element until the next one is known, and joins the two by the corner rules.
 
-`OneMoveQueue` is the chain as LinuxCNC runs it, and RosettaCNC's entry `normal` after it.
+`OneMoveQueue` is the queue as LinuxCNC runs it, and RosettaCNC's entry `normal` after it.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from math import hypot, tau
 from types import MappingProxyType
 from typing import Final
 
-from core.controls.compensation.corners import Element, element_sweep, fits, offset_end, runs_back, sweep
-from core.controls.compensation.joint import Corner, CornerRules, Inside, Joint, join
+from core.controls.compensation.corner_rules import Corner, CornerRules, Inside, Joint, join
+from core.controls.compensation.elements import Element, element_sweep, fits, offset_end, runs_back, sweep
 from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
 from core.controls.moves import Plane, Point3, flat, solid
@@ -20,7 +20,7 @@ from core.geometry.piece import Point, Side
 from core.units import Unit
 
 
-class Chain(Recorder):
+class ElementQueue(Recorder):
     """Offset elements being joined; `offset` is the tool radius in millimeters, positive with the tool on the left.
 
     `held` waits for the next element and starts at `start`; `standing` are moves across the plane that wait with it.
@@ -112,7 +112,7 @@ class AlarmCodes:
     arc_exit: str
 
 
-class OneMoveQueue(Chain):
+class OneMoveQueue(ElementQueue):
     """The queue of LinuxCNC: one move of the plane is held, with the moves of Z after it.
 
     The first move ends at its own offset point.  `first`: it is still to come.

@@ -1,4 +1,4 @@
-"""Translated contours: a run's contours written for a control of another language, so that both can be compared.
+"""Contour translation: a run's contours written for a control of another language, so that both can be compared.
 
 The contour is written with the side and the radius of the run, each stretch with a move into it and out of it that the
 other control allows; everything else of the program is left out.
@@ -12,14 +12,14 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.controls.control_run import Run, Stretch
+from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.registry import UnknownControl, run
+from core.controls.write.contour_pass import PassWithLeads, WrittenLine
 from core.controls.write.iso_program import Frame, tools_of, write
 from core.controls.write.iso_style import FREE_ENTRY, STYLES
 from core.controls.write.klartext_program import DECIMALS, write_led
-from core.controls.write.programmed_contour import Led, Line
-from core.controls.write.programmed_stretch import NotTranslated, ProgrammedStretch, led, programmed_stretch
+from core.controls.write.rewritten_stretch import NotTranslated, RewrittenStretch, stretch_to_rewrite, with_leads
 from core.units import to_mm
 
 MAX_TOOLS: Final = 24
@@ -27,20 +27,20 @@ MAX_TOOLS: Final = 24
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Translated:
+class TranslatedProgram:
     """The text for the other control; of each of its lines the program's line, 0 for none, and whether it only leads.
 
     `tools` is what the text counts on, `digit` its last decimal place in millimeters.
     """
 
-    lines: tuple[Line, ...]
+    lines: tuple[WrittenLine, ...]
     sources: tuple[int, ...]
     leads: tuple[bool, ...]
     tools: ToolTable
     digit: float
 
 
-def translated(source: Run, control: str) -> Translated | NotTranslated:
+def translate_contours(source: ControlRun, control: str) -> TranslatedProgram | NotTranslated:
     """The contours of a run as a program of a control by its full name, in the run's unit."""
     if not source.stretches:
         return NotTranslated("the program has no compensated contour")
@@ -48,13 +48,13 @@ def translated(source: Run, control: str) -> Translated | NotTranslated:
     if len(sizes) > MAX_TOOLS:
         return NotTranslated(f"its contours need more than {MAX_TOOLS} tools")
     style = STYLES.get(control)
-    programmed: list[ProgrammedStretch] = []
-    runs: list[Led] = []
+    programmed: list[RewrittenStretch] = []
+    runs: list[PassWithLeads] = []
     for stretch in source.stretches:
-        elements = programmed_stretch(source, stretch, sizes.index(stretch.radius) + 1)
+        elements = stretch_to_rewrite(source, stretch, sizes.index(stretch.radius) + 1)
         if isinstance(elements, NotTranslated):
             return elements
-        run_led = led(elements, style or FREE_ENTRY, blends=style is not None)
+        run_led = with_leads(elements, style or FREE_ENTRY, blends=style is not None)
         if isinstance(run_led, NotTranslated):
             return run_led
         programmed.append(elements)
@@ -62,18 +62,22 @@ def translated(source: Run, control: str) -> Translated | NotTranslated:
     return _written(source, control, programmed, runs)
 
 
-def _written(source: Run, control: str, programmed: list[ProgrammedStretch], runs: list[Led]) -> Translated:
+def _written(
+    source: ControlRun, control: str, programmed: list[RewrittenStretch], runs: list[PassWithLeads]
+) -> TranslatedProgram:
     style, unit = STYLES.get(control), source.unit
     if style is None:
         lines, tools, decimals = write_led(runs, unit), ToolTable(), DECIMALS[unit]
     else:
         lines, decimals = write(runs, style, Frame(unit)), style.digits(unit)
-        tools = tools_of([run_led.terms for run_led in runs], style)
+        tools = tools_of([run_led.contour_pass for run_led in runs], style)
     sources, leads = _sources(lines, programmed)
-    return Translated(lines, sources, leads, tools, to_mm(10.0**-decimals, unit))
+    return TranslatedProgram(lines, sources, leads, tools, to_mm(10.0**-decimals, unit))
 
 
-def _sources(lines: tuple[Line, ...], programmed: list[ProgrammedStretch]) -> tuple[tuple[int, ...], tuple[bool, ...]]:
+def _sources(
+    lines: tuple[WrittenLine, ...], programmed: list[RewrittenStretch]
+) -> tuple[tuple[int, ...], tuple[bool, ...]]:
     """Of each line the program's line, and whether it is a lead; a run ends with the line that leads out of it."""
     sources, leads = [], []
     at, inside = 0, False
@@ -91,12 +95,12 @@ def _sources(lines: tuple[Line, ...], programmed: list[ProgrammedStretch]) -> tu
     return tuple(sources), tuple(leads)
 
 
-def run_by_contour(source: Run, control: str) -> tuple[Run, float] | NotTranslated:
+def run_by_contour(source: ControlRun, control: str) -> tuple[ControlRun, float] | NotTranslated:
     """A run's contours on a control of another language, by the lines of the run; and their last decimal place.
 
     Moves of the leads, and everything that is not of a contour, have line 0.
     """
-    program = translated(source, control)
+    program = translate_contours(source, control)
     if isinstance(program, NotTranslated):
         return program
     text = "".join(f"{line.text}\n" for line in program.lines)
@@ -105,7 +109,7 @@ def run_by_contour(source: Run, control: str) -> tuple[Run, float] | NotTranslat
     return _by_source_lines(made, program), program.digit
 
 
-def _by_source_lines(made: Run, program: Translated) -> Run:
+def _by_source_lines(made: ControlRun, program: TranslatedProgram) -> ControlRun:
     """The run with the lines of the program that the contours are from."""
     sources, leads = np.array([0, *program.sources], np.int32), np.array([True, *program.leads])
     findings = tuple(
@@ -131,7 +135,7 @@ def _stretch(stretch: Stretch, sources: NDArray[np.int32], leads: NDArray[np.boo
     return replace(stretch, programmed=programmed, entry=entry, exit=last - end, led_in=True, led_out=True)
 
 
-def _source(program: Translated, line: int) -> int:
+def _source(program: TranslatedProgram, line: int) -> int:
     """The program's line that a line of the text is from or follows; the first one for what comes before all."""
     before = [source for source in program.sources[:line] if source]
     return before[-1] if before else next(source for source in program.sources if source)
