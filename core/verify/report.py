@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from math import isfinite, isinf
 from typing import Final
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from core.finding import Finding, Severity
 from core.geometry.path import Path
+from core.tolerance import GOUGE, STOCK
 from core.verify.contact import AirCut
 from core.verify.verdict import Gouge, Uncut, UnevenArc, Verdict
 
@@ -18,6 +19,9 @@ DIGIT: Final = 0.00254
 
 SHOWN: Final = DIGIT / 2.0
 """Lengths below this would be told as zeros."""
+
+MAX_NAMED: Final = 6
+"""Corners of one kind that are named; of the rest only the number is."""
 
 Names = Callable[[int, float], str]
 """The name of a move by its row in the judged path and by its number."""
@@ -55,7 +59,7 @@ def findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple
         *(_gouge(gouge, names, verdict.radius) for gouge in verdict.gouges),
         *_wrong_side(verdict),
         *_crossing(verdict),
-        *(_uncut(stretch, surface) for stretch in verdict.uncut),
+        *_uncut_findings(verdict, surface),
     )
 
 
@@ -84,7 +88,7 @@ def _air_cut(stretch: AirCut) -> Finding:
 def _unjudged(arc: UnevenArc | None) -> Finding:
     """Why nothing is known of the path."""
     if arc is None:
-        text = "Not judged: a coordinate or the tool radius is no number, or too large for any machine."
+        text = "Not judged: a coordinate or the tool radius is not a number, or too large for any machine."
         return Finding("UNJUDGED", Severity.ERROR, text)
     which = "segment" if arc.on_surface else "path of segment"
     if isfinite(arc.difference):
@@ -135,6 +139,56 @@ def _crossing(verdict: Verdict) -> tuple[Finding, ...]:
         return ()
     text = "The contour crosses itself at X {x} Y {y}."
     return (Finding("CROSSES_ITSELF", Severity.WARNING, text, at=verdict.crossing_at),)
+
+
+def _uncut_findings(verdict: Verdict, surface: Path) -> Iterator[Finding]:
+    """What stays uncut in the contour's order; equal inside corners sharper than the cutter are one finding."""
+    equal = {corners[0]: corners for corners in _equal_corners(verdict, surface)}
+    later = {row for corners in equal.values() for row in corners[1:]}
+    for row, stretch in enumerate(verdict.uncut):
+        if row in equal:
+            yield _corners(tuple(verdict.uncut[corner] for corner in equal[row]))
+        elif row not in later:
+            yield _uncut(stretch, surface)
+
+
+def _equal_corners(verdict: Verdict, surface: Path) -> list[list[int]]:
+    """Rows of the uncut stretches in corners of two lines that are sharper than the cutter, two or more of one kind.
+
+    A cutter of radius r leaves (r - f) (1 / cos(t / 2) - 1) where two lines turn by t about an arc of radius f, which
+    is 0 at a sharp corner.  A stretch of any other thickness is not left by its corner alone.
+    """
+    order, numbers, count = surface.numbers.argsort(), verdict.uncut.columns[:2], len(surface)
+    first, last = (order[np.searchsorted(surface.numbers, ends, sorter=order)] for ends in numbers)
+    between, middle, arcs = (last - first) % count - 1, (first + 1) % count, surface.turns != 0
+    corner = ~arcs[first] & ~arcs[last] & ((between == 0) | ((between == 1) & arcs[middle]))
+    cosines = (surface.end_directions[first] * surface.start_directions[last]).sum(axis=1)
+    roundings = np.where(between == 1, surface.radii[middle], 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        left = (verdict.radius - roundings) * (1.0 / np.sqrt((1.0 + cosines) / 2.0) - 1.0)
+    thickness = verdict.uncut.thickness
+    rows = np.flatnonzero(corner & (np.abs(thickness - left) <= STOCK))
+    rows = rows[thickness[rows].argsort(kind="stable")]
+    kinds = np.split(rows, np.flatnonzero(np.diff(thickness[rows]) > GOUGE) + 1)
+    return [sorted(kind.tolist()) for kind in kinds if len(kind) > 1]
+
+
+def _corners(corners: Sequence[Uncut]) -> Finding:
+    """Equal inside corners that are sharper than the cutter; the segment and the place are those of the first."""
+    named = ", ".join(f"{_number(corner.first_number)}-{_number(corner.last_number)}" for corner in corners[:MAX_NAMED])
+    more = f" and {len(corners) - MAX_NAMED} more" if len(corners) > MAX_NAMED else ""
+    areas = [corner.area for corner in corners if corner.area is not None]
+    thick = "{0}" if corners[0].thickness >= SHOWN else "less than {1}"
+    return Finding(
+        "UNCUT",
+        Severity.INFO,
+        f"{len(corners)} inside corners are sharper than the cutter: {thick} left in each, segments {named}{more}.",
+        segment=corners[0].first_number,
+        at=corners[0].thickest,
+        value=sum(corner.length for corner in corners),
+        lengths=(corners[0].thickness, DIGIT),
+        area=sum(areas) if len(areas) == len(corners) else None,
+    )
 
 
 def _uncut(uncut: Uncut, surface: Path) -> Finding:

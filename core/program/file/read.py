@@ -87,7 +87,7 @@ class _Table:
         value = self.data.get(key)
         if isinstance(value, str) and value.isprintable():
             return value
-        what = "is missing" if value is None else "must be a text in quotes on one line"
+        what = "is missing" if value is None else "must be text in quotes on one line"
         raise self.fault(key, f"{key} {what}.")
 
     def chosen(self, key: str, choices: type[Choice]) -> Choice:
@@ -153,7 +153,7 @@ def loads(text: str, file: str) -> Program:
     top = _Table(file, partial(key_lines, text), (), _parsed(text, file), Unit.IN)
     if "format" not in top.data:
         raise top.fault(
-            "format", f"format is missing, so this is no cutcomp program: those begin with format = {FORMAT}."
+            "format", f"format is missing, so this is not a cutcomp program: one begins with format = {FORMAT}."
         )
     top.only(("format", "units", "parameters", "setup", "tool", "block"))
     version = top.data.get("format")
@@ -252,7 +252,7 @@ def _tool(table: _Table) -> Tool:
     field = TABLES[Form.TOOL][0]
     if not isinstance(number, Number) or check(field, number.value, table.unit):
         raise table.fault(
-            "number", f"number {'is missing' if number is None else 'is no tool number'}: write 1 to 9999."
+            "number", f"number {'is missing' if number is None else 'is not a tool number'}: write 1 to 9999."
         )
     return Tool(int(number.value), table.text("type") if "type" in table.data else Tool(1).type, typed.get("diameter"))
 

@@ -236,7 +236,7 @@ def test_opening_one_says_what_it_is_and_advises_nothing(folder: Path) -> None:
     operator = at_start().press("f4").type("pyproject.toml")
     said = operator.session.said
     assert said is not None
-    assert "no cutcomp program" in said.text
+    assert "not a cutcomp program" in said.text
     assert "remove" not in said.text
 
 

@@ -76,18 +76,71 @@ def test_nothing_is_told_as_zeros() -> None:
         assert f"UNCUT less than {digit} thick, " in sentence(uncut, unit)
 
 
-def test_uncut_stretches_name_their_segments() -> None:
-    found = findings(judge(MID_SIDE, Side.LEFT, R, MID_SIDE_PATH), MID_SIDE)
-    assert [finding.code for finding in found] == ["UNCUT"] * 4
-    assert [finding.segment for finding in found] == [1, 2, 3, 4]
-    assert found[0].severity is Severity.INFO
-    assert found[0].value == pytest.approx(2 * R)
-    assert sentence(found[0], Unit.MM) == "UNCUT 0.104 thick, 0.500 long, segments 1-2 at X 2.000 Y 0.000."
-    assert found[0].area == pytest.approx(R * R * (1.0 - pi / 4.0), abs=1e-8)
+def test_equal_inside_corners_sharper_than_the_cutter_are_one_finding() -> None:
+    (found,) = findings(judge(MID_SIDE, Side.LEFT, R, MID_SIDE_PATH), MID_SIDE)
+    assert (found.code, found.severity, found.segment) == ("UNCUT", Severity.INFO, 1)
+    assert found.at == pytest.approx((2.0, 0.0))
+    assert found.value == pytest.approx(4 * 2 * R)
+    assert found.area == pytest.approx(4 * R * R * (1.0 - pi / 4.0), abs=1e-8)
+    assert sentence(found, Unit.MM) == (
+        "4 inside corners are sharper than the cutter: 0.104 left in each, segments 1-2, 2-3, 3-4, 4-5."
+    )
+
+
+def test_equal_inside_roundings_smaller_than_the_cutter_are_one_finding() -> None:
+    half, radius, turn = 5.0, 1.0, Turn.CCW
+    pieces: list[Piece] = [
+        Line((0, -half), (4, -half)),
+        Arc((4, -half), (half, -4), (4, -4), turn),
+        Line((half, -4), (half, 4)),
+        Arc((half, 4), (4, half), (4, 4), turn),
+        Line((4, half), (0, half)),
+    ]
+    surface, far = Path.from_pieces(pieces), half - 2 * radius
+    path = lines((0, -far), (far, -far), (far, far), (0, far))
+    (found,) = findings(judge(surface, Side.LEFT, 2 * radius, path), surface)
+    assert found.text.endswith("left in each, segments 1-3, 3-5.")
+    assert found.lengths[0] == pytest.approx(radius * (2**0.5 - 1.0))
+
+
+def test_every_corner_of_another_kind_is_a_finding_with_its_segments() -> None:
+    surface = lines((0, 0), (10, 0), (10, 10), (0, 5))
+    # one millimeter below the line y = 5 + x / 2
+    path = lines((0, 1), (9, 1), (9, 9.5 - 5**0.5 / 2), (0, 5.0 - 5**0.5 / 2))
+    found = findings(judge(surface, Side.LEFT, 1.0, path), surface)
+    assert [finding.text.partition(" at ")[0] for finding in found] == [
+        "UNCUT {0} thick, {value} long, segments 1-2",
+        "UNCUT {0} thick, {value} long, segments 2-3",
+    ]
+    assert found[0].value == pytest.approx(2.0)
+    assert sentence(found[0], Unit.MM) == "UNCUT 0.414 thick, 2.000 long, segments 1-2 at X 10.000 Y 0.000."
+
+
+def test_corners_left_by_more_than_their_angle_are_findings_each() -> None:
+    low, high, cut = R, 2.0 - R, 0.2
+    path = lines(
+        (1.0, low), (high - cut, low), (high, low + cut), (high, high - cut), (high - cut, high), (low + cut, high),
+        (low, high - cut), (low, low + cut), (low + cut, low), (1.0, low),
+    )  # fmt: skip
+    found = findings(judge(square(), Side.LEFT, R, path), square())
+    assert [finding.text.partition(" ")[0] for finding in found] == ["UNCUT"] * 4
+
+
+def test_only_the_first_of_many_equal_corners_are_named() -> None:
+    steps = [(0.0, 0.0)]
+    for step in range(8):
+        steps += [(step + 1.0, float(step)), (step + 1.0, step + 1.0)]
+    surface = lines(*steps)
+    path = lines(*((x - 0.1, y + 0.1) for x, y in steps))
+    (found,) = findings(judge(surface, Side.LEFT, 0.1, path), surface)
+    assert found.text == (
+        "8 inside corners are sharper than the cutter: {0} left in each, segments 1-2, 3-4, 5-6, 7-8, 9-10, 11-12 "
+        "and 2 more."
+    )
 
 
 def test_a_stretch_over_start_says_so() -> None:
-    path = lines((R, R), (1.75, R), (1.75, 1.75), (R, 1.75), (R, R))
+    path = lines((R, R), (1.5, R), (1.5, 1.5), (R, 1.5), (R, R))
     (*_, last) = findings(judge(square(), Side.LEFT, R, path), square())
     assert "segments 4 and over START to 1 at" in last.text
 
