@@ -22,6 +22,8 @@ from core.units import Unit, from_mm
 
 BAR: Final = 0.3
 """The scale bar's largest part of the window's width."""
+LABEL_DISTANCE: Final = 2.5
+"""How far a label stands from its point, in cells' widths."""
 LEAST_COLUMNS: Final = 16
 LEAST_ROWS: Final = 3
 """Smaller windows have no scale bar and no names of axes."""
@@ -45,6 +47,7 @@ def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
             _name_axes(sheet, view)
         if scene.unit is not None:
             _write(sheet, rows - 1, scale_bar(view.scale, columns, scene.unit, look.bar), Style.SCALE)
+    _write_labels(sheet, scene, view)
     positions = view.cells([mark.at for mark in scene.marks], columns, rows)
     for (column, row), (_, style, symbol, direction) in zip(positions, scene.marks, strict=True):
         # what is not a number is in no cell
@@ -52,6 +55,19 @@ def write_signs(sheet: CellSheet, scene: Scene, view: View, mode: Mode) -> None:
             here, arrowed = int(row) * columns + int(column), symbol is Symbol.ARROW
             sheet.characters[here] = arrow(direction, look.arrows) if arrowed else look.symbols[symbol]
             sheet.styles[here] = style
+
+
+def _write_labels(sheet: CellSheet, scene: Scene, view: View) -> None:
+    """Labels whose cells hold nothing else."""
+    for (x, y), text, (right, up), style in scene.labels:
+        reach = view.scale * LABEL_DISTANCE
+        column, row = view.cell((x + right * reach, y + up * reach), sheet.columns, sheet.rows)
+        column -= (len(text) - 1) / 2
+        if not (0 <= column <= sheet.columns - len(text) and 0 <= row < sheet.rows):
+            continue
+        first = int(row) * sheet.columns + int(column)
+        if all(sheet.styles[cell] in (Style.BACKGROUND, Style.AXIS) for cell in range(first, first + len(text))):
+            _write(sheet, int(row), text, style, int(column))
 
 
 def scale_bar(scale: float, columns: int, unit: Unit, ends: str) -> str:
@@ -128,6 +144,11 @@ class Cells:
     def dot(self) -> tuple[float, float]:
         """A dot's width and height in cells' widths."""
         return 1.0 / self.across, TALL / self.down
+
+    @property
+    def fine(self) -> bool:
+        """Dots are fine enough for dotted and for thick lines."""
+        return self.faint is None
 
     @property
     def by_dot(self) -> bool:

@@ -120,15 +120,16 @@ def _within(points: Points) -> Flags:
 
 
 def _traveled(layer: Layer) -> Floats:
-    """(n,) millimeters from its path's start to each piece of a dashed layer.
-
-    Where only parts of a path are drawn each piece's dashes begin with it.
-    """
-    if not layer.dashed or layer.drawn is not None:
+    """(n,) millimeters to each piece of a dashed layer from where its path, or the part of it that is drawn, begins."""
+    if not layer.dashed:
         return np.zeros(len(layer.path))
     lengths = layer.path.lengths
     traveled: Floats = np.cumsum(lengths) - lengths
-    return traveled
+    if layer.drawn is None:
+        return traveled
+    begins = layer.drawn & ~np.concatenate(([False], layer.drawn[:-1]))
+    latest = np.maximum.accumulate(np.where(begins, np.arange(len(begins)), 0))
+    return traveled - traveled[latest]
 
 
 def _divided(arcs: _Pieces, reach: float) -> Chords:

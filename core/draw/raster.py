@@ -12,9 +12,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from core.draw.areas import inside
 from core.draw.characters import Cells, CellSheet, Mode, cells, write_signs
 from core.draw.chords import Chords, Rows, chords
-from core.draw.scene import BEYOND, Layer, Scene, Style
+from core.draw.scene import BEYOND, Area, Layer, Scene, Style
 from core.draw.view import TALL, View
 from core.geometry.path import Floats, Points
 
@@ -26,7 +27,13 @@ NUDGE: Final = 1e-6
 FAINT: Final = (Style.AXIS, Style.PATH, Style.LEAD, Style.RAPID)
 """Roles that do not make a cell one of the surface."""
 STRUCK: Final = "#"
-"""The character of cells with deleted surface: without colors a line there would be one that is merely uncut."""
+"""The character of cells with deleted surface where dots are too coarse for a dotted line."""
+DOTTED: Final = (1.0, 0.4)
+"""The period and the lit part of the dotted line of deleted surface, in cells' widths."""
+THICK: Final = (Style.UNCUT, Style.CURRENT)
+"""Roles drawn two dots thick."""
+SHADES: Final = {Style.GOUGE_AREA: ":", Style.UNCUT_AREA: "."}
+"""The character of a shaded cell where a cell has one dot."""
 PHASE: Final = 0.25
 """Where in its period an axis begins at the window's edge: away from where rounding could decide."""
 
@@ -55,13 +62,19 @@ def draw(scene: Scene, view: View, columns: int, rows: int, mode: Mode) -> Pictu
     look = cells(mode)
     layers = scene.outlined
     axes = _axes(view, look, columns, rows) if scene.axes else NO_AXES
-    visible = _clipped(chords(layers, view, columns, rows), columns / 2, rows * TALL / 2)
-    lit, styles, strong, struck = _light(visible, layers, axes, look, columns, rows)
+    drawn = _thickened(chords(layers, view, columns, rows), layers, look)
+    visible = _clipped(drawn, columns / 2, rows * TALL / 2)
+    shades = [(area.style, _shaded(area, view, look, columns, rows)) for area in scene.areas]
+    lit, styles, strong, struck = _light(visible, layers, axes, shades, look, columns, rows)
     codes = np.packbits(lit, bitorder="little")
     characters = look.table[codes]
     if look.faint is not None:
         characters = np.where(strong | (styles == Style.AXIS.value), characters, look.faint[codes])
     characters[struck] = STRUCK
+    if not look.by_dot:
+        for style, dots in shades:
+            shaded = dots >> 3
+            characters[shaded[codes[shaded] == 0]] = SHADES[style]
     sheet = CellSheet(columns, rows, characters.tolist(), bytearray(styles))
     write_signs(sheet, scene, view, mode)
     text = "".join(sheet.characters)
@@ -136,28 +149,65 @@ def _between(start: Floats, step: Floats, limit: float) -> tuple[Floats, Floats]
     return low, high
 
 
+def _thickened(lines: Chords, layers: Sequence[Layer], look: Cells) -> Chords:
+    """The chords, those of thick roles once more a dot to the right and a dot down."""
+    if not look.fine:
+        return lines
+    thick = np.array([layer.style in THICK for layer in layers], np.bool_)
+    again = lines.only(thick[lines.layers].nonzero()[0]) if len(layers) else lines
+    wide, high = look.dot
+    starts = np.concatenate([lines.starts, again.starts + wide, again.starts - 1j * high])
+    runs, owners, along = (
+        np.concatenate([first, second, second])
+        for first, second in ((lines.runs, again.runs), (lines.layers, again.layers), (lines.along, again.along))
+    )
+    return Chords(starts, runs, owners, along).only(owners.argsort(kind="stable"))
+
+
+def _shaded(area: Area, view: View, look: Cells, columns: int, rows: int) -> Rows:
+    """The bits of the dots in an area: every other one of a gouge, every fourth of what is left uncut."""
+    (wide, high), dense = look.dot, area.style is Style.GOUGE_AREA
+    down, across = np.divmod(np.arange(rows * look.down * columns * look.across), columns * look.across)
+    spread = (down + across) % (2 if look.by_dot else 1) == 0
+    if look.fine and not dense:
+        spread = (across % 2 == 0) & ((down + across // 2) % 2 == 0)
+    (x, y), half_width, half_height = view.center, columns / 2, rows * TALL / 2
+    along = x + ((across[spread] + 0.5) * wide - half_width) * view.scale
+    up = y + (half_height - (down[spread] + 0.5) * high) * view.scale
+    bits: Rows = _bits(look, columns, rows)[spread][inside(area.region, along, up)]
+    return bits
+
+
 def _light(
-    lines: Chords, layers: Sequence[Layer], axes: Rows, look: Cells, columns: int, rows: int
+    lines: Chords,
+    layers: Sequence[Layer],
+    axes: Rows,
+    shades: Sequence[tuple[Style, Rows]],
+    look: Cells,
+    columns: int,
+    rows: int,
 ) -> tuple[Bits, Styles, Bits | None, Rows]:
     """Bits lit (rows x columns x 8,), styles (rows x columns,), which cells more than center paths are in where that is
-    asked for, and cells that have deleted surface.  The bits of the `axes` lie under all layers."""
+    asked for, and cells that have deleted surface.  The bits of the `axes` and shades lie under all layers."""
     chord, part, bits = _dots(lines, look, columns, rows)
     # the last style is no layer's: there may be no layers
     roles = np.frombuffer(bytes((*(layer.style for layer in layers), Style.AXIS)), np.uint8)
     role = roles[lines.layers][chord]
-    dashed = [layer.dashed and layer.style is not Style.DELETED for layer in layers]
+    dashed = [layer.dashed and (look.fine or layer.style is not Style.DELETED) for layer in layers]
     if any(dashed):
-        on_dash = _dashes(lines, np.array(dashed)[lines.layers][chord].nonzero()[0], chord, part)
+        on_dash = _dashes(lines, np.array(dashed)[lines.layers][chord].nonzero()[0], chord, part, role)
         bits, role = bits[on_dash], role[on_dash]
     cell = bits >> 3
     lit, styles = np.zeros(rows * columns * 8, np.bool_), np.zeros(rows * columns, np.uint8)
     lit[axes], styles[axes >> 3] = True, Style.AXIS
+    for style, dots in shades:
+        lit[dots], styles[dots >> 3] = look.by_dot, style
     lit[bits], styles[cell] = True, role
     strong = None
     if look.faint is not None:
         strong = np.zeros(rows * columns, np.bool_)
         strong[cell[~np.isin(role, FAINT)]] = True
-    return lit, styles, strong, cell[role == Style.DELETED.value]
+    return lit, styles, strong, cell[role == Style.DELETED.value] if not look.fine else NO_AXES
 
 
 def _bits(look: Cells, columns: int, rows: int) -> Rows:
@@ -186,12 +236,14 @@ def _dots(lines: Chords, look: Cells, columns: int, rows: int) -> tuple[Rows, Fl
     return chord, part, _bits(look, columns, rows)[dot] if look.by_dot else dot * 8 + _slants(lines)[chord]
 
 
-def _dashes(lines: Chords, rows: Rows, chord: Rows, part: Floats) -> Bits:
+def _dashes(lines: Chords, rows: Rows, chord: Rows, part: Floats, role: Styles) -> Bits:
     """Which dots (m,) are lit: all of a whole line, part of each period of a dashed one, which has the dots `rows`."""
     lit_dots = np.ones(len(chord), np.bool_)
     owners = chord[rows]
     along = lines.along[owners] + part[rows] * np.abs(lines.runs[owners])
-    lit_dots[rows] = np.mod(along, DASH[0]) < DASH[1]
+    dotted = role[rows] == Style.DELETED.value
+    period, lit = (np.where(dotted, fine, coarse) for fine, coarse in zip(DOTTED, DASH, strict=True))
+    lit_dots[rows] = np.mod(along, period) < lit
     return lit_dots
 
 

@@ -1,6 +1,7 @@
 """Scene: what is to be drawn, as paths, circles and marks with the role each plays, in millimeters, before any screen.
 
-Later layers win a cell's style, circles win over layers, marks over circles; dots once lit stay lit.
+Later layers win a cell's style over areas and over layers before them, circles win over layers, marks over circles;
+labels stand only where nothing else is; dots once lit stay lit.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely.geometry.base import BaseGeometry
 
 from core.geometry.path import EMPTY, Floats, Path
 from core.geometry.piece import Line, Piece, Point
@@ -42,6 +44,9 @@ class Style(IntEnum):
     CURRENT = 11
     SCALE = 12
     MESSAGE = 13
+    NUMBER = 14
+    GOUGE_AREA = 15
+    UNCUT_AREA = 16
 
 
 class Symbol(Enum):
@@ -90,6 +95,22 @@ class Mark(NamedTuple):
     direction: Point = (1.0, 0.0)
 
 
+class Area(NamedTuple):
+    """A region in millimeters to shade with dots: densely where it is gouged, sparsely where it is left uncut."""
+
+    region: BaseGeometry
+    style: Style
+
+
+class Label(NamedTuple):
+    """A short text at a little distance from a point, in the direction `away`."""
+
+    at: Point
+    text: str
+    away: Point
+    style: Style = Style.NUMBER
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Scene:
     """Everything to draw.  `unit` is that of the scale bar, None for none; `axes` shows the program's X and Y axis."""
@@ -99,6 +120,8 @@ class Scene:
     marks: tuple[Mark, ...] = ()
     unit: Unit | None = None
     axes: bool = True
+    areas: tuple[Area, ...] = ()
+    labels: tuple[Label, ...] = ()
 
     @property
     def outlined(self) -> tuple[Layer, ...]:
@@ -147,6 +170,8 @@ def joined_scenes(scenes: Sequence[Scene]) -> Scene:
         tuple(mark for scene in scenes for mark in scene.marks),
         scenes[0].unit if scenes else None,
         scenes[0].axes if scenes else True,
+        tuple(area for scene in scenes for area in scene.areas),
+        tuple(label for scene in scenes for label in scene.labels),
     )
 
 
@@ -176,20 +201,27 @@ def contour_scene(
     meet; `gouges` the spots cut into; `uncut` stretches of the surface; `cutter` (center, radius); `current` the
     segment under the cursor; `start` the contour's START.
     """
+    stays = ~np.isin(surface.numbers, deleted.path.numbers[deleted.in_part])
     layers = (
         *_parts(sketches, Style.SURFACE, dashed=True),
-        *_layers((surface,), Style.SURFACE),
+        *_parts(Parts(surface, stays), Style.SURFACE),
         *_layers(rough, Style.RAPID, dashed=True),
         *_layers(leads, Style.LEAD),
         *_parts(over_run, Style.LEAD),
         *_layers((path, *further), Style.PATH),
-        *_parts(uncut, Style.UNCUT),
+        *_parts(_without(uncut, deleted), Style.UNCUT),
         *_parts(deleted, Style.DELETED, dashed=True),
         *_layers((current or EMPTY,), Style.CURRENT),
     )
     travel = (*_travel(path if len(path) else surface), *_plunge(leads, path))
     marks = (*travel, *_trouble(start, meetings, gouges))
     return Scene(layers, () if cutter is None else (Circle(*cutter),), marks, unit)
+
+
+def _without(parts: Parts, deleted: Parts) -> Parts:
+    """The parts but for deleted segments: these have a line of their own."""
+    gone = np.isin(parts.path.numbers, deleted.path.numbers[deleted.in_part])
+    return Parts(parts.path, parts.in_part & ~gone)
 
 
 def _trouble(start: Point | None, meetings: Sequence[Point], gouges: Sequence[Point]) -> list[Mark]:
@@ -218,16 +250,15 @@ def _travel(path: Path) -> Iterator[Mark]:
     """An arrow in the middle of the path's first piece with a length."""
     first = next((piece for piece in path if piece.length > 0.0), None)
     if first is not None:
-        at, along = _middle(first)
-        yield Mark(at, Style.START, Symbol.ARROW, along)
+        yield Mark(first.point_at(0.5), Style.START, Symbol.ARROW, direction_at_middle(first))
 
 
-def _middle(piece: Piece) -> tuple[Point, Point]:
-    """The middle of a piece and the direction of travel there."""
-    x, y = piece.point_at(0.5)
+def direction_at_middle(piece: Piece) -> Point:
+    """The direction of travel in the middle of a piece, of any length."""
     if isinstance(piece, Line):
-        return (x, y), (piece.end[0] - piece.start[0], piece.end[1] - piece.start[1])
-    return (x, y), ((piece.center[1] - y) * int(piece.turn), (x - piece.center[0]) * int(piece.turn))
+        return piece.end[0] - piece.start[0], piece.end[1] - piece.start[1]
+    x, y = piece.point_at(0.5)
+    return (piece.center[1] - y) * int(piece.turn), (x - piece.center[0]) * int(piece.turn)
 
 
 def _plunge(leads: Sequence[Path], path: Path) -> Iterator[Mark]:

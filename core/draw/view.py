@@ -17,6 +17,8 @@ TALL: Final = 2.0
 """A cell's height over its width."""
 FINEST: Final = 1e-7
 COARSEST: Final = 1e8
+BEYOND_PART: Final = 1 / 7
+"""Part of a window that may lie beyond the part at each side."""
 MARGIN: Final = 0.04
 """Part of the window left free on each side by `fit`."""
 
@@ -49,6 +51,15 @@ class View:
         x, y = self.center
         return View((x + dx * columns * self.scale, y + dy * rows * TALL * self.scale), self.scale)
 
+    def over(self, point: Point, bounds: Box, columns: int, rows: int) -> View:
+        """The view moved over a point (mm), but no farther beyond `bounds` than a seventh of the window."""
+        half = columns * self.scale / 2, rows * TALL * self.scale / 2
+        x, y = (
+            _slid(value, low, high, room)
+            for value, low, high, room in zip(point, bounds[:2], bounds[2:], half, strict=True)
+        )
+        return View((x, y), self.scale)
+
     def at(self, column: float, row: float, columns: int, rows: int) -> Point:
         """The point (mm) at a place in the window: (0, 0) is its top left, (0.5, 0.5) the first cell's middle."""
         x, y = self.center
@@ -62,6 +73,12 @@ class View:
         """The same of several points."""
         (x, y), wide, high, half_width, half_height = self.center, self.scale, TALL * self.scale, columns / 2, rows / 2
         return [((px - x) / wide + half_width, (y - py) / high + half_height) for px, py in points]
+
+
+def _slid(value: float, low: float, high: float, room: float) -> float:
+    """A window's middle, `room` from its edges, so that it shows little of what is beyond low and high."""
+    first, last = low + room * (1.0 - 2.0 * BEYOND_PART), high - room * (1.0 - 2.0 * BEYOND_PART)
+    return min(max(value, min(first, last)), max(first, last))
 
 
 def _held(scale: float) -> float:

@@ -50,6 +50,9 @@ PENS: Final[Mapping[Style, Pen]] = MappingProxyType(
         Style.CURRENT: Pen("#d18b00", 3.0, "current segment"),
         Style.SCALE: Pen("#1b1f23", 1.2, "scale"),
         Style.MESSAGE: Pen("#1b1f23", 1.0, "message"),
+        Style.NUMBER: Pen("#1b1f23", 1.0, "segment number"),
+        Style.GOUGE_AREA: Pen("#c4001a", 0.0, "gouged"),
+        Style.UNCUT_AREA: Pen("#8a2be2", 0.0, "left uncut"),
         Style.BACKGROUND: Pen("#ffffff", 1.0, "background"),
     }
 )

@@ -3,23 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import NamedTuple
+from math import hypot
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from core.advice.block_paths import BlockPaths, Loop
 from core.advice.lookahead_table import Row
 from core.comp.result import Compensated
-from core.draw.scene import Scene, contour_scene, joined_scenes
+from core.draw.areas import gouged, material, uncut
+from core.draw.characters import Mode, cells, scale_bar
+from core.draw.raster import Picture, draw
+from core.draw.scene import (
+    Area,
+    Box,
+    Label,
+    Mark,
+    Scene,
+    Style,
+    contour_scene,
+    direction_at_middle,
+    joined_scenes,
+)
+from core.draw.view import TALL, View
 from core.geometry.path import EMPTY, Floats, Path, as_complex
-from core.geometry.piece import Line, Piece, Point
+from core.geometry.piece import Line, Piece, Point, Side
 from core.geometry.stretch import NO_PARTS, Ends, Parts, pieces_joined, stretches
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock
 from core.tolerance import JOINED
 from core.units import Unit
 from core.verify.verdict import Verdict
+
+DRAWN_AGAIN: Final = frozenset({Style.UNCUT, Style.GOUGE})
+"""Roles of layers that are parts of the surface: they cannot widen what spans the drawing."""
+OF_SURFACE: Final = frozenset({Style.SURFACE, Style.UNCUT, Style.DELETED, Style.CURRENT})
+"""Roles of the surface and its faults."""
+LOUPE: Final = 4.6
+"""Radii of the tool that a loupe is high."""
+FEWEST_DOTS: Final = 2.6
+"""Dots of the tool's radius from which on the tool's path is drawn beside the surface."""
+FEWEST_DOTS_FOR_NUMBERS: Final = 3.0
+"""The same for the numbers of segments."""
+NARROW: Final = 44
+"""In a drawing of no more columns numbers of segments would crowd."""
 
 
 def svg_of(derived: Derived, *, title: str) -> str:
@@ -55,6 +84,103 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         current=_current(block, segment),
         start=solved.segments[0].start if solved.segments else None,
     )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Subject:
+    """What of a block a drawing shows; points and lengths in millimeters.
+
+    `segment` is the one with the cursor (0 is START, None none), `row` a row of the look-ahead table that is drawn in
+    place of the path in force.  `near` is the middle of a loupe, None shows the whole part; `view` shows neither, but
+    what somebody zoomed to.  An `outline` shows the surface alone, with the number of each place of `trouble`.
+    """
+
+    block: DerivedBlock
+    unit: Unit
+    segment: int | None = None
+    row: Row | None = None
+    near: Point | None = None
+    view: View | None = None
+    outline: bool = False
+    trouble: tuple[Mark, ...] = ()
+
+
+class Drawn(NamedTuple):
+    """A picture of a block, the view it shows, and a scale bar in program units to stand in its frame."""
+
+    picture: Picture
+    view: View
+    scale_bar: str
+
+
+def drawn(subject: Subject, columns: int, rows: int, mode: Mode) -> Drawn | None:
+    """The picture of a subject in columns x rows cells; None where there is nothing to be seen."""
+    scene = replace(block_scene(subject.block, subject.segment, subject.unit, subject.row), unit=None)
+    scene = _outlined(scene, subject) if subject.outline else replace(scene, axes=subject.near is None)
+    bounds = scene.extent(without=DRAWN_AGAIN)
+    if bounds is None or columns < 1 or rows < 1:
+        return None
+    view, look = _view_of(subject, bounds, columns, rows), cells(mode)
+    dot = view.scale * look.dot[0]
+    dots = (subject.block.radius or 0.0) / dot
+    if dots < FEWEST_DOTS:
+        scene = _outlined(scene, subject)
+    elif not subject.outline:
+        labels = _segment_labels(subject.block) if dots >= FEWEST_DOTS_FOR_NUMBERS and columns > NARROW else ()
+        scene = replace(scene, areas=_areas(subject, dot), labels=labels)
+    picture = draw(scene, view, columns, rows, mode)
+    return Drawn(picture, view, scale_bar(view.scale, columns, subject.unit, look.bar))
+
+
+def _view_of(subject: Subject, bounds: Box, columns: int, rows: int) -> View:
+    if subject.view is not None:
+        return subject.view
+    whole = View.fit(bounds, columns, rows)
+    if subject.near is None or not subject.block.radius:
+        return whole
+    loupe = View(subject.near, LOUPE * subject.block.radius / (rows * TALL))
+    return whole if loupe.scale >= whole.scale else loupe.over(subject.near, bounds, columns, rows)
+
+
+def _outlined(scene: Scene, subject: Subject) -> Scene:
+    """The surface and what is wrong with it: where the cutter is a few dots wide, the rest would be one blob."""
+    layers = tuple(layer for layer in scene.layers if layer.style in OF_SURFACE)
+    if subject.outline:
+        return Scene(layers, marks=subject.trouble, axes=False)
+    marks = tuple(mark for mark in scene.marks if mark.style in (Style.GOUGE, Style.DELETED, Style.START))
+    return Scene(layers, marks=(*marks, *subject.trouble), axes=scene.axes)
+
+
+def _areas(subject: Subject, dot: float) -> tuple[Area, ...]:
+    """What is gouged and what is left uncut, as regions; with dots of this width (mm) on a screen."""
+    block, work = subject.block, subject.block.work
+    if work is None or block.radius is None or block.side is None:
+        return ()
+    verdict = work.verdict if subject.row is None else subject.row.verdict
+    paths = [loop.whole for loop in work.loops] if subject.row is None else [subject.row.compensated.whole]
+    if verdict is None or not (verdict.gouges or len(verdict.uncut)):
+        return ()
+    part = material(work.surface, block.side, block.radius, closed=block.solved.closed, sag=dot / 2)
+    found = []
+    if len(verdict.uncut):
+        stretch = stretches(work.surface, verdict.uncut.ends).paths
+        thick = verdict.uncut.thickness.tolist()
+        if len(stretch) == len(thick):
+            found.append(Area(uncut(part, stretch, thick, paths, block.radius, dot / 2), Style.UNCUT_AREA))
+    if verdict.gouges:
+        found.append(Area(gouged(part, paths, block.radius, dot), Style.GOUGE_AREA))
+    return tuple(found)
+
+
+def _segment_labels(block: DerivedBlock) -> tuple[Label, ...]:
+    """The numbers of the segments, on the part's side of their middles."""
+    labels = []
+    for number, segment in enumerate(block.solved.segments, 1):
+        if segment.piece is not None and segment.piece.length > 0.0:
+            at, (x, y) = segment.piece.point_at(0.5), direction_at_middle(segment.piece)
+            size = hypot(x, y) * (1.0 if block.side is Side.RIGHT else -1.0)
+            labels.append(Label(at, str(number), (-y / size, x / size)))
+    return tuple(labels)
 
 
 def _over_run(surface: Path, verdict: Verdict) -> Parts:

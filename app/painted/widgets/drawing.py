@@ -20,7 +20,7 @@ from core.geometry.piece import Point
 
 ROOM_FOR_SCALE: Final = 10
 """In fewer rows the scale bar would cover the part."""
-AGAIN: Final = frozenset({Style.UNCUT, Style.DELETED, Style.GOUGE})
+AGAIN: Final = frozenset({Style.UNCUT, Style.GOUGE})
 """Roles of layers that are parts of the surface."""
 LOOKS: Final = {
     Style.BACKGROUND: Look.PLAIN,
@@ -37,6 +37,9 @@ LOOKS: Final = {
     Style.CURRENT: Look.CURRENT,
     Style.SCALE: Look.SCALE,
     Style.MESSAGE: Look.DIM,
+    Style.NUMBER: Look.LABEL,
+    Style.GOUGE_AREA: Look.GOUGE,
+    Style.UNCUT_AREA: Look.UNCUT,
 }
 """The look of each role of the drawing."""
 BY_STYLE: Final = tuple(LOOKS[style] for style in Style)

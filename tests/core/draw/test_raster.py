@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapely.geometry import box
 
 from core.draw.characters import Mode
 from core.draw.raster import draw
-from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol
+from core.draw.scene import Area, Circle, Label, Layer, Mark, Scene, Style, Symbol
 from core.draw.view import View
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Point, Turn
@@ -141,7 +142,16 @@ def test_the_surface_shows_where_a_center_path_runs_in_its_cells(mode, surface):
     assert set(both.styles[0].tolist()) == {Style.PATH}
 
 
-@pytest.mark.parametrize("mode", list(Mode))
+def test_deleted_surface_is_a_dotted_line_where_dots_are_fine():
+    gone = Layer(lines((-4, 1.5), (4, 1.5)), Style.DELETED, dashed=True)
+    whole = Layer(gone.path, Style.SURFACE)
+    dotted, line = (draw(Scene((layer,), axes=False), VIEW, 8, 2, Mode.BRAILLE).rows[0] for layer in (gone, whole))
+    lit = [sum((ord(cell) - 0x2800).bit_count() for cell in row if cell != " ") for row in (dotted, line)]
+    assert 0 < lit[0] <= 0.6 * lit[1]
+    assert " " not in dotted
+
+
+@pytest.mark.parametrize("mode", [Mode.BLOCK, Mode.ASCII])
 def test_deleted_surface_has_a_character_of_its_own_whatever_lies_over_it(mode):
     along = lines((-4, 1.5), (4, 1.5))
     gone = Layer(lines((-2, 1.5), (2, 1.5)), Style.DELETED, dashed=True)
@@ -153,6 +163,38 @@ def test_deleted_surface_has_a_character_of_its_own_whatever_lies_over_it(mode):
     over = draw(Scene((surface, gone, current), axes=False), VIEW, 8, 2, mode)
     assert over.rows[0].count("#") == picture.rows[0].count("#")
     assert set(over.styles[0].tolist()) == {Style.CURRENT}
+
+
+@pytest.mark.parametrize("mode", list(Mode))
+@pytest.mark.parametrize(("style", "part"), [(Style.GOUGE_AREA, 1 / 2), (Style.UNCUT_AREA, 1 / 4)])
+def test_an_area_is_shaded_within_its_region_and_under_every_line(mode, style, part):
+    region = box(-2.0, -2.0, 2.0, 2.0)
+    picture = draw(Scene(areas=(Area(region, style),), axes=False), VIEW, 8, 4, mode)
+    shaded = [[cell != " " for cell in row] for row in picture.rows]
+    assert shaded == [[2 <= column < 6 and 1 <= row < 3 for column in range(8)] for row in range(4)]
+    assert set(picture.styles[1:3, 2:6].ravel().tolist()) == {style}
+    if mode is Mode.BRAILLE:
+        dots = sum((ord(cell) - 0x2800).bit_count() for row in picture.rows for cell in row if cell != " ")
+        assert dots == 8 * 8 * part
+    wall = Layer(lines((-4, 0.5), (4, 0.5)), Style.SURFACE)
+    assert set(draw(Scene((wall,), areas=(Area(region, style),), axes=False), VIEW, 8, 4, mode).styles[1].tolist()) == {
+        Style.SURFACE
+    }
+
+
+def test_an_uncut_wall_is_two_dots_thick():
+    lit = []
+    for style in (Style.SURFACE, Style.UNCUT):
+        text = "".join(rows(only(lines((-4, 0.1), (4, 0.1)), style), VIEW, 10, 2, Mode.BRAILLE)).replace(" ", "")
+        lit.append(sum((ord(cell) - 0x2800).bit_count() for cell in text))
+    assert lit[1] >= 1.8 * lit[0]
+
+
+def test_a_label_stands_beside_its_point_and_never_on_a_line():
+    label = Label((0.0, 0.0), "12", (0.0, 1.0))
+    assert rows(Scene(labels=(label,), axes=False), VIEW, 8, 6, Mode.ASCII)[1] == "   12   "
+    wall = Layer(lines((-4, 2.5), (4, 2.5)), Style.SURFACE)
+    assert "12" not in "".join(rows(Scene((wall,), labels=(label,), axes=False), VIEW, 8, 6, Mode.ASCII))
 
 
 def test_a_dashed_line_has_gaps():

@@ -1,0 +1,193 @@
+"""Drawing: a widget that shows a block's contour, paths and faults in character cells.
+
+Looks are component classes, so colors stand in the style sheet.  The scale bar stands in the frame, where it covers
+nothing of the part.  The picture is made in a worker: a key never waits for it.
+"""
+
+from __future__ import annotations
+
+from itertools import groupby
+from typing import TYPE_CHECKING, ClassVar, Final
+
+from rich.segment import Segment
+from textual import events, work
+from textual.geometry import Region
+from textual.message import Message
+from textual.reactive import reactive
+from textual.strip import Strip
+from textual.widget import Widget
+
+if TYPE_CHECKING:
+    from core.geometry.piece import Point
+    from core.pipeline.plot import Drawn, Subject
+
+ROLES: Final = (
+    "background",
+    "axis",
+    "part",
+    "path",
+    "lead",
+    "rough",
+    "deleted",
+    "gouge",
+    "uncut",
+    "cutter",
+    "start",
+    "current",
+    "scale",
+    "message",
+    "number",
+    "gouge-area",
+    "uncut-area",
+)
+"""The role of each of core's drawing styles, in their order; its looks are those of the class `drawing--ROLE`."""
+
+
+class Drawing(Widget):
+    """A picture of its `subject` with `characters` braille, block or ascii; `heading` stands in its upper frame."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {f"drawing--{role}" for role in ROLES}
+
+    subject: reactive[Subject | None] = reactive(None, repaint=False)
+    characters: reactive[str] = reactive("braille", repaint=False)
+    heading: reactive[str] = reactive("", repaint=False)
+
+    class Picked(Message):
+        """A place of the drawing was clicked: its point in millimeters."""
+
+        def __init__(self, drawing: Drawing, at: Point) -> None:
+            super().__init__()
+            self.drawing, self.at = drawing, at
+
+        @property
+        def control(self) -> Drawing:
+            """The drawing."""
+            return self.drawing
+
+    class Wheel(Message):
+        """The wheel was turned: `steps` is 1 to enlarge, -1 to shrink."""
+
+        def __init__(self, drawing: Drawing, steps: int) -> None:
+            super().__init__()
+            self.drawing, self.steps = drawing, steps
+
+        @property
+        def control(self) -> Drawing:
+            """The drawing."""
+            return self.drawing
+
+    def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
+        super().__init__(id=id, classes=classes)
+        self.drawn: Drawn | None = None
+        self._strips: list[Strip] = []
+        self._made: tuple[object, ...] = ()
+
+    def watch_subject(self) -> None:
+        """Another block, segment or window."""
+        self.redraw()
+
+    def watch_characters(self) -> None:
+        """Another set of characters."""
+        self.redraw()
+
+    def watch_heading(self) -> None:
+        """Another title."""
+        self._frame()
+
+    def on_resize(self) -> None:
+        """Another size."""
+        self.redraw()
+
+    def on_show(self) -> None:
+        """Hidden drawings are not made: now this one is needed."""
+        self.redraw()
+
+    def redraw(self) -> None:
+        """Make the picture in a worker unless it is there already, or nobody sees it."""
+        wanted = (self.subject, self.characters, self.size)
+        if wanted == self._made or not self._seen:
+            return
+        self._made = wanted
+        if self.subject is None:
+            self._show(None)
+        else:
+            self._make(self.subject, self.size.width, self.size.height, self.characters)
+
+    @property
+    def _seen(self) -> bool:
+        shown = all(node.display for node in self.ancestors_with_self if isinstance(node, Widget))
+        return self.is_attached and shown and bool(self.size)
+
+    @work(thread=True, exclusive=True, group="drawing")
+    def _make(self, subject: Subject, columns: int, rows: int, characters: str) -> None:
+        # numpy and shapely are not needed by the first paint
+        from core.draw.characters import Mode
+        from core.pipeline.plot import drawn
+
+        picture = drawn(subject, columns, rows, Mode(characters))
+        self.app.call_from_thread(self._finished, (subject, characters), picture)
+
+    def _finished(self, wanted: tuple[object, ...], picture: Drawn | None) -> None:
+        """A picture from the worker, unless another one is wanted by now."""
+        if wanted == self._made[:2] and self.is_attached:
+            self._show(picture)
+
+    def _show(self, picture: Drawn | None) -> None:
+        self.drawn = picture
+        self._frame()
+        before, self._strips = self._strips, self._painted()
+        if len(before) != len(self._strips):
+            self.refresh()
+            return
+        for y, (old, new) in enumerate(zip(before, self._strips, strict=True)):
+            if old != new:
+                self.refresh(Region(0, y, self.size.width, 1))
+
+    def _painted(self) -> list[Strip]:
+        """The picture's rows in the looks of the style sheet."""
+        if self.drawn is None:
+            return []
+        base = self.rich_style
+        looks = [base + self.get_component_rich_style(f"drawing--{role}", partial=True) for role in ROLES]
+        rows = zip(self.drawn.picture.rows, self.drawn.picture.styles.tolist(), strict=True)
+        strips = []
+        for text, styles in rows:
+            runs = ((style, list(cells)) for style, cells in groupby(range(len(text)), styles.__getitem__))
+            strips.append(Strip([Segment(text[cells[0] : cells[-1] + 1], looks[style]) for style, cells in runs]))
+        return strips
+
+    def _frame(self) -> None:
+        """The title and the scale bar: in the lower frame, or beside the title where there is no lower one."""
+        bar = "" if self.drawn is None or self.has_class("-outline") else self.drawn.scale_bar
+        framed = self.styles.border_bottom[0] not in ("", "none")
+        together = f"{self.heading}   {bar}".strip()
+        fits = len(together) + 4 <= self.size.width
+        self.border_title = together if not framed and fits else self.heading
+        self.border_subtitle = bar if framed else ""
+
+    def notify_style_update(self) -> None:
+        """Other colors: the same picture in them."""
+        super().notify_style_update()
+        if self.drawn is not None and self.is_attached:
+            self._strips = self._painted()
+
+    def render_line(self, y: int) -> Strip:
+        """One row of the picture."""
+        width, style = self.size.width, self.rich_style
+        if y >= len(self._strips):
+            return Strip.blank(width, style)
+        return self._strips[y].adjust_cell_length(width, style)
+
+    def on_click(self, event: events.Click) -> None:
+        """Tell which point was clicked."""
+        if self.drawn is not None and (at := event.get_content_offset(self)) is not None:
+            point = self.drawn.view.at(at.x + 0.5, at.y + 0.5, *self.size)
+            self.post_message(self.Picked(self, point))
+
+    def on_mouse_scroll_up(self) -> None:
+        """Enlarge."""
+        self.post_message(self.Wheel(self, 1))
+
+    def on_mouse_scroll_down(self) -> None:
+        """Shrink."""
+        self.post_message(self.Wheel(self, -1))

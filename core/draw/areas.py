@@ -1,0 +1,116 @@
+"""Areas: what the cutter takes from the part and what it leaves on the wall, as regions to shade.
+
+They are drawn, never judged by: arcs are chords here, no farther off than half a dot, and shapely cuts the regions.
+`core.verify` says what is gouged and uncut.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from math import acos, ceil, isfinite, pi
+from typing import Final
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely.geometry import LineString, MultiPolygon, Polygon, box
+from shapely.geometry.base import BaseGeometry
+
+from core.geometry.path import Floats, Path, as_complex, coordinates
+from core.geometry.piece import Side
+
+NOTHING: Final = MultiPolygon()
+"""The region without points."""
+SEGMENTS_A_QUARTER: Final = 16
+"""Chords of a quarter circle at the ends of a swept region."""
+MARGIN: Final = 4.0
+"""Radii of material that are drawn beyond a closed contour whose outside is the part."""
+ACROSS: Final = 2.0
+"""Radii of material that are drawn behind an open contour: no gouge is told deeper."""
+MAX_STRETCHES: Final = 200
+"""Uncut stretches that are shaded, the thickest first."""
+
+
+def chords_of(path: Path, sag: float) -> Floats:
+    """(m, 2) points of a path, its arcs as chords no farther than `sag` (mm) from them."""
+    if not len(path):
+        return np.empty((0, 2))
+    counts = [
+        _count(sweep, radius, sag) for sweep, radius in zip(path.sweeps.tolist(), path.radii.tolist(), strict=True)
+    ]
+    row = np.arange(len(path)).repeat(counts)
+    nth = np.arange(len(row)) - (np.cumsum(counts) - counts)[row]
+    part = nth / np.asarray(counts)[row]
+    starts, ends, centers = (as_complex(points)[row] for points in (path.starts, path.ends, path.centers))
+    turned = centers + (starts - centers) * np.exp(1j * path.sweeps[row] * part)
+    points = np.where(path.turns[row] != 0, turned, starts + (ends - starts) * part)
+    return np.concatenate([coordinates(points), path.points[-1:]])
+
+
+def _count(sweep: float, radius: float, sag: float) -> int:
+    """Chords of an arc, one of a line."""
+    if not sweep or not isfinite(radius) or radius <= sag:
+        return 1
+    return max(ceil(abs(sweep) / min(2.0 * acos(1.0 - sag / radius), pi / 4)), 1)
+
+
+def material(surface: Path, side: Side, radius: float, *, closed: bool, sag: float) -> BaseGeometry:
+    """The part behind a surface, as far as a cutter of this radius can reach into it."""
+    points = chords_of(surface, sag)
+    if len(points) < 2 or (closed and len(points) < 4):
+        return NOTHING
+    if not closed:
+        distance = -ACROSS * radius if side is Side.LEFT else ACROSS * radius
+        return LineString(points).buffer(distance, single_sided=True)
+    inside = shapely.make_valid(Polygon(points))
+    left = _counter_clockwise(points)
+    if left is not (side is Side.LEFT):
+        return inside
+    return box(*inside.buffer(MARGIN * radius).bounds).difference(inside)
+
+
+def _counter_clockwise(points: Floats) -> bool:
+    x, y = points.T
+    return bool((x * np.roll(y, -1) - np.roll(x, -1) * y).sum() > 0.0)
+
+
+def swept(paths: Sequence[Path], radius: float, sag: float) -> BaseGeometry:
+    """What a cutter of this radius passes over on its paths."""
+    lines = [LineString(points).simplify(sag / 2.0) for path in paths if len(points := chords_of(path, sag)) > 1]
+    return shapely.union_all([line.buffer(max(radius, 0.0), quad_segs=SEGMENTS_A_QUARTER) for line in lines])
+
+
+def gouged(part: BaseGeometry, paths: Sequence[Path], radius: float, sag: float) -> BaseGeometry:
+    """What of the part the cutter takes; a depth below `sag` (mm) is not shaded."""
+    return swept(paths, radius - sag, sag).intersection(part)
+
+
+def uncut(
+    part: BaseGeometry,
+    stretches: Iterable[Path],
+    thicknesses: Iterable[float],
+    paths: Sequence[Path],
+    radius: float,
+    sag: float,
+) -> BaseGeometry:
+    """What the cutter leaves on stretches of the surface, each as thick as it was judged; thinner than `sag` is not
+    shaded."""
+    pairs = [
+        (depth, path) for path, depth in zip(stretches, thicknesses, strict=True) if isfinite(depth) and depth > sag
+    ]
+    pairs.sort(key=lambda pair: -pair[0])
+    near = shapely.union_all(list(_near(pairs[:MAX_STRETCHES], sag)))
+    return near.difference(part).difference(swept(paths, radius, sag))
+
+
+def _near(pairs: Iterable[tuple[float, Path]], sag: float) -> Iterator[BaseGeometry]:
+    for depth, path in pairs:
+        if len(points := chords_of(path, sag)) > 1:
+            yield LineString(points).buffer(depth + sag, quad_segs=SEGMENTS_A_QUARTER)
+
+
+def inside(region: BaseGeometry, x: Floats, y: Floats) -> NDArray[np.bool_]:
+    """(n,) which of the points lie in the region."""
+    shapely.prepare(region)
+    within: NDArray[np.bool_] = shapely.contains_xy(region, x, y)
+    return within

@@ -1,0 +1,117 @@
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from textual.app import App, ComposeResult
+
+from app.documents.files import load
+from app.documents.programs import example
+from app.widgets.drawing import ROLES, Drawing
+from core.draw.scene import Style
+from core.pipeline.derive import derive
+from core.pipeline.plot import Subject
+
+
+@pytest.fixture(scope="module")
+def pocket() -> Subject:
+    derived = derive(load(example("pocket")))
+    return Subject(derived.block(1), derived.program.unit, 0)
+
+
+class Shown(App[None]):
+    CSS = """
+    Drawing { width: 60; height: 18; border: round white; }
+    .hidden { display: none; }
+    .drawing--uncut { color: yellow; }
+    """
+
+    def compose(self) -> ComposeResult:
+        yield Drawing(id="part")
+
+
+async def settled(app: Shown) -> list[str]:
+    await app.workers.wait_for_complete()
+    drawing = app.query_one(Drawing)
+    return ["".join(part.text for part in drawing.render_line(y)) for y in range(drawing.size.height)]
+
+
+def test_every_style_has_a_role():
+    assert len(ROLES) == len(Style)
+    assert (ROLES[Style.SURFACE], ROLES[Style.UNCUT_AREA], ROLES[Style.NUMBER]) == ("part", "uncut-area", "number")
+
+
+async def test_a_subject_is_drawn_with_its_scale_bar_in_the_frame(pocket):
+    app = Shown()
+    async with app.run_test() as pilot:
+        drawing = app.query_one(Drawing)
+        drawing.heading, drawing.subject = "DRAWING  whole part", pocket
+        rows = await settled(app)
+        await pilot.pause()
+        assert any("x" in row for row in rows)
+        assert "S" in "".join(rows)
+        assert (drawing.border_title, str(drawing.border_subtitle)) == ("DRAWING  whole part", "├────────┤ 1 IN")
+        assert all(len(row) == 58 for row in rows)
+
+
+async def test_nothing_is_drawn_without_a_subject_and_after_it_is_gone(pocket):
+    app = Shown()
+    async with app.run_test():
+        assert not "".join(await settled(app)).strip()
+        app.query_one(Drawing).subject = pocket
+        assert "".join(await settled(app)).strip()
+        app.query_one(Drawing).subject = None
+        assert not "".join(await settled(app)).strip()
+
+
+async def test_a_hidden_drawing_is_made_when_it_is_shown(pocket):
+    app = Shown()
+    async with app.run_test() as pilot:
+        drawing = app.query_one(Drawing)
+        drawing.add_class("hidden")
+        await pilot.pause()
+        drawing.subject = pocket
+        await settled(app)
+        assert drawing.drawn is None
+        drawing.remove_class("hidden")
+        await pilot.pause()
+        assert "".join(await settled(app)).strip()
+
+
+async def test_other_characters_draw_the_same_subject(pocket):
+    app = Shown()
+    async with app.run_test():
+        drawing = app.query_one(Drawing)
+        drawing.subject = pocket
+        await settled(app)
+        drawing.characters = "ascii"
+        assert "".join(await settled(app)).isascii()
+
+
+async def test_a_click_tells_the_point_in_millimeters(pocket):
+    picked = []
+
+    class Clicked(Shown):
+        def on_drawing_picked(self, message: Drawing.Picked) -> None:
+            picked.append(message.at)
+
+    app = Clicked()
+    async with app.run_test() as pilot:
+        drawing = app.query_one(Drawing)
+        drawing.subject = pocket
+        rows = await settled(app)
+        row = next(y for y, text in enumerate(rows) if "S" in text)
+        await pilot.click(Drawing, offset=(rows[row].index("S") + 1, row + 1))
+        x, y = picked[0]
+        assert (x, y) == pytest.approx((2.0 * 25.4, 0.25 * 25.4), abs=2.0 * drawing.drawn.view.scale)
+
+
+async def test_a_loupe_shows_4_6_radii_near_a_place_and_little_beyond_the_part(pocket):
+    app = Shown()
+    async with app.run_test():
+        drawing = app.query_one(Drawing)
+        drawing.subject = replace(pocket, near=(0.25 * 25.4, 3.5 * 25.4))
+        await settled(app)
+        view, rows = drawing.drawn.view, drawing.size.height
+        assert view.scale * rows * 2.0 == pytest.approx(4.6 * pocket.block.radius)
+        assert view.center[0] > 0.25 * 25.4
