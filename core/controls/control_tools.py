@@ -28,6 +28,10 @@ class CutterTool:
         """Diameter in millimeters, in a program that is in this unit."""
         return to_mm(self.diameter, self.unit or program)
 
+    def length_mm(self, program: Unit) -> float:
+        """Length in millimeters, in a program that is in this unit."""
+        return to_mm(self.length, self.unit or program)
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ToolTable:

@@ -115,7 +115,8 @@ class AlarmCodes:
 class OneMoveQueue(ElementQueue):
     """The queue of LinuxCNC: one move of the plane is held, with the moves of Z after it.
 
-    The first move ends at its own offset point.  `first`: it is still to come.
+    The first move ends at its own offset point.  `first`: it is still to come.  `ran`: what is held has run at a
+    program stop, and only the corner with the next move is still to come.
     """
 
     rules = CornerRules(tangent=0.05, reversal=0.05, inside=Inside.BY_SIDE, hooks=True, rapid_straight=True)
@@ -124,6 +125,7 @@ class OneMoveQueue(ElementQueue):
     def __init__(self, log: Log) -> None:
         super().__init__(log)
         self.first = True
+        self.ran = False
         self.no_arc = False
         self.nose: Point = (0.0, 0.0)
 
@@ -152,6 +154,23 @@ class OneMoveQueue(ElementQueue):
             end = offset_end(self.held, self.offset)
             self._check(self.held, end, line)
             self.run_held(end)
+
+    def run_out_at_stop(self) -> None:
+        """A program stop: what is held runs to its own offset point, and no later corner changes that."""
+        held = self.held
+        if held is None:
+            return
+        self._run_out(held.line)
+        self.held, self.start, self.ran = held, None, True
+
+    def run_held(self, end: Point) -> None:
+        """Runs what is held to a point, without a look at its direction; what ran at a stop does not run again."""
+        if not self.ran:
+            super().run_held(end)
+            return
+        standing, self.held, self.standing, self.ran = self.standing, None, [], False
+        for element in standing:
+            self.straight(element, end)
 
     def straight(self, element: Element, end: Point, *, low: bool = False) -> None:
         """A straight move, of a lathe tool's controlled point."""
@@ -234,10 +253,11 @@ class OneMoveQueue(ElementQueue):
             self.log.stop(self.alarms.concave, NO_FIT, element.line, 1, at=element.start)
         if joint.corner is Corner.INSIDE or (joint.corner is Corner.OUTSIDE and not element.turn):
             self._check(held, joint.end, element.line)
+        unchecked = self.ran and joint.corner is Corner.INSIDE
         self.run_held(joint.end)
         self.lead_on(joint, element, self.offset)
         self.note(element)
-        self.held, self.start = element, joint.start
+        self.held, self.start = element, None if unchecked else joint.start
 
     def _check(self, held: Element, end: Point, line: int) -> None:
         """A held move that would run backwards, or around an arc nearly once more, stops the program."""

@@ -40,6 +40,8 @@ class CodeAction(Enum):
     RETRACT = auto()
     MODE = auto()
     DATA = auto()
+    LENGTH = auto()
+    """A tool length offset on a control that shifts the position by it; its axis words are the offset."""
     UNSUPPORTED = auto()
     """A code that the control has and cutcomp does not support: the run stops."""
     OF_THIS_CONTROL = auto()
@@ -109,9 +111,10 @@ class Dialect:
     `group_rule`: the rule's id for two G codes of one group.  `parameters`: how it keeps those of a program, None where
     nothing is known of them.  `cycles`: its drilling cycles are known; `cycle_rule` the rule that keeps them from
     compensation; `returns_to_r`: G99 is in force at the start.  `d_anywhere`: D may stand in any block.
-    `dwell_takes_axes`: X with G4 is a time, or may be.  `tells_unused`: words that nothing takes are reported.
-    `max_repeated_blocks`: the number of blocks that subprograms and loops may run again, and `max_o_words` the number
-    of O-words that may run, before the run is given up.
+    `dwell_takes_axes`: X with G4 is a time, or may be.  `rate_clears_feed`: after G94 and G95 there is no feed, also
+    where they were in force.  `tool_data_kinds`: the L of G10 that set a tool's data.  `tells_unused`: words that
+    nothing takes are reported.  `max_repeated_blocks`: the number of blocks that subprograms and loops may run again,
+    and `max_o_words` the number of O-words that may run, before the run is given up.
     """
 
     codes: Mapping[int, Code]
@@ -135,6 +138,8 @@ class Dialect:
     returns_to_r: bool = False
     d_anywhere: bool = False
     dwell_takes_axes: bool = True
+    rate_clears_feed: bool = False
+    tool_data_kinds: frozenset[int] = frozenset()
     tells_unused: bool = True
     max_repeated_blocks: int = 400_000
     max_o_words: int = 15_000

@@ -13,12 +13,13 @@ from typing import Final
 from core.controls.compensation.elements import arc_element, element_sweep, line_element
 from core.controls.compensation.recorder import Recorder
 from core.controls.control_run import Log
-from core.controls.control_tools import ToolTable
+from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso import cycles
 from core.controls.iso.arcs import NoArc, given_center, through
 from core.controls.iso.dialect import PLANES, Code, CodeAction, Dialect, unused_words
-from core.controls.iso.modal_state import G54, PER_MINUTE, ZERO, ModalState, Origin
-from core.controls.iso.reader import Block
+from core.controls.iso.elsewhere import TOOL_DATA, only_on
+from core.controls.iso.modal_state import G54, PER_MINUTE, ZERO, ModalState, system_code
+from core.controls.iso.reader import Block, whole
 from core.controls.moves import Point3, flat
 from core.finding import Severity
 from core.geometry.piece import Point, Side
@@ -27,6 +28,10 @@ from core.units import Unit
 
 ONCE: Final = frozenset((CodeAction.HOME, CodeAction.SHIFT, CodeAction.PRESET, CodeAction.MACHINE, CodeAction.DATA))
 """What takes a block's axis words for itself."""
+
+_G43_1: Final = 431
+_G43_2: Final = 432
+_G49: Final = 490
 
 _OTHER_AXES: Final = "ABCUVW"
 _TURNS: Final = {20: -1, 30: 1}
@@ -46,6 +51,7 @@ _TOOL_CHANGE: Final = 60
 _LINES: Final = (0, 10)
 _MOVES: Final = frozenset((0, 10, 20, 30))
 _ENDS: Final = frozenset((20, 300))
+_STOPS: Final = frozenset((0, 10, 600))
 _CENTERS: Final = frozenset("IJKR")
 
 
@@ -72,6 +78,13 @@ class Control(Recorder):
     def own_code(self, code: int, block: Block) -> None:
         """A G code of this control alone, in tenths."""
 
+    def takes_effect(self, _code: int, _block: Block) -> bool:
+        """Whether a G code does anything under compensation, asked in its turn; one that is refused stops the run."""
+        return True
+
+    def program_stop(self) -> None:
+        """M0, M1 or M60, after the block's motion."""
+
     def close(self) -> None:
         """The program ends."""
 
@@ -90,8 +103,10 @@ class Machine(ModalState):
         once = self._codes(block)
         if once is None:
             self._motion(block)
-        else:
+        elif not self.control.active or self.control.takes_effect(once.value, block):
             self._run_once(once, block)
+        if not _STOPS.isdisjoint(block.m):
+            self.control.program_stop()
         if not _ENDS.isdisjoint(block.m):
             self.ended = True
 
@@ -114,15 +129,20 @@ class Machine(ModalState):
         self._warn_of_axes(block)
         once = None
         for code in codes:
-            if code.action in ONCE or (code.action is CodeAction.DWELL and self.dialect.dwell_takes_axes):
+            if self._takes_axis_words(code):
                 once = code
-            else:
+            elif not self.control.active or self.control.takes_effect(code.value, block):
                 self._set(code, block)
         if self.dialect.unit_first and "F" in block.words:
             self.feed = block.words["F"] * self.scale
         if self.dialect.tells_unused:
             self._warn_of_unused(block)
         return once
+
+    def _takes_axis_words(self, code: Code) -> bool:
+        if code.action is CodeAction.DWELL:
+            return self.dialect.dwell_takes_axes
+        return code.action in ONCE or (code.action is CodeAction.LENGTH and code.value == _G43_1)
 
     def _grouped(self, block: Block) -> list[Code]:
         """A block's G codes in the order of execution; one that is unknown, or two of a group, stop the run."""
@@ -185,7 +205,9 @@ class Machine(ModalState):
             case CodeAction.SYSTEM:
                 self._select_system(code.value, block)
             case CodeAction.UNSHIFT:
-                self.set_origin(replace(self.origin, local=ZERO))
+                self._unshift(code.value)
+            case CodeAction.LENGTH:
+                self._take_length(code.value, block)
             case CodeAction.OF_THIS_CONTROL:
                 self.control.own_code(code.value, block)
             case CodeAction.UNSUPPORTED:
@@ -305,17 +327,34 @@ class Machine(ModalState):
         """Runs a code that takes the block's axis words for itself: G28, G52, G53, G92, G10, G4."""
         match code.action:
             case CodeAction.SHIFT:
-                self.set_origin(replace(self.origin, local=self.axis_words(block, self.origin.local)))
+                local = self.axis_words(block, self.origin.local)
+                self.set_origin(replace(self.origin, local=local, stored=local))
             case CodeAction.PRESET:
                 self._preset(block)
             case CodeAction.DATA:
-                self._set_system(block)
+                self._set_data(block)
             case CodeAction.HOME:
                 self._home(block)
             case CodeAction.DWELL:
                 self._dwell(block)
+            case CodeAction.LENGTH:
+                self.set_length_offset(self.axis_words(block, self.length_offset))
+                if self._moves_in(block):
+                    self._motion(block)
             case _:
                 self._move_in_machine(block)
+
+    def _take_length(self, code: int, block: Block) -> None:
+        """G43 and G43.2, the offset of a tool in the table, and G49."""
+        number = whole(block.words.get("H", float(self.tool)))
+        tool = None if number is None or code == _G49 else self.tools.get(number)
+        x, y, z = self.length_offset if code == _G43_2 else ZERO
+        self.set_length_offset((x, y, z + (tool.length_mm(self.unit) if tool else 0.0)))
+
+    def _unshift(self, code: int) -> None:
+        """G92.1 forgets the shift of G52 and G92, G92.2 suspends it, and G92.3 takes it up again."""
+        stored = ZERO if code == 921 else self.origin.stored
+        self.set_origin(replace(self.origin, local=stored if code == 923 else ZERO, stored=stored))
 
     def _select_system(self, code: int, block: Block) -> None:
         """Another work offset; one that the program did not set is taken as zero, and reported."""
@@ -331,18 +370,53 @@ class Machine(ModalState):
             self.position[axis] - reads[axis] - base[axis] if "XYZ"[axis] in block.words else old[axis]
             for axis in range(3)
         )
-        self.set_origin(replace(self.origin, local=(x, y, z)))
+        self.set_origin(replace(self.origin, local=(x, y, z), stored=(x, y, z)))
 
-    def _set_system(self, block: Block) -> None:
-        """G10 L2 P: a work offset is set; other data are not understood."""
-        number = int(block.words.get("P", -1.0))
-        if block.words.get("L") != 2.0 or not 0 <= number <= 6 or "R" in block.words:
-            text = "cutcomp sets only work offsets: G10 L2 P1 to P6 with X, Y, Z. Set other data on the control."
-            self.log.stop("DATA", text, block.line, block.column("L"))
-        code = _G53 + 10 * number if number else self.origin.system
-        offset = self.axis_words(block, self.origin.systems.get(code, ZERO))
+    def _set_data(self, block: Block) -> None:
+        """G10: a work offset, or a tool's data where the control has that; other data stop the run."""
+        kind = whole(block.words.get("L", -1.0))
+        if kind == 2 or (kind == 20 and self.dialect.tool_data_kinds):
+            self._set_system(block, from_here=kind == 20)
+        elif kind in self.dialect.tool_data_kinds:
+            self._set_tool(block)
+        else:
+            can = "work offsets: G10 L2 P1 to P6 with X, Y, Z"
+            text = f"cutcomp sets only {can}. {only_on(TOOL_DATA) if kind in (1, 10, 11, 12, 13) else ''}".rstrip()
+            self.log.stop("DATA", f"{text} Set other data on the control.", block.line, block.column("L"))
+
+    def _set_system(self, block: Block, *, from_here: bool) -> None:
+        """G10 L2 P: a work offset is set; with L20 so that the present position reads as written."""
+        number, most = whole(block.words.get("P", -1.0)), 9 if self.dialect.tool_data_kinds else 6
+        if number is None or not 0 <= number <= most or block.words.get("R", 0.0):
+            text = f"A work offset is set by G10 L2 P1 to P{most} with X, Y, Z, without a rotation R."
+            self.log.stop("DATA", text, block.line, block.column("R" if "R" in block.words else "PL"))
+        code = system_code(number) if number else self.origin.system
+        old = self.origin.systems.get(code, ZERO)
+        offset = self.axis_words(block, old)
+        if from_here:
+            here, local = self.position, self.origin.local
+            x, y, z = (
+                here[axis] - offset[axis] - local[axis] if "XYZ"[axis] in block.words else old[axis]
+                for axis in range(3)
+            )
+            offset = (x, y, z)
         systems = MappingProxyType({**self.origin.systems, code: offset})
-        self.set_origin(Origin(systems, self.origin.system, self.origin.local))
+        self.set_origin(replace(self.origin, systems=systems))
+
+    def _set_tool(self, block: Block) -> None:
+        """G10 L1 P R: the radius of a tool in the table; its length counts for nothing in the plane."""
+        number = whole(block.words.get("P", -1.0))
+        tool = None if number is None else self.tools.get(number)
+        if tool is None:
+            self.log.stop("TOOL", missing_tool(number), block.line, block.column("PL"))
+        orientation = whole(block.words.get("Q", float(tool.orientation)))
+        if orientation is None or not 0 <= orientation <= 9:
+            text = "Q, the orientation of a lathe tool, is a whole number from 0 to 9."
+            self.log.stop("DATA", text, block.line, block.column("Q"))
+        tool = replace(tool, orientation=orientation)
+        if "R" in block.words:
+            tool = replace(tool, diameter=2.0 * block.words["R"], unit=self.unit)
+        self.tools = self.tools.with_tools(ToolTable.of(tool))
 
     def _home(self, block: Block) -> None:
         """G28, G30: by way of the block's point to the reference point, which is taken as machine zero."""
@@ -351,6 +425,8 @@ class Machine(ModalState):
         named = [letter in block.words for letter in "XYZ"]
         if any(named):
             self._straight(block, self.target(block.words), rapid=True)
+        elif self.dialect.moves_alone:
+            self._straight(block, self.position, rapid=True)
         goes = named if any(named) else [True] * 3
         x, y, z = (0.0 if home else now for home, now in zip(goes, self.position, strict=True))
         self._straight(block, (x, y, z), rapid=True)

@@ -33,13 +33,22 @@ _PLANE_CODES: Final = {Plane.XY: 170.0, Plane.ZX: 180.0, Plane.YZ: 190.0}
 _POSITION: Final = {5420: 0, 5421: 1, 5422: 2, "_X": 0, "_Y": 1, "_Z": 2}
 
 
+def system_code(number: int) -> int:
+    """The code in tenths of the work offset of a number from 1 to 9: G54 to G59, G59.1 to G59.3."""
+    return 530 + 10 * number if number <= 6 else 584 + number
+
+
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """The work offsets by code in tenths, the one in force, and the shift of G52 or G92 on top, millimeters."""
+    """The work offsets by code in tenths, the one in force, and the shift of G52 or G92 on top, millimeters.
+
+    `stored` is the shift that G92.3 takes up again.
+    """
 
     systems: Mapping[int, Point3] = field(default_factory=lambda: MappingProxyType({}))
     system: int = G54
     local: Point3 = ZERO
+    stored: Point3 = ZERO
 
     @property
     def base(self) -> Point3:
@@ -101,6 +110,7 @@ class ModalState:
         self.cycle = Cycle(to_r=dialect.returns_to_r)
         self.tool = 0
         self.next_tool = 0
+        self.length_offset = ZERO
         self.ended = False
 
     def target(self, words: Mapping[str, float]) -> Point3:
@@ -138,9 +148,14 @@ class ModalState:
         """The program counts from another origin."""
         self.origin, self.shift = origin, origin.shift
 
+    def set_length_offset(self, offset: Point3) -> None:
+        """Another tool length offset: the axes stand still, and the point that they stand for is another one."""
+        x, y, z = (now - new + old for now, new, old in zip(self.position, offset, self.length_offset, strict=True))
+        self.position, self.length_offset = (x, y, z), offset
+
     def set_rate(self, code: int) -> None:
         """G93, G94 or G95; where the meaning of F changes there is no feed any more."""
-        if code != self.rate:
+        if code != self.rate or (self.dialect.rate_clears_feed and code != INVERSE):
             self.feed = 0.0
         self.rate = code
 
@@ -160,6 +175,7 @@ class ModalState:
                 self.log.stop("FEED", text, block.line, column)
             return block.words["F"] * length
         if not self.feed:
+            self.no_feed(block)
             return 0.0
         if not self.speed or self.surface_speed:
             text = "G95 needs a known spindle speed. Program S in rpm."

@@ -13,11 +13,13 @@ from types import MappingProxyType
 from typing import Final
 
 from core.controls.compensation.element_queue import OneMoveQueue
+from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso.arcs import ArcRadii
 from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
 from core.controls.iso.machine import Control
 from core.controls.iso.macro import Kept
+from core.controls.iso.modal_state import system_code
 from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
 from core.controls.moves import Plane
 from core.finding import Severity
@@ -28,20 +30,19 @@ DIALECT: Final = Dialect(
     codes(
         ("motion", CodeAction.CYCLE, (382, 383, 384, 385, 730, 740)),
         ("motion", CodeAction.UNSUPPORTED, (50, 51, 52, 60, 61, 62, 330, 331, 700, 710, 711, 712, 720, 721, 722, 760)),
-        ("once", CodeAction.UNSUPPORTED, (53, 281, 301, 923)),
-        ("lathe", CodeAction.UNSUPPORTED, (70,)),
+        ("once", CodeAction.UNSUPPORTED, (53, 281, 301)),
         ("compensation", CodeAction.SIDE, (411, 421)),
         ("centers", CodeAction.CENTERS, (901, 911)),
         ("system", CodeAction.SYSTEM, (591, 592, 593)),
-        ("length", CodeAction.MODE, (431, 432)),
+        ("length", CodeAction.LENGTH, (430, 431, 432, 490)),
         ("path", CodeAction.MODE, (610, 611, 640)),
         ("spindle", CodeAction.SPINDLE, (960, 970)),
         ("retract", CodeAction.RETRACT, (980, 990)),
-        ("lathe", CodeAction.MODE, (80,)),
+        ("lathe", CodeAction.MODE, (70, 80)),
         ("once", CodeAction.SHIFT, (520,)),
         ("once", CodeAction.MACHINE, (530,)),
         ("once", CodeAction.DATA, (100,)),
-        ("once", CodeAction.UNSHIFT, (921, 922)),
+        ("once", CodeAction.UNSHIFT, (921, 922, 923)),
     ),
     Unit.MM,
     mode=None,
@@ -58,19 +59,28 @@ DIALECT: Final = Dialect(
     cycle_rule="N-CYCLE",
     returns_to_r=True,
     dwell_takes_axes=False,
+    rate_clears_feed=True,
+    tool_data_kinds=frozenset((1, 10, 11)),
     tells_unused=False,
 )
 
 REFUSED: Final = {
-    **dict.fromkeys((520, 920, 921, 922, 100), ("N-OFFSETS", "changes the origin")),
+    **dict.fromkeys((520, 920), ("N-OFFSETS", "changes the origin")),
     **dict.fromkeys((540, 550, 560, 570, 580, 590, 591, 592, 593), ("N-OFFSETS", "changes the work offset")),
     **dict.fromkeys((280, 300), ("N-HOME", "goes to the reference point")),
     530: ("N-G53", "moves in machine coordinates"),
+    **dict.fromkeys((430, 431, 432, 490), ("N-LENGTH", "changes the tool length offset")),
     **dict.fromkeys((610, 611, 640), ("N-MODE", "changes the path mode")),
     **dict.fromkeys((980, 990), ("N-MODE", "changes the retract mode")),
-    **dict.fromkeys((730, 740, *range(810, 900, 10)), ("N-CYCLE", "is a drilling cycle")),
 }
 """What G codes are refused while compensation is on: rule and reason."""
+
+REFUSED_M: Final = {
+    **dict.fromkeys((60, 610), ("N-TOOL", "changes the tool")),
+    **dict.fromkeys((480, 490, 500, 510, 520, 530), ("N-OVERRIDE", "switches an override")),
+    **dict.fromkeys((620, 630, 640, 650, 660, 670, 680), ("N-OUTPUT", "sets an output or waits for an input")),
+}
+"""What M codes are refused while compensation is on, also in the block of G40, before which they run."""
 
 
 def _lacks(tools: ToolTable, value: float) -> bool:
@@ -80,7 +90,11 @@ def _lacks(tools: ToolTable, value: float) -> bool:
 
 
 class LinuxCnc(OneMoveQueue, Control):
-    """What turns LinuxCNC's compensation on, and what it refuses meanwhile."""
+    """What turns LinuxCNC's compensation on, and what it refuses meanwhile; `diameters` under G7."""
+
+    def __init__(self, log: Log) -> None:
+        super().__init__(log)
+        self.diameters = False
 
     def watch(self, block: Block) -> None:
         """Words without a code that takes them, and codes that compensation does not allow."""
@@ -96,8 +110,33 @@ class LinuxCnc(OneMoveQueue, Control):
             if code // 10 == 38 and code != 380:
                 text = "cutcomp cannot know where the probe stops."
                 self.log.stop("N-PROBE", text, block.line, block.column("G", code))
-            if self.active:
-                self._refused(code, block)
+        if block.m:
+            self._m_codes(block)
+        self._take_diameters(block)
+
+    def _take_diameters(self, block: Block) -> None:
+        """G7 and G8: under G7 every X is a diameter, that of the same block too."""
+        if not _LATHE.isdisjoint(block.g):
+            self.diameters = 70 in block.g
+        if self.diameters and "X" in block.words:
+            block.words["X"] /= 2.0
+
+    def _m_codes(self, block: Block) -> None:
+        """M codes that compensation refuses, that are not followed, or that the machine's builder gives a meaning."""
+        for code in block.m:
+            column = block.column("M", code)
+            if self.active and code in REFUSED_M:
+                rule, what = REFUSED_M[code]
+                text = (
+                    f"M{code / 10:g} {what}, which is not allowed under compensation; write G40 in a block before it."
+                )
+                self.log.stop(rule, text, block.line, column)
+            if code in _RESTORES:
+                text = f"cutcomp does not restore what M{code / 10:g} restores. Write the codes themselves."
+                self.log.stop("BEYOND", text, block.line, column)
+            if code >= 1000:
+                text = f"What M{code / 10:g} does is set up on the machine; cutcomp takes it as moving nothing."
+                self.log.tell(Severity.INFO, "M", text, block.line, column)
 
     def _other_words(self, block: Block) -> None:
         """M codes that exist; words that need a code in their block; the tool of an H."""
@@ -137,19 +176,36 @@ class LinuxCnc(OneMoveQueue, Control):
 
     def _arc_words(self, block: Block) -> None:
         """I, J, K and R go with arcs, and with codes that take no part in compensation."""
-        if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g):
+        if self._motion(block) in (0, 10) and not {100, 640}.intersection(block.g) and _ORIENT not in block.m:
             column = block.column("IJKR")
             text = "I, J, K and R go with G2 and G3 only. Remove them."
             self.log.stop("N-WORDALONE", text, block.line, column)
 
-    def _refused(self, code: int, block: Block) -> None:
-        if code in REFUSED:
-            rule, what = REFUSED[code]
+    def takes_effect(self, code: int, block: Block) -> bool:
+        """What compensation refuses; G92.1 to G92.3 do nothing meanwhile."""
+        if code in _UNSHIFTS:
+            text = f"The control ignores G{code / 10:g} under compensation; write G40 before it."
+            self.log.tell(Severity.WARNING, "N-OFFSETS", text, block.line, block.column("G", code))
+            return False
+        if code in REFUSED or (code == _G10 and self._sets_system_in_force(block)):
+            rule, what = REFUSED.get(code, ("N-OFFSETS", "changes the origin"))
             text = f"G{code / 10:g} {what}, which is not allowed under compensation; write G40 before it."
             self.log.stop(rule, text, block.line, block.column("G", code))
         if code in PLANES and PLANES[code] is not self.machine.plane:
             text = "The plane cannot be changed under compensation; write G40 before it."
             self.log.stop("N-PLANE", text, block.line, block.column("G", code))
+        return True
+
+    def _sets_system_in_force(self, block: Block) -> bool:
+        """Whether G10 L2 or L20 changes the work offset in force."""
+        number = whole(block.words.get("P", -1.0))
+        if whole(block.words.get("L", -1.0)) not in (2, 20) or number is None:
+            return False
+        return number == 0 or system_code(number) == self.machine.origin.system
+
+    def program_stop(self) -> None:
+        """M0, M1 and M60: what is held runs to its own end at once."""
+        self.run_out_at_stop()
 
     def begin(self, side: Side, block: Block) -> None:
         """G41, G42, G41.1 and G42.1."""
@@ -208,6 +264,11 @@ class LinuxCnc(OneMoveQueue, Control):
 
 
 _G80: Final = 800
+_G10: Final = 100
+_ORIENT: Final = 190
+_LATHE: Final = frozenset((70, 80))
+_UNSHIFTS: Final = frozenset((921, 922, 923))
+_RESTORES: Final = frozenset((720, 730))
 _USER_M: Final = tuple(f"M{code}" for code in range(1000, 2000, 10))
 _SWITCHED: Final = tuple(f"M{code}" for code in (500, 510, 520, 530, 620, 630, 640, 650, 660))
 _CYCLES: Final = tuple(f"G{code}" for code in (730, *range(810, 900, 10)))

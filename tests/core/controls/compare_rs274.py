@@ -23,6 +23,8 @@ from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.registry import UnknownControl, run
 from core.units import Unit
+from tests.core.controls.compensated_codes import CODES, FRAMES, PROGRAMS
+from tests.core.controls.compensated_codes import EXPLAINED as EXPLAINED_CODES
 from tests.core.controls.cycle_programs import drilled, timed
 from tests.core.controls.distribution import COMPENSATED, LIBRARY, SAMPLES, TOOLS, called, sample
 from tests.core.controls.macro_programs import SAME, generated, whole
@@ -175,6 +177,11 @@ def _cases(count: int) -> Iterable[tuple[str, str, dict[int, float], Unit]]:
             yield f"{kind} {seed}", text, MODAL_TOOLS, Unit.MM if "G21" in text else Unit.IN
     for name, body in (*MODAL.items(), *((name, whole(body)) for name, body in SAME.items())):
         yield f"written by hand, {name}", body, MODAL_TOOLS, Unit.IN
+    for frame, text in FRAMES.items():
+        for code in (*CODES, *EXPLAINED_CODES):
+            yield f"a code {frame}, {code}", text.format(code), MODAL_TOOLS, Unit.IN
+    for name, body in PROGRAMS.items():
+        yield f"written by hand, {name}", whole(body), MODAL_TOOLS, Unit.IN
     for name in LIBRARY if SAMPLES.is_dir() else ():
         yield f"the distribution's {name}", called(name), TOOLS, Unit.IN
     for name in COMPENSATED if SAMPLES.is_dir() else ():
@@ -196,7 +203,11 @@ def main(arguments: list[str]) -> int:
             fared, apart = outcome(text, Path(folder), tools, unit)
             counts[fared] += 1
             if apart:
-                why = EXPLAINED.get(name) or COMPENSATED.get(name.removeprefix("the distribution's "), "")
+                why = (
+                    EXPLAINED.get(name)
+                    or EXPLAINED_CODES.get(name.rpartition(", ")[2])
+                    or COMPENSATED.get(name.removeprefix("the distribution's "), "")
+                )
                 print(f"{name}: {fared}: {why or apart}")
                 left += not why
     for fared, count in counts.most_common():

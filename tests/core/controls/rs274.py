@@ -88,6 +88,7 @@ class _Feeds:
 
 def _moves(lines: list[str]):
     plane, origin, feeds = Plane.XY, (0.0, 0.0, 0.0), _Feeds()
+    offsets = {"SET_G5X_OFFSET": origin, "SET_G92_OFFSET": origin}
     for line in lines:
         found = _CALL.match(line)
         if found is None:
@@ -96,9 +97,11 @@ def _moves(lines: list[str]):
         feeds.hear(name, numbers)
         if name == "SELECT_PLANE":
             plane = {"CANON_PLANE_XY": Plane.XY, "CANON_PLANE_XZ": Plane.ZX, "CANON_PLANE_YZ": Plane.YZ}[numbers]
-        elif name == "SET_G92_OFFSET":
-            x, y, z = (float(number) for number in numbers.split(",")[:3])
-            origin = (x * feeds.scale, y * feeds.scale, z * feeds.scale)
+        elif name in offsets:
+            x, y, z = (float(number) * feeds.scale for number in numbers.split(",")[-6:-3])
+            offsets[name] = (x, y, z)
+            x, y, z = (sum(axis) for axis in zip(*offsets.values(), strict=True))
+            origin = (x, y, z)
         elif name in ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED"):
             x, y, z = (float(number) * feeds.scale for number in numbers.split(",")[:3])
             rapid = name == "STRAIGHT_TRAVERSE"

@@ -12,8 +12,10 @@ from core.controls.control_tools import read_table
 from core.controls.moves import Plane
 from core.units import Unit, from_mm
 from tests.core.controls.compare_rs274 import outcome, programs, sample_outcome
+from tests.core.controls.compensated_codes import CODES, EXPLAINED, FRAMES, PROGRAMS
 from tests.core.controls.distribution import COMPENSATED, LIBRARY, SAMPLES, called, sample
 from tests.core.controls.hand import ran, same, shape, told
+from tests.core.controls.macro_programs import whole
 from tests.core.controls.programs import MODAL
 from tests.core.controls.rs274 import difference, printed, run_witness, witness
 from tests.rs274 import WITNESS
@@ -84,6 +86,49 @@ def test_the_modal_machine_moves_as_the_interpreter_itself(name: str, tmp_path: 
     assert not theirs.refusal
     assert ours.stopped_at is None
     assert not difference(printed(ours), theirs.moves)
+
+
+@needs_witness
+@pytest.mark.parametrize("frame", ["between compensated moves", "with its end"])  # the others are in compare_rs274
+def test_every_code_fares_around_compensation_as_with_the_interpreter_itself(frame: str, tmp_path: Path) -> None:
+    fared = {code: outcome(FRAMES[frame].format(code), tmp_path, DIAMETERS, Unit.IN) for code in CODES}
+    assert not {code: what for code, what in fared.items() if not what[0].startswith(("same moves", "both refuse"))}
+
+
+@needs_witness
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_stops_tool_data_and_shifts_move_as_with_the_interpreter_itself(name: str, tmp_path: Path) -> None:
+    fared, apart = outcome(whole(PROGRAMS[name]), tmp_path, DIAMETERS, Unit.IN)
+    assert fared.startswith("same moves" if name != _REFUSED_TOO else "both refuse"), apart
+
+
+_REFUSED_TOO = "a stop before a tangent move that is too short"
+
+
+@needs_witness
+@pytest.mark.parametrize("code", EXPLAINED)
+def test_a_difference_that_is_explained_is_one(code: str, tmp_path: Path) -> None:
+    fared, _ = outcome(FRAMES["before the entry"].format(code), tmp_path, DIAMETERS, Unit.IN)
+    other, _ = outcome(FRAMES["after compensation"].format(code), tmp_path, DIAMETERS, Unit.IN)
+    assert fared.startswith("only") or other.startswith("only")
+
+
+@pytest.mark.parametrize(
+    ("code", "rule"), [("M6", "N-TOOL"), ("G49", "N-LENGTH"), ("M48", "N-OVERRIDE"), ("M62 P0", "N-OUTPUT")]
+)
+def test_what_compensation_refuses_names_its_rule_and_g40(code: str, rule: str) -> None:
+    done = ran(FRAMES["between compensated moves"].format(code), "linuxcnc", t1=0.5)
+    (finding,) = told(done, rule)
+    assert (finding.line, done.stopped_at) == (7, 7)
+    assert "G40" in finding.text
+
+
+def test_a_shift_that_compensation_ignores_is_a_warning() -> None:
+    assert told(ran(FRAMES["between compensated moves"].format("G92.1"), "linuxcnc", t1=0.5), "N-OFFSETS")
+
+
+def test_a_machines_m_code_is_taken_as_moving_nothing_and_said() -> None:
+    assert told(ran("G20 F9\nM101\nG1 X1\nM2\n", "linuxcnc"), "M")
 
 
 REFUSED = {

@@ -1,0 +1,55 @@
+"""Elsewhere: which controls have a code or a way of writing that the one at work lacks, for its alarm."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Final
+
+LINUXCNC: Final = "LinuxCNC"
+ROSETTACNC: Final = "RosettaCNC"
+NINE_SERIES: Final = "Allen-Bradley 9/Series"
+THREEBLOCK: Final = "threeblock"
+FANUC: Final = "Fanuc"
+HAAS: Final = "Haas"
+
+CODES: Final[Mapping[int, tuple[str, ...]]] = MappingProxyType(
+    {
+        **dict.fromkeys((70, 80, 431, 432, 611, 901, 911, 922, 923), (LINUXCNC,)),
+        **dict.fromkeys((411, 421, 591, 592, 593), (LINUXCNC, ROSETTACNC)),
+        921: (LINUXCNC, NINE_SERIES),
+        390: (NINE_SERIES, FANUC),
+        391: (NINE_SERIES,),
+        **dict.fromkeys((440, 450), (THREEBLOCK,)),
+        **dict.fromkeys((500, 690), (ROSETTACNC, FANUC, HAAS)),
+        **dict.fromkeys((610, 640, 960, 970, 980, 520, 530, 100), (LINUXCNC, NINE_SERIES, FANUC, HAAS)),
+        **dict.fromkeys((700, 710), (THREEBLOCK, NINE_SERIES)),
+    }
+)
+"""G codes in tenths that not every control has, and controls that have them."""
+
+TOOL_DATA: Final = (LINUXCNC, FANUC, HAAS)
+"""The controls on which G10 sets the data of a tool."""
+
+EXPRESSIONS: Final = (LINUXCNC, ROSETTACNC, FANUC, HAAS)
+"""The controls with parameters and expressions."""
+
+FREE_ASSIGNMENT: Final = (ROSETTACNC, FANUC, HAAS)
+"""The controls on which no brackets are needed right of the equal sign."""
+
+HIGH_PARAMETERS: Final = (FANUC,)
+"""The controls with parameters from #10000 on."""
+
+JUMPS: Final = (FANUC, HAAS)
+"""The controls with IF, GOTO, WHILE and DO."""
+
+OFFSETS_ANYWHERE: Final = (NINE_SERIES, FANUC, HAAS)
+"""The controls that take D, and H, in any block, also with T."""
+
+
+def only_on(controls: tuple[str, ...]) -> str:
+    """The sentence that names the controls with something, "" without any."""
+    if not controls:
+        return ""
+    names = " and ".join((", ".join(controls[:-1]), controls[-1])) if len(controls) > 1 else controls[0]
+    return f"{names} {'have' if len(controls) > 1 else 'has'} it."
