@@ -153,17 +153,17 @@ def _outlined(scene: Scene, subject: Subject) -> Scene:
 
 def _areas(subject: Subject, dot: float) -> tuple[Area, ...]:
     """What is gouged and what is left uncut, as regions; with dots of this width (mm) on a screen."""
-    block, work = subject.block, subject.block.work
-    if work is None or block.radius is None or block.side is None:
+    block, block_paths = subject.block, subject.block.paths
+    if block_paths is None or block.radius is None or block.side is None:
         return ()
-    verdict = work.verdict if subject.row is None else subject.row.verdict
-    paths = [loop.whole for loop in work.loops] if subject.row is None else [subject.row.compensated.whole]
+    verdict = block_paths.verdict if subject.row is None else subject.row.verdict
+    paths = [loop.whole for loop in block_paths.loops] if subject.row is None else [subject.row.compensated.whole]
     if verdict is None or not (verdict.gouges or len(verdict.uncut)):
         return ()
-    part = material(work.surface, block.side, block.radius, closed=block.solved.closed, sag=dot / 2)
+    part = material(block_paths.surface, block.side, block.radius, closed=block.solved.closed, sag=dot / 2)
     found = []
     if len(verdict.uncut):
-        stretch = stretches(work.surface, verdict.uncut.ends).paths
+        stretch = stretches(block_paths.surface, verdict.uncut.ends).paths
         thick = verdict.uncut.thickness.tolist()
         if len(stretch) == len(thick):
             found.append(Area(uncut(part, stretch, thick, paths, block.radius, dot / 2), Style.UNCUT_AREA))

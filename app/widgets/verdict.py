@@ -1,0 +1,248 @@
+"""Verdict: what the cutter does, in three lines at the same place on every screen.
+
+The title says the look-ahead in force and what it does; the strip has a cell for each value from 1 to 20; the chips
+GOUGE, UNCUT and DELETED always stand in this order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from math import isfinite
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+from textual.app import ComposeResult
+from textual.containers import Vertical
+from textual.content import Content
+from textual.reactive import reactive
+from textual.widgets import Static
+
+from app.widgets.words import length, segment_numbers
+from core.pipeline.derived import DerivedBlock
+from core.units import Unit
+
+if TYPE_CHECKING:
+    from core.advice.lookahead_table import Row, Table
+    from core.comp.result import Compensated
+    from core.verify.verdict import Verdict as Judgment
+
+HIGHEST: Final = 20
+"""The largest look-ahead value."""
+NOT_YET: Final = frozenset({"MISSING", "NO_SEGMENTS"})
+"""Errors that only say that a block is still to be typed."""
+
+
+class Marks(NamedTuple):
+    """The signs of one set of characters."""
+
+    gouge: str
+    warning: str
+    deleted: str
+    good: str
+    value: str
+
+
+MARKS: Final[Mapping[str, Marks]] = MappingProxyType(
+    {
+        "braille": Marks("✖", "▲", "×", "✓", "•"),
+        "block": Marks("!", "▲", "x", "√", "·"),
+        "ascii": Marks("!", "^", "x", "ok", "."),
+    }
+)
+"""The signs by the characters of the drawing, which every font on such a terminal has."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Case:
+    """The path the verdict is about: that of the block, or of a row of the look-ahead table.
+
+    `working` is the part of the calculation that is done, None where all of it is; the verdict is the last one until
+    then.
+    """
+
+    block: DerivedBlock
+    table: Table | None
+    unit: Unit
+    row: Row | None = None
+    working: float | None = None
+
+    @property
+    def judgment(self) -> Judgment | None:
+        """What is known of the path, None while nothing is."""
+        if self.row is not None:
+            return self.row.verdict
+        return None if self.block.paths is None else self.block.paths.verdict
+
+    @property
+    def control_path(self) -> Compensated | None:
+        """The control's path, None for the best one, which deletes nothing."""
+        if self.row is not None:
+            return self.row.compensated
+        work = self.block.paths
+        return None if work is None or work.best is not None else work.compensated
+
+    @property
+    def deleted(self) -> str:
+        """The numbers of the segments that are deleted."""
+        return "" if self.control_path is None else segment_numbers(self.control_path.deleted.segments.tolist())
+
+    @property
+    def lookahead(self) -> int:
+        """The value the verdict is about."""
+        return self.block.lookahead.value if self.row is None else self.row.value
+
+
+class Verdict(Vertical):
+    """The verdict on a `case`, with the signs that belong to `characters`."""
+
+    case: reactive[Case | None] = reactive(None, repaint=False)
+    characters: reactive[str] = reactive("braille", repaint=False)
+
+    def compose(self) -> ComposeResult:
+        """The strip and the chips."""
+        yield Static(id="strip")
+        yield Static(id="chips")
+
+    def watch_case(self) -> None:
+        """Another path."""
+        self._show()
+
+    def watch_characters(self) -> None:
+        """Other signs."""
+        self._show()
+
+    def on_mount(self) -> None:
+        """The lines of the first case."""
+        self._show()
+
+    def _show(self) -> None:
+        if not self.is_mounted or self.case is None:
+            return
+        self.set_class(self.case.working is not None, "-working")
+        self.border_title = title(self.case)
+        marks = MARKS[self.characters]
+        for name, line in (("strip", strip(self.case, marks)), ("chips", chips(self.case, marks))):
+            static = self.query_one(f"#{name}", Static)
+            if static.content != line:
+                static.update(line, layout=False)
+
+
+def title(case: Case) -> str:
+    """The look-ahead in force and what it does."""
+    block = case.block
+    if block.side is None:
+        return "CUTTER COMP. ON: the tool center runs on the contour"
+    known = "" if case.working is None else f"  working {round(100 * case.working)} %"
+    name = "PATH BEST" if case.control_path is None and block.paths is not None else _lookahead(case)
+    return f"{name}{known or _effect(case)}"
+
+
+def _lookahead(case: Case) -> str:
+    tag = "" if case.row is not None else f"{case.block.lookahead.tag} "
+    return f"LOOK-AHEAD {tag}{case.lookahead}"
+
+
+def _effect(case: Case) -> str:
+    """What the path does, the gravest alone."""
+    judgment = case.judgment
+    if judgment is None:
+        return "  calculating" if not case.block.known else ""
+    if judgment.gouges:
+        return f" gouges {_segments(segment_numbers(gouge.surface_number for gouge in judgment.gouges))}"
+    if judgment.wrong_side:
+        return " runs on the wrong side"
+    if not judgment.judged:
+        return " is not judged"
+    deleted = f" deletes {_segments(case.deleted)}" if case.deleted else " is clean"
+    return f"{deleted}{_only(case.block)}"
+
+
+def _segments(numbers: str) -> str:
+    return f"segment {numbers}" if numbers else "a corner"
+
+
+def _only(block: DerivedBlock) -> str:
+    """Which segments the verdict is about where that is not all of the contour."""
+    if block.solved.whole or not block.solved.pieces:
+        return ""
+    last = block.solved.pieces[-1][0]
+    return ", segment 1 only" if last == 1 else f", segments 1-{last} only"
+
+
+def strip(case: Case, marks: Marks) -> Content:
+    """A cell for each look-ahead value, the one in force as its number, and which is best."""
+    if case.block.side is None:
+        return Content("")
+    parts: list[tuple[str, str]] = [(" 1 ", "$c-label")]
+    for value in range(1, HIGHEST + 1):
+        row = None if case.table is None else case.table.row(value)
+        role, mark = _fate(row, marks)
+        here = value == case.lookahead
+        parts.append((f" {value} ", f"bold reverse {role}") if here else (mark, role))
+    parts.append((f" {HIGHEST}", "$c-label"))
+    parts.append((f"   {_advice(case)}", "$c-label"))
+    return Content.assemble(*parts)
+
+
+def _fate(row: Row | None, marks: Marks) -> tuple[str, str]:
+    """The role and the mark of a value, whose row may not be known yet."""
+    if row is None:
+        return "$c-label", marks.value
+    if not row.clean:
+        return "$c-gouge", marks.gouge
+    return ("$c-deleted" if segment_numbers(row.deleted) else "$c-good"), marks.value
+
+
+def _advice(case: Case) -> str:
+    """Which value is best, and what it costs."""
+    if case.table is None:
+        return ""
+    best = case.table.recommended
+    if best is None:
+        return "no value is clean"
+    if best == case.lookahead:
+        return "this is best"
+    row = case.table.row(best)
+    if deleted := segment_numbers(row.deleted):
+        return f"best {best}: deletes {deleted}"
+    return f"best {best}: uncut {length(row.uncut, case.unit)}" if row.verdict.uncut else f"best {best}: clean"
+
+
+def chips(case: Case, marks: Marks) -> Content:
+    """GOUGE, UNCUT, DELETED; in a block without segments what to type first."""
+    if hint := first_step(case.block):
+        return Content.styled(f" {hint}", "$c-label")
+    judgment = case.judgment
+    if case.block.side is None or judgment is None:
+        return Content("")
+    gouge = _gouge_chip(judgment, case.unit, marks)
+    left = length(judgment.uncut_length, case.unit)
+    whole = not isfinite(judgment.uncut_length) or judgment.uncut
+    uncut = (f"{marks.warning} UNCUT {left}", "$c-uncut") if whole else (f"{marks.good} UNCUT none", "$c-good")
+    gone = (f"{marks.deleted} DELETED {case.deleted}", "$c-deleted")
+    deleted = gone if case.deleted else (f"{marks.good} DELETED none", "$c-good")
+    return _row((gouge, uncut, deleted))
+
+
+def _gouge_chip(judgment: Judgment, unit: Unit, marks: Marks) -> tuple[str, str]:
+    if judgment.gouges:
+        return f"{marks.gouge} GOUGE {length(judgment.depth, unit)}", "$c-gouge"
+    if not judgment.judged:
+        return f"{marks.warning} GOUGE not judged", "$c-gouge"
+    if judgment.wrong_side:
+        return f"{marks.gouge} WRONG SIDE", "$c-gouge"
+    return f"{marks.good} GOUGE none", "$c-good"
+
+
+def _row(found: Iterable[tuple[str, str]]) -> Content:
+    return Content("   ").join([Content.styled(text, f"bold {role}") for text, role in found])
+
+
+def first_step(block: DerivedBlock) -> str:
+    """What to do in a block without segments; a text that cannot be read is an error even there."""
+    if block.block.segments or any(finding.code not in NOT_YET for finding in block.errors):
+        return ""
+    if any(finding.code == "MISSING" for finding in block.errors):
+        return "Type START, then right arrow for segment 1."
+    return "START is complete: right arrow on SEGMENT for segment 1."

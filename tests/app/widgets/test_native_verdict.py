@@ -1,0 +1,97 @@
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from textual.app import App, ComposeResult
+from textual.widgets import Static
+
+from app.documents.files import load
+from app.documents.programs import empty_program, example
+from app.widgets.verdict import MARKS, Case, Verdict, chips, strip, title
+from app.widgets.words import segment_numbers
+from core.pipeline.derive import derive, look_ahead_table
+from core.pipeline.derived import DerivedBlock
+from core.units import Unit
+
+
+def case_of(name: str, lookahead: int | None = None) -> Case:
+    program = load(example(name))
+    if lookahead is not None:
+        block = replace(program.blocks[0], lookahead=lookahead)
+        program = replace(program, blocks=(block, *program.blocks[1:]))
+    block = derive(program).block(1)
+    return Case(block, look_ahead_table(block, program), program.unit)
+
+
+@pytest.fixture(scope="module")
+def pocket() -> Case:
+    return case_of("pocket")
+
+
+@pytest.fixture(scope="module")
+def notch() -> Case:
+    return case_of("notch")
+
+
+def test_the_lines_of_the_pocket_are_those_of_the_design(pocket):
+    marks = MARKS["braille"]
+    assert title(pocket) == "LOOK-AHEAD CAL 8 deletes segment 9"
+    assert strip(pocket, marks).plain == " 1 ✖•••••• 8 •••••••••••• 20   best 2: deletes 9"
+    assert chips(pocket, marks).plain == "✓ GOUGE none   ▲ UNCUT 1.9367   × DELETED 9"
+
+
+def test_a_gouge_comes_first_in_title_and_chips(notch):
+    assert title(notch).startswith("LOOK-AHEAD CAL 2 gouges segment ")
+    assert chips(notch, MARKS["braille"]).plain.startswith("✖ GOUGE 0.2500")
+
+
+def test_every_set_of_characters_has_a_cell_for_each_value(pocket):
+    for characters, marks in MARKS.items():
+        line = strip(pocket, marks).plain
+        assert line.startswith(f" 1 {marks.gouge}"), characters
+        assert line.index(" 20") == 3 + 7 + 3 + 12
+    assert chips(pocket, MARKS["ascii"]).plain.isascii()
+
+
+def test_a_row_of_the_table_is_judged_in_place_of_the_value_in_force(pocket):
+    row = pocket.table.row(1)
+    assert title(replace(pocket, row=row)).startswith("LOOK-AHEAD 1 gouges")
+    assert strip(replace(pocket, row=row), MARKS["braille"]).plain.startswith(" 1  1 •")
+
+
+def test_while_it_is_calculated_the_title_says_how_far_it_is(pocket):
+    assert title(replace(pocket, working=0.4)) == "LOOK-AHEAD CAL 8  working 40 %"
+
+
+def test_without_a_table_no_value_is_called_best(pocket):
+    assert strip(replace(pocket, table=None), MARKS["braille"]).plain.rstrip().endswith(" 20")
+
+
+def test_an_empty_block_says_what_to_type_first():
+    program = empty_program()
+    block: DerivedBlock = derive(program).block(1)
+    assert chips(Case(block, None, Unit.IN), MARKS["braille"]).plain == " Type START, then right arrow for segment 1."
+
+
+def test_runs_of_segment_numbers_are_joined():
+    assert segment_numbers((4.0, 2.0, 3.0, 3.5, 7.0)) == "2-4 7"
+
+
+async def test_the_widget_shows_another_case_as_soon_as_it_is_set(pocket, notch):
+    class Shown(App[None]):
+        def get_css_variables(self) -> dict[str, str]:
+            roles = dict.fromkeys(("c-label", "c-gouge", "c-uncut", "c-deleted", "c-good"), "red")
+            return {**super().get_css_variables(), **roles}
+
+        def compose(self) -> ComposeResult:
+            yield Verdict()
+
+    app = Shown()
+    async with app.run_test() as pilot:
+        verdict = app.query_one(Verdict)
+        for case in (pocket, notch):
+            verdict.case = case
+            await pilot.pause()
+            assert verdict.border_title == title(case)
+            assert str(app.query_one("#chips", Static).content) == str(chips(case, MARKS["braille"]))
