@@ -19,7 +19,7 @@ from typing import Final
 
 from app.cli.checking import Answer, Asked, answer, answer_all, lines, reasons, same_contours
 from app.cli.control_options import Unusable, add_options, bytes_of, control_of, name_of, tools_of, unit_of
-from app.nc_proof.listing import SUFFIXES
+from app.documents.nc_text import NC_SUFFIXES
 from core.controls.registry import names
 
 CLEAN: Final = 0
@@ -77,7 +77,7 @@ def _programs(files: list[Path]) -> Iterator[Path]:
         if not path.is_dir():
             yield path
             continue
-        found = sorted(one for one in path.rglob("*") if one.suffix.lower() in SUFFIXES and one.is_file())
+        found = sorted(one for one in path.rglob("*") if one.suffix.lower() in NC_SUFFIXES and one.is_file())
         yield from found or [path]
 
 
@@ -93,7 +93,7 @@ class _Checked:
 def _one(path: Path, asked: Asked) -> _Checked:
     try:
         if path.is_dir():
-            raise Unusable(f"{name_of(path)} is a folder without programs ({' '.join(sorted(SUFFIXES))}).")
+            raise Unusable(f"{name_of(path)} is a folder without programs ({' '.join(sorted(NC_SUFFIXES))}).")
         text = bytes_of(path)
     except Unusable as trouble:
         return _Checked(path, unusable=str(trouble))

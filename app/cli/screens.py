@@ -131,6 +131,7 @@ def keep_settings(app: CutcompApp, *, first: bool) -> None:
 def begin(path: Path | None, example: str | None) -> Session:
     """The session to begin with; StoreError when the file is none."""
     from app.documents import programs as files
+    from app.painted.opened import opened
     from app.painted.session import Session
 
     if example is not None:
@@ -141,7 +142,7 @@ def begin(path: Path | None, example: str | None) -> Session:
     if not path.exists() and path.parent.is_dir():
         return Session.of(files.empty_program(), path).saying(f"{path} does not exist yet: saving makes it.")
     try:
-        return files.opened(path)
+        return opened(path)
     except StoreError as error:
         from app.painted.rescue import rescued
 

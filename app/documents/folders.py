@@ -8,11 +8,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from app.documents.lock import held_by
 from app.documents.naming import is_folder
-from app.painted.messages import Close, Message
-from app.painted.screens.ask import Ask
-from core.units import printable
 
 
 def chosen(path: Path, file: Path | None) -> Path:
@@ -28,19 +24,6 @@ def outside(path: Path, file: Path | None) -> bool:
 def folder(file: Path | None) -> Path:
     """The chosen folder as a whole path without links."""
     return Path(os.path.realpath(file.parent if file is not None else Path()))
-
-
-def asking(path: Path, file: Path | None, agreed: Message, about: str = "") -> Ask:
-    """The one question before a file outside is written; it says too what would be replaced there."""
-    target = Path(os.path.realpath(path))
-    link = f"{told_path(path)} leads there." if path.is_symlink() else ""
-    whose = "current" if file is None else "program's"
-    stands = "A file of this name exists already. Its content is replaced." if target.exists() else ""
-    owner = held_by(path)
-    who = "" if owner is None else f"{printable(owner.user)} on {printable(owner.host)} has it open."
-    lines = (f"{told_path(target)} is not in the {whose} folder,", f"{told_path(folder(file))}.", link, stands, who)
-    options = (("w", "WRITE THERE", (Close(), agreed)),)
-    return Ask("WRITE IN ANOTHER FOLDER?", tuple(line for line in lines if line), options, about)
 
 
 def written_at(path: Path) -> str:

@@ -7,8 +7,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
-from app.documents.files import load, stamp_of
-from app.painted.session import Session
 from core.program.edit import new_block
 from core.program.model import Number, Program, Tool
 from core.units import Unit
@@ -32,16 +30,6 @@ def empty_program(unit: Unit = Unit.IN) -> Program:
     """What a new program begins with: one block and an end mill."""
     program = Program(unit, tools=(Tool(1, diameter=Number(0.5 if unit is Unit.IN else 12.0)),))
     return replace(program, blocks=(new_block(program),))
-
-
-def opened(path: Path) -> Session:
-    """The session on a program file; StoreError when it is none.
-
-    The stamp is taken first: a file that is written in between is then taken for changed, never for read.
-    """
-    stamp = stamp_of(path)
-    session = Session.of(load(path), path)
-    return replace(session, guard=replace(session.guard, stamp=stamp))
 
 
 def is_program(path: Path) -> bool:

@@ -7,13 +7,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, assert_never
 
 from app.documents.files import refuse_program, stamp_of_data, write_output, write_text
-from app.documents.folders import asking, chosen, outside, told_path, written_at
-from app.documents.guard import THE_WAY
+from app.documents.folders import chosen, outside, told_path, written_at
 from app.documents.naming import as_program, is_folder, with_suffix
 from app.documents.patience import FILE, within
-from app.documents.programs import empty_program, examples, is_nc, opened
-from app.documents.saving import asked, leads_elsewhere, put_theirs_aside, replacing, there
+from app.documents.programs import empty_program, examples, is_nc
+from app.painted.guard import THE_WAY
 from app.painted.messages import Browse, Close, Do, Leave, Load, Open, Post, Save, Say, Swap
+from app.painted.opened import opened
+from app.painted.saving import asked, asking, leads_elsewhere, put_theirs_aside, replacing, there
 from app.painted.screens.ask import Ask, Option
 from app.painted.screens.browse import BrowsePage, listed
 from app.painted.screens.save import SaveAsPage

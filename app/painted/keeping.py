@@ -12,10 +12,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app.documents import places, times
+from app.documents import times
 from app.documents.files import why
 from app.documents.journal_file import JournalFile
 from app.documents.lock import Held, Owner, myself, release, take, taken_by
+from app.painted import places
 from app.painted.messages import Open, Say
 from app.painted.session import Session, Tone
 from app.painted.widgets.header import printable as whole
@@ -23,9 +24,9 @@ from core.program.file.read import StoreError
 from core.units import printable
 
 if TYPE_CHECKING:
-    from app.documents.journal import Cursor, Head
     from app.documents.journal_file import Record
     from app.painted.desk import Desk
+    from app.painted.journal import Cursor, Head
 
 LONGEST: Final = 8_000_000
 """Bytes of a journal that is not saved for very long; then it is begun anew with the last `STEPS` edits."""
@@ -119,13 +120,13 @@ class Keeping:
 
     def head(self, session: Session) -> Head:
         """Whose work it is, and on which file."""
-        from app.documents.journal import Head
+        from app.painted.journal import Head
 
         return Head(self.me, None if session.file is None else str(session.file), session.guard.stamp)
 
     def cursor(self, session: Session) -> Cursor:
         """Where the operator is."""
-        from app.documents.journal import Cursor
+        from app.painted.journal import Cursor
 
         return Cursor(session.where, session.field, self.clock())
 
@@ -185,7 +186,7 @@ class Keeping:
 
     def _elsewhere(self, session: Session) -> bool:
         """Put all of the work into this person's own folder; only when it is there its place beside is given up."""
-        from app.documents.journal import history_records
+        from app.painted.journal import history_records
 
         if session.file is None or (self.journal is not None and self.journal.path.parent == self.own):
             return False
@@ -200,7 +201,7 @@ class Keeping:
         return True
 
     def _in_place(self, session: Session, known: Session) -> None:
-        from app.documents.journal import edit_records, history_records
+        from app.painted.journal import edit_records, history_records
 
         cursor = self.cursor(session)
         records = edit_records(known.history, session.history, cursor)
@@ -218,7 +219,7 @@ class Keeping:
         return places.place(session.file, self.me, self.own)
 
     def _move(self, session: Session, cursor: Cursor) -> tuple[Record, ...]:
-        from app.documents.journal import moved_record
+        from app.painted.journal import moved_record
 
         return (moved_record(self.head(session), cursor),) if self.moved else ()
 

@@ -11,10 +11,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app.documents import places, times
+from app.documents import times
 from app.documents.files import why
 from app.documents.journal_file import JournalFile
 from app.documents.lock import Held, Lock, Owner, myself, release, take, take_over, taken_by
+from app.painted import places
 from app.painted.keeping import away, holder
 from app.painted.messages import Close, Do, Open, Say
 from app.painted.session import Tone
@@ -22,9 +23,9 @@ from app.painted.widgets.header import printable as whole_name
 from core.program.file.read import StoreError
 
 if TYPE_CHECKING:
-    from app.documents.nc_journal import Record
-    from app.nc_proof.listing import Listing
+    from app.documents.nc_text import NcText
     from app.painted.desk import Desk
+    from app.painted.nc_journal import Record
     from app.painted.screens.proof import ProofPage
 
 LONGEST: Final = 64_000_000
@@ -35,7 +36,7 @@ LONGEST: Final = 64_000_000
 class Kept:
     """What is kept of one opened file: the text and the file as they were last, its journal, its lock."""
 
-    listing: Listing
+    listing: NcText
     file: Path
     journal: JournalFile | None = None
     lock: Lock | None = None
@@ -82,7 +83,7 @@ class NcKeeping:
 
     def _last_try(self, one: Kept, journal: JournalFile) -> None:
         """What could not be written before may find room by now."""
-        from app.documents.nc_journal import whole
+        from app.painted.nc_journal import whole
 
         try:
             if journal.unwritten:
@@ -179,9 +180,9 @@ class NcKeeping:
             return desk.take(Say(f"{whole_name(aside.name)} holds what was left behind before.", Tone.WARNING))
         return desk
 
-    def _write(self, one: Kept, listing: Listing) -> None:
+    def _write(self, one: Kept, listing: NcText) -> None:
         """On the disk: beside the file, else in this person's own folder."""
-        from app.documents.nc_journal import whole
+        from app.painted.nc_journal import whole
 
         was, one.listing = one.listing, listing
         try:
@@ -190,8 +191,8 @@ class NcKeeping:
             if not self._elsewhere(one, tuple(whole(listing, self.me, self.clock()))):
                 raise
 
-    def _in_place(self, one: Kept, was: Listing) -> None:
-        from app.documents.nc_journal import steps, whole
+    def _in_place(self, one: Kept, was: NcText) -> None:
+        from app.painted.nc_journal import steps, whole
 
         if one.journal is None:
             path = places.place(one.file, self.me, self.own)

@@ -9,13 +9,14 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.documents import places, times
+from app.documents import times
 from app.documents.files import why
 from app.documents.journal_file import JournalFile, set_aside, why_aside
 from app.documents.lock import alive
-from app.documents.nc_journal import Found, differences, found_in, mark, whole
-from app.documents.places import Unreadable
+from app.painted import places
 from app.painted.messages import Close, Do, Open, Say
+from app.painted.nc_journal import Found, differences, found_in, mark, whole
+from app.painted.places import Unreadable
 from app.painted.recovery import discarding, kept_for, of_unreadable, put_away, wants_answer
 from app.painted.screens.ask import Option
 from app.painted.screens.decide import Decide
@@ -25,7 +26,7 @@ from core.program.file.read import StoreError
 from core.units import printable
 
 if TYPE_CHECKING:
-    from app.nc_proof.listing import Listing
+    from app.documents.nc_text import NcText
     from app.painted.desk import Desk
     from app.painted.nc_keeping import Kept, NcKeeping
     from app.painted.screens.proof import ProofPage
@@ -145,7 +146,7 @@ def restored(keeping: NcKeeping, desk: Desk, opening: object, path: Path, found:
     return desk.take(Say(f"{copy}Your changes are back. u takes them back step by step, s saves them.{sizes}"))
 
 
-def _known(work: Listing, file: Listing) -> Listing:
+def _known(work: NcText, file: NcText) -> NcText:
     """The work, knowing after which of its changes it is what the file holds: undone to there nothing is unsaved."""
     at = work.first
     for change in (None, *work.past, *reversed(work.future)):

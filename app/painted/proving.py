@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
-from app.nc_proof.listing import Listing
+from app.documents.nc_text import NcText
 
 if TYPE_CHECKING:
     from app.cli.checking import Answer
@@ -31,7 +31,7 @@ _TOOL: Final = re.compile(r"(?:TOOL\s+(?:DEF|CALL)\s+|[TD]\s*)(\d{1,4})(?![\d.])
 class Question:
     """A text on a control with these tools; `every` control is asked for where that is None.  Equal only to itself."""
 
-    listing: Listing
+    listing: NcText
     control: str | None
     tools: ToolTable
     unit: Unit | None = None
@@ -41,7 +41,7 @@ class Question:
         """Whether the answer may be fast."""
         return len(self.listing) <= SMALL and self.control is not None
 
-    def of(self, listing: Listing) -> Question:
+    def of(self, listing: NcText) -> Question:
         """The same asked of another text."""
         return replace(self, listing=listing)
 
@@ -106,13 +106,13 @@ class Told:
         return self.answer.findings if self.answer is not None else ()
 
 
-def guess(listing: Listing) -> str:
+def guess(listing: NcText) -> str:
     """The control a text is most likely for: Klartext by its first words, else LinuxCNC, whose rules are checked."""
     first = next((text for row in range(min(BEGINNING, len(listing))) if (text := listing.text(row)).strip()), "")
     return "klartext" if _KLARTEXT.match(first) else "linuxcnc"
 
 
-def tool_in(listing: Listing) -> int:
+def tool_in(listing: NcText) -> int:
     """The number of the first tool or offset a text names, 1 without any."""
     for row in range(min(BEGINNING, len(listing))):
         found = _TOOL.search(listing.text(row))

@@ -9,15 +9,16 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.documents import places, times
+from app.documents import times
 from app.documents.files import why, write_data
-from app.documents.journal import Recovered, history_records, moved_record
 from app.documents.journal_file import JournalFile, set_aside, why_aside
 from app.documents.lock import alive, take_over
-from app.documents.places import Unreadable
-from app.documents.programs import opened
+from app.painted import places
 from app.painted.filing import fresh
+from app.painted.journal import Recovered, history_records, moved_record
 from app.painted.messages import Close, Do, Open, Say
+from app.painted.opened import opened
+from app.painted.places import Unreadable
 from app.painted.screens.ask import Ask, Option
 from app.painted.screens.decide import Decide
 from app.painted.session import Session, Tone

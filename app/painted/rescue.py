@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from app.documents import places
 from app.documents.lock import alive, user
 from app.documents.programs import empty_program
+from app.painted import places
 from app.painted.session import Session
 from core.program.file.read import StoreError
 

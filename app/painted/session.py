@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from app.documents.files import Stamp
-from app.documents.guard import THE_WAY, UNGUARDED, Guard
+from app.painted.guard import THE_WAY, UNGUARDED, Guard
 from core.pipeline.derived import Derived, DerivedBlock
 from core.pipeline.outline import outline
 from core.program.edit import Edited, FormPlace, Refused

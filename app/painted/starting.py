@@ -8,9 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from app.documents import places
 from app.documents import programs as files
 from app.documents.patience import FOLDER, within
+from app.painted import places
 from app.painted.messages import Say
 from app.painted.screens.program import ProgramPage
 from app.painted.screens.start import SHOWN, Entry, Group, StartPage

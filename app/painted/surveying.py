@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from app.painted.behind import Behind
 
 if TYPE_CHECKING:
-    from app.documents.survey import Facts
     from app.painted.application import CutcompApp
+    from app.painted.survey import Facts
 
 
 @dataclass(slots=True)
@@ -28,8 +28,8 @@ class Surveying:
         """The next file of which nothing is known."""
         if not self.app.engine.ready or self.reading.busy:
             return
-        from app.documents.survey import facts_of
         from app.painted.screens.start import StartPage
+        from app.painted.survey import facts_of
 
         page = self.app.desk.page
         if isinstance(page, StartPage) and (path := page.wanted) is not None:

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from app.documents.lock import Owner, myself
-from app.documents.programs import empty_program, opened
+from app.documents.programs import empty_program
 from app.painted.desk import Desk
 from app.painted.keeping import Keeping
+from app.painted.opened import opened
 from app.painted.screens.decide import Decide
 from app.painted.session import Session
 from core.pipeline.outline import outline

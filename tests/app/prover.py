@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from app.documents.nc_text import NcText
 from app.documents.programs import empty_program
-from app.nc_proof.listing import Listing
 from app.painted.desk import Desk
 from app.painted.screens.proof import ProofPage
 from app.painted.session import Session
@@ -26,7 +26,7 @@ class Prover(Operator):
 
     @staticmethod
     def of(data: bytes, control: str, file: Path | None = None, *, tool: float | None = 0.5) -> Prover:
-        page = ProofPage.of(Listing.read(data), file, control=control, alone=True)
+        page = ProofPage.of(NcText.read(data), file, control=control, alone=True)
         tools = ToolTable() if tool is None else end_mills({1: tool})
         page = replace(page, asked=replace(page.asked, tools=tools))
         desk = replace(Desk(Session.of(empty_program())), pages=(page,))

@@ -10,11 +10,11 @@ import pytest
 from app.cli.screens import begin
 from app.documents.files import load
 from app.documents.programs import example
-from app.documents.survey import worst
 from app.painted.desk import Desk
 from app.painted.messages import Load
 from app.painted.screens.program import verdict_word
 from app.painted.session import Session
+from app.painted.survey import worst
 from app.painted.widgets.rows import text_of
 from app.painted.widgets.strip import strip
 from core.pipeline.derive import derive, look_ahead_table

@@ -15,7 +15,7 @@ from tests.app.kept import DEAD, Kept, asked, names, started
 
 @pytest.fixture(autouse=True)
 def person(own: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.documents.places.own_folder", lambda: own)
+    monkeypatch.setattr("app.painted.places.own_folder", lambda: own)
 
 
 def chosen(operator: Kept, words: str) -> Kept:

@@ -70,7 +70,7 @@ LATER = {
     "app.painted.starting",
     "app.cli.commands",
     "argparse",
-    "app.documents.journal",
+    "app.painted.journal",
     "hashlib",
     "importlib.resources",
     "numpy",

@@ -9,9 +9,10 @@ import pytest
 from textual.events import Event, Key, Paste
 from textual.pilot import Pilot
 
-from app.documents.programs import example, opened
+from app.documents.programs import example
 from app.painted.application import CutcompApp
 from app.painted.engine import Engine
+from app.painted.opened import opened
 from app.painted.screens.forms import FormPage
 from app.painted.widgets.field import Editing
 from tests.app.operator import FROZEN

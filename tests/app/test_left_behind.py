@@ -149,7 +149,7 @@ def test_what_was_typed_on_after_a_take_over_is_offered(
     own: Path, part: Path, monkeypatch: pytest.MonkeyPatch, answer: str
 ) -> None:
     typed_on(own, part, answer)
-    monkeypatch.setattr("app.documents.places.alive", lambda owner: owner.pid not in (ALIVE.pid, DEAD.pid))
+    monkeypatch.setattr("app.painted.places.alive", lambda owner: owner.pid not in (ALIVE.pid, DEAD.pid))
     monkeypatch.setattr("app.painted.recovery.alive", lambda owner: owner.pid not in (ALIVE.pid, DEAD.pid))
     again = started(own, part)
     assert "TOOL 7, was 8" in asked(again)
@@ -164,7 +164,7 @@ def test_nothing_typed_on_after_a_take_over_is_nothing_to_offer(
     first = started(own, part, ALIVE).press("tab").type("7")
     started(own, part, DEAD).press("t", *answer, "tab").type("8").press("ctrl+s", "ctrl+q")
     first.killed()
-    monkeypatch.setattr("app.documents.places.alive", lambda _: False)
+    monkeypatch.setattr("app.painted.places.alive", lambda _: False)
     assert isinstance(started(own, part).desk.page, Contour)
 
 

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.documents.nc_text import NcText
 from app.documents.programs import is_nc
-from app.nc_proof.listing import Listing
 from core.controls.program_text import lines_of
 
 DATA = (
@@ -30,7 +30,7 @@ DATA = (
 
 @pytest.mark.parametrize("data", DATA)
 def test_what_is_read_is_what_would_be_written(data: bytes) -> None:
-    listing = Listing.read(data)
+    listing = NcText.read(data)
     assert listing.data == data
     assert "".join(listing.lines).encode(listing.encoding) == data
     assert not listing.unsaved
@@ -39,47 +39,47 @@ def test_what_is_read_is_what_would_be_written(data: bytes) -> None:
 @settings(max_examples=200, derandomize=True)
 @given(st.binary(max_size=60))
 def test_lines_are_those_the_controls_count(data: bytes) -> None:
-    listing = Listing.read(data)
+    listing = NcText.read(data)
     if not data.startswith((b"\xff\xfe", b"\xfe\xff")):
         assert [listing.text(row) for row in range(len(listing))] == lines_of(data)
 
 
 def test_lines_of_utf_16_are_those_the_controls_count() -> None:
     data = "\ufeffG1 X1\r\nG0".encode("utf-16-le")
-    listing = Listing.read(data)
+    listing = NcText.read(data)
     assert [listing.text(row) for row in range(len(listing))] == lines_of(data) == ["G1 X1", "G0"]
     assert listing.changed(1, "M30").data == "\ufeffG1 X1\r\nM30".encode("utf-16-le")
 
 
 def test_a_changed_line_keeps_its_end_and_its_neighbors() -> None:
-    listing = Listing.read(b"G1 X1\r\nG1 X2\rG1 X3").changed(1, "G0")
+    listing = NcText.read(b"G1 X1\r\nG1 X2\rG1 X3").changed(1, "G0")
     assert listing.data == b"G1 X1\r\nG0\rG1 X3"
     assert listing.unsaved
     assert listing.changed(2, "M30").data == b"G1 X1\r\nG0\rM30"
 
 
 def test_the_mark_of_utf_8_stays_before_a_changed_first_line() -> None:
-    listing = Listing.read(b"\xef\xbb\xbfG1\n")
+    listing = NcText.read(b"\xef\xbb\xbfG1\n")
     assert listing.text(0) == "G1"
     assert listing.changed(0, "G0").data == b"\xef\xbb\xbfG0\n"
 
 
 def test_lines_are_inserted_with_the_end_the_file_has() -> None:
-    listing = Listing.read(b"A\r\nB")
+    listing = NcText.read(b"A\r\nB")
     assert listing.inserted(0, "X").data == b"X\r\nA\r\nB"
     assert listing.inserted(1, "X").data == b"A\r\nX\r\nB"
     assert listing.inserted(2, "X").data == b"A\r\nB\r\nX"
-    assert Listing().inserted(0, "X").data == b"X\n"
+    assert NcText().inserted(0, "X").data == b"X\n"
 
 
 def test_deleting_ends_with_nothing() -> None:
-    listing = Listing.read(b"A\nB\n").deleted(0)
+    listing = NcText.read(b"A\nB\n").deleted(0)
     assert listing.data == b"B\n"
     assert listing.deleted(0).deleted(0).data == b""
 
 
 def test_undo_and_redo_go_through_every_state() -> None:
-    states = [Listing.read(b"A\nB\nC\n")]
+    states = [NcText.read(b"A\nB\nC\n")]
     states.append(states[-1].changed(1, "X"))
     states.append(states[-1].inserted(0, "Y"))
     states.append(states[-1].deleted(3))
@@ -96,7 +96,7 @@ def test_undo_and_redo_go_through_every_state() -> None:
 
 
 def test_saved_is_what_was_written_wherever_undo_goes() -> None:
-    changed = Listing.read(b"A\n").changed(0, "B")
+    changed = NcText.read(b"A\n").changed(0, "B")
     saved = changed.written(changed.data)
     assert not saved.unsaved
     assert saved.undone().unsaved
@@ -105,8 +105,8 @@ def test_saved_is_what_was_written_wherever_undo_goes() -> None:
 
 
 def test_what_an_encoding_cannot_hold_is_known() -> None:
-    assert not Listing.read(b"(\xe9)\n").takes("\u2192")
-    assert Listing.read(b"G1\n").takes("\u2192")
+    assert not NcText.read(b"(\xe9)\n").takes("\u2192")
+    assert NcText.read(b"G1\n").takes("\u2192")
 
 
 @pytest.mark.parametrize(
@@ -131,7 +131,7 @@ def test_what_is_no_file_is_no_nc_program(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("encoding", ["utf-16", "utf-8-sig"])
 def test_the_mark_of_the_encoding_stays_in_front(encoding: str) -> None:
-    listing = Listing.read("A\nB\n".encode(encoding))
+    listing = NcText.read("A\nB\n".encode(encoding))
     first = listing.inserted(0, "X")
     assert first.data == "X\nA\nB\n".encode(encoding)
     assert first.deleted(0).data == "A\nB\n".encode(encoding)

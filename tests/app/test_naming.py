@@ -10,8 +10,9 @@ import pytest
 from app.documents.files import load
 from app.documents.folders import folder_told
 from app.documents.naming import as_program, is_folder, program_named, typed, with_suffix
-from app.documents.programs import example, opened
+from app.documents.programs import example
 from app.painted.desk import Desk
+from app.painted.opened import opened
 from app.painted.screens.browse import listed
 from core.pipeline.derive import derive
 from tests.app.operator import Operator

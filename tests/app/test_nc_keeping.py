@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 
 from app.documents.journal_file import journal_path, lines
 from app.documents.lock import Owner, lock_path, myself, take
-from app.documents.nc_journal import differences, found_in, steps, whole
+from app.documents.nc_text import NcText
 from app.documents.programs import empty_program
-from app.nc_proof.listing import Listing
 from app.painted.desk import Desk
+from app.painted.nc_journal import differences, found_in, steps, whole
 from app.painted.nc_keeping import NcKeeping
 from app.painted.screens.decide import Decide
 from app.painted.screens.proof import ProofPage
@@ -245,11 +245,11 @@ def test_saved_under_another_name_the_lock_moves(file: Path) -> None:
 
 
 def test_differences_in_words() -> None:
-    file, work = Listing.read(b"A\nB\nC\nD\n"), Listing.read(b"A\nX\nB\nD\nE\n")
+    file, work = NcText.read(b"A\nB\nC\nD\n"), NcText.read(b"A\nX\nB\nD\nE\n")
     told = ("Line 2 is new: X", "Line 3 of the file is taken out: C", "Line 5 is new: E")
     assert differences(file, work) == told
     assert differences(file, file) == ()
-    long = Listing.read(b"".join(b"%d\n" % row for row in range(900)))
+    long = NcText.read(b"".join(b"%d\n" % row for row in range(900)))
     assert differences(file, long) == ("Lines 1 to 900 are others than in the file.",)
 
 
@@ -258,7 +258,7 @@ WORK = st.lists(st.tuples(st.sampled_from("cidur"), st.integers(0, 9), st.text("
 
 @given(WORK, st.sampled_from([b"", b"A\nB\nC", b"A\r\nB\r\n", b"\xff\xfeA\x00\n\x00"]))
 def test_any_work_is_replayed(work: list[tuple[str, int, str]], data: bytes) -> None:
-    listing = Listing.read(data)
+    listing = NcText.read(data)
     records = list(whole(listing, ME, TIME))
     for kind, row, text in work:
         before, row = listing, row % (len(listing) + 1)

@@ -25,7 +25,7 @@ BOB = replace(DEAD, user="bob")
 def file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     path = tmp_path / "part.nc"
     path.write_bytes(TEXT)
-    monkeypatch.setattr("app.documents.places.own_folder", lambda: tmp_path / "own")
+    monkeypatch.setattr("app.painted.places.own_folder", lambda: tmp_path / "own")
     return path
 
 

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from app.documents.files import load, save
-from app.documents.programs import example, opened
+from app.documents.programs import example
 from app.painted.desk import Desk
+from app.painted.opened import opened
 from app.painted.screens.ask import Ask
 from app.painted.session import Session
 from tests.app.operator import Operator

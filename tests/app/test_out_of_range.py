@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from app.documents.files import load
-from app.documents.journal import block_of, packed_block
 from app.documents.programs import example
+from app.painted.journal import block_of, packed_block
 from app.painted.screens.forms import FormPage
 from app.painted.screens.tools import ToolsPage
 from core.pipeline.outline import outline

@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 
-from app.documents import patience, survey
+from app.documents import patience
 from app.documents.patience import within
-from app.painted import starting
+from app.painted import starting, survey
 from app.painted.screens.start import StartPage
 from app.painted.settings import Settings
 from tests.app.operator import Operator

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from textual.pilot import Pilot
 
-from app.nc_proof.listing import Listing
+from app.documents.nc_text import NcText
 from app.painted.application import CutcompApp
 from app.painted.screens.proof import ProofPage
 from tests.app.pilots import app_on, loaded, rested
@@ -30,7 +30,7 @@ SCREENS = {
 def app(file: str, control: str) -> CutcompApp:
     """The App on a program under proof, with a half-inch tool 1."""
     path = DATA / file
-    page = ProofPage.of(Listing.read(path.read_bytes()), Path(path.name), control=control, alone=True)
+    page = ProofPage.of(NcText.read(path.read_bytes()), Path(path.name), control=control, alone=True)
     page = replace(page, asked=replace(page.asked, tools=end_mills({1: 0.5})))
     made = app_on()
     made.desk = replace(made.desk, pages=(page,))

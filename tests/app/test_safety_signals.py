@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from app.documents.files import load
-from app.documents.journal import Recovered
-from app.documents.places import read
+from app.painted.journal import Recovered
+from app.painted.places import read
 from app.terminal.signals import GRACE
 from core.program.model import Number
 from tests.app.test_safety_terminal import PROGRAM, status

@@ -12,8 +12,8 @@ import pytest
 
 from app.__main__ import main
 from app.documents.files import save
-from app.documents.programs import opened
 from app.painted.desk import Desk
+from app.painted.opened import opened
 from core.pipeline.derive import derive
 from core.program.fields import TABLES, Form
 from core.program.file.read import loads

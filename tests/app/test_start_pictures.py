@@ -10,11 +10,11 @@ from typing import Any
 import pytest
 from textual.pilot import Pilot
 
-from app.documents.survey import Facts
 from app.painted.application import CutcompApp
 from app.painted.guide import begin
 from app.painted.screens.program import ProgramPage
 from app.painted.screens.start import Entry, Group, StartPage
+from app.painted.survey import Facts
 from app.painted.widgets.rows import Look
 from tests.app.pilots import app_on, loaded, rested
 

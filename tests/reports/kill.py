@@ -26,9 +26,9 @@ from pathlib import Path
 
 from app.documents.files import load
 from app.documents.journal_file import journal_path
-from app.documents.places import read
 from app.documents.programs import empty_program
 from app.painted.desk import Desk
+from app.painted.places import read
 from app.painted.session import FIRST, SEGMENT, Session
 from core.program.edit import FormPlace
 from core.program.history import History, differences

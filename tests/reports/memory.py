@@ -83,8 +83,8 @@ class Told:
 
 def begun(desk: Any, told: Told) -> Any:
     """The desk at the beginning of another life: a program, the start screen, or an NC program under proof."""
-    from app.documents.programs import opened
     from app.painted.filing import fresh
+    from app.painted.opened import opened
     from app.painted.screens.proof import ProofPage
     from app.painted.screens.proof_files import read
     from app.painted.starting import begun as at_start

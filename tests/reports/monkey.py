@@ -27,13 +27,13 @@ from unittest.mock import patch
 from app.cli.screens import begin, closed, keep_settings
 from app.documents import programs as files
 from app.documents.lock import take
-from app.documents.nc_journal import found_in
-from app.documents.places import read
-from app.nc_proof.listing import Listing
+from app.documents.nc_text import NcText
 from app.painted import filing
 from app.painted.engine import Engine
 from app.painted.keeping import Keeping
+from app.painted.nc_journal import found_in
 from app.painted.nc_keeping import NcKeeping, proofs
+from app.painted.places import read
 from app.painted.screens.page import Page
 from app.painted.screens.proof import ProofPage
 from app.painted.screens.proof_files import read as read_listing
@@ -225,7 +225,7 @@ class Life:
                 journal.close()
 
 
-def same_text(one: Listing, other: Listing) -> bool:
+def same_text(one: NcText, other: NcText) -> bool:
     """Whether two listings are the same, with as much to undo."""
     return one.lines == other.lines and len(one.past) == len(other.past)
 

@@ -11,8 +11,8 @@ from weakref import ref
 import pytest
 
 from app.documents.files import load
+from app.documents.nc_text import NcText
 from app.documents.programs import empty_program, example
-from app.nc_proof.listing import Listing
 from app.painted.memory import Memory
 from app.painted.nc_keeping import Kept, NcKeeping
 from app.painted.screens.save import SaveAsPage
@@ -71,7 +71,7 @@ def test_what_the_contour_needs_is_told_the_same_while_a_number_is_typed(field: 
 
 
 def test_a_change_of_an_nc_file_that_is_not_kept_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    def forget(_: NcKeeping, one: Kept, listing: Listing) -> None:
+    def forget(_: NcKeeping, one: Kept, listing: NcText) -> None:
         one.listing = listing
 
     monkeypatch.setattr(NcKeeping, "_write", forget)

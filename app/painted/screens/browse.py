@@ -67,7 +67,7 @@ class BrowsePage(EntryPage):
             return ()
         item = self.items[min(self.row, len(self.items) - 1)]
         if item.aside:
-            from app.documents.copies import opening
+            from app.painted.copies import opening
 
             return (Do(opening(item.path)),)
         return (Browse(item.path),) if item.folder else (Load(item.path),)
@@ -102,8 +102,8 @@ def listed(folder: Path) -> tuple[Item, ...]:
     """The folder above, the programs and the folders in a folder, each in order of names, then programs that were never
     saved, and work that was set aside, here or in this person's own folder; OSError if there is no such folder.
     """
-    from app.documents import places
-    from app.documents.copies import copies
+    from app.painted import places
+    from app.painted.copies import copies
 
     own = places.own_folder()
     inside = sorted(folder.iterdir(), key=lambda path: path.name.lower())

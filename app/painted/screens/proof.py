@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from app.documents.lock import Lock
-from app.nc_proof.listing import Listing
+from app.documents.nc_text import NcText
 from app.painted.messages import Close, Leave, Message, Open, Say
 from app.painted.proving import Question, Rest, Told, guess, tool_in
 from app.painted.screens.ask import Ask
@@ -57,7 +57,7 @@ class ProofPage(Page):
     opening: object = field(default_factory=object)
 
     @staticmethod
-    def of(listing: Listing, file: Path | None = None, *, control: str = "", alone: bool = False) -> ProofPage:
+    def of(listing: NcText, file: Path | None = None, *, control: str = "", alone: bool = False) -> ProofPage:
         """The page on a text, on the control it looks like where none is named."""
         question = Question(listing, control or guess(listing), ToolTable())
         return ProofPage(question, file, tool=tool_in(listing), alone=alone)
@@ -68,7 +68,7 @@ class ProofPage(Page):
         return Layout.DRAW if self.large else Layout.PROOF
 
     @property
-    def listing(self) -> Listing:
+    def listing(self) -> NcText:
         """The text as it is now."""
         return self.asked.listing
 
@@ -107,7 +107,7 @@ class ProofPage(Page):
         return self.listing.unsaved
 
     def asking(
-        self, *, listing: Listing | None = None, control: str | None = None, tools: ToolTable | None = None
+        self, *, listing: NcText | None = None, control: str | None = None, tools: ToolTable | None = None
     ) -> ProofPage:
         """The page with another question; a text without lines is one too."""
         now = self.asked

@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 from app.documents.files import refuse_program, why, write_data
-from app.documents.folders import asking, chosen, outside, written_at
+from app.documents.folders import chosen, outside, written_at
 from app.documents.naming import is_folder, typed
-from app.nc_proof.listing import LARGEST, SUFFIXES, Listing
+from app.documents.nc_text import MAX_NC_BYTES, NC_SUFFIXES, NcText
 from app.painted.messages import Close, Do, Leave, Message, Open, Say
+from app.painted.saving import asking
 from app.painted.screens.ask import Ask
 from app.painted.screens.browse import BrowsePage, Item
 from app.painted.screens.entry import EntryPage, entry_row
@@ -29,12 +30,12 @@ if TYPE_CHECKING:
     from app.painted.screens.proof import ProofPage
 
 
-def read(path: Path) -> Listing:
+def read(path: Path) -> NcText:
     """The text of a file; StoreError says why there is none."""
     try:
-        if path.is_file() and path.stat().st_size > LARGEST:
-            raise StoreError(f"{printable(str(path))} is too large: more than {LARGEST // 1_000_000} megabytes.")
-        return Listing.read(path.read_bytes())
+        if path.is_file() and path.stat().st_size > MAX_NC_BYTES:
+            raise StoreError(f"{printable(str(path))} is too large: more than {MAX_NC_BYTES // 1_000_000} megabytes.")
+        return NcText.read(path.read_bytes())
     except (OSError, ValueError) as error:
         raise StoreError(f"{printable(str(path))} is not opened: {why(error)}") from error
 
@@ -50,7 +51,7 @@ def opening(path: Path, earlier: Path | None = None) -> Callable[[Desk], Desk]:
 
         try:
             gone = earlier is not None and not path.exists()
-            page = replace(ProofPage.of(Listing() if gone else read(path), path), earlier=earlier)
+            page = replace(ProofPage.of(NcText() if gone else read(path), path), earlier=earlier)
         except StoreError as error:
             return desk.take(Say(str(error), Tone.ERROR))
         pages = desk.pages[:-1] if isinstance(desk.page, BrowsePage) else desk.pages
@@ -178,7 +179,7 @@ class ProofBrowse(BrowsePage):
             return ()
         item = self.items[min(self.row, len(self.items) - 1)] if self.items else None
         if item is not None and item.aside and not text:
-            from app.documents.copies import file_of
+            from app.painted.copies import file_of
 
             return (Do(opening(file_of(item.path, self.folder), item.path)),)
         path = self.folder / typed(text) if text or item is None else item.path
@@ -204,12 +205,12 @@ def browsing(folder: Path | None = None) -> Callable[[Desk], Desk]:
 
 def listed(folder: Path) -> tuple[Item, ...]:
     """The folder above, the NC programs and the folders in a folder, then work set aside; OSError if it has none."""
-    from app.documents.copies import copies
-    from app.documents.places import own_folder
+    from app.painted.copies import copies
+    from app.painted.places import own_folder
 
     inside = sorted(folder.iterdir(), key=lambda path: path.name.lower())
     folders = [Item(path, path.name, folder=True) for path in inside if not path.name.startswith(".") and path.is_dir()]
-    files = [path for path in inside if path.suffix.lower() in SUFFIXES and path.is_file()]
+    files = [path for path in inside if path.suffix.lower() in NC_SUFFIXES and path.is_file()]
     aside = [Item(path, name, folder=False, aside=True) for path, name in copies(folder, own_folder(), nc=True)]
     programs = [Item(path, path.name, folder=False) for path in files]
     return (Item(folder.parent, "..", folder=True), *programs, *folders, *aside)

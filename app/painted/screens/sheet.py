@@ -101,7 +101,8 @@ def writing(name: Path, *, agreed: bool = False) -> Callable[[Desk], Desk]:
 
     def work(desk: Desk) -> Desk:
         from app.cli.sheets import sheet_for
-        from app.documents.folders import asking, chosen, outside, written_at
+        from app.documents.folders import chosen, outside, written_at
+        from app.painted.saving import asking
 
         file = desk.session.file
         path = with_suffix(chosen(name, file), ".html")

@@ -9,10 +9,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import ClassVar, Final
 
-from app.documents.survey import Facts
 from app.painted.messages import Browse, Close, Do, Leave, Load, Message
 from app.painted.screens.page import Answer, Layout, Page, Softkey, Softkeys, Surface, View
 from app.painted.session import Said, Session, Tone
+from app.painted.survey import Facts
 from app.painted.widgets.header import printable
 from app.painted.widgets.rows import Look, Row, Span, plain, shortened
 from core.units import Unit

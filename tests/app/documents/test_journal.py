@@ -14,7 +14,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.documents.files import Stamp
-from app.documents.journal import (
+from app.documents.journal_file import LARGEST_KEPT, JournalFile, journal_path, lines, set_aside
+from app.documents.lock import Owner
+from app.painted.journal import (
     Cursor,
     Damaged,
     Head,
@@ -27,8 +29,6 @@ from app.documents.journal import (
     moved_record,
     recovered,
 )
-from app.documents.journal_file import LARGEST_KEPT, JournalFile, journal_path, lines, set_aside
-from app.documents.lock import Owner
 from core.program.edit import FormPlace, delete_segment, insert_segment, type_field
 from core.program.history import History
 from core.program.model import LineSegment, Number, Program, Unread

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from app.documents.journal import head_record, history_records
 from app.documents.journal_file import JournalFile, asides, journal_path, place_of, set_aside, why_aside
+from app.painted.journal import head_record, history_records
 from core.program.history import History
 from tests.app.documents.test_journal import CURSOR, HEAD, PART, add, begun, read, typed
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from app.documents.journal_file import SUFFIX, journal_path
-from app.documents.survey import facts_of
 from app.painted.keeping import Keeping
+from app.painted.survey import facts_of
 from tests.app.kept import DEAD, ELSEWHERE, TIME, Kept, asked, started
 from tests.app.screens.test_start import at_start, folder, lines, looked, page
 
@@ -20,7 +20,7 @@ def test_work_left_behind_on_a_program_that_was_never_saved_stands_in_the_list(
     folder: Path, monkeypatch: pytest.MonkeyPatch, *, closed: bool
 ) -> None:
     own = folder / "own"
-    monkeypatch.setattr("app.documents.places.own_folder", lambda: own)
+    monkeypatch.setattr("app.painted.places.own_folder", lambda: own)
     path = folder / "flap.toml"
     if closed:
         monkeypatch.setattr("os.access", lambda *_: False)
@@ -43,7 +43,7 @@ def test_work_left_behind_on_a_program_that_was_never_saved_stands_in_the_list(
 def test_work_that_cannot_be_read_on_a_program_that_was_never_saved_is_told(
     left: bytes, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("app.documents.places.own_folder", lambda: folder / "own")
+    monkeypatch.setattr("app.painted.places.own_folder", lambda: folder / "own")
     journal_path(folder / "flap.toml").write_bytes(left)
     operator = looked(at_start())
     if not left:
@@ -59,7 +59,7 @@ def test_work_that_cannot_be_read_on_a_program_that_was_never_saved_is_told(
 
 def test_a_program_that_somebody_types_and_has_not_saved_is_open(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     own = folder / "own"
-    monkeypatch.setattr("app.documents.places.own_folder", lambda: own)
+    monkeypatch.setattr("app.painted.places.own_folder", lambda: own)
     started(own, folder / "flap.toml", ELSEWHERE).press("tab").type("7")
     assert facts_of(folder / "flap.toml").word == "open"
     assert "flap" in {entry.name for entry in page(at_start()).entries}

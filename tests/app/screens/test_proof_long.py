@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from app.documents.nc_text import NcText
 from app.documents.programs import empty_program
-from app.nc_proof.listing import Listing
 from app.painted.desk import Desk
 from app.painted.screens.proof import ProofPage
 from app.painted.session import Session
@@ -15,7 +15,7 @@ from tests.tool_tables import end_mills
 
 
 def test_a_long_program_is_run_first_and_judged_then() -> None:
-    page = ProofPage.of(Listing.read(SQUARE + b"(x)\n" * 2100), control="threeblock")
+    page = ProofPage.of(NcText.read(SQUARE + b"(x)\n" * 2100), control="threeblock")
     page = replace(page, asked=replace(page.asked, tools=end_mills({1: 0.5})))
     first = page.hearing(page.asked.answer())
     assert isinstance(first, ProofPage)
@@ -34,7 +34,7 @@ def test_a_long_program_is_run_first_and_judged_then() -> None:
 
 def test_a_long_program_is_walked_through_quickly() -> None:
     text = b"G20 G90 G1 F5\n" + b"".join(b"X%d Y%d\n" % (index, index % 7) for index in range(100_000))
-    page = ProofPage.of(Listing.read(text), control="linuxcnc")
+    page = ProofPage.of(NcText.read(text), control="linuxcnc")
     desk = replace(Desk(Session.of(empty_program())), pages=(page,))
     for key in ("pagedown", "end", "up", "home"):
         desk = desk.press(key)

@@ -10,7 +10,6 @@ import pytest
 
 from app.documents.files import load, save
 from app.documents.programs import empty_program, example
-from app.documents.survey import Facts, facts_of
 from app.painted.desk import Desk
 from app.painted.screens.browse import listed
 from app.painted.screens.contour import Contour
@@ -18,6 +17,7 @@ from app.painted.screens.start import Entry, Group, StartPage
 from app.painted.session import Session
 from app.painted.settings import Settings, taken_up
 from app.painted.starting import begun, first_folder
+from app.painted.survey import Facts, facts_of
 from core.units import Unit
 from tests.app.kept import ELSEWHERE, started
 from tests.app.operator import Operator
@@ -192,7 +192,7 @@ def test_work_left_behind_on_a_named_file_stands_in_the_list(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     own = tmp_path / "own"
-    monkeypatch.setattr("app.documents.places.own_folder", lambda: own)
+    monkeypatch.setattr("app.painted.places.own_folder", lambda: own)
     path = folder / "notch.toml"
     started(own, path).press("tab").type("7").killed()
     operator = looked(at_start())
@@ -206,7 +206,7 @@ def test_work_left_behind_on_a_named_file_stands_in_the_list(
 
 def test_work_that_goes_on_elsewhere_is_none_that_was_left(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     own = folder / "own"
-    monkeypatch.setattr("app.documents.places.own_folder", lambda: own)
+    monkeypatch.setattr("app.painted.places.own_folder", lambda: own)
     started(own, folder / "notch.toml", ELSEWHERE).press("tab").type("7")
     assert facts_of(folder / "notch.toml").word == "GOUGE"
 

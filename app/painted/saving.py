@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Final
 
 from app.documents import times
 from app.documents.files import load, stamp_of, why, write_data
-from app.documents.folders import asking, outside, told_path
-from app.documents.guard import THE_WAY
+from app.documents.folders import folder, outside, told_path
 from app.documents.lock import held_by, taken_by
 from app.documents.naming import is_folder
-from app.painted.messages import Close, Open, Post, Save, Say
+from app.painted.guard import THE_WAY
+from app.painted.messages import Close, Message, Open, Post, Save, Say
 from app.painted.screens.ask import Ask
 from app.painted.screens.decide import Choose, shortened
 from app.painted.session import Session, Tone
@@ -50,6 +50,19 @@ def asked(desk: Desk, path: Path, message: Save) -> Desk | None:
     if not message.taken and (question := _taken(session, path, message)):
         return desk.take(Open(question))
     return None if message.changed else _changed(desk, path, message)
+
+
+def asking(path: Path, file: Path | None, agreed: Message, about: str = "") -> Ask:
+    """The one question before a file outside is written; it says too what would be replaced there."""
+    target = Path(os.path.realpath(path))
+    link = f"{told_path(path)} leads there." if path.is_symlink() else ""
+    whose = "current" if file is None else "program's"
+    stands = "A file of this name exists already. Its content is replaced." if target.exists() else ""
+    owner = held_by(path)
+    who = "" if owner is None else f"{printable(owner.user)} on {printable(owner.host)} has it open."
+    lines = (f"{told_path(target)} is not in the {whose} folder,", f"{told_path(folder(file))}.", link, stands, who)
+    options = (("w", "WRITE THERE", (Close(), agreed)),)
+    return Ask("WRITE IN ANOTHER FOLDER?", tuple(line for line in lines if line), options, about)
 
 
 def there(path: Path) -> bool:

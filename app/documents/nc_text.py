@@ -9,13 +9,13 @@ import re
 from dataclasses import dataclass, replace
 from typing import Final
 
-LARGEST: Final = 64_000_000
+MAX_NC_BYTES: Final = 64_000_000
 """Bytes of a file that is opened."""
 MARKS: Final = ((b"\xff\xfe", "utf-16-le"), (b"\xfe\xff", "utf-16-be"))
 """The marks of UTF-16."""
 MARK: Final = "\ufeff"
 """The mark of an encoding, as the first character of a text."""
-SUFFIXES: Final = frozenset(
+NC_SUFFIXES: Final = frozenset(
     [".nc", ".ngc", ".tap", ".cnc", ".txt", ".iso", ".eia", ".gcode", ".din", ".mpf", ".min", ".h"]
 )
 """Files of a folder that are shown as NC programs."""
@@ -33,7 +33,7 @@ class Change:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Listing:
+class NcText:
     """`lines` with their ends; `origin` is what the file held; `saved` is the last change that the file has."""
 
     lines: tuple[str, ...] = ()
@@ -44,7 +44,7 @@ class Listing:
     saved: Change | None = None
 
     @staticmethod
-    def read(data: bytes, known: str = "") -> Listing:
+    def read(data: bytes, known: str = "") -> NcText:
         """The lines of a file in an encoding that is known, else UTF-16 by its mark, UTF-8, or byte for byte."""
         for encoding in (known,) if known else (*(name for mark, name in MARKS if data.startswith(mark)), "utf-8"):
             try:
@@ -52,8 +52,8 @@ class Listing:
             except (UnicodeDecodeError, LookupError):
                 continue
             if text.encode(encoding) == data:
-                return Listing(tuple(_LINE.findall(text)), encoding, data)
-        return Listing(tuple(_LINE.findall(data.decode("latin-1"))), "latin-1", data)
+                return NcText(tuple(_LINE.findall(text)), encoding, data)
+        return NcText(tuple(_LINE.findall(data.decode("latin-1"))), "latin-1", data)
 
     @property
     def data(self) -> bytes:
@@ -80,7 +80,7 @@ class Listing:
             return False
         return True
 
-    def changed(self, row: int, text: str) -> Listing:
+    def changed(self, row: int, text: str) -> NcText:
         """Another text in a line."""
         if not self.lines:
             return self.inserted(0, text)
@@ -88,7 +88,7 @@ class Listing:
         mark = MARK if old.startswith(MARK) else ""
         return self._do(Change(row, (old,), (mark + text + self._end_of(row),)))
 
-    def inserted(self, row: int, text: str = "") -> Listing:
+    def inserted(self, row: int, text: str = "") -> NcText:
         """A new line before a line, or behind the last one."""
         if row >= len(self.lines) and self.lines and not self._end_of(len(self.lines) - 1):
             last = len(self.lines) - 1
@@ -98,7 +98,7 @@ class Listing:
             return self._do(Change(0, self.lines[:1], (MARK + text + self._usual(), *rest)))
         return self._do(Change(row, (), (text + self._usual(),)))
 
-    def deleted(self, row: int) -> Listing:
+    def deleted(self, row: int) -> NcText:
         """Without a line; the mark of the file's encoding stays in front."""
         if not self.lines or self.lines == (MARK,):
             return self
@@ -115,10 +115,10 @@ class Listing:
         """The line end of this file."""
         return (self._end_of(0) if self.lines else "") or "\n"
 
-    def _do(self, change: Change) -> Listing:
+    def _do(self, change: Change) -> NcText:
         return replace(_with(self, change), past=(*self.past, change), future=())
 
-    def undone(self) -> Listing:
+    def undone(self) -> NcText:
         """Without the last change."""
         if not self.past:
             return self
@@ -126,7 +126,7 @@ class Listing:
         back = _with(self, Change(change.row, change.inserted, change.removed))
         return replace(back, past=self.past[:-1], future=(*self.future, change))
 
-    def redone(self) -> Listing:
+    def redone(self) -> NcText:
         """With the last undone change made again."""
         if not self.future:
             return self
@@ -134,24 +134,24 @@ class Listing:
         return replace(_with(self, change), past=(*self.past, change), future=self.future[:-1])
 
     @property
-    def first(self) -> Listing:
+    def first(self) -> NcText:
         """The lines as they were before every change that can be undone."""
         listing = self
         while listing.past:
             listing = listing.undone()
         return replace(listing, future=())
 
-    def done(self, change: Change) -> Listing:
+    def done(self, change: Change) -> NcText:
         """A change made as the next one; ValueError where the lines are not those that it takes out."""
         if self.lines[change.row : change.row + len(change.removed)] != change.removed or change.row < 0:
             raise ValueError("another text")
         return self._do(change)
 
-    def written(self, data: bytes) -> Listing:
+    def written(self, data: bytes) -> NcText:
         """After the file was written with this content."""
         return replace(self, origin=data, saved=self.past[-1] if self.past else None)
 
 
-def _with(listing: Listing, change: Change) -> Listing:
+def _with(listing: NcText, change: Change) -> NcText:
     lines, behind = listing.lines, change.row + len(change.removed)
     return replace(listing, lines=(*lines[: change.row], *change.inserted, *lines[behind:]))

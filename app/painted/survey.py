@@ -8,17 +8,17 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app.documents import places
 from app.documents.files import load
 from app.documents.lock import alive, user
 from app.documents.patience import FILE, within
+from app.painted import places
 from app.painted.widgets.header import printable
 from app.painted.widgets.rows import Look
 from core.program.file.read import StoreError
 from core.program.model import Number, Program
 
 if TYPE_CHECKING:
-    from app.documents.journal import Recovered
+    from app.painted.journal import Recovered
     from core.pipeline.derived import Derived
 
 GRAVEST: Final = (Look.ERROR, Look.WARNING, Look.DIM, Look.GOOD)

@@ -7,8 +7,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from app.documents import places, times
+from app.documents import times
 from app.documents.journal_file import SUFFIX, journal_path, place_of, why_aside
+from app.painted import places
 from app.painted.messages import Load, Message, Say
 from app.painted.session import Tone
 from app.painted.widgets.header import printable

@@ -16,7 +16,7 @@ from typing import Any, Final
 
 from app.documents.journal_file import whole_lines
 from app.documents.lock import Owner, owner_of
-from app.nc_proof.listing import LARGEST, Change, Listing
+from app.documents.nc_text import MAX_NC_BYTES, Change, NcText
 from core.units import printable
 
 FORMAT: Final = 1
@@ -40,12 +40,12 @@ class Found:
 
     owner: Owner
     file: list[int]
-    listing: Listing
+    listing: NcText
     time: str
     damaged: bool
 
 
-def whole(listing: Listing, owner: Owner, time: str) -> Iterator[Record]:
+def whole(listing: NcText, owner: Owner, time: str) -> Iterator[Record]:
     """A listing with everything that can be undone and redone, as a journal that begins."""
     first = listing.first
     text = "".join(first.lines).encode(listing.encoding)
@@ -63,7 +63,7 @@ def mark(data: bytes) -> list[int]:
     return [len(data), zlib.crc32(data)]
 
 
-def steps(old: Listing, new: Listing, time: str) -> list[Record] | None:
+def steps(old: NcText, new: NcText, time: str) -> list[Record] | None:
     """What led from one listing to the next; None where the one does not lead to the other."""
     common = _common(old.past, new.past)
     found: list[Record] = [{"undo": 1, "time": time} for _ in old.past[common:]]
@@ -108,14 +108,14 @@ def found_in(data: bytes) -> Found | None:
     return Found(owner, head["file"], replace(listing, saved=NEVER), time, b"\n" in data[length:])
 
 
-def _begun(record: Record) -> tuple[Owner, Listing, str]:
+def _begun(record: Record) -> tuple[Owner, NcText, str]:
     if record["nc"] != FORMAT:
         raise ValueError("another format")
-    text = zlib.decompressobj().decompress(b85decode(record["text"]), 2 * LARGEST)
-    return owner_of(record["owner"]), Listing.read(text, str(record["encoding"])), str(record["time"])
+    text = zlib.decompressobj().decompress(b85decode(record["text"]), 2 * MAX_NC_BYTES)
+    return owner_of(record["owner"]), NcText.read(text, str(record["encoding"])), str(record["time"])
 
 
-def _replayed(listing: Listing, record: object) -> Listing:
+def _replayed(listing: NcText, record: object) -> NcText:
     match record:
         case {"row": int(row), "out": [*out], "in": [*into]}:
             return listing.done(Change(row, tuple(map(str, out)), tuple(map(str, into))))
@@ -127,7 +127,7 @@ def _replayed(listing: Listing, record: object) -> Listing:
             raise ValueError("no change")
 
 
-def differences(file: Listing, work: Listing) -> tuple[str, ...]:
+def differences(file: NcText, work: NcText) -> tuple[str, ...]:
     """What the work has changed in the file, line by line in words; of very much only where it begins and ends."""
     old, new = ([one.text(row) for row in range(len(one))] for one in (file, work))
     shorter = min(len(old), len(new))

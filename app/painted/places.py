@@ -15,7 +15,7 @@ from app.documents.journal_file import SUFFIX, JournalFile, asides, journal_path
 from app.documents.lock import Owner, alive
 
 if TYPE_CHECKING:
-    from app.documents.journal import Recovered
+    from app.painted.journal import Recovered
 
 
 def own_folder() -> Path:
@@ -154,7 +154,7 @@ def read(path: Path) -> Recovered | None:
         data = path.read_bytes()
     except OSError:
         return None
-    from app.documents.journal import recovered
+    from app.painted.journal import recovered
 
     return recovered(data)
 
