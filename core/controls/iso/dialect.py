@@ -110,7 +110,7 @@ class Dialect:
     `percent_ends`: a second line of % ends the program.  `end_needed`: M2, M30 or that line must stand at the end.
     `group_rule`: the rule's id for two G codes of one group.  `parameters`: how it keeps those of a program, None where
     nothing is known of them.  `cycles`: its drilling cycles are known; `cycle_rule` the rule that keeps them from
-    compensation; `returns_to_r`: G99 is in force at the start.  `d_anywhere`: D may stand in any block.
+    compensation; `returns_to_r`: G99 is in force at the start.  `d_anywhere`: D, and H, may stand in any block.
     `dwell_takes_axes`: X with G4 is a time, or may be.  `rate_clears_feed`: after G94 and G95 there is no feed, also
     where they were in force.  `tool_data_kinds`: the L of G10 that set a tool's data.  `tells_unused`: words that
     nothing takes are reported.  `max_repeated_blocks`: the number of blocks that subprograms and loops may run again,
@@ -170,6 +170,8 @@ def unused_words(block: Block, mode: int | None, dialect: Dialect) -> list[str]:
         taken.update(_TAKEN_BY_ARC)
     elif mode not in (0, 10, 800, None):
         taken.update(_TAKEN_BY_CYCLE)
-    if dialect.d_anywhere or not SWITCHES.isdisjoint(block.g):
+    if dialect.d_anywhere:
+        taken.update("DH")
+    elif not SWITCHES.isdisjoint(block.g):
         taken.add("D")
     return [letter for letter in block.words if letter not in taken]

@@ -16,6 +16,7 @@ from typing import Final, NamedTuple, NoReturn
 from core.controls.control_run import AlarmError, ControlRun, Log
 from core.controls.control_tools import ToolTable
 from core.controls.iso.dialect import Dialect
+from core.controls.iso.elsewhere import JUMPS, only_on
 from core.controls.iso.machine import Control, Machine
 from core.controls.iso.macro import ExpressionReader, FaultError, Kept, MacroParameters, Squeezed, tell_unset
 from core.controls.iso.reader import Block, is_plain, read_line, whole
@@ -422,6 +423,7 @@ class Flow:
     def _return(self, block: Block) -> bool:
         if "P" in block.words:
             text = "M99 with P goes on at a block number, which cutcomp does not follow. Write the blocks as they run."
+            text = f"{text} {only_on(JUMPS)}"
             self.log.stop("BRANCH", text, block.line, block.column("P"))
         if len(self.calls) > 1 and self.calls[-1].number is None:
             text = "A subprogram called by its O-word ends with endsub or return, not with M99."

@@ -17,7 +17,7 @@ from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso import cycles
 from core.controls.iso.arcs import NoArc, given_center, through
 from core.controls.iso.dialect import PLANES, Code, CodeAction, Dialect, unused_words
-from core.controls.iso.elsewhere import TOOL_DATA, only_on
+from core.controls.iso.elsewhere import CODES, OFFSETS_ANYWHERE, TOOL_DATA, only_on
 from core.controls.iso.modal_state import G54, PER_MINUTE, ZERO, ModalState, system_code
 from core.controls.iso.reader import Block, whole
 from core.controls.moves import Point3, flat
@@ -151,6 +151,7 @@ class Machine(ModalState):
             code = self.dialect.codes.get(number)
             if code is None:
                 text = f"cutcomp does not know G{number / 10:g} on this control. Remove it or write the control's code."
+                text = f"{text} {only_on(CODES.get(number, ()))}".rstrip()
                 self.log.stop("CODE", text, block.line, block.column("G", number))
             if number == _G80 and code.group == "motion" and self._moves_in(block):
                 continue
@@ -237,6 +238,8 @@ class Machine(ModalState):
         unused = unused_words(block, self.mode, self.dialect)
         if unused:
             text = f"No code in this block uses {' and '.join(unused)}. cutcomp ignores it."
+            if not {"D", "H"}.isdisjoint(unused):
+                text = f"{text} {only_on(OFFSETS_ANYWHERE)}"
             self.log.tell(Severity.WARNING, "UNUSED", text, block.line, block.column("".join(unused)))
 
     def _motion(self, block: Block) -> None:

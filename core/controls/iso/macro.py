@@ -15,6 +15,7 @@ from math import log as natural_log
 from typing import Final, NamedTuple
 
 from core.controls.control_run import Log
+from core.controls.iso.elsewhere import FREE_ASSIGNMENT, HIGH_PARAMETERS, only_on
 from core.controls.program_text import quoted
 from core.finding import Severity
 
@@ -34,6 +35,14 @@ _SYSTEM: Final = 5001
 _LAST: Final = 5601
 _TOOL_AND_PLACE: Final = range(5400, 5429)
 _MACRO_SYSTEM: Final = 5000
+_MACRO_LAST: Final = 6999
+_HIGH: Final = 10_000
+
+
+def _no_parameter(index: int, last: int) -> str:
+    """That a control has no parameter of a number, and which control has."""
+    other = f" {only_on(HIGH_PARAMETERS)}" if index >= _HIGH else ""
+    return f"#{index} is not a parameter; they go from 1 to {last}.{other}"
 
 
 class FaultError(Exception):
@@ -84,9 +93,11 @@ class MacroParameters:
 
     def _within(self, index: int, at: int) -> None:
         if not 1 <= index <= _LAST:
-            raise FaultError("PARAMETER", f"#{index} is not a parameter; they go from 1 to {_LAST}.", at)
+            raise FaultError("PARAMETER", _no_parameter(index, _LAST), at)
 
     def _variable(self, index: int, at: int) -> float:
+        if index > _MACRO_LAST:
+            raise FaultError("PARAMETER", _no_parameter(index, _MACRO_LAST), at)
         if index >= _MACRO_SYSTEM:
             text = f"Only the control knows #{index} at run time. Program the number."
             raise FaultError("BEYOND", text, at)
@@ -131,6 +142,8 @@ class MacroParameters:
             if key in NAMES or key.startswith(("_HAL[", "_INI[")):
                 raise FaultError("PARAMETER", f"#<{quoted(key.lower())}> can only be read; choose another name.", at)
         elif self.kept is Kept.MACRO_B:
+            if key > _MACRO_LAST:
+                raise FaultError("PARAMETER", _no_parameter(key, _MACRO_LAST), at)
             if not 1 <= key < _MACRO_SYSTEM:
                 raise FaultError("PARAMETER", f"#{key} can only be read; a program sets #1 to #4999.", at)
         else:
@@ -276,6 +289,16 @@ class ExpressionReader:
                 raise FaultError("MACRO", "The bracket is not closed; write the closing one.", begin)
             raise FaultError("MACRO", f"An operator or a closing bracket is missing{self._before()}.", self.at)
         self.at += 1
+        return value
+
+    def right_side(self) -> float:
+        """What stands right of an equal sign: an expression, on LinuxCNC one value."""
+        if self.values.kept is Kept.MACRO_B:
+            return self._ranked(0)
+        value, operator = self.value(), _OPERATOR.match(self.text, self.at)
+        if operator is not None:
+            text = "Right of = this control takes one value. Write the expression in square brackets."
+            raise FaultError("MACRO", f"{text} Without them {only_on(FREE_ASSIGNMENT)}", self.at)
         return value
 
     def _ranked(self, rank: int) -> float:
@@ -432,7 +455,7 @@ def _setting(reader: ExpressionReader) -> Setting:
         raise FaultError("WORD", "A value needs a letter before it; to set a parameter write #n=value.", begin)
     reader.values.settable(key, begin)
     reader.at += 1
-    return key, reader.value()
+    return key, reader.right_side()
 
 
 def tell_unset(reader: ExpressionReader, line: Squeezed, number: int, log: Log) -> None:

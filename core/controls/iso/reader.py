@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from core.controls.control_run import Log
+from core.controls.iso.elsewhere import EXPRESSIONS, JUMPS, only_on
 from core.controls.iso.macro import GAP, MacroParameters, Squeezed, worked_out
 from core.controls.program_text import capitals, quoted
 from core.finding import Severity
@@ -174,7 +175,7 @@ def _closer(
     if not bare.strip() or bare.strip() == "%":
         return [block] if block.data else []
     if branch := _BRANCH.match(bare):
-        text = f"{branch[1]} is a branch or a loop, which cutcomp does not follow. Write the blocks out as they run."
+        text = f"cutcomp follows no {branch[1]} on this control. Write the blocks out as they run. {only_on(JUMPS)}"
         log.stop("BRANCH", text, block.line, block.start + branch.start(1) + 1)
     if values is not None and _EXPRESSION.search(bare):
         return _worked_out(block, log, values)
@@ -232,6 +233,7 @@ def _fault(block: Block, bare: str, log: Log) -> None:
         log.stop("COMMENT", "The comment is not closed; write the closing bracket.", block.line, column)
     if any(sign in rest[:80] for sign in "#[<="):
         text = f"{quoted(rest)} is an expression; cutcomp evaluates none for this control. Write the number."
+        text = f"{text} {only_on(EXPRESSIONS)}"
         log.stop("MACRO", text, block.line, column)
     log.stop("WORD", f"{quoted(rest)} is not a word. Write a letter and a number.", block.line, column)
 

@@ -17,6 +17,7 @@ from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable, missing_tool
 from core.controls.iso.arcs import ArcRadii
 from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
+from core.controls.iso.elsewhere import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.machine import Control
 from core.controls.iso.macro import Kept
 from core.controls.iso.modal_state import system_code
@@ -100,7 +101,7 @@ class LinuxCnc(OneMoveQueue, Control):
         """Words without a code that takes them, and codes that compensation does not allow."""
         words = block.words
         if "D" in words and SWITCHES.isdisjoint(block.g) and 960 not in block.g:
-            text = "D needs G41, G42, G41.1 or G42.1 in its block."
+            text = f"D needs G41, G42, G41.1 or G42.1 in its block. In any block {only_on(OFFSETS_ANYWHERE)}"
             self.log.stop("N-DALONE", text, block.line, block.column("D"))
         if not _OTHERS.isdisjoint(words) or block.m or len(block.g) > 1 or 40 in block.g:
             self._other_words(block)
@@ -152,6 +153,7 @@ class LinuxCnc(OneMoveQueue, Control):
         for letter, codes_for in NEEDED.items():
             if letter in block.words and given.isdisjoint(codes_for):
                 text = f"No code in this block uses {letter}. Remove it."
+                text = f"{text} In any block {only_on(OFFSETS_ANYWHERE)}" if letter == "H" else text
                 self.log.stop("N-WORDALONE", text, block.line, block.column(letter))
         if 40 in block.g and "P" not in block.words:
             text = "G4 needs P and the seconds to wait."

@@ -19,6 +19,7 @@ from core.controls.compensation.elements import Element, fits, offset_end, offse
 from core.controls.control_run import Log
 from core.controls.control_tools import missing_tool
 from core.controls.iso.dialect import PLANES, CodeAction, Dialect, codes
+from core.controls.iso.elsewhere import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.machine import Control
 from core.controls.iso.macro import Kept
 from core.controls.iso.reader import SWITCHES, Block, whole
@@ -122,6 +123,7 @@ class RosettaCnc(Control):
         """NIST's list of what compensation does not allow; that it holds on this control is assumed."""
         if "D" in block.words and SWITCHES.isdisjoint(block.g):
             text = "D needs G41 or G42 in its block. cutcomp assumes this from NIST's list; the manual does not say."
+            text = f"{text} In any block {only_on(OFFSETS_ANYWHERE)}"
             self.log.stop("C8", text, block.line, block.column("D"))
         if not self.active:
             return

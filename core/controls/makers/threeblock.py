@@ -17,6 +17,7 @@ from core.controls.compensation.element_queue import ElementQueue
 from core.controls.compensation.elements import Element, element_sweep, fits, offset_end, offset_radius, offset_start
 from core.controls.control_run import Log
 from core.controls.iso.dialect import CodeAction, Dialect, codes
+from core.controls.iso.elsewhere import OFFSETS_ANYWHERE, only_on
 from core.controls.iso.machine import Control
 from core.controls.iso.reader import Block, Syntax
 from core.controls.moves import Plane
@@ -76,6 +77,9 @@ class ThreeBlock(ElementQueue, Control):
         if self.machine.incremental and not {"I", "J"}.isdisjoint(block.words):
             text = "Under G91 cutcomp counts the center from the arc's start; the manual does not say."
             self.log.tell(Severity.INFO, "G91-CENTER", text, block.line, block.column("IJ"))
+        if "D" in block.words:
+            text = "This control has no D: its radius is that of T. Write T and the diameter, as in T1//.5."
+            self.log.stop("CODE", f"{text} {only_on(OFFSETS_ANYWHERE)}", block.line, block.column("D"))
         if "R" in block.words:
             text = "cutcomp does not know how this control takes R. Use I and J."
             self.log.tell(Severity.WARNING, "RADIUS", text, block.line, block.column("R"))
