@@ -18,7 +18,7 @@ from textual.content import Content
 from textual.reactive import reactive
 from textual.widgets import Static
 
-from app.widgets.words import length, segment_numbers
+from app.session.words import length, segment_numbers
 from core.pipeline.derived import DerivedBlock
 from core.units import Unit
 

@@ -8,8 +8,8 @@ from textual.widgets import Static
 
 from app.documents.files import load
 from app.documents.programs import empty_program, example
+from app.session.words import segment_numbers
 from app.widgets.verdict import MARKS, Case, Verdict, chips, strip, title
-from app.widgets.words import segment_numbers
 from core.pipeline.derive import derive, look_ahead_table
 from core.pipeline.derived import DerivedBlock
 from core.units import Unit

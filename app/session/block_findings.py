@@ -1,0 +1,86 @@
+"""What is to be said about a block, as a list: gouges first, then what stays uncut by its area, then the rest.
+
+The list, the loupe, DRAW and the numbers in the drawing of the part all show this one list in this order.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import TYPE_CHECKING, Final
+
+from app.session.words import length, segment_name
+from core.finding import Finding, Severity
+from core.pipeline.derived import DerivedBlock
+from core.units import Unit, sentence
+
+if TYPE_CHECKING:
+    from core.advice.lookahead_table import Table
+    from core.geometry.piece import Point
+
+
+class Kind(IntEnum):
+    """What sort of finding it is, in the order of the list."""
+
+    GOUGE = 0
+    ERROR = 1
+    TO_TYPE = 2
+    UNCUT = 3
+    WARNING = 4
+    NOTE = 5
+
+
+TO_TYPE: Final = frozenset({"MISSING", "NO_SEGMENTS"})
+"""Errors that only say that something is still to be typed."""
+GOUGING: Final = frozenset({"GOUGE", "ROUGH_GOUGES", "BLEND_GOUGES", "WRONG_SIDE"})
+"""Errors by which the part is damaged."""
+_KINDS: Final = {Severity.ERROR: Kind.ERROR, Severity.WARNING: Kind.WARNING, Severity.INFO: Kind.NOTE}
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One finding as the list shows it: `title` in short, `where` the segments, `text` the whole sentence.
+
+    `at` (mm) is what the loupe goes to, `segment` and `field` where the cursor goes; each None where it has none.
+    """
+
+    kind: Kind
+    title: str
+    where: str
+    text: str
+    at: Point | None = None
+    segment: int | None = None
+    field: str | None = None
+    area: float = 0.0
+
+
+def block_findings(block: DerivedBlock, table: Table | None, unit: Unit) -> tuple[Entry, ...]:
+    """All findings of a block and the notes of its look-ahead table, the gravest first."""
+    notes = () if table is None else table.notes
+    found = [_entry(finding, unit) for finding in dict.fromkeys((*block.findings, *notes))]
+    return tuple(sorted(found, key=lambda entry: (entry.kind, -entry.area)))
+
+
+def _entry(finding: Finding, unit: Unit) -> Entry:
+    segment = None if finding.segment is None else int(finding.segment)
+    where = segment_name(finding.segment) if finding.segment else "START" if segment == 0 else ""
+    title = _title(finding, unit)
+    area = finding.area or 0.0
+    return Entry(_kind(finding), title, where, sentence(finding, unit), finding.at, segment, finding.field, area)
+
+
+def _kind(finding: Finding) -> Kind:
+    if finding.code in TO_TYPE:
+        return Kind.TO_TYPE
+    if finding.code in GOUGING:
+        return Kind.GOUGE
+    return Kind.UNCUT if finding.code == "UNCUT" else _KINDS[finding.severity]
+
+
+def _title(finding: Finding, unit: Unit) -> str:
+    """A gouge with its depth and uncut stock with its thickness; of others the first sentence."""
+    if finding.code == "GOUGE" and finding.value is not None:
+        return f"GOUGE {length(finding.value, unit)} deep"
+    if finding.code == "UNCUT" and finding.lengths:
+        return f"UNCUT {length(finding.lengths[0], unit)} thick"
+    return sentence(finding, unit).partition(". ")[0].rstrip(".")

@@ -1,0 +1,109 @@
+"""FindingsList: the findings of a block, each with its title and its whole sentence; Enter goes to the place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar
+
+from textual import on
+from textual.binding import Binding, BindingType
+from textual.content import Content
+from textual.message import Message
+from textual.reactive import reactive
+from textual.widgets import OptionList
+from textual.widgets.option_list import Option
+
+from app.session.block_findings import Entry, Kind
+from app.widgets.verdict import MARKS, Marks
+
+ROLES = {
+    Kind.GOUGE: "$c-gouge",
+    Kind.ERROR: "$c-err",
+    Kind.TO_TYPE: "$c-warn",
+    Kind.UNCUT: "$c-uncut",
+    Kind.WARNING: "$c-warn",
+    Kind.NOTE: "$c-label",
+}
+"""The color of each kind of finding."""
+
+
+def mark(kind: Kind, marks: Marks) -> str:
+    """The sign of a kind of finding."""
+    if kind in (Kind.GOUGE, Kind.ERROR):
+        return marks.gouge
+    return "?" if kind is Kind.TO_TYPE else "i" if kind is Kind.NOTE else marks.warning
+
+
+def heading(entries: Sequence[Entry], at: int, marks: Marks) -> str:
+    """The finding in hand as one line: its sign, which of how many, its title, its segments."""
+    entry = entries[at]
+    where = entry.where.replace("segment", "seg").replace("corner", "seg")
+    return f"{mark(entry.kind, marks)} {at + 1}/{len(entries)} {entry.title.removesuffix(' thick')}  {where}".rstrip()
+
+
+class FindingsList(OptionList):
+    """The list; the one in hand is highlighted, n and p step, round."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("n", "screen.finding(1)", "Next finding", show=False),
+        Binding("p", "screen.finding(-1)", "Finding before", show=False),
+    ]
+
+    entries: reactive[tuple[Entry, ...]] = reactive((), repaint=False)
+    characters: reactive[str] = reactive("braille", repaint=False)
+
+    class Chosen(Message):
+        """A finding was chosen: the cursor is to go to its place."""
+
+        def __init__(self, entry: Entry) -> None:
+            super().__init__()
+            self.entry = entry
+
+    class Stepped(Message):
+        """Another finding is in hand."""
+
+        def __init__(self, number: int) -> None:
+            super().__init__()
+            self.number = number
+
+    def __init__(self, *, id: str | None = None, classes: str | None = None) -> None:
+        super().__init__(id=id, classes=classes, compact=True)
+        self.border_title, self.border_subtitle = "FINDINGS", "n next  p before"
+
+    def watch_entries(self, before: tuple[Entry, ...], now: tuple[Entry, ...]) -> None:
+        """Other findings; the one in hand stays where there still are as many before it."""
+        if before == now:
+            return
+        at = self.highlighted
+        self.border_title = f"FINDINGS  {len(now)}" if now else "FINDINGS  none"
+        self.clear_options()
+        self.add_options([Option(self._line(number, entry), id=str(number)) for number, entry in enumerate(now)])
+        self.highlighted = None if not now else min(at or 0, len(now) - 1)
+
+    def watch_characters(self) -> None:
+        """Other signs."""
+        before, self.entries = self.entries, ()
+        self.entries = before
+
+    def _line(self, number: int, entry: Entry) -> Content:
+        sign = mark(entry.kind, MARKS[self.characters])
+        title = Content.styled(f"{sign} {number + 1} {entry.title}", f"bold {ROLES[entry.kind]}")
+        where = Content(f"  {entry.where}" if entry.where else "")
+        if entry.text.rstrip(".") == entry.title:
+            return Content.assemble(title, where)
+        return Content.assemble(title, where, "\n", Content.styled(f"    {entry.text}", "$c-label"))
+
+    @on(OptionList.OptionHighlighted)
+    def _highlighted(self, event: OptionList.OptionHighlighted) -> None:
+        event.stop()
+        self.post_message(self.Stepped(event.option_index))
+
+    @on(OptionList.OptionSelected)
+    def _selected(self, event: OptionList.OptionSelected) -> None:
+        event.stop()
+        self.post_message(self.Chosen(self.entries[event.option_index]))
+
+    def step(self, by: int) -> None:
+        """Take the next finding in hand, or the one before, round."""
+        if self.entries:
+            self.highlighted = ((self.highlighted or 0) + by) % len(self.entries)

@@ -1,0 +1,43 @@
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from app.documents.files import load
+from app.documents.programs import empty_program, example
+from app.session.block_findings import Kind, block_findings
+from core.finding import Finding, Severity
+from core.pipeline.derive import derive
+from core.pipeline.derived import DerivedBlock
+from core.units import Unit
+
+
+@pytest.fixture(scope="module")
+def pocket() -> DerivedBlock:
+    return derive(load(example("pocket"))).block(1)
+
+
+def test_gouges_come_first_then_uncut_stock_by_its_area_then_notes(pocket):
+    gouge = Finding("GOUGE", Severity.ERROR, "GOUGE {value} deep.", 3.0, None, (1.0, 2.0), 12.7)
+    block = replace(pocket, findings=(*pocket.findings, gouge))
+    entries = block_findings(block, None, Unit.IN)
+    assert entries[0].title == "GOUGE 0.5000 deep"
+    assert (entries[0].where, entries[0].segment, entries[0].at) == ("segment 3", 3, (1.0, 2.0))
+    kinds = [entry.kind for entry in entries]
+    assert kinds == sorted(kinds)
+    areas = [entry.area for entry in entries if entry.kind is Kind.UNCUT]
+    assert len(areas) > 1
+    assert areas == sorted(areas, reverse=True)
+
+
+def test_the_pocket_leaves_most_beside_the_slot_that_is_too_narrow(pocket):
+    first = block_findings(pocket, None, Unit.IN)[0]
+    assert first.title == "UNCUT 0.3624 thick"
+    assert first.at is not None
+
+
+def test_what_is_still_to_be_typed_is_no_error():
+    entries = block_findings(derive(empty_program()).block(1), None, Unit.IN)
+    assert {entry.kind for entry in entries} <= {Kind.TO_TYPE, Kind.ERROR}
+    assert Kind.TO_TYPE in {entry.kind for entry in entries}
