@@ -13,7 +13,7 @@ from core.controls.compared_controls import Compared, OtherLanguage, compare
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.iso.modal_state import RADIUS_ZERO
-from core.controls.judged_runs import Judged, deepest_gouge, findings, first_unjudged, judge_run
+from core.controls.judged_runs import Judged, deepest_gouge, first_unjudged, judge_run, judged_findings
 from core.controls.moves import Move, Moves
 from core.controls.registry import UnknownControl, reads, run
 from core.finding import Finding, Severity
@@ -139,7 +139,7 @@ def _foreign(control: str, text: bytes) -> tuple[Finding, ...]:
 def _answer(
     done: ControlRun, results: tuple[Judged, ...], before: tuple[Finding, ...], parts: str, *, shop: bool
 ) -> Answer:
-    told = (*before, *done.findings, *findings(results), *(shop_rules.check(done) if shop else ()))
+    told = (*before, *done.findings, *judged_findings(results), *(shop_rules.check_shop_rules(done) if shop else ()))
     why = None if done.stopped_at is None else _last_error(done.findings)
     row = Answer(done.control, done.unit, done.moves, _by_line(told), done.stopped_at, _outcome(done, results, why))
     return replace(row, stretches=len(done.stretches), parts=parts, why=why)

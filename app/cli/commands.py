@@ -131,9 +131,9 @@ def lookahead(options: argparse.Namespace) -> int:
 
 def _advised(found: DerivedBlock, table: Table | None, program: Program) -> Table | None:
     """The table with what the contour needs as its notes."""
-    from core.pipeline.derive import needs
+    from core.pipeline.derive import advice_for_block
 
-    told = None if table is None else needs(found, program, table)
+    told = None if table is None else advice_for_block(found, program, table)
     return table if table is None or told is None else replace(table, notes=told.sentences)
 
 

@@ -200,11 +200,11 @@ class Engine:
 
         `wanted` is asked between two of them: where nobody wants them any more, nothing is kept.
         """
-        from core.pipeline.derive import needs
+        from core.pipeline.derive import advice_for_block
 
         if found.paths is None or self._needing(found) is not None:
             return
-        told = needs(found, program, self._made(found), wanted=wanted)
+        told = advice_for_block(found, program, self._made(found), wanted=wanted)
         if told is not None:
             self.needs = (Needing(found.paths, found.lookahead.calculated, told.sentences), *self.needs)[:KEPT]
 

@@ -21,7 +21,7 @@ from app.documents.files import Stamp
 from app.documents.journal_file import Record, whole_lines
 from app.documents.lock import Owner, owner_of
 from core.program.edit import FormPlace
-from core.program.history import History, Step, splice
+from core.program.history import History, UndoStep, splice
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -338,8 +338,8 @@ class _Replay:
     """A journal read so far; lists, since histories are copied at each step."""
 
     program: Program = field(default_factory=Program)
-    past: list[Step] = field(default_factory=list)
-    future: list[Step] = field(default_factory=list)
+    past: list[UndoStep] = field(default_factory=list)
+    future: list[UndoStep] = field(default_factory=list)
     head: Head | None = None
     cursor: Cursor | None = None
 
@@ -364,17 +364,17 @@ class _Replay:
         self.cursor = cursor
 
     def _do(self, label: str, program: Program) -> None:
-        self.past.append(Step(self.program, label))
+        self.past.append(UndoStep(self.program, label))
         self.future.clear()
         self.program = program
 
-    def _step(self, source: list[Step], target: list[Step]) -> None:
+    def _step(self, source: list[UndoStep], target: list[UndoStep]) -> None:
         step = source.pop()
-        target.append(Step(self.program, step.label))
+        target.append(UndoStep(self.program, step.label))
         self.program = step.program
 
 
-def _common(old: tuple[Step, ...], new: tuple[Step, ...]) -> int:
+def _common(old: tuple[UndoStep, ...], new: tuple[UndoStep, ...]) -> int:
     """How many steps both begin with; nearly always all of the shorter one."""
     shorter = min(len(old), len(new))
     if old[:shorter] == new[:shorter]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from core.comp.best_path.best_path import BestPath
-    from core.comp.result import Compensated
+    from core.comp.compensated import Compensated
     from core.geometry.path import Path
     from core.verify.verdict import Verdict
 

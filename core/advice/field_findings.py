@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from core.finding import Finding, Severity
-from core.program.fields import Form, check, default_value, field_of
+from core.program.fields import Form, default_value, field_of, value_refusal
 from core.program.model import Block, CutterComp, Number, Program, Typed, Unread
 from core.program.solve.solved import SolvedBlock
 from core.tolerance import JOINED, LAST_PASS, ON_PATH
@@ -170,6 +170,6 @@ def _length(typed: Typed, form: Form, name: str, program: Program) -> float | No
     if typed is None:
         usual = default_value(name, program.unit)
         return None if usual is None else to_mm(usual, program.unit)
-    if not isinstance(typed, Number) or check(field_of(form, name), typed.value, program.unit):
+    if not isinstance(typed, Number) or value_refusal(field_of(form, name), typed.value, program.unit):
         return None
     return to_mm(typed.value, program.unit)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from core.comp.compensate import compensate_all
+from core.comp.compensated import Compensated
 from core.comp.lookahead import HIGHEST, LOWEST, recommended
-from core.comp.result import Compensated
 from core.finding import Finding
 from core.geometry.path import Path
 from core.geometry.piece import Side

@@ -9,22 +9,20 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from core.advice.block_paths import BlockPaths, Loop, RoughPass
+from core.advice.remedies import FEWEST_CLOSED
 from core.comp.best_path.best_path import BestPath
 from core.comp.best_path.separation import Separation
-from core.comp.result import Compensated
+from core.comp.compensated import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import Path, as_complex, next_in_ring
 from core.geometry.piece import Point
 from core.tolerance import GOUGE
 from core.verify.contact import AirCut, air_cuts
 from core.verify.report import Names, contact_findings, move_name
-from core.verify.report import findings as verdict_findings
+from core.verify.report import verdict_findings as verdict_findings
 from core.verify.verdict import Approach, Gouge, Verdict
 
 _ORDER: Final = {severity: place for place, severity in enumerate(Severity)}
-
-FEWEST_CLOSED: Final = 3
-"""Segments with which a contour can come back to where it began, but for two arcs."""
 
 STRAIGHT_BACK: Final = cos(radians(1.0))
 """Cosine of the angle between two segments below which they lie on each other: an end typed to the last digit of a

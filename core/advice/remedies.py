@@ -17,7 +17,7 @@ from core.geometry.piece import Point
 from core.tolerance import CLOSED
 from core.verify.judge import judge
 
-STEP: Final = 0.001
+DIAMETER_STEP: Final = 0.001
 """Millimeters to which the largest diameter is found."""
 
 MAX_STARTS: Final = 6
@@ -30,7 +30,7 @@ LARGER_BY: Final = 1.02
 """A tool that fits without blend moves is offered next to one that fits with them if it is this much larger."""
 
 FEWEST_CLOSED: Final = 3
-"""Segments with which a contour can come back to where it began."""
+"""Segments with which a contour can come back to where it began, but for two arcs."""
 
 USUAL_LOOKAHEADS: Final = (8, 3, 1, 20)
 """Look-aheads tried while a tool is looked for; the one it is then offered with is chosen from all."""
@@ -110,7 +110,7 @@ def largest_tool(
         else:
             fails = size
     value = _recommended(_with_tool(trial, clean), wanted) if clean else None
-    return None if value is None else ToolFits(clean * STEP, value)
+    return None if value is None else ToolFits(clean * DIAMETER_STEP, value)
 
 
 def _clean(trial: Trial, size: int, wanted: Callable[[], bool]) -> bool:
@@ -125,12 +125,12 @@ def _clean(trial: Trial, size: int, wanted: Callable[[], bool]) -> bool:
 
 
 def _with_tool(trial: Trial, size: int) -> Trial:
-    return replace(trial, radius=size * STEP / 2.0)
+    return replace(trial, radius=size * DIAMETER_STEP / 2.0)
 
 
 def _steps(diameter: float) -> int:
     """Whole steps in a diameter, rounding forgiven."""
-    return int(diameter / STEP + 1e-6)
+    return int(diameter / DIAMETER_STEP + 1e-6)
 
 
 def start_mid_side(

@@ -23,14 +23,14 @@ from core.advice.remedies import (
 )
 from core.finding import Finding, Severity
 
-MAX_NAMED: Final = 4
+MAX_NAMED_PLACES: Final = 4
 """The number of places that are too small and named in sentences."""
 
 _NO_BLENDS: Final = "without blend moves (BLEND OFFSET 0)"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Needs:
+class Advice:
     """Sentences for the operator, and what they say.
 
     `why` says why CAL's value is not clean, empty when it is.  The rest is there only when no value is clean:
@@ -51,23 +51,25 @@ class Needs:
     sentences: tuple[Finding, ...] = ()
 
 
-def needs_of(trial: Trial, calculated: int, table: Table, wanted: Callable[[], bool] = never_canceled) -> Needs | None:
+def advice_for(
+    trial: Trial, calculated: int, table: Table, wanted: Callable[[], bool] = never_canceled
+) -> Advice | None:
     """What a contour needs whose look-ahead table is known; nothing where it could not be offset at all.
 
     `wanted` is asked before each remedy is tried: where it says no, the rest is not tried and the answer is None.
     """
     if not len(table.rows[0].compensated.raw):
-        return Needs(())
+        return Advice(())
     why = why_not_clean(table, calculated)
     if table.recommended is not None:
-        return Needs(why, sentences=why)
+        return Advice(why, sentences=why)
     try:
         return _with_remedies(why, trial, table, wanted)
     except SearchCanceled:
         return None
 
 
-def _with_remedies(why: tuple[Finding, ...], trial: Trial, table: Table, wanted: Callable[[], bool]) -> Needs:
+def _with_remedies(why: tuple[Finding, ...], trial: Trial, table: Table, wanted: Callable[[], bool]) -> Advice:
     nearest = min(table.rows, key=lambda row: (row.gouge, row.value))
     too_small = _too_small(nearest, trial.radius)
     value, start = lookahead_without_blends(trial, wanted), start_mid_side(trial, wanted)
@@ -84,7 +86,7 @@ def _with_remedies(why: tuple[Finding, ...], trial: Trial, table: Table, wanted:
     if not remedies:
         remedies = (_nothing_helps(closed=trial.closed) if at_end is None else _start_at_end_sentence(at_end),)
     sentences = (*why, *_first_named(too_small), *remedies)
-    return Needs(why, too_small, tools.tool, start, value, at_end, both, tools.without_blends, sentences)
+    return Advice(why, too_small, tools.tool, start, value, at_end, both, tools.without_blends, sentences)
 
 
 class _Tools(NamedTuple):
@@ -112,10 +114,10 @@ def _starts_at_inside_corner(row: Row) -> bool:
 
 def _first_named(too_small: tuple[Finding, ...]) -> tuple[Finding, ...]:
     """The first of many places that are too small, and how many there are."""
-    if len(too_small) <= MAX_NAMED:
+    if len(too_small) <= MAX_NAMED_PLACES:
         return too_small
     count = replace(too_small[0], text=f"There are {len(too_small)} such places.", segment=None)
-    return (*too_small[:MAX_NAMED], count)
+    return (*too_small[:MAX_NAMED_PLACES], count)
 
 
 def why_not_clean(table: Table, calculated: int) -> tuple[Finding, ...]:

@@ -12,10 +12,10 @@ import numpy as np
 
 from core.comp import findings
 from core.comp.blend_moves import blend_in, blend_out
+from core.comp.compensated import Compensated, Deletions
 from core.comp.crossings import Candidates, crossings
 from core.comp.offset import RawChain, offset
 from core.comp.prune import prune
-from core.comp.result import Compensated, Deletions
 from core.finding import Finding
 from core.geometry.path import EMPTY, Path, as_complex
 from core.geometry.piece import Arc, Piece, Side
@@ -111,12 +111,12 @@ def offset_contour(
     contour: Path, side: Side, radius: float, lookaheads: Sequence[int], *, closed: bool
 ) -> OffsetContour:
     """The stages of `compensate` that all of these look-aheads have in common."""
-    refused = findings.refusal(contour, radius, lookaheads)
+    refused = findings.contour_refusals(contour, radius, lookaheads)
     if refused:
         return OffsetContour(contour, side, radius, closed, None, None, refused)
     surface, common = _with_length(contour)
     if not len(surface):
-        refused = (*common, *findings.refusal(surface, radius, lookaheads))
+        refused = (*common, *findings.contour_refusals(surface, radius, lookaheads))
         return OffsetContour(surface, side, radius, closed, None, None, refused)
     if closed:
         common += findings.start_in_corner_finding(surface, side, radius)

@@ -20,7 +20,7 @@ MAX_NAMED_PLACES: Final = 100
 """The number of places of one kind that are listed; a last finding then says how many there are."""
 
 
-def refusal(contour: Path, radius: float, lookaheads: Sequence[int]) -> tuple[Finding, ...]:
+def contour_refusals(contour: Path, radius: float, lookaheads: Sequence[int]) -> tuple[Finding, ...]:
     """Why a contour cannot be compensated at all; nothing if it can."""
     if not isfinite(radius) or not 0.0 < radius <= LARGEST:
         return (_error("RADIUS", "The cutter's radius must be a number larger than 0."),)

@@ -25,7 +25,7 @@ def calculated(count: int, *, closed: bool) -> int:
     return min(max(wanted, least), _LARGEST_CALCULATED)
 
 
-class Outcome(Protocol):
+class LookaheadOutcome(Protocol):
     """What one look-ahead value does to a contour: lengths in millimeters."""
 
     @property
@@ -41,7 +41,7 @@ class Outcome(Protocol):
         """Length of surface it leaves."""
 
 
-def recommended(outcomes: Sequence[Outcome]) -> int | None:
+def recommended(outcomes: Sequence[LookaheadOutcome]) -> int | None:
     """The clean value that leaves least uncut, of those the smallest; None when no value is clean."""
     clean = [outcome for outcome in outcomes if outcome.clean]
     least = min((outcome.uncut for outcome in clean), default=0.0)

@@ -15,9 +15,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from core.comp.compensated import Deletions
 from core.comp.crossings import Crossings
 from core.comp.offset import RawChain, RawPart
-from core.comp.result import Deletions
 from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates
 from core.tolerance import JOINED, ON_PATH
 

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from core.controls.contours_and_leads import contour_of
 from core.controls.control_run import ControlRun, Stretch
-from core.controls.judged_runs import surface_of
+from core.controls.judged_runs import programmed_surface
 from core.geometry.distance import distance
 from core.geometry.path import Path
 from core.geometry.piece_arrays import at, piece_arrays
 from core.tolerance import ON_PATH
 
 APART: Final = 0.0005
-"""Millimeters from which on two contours differ."""
+"""Millimeters from which on two paths or contours differ."""
 
 MAX_PAIRS: Final = 20_000_000
 """Places times pieces that are measured; of longer contours fewer places are."""
@@ -54,7 +54,7 @@ def contours(first: ControlRun, second: ControlRun) -> tuple[ContourPair, ...]:
 
 
 def _pair(number: int, first: Stretch, second: Stretch) -> ContourPair:
-    surfaces = surface_of(first), surface_of(second)
+    surfaces = programmed_surface(first), programmed_surface(second)
     ours, theirs = (surface.part(*contour_of(surface)) for surface in surfaces)
     same_side = first.side is second.side and first.plane is second.plane
     return ContourPair(number, apart(ours, theirs, APART), apart(theirs, ours, APART), same_side)

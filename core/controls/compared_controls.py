@@ -7,23 +7,19 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.compared_contours import Parting, apart
+from core.controls.compared_contours import APART, Parting, apart
 from core.controls.contour_translation import run_by_contour
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.judged_runs import Judged, deepest_gouge, judge_run
-from core.controls.moves import Floats, Moves
+from core.controls.moves import Moves
 from core.controls.registry import UnknownControl, compared, reads, run, run_with_tiny_tool
 from core.controls.write.rewritten_stretch import NotTranslated
-from core.geometry.path import EMPTY, Path
+from core.geometry.path import EMPTY, Floats, Path
 from core.units import Unit
-
-APART: Final = 0.0005
-"""Millimeters from which on two paths part."""
 
 MIN_WRITTEN_APART: Final = 0.001
 """The same where one of them is written anew, or two of its last digits where that is more."""
-
 
 MAX_POINT_PAIRS: Final = 1_000_000
 """Pairs of points of one line that are measured."""

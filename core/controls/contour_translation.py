@@ -16,9 +16,9 @@ from core.controls.control_run import ControlRun, Stretch
 from core.controls.control_tools import ToolTable
 from core.controls.registry import UnknownControl, run
 from core.controls.write.contour_pass import PassWithLeads, WrittenLine
-from core.controls.write.iso_program import Frame, tools_of, write
+from core.controls.write.iso_program import Frame, tools_of, write_iso
 from core.controls.write.iso_style import FREE_ENTRY, STYLES
-from core.controls.write.klartext_program import DECIMALS, write_led
+from core.controls.write.klartext_program import KLARTEXT_DECIMALS, write_klartext_contours
 from core.controls.write.rewritten_stretch import NotTranslated, RewrittenStretch, stretch_to_rewrite, with_leads
 from core.units import to_mm
 
@@ -67,9 +67,9 @@ def _written(
 ) -> TranslatedProgram:
     style, unit = STYLES.get(control), source.unit
     if style is None:
-        lines, tools, decimals = write_led(runs, unit), ToolTable(), DECIMALS[unit]
+        lines, tools, decimals = write_klartext_contours(runs, unit), ToolTable(), KLARTEXT_DECIMALS[unit]
     else:
-        lines, decimals = write(runs, style, Frame(unit)), style.digits(unit)
+        lines, decimals = write_iso(runs, style, Frame(unit)), style.digits(unit)
         tools = tools_of([run_led.contour_pass for run_led in runs], style)
     sources, leads = _sources(lines, programmed)
     return TranslatedProgram(lines, sources, leads, tools, to_mm(10.0**-decimals, unit))

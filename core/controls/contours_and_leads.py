@@ -15,11 +15,11 @@ MAX_LEAD_MOVES: Final = 2
 MAX_CONTOURS: Final = 32
 """With more contours than this all moves count as surface: each contour is judged with the whole path."""
 
-Rows = tuple[int, int]
+RowRange = tuple[int, int]
 """First row and one after the last."""
 
 
-def contours_of(path: Path) -> tuple[Rows, ...]:
+def contours_of(path: Path) -> tuple[RowRange, ...]:
     """The contours as rows of their pieces, rising; pieces in none of them are leads.
 
     A closed run of pieces is a contour, the longest one before all others.  What is before, between and after closed
@@ -35,7 +35,7 @@ def contours_of(path: Path) -> tuple[Rows, ...]:
     return contours if len(contours) <= MAX_CONTOURS else (whole,)
 
 
-def open_contours(path: Path, contours: tuple[Rows, ...]) -> dict[Rows, frozenset[float]]:
+def open_contours(path: Path, contours: tuple[RowRange, ...]) -> dict[RowRange, frozenset[float]]:
     """The open contours of a path among closed ones, with their lines: they may only lead to the closed ones."""
     if len(contours) == 1:
         return {}
@@ -44,7 +44,7 @@ def open_contours(path: Path, contours: tuple[Rows, ...]) -> dict[Rows, frozense
     return {(first, last): frozenset(path.numbers[first:last].tolist()) for first, last in open_rows}
 
 
-def contour_of(path: Path) -> Rows:
+def contour_of(path: Path) -> RowRange:
     """The rows of the one contour without its leads; all rows where there are several, or none that is closed."""
     contours = contours_of(path)
     return contours[0] if len(contours) == 1 else (0, len(path))
@@ -54,7 +54,7 @@ def _places(path: Path) -> list[tuple[float, float]]:
     return [(x, y) for x, y in np.round(path.points / CLOSED).tolist()]
 
 
-def _longest(places: list[tuple[float, float]]) -> Rows | None:
+def _longest(places: list[tuple[float, float]]) -> RowRange | None:
     """The longest run of pieces that ends where it begins."""
     first_seen: dict[tuple[float, float], int] = {}
     best = (0, 0)
@@ -65,11 +65,11 @@ def _longest(places: list[tuple[float, float]]) -> Rows | None:
     return best if best[1] else None
 
 
-def _within(path: Path, places: list[tuple[float, float]], rows: Rows) -> list[Rows]:
+def _within(path: Path, places: list[tuple[float, float]], rows: RowRange) -> list[RowRange]:
     """The contours among rows outside the longest one: closed runs in their order, and what is long between them."""
     begin, end = rows
     last_seen = {places[index]: index for index in range(begin, end + 1)}
-    contours: list[Rows] = []
+    contours: list[RowRange] = []
     at = open_from = begin
     while at < end:
         close = last_seen[places[at]]
@@ -81,11 +81,11 @@ def _within(path: Path, places: list[tuple[float, float]], rows: Rows) -> list[R
     return [*contours, *_open((open_from, end))]
 
 
-def _encloses(path: Path, rows: Rows) -> bool:
+def _encloses(path: Path, rows: RowRange) -> bool:
     """Whether a closed run is more than a line there and back."""
     first, last = rows
     return last - first > 2 or bool(path.turns[first:last].any())
 
 
-def _open(rows: Rows) -> list[Rows]:
+def _open(rows: RowRange) -> list[RowRange]:
     return [rows] if rows[1] - rows[0] > MAX_LEAD_MOVES else []

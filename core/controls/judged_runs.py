@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from core.controls.contours_and_leads import MAX_LEAD_MOVES, Rows, contours_of, open_contours
+from core.controls.contours_and_leads import MAX_LEAD_MOVES, RowRange, contours_of, open_contours
 from core.controls.control_run import ControlRun, Stretch
 from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
@@ -32,7 +32,7 @@ CAM_ROUNDING: Final = 0.0127 + ROUNDING
 
 
 @dataclass(frozen=True, slots=True)
-class UnevenArc:
+class ToleratedArc:
     """The arc whose radii at its start and its end differ most, by more than any rounding, and its line.
 
     `slack`: by how much the uneven arcs of surface and path raise the tolerance.
@@ -65,7 +65,7 @@ class Judged:
     lead_gouges: tuple[Gouge, ...] = ()
     by_itself: bool = False
     open_lines: frozenset[float] = frozenset()
-    uneven: UnevenArc | None = None
+    uneven: ToleratedArc | None = None
 
 
 def judge_run(run: ControlRun) -> tuple[Judged, ...]:
@@ -79,7 +79,7 @@ def judge_run(run: ControlRun) -> tuple[Judged, ...]:
     return tuple(result for stretch in run.stretches for result in _judge_stretch(run, stretch))
 
 
-def surface_of(stretch: Stretch) -> Path:
+def programmed_surface(stretch: Stretch) -> Path:
     """What is programmed between the moves that lead in and out."""
     programmed = stretch.programmed
     return programmed.part(stretch.entry, len(programmed) - stretch.exit).path(stretch.plane)
@@ -91,14 +91,14 @@ def _judge_stretch(run: ControlRun, stretch: Stretch) -> list[Judged]:
     A part may also cut the surface of another one: that counts where the tool runs on one side of all of them; where
     the side changes it is not judged, and a finding says so.
     """
-    whole = surface_of(stretch)
+    whole = programmed_surface(stretch)
     contours = contours_of(whole)
     open_lines = open_contours(whole, contours)
     parts, results, row = stretch.parts(), list[Judged](), 0
     unjudged: list[Judged] = []
     sides_change = any(part.side is not parts[0].side for part in parts)
     for part in parts:
-        surface = surface_of(part)
+        surface = programmed_surface(part)
         begin, row = row, row + len(surface)
         inner = [(max(first, begin) - begin, min(last, row) - begin) for first, last in contours]
         inside = [first < last for first, last in inner]
@@ -122,7 +122,7 @@ def _with_unjudged(results: list[Judged], unjudged: Sequence[Judged]) -> list[Ju
 
 
 def _with_other_parts(
-    run: ControlRun, result: Judged, whole: Path, contours: tuple[Rows, ...], rows: Rows
+    run: ControlRun, result: Judged, whole: Path, contours: tuple[RowRange, ...], rows: RowRange
 ) -> tuple[Judged, list[Judged]]:
     """With what is cut of all contours outside the part's rows, and those of them that cannot be judged.
 
@@ -158,7 +158,7 @@ def _numbered(verdict: Verdict, surface: Path) -> Verdict:
     return replace(verdict, uneven_arc=replace(arc, number=float(surface.numbers[int(arc.number)])))
 
 
-def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequence[Rows]) -> list[Judged]:
+def _judge_part(run: ControlRun, stretch: Stretch, whole: Path, contours: Sequence[RowRange]) -> list[Judged]:
     """The verdict on each contour among moves of one side and radius; the first of them has the leads."""
     center = without_repeats(run.moves.part(stretch.first, stretch.last).path(stretch.plane))
     accepted = _accepted_difference(run, whole, center)
@@ -196,7 +196,7 @@ def _accepted_difference(run: ControlRun, *paths: Path) -> float:
     return max(ARC_RADII, arc_radii(run.control).largest_difference(max(radii), run.unit) + GOUGE)
 
 
-def _most_uneven(slack: float, *paths: Path) -> UnevenArc | None:
+def _most_uneven(slack: float, *paths: Path) -> ToleratedArc | None:
     """The arc of these paths whose radii differ most, None where all are the same but for rounding."""
     worst, difference = None, ARC_RADII
     for path in paths:
@@ -206,11 +206,11 @@ def _most_uneven(slack: float, *paths: Path) -> UnevenArc | None:
         row = int(apart.argmax()) if len(apart) else 0
         if len(apart) and apart[row] > difference:
             line, difference = _line(path.numbers[row]), apart[row]
-            worst = UnevenArc(float(first[row]), float(last[row]), line, slack)
+            worst = ToleratedArc(float(first[row]), float(last[row]), line, slack)
     return worst
 
 
-def findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
+def judged_findings(results: tuple[Judged, ...]) -> tuple[Finding, ...]:
     """The verdicts as findings with lines: gouges and the wrong side are errors, the rest is a warning."""
     gouged = {gouge.surface_number for result in results for gouge in result.verdict.gouges}
     uneven = _uneven_arcs(results)
@@ -260,14 +260,14 @@ def _by_itself(result: Judged) -> list[Finding]:
     return [Finding("SIDES", Severity.WARNING, text, line=_first_line(result.surface))]
 
 
-def _uneven_arcs(results: Sequence[Judged]) -> dict[Judged, UnevenArc]:
+def _uneven_arcs(results: Sequence[Judged]) -> dict[Judged, ToleratedArc]:
     """The uneven arcs of judged parts that raise the tolerance, each line once, where it does so most."""
     uneven = [(result, result.uneven) for result in results if result.uneven and result.verdict.judged]
     uneven.sort(key=lambda pair: pair[1].slack)
     return dict({arc.line: (result, arc) for result, arc in uneven if arc.slack > 0.0}.values())
 
 
-def _uneven_arc(arc: UnevenArc | None) -> list[Finding]:
+def _uneven_arc(arc: ToleratedArc | None) -> list[Finding]:
     """That an arc has two radii, which the control accepts, and how it is judged; a warning beyond CAM_ROUNDING."""
     if arc is None:
         return []

@@ -17,9 +17,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import EMPTY, Path
+from core.geometry.path import EMPTY, Floats, Path
 
-Floats = NDArray[np.float64]
 Point3 = tuple[float, float, float]
 
 

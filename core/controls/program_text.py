@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from typing import Final
 
-MAX_QUOTED: Final = 24
-"""Most characters of a program that a message quotes."""
+from core.units import MAX_QUOTED
 
 _BREAK: Final = re.compile(r"\r\n|\n|\r")
 

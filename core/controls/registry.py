@@ -121,7 +121,7 @@ def run(
     entry = CONTROLS[name]
     make = entry.variants[variant]
     if entry.dialect is None or make is None:
-        made = klartext.run(text, tools)
+        made = klartext.run_klartext(text, tools)
     else:
         made = execute(text, full, replace(entry.dialect, unit=unit or entry.dialect.unit), tools, make)
     return made if text.strip(_BLANKS) else replace(made, findings=(_EMPTY,))
@@ -132,5 +132,5 @@ def run_with_tiny_tool(text: bytes, control: str, tools: ToolTable = NO_TOOLS) -
 
     None for another control, or where even that stops.
     """
-    made = klartext.run(text, tools, TINY_SHARE) if is_klartext(control) else None
+    made = klartext.run_klartext(text, tools, TINY_SHARE) if is_klartext(control) else None
     return made if made and made.stopped_at is None else None

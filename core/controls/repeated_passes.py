@@ -11,10 +11,8 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Path
+from core.geometry.path import Path, Rows
 from core.tolerance import GOUGE, LARGEST, ON_PATH
-
-Rows = NDArray[np.intp]
 
 SWEEP_DECIMALS: Final = 3
 """Decimals of a radian to which arcs between the same ends differ: a full circle and an arc of no length do."""

@@ -12,10 +12,10 @@ from typing import Final
 import numpy as np
 
 from core.controls.control_run import ControlRun, Stretch
-from core.controls.moves import Floats, Moves
+from core.controls.moves import Moves
 from core.finding import Finding, Severity
 from core.geometry.distance import distance
-from core.geometry.path import Path
+from core.geometry.path import Floats, Path
 from core.geometry.piece import Point, Side
 from core.geometry.piece_arrays import piece_arrays
 from core.tolerance import JOINED
@@ -25,7 +25,7 @@ SQUARE: Final = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Leg:
+class PlaneMove:
     """A move in the plane: where it starts and ends, and its source line."""
 
     start: Point
@@ -43,7 +43,7 @@ class Leg:
         return bool(abs(run @ direction) <= SQUARE * np.hypot(*run))
 
 
-def check(run: ControlRun) -> tuple[Finding, ...]:
+def check_shop_rules(run: ControlRun) -> tuple[Finding, ...]:
     """Where a run breaks the shop rules H1 to H9, by line."""
     findings = [finding for stretch in run.stretches for finding in _stretch(run.moves, stretch)]
     return tuple(sorted(findings, key=lambda finding: (finding.line or 0, finding.code)))
@@ -68,16 +68,16 @@ def _stretch(moves: Moves, stretch: Stretch) -> list[Finding]:
     return findings
 
 
-def _entry(stretch: Stretch) -> Leg:
+def _entry(stretch: Stretch) -> PlaneMove:
     """The programmed move that applies compensation."""
     first, second, _ = stretch.plane.axes
     points, row = stretch.programmed.points, stretch.entry
     start, end = points[row - 1], points[row]
     ends = (float(start[first]), float(start[second])), (float(end[first]), float(end[second]))
-    return Leg(*ends, int(stretch.programmed.lines[row]))
+    return PlaneMove(*ends, int(stretch.programmed.lines[row]))
 
 
-def _exit(moves: Moves, stretch: Stretch, contour: Path) -> Leg | None:
+def _exit(moves: Moves, stretch: Stretch, contour: Path) -> PlaneMove | None:
     """The programmed move that cancels compensation, None where nothing does."""
     row = stretch.last - 1
     line = int(moves.lines[row])
@@ -85,10 +85,10 @@ def _exit(moves: Moves, stretch: Stretch, contour: Path) -> Leg | None:
         return None
     first, second, _ = stretch.plane.axes
     x, y = contour.points[-1].tolist()
-    return Leg((x, y), (float(moves.points[row, first]), float(moves.points[row, second])), line)
+    return PlaneMove((x, y), (float(moves.points[row, first]), float(moves.points[row, second])), line)
 
 
-def _applying(entry: Leg, contour: Path) -> list[Finding]:
+def _applying(entry: PlaneMove, contour: Path) -> list[Finding]:
     findings = []
     if entry.axes != 1:
         text = "Compensation turns on in a two-axis move; use a one-axis move, X or Y."
@@ -102,7 +102,7 @@ def _applying(entry: Leg, contour: Path) -> list[Finding]:
     return findings
 
 
-def _canceling(leave: Leg, contour: Path) -> list[Finding]:
+def _canceling(leave: PlaneMove, contour: Path) -> list[Finding]:
     findings = []
     if leave.axes != 1:
         text = "Compensation turns off in a two-axis move; use a one-axis move, X or Y."

@@ -13,23 +13,19 @@ from math import hypot, tau
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from core.draw.scene import BEYOND, Layer
 from core.draw.view import TALL, View
-from core.geometry.path import Floats, Points, Turns, as_complex
+from core.geometry.path import Flags, Floats, Points, Rows, Turns, as_complex
 
 SAG: Final = 0.1
 """How far a chord may be from its arc, in cells' widths: less than half a dot of the finest mode."""
-STEP: Final = tau / 8
+MAX_TURN: Final = tau / 8
 """The most a chord turns, in radians."""
 SHORT: Final = 0.25
 """An arc shorter than this, in cells' widths, is its own chord: half a dot of the finest mode."""
 CONCENTRIC: Final = 1e-9
 """An arc about the window's center is all in sight or all out of it; this keeps the division finite."""
-
-Rows = NDArray[np.intp]
-Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -135,7 +131,7 @@ def _traveled(layer: Layer) -> Floats:
 def _divided(arcs: _Pieces, reach: float) -> Chords:
     """Chords of arcs within `reach` of the window's center."""
     arcs, low, span = _visible(arcs, reach)
-    counts = np.ceil(span / np.minimum(np.sqrt(8.0 * SAG / np.maximum(arcs.radii, SAG)), STEP)).astype(np.intp)
+    counts = np.ceil(span / np.minimum(np.sqrt(8.0 * SAG / np.maximum(arcs.radii, SAG)), MAX_TURN)).astype(np.intp)
     pace = span / np.maximum(counts, 1)
     arc = np.arange(len(counts)).repeat(counts)
     nth = np.arange(len(arc)) - (counts.cumsum() - counts)[arc]

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from core.draw.areas import inside
 from core.draw.characters import Cells, CellSheet, Mode, cells, write_signs
-from core.draw.chords import Chords, Rows, chords
+from core.draw.chords import Chords, chords
 from core.draw.scene import BEYOND, Area, Layer, Scene, Style
 from core.draw.view import TALL, View
-from core.geometry.path import Floats, Points
+from core.geometry.path import Floats, Points, Rows
 
 DASH: Final = (3.0, 1.8)
 """A dash's period and the lit part of it, in cells' widths."""

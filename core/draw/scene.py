@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
 from core.geometry.path import EMPTY, Floats, Path
+from core.geometry.path_parts import NO_PARTS, PathParts
 from core.geometry.piece import Line, Piece, Point
-from core.geometry.stretch import NO_PARTS, Parts
 from core.tolerance import LARGEST
 from core.units import Unit
 
@@ -74,7 +74,7 @@ class Layer:
         """The runs of pieces that are drawn."""
         if self.drawn is None:
             return [self.path] if len(self.path) else []
-        return Parts(self.path, self.drawn).paths
+        return PathParts(self.path, self.drawn).paths
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,16 +179,16 @@ def contour_scene(
     surface: Path,
     *,
     unit: Unit | None = None,
-    sketches: Parts = NO_PARTS,
+    sketches: PathParts = NO_PARTS,
     path: Path = EMPTY,
     further: Sequence[Path] = (),
     leads: Sequence[Path] = (),
     rough: Sequence[Path] = (),
-    over_run: Parts = NO_PARTS,
-    deleted: Parts = NO_PARTS,
+    over_run: PathParts = NO_PARTS,
+    deleted: PathParts = NO_PARTS,
     meetings: Sequence[Point] = (),
     gouges: Sequence[Point] = (),
-    uncut: Parts = NO_PARTS,
+    uncut: PathParts = NO_PARTS,
     cutter: tuple[Point, float] | None = None,
     current: Path | None = None,
     start: Point | None = None,
@@ -204,7 +204,7 @@ def contour_scene(
     stays = ~np.isin(surface.numbers, deleted.path.numbers[deleted.in_part])
     layers = (
         *_parts(sketches, Style.SURFACE, dashed=True),
-        *_parts(Parts(surface, stays), Style.SURFACE),
+        *_parts(PathParts(surface, stays), Style.SURFACE),
         *_layers(rough, Style.RAPID, dashed=True),
         *_layers(leads, Style.LEAD),
         *_parts(over_run, Style.LEAD),
@@ -218,10 +218,10 @@ def contour_scene(
     return Scene(layers, () if cutter is None else (Circle(*cutter),), marks, unit)
 
 
-def _without(parts: Parts, deleted: Parts) -> Parts:
+def _without(parts: PathParts, deleted: PathParts) -> PathParts:
     """The parts but for deleted segments: these have a line of their own."""
     gone = np.isin(parts.path.numbers, deleted.path.numbers[deleted.in_part])
-    return Parts(parts.path, parts.in_part & ~gone)
+    return PathParts(parts.path, parts.in_part & ~gone)
 
 
 def _trouble(start: Point | None, meetings: Sequence[Point], gouges: Sequence[Point]) -> list[Mark]:
@@ -237,7 +237,7 @@ def _layers(paths: Sequence[Path], style: Style, *, dashed: bool = False) -> Ite
     return (Layer(path, style, dashed) for path in paths if len(path))
 
 
-def _parts(parts: Parts, style: Style, *, dashed: bool = False) -> Iterator[Layer]:
+def _parts(parts: PathParts, style: Style, *, dashed: bool = False) -> Iterator[Layer]:
     if len(parts.path):
         yield Layer(parts.path, style, dashed, parts.in_part)
 

@@ -2,7 +2,7 @@
 
 Millimeters and radians, angles counterclockwise from +X.  `axis` 0 is X and 1 is Y.  The answers are tagged:
 `OnePoint`, `TwoPoints`, `OutOfReach` (nothing reaches so far), `NotDetermined` (the givens say nothing about it) and
-`BehindStart`.
+`OppositeDirection`.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class NotDetermined:
 
 
 @dataclass(frozen=True, slots=True)
-class BehindStart:
+class OppositeDirection:
     """No solution: it would lie behind the start."""
 
 
@@ -51,14 +51,16 @@ def polar(start: Point, angle: float, length: float) -> Point:
     return start[0] + length * cos(angle), start[1] + length * sin(angle)
 
 
-def reach(start: Point, angle: float, axis: int, value: float) -> OnePoint | NotDetermined | BehindStart:
+def ray_to_coordinate(
+    start: Point, angle: float, axis: int, value: float
+) -> OnePoint | NotDetermined | OppositeDirection:
     """Where a ray reaches the coordinate `value`; `NotDetermined` if it runs along that coordinate."""
     along = (cos(angle), sin(angle))
     if abs(along[axis]) < SLIVER:
         return NotDetermined()
     travel = (value - start[axis]) / along[axis]
     if travel < 0.0:
-        return BehindStart()
+        return OppositeDirection()
     return OnePoint(_placed(axis, value, start[1 - axis] + travel * along[1 - axis]))
 
 
@@ -131,7 +133,7 @@ def rotated(point: Point, center: Point, angle: float) -> Point:
     return center[0] + dx * cos(angle) - dy * sin(angle), center[1] + dx * sin(angle) + dy * cos(angle)
 
 
-def settled(start: Point, end: Point, center: Point, turn: Turn) -> Arc:
+def even_arc(start: Point, end: Point, center: Point, turn: Turn) -> Arc:
     """The exact arc nearest to ends and a center that agree within `ARC_RADII`.
 
     Ends that are one point make a full circle.  Otherwise the center moves onto the bisector of the ends; where

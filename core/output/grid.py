@@ -16,7 +16,7 @@ from core.geometry.piece import Arc, Point
 from core.tolerance import CLOSED
 from core.units import Kind, Unit, from_mm, show
 
-DECIMALS: Final = {Unit.IN: 6, Unit.MM: 5}
+NC_DECIMALS: Final = {Unit.IN: 6, Unit.MM: 5}
 FEED_DECIMALS: Final = 3
 FINER: Final = 1
 """Further decimals of I and J, which keep the two radii of an arc equal."""
@@ -41,7 +41,7 @@ class Grid:
     @property
     def decimals(self) -> int:
         """Decimals of X, Y and Z; I and J have `FINER` more."""
-        return DECIMALS[self.unit]
+        return NC_DECIMALS[self.unit]
 
     def fine(self, value: float) -> float:
         """Millimeters in last digits, not rounded."""

@@ -24,7 +24,7 @@ from core.output.objections import OVERRIDE, overridden_errors, posting_errors
 from core.output.passes import Cutter, Job, Motion, Pass, clear_height, passes
 from core.units import Unit, sentence
 
-WIDTH: Final = 72
+COMMENT_WIDTH: Final = 72
 """Characters inside the brackets; longer text goes on in a further comment."""
 ACTIVE: Final = re.compile(r"\s*[A-Za-z_]+\s*,")
 """A comment that begins like this is an order to some controls: (MSG, ...), (LOGOPEN, ...), (PY, ...)."""
@@ -35,12 +35,12 @@ def comments(text: str) -> Iterator[str]:
     """The comment lines that say `text`: one, or several where it is long; none for blank text."""
     plain = text.translate(READABLE).encode("ascii", "replace").decode("ascii")
     spaced = "".join(character if character.isprintable() else " " for character in plain)
-    for line in wrap(spaced, WIDTH):
+    for line in wrap(spaced, COMMENT_WIDTH):
         yield f"(* {line})" if ACTIVE.match(line) else f"({line})"
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class ToolPosition:
     """Where the tool is, in millimeters, and the feed in force as text; an axis whose place is not known is None."""
 
     x: float | None = None
@@ -54,11 +54,11 @@ class _Step:
     """One line to be: its G word, where it ends, and for an arc its I and J."""
 
     word: str
-    target: Place
+    target: ToolPosition
     center: str = ""
 
 
-def _nc_lines(motions: Iterable[Motion], place: Place, grid: Grid) -> tuple[list[str], Place]:
+def _nc_lines(motions: Iterable[Motion], place: ToolPosition, grid: Grid) -> tuple[list[str], ToolPosition]:
     """The motions as text, begun at `place`, and where the tool is after them.
 
     A rapid never moves Z together with X and Y: up comes before, down after.  What would be no move as written is
@@ -73,24 +73,24 @@ def _nc_lines(motions: Iterable[Motion], place: Place, grid: Grid) -> tuple[list
     return texts, place
 
 
-def _steps(motion: Motion, place: Place, grid: Grid) -> Iterator[_Step]:
+def _steps(motion: Motion, place: ToolPosition, grid: Grid) -> Iterator[_Step]:
     if motion.feed is None:
         return _rapid(motion, place)
     feed = feed_text(motion.feed, grid)
     if motion.turn is Turn.NONE:
-        return iter((_Step("G1", Place(motion.x, motion.y, motion.z, feed)),))
+        return iter((_Step("G1", ToolPosition(motion.x, motion.y, motion.z, feed)),))
     return _arc(motion, place, feed, grid)
 
 
-def _rapid(motion: Motion, place: Place) -> Iterator[_Step]:
+def _rapid(motion: Motion, place: ToolPosition) -> Iterator[_Step]:
     """Up, across, down: whichever of them there is."""
     high = motion.z if place.z is None else max(motion.z, place.z)
     yield _Step("G0", replace(place, z=high))
-    yield _Step("G0", Place(motion.x, motion.y, high, place.feed))
-    yield _Step("G0", Place(motion.x, motion.y, motion.z, place.feed))
+    yield _Step("G0", ToolPosition(motion.x, motion.y, high, place.feed))
+    yield _Step("G0", ToolPosition(motion.x, motion.y, motion.z, place.feed))
 
 
-def _arc(motion: Motion, place: Place, feed: str, grid: Grid) -> Iterator[_Step]:
+def _arc(motion: Motion, place: ToolPosition, feed: str, grid: Grid) -> Iterator[_Step]:
     assert place.x is not None
     assert place.y is not None
     assert place.z is not None
@@ -98,7 +98,7 @@ def _arc(motion: Motion, place: Place, feed: str, grid: Grid) -> Iterator[_Step]
     word = "G3" if motion.turn is Turn.CCW else "G2"
     for part in arc_parts(arc, grid):
         z = motion.z if part.share == 1.0 else place.z + part.share * (motion.z - place.z)
-        target = Place(*part.end, z, feed)
+        target = ToolPosition(*part.end, z, feed)
         if part.center is None:
             yield _Step("G1", target)
         else:
@@ -106,7 +106,7 @@ def _arc(motion: Motion, place: Place, feed: str, grid: Grid) -> Iterator[_Step]
             yield _Step(word, target, f" I{i} J{j}")
 
 
-def _line(step: _Step, place: Place, grid: Grid) -> str:
+def _line(step: _Step, place: ToolPosition, grid: Grid) -> str:
     """The step as text, empty if nothing moves."""
     target, axes = step.target, ""
     for name, old, new in (("X", place.x, target.x), ("Y", place.y, target.y), ("Z", place.z, target.z)):
@@ -225,12 +225,12 @@ def _body(jobs: Sequence[Job], grid: Grid) -> Iterator[str]:
     inch = grid.unit is Unit.IN
     yield f"G17 {'G20' if inch else 'G21'} G40 G49 G{jobs[0].work_offset} G80 G90 G91.1 G94"
     yield f"G64 P{CORNER_TOLERANCE[grid.unit]}"
-    place, tool, speed = Place(), None, 0.0
+    place, tool, speed = ToolPosition(), None, 0.0
     for job in jobs:
         for a_pass in passes(job):
             if a_pass.cutter.number != tool:
                 yield from _tool_change(a_pass, first=tool is None)
-                tool, speed, place = a_pass.cutter.number, a_pass.speed, Place()
+                tool, speed, place = a_pass.cutter.number, a_pass.speed, ToolPosition()
             elif a_pass.speed != speed:
                 yield f"S{speed_text(a_pass.speed)}"
                 speed = a_pass.speed

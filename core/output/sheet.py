@@ -22,7 +22,7 @@ from core.output.objections import OVERRIDE, posting_errors
 from core.output.passes import Cutter, Job, Motion, Pass, passes, rough_runs
 from core.units import Kind, Unit, from_mm, sentence, show
 
-WIDTH: Final = 78
+PAGE_COLUMNS: Final = 78
 """Columns of the plain text."""
 LABEL: Final = 18
 """Columns of a label in it."""
@@ -200,13 +200,13 @@ def _travel(before: Motion, motion: Motion) -> float:
 
 def as_text(sheet: Sheet) -> str:
     """The sheet, lines ended by a line feed."""
-    lines = ["SETUP SHEET", "=" * WIDTH, *_text_pairs(sheet.head), ""]
+    lines = ["SETUP SHEET", "=" * PAGE_COLUMNS, *_text_pairs(sheet.head), ""]
     if sheet.errors:
         lines += [NOT_READY, *(line for text in sheet.errors for line in _wrapped(f"!! {text}"))]
     else:
         lines.append(READY)
     for section in (sheet.tools, *sheet.blocks):
-        lines += ["", section.title, "-" * WIDTH, *_text_section(section)]
+        lines += ["", section.title, "-" * PAGE_COLUMNS, *_text_section(section)]
     return "\n".join(_printable_line(line).rstrip() for line in lines) + "\n"
 
 
@@ -229,7 +229,7 @@ def _text_section(section: Section) -> Iterator[str]:
 
 def _text_pairs(pairs: Sequence[tuple[str, str]]) -> Iterator[str]:
     for label, text in pairs:
-        first, *rest = wrap(_printable_line(text), WIDTH - LABEL - 1) or [""]
+        first, *rest = wrap(_printable_line(text), PAGE_COLUMNS - LABEL - 1) or [""]
         yield f"{label:<{LABEL}} {first}"
         yield from (f"{'':<{LABEL}} {line}" for line in rest)
 
@@ -242,7 +242,7 @@ def _table(rows: Sequence[Sequence[str]]) -> Iterator[str]:
 
 
 def _wrapped(text: str) -> list[str]:
-    return wrap(_printable_line(text), WIDTH - 2, initial_indent="  ", subsequent_indent="     ")
+    return wrap(_printable_line(text), PAGE_COLUMNS - 2, initial_indent="  ", subsequent_indent="     ")
 
 
 def as_page(sheet: Sheet, drawings: Sequence[str]) -> str:

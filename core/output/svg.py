@@ -17,8 +17,8 @@ from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.units import from_mm, to_mm
 
-DECIMALS: Final = 6
-WIDTH: Final = 960
+SVG_DECIMALS: Final = 6
+DRAWING_WIDTH: Final = 960
 """Width of the drawing on a screen, in its pixels; the height follows."""
 TEXT: Final = 0.024
 """Height of letters, as a part of the drawing's larger side."""
@@ -103,7 +103,7 @@ def _at(point: Point) -> str:
 
 
 def _number(value: float) -> str:
-    text = f"{value:.{DECIMALS}f}".rstrip("0").rstrip(".")
+    text = f"{value:.{SVG_DECIMALS}f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text
 
 
@@ -121,8 +121,8 @@ def _head(box: Box, title: str) -> Iterator[str]:
     x0, y0, x1, y1 = box
     wide, high = x1 - x0, y1 - y0
     view = " ".join(map(_number, (x0, -y1, wide, high)))
-    height = _number(WIDTH * high / wide)
-    yield f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{height}" viewBox="{view}">'
+    height = _number(DRAWING_WIDTH * high / wide)
+    yield f'<svg xmlns="http://www.w3.org/2000/svg" width="{DRAWING_WIDTH}" height="{height}" viewBox="{view}">'
     yield f"<title>{_plain(title)}</title>"
     yield "<style>"
     yield "path, circle { fill: none; vector-effect: non-scaling-stroke; stroke-linejoin: round }"

@@ -17,12 +17,12 @@ from core.advice.path_findings import (
     z_step_findings,
 )
 from core.advice.remedies import never_canceled
-from core.advice.why_not_clean import Needs, needs_of
+from core.advice.why_not_clean import Advice, advice_for
 from core.comp.best_path.best_path import BestPath, best_path
 from core.comp.best_path.separation import separation
 from core.comp.blend_moves import blend_in, blend_out
 from core.comp.compensate import compensate
-from core.comp.result import Compensated
+from core.comp.compensated import Compensated
 from core.finding import Finding
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Side
@@ -173,9 +173,9 @@ def trial_of(block: DerivedBlock, program: Program) -> Trial | None:
     )
 
 
-def needs(
+def advice_for_block(
     block: DerivedBlock, program: Program, table: Table | None = None, *, wanted: Callable[[], bool] = never_canceled
-) -> Needs | None:
+) -> Advice | None:
     """What a derived block needs; `table` is its look-ahead table where that is known.  None where there is none.
 
     `wanted` is asked before each remedy is tried: where it says no, the rest is not tried and the answer is None.
@@ -183,4 +183,4 @@ def needs(
     trial = trial_of(block, program)
     if trial is None:
         return None
-    return needs_of(trial, block.lookahead.calculated, table or table_of(trial), wanted)
+    return advice_for(trial, block.lookahead.calculated, table or table_of(trial), wanted)

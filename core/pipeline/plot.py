@@ -12,7 +12,7 @@ import numpy as np
 
 from core.advice.block_paths import BlockPaths, Loop
 from core.advice.lookahead_table import Row
-from core.comp.result import Compensated
+from core.comp.compensated import Compensated
 from core.draw.areas import gouged, material, uncut
 from core.draw.characters import Mode, cells, scale_bar
 from core.draw.raster import Picture, draw
@@ -29,8 +29,8 @@ from core.draw.scene import (
 )
 from core.draw.view import TALL, View
 from core.geometry.path import EMPTY, Floats, Path, as_complex
+from core.geometry.path_parts import NO_PARTS, PartEnds, PathParts, parts_between, single_pieces
 from core.geometry.piece import Line, Piece, Point, Side
-from core.geometry.stretch import NO_PARTS, Ends, Parts, pieces_joined, stretches
 from core.output.svg import svg
 from core.pipeline.derived import Derived, DerivedBlock
 from core.tolerance import JOINED
@@ -79,7 +79,7 @@ def block_scene(block: DerivedBlock, segment: int | None, unit: Unit, row: Row |
         meetings=() if control is None else list(dict.fromkeys(zip(*control.deleted.at.T.tolist(), strict=True))),
         over_run=NO_PARTS if verdict is None else _over_run(surface, verdict),
         gouges=() if verdict is None else [gouge.surface_at for gouge in verdict.gouges],
-        uncut=NO_PARTS if verdict is None or not verdict.uncut else stretches(surface, verdict.uncut.ends),
+        uncut=NO_PARTS if verdict is None or not verdict.uncut else parts_between(surface, verdict.uncut.ends),
         cutter=_cutter(block, loops, control, segment),
         current=_current(block, segment),
         start=solved.segments[0].start if solved.segments else None,
@@ -163,7 +163,7 @@ def _areas(subject: Subject, dot: float) -> tuple[Area, ...]:
     part = material(block_paths.surface, block.side, block.radius, closed=block.solved.closed, sag=dot / 2)
     found = []
     if len(verdict.uncut):
-        stretch = stretches(block_paths.surface, verdict.uncut.ends).paths
+        stretch = parts_between(block_paths.surface, verdict.uncut.ends).paths
         thick = verdict.uncut.thickness.tolist()
         if len(stretch) == len(thick):
             found.append(Area(uncut(part, stretch, thick, paths, block.radius, dot / 2), Style.UNCUT_AREA))
@@ -183,7 +183,7 @@ def _segment_labels(block: DerivedBlock) -> tuple[Label, ...]:
     return tuple(labels)
 
 
-def _over_run(surface: Path, verdict: Verdict) -> Parts:
+def _over_run(surface: Path, verdict: Verdict) -> PathParts:
     """What of the surface lies beyond the crossing of its ends: lead-in and lead-out."""
     if verdict.over_run_at is None:
         return NO_PARTS
@@ -192,7 +192,7 @@ def _over_run(surface: Path, verdict: Verdict) -> Parts:
     starts, ends = np.array([start, crossing]), np.array([crossing, end])
     # one end may begin or stop at the crossing
     runs = np.abs(ends - starts) > JOINED
-    return stretches(surface, Ends(numbers[runs], starts[runs], numbers[runs], ends[runs]))
+    return parts_between(surface, PartEnds(numbers[runs], starts[runs], numbers[runs], ends[runs]))
 
 
 def _posted_control_path(work: BlockPaths) -> Compensated | None:
@@ -215,7 +215,7 @@ def _surface(block: DerivedBlock) -> Path:
     return Path.from_pieces([piece for _, piece in pieces], [float(number) for number, _ in pieces])
 
 
-def _sketches(block: DerivedBlock) -> Parts:
+def _sketches(block: DerivedBlock) -> PathParts:
     """Segments not determined yet: what is known of them, or the solutions the operator picks from."""
     pieces: list[Piece] = []
     for segment in block.solved.segments[block.solved.determined :]:
@@ -229,16 +229,16 @@ def _sketches(block: DerivedBlock) -> Parts:
     parts = [
         part for piece, following in pairwise(pieces) for part in (piece, Line(piece.end, following.start))
     ] + pieces[-1:]
-    return Parts(Path.from_pieces(parts), np.arange(len(parts)) % 2 == 0)
+    return PathParts(Path.from_pieces(parts), np.arange(len(parts)) % 2 == 0)
 
 
-def _deleted(control: Compensated) -> Parts:
+def _deleted(control: Compensated) -> PathParts:
     if not len(control.deleted):
         return NO_PARTS
     sought, numbers = control.deleted.segments.copy(), control.contour.numbers
     sought.sort()
     nearest = sought.take(sought.searchsorted(numbers), mode="clip")
-    return pieces_joined(control.contour, (nearest == numbers).nonzero()[0])
+    return single_pieces(control.contour, (nearest == numbers).nonzero()[0])
 
 
 def _current(block: DerivedBlock, segment: int | None) -> Path | None:
@@ -248,14 +248,14 @@ def _current(block: DerivedBlock, segment: int | None) -> Path | None:
     return None if piece is None else Path.from_pieces([piece])
 
 
-class Place(NamedTuple):
+class CutterPlace(NamedTuple):
     """Where the cutter is drawn; `by` are the two pieces that meet there where they have deleted the segment."""
 
     at: Point
     by: tuple[float, float] | None = None
 
 
-def cutter_place(block: DerivedBlock, segment: int) -> Place | None:
+def cutter_at_segment(block: DerivedBlock, segment: int) -> CutterPlace | None:
     """Where the cutter is drawn for a segment of the block's own path; None where no path belongs to the segment."""
     work = block.paths
     return None if work is None else _place(work.loops, _posted_control_path(work), segment)
@@ -268,15 +268,15 @@ def _cutter(
     return None if place is None or block.radius is None else (place.at, block.radius)
 
 
-def _place(loops: Sequence[Loop], control: Compensated | None, segment: int) -> Place | None:
+def _place(loops: Sequence[Loop], control: Compensated | None, segment: int) -> CutterPlace | None:
     """The end of a segment's path, the path's start for START, or where the path passes what was deleted."""
     for loop in loops:
         parts = [part for part in (loop.lead_in, loop.path, loop.lead_out) if len(part)]
         if not segment and parts:
-            return Place(_point(parts[0].points[0]))
+            return CutterPlace(_point(parts[0].points[0]))
         for part in reversed(parts):
             if len(rows := (part.numbers == segment).nonzero()[0]):
-                return Place(_point(part.ends[rows[-1]]))
+                return CutterPlace(_point(part.ends[rows[-1]]))
     return None if control is None else _meeting(control, segment)
 
 
@@ -285,11 +285,11 @@ def _point(row: Floats) -> Point:
     return x, y
 
 
-def _meeting(control: Compensated, segment: float) -> Place | None:
+def _meeting(control: Compensated, segment: float) -> CutterPlace | None:
     """The meeting that deleted a segment; where a later one has deleted a piece of that pair too, the later one."""
     deleted = {deletion.segment: deletion for deletion in control.deleted}
     later = last = deleted.get(segment)
     while later is not None:
         last = later
         later = next((deleted[number] for number in later.by if number in deleted), None)
-    return None if last is None else Place(last.at, last.by)
+    return None if last is None else CutterPlace(last.at, last.by)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import pi
 
-from core.comp.result import Compensated
+from core.comp.compensated import Compensated
 from core.controls.write.contour_pass import CenterMove, CompensatedPass, PassToWrite, UncompensatedPass
 from core.finding import Finding, Severity
 from core.geometry.construct import rotated

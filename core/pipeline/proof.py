@@ -15,8 +15,8 @@ from core.controls.moves import Moves, Plane
 from core.controls.registry import UnknownControl, run
 from core.draw.scene import Circle, Layer, Mark, Scene, Style, Symbol, contour_scene, joined_scenes
 from core.geometry.path import Path
+from core.geometry.path_parts import parts_between
 from core.geometry.piece import Point
-from core.geometry.stretch import stretches
 from core.units import Unit
 
 
@@ -72,7 +72,7 @@ def _stretch_scene(result: Judged) -> Scene:
         surface,
         path=result.center,
         gouges=[gouge.surface_at for gouge in verdict.gouges],
-        uncut=stretches(surface, verdict.uncut.ends),
+        uncut=parts_between(surface, verdict.uncut.ends),
     )
 
 
@@ -80,7 +80,7 @@ def scene_at_line(fixed: Scene, proof: Proof, line: int) -> Scene:
     """The fixed scene with the moves of a line and the cutter where they end, or where the line before left it."""
     moves, plane = proof.run.moves, proof.plane
     layers = [Layer(path, Style.CURRENT) for path in _moves_of(moves, plane, line)]
-    at, row = cutter_place(proof, line)
+    at, row = cutter_at_line(proof, line)
     held = _stretch_at(proof, row)
     circles = () if held is None else (Circle(at, held.radius),)
     marks = (Mark(at, Style.CUTTER, Symbol.CENTER),)
@@ -95,7 +95,7 @@ def _moves_of(moves: Moves, plane: Plane, line: int) -> Iterator[Path]:
         yield moves.part(max(int(part[0]) - 1, 0), int(part[-1]) + 1).path(plane)
 
 
-def cutter_place(proof: Proof, line: int) -> tuple[Point, int]:
+def cutter_at_line(proof: Proof, line: int) -> tuple[Point, int]:
     """Where the cutter is after a line, on the plane drawn, and the row of the move that brought it there.
 
     A line without moves leaves it where the last move of a line above it did.

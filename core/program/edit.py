@@ -19,13 +19,13 @@ from core.program.fields import (
     TOOL,
     Field,
     Form,
-    check,
-    check_text,
     default_value,
     field_of,
     form_of,
     range_of,
+    text_refusal,
     unread_reason,
+    value_refusal,
 )
 from core.program.model import (
     ArcSegment,
@@ -299,7 +299,7 @@ def _misfit(field: Field, typed: Typed, unit: Unit) -> Refused | None:
     """Why a field does not take what was typed."""
     if field.kind is Kind.CHOICE:
         return _takes(field)
-    text = check(field, typed.value, unit) if isinstance(typed, Number) else None
+    text = value_refusal(field, typed.value, unit) if isinstance(typed, Number) else None
     return None if text is None else Refused(text)
 
 
@@ -311,7 +311,7 @@ def _lookahead_misfit(block: Block, typed: Typed) -> Refused | None:
     if isinstance(typed, Number) or typed == block.lookahead:
         return None
     field = field_of(Form.START, "lookahead")
-    unreadable = typed is not None and check_text(typed.text, field, Unit.MM) is None
+    unreadable = typed is not None and text_refusal(typed.text, field, Unit.MM) is None
     again = f" {printable(typed.text)} cannot be read." if unreadable and typed is not None else ""
     back = "" if block.lookahead is None else " Press F3 to go back to CAL."
     return Refused(f"{field.label} must be a whole number {range_of(field, Unit.MM)}.{again}{back}")

@@ -252,7 +252,7 @@ def field_of(form: Form, name: str) -> Field:
     return _BY_NAME[form, name]
 
 
-def check(field: Field, value: float, unit: Unit) -> str | None:
+def value_refusal(field: Field, value: float, unit: Unit) -> str | None:
     """The sentence that refuses a value, in program units, that a field does not take, None for one it takes."""
     whole = field.kind is Kind.COUNT
     low, high = bounds(field, unit)
@@ -316,14 +316,14 @@ def read_typed(text: str, field: Field, unit: Unit) -> Typed:
     value = parse(text, field.kind, unit)
     if isinstance(value, Unreadable):
         return Unread(text, value.reason)
-    refusal = check_text(text, field, unit)
+    refusal = text_refusal(text, field, unit)
     return Number(value) if refusal is None else Unread(text, refusal)
 
 
-def check_text(text: str, field: Field, unit: Unit) -> str | None:
+def text_refusal(text: str, field: Field, unit: Unit) -> str | None:
     """The sentence about a text that is a number, and none the field takes; None for any other text."""
     value = parse(text, field.kind, unit)
-    refusal = None if isinstance(value, Unreadable) else check(field, value, unit)
+    refusal = None if isinstance(value, Unreadable) else value_refusal(field, value, unit)
     return None if refusal is None else f"{refusal.removesuffix('.')}, not {printable(text)}."
 
 
@@ -332,7 +332,7 @@ def unread_reason(text: str, field: Field, unit: Unit) -> str:
     value = parse(text, field.kind, unit)
     if isinstance(value, Unreadable):
         return value.reason
-    return check_text(text, field, unit) or TYPE_AGAIN
+    return text_refusal(text, field, unit) or TYPE_AGAIN
 
 
 def unread_sentence(unread: Unread) -> str:

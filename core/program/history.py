@@ -14,7 +14,7 @@ from core.units import Kind, Unit, printable, show
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class UndoStep:
     """A program and what the edit was called that led away from it."""
 
     program: Program
@@ -26,28 +26,28 @@ class History:
     """The program as it is, with those before it (oldest first) and those undone (the last undone last)."""
 
     program: Program
-    past: tuple[Step, ...] = ()
-    future: tuple[Step, ...] = ()
+    past: tuple[UndoStep, ...] = ()
+    future: tuple[UndoStep, ...] = ()
 
     def do(self, program: Program, label: str) -> History:
         """The history with an edit made; an edit that changes nothing leaves it as it is."""
         if program == self.program:
             return self
-        return History(program, (*self.past, Step(self.program, label)))
+        return History(program, (*self.past, UndoStep(self.program, label)))
 
     def undo(self) -> History:
         """One edit taken back; as it is when there is none."""
         if not self.past:
             return self
         *earlier, last = self.past
-        return History(last.program, tuple(earlier), (*self.future, Step(self.program, last.label)))
+        return History(last.program, tuple(earlier), (*self.future, UndoStep(self.program, last.label)))
 
     def redo(self) -> History:
         """One edit made again; as it is when none was taken back."""
         if not self.future:
             return self
         *later, following = self.future
-        return History(following.program, (*self.past, Step(self.program, following.label)), tuple(later))
+        return History(following.program, (*self.past, UndoStep(self.program, following.label)), tuple(later))
 
     @property
     def undo_label(self) -> str | None:
@@ -72,7 +72,7 @@ class History:
 
 Item = TypeVar("Item")
 
-Part = Block | Segment | Tool | ProgramParameters | PartSetup
+FormPart = Block | Segment | Tool | ProgramParameters | PartSetup
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +113,7 @@ def _differences(old: Program, new: Program) -> Iterator[str]:
     yield from _blocks(old.blocks, new.blocks, new.unit)
 
 
-def _fields(where: str, form: Form, old: Part, new: Part, unit: Unit) -> Iterator[str]:
+def _fields(where: str, form: Form, old: FormPart, new: FormPart, unit: Unit) -> Iterator[str]:
     for field in TABLES[form]:
         before, after = getattr(old, field.name), getattr(new, field.name)
         if before != after:

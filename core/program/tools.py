@@ -13,7 +13,7 @@ from math import isfinite
 from typing import Final
 
 from core.finding import Finding, Severity
-from core.program.fields import TOOL, Form, check, check_text, field_of
+from core.program.fields import TOOL, Form, field_of, text_refusal, value_refusal
 from core.program.model import Number, Program, Tool, Typed
 from core.tolerance import LARGEST
 from core.units import Unit, convert, printable, to_mm
@@ -61,8 +61,8 @@ def _diameter_trouble(tool: Tool, unit: Unit) -> str | None:
     if isinstance(diameter, Number) and not (isfinite(diameter.value) and diameter.value > 0.0):
         return f"{missing}; it must be above 0, and it is {diameter.value:g}."
     if isinstance(diameter, Number):
-        refusal = check(field, diameter.value, unit)
-    elif (refusal := check_text(diameter.text, field, unit)) is None:
+        refusal = value_refusal(field, diameter.value, unit)
+    elif (refusal := text_refusal(diameter.text, field, unit)) is None:
         return f"{missing}; {printable(diameter.text)} cannot be read."
     return None if refusal is None else f"Tool {tool.number}: {refusal}"
 
@@ -195,12 +195,12 @@ def _word_trouble(letter: str, value: float, words: Mapping[str, float]) -> str 
 def _objections(row: TableLine, unit: Unit, program: Unit) -> Iterator[Finding]:
     """What the shop's own table cannot take, though a control may."""
     number, _, size = TOOL
-    if (trouble := check(number, row.number, program)) is not None:
+    if (trouble := value_refusal(number, row.number, program)) is not None:
         yield row.finding(Severity.ERROR, "T", trouble)
     value = row.words.get("D", 0.0)
     if value == 0.0:
         yield row.finding(Severity.WARNING, "D", f"Tool {row.number} has no diameter: it stays blank.")
-    elif (trouble := check(size, convert(value, unit, program), program)) is not None:
+    elif (trouble := value_refusal(size, convert(value, unit, program), program)) is not None:
         yield row.finding(Severity.ERROR, "D", trouble)
 
 

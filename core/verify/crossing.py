@@ -19,7 +19,7 @@ TURN: Final = 1e-6
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Crossings:
+class SelfCrossings:
     """m places (m, 2) in length traveled at which a surface meets itself, in order, and the points (m,)."""
 
     places: Floats
@@ -29,11 +29,11 @@ class Crossings:
         return len(self.points)
 
 
-NO_CROSSINGS: Final = Crossings(np.zeros((0, 2)), np.zeros(0, np.complex128))
+NO_CROSSINGS: Final = SelfCrossings(np.zeros((0, 2)), np.zeros(0, np.complex128))
 """A surface that does not meet itself."""
 
 
-def crossings(surface: PieceArrays, *, closed: bool) -> Crossings:
+def self_crossings(surface: PieceArrays, *, closed: bool) -> SelfCrossings:
     """Where pieces that are not neighbors come within JOINED of each other, and neighbors away from their joint."""
     i, j = _candidates(surface, closed=closed)
     if not len(i):
@@ -50,7 +50,7 @@ def crossings(surface: PieceArrays, *, closed: bool) -> Crossings:
     first = stations[i[pair]] + places[k, pair] * one.length[pair]
     second = stations[j[pair]] + on_other * other.length[pair]
     order = np.argsort(first, kind="stable")
-    return Crossings(np.stack((first, second), axis=1)[order], points[k, pair][order])
+    return SelfCrossings(np.stack((first, second), axis=1)[order], points[k, pair][order])
 
 
 def _candidates(surface: PieceArrays, *, closed: bool) -> tuple[Rows, Rows]:

@@ -20,7 +20,7 @@ DIGIT: Final = 0.00254
 SHOWN: Final = DIGIT / 2.0
 """Lengths below this would be told as zeros."""
 
-MAX_NAMED: Final = 6
+MAX_NAMED_CORNERS: Final = 6
 """Corners of one kind that are named; of the rest only the number is."""
 
 Names = Callable[[int, float], str]
@@ -48,7 +48,7 @@ def _corner(number: float) -> str:
     return f"the corner after {int(number)}"
 
 
-def findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple[Finding, ...]:
+def verdict_findings(verdict: Verdict, surface: Path, names: Names = by_number) -> tuple[Finding, ...]:
     """What the operator must know: errors first, then warnings, then what stays uncut in the contour's order.
 
     `names` says what the moves of the judged path are.
@@ -175,8 +175,10 @@ def _equal_corners(verdict: Verdict, surface: Path) -> list[list[int]]:
 
 def _corners(corners: Sequence[Uncut]) -> Finding:
     """Equal inside corners that are sharper than the cutter; the segment and the place are those of the first."""
-    named = ", ".join(f"{_number(corner.first_number)}-{_number(corner.last_number)}" for corner in corners[:MAX_NAMED])
-    more = f" and {len(corners) - MAX_NAMED} more" if len(corners) > MAX_NAMED else ""
+    named = ", ".join(
+        f"{_number(corner.first_number)}-{_number(corner.last_number)}" for corner in corners[:MAX_NAMED_CORNERS]
+    )
+    more = f" and {len(corners) - MAX_NAMED_CORNERS} more" if len(corners) > MAX_NAMED_CORNERS else ""
     areas = [corner.area for corner in corners if corner.area is not None]
     thick = "{0}" if corners[0].thickness >= SHOWN else "less than {1}"
     return Finding(

@@ -10,7 +10,7 @@ from core.geometry.path import Path
 from core.geometry.piece import Point, Side
 from core.geometry.piece_arrays import PieceArrays, piece_arrays
 from core.tolerance import CLOSED, JOINED
-from core.verify.crossing import NO_CROSSINGS, Crossings, crossings
+from core.verify.crossing import NO_CROSSINGS, SelfCrossings, self_crossings
 from core.verify.pairs import nearest, pairs_of, rounding_of
 from core.verify.wrong_side import on_part_side, sided
 
@@ -27,7 +27,7 @@ class Surface:
     side: Side
     walls: PieceArrays
     closed: bool
-    crossings: Crossings
+    crossings: SelfCrossings
     over_run_at: Point | None = None
 
     @staticmethod
@@ -36,7 +36,7 @@ class Surface:
         with np.errstate(all="ignore"):
             walls = piece_arrays(path)
             closed = bool(abs(walls.end[-1] - walls.start[0]) <= CLOSED)
-            whole = Surface(path, side, walls, closed, crossings(walls, closed=closed))
+            whole = Surface(path, side, walls, closed, self_crossings(walls, closed=closed))
             return _without_over_run(whole) or whole
 
 

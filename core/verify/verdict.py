@@ -10,8 +10,8 @@ from typing import Any, Final, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from core.geometry.path_parts import PartEnds
 from core.geometry.piece import Point
-from core.geometry.stretch import Ends
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,10 +106,10 @@ class UncutStretches(Sequence[Uncut]):
     __hash__ = None  # type: ignore[assignment]
 
     @property
-    def ends(self) -> Ends:
+    def ends(self) -> PartEnds:
         """Each stretch's first segment and the point on it, its last segment and the point on that."""
         first, last, start, end = self.columns[:4]
-        return Ends(first, start, last, end)
+        return PartEnds(first, start, last, end)
 
     def keep(self, chosen: NDArray[np.bool_]) -> UncutStretches:
         """The stretches for which `chosen` (k,) is True."""

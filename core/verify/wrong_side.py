@@ -17,7 +17,7 @@ from core.geometry.path import Flags, Floats, Points, Rows
 from core.geometry.piece import Side
 from core.geometry.piece_arrays import PieceArrays, at, direction, place
 from core.tolerance import GOUGE, JOINED, ON_PATH
-from core.verify.crossing import Crossings, at_joints
+from core.verify.crossing import SelfCrossings, at_joints
 from core.verify.farthest import FINE, farthest
 from core.verify.gouge import Gouging, approaches
 from core.verify.pairs import Nearest, Pairs, changes, keeping, nearest
@@ -50,7 +50,7 @@ class Sided:
     crossed: bool
 
 
-def sided(side: Side, walls: PieceArrays, crossings: Crossings, *, closed: bool) -> Sided:
+def sided(side: Side, walls: PieceArrays, crossings: SelfCrossings, *, closed: bool) -> Sided:
     """An over-run bounds no material and has no side.
 
     It is the run from an open contour's end to the outermost crossing with itself, when it is shorter than what lies

@@ -17,7 +17,7 @@ from app.painted.application import CutcompApp
 from app.painted.screens.frame import Frame
 from app.painted.surroundings import Surroundings
 from app.painted.widgets.rows import Row
-from core.advice.why_not_clean import Needs
+from core.advice.why_not_clean import Advice
 from core.finding import Finding, Severity
 from core.pipeline import derive as stages
 from core.pipeline.derived import DerivedBlock
@@ -125,10 +125,10 @@ class Remedies:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.begun, self.given_up, self.go = list[Program](), list[Program](), Event()
-        self.own = stages.needs
-        monkeypatch.setattr(stages, "needs", self.needs)
+        self.own = stages.advice_for_block
+        monkeypatch.setattr(stages, "advice_for_block", self.needs)
 
-    def needs(self, found: DerivedBlock, program: Program, table: None, *, wanted: Callable[[], bool]) -> Needs | None:
+    def needs(self, found: DerivedBlock, program: Program, table: None, *, wanted: Callable[[], bool]) -> Advice | None:
         self.begun.append(program)
         assert self.go.wait(10)
         if not wanted():

@@ -19,7 +19,7 @@ from app.painted.session import Session
 from app.painted.widgets.rows import text_of
 from core.advice.block_paths import BlockPaths
 from core.finding import Finding, Severity
-from core.pipeline.derive import derive, needs
+from core.pipeline.derive import advice_for_block, derive
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.outline import outline
 from core.program.edit import FormPlace, copy_block, type_field
@@ -205,7 +205,7 @@ def test_what_is_said_of_one_calculated_value_is_never_said_of_another(engine: E
     for calculated in (found.lookahead.calculated, 1, 5):
         other = replace(found, lookahead=replace(found.lookahead, calculated=calculated))
         engine.keep_needs(other, PART)
-        told, table = needs(other, PART), engine.known(other, None).table
+        told, table = advice_for_block(other, PART), engine.known(other, None).table
         assert told is not None
         assert table is not None
         assert table.notes[: len(told.sentences)] == told.sentences

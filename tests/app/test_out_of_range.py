@@ -12,7 +12,7 @@ from app.painted.journal import block_of, packed_block
 from app.painted.screens.forms import FormPage
 from app.painted.screens.tools import ToolsPage
 from core.pipeline.outline import outline
-from core.program.fields import TABLES, Form, check
+from core.program.fields import TABLES, Form, value_refusal
 from core.program.file.read import loads
 from core.program.file.write import dumps
 from core.program.model import ArcSegment, BlendSegment, Block, LineSegment, Number, Program, Unread, unread_texts
@@ -67,7 +67,7 @@ def on(form: Form, name: str) -> Operator:
 def wild(form: Form, name: str) -> str:
     """A number that can be read and is none the field takes."""
     one = next(one for one in TABLES[form] if one.name == name)
-    return next(text for text in ("0", "-1", "99999", "-999") if check(one, float(text), Unit.IN) is not None)
+    return next(text for text in ("0", "-1", "99999", "-999") if value_refusal(one, float(text), Unit.IN) is not None)
 
 
 def held(operator: Operator, form: Form, name: str) -> object:

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.advice.lookahead_table import Trial, table_of
-from core.advice.why_not_clean import needs_of
+from core.advice.why_not_clean import advice_for
 from core.comp.best_path.best_path import best_path
 from core.comp.compensate import compensate, compensate_all
 from core.finding import Severity
@@ -89,7 +89,7 @@ def spoiled(draw: st.DrawFn) -> Path:
 def test_tables_and_needs_of_odd_contours(contour, side, radius, closed):
     trial = Trial(contour, side, radius, closed, 0.1, 0.1)
     table = table_of(trial)
-    needs_of(trial, 3, table)
+    advice_for(trial, 3, table)
     if table.recommended is not None:
         exercised()
         assert len(table.row(table.recommended).compensated.path)

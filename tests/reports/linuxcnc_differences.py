@@ -13,10 +13,10 @@ from typing import Final
 import numpy as np
 
 from core.comp.best_path.best_path import BestPath
+from core.comp.compensated import Compensated
 from core.comp.crossings import crossings
 from core.comp.offset import RawPart as ChainPart
 from core.comp.offset import offset
-from core.comp.result import Compensated
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.tolerance import JOINED

@@ -116,9 +116,9 @@ def _cutter_note(session: Session) -> str:
         return f"Segment {segment} is not determined yet: no cutter is drawn."
     if not segment or not found.known or found.paths is None:
         return ""
-    from core.pipeline.plot import cutter_place
+    from core.pipeline.plot import cutter_at_segment
 
-    place = cutter_place(found, segment)
+    place = cutter_at_segment(found, segment)
     if place is None:
         return f"No path runs along segment {segment}: no cutter is drawn."
     if place.by is None:

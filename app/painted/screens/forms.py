@@ -17,11 +17,11 @@ from core.program.fields import (
     SOLUTION,
     TYPE_AGAIN,
     Field,
-    check,
-    check_text,
     read_typed,
+    text_refusal,
     unread_reason,
     unread_sentence,
+    value_refusal,
 )
 from core.program.model import Number, Program, Unread
 from core.program.solve.solved import Solved, Value
@@ -226,11 +226,11 @@ def unusable(held: Value | str, one: Field, unit: Unit) -> str | None:
     """Why a field cannot be used as it stands: a text that cannot be read, a number that it does not take."""
     if isinstance(held, Unread):
         return _unread_sentence(held, one, unit)
-    return check(one, held.value, unit) if isinstance(held, Number) else None
+    return value_refusal(one, held.value, unit) if isinstance(held, Number) else None
 
 
 def _unread_sentence(unread: Unread, one: Field, unit: Unit) -> str:
-    if outside := check_text(unread.text, one, unit):
+    if outside := text_refusal(unread.text, one, unit):
         return outside
     if unread_reason(unread.text, one, unit) == TYPE_AGAIN:
         return f"{unread.text.strip()} has not been taken yet: type it again."

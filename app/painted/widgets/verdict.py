@@ -21,7 +21,7 @@ from core.units import Unit, sentence
 
 if TYPE_CHECKING:
     from core.advice.lookahead_table import Table
-    from core.comp.result import Compensated, Deletions
+    from core.comp.compensated import Compensated, Deletions
     from core.verify.verdict import Verdict
 
 

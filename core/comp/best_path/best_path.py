@@ -15,10 +15,10 @@ from typing import Final
 import numpy as np
 
 from core.comp.best_path.clearance import clear_slices
-from core.comp.best_path.prepared_contour import Surface, crosses_itself, surface_of
+from core.comp.best_path.prepared_contour import PreparedContour, crosses_itself, prepare_contour
 from core.comp.best_path.raw_offset import RawOffset, raw_offset
 from core.comp.best_path.slices import sliced
-from core.comp.best_path.stitch import Stitched, chains, loop_of, stitch
+from core.comp.best_path.stitch import StitchedSlices, chains, path_of_slices, stitch
 from core.comp.best_path.trim import trimmed
 from core.finding import Finding, Severity
 from core.geometry.path import Path, Rows
@@ -49,7 +49,7 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     `closed` is whether the programmed contour ends at its start.  Never raises: a contour that cannot be offset, or
     where the cutter fits nowhere, gives no loops and an error finding.
     """
-    surface = surface_of(contour, radius, closed=closed)
+    surface = prepare_contour(contour, radius, closed=closed)
     if not len(surface.path):
         return BestPath((), (), surface.findings)
     crossing = crosses_itself(surface.path, closed=closed)
@@ -65,12 +65,12 @@ def best_path(contour: Path, side: Side, radius: float, *, closed: bool) -> Best
     return _best(raw, made, surface, findings)
 
 
-def _best(raw: RawOffset, made: Stitched, surface: Surface, findings: tuple[Finding, ...]) -> BestPath:
+def _best(raw: RawOffset, made: StitchedSlices, surface: PreparedContour, findings: tuple[Finding, ...]) -> BestPath:
     """The loops longer than rounding, and what is to be said of them."""
     walked = [(rows, ring) for rows, ring in chains(made) if not _is_rounding(made, rows)]
     if len(walked) > MAX_LOOPS:
         return BestPath((), (), (*findings, _tangled()))
-    loops = tuple(loop_of(raw, made, rows, surface.origin) for rows, _ in walked)
+    loops = tuple(path_of_slices(raw, made, rows, surface.origin) for rows, _ in walked)
     if not loops:
         return BestPath((), (), (*findings, _no_path()))
     rows = np.concatenate([rows for rows, _ in walked])
@@ -78,7 +78,7 @@ def _best(raw: RawOffset, made: Stitched, surface: Surface, findings: tuple[Find
     return BestPath(loops, tuple(ring for _, ring in walked), (*findings, *said))
 
 
-def _is_rounding(made: Stitched, rows: Rows) -> bool:
+def _is_rounding(made: StitchedSlices, rows: Rows) -> bool:
     """Are these slices no longer than what rounding leaves, which is more where it has parted them?"""
     return float(made.cut.size[rows].sum()) <= (WHISKER if (made.gaps[rows] > JOINED).any() else GOUGE)
 
@@ -99,7 +99,7 @@ def _crossing(numbers: tuple[float, float]) -> Finding:
     return Finding("CROSSES_ITSELF", Severity.WARNING, text, a)
 
 
-def _joined(raw: RawOffset, made: Stitched, rows: Rows, surface: Surface) -> tuple[Finding, ...]:
+def _joined(raw: RawOffset, made: StitchedSlices, rows: Rows, surface: PreparedContour) -> tuple[Finding, ...]:
     """The largest gap that rounding has left between neighbors' offsets and that was closed on the path."""
     cut, bridges = made.cut, made.gaps[rows]
     until = cut.until[rows]
@@ -118,7 +118,7 @@ def _joined(raw: RawOffset, made: Stitched, rows: Rows, surface: Surface) -> tup
     return (Finding("BEST_JOINED", Severity.INFO, text, number, at=at, lengths=(gap, 0.0)),)
 
 
-def _broken(raw: RawOffset, made: Stitched, rows: Rows, surface: Surface) -> tuple[Finding, ...]:
+def _broken(raw: RawOffset, made: StitchedSlices, rows: Rows, surface: PreparedContour) -> tuple[Finding, ...]:
     """The first place where the path ends or begins though the cutter could go on."""
     cut = made.cut
     loose = rows[made.loose_end[rows] | made.loose_begin[rows]]

@@ -27,7 +27,7 @@ RUN: Final = 16
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Surface:
+class PreparedContour:
     """`path` is the surface moved by -`origin` (2,) so that it lies about (0, 0); empty when it is refused."""
 
     path: Path
@@ -35,15 +35,15 @@ class Surface:
     findings: tuple[Finding, ...]
 
 
-def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
+def prepare_contour(contour: Path, radius: float, *, closed: bool) -> PreparedContour:
     """The contour made fit to be offset, or why it cannot be.
 
     Zero-length segments are dropped.  An arc whose radii differ (by less than ARC_RADII) is made one of one radius.
     A closed contour's gap is bridged by a line of its last segment's number.
     """
-    refused = comp_findings.refusal(contour, radius, ())
+    refused = comp_findings.contour_refusals(contour, radius, ())
     if refused:
-        return Surface(EMPTY, np.zeros(2), refused)
+        return PreparedContour(EMPTY, np.zeros(2), refused)
     points = as_complex(contour.points)
     kept = np.abs(points[1:] - points[:-1]) > JOINED
     if not kept.all():
@@ -52,10 +52,10 @@ def surface_of(contour: Path, radius: float, *, closed: bool) -> Surface:
     findings = tuple(comp_findings.zero_length(contour, dropped))
     contour = contour.without(dropped)
     if not len(contour):
-        return Surface(EMPTY, np.zeros(2), (*findings, *comp_findings.refusal(contour, radius, ())))
+        return PreparedContour(EMPTY, np.zeros(2), (*findings, *comp_findings.contour_refusals(contour, radius, ())))
     origin = (contour.points.min(axis=0) + contour.points.max(axis=0)) / 2.0
     path = _even(Path.of(contour.points - origin, contour.centers - origin, contour.turns, contour.numbers))
-    return Surface(_closed(path) if closed else path, origin, findings)
+    return PreparedContour(_closed(path) if closed else path, origin, findings)
 
 
 def _even(path: Path) -> Path:

@@ -25,7 +25,7 @@ _CUT_BACKS = 4
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Stitched:
+class StitchedSlices:
     """Slices `cut`, for each the one that follows it or -1, and which lead nowhere or come from nowhere.
 
     `gaps` (s,) is the length of the bridge after each slice, 0 where there is none.
@@ -48,7 +48,7 @@ def bridge_limit(radius: float) -> float:
     return min(WHISKER, sqrt(8.0 * radius * CLEAR))
 
 
-def stitch(raw: RawOffset, cut: Slices, sign: int, surface: Path, radius: float) -> Stitched:
+def stitch(raw: RawOffset, cut: Slices, sign: int, surface: Path, radius: float) -> StitchedSlices:
     """Each clear slice with the one that follows it, without the slices that lead nowhere."""
     cut = _without_dead_ends(_without_doubles(raw, cut))
     while True:
@@ -60,7 +60,7 @@ def stitch(raw: RawOffset, cut: Slices, sign: int, surface: Path, radius: float)
         begin &= ~cut.outer[cut.first]
         whisker = (end | begin) & (cut.size < WHISKER)
         if not whisker.any():
-            return Stitched(_without_overlaps(raw, cut, following, surface, radius), following, end, begin)
+            return StitchedSlices(_without_overlaps(raw, cut, following, surface, radius), following, end, begin)
         cut = cut.take((~whisker).nonzero()[0])
 
 
@@ -179,7 +179,7 @@ def _pair_up(following: Rows, ends: Rows, begins: Rows, rank: Floats) -> None:
             taken.add(begin)
 
 
-def chains(made: Stitched) -> list[tuple[Rows, bool]]:
+def chains(made: StitchedSlices) -> list[tuple[Rows, bool]]:
     """The slices in loops and open chains, each from the contour's earliest slice of it on, and whether it is closed.
 
     Slices that follow each other in number are walked as one run; only runs are looked at singly.
@@ -211,7 +211,7 @@ def _walk(heads: Rows, tails: Rows, entry: list[int]) -> list[tuple[Rows, bool]]
     return sorted(walked, key=lambda chain: int(chain[0][0]))
 
 
-def loop_of(raw: RawOffset, made: Stitched, rows: Rows, origin: Floats) -> Path:
+def path_of_slices(raw: RawOffset, made: StitchedSlices, rows: Rows, origin: Floats) -> Path:
     """The path along slices `rows` in this order, moved by `origin`; slices of one piece are one piece again.
 
     An arc shorter than CROWDED whose ends rounding has turned past each other is a straight line, as a bridge is.

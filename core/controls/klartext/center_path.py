@@ -23,10 +23,10 @@ from core.finding import Severity
 from core.geometry.piece import Point, Side
 from core.tolerance import JOINED
 
-PLAIN: Final = CornerRules(tangent=0.0, touching=JOINED)
-M97: Final = PLAIN._replace(outside=Outside.MEETING)
+KLARTEXT_CORNERS: Final = CornerRules(tangent=0.0, touching=JOINED)
+M97: Final = KLARTEXT_CORNERS._replace(outside=Outside.MEETING)
 """An outside corner by the meeting of the two offsets instead of an arc."""
-M98: Final = PLAIN._replace(inside=Inside.OPEN)
+M98: Final = KLARTEXT_CORNERS._replace(inside=Inside.OPEN)
 """An inside corner run out to the ends of both elements."""
 
 ROUNDED: Final = 1e-11
@@ -68,7 +68,7 @@ class FeedAt(Enum):
     """M110: at the cutting edge inside, at the center outside."""
 
 
-class Step(NamedTuple):
+class ProgrammedStep(NamedTuple):
     """One programmed element: `offset` is the tool radius, positive with the tool on the left, 0 without compensation.
 
     `element` starts at the programmed point before it.  Approaches and departures have a `lead`; their `hand` is the
@@ -81,7 +81,7 @@ class Step(NamedTuple):
     element: Element
     offset: float
     plane: Plane
-    corner: CornerRules = PLAIN
+    corner: CornerRules = KLARTEXT_CORNERS
     feed_at: FeedAt = FeedAt.CENTER
     lead: Lead | None = None
     hand: int = 0
@@ -107,29 +107,31 @@ class Record:
     tape: Tape = field(default_factory=Tape)
     stretches: list[Stretch] = field(default_factory=list)
     programmed: Tape | None = None
-    entry: Step | None = None
+    entry: ProgrammedStep | None = None
     first: int = 0
     leaving: int = 0
     led_out: bool = False
 
-    def at(self, step: Step) -> Point3:
+    def at(self, step: ProgrammedStep) -> Point3:
         """Where the center stands, in the coordinates of the step's plane."""
         return flat(self.tape.last, step.plane)
 
-    def line(self, end: Point, height: float, step: Step, *, lead: bool = False) -> None:
+    def line(self, end: Point, height: float, step: ProgrammedStep, *, lead: bool = False) -> None:
         """A straight move at the step's feed, or at that of the block before it."""
         target = solid(end[0], end[1], height, step.plane)
         rapid, feed = step.before if lead else (step.element.rapid, step.element.feed)
         self.tape.straight(target, feed, step.element.line, rapid=rapid)
 
-    def arc(self, end: Point, height: float, center: Point, turn: int, step: Step, feed: float | None = None) -> None:
+    def arc(
+        self, end: Point, height: float, center: Point, turn: int, step: ProgrammedStep, feed: float | None = None
+    ) -> None:
         """An arc in the step's plane, at the step's feed unless given."""
         target, middle = solid(*end, height, step.plane), solid(*center, height, step.plane)
         element = step.element
         speed = element.feed if feed is None else feed
         self.tape.arc(target, middle, turn, step.plane, speed, element.line, rapid=element.rapid)
 
-    def plain(self, step: Step, end: Point) -> None:
+    def plain(self, step: ProgrammedStep, end: Point) -> None:
         """The step's element as programmed, but ending at `end`."""
         element = step.element
         if element.turn:
@@ -137,18 +139,18 @@ class Record:
         else:
             self.line(end, element.high, step)
 
-    def sink(self, step: Step) -> None:
+    def sink(self, step: ProgrammedStep) -> None:
         """The tool axis alone, where the center stands."""
         x, y, _ = self.at(step)
         self.line((x, y), step.element.high, step)
 
-    def open(self, step: Step) -> None:
+    def open(self, step: ProgrammedStep) -> None:
         """Compensation begins: the next moves are a stretch."""
         self.programmed, self.entry = Tape(self.tape.last), step
         self.first, self.leaving = len(self.tape) - 1, 0
         self.note(step)
 
-    def note(self, step: Step) -> None:
+    def note(self, step: ProgrammedStep) -> None:
         """Put the step's element on the tape of what is programmed."""
         if self.programmed is None:
             return
@@ -175,7 +177,7 @@ class Record:
 
 
 @dataclass(slots=True)
-class CenterPath:
+class CenterPathRecorder:
     """Takes steps in their order and records the center's moves.
 
     `held` is the contour element whose end is not known yet, `begin` the point at which its offset starts;
@@ -185,14 +187,14 @@ class CenterPath:
 
     log: Log
     record: Record = field(default_factory=Record)
-    held: Step | None = None
+    held: ProgrammedStep | None = None
     begin: Point = (0.0, 0.0)
-    entry: Step | None = None
-    depths: list[Step] = field(default_factory=list)
-    ahead: list[Step] = field(default_factory=list)
+    entry: ProgrammedStep | None = None
+    depths: list[ProgrammedStep] = field(default_factory=list)
+    ahead: list[ProgrammedStep] = field(default_factory=list)
     stands: Point | None = None
 
-    def push(self, step: Step) -> None:
+    def push(self, step: ProgrammedStep) -> None:
         """The next step; raises the alarm where the control would stop."""
         match step.role:
             case Role.CONTOUR:
@@ -220,13 +222,13 @@ class CenterPath:
         self._run_out()
         self.record.close()
 
-    def _enter(self, step: Step) -> None:
+    def _enter(self, step: ProgrammedStep) -> None:
         self._run_out()  # an approach under compensation connects two contours
         self.record.close()
         self.entry = step
         self.record.open(step)
 
-    def _leave(self, step: Step) -> None:
+    def _leave(self, step: ProgrammedStep) -> None:
         self._run_out()
         if step.lead is None:
             self.record.plain(step, step.element.end)
@@ -243,7 +245,7 @@ class CenterPath:
         if self.entry:
             self._stop("HE7", NO_CONTOUR, self.entry)
 
-    def _arrive(self, entry: Step, goal: Point, way: Point) -> None:
+    def _arrive(self, entry: ProgrammedStep, goal: Point, way: Point) -> None:
         """Run the entry to the point square to the first element's start, where that sets off in direction `way`."""
         if entry.lead is None:
             self.record.plain(entry, goal)
@@ -252,7 +254,7 @@ class CenterPath:
         self.entry = None
         self._sink_waiting()
 
-    def _approach(self, step: Step, lead: Lead, goal: Point, way: Point) -> None:
+    def _approach(self, step: ProgrammedStep, lead: Lead, goal: Point, way: Point) -> None:
         x, y, height = self.record.at(step)
         curve = lead_curves.approach(lead, (x, y), goal, way, step.hand)
         if curve is None:
@@ -266,7 +268,7 @@ class CenterPath:
                 self.record.line(curve.point, depth, step, lead=True)
         self._run_curve(goal, depth, curve, step)
 
-    def _depart(self, step: Step, lead: Lead) -> None:
+    def _depart(self, step: ProgrammedStep, lead: Lead) -> None:
         x, y, height = self.record.at(step)
         curve = lead_curves.departure(lead, (x, y), step.element.end, step.element.leaving, step.hand)
         if curve is None:
@@ -277,13 +279,13 @@ class CenterPath:
         if step.element.high != height:
             self.record.sink(step)
 
-    def _run_curve(self, end: Point, height: float, curve: lead_curves.Curve, step: Step) -> None:
+    def _run_curve(self, end: Point, height: float, curve: lead_curves.Curve, step: ProgrammedStep) -> None:
         if curve.turn:
             self.record.arc(end, height, curve.center, curve.turn, step)
         elif curve.point != end or self.record.at(step)[:2] != end:
             self.record.line(end, height, step)
 
-    def _contour(self, step: Step) -> None:
+    def _contour(self, step: ProgrammedStep) -> None:
         element = step.element
         if self.ahead and step.ahead != self.ahead[-1].ahead:
             self._run_ahead(goes_on=True)
@@ -300,7 +302,7 @@ class CenterPath:
             begin = self._corner(self.held, step)
         self.held, self.begin = step, begin
 
-    def _corner(self, before: Step, after: Step) -> Point:
+    def _corner(self, before: ProgrammedStep, after: ProgrammedStep) -> Point:
         """Finish the held element at its corner with the next; the point at which that one's offset starts."""
         first, offset = _at_its_end(before.element), before.offset
         joint = join(first, after.element, offset, before.corner)
@@ -326,7 +328,7 @@ class CenterPath:
         end, begin = elements.offset_end(first, offset), elements.offset_start(second, offset)
         return min(advance(first, joint.end, end), advance(second, begin, joint.end)) < -slack
 
-    def _finish(self, step: Step, end: Point) -> None:
+    def _finish(self, step: ProgrammedStep, end: Point) -> None:
         """Record the held element, now that its end is known."""
         element = step.element
         left = remaining(element, self.begin, end, step.offset)
@@ -348,9 +350,9 @@ class CenterPath:
             self.record.note(step)
         self.depths.clear()
 
-    def _gather(self, step: Step) -> None:
+    def _gather(self, step: ProgrammedStep) -> None:
         """An element under M120: its path is known once the last one is."""
-        if step.corner is not PLAIN or step.element.low != step.element.high:
+        if step.corner is not KLARTEXT_CORNERS or step.element.low != step.element.high:
             self._stop_m120(step)
         if self.depths and not self.entry:
             self._stop_m120(self.depths[0])
@@ -379,7 +381,7 @@ class CenterPath:
         if goes_on:
             self.held, self.begin = steps[-1], last[0].end if last else path.start
 
-    def _run_along(self, steps: list[Step], path: PathAhead, runs: tuple[CenterPathPiece, ...]) -> None:
+    def _run_along(self, steps: list[ProgrammedStep], path: PathAhead, runs: tuple[CenterPathPiece, ...]) -> None:
         """The move to a path computed ahead, and pieces of it."""
         if self.entry:
             self._arrive(self.entry, path.start, path.way)
@@ -391,20 +393,20 @@ class CenterPath:
             else:
                 self.record.line(run.end, height, step)
 
-    def _note_all(self, steps: list[Step]) -> None:
+    def _note_all(self, steps: list[ProgrammedStep]) -> None:
         for step in steps:
             self.record.note(step)
 
-    def _tell(self, severity: Severity, code: str, text: str, step: Step, *lengths: float) -> None:
+    def _tell(self, severity: Severity, code: str, text: str, step: ProgrammedStep, *lengths: float) -> None:
         self.log.tell(severity, code, text, step.element.line, step.element.column, lengths=lengths)
 
-    def _stop(self, code: str, text: str, step: Step, *lengths: float) -> NoReturn:
+    def _stop(self, code: str, text: str, step: ProgrammedStep, *lengths: float) -> NoReturn:
         self.log.stop(code, text, step.element.line, step.element.column, lengths=lengths)
 
-    def _stop_m120(self, step: Step) -> NoReturn:
+    def _stop_m120(self, step: ProgrammedStep) -> NoReturn:
         self._stop("WORD", NOT_UNDER_M120, step)
 
-    def _stop_too_large(self, step: Step, why: str, *lengths: float) -> NoReturn:
+    def _stop_too_large(self, step: ProgrammedStep, why: str, *lengths: float) -> NoReturn:
         self._stop("HE3", f"Tool radius too large: {why}. Take a smaller tool or open the contour.", step, *lengths)
 
 

@@ -11,7 +11,7 @@ from typing import Final
 from core.controls.control_run import AlarmError, ControlRun, Log
 from core.controls.control_tools import ToolTable
 from core.controls.klartext import leads, m_functions, path_functions, settings
-from core.controls.klartext.center_path import CenterPath, Record
+from core.controls.klartext.center_path import CenterPathRecorder, Record
 from core.controls.klartext.corner_rounding import WaitingElement
 from core.controls.klartext.reader import Block, read_blocks
 from core.controls.klartext.state import State
@@ -34,13 +34,13 @@ _GOAL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*$', re.ASCII)
 _FORMULA_OF_FN: Final = {5: "SQRT", 6: "SIN", 7: "COS"}
 
 
-def run(text: bytes, tools: ToolTable, share: float = 1.0) -> ControlRun:
+def run_klartext(text: bytes, tools: ToolTable, share: float = 1.0) -> ControlRun:
     """A program in Klartext with these tools, run with a share of each tool's radius; never raises for any text.
 
     Tools of the table count before TOOL DEF of the same number.
     """
     log = Log()
-    center = CenterPath(log, Record(share))
+    center = CenterPathRecorder(log, Record(share))
     blocks = tuple(read_blocks(lines_of(text)))
     state = State(log, WaitingElement(center), tools, blocks, _labels(blocks), share)
     stopped_at = None

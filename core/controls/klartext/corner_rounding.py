@@ -8,7 +8,7 @@ from typing import Final, NoReturn
 
 from core.controls.compensation import elements
 from core.controls.compensation.elements import Element, arc_element, line_element
-from core.controls.klartext.center_path import PLAIN, CenterPath, Role, Step
+from core.controls.klartext.center_path import KLARTEXT_CORNERS, CenterPathRecorder, ProgrammedStep, Role
 from core.geometry.piece import Point
 from core.tolerance import JOINED
 
@@ -30,11 +30,11 @@ class Blend:
 class WaitingElement:
     """Hands steps on to the center path; a contour element waits here until no RND or CHF can follow it."""
 
-    center: CenterPath
-    step: Step | None = None
+    center: CenterPathRecorder
+    step: ProgrammedStep | None = None
     blend: Blend | None = None
 
-    def push(self, step: Step) -> None:
+    def push(self, step: ProgrammedStep) -> None:
         """The next step."""
         if step.role is not Role.CONTOUR and step.role is not Role.FREE:
             self.flush()
@@ -54,7 +54,7 @@ class WaitingElement:
         if step:
             self.center.push(step)
 
-    def _blended(self, blend: Blend, second: Step) -> Step:
+    def _blended(self, blend: Blend, second: ProgrammedStep) -> ProgrammedStep:
         """Hand on the waiting element and what joins it to the next; the next one cut short."""
         first, self.step, self.blend = self.step, None, None
         if first is None or first.role is not second.role:
@@ -63,8 +63,8 @@ class WaitingElement:
         if isinstance(parts, str):
             self._stop(blend, parts)
         between = parts[1]._replace(line=blend.line, column=blend.column, rapid=False, feed=blend.feed)
-        self.center.push(first._replace(element=parts[0], corner=PLAIN))
-        self.center.push(first._replace(element=between, corner=PLAIN))
+        self.center.push(first._replace(element=parts[0], corner=KLARTEXT_CORNERS))
+        self.center.push(first._replace(element=between, corner=KLARTEXT_CORNERS))
         return second._replace(element=parts[2])
 
     def _stop(self, blend: Blend, text: str) -> NoReturn:

@@ -7,7 +7,7 @@ from math import radians
 from typing import Final
 
 from core.controls.compensation.elements import Element, offset_point
-from core.controls.klartext.center_path import Role, Step
+from core.controls.klartext.center_path import ProgrammedStep, Role
 from core.controls.klartext.lead_curves import Lead, LeadShape, departure
 from core.controls.klartext.m_functions import functions
 from core.controls.klartext.path_functions import POLAR, polar_target, straight_element
@@ -35,7 +35,7 @@ def approach(state: State, block: Block) -> None:
     element = straight_element(state, block, end, rapid=rapid, feed=feed)
     state.position, state.last = end, None
     plane, hand = state.plane, _hand(state.offset, state.side)
-    state.push(Step(Role.APPROACH, element, state.offset, plane, lead=lead, hand=hand, before=before))
+    state.push(ProgrammedStep(Role.APPROACH, element, state.offset, plane, lead=lead, hand=hand, before=before))
 
 
 def depart(state: State, block: Block) -> None:
@@ -52,7 +52,7 @@ def depart(state: State, block: Block) -> None:
     state.moving(block, rapid=rapid, feed=feed)
     element = straight_element(state, block, goal, rapid=rapid, feed=feed)._replace(leaving=last.arriving)
     hand = _hand(state.offset, state.applied)
-    state.push(Step(Role.DEPARTURE, element, state.offset, state.plane, lead=lead, hand=hand))
+    state.push(ProgrammedStep(Role.DEPARTURE, element, state.offset, state.plane, lead=lead, hand=hand))
     state.position, state.last, state.side = goal, None, 0
     state.release()
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from core.comp.compensate import compensate
-from core.comp.result import Compensated
+from core.comp.compensated import Compensated
 from core.controls.compensation.elements import WHOLE, Element, offset_end, sweep
 from core.geometry.path import Path
 from core.geometry.piece import Point, Side

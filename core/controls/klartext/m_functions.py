@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Final
 
 from core.controls.compensation.corner_rules import CornerRules
-from core.controls.klartext.center_path import M97, M98, PLAIN, FeedAt
+from core.controls.klartext.center_path import KLARTEXT_CORNERS, M97, M98, FeedAt
 from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXES, State, Words
 from core.controls.program_text import quoted
@@ -37,7 +37,7 @@ _DIFFERENT: Final[Mapping[int, str]] = MappingProxyType(
 
 def functions(state: State, block: Block, words: Words) -> CornerRules:
     """Take up the block's M words; the rules of the corner at its end."""
-    corner = PLAIN
+    corner = KLARTEXT_CORNERS
     for name in words:
         if name == "M120":
             _look_ahead(state, block, words)

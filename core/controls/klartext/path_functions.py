@@ -8,7 +8,7 @@ from typing import Final
 from core.controls.compensation import elements
 from core.controls.compensation.elements import Element, arc_element, line_element
 from core.controls.iso.arcs import ArcRadii, NoArc, through
-from core.controls.klartext.center_path import Role, Step
+from core.controls.klartext.center_path import ProgrammedStep, Role
 from core.controls.klartext.corner_rounding import Blend
 from core.controls.klartext.m_functions import functions, leaves_workpiece
 from core.controls.klartext.reader import Block
@@ -62,12 +62,12 @@ def _line_to(state: State, block: Block, words: Words, end: list[float]) -> None
     state.position = end
     if element.start == element.end:
         state.last = None
-        state.push(Step(Role.DEPTH, element, 0.0, state.plane))
+        state.push(ProgrammedStep(Role.DEPTH, element, 0.0, state.plane))
         if state.side != state.applied and SIDES.keys() & words.keys():
             state.tell(Severity.INFO, "INTERPRETED", NOT_YET, block)
     elif state.side == state.applied:
         role = Role.CONTOUR if state.side else Role.FREE
-        state.push(Step(role, element, state.offset, state.plane, corner_rules, state.feed_at))
+        state.push(ProgrammedStep(role, element, state.offset, state.plane, corner_rules, state.feed_at))
         state.last = element
     else:
         _change_side(state, block, element)
@@ -84,10 +84,10 @@ def _change_side(state: State, block: Block, element: Element) -> None:
     state.last = None
     if state.side:
         state.apply(block)
-        state.push(Step(Role.ENTRY, element, state.offset, state.plane))
+        state.push(ProgrammedStep(Role.ENTRY, element, state.offset, state.plane))
     else:
         state.release()
-        state.push(Step(Role.EXIT, element, 0.0, state.plane))
+        state.push(ProgrammedStep(Role.EXIT, element, 0.0, state.plane))
 
 
 def pole(state: State, block: Block) -> None:
@@ -271,7 +271,7 @@ def _arc_to(
     element = element._replace(rapid=rapid)
     state.position = end
     role = Role.CONTOUR if state.applied else Role.FREE
-    state.push(Step(role, element, state.offset, state.plane, corner_rules, state.feed_at))
+    state.push(ProgrammedStep(role, element, state.offset, state.plane, corner_rules, state.feed_at))
     state.last = element
 
 

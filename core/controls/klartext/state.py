@@ -14,7 +14,7 @@ from typing import Final, NoReturn
 from core.controls.compensation.elements import Element
 from core.controls.control_run import Log
 from core.controls.control_tools import ToolTable
-from core.controls.klartext.center_path import FeedAt, Role, Step
+from core.controls.klartext.center_path import FeedAt, ProgrammedStep, Role
 from core.controls.klartext.corner_rounding import WaitingElement
 from core.controls.klartext.formulas import evaluate
 from core.controls.klartext.reader import WORD, Block, joined_name
@@ -186,7 +186,7 @@ class State:
             self.stop("NUMBER", "A feed cannot be negative.", block, "F")
         return "FMAX" in words, self.feed
 
-    def push(self, step: Step) -> None:
+    def push(self, step: ProgrammedStep) -> None:
         """The next step, for the center path."""
         ahead = self.ahead if step.role is Role.CONTOUR else 0
         self.waiting.push(step._replace(ahead=ahead) if ahead else step)

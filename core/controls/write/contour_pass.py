@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from math import hypot, pi
 from typing import Final, NamedTuple
 
-from core.comp.result import Compensated
+from core.comp.compensated import Compensated
 from core.controls.compensation.elements import (
     Element,
     arc_element,
@@ -29,7 +29,7 @@ from core.geometry.piece import Arc, Piece, Point, Side
 from core.tolerance import CLOSED
 from core.units import Unit, from_mm
 
-APART: Final = 0.001
+MAX_GAP: Final = 0.001
 """Millimeters from which on two programmed elements do not join."""
 
 
@@ -131,7 +131,7 @@ class PathEnd:
     blend: float
 
 
-def refusal(text: str, segment: float | None = None, *, lengths: tuple[float, ...] = ()) -> Finding:
+def not_written(text: str, segment: float | None = None, *, lengths: tuple[float, ...] = ()) -> Finding:
     """Why a control's own program is not written."""
     return Finding("NOTWRITTEN", Severity.ERROR, text, segment=segment, lengths=lengths)
 
@@ -139,22 +139,22 @@ def refusal(text: str, segment: float | None = None, *, lengths: tuple[float, ..
 def programmed_elements(compensated: Compensated) -> ProgrammedElements | Finding:
     """The elements that survive, the overlap's once more, cut to what is run of them; or why there are none."""
     if not len(compensated.path):
-        return refusal("There is no path to write.")
+        return not_written("There is no path to write.")
     if bool(compensated.bridged.any()):
         number = float(compensated.path.numbers[compensated.bridged][0])
-        return refusal("The tool cannot run a bridged part of the path: the control would stop there.", number)
+        return not_written("The tool cannot run a bridged part of the path: the control would stop there.", number)
     rows = _rows(compensated)
     offset = compensated.side.sign * compensated.radius
     elements = [element_of(compensated.contour[row]) for row in rows]
     numbers = compensated.contour.numbers[rows].tolist()
     for index in range(len(rows) - 1):
         first, second = elements[index], elements[index + 1]
-        if hypot(first.end[0] - second.start[0], first.end[1] - second.start[1]) <= APART:
+        if hypot(first.end[0] - second.start[0], first.end[1] - second.start[1]) <= MAX_GAP:
             continue
         corner = meeting(first, second, 0.0)
         if corner is None:
             text = "The look-ahead deletes the next segments; no control's own compensation does that."
-            return refusal(f"{text} Post the center path.", numbers[index])
+            return not_written(f"{text} Post the center path.", numbers[index])
         elements[index], elements[index + 1] = first._replace(end=corner), second._replace(start=corner)
     again = overlap(compensated)
     first_point, last_point = _point(compensated.path, 0), _point(again if len(again) else compensated.path, -1)
@@ -202,7 +202,7 @@ def flat_arc(start: Point, end: Point, center: Point, turn: int) -> Element:
 def _whole(whole: Element, cut: Element) -> Element:
     """A full circle stays a full circle where rounding has moved an end."""
     apart = hypot(cut.start[0] - cut.end[0], cut.start[1] - cut.end[1])
-    return cut._replace(start=cut.end) if whole.turn and whole.start == whole.end and apart < APART / 1000 else cut
+    return cut._replace(start=cut.end) if whole.turn and whole.start == whole.end and apart < MAX_GAP / 1000 else cut
 
 
 def _rebuilt(element: Element) -> Element:
@@ -226,12 +226,12 @@ def _surface(element: Element, point: Point, offset: float) -> Point:
     return cx + (x - cx) * share, cy + (y - cy) * share
 
 
-def begin(compensated: Compensated) -> PathEnd:
+def path_begin(compensated: Compensated) -> PathEnd:
     """Where and how the tool's path begins."""
     return _end(compensated, compensated.whole, compensated.lead_in, 1)
 
 
-def finish(compensated: Compensated) -> PathEnd:
+def path_finish(compensated: Compensated) -> PathEnd:
     """Where and how the tool's path ends; `way` is still the direction of travel."""
     return _end(compensated, compensated.whole.reversed(), compensated.lead_out.reversed(), -1)
 

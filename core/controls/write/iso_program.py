@@ -66,7 +66,7 @@ def tools_of(cuts: Sequence[ContourPass], style: IsoStyle) -> ToolTable:
     )
 
 
-def write(
+def write_iso(
     cuts: Sequence[PassWithLeads | UncompensatedPass], style: IsoStyle, frame: Frame, remarks: Sequence[str] = ()
 ) -> tuple[WrittenLine, ...]:
     """The lines of the program; `remarks` are ready comment lines and stand first."""

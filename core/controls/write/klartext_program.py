@@ -28,13 +28,13 @@ from core.finding import Finding
 from core.geometry.piece import Point, Side
 from core.units import Unit, from_mm, to_mm
 
-DECIMALS: Final = {Unit.IN: 5, Unit.MM: 4}
+KLARTEXT_DECIMALS: Final = {Unit.IN: 5, Unit.MM: 4}
 """Decimals the control takes."""
 
 _Run = tuple[CompensatedPass, ProgrammedElements] | UncompensatedPass | PassWithLeads
 
 
-def write(
+def write_klartext(
     cuts: Sequence[PassToWrite], name: str, unit: Unit, remarks: Sequence[str] = ()
 ) -> tuple[WrittenLine, ...] | Finding:
     """The lines of the program; or why the control would not run one of these paths by its own compensation."""
@@ -51,7 +51,7 @@ def write(
     return tuple(line._replace(text=f"{number} {line.text}") for number, line in enumerate(lines))
 
 
-def write_led(runs: Sequence[PassWithLeads], unit: Unit) -> tuple[WrittenLine, ...]:
+def write_klartext_contours(runs: Sequence[PassWithLeads], unit: Unit) -> tuple[WrittenLine, ...]:
     """The lines of a program that comes to each contour square to it and leaves it so, with APPR LN and DEP LN."""
     return tuple(_Writer(unit).program(runs, [run.contour_pass for run in runs], "CONTOUR", ()))
 
@@ -165,7 +165,7 @@ class _Writer:
 
     def length(self, value: float) -> str:
         """A length with its sign, as fine as the control takes it."""
-        text = f"{from_mm(value, self.unit):+.{DECIMALS[self.unit]}f}".rstrip("0").rstrip(".")
+        text = f"{from_mm(value, self.unit):+.{KLARTEXT_DECIMALS[self.unit]}f}".rstrip("0").rstrip(".")
         return "+0" if text in ("+0", "-0", "+", "-") else text
 
     def feed(self, value: float) -> str:

@@ -26,7 +26,7 @@ ON_LINE: Final = 1e-6
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Surface:
+class ProtectedContour:
     """The contour that leads must not cut, with the side and the radius of the cutter."""
 
     path: Path
@@ -44,7 +44,7 @@ def clear_leads(
     last: PathEnd,
     style: IsoStyle,
     radius: float,
-    surface: Surface,
+    surface: ProtectedContour,
     into: Sequence[Piece] = (),
     off: Sequence[Piece] = (),
 ) -> tuple[Point, Point] | float:

@@ -24,7 +24,7 @@ from core.controls.write.contour_pass import (
     CompensatedPass,
     PassToWrite,
     WrittenLine,
-    refusal,
+    not_written,
 )
 from core.finding import Finding, Severity
 from core.geometry.path import Path
@@ -91,7 +91,7 @@ def read_back(intended: Intended) -> ReadBackResult:
     cuts = [cut for cut in intended.cuts if isinstance(cut, CompensatedPass)]
     if len(made.stretches) != len(cuts):
         text = f"The control makes {len(made.stretches)} compensated runs instead of {len(cuts)}."
-        return ReadBackResult((refusal(text),))
+        return ReadBackResult((not_written(text),))
     if (different := different_move(made, intended)) is not None:
         return ReadBackResult((different,))
     answers: dict[tuple[int, bytes], ReadBackResult] = {}
@@ -99,7 +99,7 @@ def read_back(intended: Intended) -> ReadBackResult:
         moves = made.moves.part(stretch.first, stretch.last)
         key = (id(cut.compensated), moves.points[:, :2].tobytes())
         if not _level(made, stretch, cut, intended):
-            return ReadBackResult((refusal("A compensated run does not stay at its depth."),))
+            return ReadBackResult((not_written("A compensated run does not stay at its depth."),))
         if key not in answers:
             answers[key] = compare_path(moves.path(), cut, intended)
     errors = tuple(dict.fromkeys(error for answer in answers.values() for error in answer.errors))
@@ -121,7 +121,7 @@ def different_move(made: ControlRun, intended: Intended) -> Finding | None:
         row = int(np.searchsorted(moves.lines, number, side="right")) - 1
         differs = bool(moves.rapid[row]) != (travel.feed is None) or int(moves.turns[row]) != travel.turn
         if differs and (int(moves.lines[row]) == number or travel.turn):
-            return refusal(f"{intended.control} runs line {number} of the program as a different move.")
+            return not_written(f"{intended.control} runs line {number} of the program as a different move.")
         offs = np.abs(moves.points[row] - (travel.x, travel.y, travel.z))
         if travel.turn:
             center = np.abs(moves.centers[row, :2] - travel.center)
@@ -129,7 +129,7 @@ def different_move(made: ControlRun, intended: Intended) -> Finding | None:
         # a comparison with NaN is false
         if not (offs <= intended.tolerance).all():
             text = f"{intended.control} ends line {number} of the program {{0}} off."
-            return refusal(text, lengths=(float(offs.max()),))
+            return not_written(text, lengths=(float(offs.max()),))
     return None
 
 
@@ -146,12 +146,12 @@ def _length_difference(moves: Moves, row: int, before: Point | None, travel: Cen
 def _stopped(made: ControlRun, intended: Intended) -> tuple[Finding, ...]:
     """The alarms, with the segments they belong to."""
     alarms = tuple(_alarm(finding, intended) for finding in made.findings if finding.severity is Severity.ERROR)
-    return alarms or ((refusal("The control stops."),) if made.stopped_at is not None else ())
+    return alarms or ((not_written("The control stops."),) if made.stopped_at is not None else ())
 
 
 def _alarm(finding: Finding, intended: Intended) -> Finding:
     text = f"{intended.control} stops at line {finding.line} of the program, rule {finding.code}: {finding.text}"
-    return refusal(text, intended.segment(finding.line), lengths=finding.lengths)
+    return not_written(text, intended.segment(finding.line), lengths=finding.lengths)
 
 
 def _warnings(made: ControlRun, intended: Intended) -> tuple[Finding, ...]:
@@ -177,11 +177,11 @@ def compare_path(made: Path, cut: CompensatedPass, intended: Intended) -> ReadBa
     if same_pieces(inner, whole, tolerance):
         apart, number = 0.0, 0.0
     elif max(len(inner), len(whole)) > MAX_COMPARED_PIECES:
-        return ReadBackResult((refusal("The control's path differs, and is too long to compare."),))
+        return ReadBackResult((not_written("The control's path differs, and is too long to compare."),))
     else:
         # seen from the block's side a distance has no line of the program, so the path's first one stands for it
         first = float(inner.numbers[0]) if len(inner) else 0.0
-        both = farthest(inner, whole), (farthest(whole, inner)[0], first)
+        both = largest_distance(inner, whole), (largest_distance(whole, inner)[0], first)
         apart, number = both[int(np.argmax([distance for distance, _ in both]))]
     refused = _damage(made, inner, cut, intended, differs=not apart <= tolerance)
     if refused is not None:
@@ -203,7 +203,7 @@ def same_pieces(made: Path, whole: Path, tolerance: float) -> bool:
     return all(float(difference.max(initial=0.0)) <= tolerance for difference in (*ends, centers))
 
 
-def farthest(path: Path, other: Path) -> tuple[float, float]:
+def largest_distance(path: Path, other: Path) -> tuple[float, float]:
     """How far the ends, quarters and middles of a path's pieces are from another path at most, and that piece's number.
 
     NaN counts as the largest distance; of several pieces as far off the first one counts.
@@ -220,7 +220,7 @@ def _damage(made: Path, inner: Path, cut: CompensatedPass, intended: Intended, *
     contour, side = cut.compensated.contour, cut.compensated.side
     verdicts = [judge(contour, side, *judged) for judged in _judged_paths(made, inner, cut, differs=differs)]
     if not all(verdict.judged for verdict in verdicts):
-        return refusal("The control's path cannot be judged.")
+        return not_written("The control's path cannot be judged.")
     if not verdicts:
         return None
     worst = max(verdicts, key=lambda verdict: verdict.depth)
@@ -229,13 +229,13 @@ def _damage(made: Path, inner: Path, cut: CompensatedPass, intended: Intended, *
         if not differs:
             text = f"The move into the cut or out of it, as {intended.control} needs it, gouges the part by {{0}}."
         segment = worst.gouges[0].surface_number if worst.gouges else None
-        return refusal(text, segment, lengths=(worst.depth,))
+        return not_written(text, segment, lengths=(worst.depth,))
     planned = judge(contour, side, cut.diameter / 2, cut.compensated.whole) if differs else verdicts[0]
     if not planned.judged:
-        return refusal("The block's path cannot be judged.")
+        return not_written("The block's path cannot be judged.")
     if (more := _length_left(verdicts[0], intended) - _length_left(planned, intended)) > intended.tolerance:
         text = f"{intended.control} compensates this differently, and its path leaves {{0}} more of the contour uncut."
-        return refusal(text, verdicts[0].uncut[0].first_number, lengths=(more,))
+        return not_written(text, verdicts[0].uncut[0].first_number, lengths=(more,))
     return None
 
 

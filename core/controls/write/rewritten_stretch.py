@@ -17,7 +17,7 @@ from core.controls.control_run import ControlRun, Stretch
 from core.controls.moves import Plane
 from core.controls.write.contour_pass import ContourPass, PassWithLeads, PathEnd, ProgrammedElements, element_of
 from core.controls.write.iso_style import IsoStyle
-from core.controls.write.lead_moves import Surface, clear_leads, merged, with_blends
+from core.controls.write.lead_moves import ProtectedContour, clear_leads, merged, with_blends
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Piece, Point, Turn
 from core.tolerance import JOINED
@@ -109,7 +109,7 @@ def with_leads(source: RewrittenStretch, style: IsoStyle, *, blends: bool) -> Pa
     stretch, radius, turn = source.stretch, source.stretch.radius, Turn(source.stretch.side.sign)
     shape = merged(source.shape) if style.merged else source.shape
     first, last = shape.elements[0], shape.elements[-1]
-    surface = Surface(source.surface, stretch.side, radius)
+    surface = ProtectedContour(source.surface, stretch.side, radius)
     for blend in BLEND_RADII if blends else BLEND_RADII[:1]:
         begin = source.end(first.start, first.leaving, blend * radius, 1)
         finish = source.end(last.end, last.arriving, blend * radius, -1)

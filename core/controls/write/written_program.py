@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
-from core.comp.result import Compensated
+from core.comp.compensated import Compensated
 from core.controls.control_tools import ToolTable
 from core.controls.registry import is_klartext
 from core.controls.write import iso_program, klartext_program
@@ -16,14 +16,14 @@ from core.controls.write.contour_pass import (
     PassWithLeads,
     UncompensatedPass,
     WrittenLine,
-    begin,
-    finish,
+    not_written,
+    path_begin,
+    path_finish,
     programmed_elements,
-    refusal,
 )
 from core.controls.write.iso_program import Frame, offsets, tools_of
 from core.controls.write.iso_style import STYLES, IsoStyle
-from core.controls.write.lead_moves import Surface, clear_leads, merged, with_blends
+from core.controls.write.lead_moves import ProtectedContour, clear_leads, merged, with_blends
 from core.controls.write.read_back import Intended, read_back
 from core.finding import Finding
 from core.units import to_mm
@@ -62,10 +62,10 @@ def write_program(
 def _klartext(
     cuts: Sequence[PassToWrite], control: str, frame: Frame, name: str, remarks: Remarks
 ) -> WrittenProgram | NotWritten:
-    decimals = klartext_program.DECIMALS[frame.unit]
+    decimals = klartext_program.KLARTEXT_DECIMALS[frame.unit]
 
     def write(notes: Sequence[Finding]) -> Intended | Finding:
-        lines = klartext_program.write(cuts, name, frame.unit, remarks(notes))
+        lines = klartext_program.write_klartext(cuts, name, frame.unit, remarks(notes))
         if isinstance(lines, Finding):
             return lines
         return _intended(lines, control, cuts, ToolTable(), frame, decimals)
@@ -87,7 +87,7 @@ def _iso(cuts: Sequence[PassToWrite], control: str, frame: Frame, remarks: Remar
     frame = replace(frame, corners=style.corner_code)
 
     def write(notes: Sequence[Finding]) -> Intended:
-        lines = iso_program.write(runs, style, frame, remarks(notes))
+        lines = iso_program.write_iso(runs, style, frame, remarks(notes))
         return _intended(lines, control, cuts, tools_of(cuts, style), frame, style.digits(frame.unit))
 
     return _confirmed(write)
@@ -103,12 +103,14 @@ def _run(cut: CompensatedPass, led: dict[Compensated, PassWithLeads | Finding], 
 def _led(cut: CompensatedPass, style: IsoStyle, offset: int) -> PassWithLeads | Finding:
     """The cut with the longest leads that cut nothing."""
     compensated, radius = cut.compensated, cut.compensated.radius
-    first, last = begin(compensated), finish(compensated)
-    leads = clear_leads(first, last, style, radius, Surface(compensated.contour, compensated.side, cut.diameter / 2))
+    first, last = path_begin(compensated), path_finish(compensated)
+    leads = clear_leads(
+        first, last, style, radius, ProtectedContour(compensated.contour, compensated.side, cut.diameter / 2)
+    )
     if isinstance(leads, float):
         text = "There is no room for the straight move into the cut and out of it: it gouges by {0}."
         text += " Start elsewhere." if first.blend else " Enter BLEND OFFSET, or start elsewhere."
-        return refusal(text, lengths=(leads,))
+        return not_written(text, lengths=(leads,))
     shape = programmed_elements(compensated)
     if isinstance(shape, Finding):
         return shape

@@ -14,7 +14,7 @@ from enum import StrEnum
 from functools import cache, partial
 from typing import Any, Final, TypeVar
 
-from core.program.fields import NUMBER_FIELDS, TABLES, Field, Form, check, unread_reason
+from core.program.fields import NUMBER_FIELDS, TABLES, Field, Form, unread_reason, value_refusal
 from core.program.file.faults import KeyPath, cut_off, key_lines, line_of, syntax_fault
 from core.program.file.write import FORMAT, KIND, UNREAD
 from core.program.model import (
@@ -250,7 +250,7 @@ def _tool(table: _Table) -> Tool:
     typed = _numbers(table, Form.TOOL)
     number = typed.get("number")
     field = TABLES[Form.TOOL][0]
-    if not isinstance(number, Number) or check(field, number.value, table.unit):
+    if not isinstance(number, Number) or value_refusal(field, number.value, table.unit):
         raise table.fault(
             "number", f"number {'is missing' if number is None else 'is not a tool number'}: write 1 to 9999."
         )
@@ -263,7 +263,9 @@ def _block(table: _Table) -> Block:
         raise table.fault("kind", f'kind must be "{KIND}".')
     typed = _numbers(table, Form.START)
     lookahead = typed.get("lookahead")
-    if isinstance(lookahead, Number) and (trouble := check(TABLES[Form.START][-1], lookahead.value, table.unit)):
+    if isinstance(lookahead, Number) and (
+        trouble := value_refusal(TABLES[Form.START][-1], lookahead.value, table.unit)
+    ):
         raise table.fault("lookahead", f"lookahead is {lookahead.value:g}: {trouble}")
     segments = tuple(_segment(segment) for segment in table.array("segment"))
     return Block(**typed, cutter_comp=table.chosen("cutter_comp", CutterComp), segments=segments)

@@ -108,8 +108,8 @@ def _about_center(turn: Turn, given: Given, *ends: Point) -> Outcome:
     """The arcs about a typed center to each of the ends; SWEEP ANGLE decides what one close to the start is."""
     start, center, sweep = given.start, _point(given.known, _CENTER), given.known.get("sweep")
     close = [end for end in ends if _comes_back(start, end)]
-    arcs = [construct.settled(start, end, center, turn) for end in close]
-    others = [construct.settled(start, end, center, turn) for end in ends if end not in close]
+    arcs = [construct.even_arc(start, end, center, turn) for end in close]
+    others = [construct.even_arc(start, end, center, turn) for end in ends if end not in close]
     full = Arc(start, start, center, turn)
     if not close:
         return _ordered(*others)

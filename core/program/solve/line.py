@@ -10,7 +10,7 @@ from typing import assert_never
 
 from core.finding import Finding
 from core.geometry import construct
-from core.geometry.construct import BehindStart, OnePoint, OutOfReach, TwoPoints
+from core.geometry.construct import OnePoint, OppositeDirection, OutOfReach, TwoPoints
 from core.geometry.piece import Line, Piece, Point
 from core.program.fields import Form
 from core.program.solve.rules import Given, Known, Outcome, Rule, Task, contradiction, fault
@@ -32,7 +32,7 @@ def _along(axis: int, given: Given) -> Outcome | None:
     """Along the angle to one end coordinate."""
     start, known = given.start, given.known
     value, angle = known[_END[axis]], known["angle"]
-    end = construct.reach(start, angle, axis, value)
+    end = construct.ray_to_coordinate(start, angle, axis, value)
     label = f"{'XY'[axis]} END"
     match end:
         case OnePoint(point):
@@ -42,7 +42,7 @@ def _along(axis: int, given: Given) -> Outcome | None:
         case construct.NotDetermined():
             text = f"XY ANGLE {shown_angle(angle)} holds {'XY'[axis]} at {{0~1}}: it never reaches {label} {{1~0}}"
             return contradiction(f"{text}. Correct one of them.", "angle", start[axis], value)
-        case BehindStart():
+        case OppositeDirection():
             text = f"XY ANGLE {shown_angle(angle)} leads away from {label} {{0}}. Correct one of them."
             return contradiction(text, "angle", value)
         case _:

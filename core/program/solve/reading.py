@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from core.finding import Finding, Severity
-from core.program.fields import NUMBER_FIELDS, Field, Form, check, check_text, unread_sentence
+from core.program.fields import NUMBER_FIELDS, Field, Form, text_refusal, unread_sentence, value_refusal
 from core.program.model import Block, Number, PartSetup, Program, ProgramParameters, Segment, Unread
 from core.program.solve.solved import Solved, Value
 from core.units import Kind, Unit, to_mm, to_radians
@@ -50,8 +50,8 @@ def read_form(
 def _trouble(field: Field, typed: Number | Unread, unit: Unit) -> tuple[str, str] | None:
     """Code and sentence about a field that cannot be used."""
     if isinstance(typed, Number):
-        refusal = check(field, typed.value, unit)
-    elif (refusal := check_text(typed.text, field, unit)) is None:
+        refusal = value_refusal(field, typed.value, unit)
+    elif (refusal := text_refusal(typed.text, field, unit)) is None:
         return "UNREADABLE", f"{field.label}: {unread_sentence(typed)}"
     return None if refusal is None else ("OUT_OF_RANGE", refusal)
 

@@ -9,7 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.advice.lookahead_table import Trial, table_of
-from core.advice.remedies import STEP, SearchCanceled, largest_tool, lookahead_without_blends, start_mid_side, started
+from core.advice.remedies import (
+    DIAMETER_STEP,
+    SearchCanceled,
+    largest_tool,
+    lookahead_without_blends,
+    start_mid_side,
+    started,
+)
 from core.geometry.piece import Side
 from tests.core.comp.contours import lines, mixed, shut
 
@@ -31,8 +38,8 @@ def test_the_largest_tool_is_rounded_down(width):
     slot = lines((0, 2), (0, 0), (width, 0), (width, 2))
     found = largest_tool(Trial(slot, Side.LEFT, 0.25, False, 0.0, 0.0))
     assert found is not None
-    assert width - STEP < found.diameter <= width
-    assert round(found.diameter / STEP) * STEP == pytest.approx(found.diameter, abs=1e-12)
+    assert width - DIAMETER_STEP < found.diameter <= width
+    assert round(found.diameter / DIAMETER_STEP) * DIAMETER_STEP == pytest.approx(found.diameter, abs=1e-12)
 
 
 def test_a_hint_finds_the_same_tool():

@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.advice.lookahead_table import Trial, table_of
-from core.advice.remedies import STEP, started
-from core.advice.why_not_clean import MAX_NAMED, Needs, needs_of
+from core.advice.remedies import DIAMETER_STEP, started
+from core.advice.why_not_clean import MAX_NAMED_PLACES, Advice, advice_for
 from core.comp.lookahead import calculated
 from core.finding import Severity
 from core.geometry.path import Path
@@ -32,17 +32,17 @@ def trial(contour: Path, side: Side, radius: float = 0.25, *, closed: bool, blen
     return Trial(contour, side, radius, closed, blend, 0.0)
 
 
-def of(asked: Trial) -> Needs:
-    found = needs_of(asked, calculated(len(asked.surface), closed=asked.closed), table_of(asked))
+def of(asked: Trial) -> Advice:
+    found = advice_for(asked, calculated(len(asked.surface), closed=asked.closed), table_of(asked))
     assert found is not None
     return found
 
 
-def codes(found: Needs) -> list[str]:
+def codes(found: Advice) -> list[str]:
     return [one.code for one in found.sentences]
 
 
-def said(found: Needs) -> str:
+def said(found: Advice) -> str:
     return " ".join(sentence(one, Unit.MM) for one in found.sentences)
 
 
@@ -74,7 +74,7 @@ def test_the_largest_tool_of_a_slot_is_its_width():
     assert codes(found) == ["CAL_NOT_CLEAN", "TOO_SMALL", "TOOL_FITS"]
     assert "inside corner after segment 2" in said(found)
     assert table_of(replace(asked, radius=found.tool.diameter / 2)).row(found.tool.value).clean
-    assert table_of(replace(asked, radius=(found.tool.diameter + STEP) / 2)).recommended is None
+    assert table_of(replace(asked, radius=(found.tool.diameter + DIAMETER_STEP) / 2)).recommended is None
 
 
 def test_an_inside_radius_smaller_than_the_tool_is_named():
@@ -87,7 +87,7 @@ def test_an_inside_radius_smaller_than_the_tool_is_named():
     assert found.too_small[0].value == pytest.approx(0.2)
     assert "Inside radius 0.200 of segment 2 is too small for tool radius 0.250." in said(found)
     assert found.tool is not None
-    assert found.tool.diameter == pytest.approx(0.4, abs=1.5 * STEP)
+    assert found.tool.diameter == pytest.approx(0.4, abs=1.5 * DIAMETER_STEP)
 
 
 def test_a_hole_smaller_than_the_tool():
@@ -97,7 +97,7 @@ def test_a_hole_smaller_than_the_tool():
     found = of(asked)
     assert "no path that can be cut" in said(found)
     assert found.tool is not None
-    assert 2.0 - 2 * STEP <= found.tool.diameter <= 2.0
+    assert 2.0 - 2 * DIAMETER_STEP <= found.tool.diameter <= 2.0
 
 
 def test_a_star_needs_a_smaller_tool_and_another_start():
@@ -140,7 +140,7 @@ def test_a_tool_with_blend_moves_and_a_larger_one_without_are_both_told():
     assert found.tool is not None
     assert found.tool_without_blends is not None
     assert found.tool.diameter < 45.0
-    assert found.tool_without_blends.diameter == pytest.approx(50.0, abs=2 * STEP)
+    assert found.tool_without_blends.diameter == pytest.approx(50.0, abs=2 * DIAMETER_STEP)
     words = "diameter fits without blend moves (BLEND OFFSET 0) when the contour is started in the middle of segment 1:"
     assert words in said(found)
     small = replace(asked, surface=started(square, 0), radius=found.tool_without_blends.diameter / 2)
@@ -204,8 +204,8 @@ def test_many_places_are_counted():
     work = gear(50)
     found = of(trial(work.contour, work.side, 6.0, closed=True))
     named = [one for one in found.sentences if one.code == "TOO_SMALL"]
-    assert len(found.too_small) > MAX_NAMED
-    assert len(named) == MAX_NAMED + 1
+    assert len(found.too_small) > MAX_NAMED_PLACES
+    assert len(named) == MAX_NAMED_PLACES + 1
     assert f"There are {len(found.too_small)} such places." in named[-1].text
 
 
@@ -293,5 +293,5 @@ def test_remedies_nobody_waits_for_are_given_up_at_the_next_one(tries):
         answers.append(len(answers) < tries)
         return answers[-1]
 
-    assert needs_of(asked, 8, table_of(asked), wanted) is None
+    assert advice_for(asked, 8, table_of(asked), wanted) is None
     assert answers == [True] * tries + [False]

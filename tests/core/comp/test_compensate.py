@@ -11,9 +11,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from core.comp.compensate import compensate, compensate_all
+from core.comp.compensated import Compensated
 from core.comp.crossings import crossings
 from core.comp.offset import offset
-from core.comp.result import Compensated
 from core.geometry.path import Floats, Path
 from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.tolerance import JOINED

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from core.comp.compensate import compensate, compensate_all
+from core.comp.compensated import Compensated
 from core.comp.findings import MAX_NAMED_PLACES, segment_list
-from core.comp.result import Compensated
 from core.finding import Finding, Severity
 from core.geometry.path import EMPTY, Path
 from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn

@@ -7,8 +7,8 @@ from math import sqrt
 import pytest
 
 from core.comp.compensate import compensate, compensate_all
+from core.comp.compensated import Compensated
 from core.comp.lookahead import HIGHEST, LOWEST, calculated
-from core.comp.result import Compensated
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Line, Side, Turn
 from tests.core.comp.golden import (

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
-from core.comp.result import Compensated
+from core.comp.compensated import Compensated
 from core.geometry.path import Path
 from core.geometry.piece import Arc, Side
 from tests.core.comp.contours import lines, mixed, polygons, shut

@@ -7,7 +7,7 @@ import pytest
 
 from core.controls.compared_controls import compare
 from core.controls.contours_and_leads import contour_of, contours_of, open_contours
-from core.controls.judged_runs import findings, judge_run
+from core.controls.judged_runs import judge_run, judged_findings
 from core.finding import Finding, Severity
 from core.geometry.path import Path
 from core.units import Unit
@@ -73,7 +73,7 @@ def ring_and_key(depths: int) -> str:
 
 
 def errors(program: str, control: str) -> list[Finding]:
-    told = findings(judge_run(ran(program, control, t1=6)))
+    told = judged_findings(judge_run(ran(program, control, t1=6)))
     return [one for one in told if one.severity is Severity.ERROR]
 
 
@@ -109,18 +109,18 @@ def two_rings(way: str) -> str:
 @pytest.mark.parametrize("control", CONTROLS)
 def test_a_gouge_on_a_long_way_between_contours_says_that_it_may_be_no_surface(control: str) -> None:
     """Nothing tells a way of three moves from an open contour: its gouges stay errors, and what to do is said."""
-    told = findings(judge_run(ran(two_rings("X-20.\nY-50.\nX100.\nY0.\n"), control, t1=6)))
+    told = judged_findings(judge_run(ran(two_rings("X-20.\nY-50.\nX100.\nY0.\n"), control, t1=6)))
     assert {9.0, 10.0} & {float(one.text.split("line ")[1].split()[0]) for one in told if one.code == "GOUGE"}
     (way,) = (one for one in told if one.code == "WAY")
     assert (way.severity, way.line) == (Severity.WARNING, 9)
     assert way.text.startswith("Lines 9-12 are treated as a contour")
-    short = findings(judge_run(ran(two_rings("X-20. Y-50.\nX100. Y0.\n"), control, t1=6)))
+    short = judged_findings(judge_run(ran(two_rings("X-20. Y-50.\nX100. Y0.\n"), control, t1=6)))
     assert not {"WAY", "GOUGE"} & {one.code for one in short}
 
 
 @pytest.mark.parametrize("way", ["X-20.\nG42 Y-50.\nX100.\nY0.\n", "X-20.\nY-50.\nX100.\nG42 Y0.\n"])
 def test_a_way_on_which_the_side_changes_is_reported_once_and_whole(way: str) -> None:
-    told = findings(judge_run(ran(two_rings(way), "nine-series:a", t1=6)))
+    told = judged_findings(judge_run(ran(two_rings(way), "nine-series:a", t1=6)))
     assert "SIDES" in {one.code for one in told}
     (way_told,) = (one for one in told if one.code == "WAY")
     assert way_told.line == 9
@@ -136,7 +136,7 @@ def test_of_a_long_way_that_is_not_gouged_nothing_is_said(control: str, ring: st
     way = "G21 G17 G90 G94 F100\nG0 X-30. Y60. Z5.\nG41 D1 G1 X-60. Y30.\nY0.\nX-40.\nX-20.\nX0.\n"
     results = judge_run(ran(way + ring + "G40 X0. Y-40.\nM2\n", control, t1=6))
     assert any(one.open_lines for one in results)
-    codes = {one.code for one in findings(results)}
+    codes = {one.code for one in judged_findings(results)}
     assert ("GOUGE" in codes) is gouged
     assert "WAY" not in codes
 
@@ -147,7 +147,7 @@ def test_of_contours_that_are_closed_or_alone_none_is_a_way() -> None:
     alone = lines_through((0, 0), (1, 0), (1, 1), (5, 5))
     assert not open_contours(alone, contours_of(alone))
     corners, circle = OPEN_KEY.format(circle=""), OPEN_KEY.format(circle="G2 X100. Y20. I0. J-20.\nG1 ")
-    told = [findings(judge_run(ran(program, "linuxcnc", t1=6))) for program in (corners, circle)]
+    told = [judged_findings(judge_run(ran(program, "linuxcnc", t1=6))) for program in (corners, circle)]
     assert [sum(one.code == "WAY" for one in found) for found in told] == [0, 1]
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from core.controls.compared_controls import Compared, OtherLanguage, compare, parting
-from core.controls.judged_runs import deepest_gouge, findings, first_unjudged, judge_run
+from core.controls.judged_runs import deepest_gouge, first_unjudged, judge_run, judged_findings
 from core.controls.registry import compared, names, reads, resolve
 from core.finding import Severity
 from core.geometry.path import Path
@@ -25,13 +25,13 @@ def test_a_gouge_is_told_with_its_depth_and_lines() -> None:
     results = judge_run(done)
     cut, line = deepest_gouge(results)
     assert (round(from_mm(cut, Unit.IN), 9), line) == (0.05, 5)
-    (gouge,) = [finding for finding in findings(results) if finding.code == "GOUGE"]
+    (gouge,) = [finding for finding in judged_findings(results) if finding.code == "GOUGE"]
     assert "surface of line 6 by 0.0500 at X" in sentence(gouge, Unit.IN)
 
 
 def test_a_clean_path_has_no_finding() -> None:
     done = ran("G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n", "rosettacnc:easy", t1=0.5)
-    assert not findings(judge_run(done))
+    assert not judged_findings(judge_run(done))
 
 
 def test_a_notch_too_narrow_gouges_here_and_alarms_there() -> None:
@@ -74,7 +74,7 @@ def test_names_are_whole_or_short() -> None:
 def test_a_path_that_leaves_the_surface_or_turns_back_is_told_by_line() -> None:
     done = ran("G20 F9\nG0 X0 Y2\nG41 D1\nG1 Y0\nX2\nY-3\nG40\nX5\nM2\n", "rosettacnc:easy", t1=0.5)
     (result,) = judge_run(done)
-    assert not {"AWAY", "BACKWARDS"} & {finding.code for finding in findings((result,))}
+    assert not {"AWAY", "BACKWARDS"} & {finding.code for finding in judged_findings((result,))}
     way = result.center.points.tolist()
     row = int(np.argmax(result.center.lengths * np.isin(result.center.numbers, result.surface.numbers)))
     (x0, y0), (x1, y1) = way[row], way[row + 1]
@@ -86,7 +86,9 @@ def test_a_path_that_leaves_the_surface_or_turns_back_is_told_by_line() -> None:
     bent = Path.of(points, path.centers[kept], path.turns[kept], path.numbers[kept])
     verdict = judge(result.surface, result.stretch.side, result.stretch.radius, bent)
     told = [
-        one for one in findings((replace(result, center=bent, verdict=verdict),)) if one.code in ("AWAY", "BACKWARDS")
+        one
+        for one in judged_findings((replace(result, center=bent, verdict=verdict),))
+        if one.code in ("AWAY", "BACKWARDS")
     ]
     assert [one.code for one in told] == ["BACKWARDS", "AWAY"]
     assert {one.line for one in told} == {int(path.numbers[row])}
@@ -99,14 +101,16 @@ POCKET = "G20 G17 G90\n{load}\nG0 X1.5 Y1.2\nG1 F10.\nG41 X2. Y0.5\nX3.\nY2.\nX0
 @pytest.mark.parametrize("load", ["T1 M6", "T1 M6 D0", "T1 M6 D2"])
 def test_with_offset_0_no_side_is_wrong_and_the_depth_that_the_tool_cuts_is_told(control: str, load: str) -> None:
     done = ran(POCKET.format(load=load), control, t1=0.5, t2=0)
-    assert {"WRONG-SIDE", "GOUGE"}.isdisjoint(finding.code for finding in findings(judge_run(done)))
+    assert {"WRONG-SIDE", "GOUGE"}.isdisjoint(finding.code for finding in judged_findings(judge_run(done)))
     (told_of,) = told(done, "RADIUS0")
     assert "tool 1, diameter 0.5000, cuts 0.2500 too deep along the contour" in sentence(told_of, Unit.IN)
 
 
 def test_an_offset_that_comes_later_is_on_the_wrong_side_all_the_same() -> None:
     program = POCKET.format(load="T1 M6").replace("X3.\n", "X3.\nD9\n")
-    assert "WRONG-SIDE" in {finding.code for finding in findings(judge_run(ran(program, "nine-series:a", t9=-0.5)))}
+    assert "WRONG-SIDE" in {
+        finding.code for finding in judged_findings(judge_run(ran(program, "nine-series:a", t9=-0.5)))
+    }
 
 
 def test_a_tool_that_is_not_loaded_is_told_of_where_it_is_the_only_one() -> None:
@@ -119,7 +123,7 @@ def test_a_tool_that_is_not_loaded_is_told_of_where_it_is_the_only_one() -> None
 
 def test_a_real_wrong_side_with_a_radius_is_still_told() -> None:
     done = ran(POCKET.format(load="T1 M6 D1").replace("G41", "G42"), "nine-series:a", t1=0.5)
-    assert "WRONG-SIDE" in {finding.code for finding in findings(judge_run(done))}
+    assert "WRONG-SIDE" in {finding.code for finding in judged_findings(judge_run(done))}
 
 
 def test_a_run_that_was_given_up_is_not_judged() -> None:
@@ -138,14 +142,14 @@ def test_a_radius_that_changes_is_judged_where_it_is_in_force(word: str, sizes: 
     results = judge_run(ran(CHANGED.format(word=word), "nine-series:a", t1=sizes[0], t2=sizes[1]))
     assert [round(from_mm(one.stretch.radius, Unit.IN), 9) * 2 for one in results] == [*sizes]
     assert [one.surface.numbers.tolist() for one in results] == [[6.0], [8.0]]
-    assert {finding.code for finding in findings(results)} <= {"UNCUT"}
+    assert {finding.code for finding in judged_findings(results)} <= {"UNCUT"}
 
 
 def test_a_radius_that_changes_before_the_first_element_is_that_of_the_stretch() -> None:
     text = CHANGED.replace("X0 Y2\n{word}", "D2\nX0 Y2")
     (result,) = judge_run(ran(text, "nine-series:a", t1=0.5, t2=0.75))
     assert round(from_mm(result.stretch.radius, Unit.IN), 9) == 0.375
-    assert not findings((result,))
+    assert not judged_findings((result,))
 
 
 def test_a_larger_radius_cuts_into_what_was_before_it() -> None:
@@ -155,7 +159,7 @@ def test_a_larger_radius_cuts_into_what_was_before_it() -> None:
     deepest = {gouge.surface_number: gouge.depth for gouge in reversed(results[1].verdict.gouges)}
     assert round(from_mm(deepest[6.0], Unit.IN), 9) == 0.15
     assert 6.0 not in {gouge.surface_number for gouge in results[0].verdict.gouges}
-    assert any("surface of line 6" in finding.text for finding in findings(results))
+    assert any("surface of line 6" in finding.text for finding in judged_findings(results))
 
 
 def test_what_a_subprogram_cuts_with_another_radius_is_judged_against_its_other_calls() -> None:
@@ -173,9 +177,9 @@ def test_parts_on_two_sides_say_that_they_are_judged_each_by_itself(control: str
     """Behind the change the tool cuts 2 into the first wall; nothing asks for that, so it is said."""
     head = "G21 G90 F100\nT1 M6\nG0 X-20 Y-20\nG41 D1 G1 X0 Y0\nX0 Y100\n"
     text = f"{head}{{side}}X50 Y100\nX50 Y50\nX2 Y50\nX2 Y20\nG40 X-40 Y20\nM2\n"
-    changed = findings(judge_run(ran(text.format(side="G42 "), control, t1=10)))
+    changed = judged_findings(judge_run(ran(text.format(side="G42 "), control, t1=10)))
     assert [(one.line, one.severity) for one in changed if one.code == "SIDES"] == [(6, Severity.WARNING)]
-    assert "SIDES" not in {one.code for one in findings(judge_run(ran(text.format(side=""), control, t1=10)))}
+    assert "SIDES" not in {one.code for one in judged_findings(judge_run(ran(text.format(side=""), control, t1=10)))}
 
 
 @pytest.mark.parametrize("arm", [".2999", ".3"])
@@ -187,7 +191,7 @@ def test_an_uneven_arc_that_the_control_accepts_hides_no_gouge_of_another_part(a
     cut, line = deepest_gouge(results)
     assert from_mm(cut, Unit.IN) == pytest.approx(0.15, abs=1e-6)
     assert line == 10
-    assert any("surface of line 6" in one.text for one in findings(results) if one.severity is Severity.ERROR)
+    assert any("surface of line 6" in one.text for one in judged_findings(results) if one.severity is Severity.ERROR)
 
 
 def test_leads_that_cannot_be_judged_are_an_error() -> None:
@@ -198,6 +202,6 @@ def test_leads_that_cannot_be_judged_are_an_error() -> None:
     results = judge_run(ran(text, "nine-series:a", t1=0.05))
     assert results[0].verdict.judged
     assert not results[0].lead_gouges
-    unknown = [one for one in findings(results) if one.code == "UNJUDGED"]
+    unknown = [one for one in judged_findings(results) if one.code == "UNJUDGED"]
     assert [(one.severity, one.line) for one in unknown] == [(Severity.ERROR, 6)]
     assert first_unjudged(results)[0]

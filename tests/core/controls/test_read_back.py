@@ -20,7 +20,7 @@ from core.controls.write.read_back import (
     ReadBackResult,
     compare_path,
     different_move,
-    farthest,
+    largest_distance,
     read_back,
     same_pieces,
 )
@@ -61,7 +61,7 @@ def test_a_square_reads_back_or_its_corners_are_the_reason(control: str, side: S
     own = path if control == "klartext" else path.part(1, len(path) - 1)
     mitred = side is Side.RIGHT and control.startswith("nine-series")
     whole = one.compensated.whole
-    apart = max(farthest(own, whole)[0], farthest(whole, own)[0])
+    apart = max(largest_distance(own, whole)[0], largest_distance(whole, own)[0])
     assert (apart > 1e-3) is mitred
     assert same_pieces(own, whole, 1e-3) is not (mitred or (control == "threeblock" and overlap > 0.0))
     assert [note.code for note in found.notes] == (["DIFFERS"] if mitred else [])
@@ -137,7 +137,7 @@ def test_a_right_program_with_another_tool_is_wrong() -> None:
 
 def test_farthest_finds_the_piece_that_is_off() -> None:
     bent = outline((1, 0), (2, 0), (2, 1), (2.5, 2), (0, 2))
-    apart, number = farthest(bent, SQUARE)
+    apart, number = largest_distance(bent, SQUARE)
     assert apart / INCH == pytest.approx(0.5)
     assert number in (3.0, 4.0)
 
@@ -146,7 +146,7 @@ def test_farthest_names_the_piece_after_those_of_no_length() -> None:
     bent = outline((1, 0), (1, 0), (1, 0), (2, 0), (2, 1), (2.5, 2), (0, 2))
     short = (bent.points[1:] == bent.points[:-1]).all(axis=1)
     assert short.any()
-    assert farthest(bent, SQUARE)[1] in (3.0 + short.sum(), 4.0 + short.sum())
+    assert largest_distance(bent, SQUARE)[1] in (3.0 + short.sum(), 4.0 + short.sum())
 
 
 @pytest.mark.parametrize("row", range(4))
@@ -157,9 +157,9 @@ def test_what_is_no_number_is_never_near(row: int, end: int) -> None:
     points[row, end] = nan
     bad = Path.of(points, SQUARE.centers, SQUARE.turns)
     assert not same_pieces(bad, SQUARE, 1e-3)
-    assert not farthest(bad, SQUARE)[0] <= 1e-3
-    assert not farthest(SQUARE, bad)[0] <= 1e-3
-    assert farthest(bad, SQUARE)[1] in (row, row + 1)
+    assert not largest_distance(bad, SQUARE)[0] <= 1e-3
+    assert not largest_distance(SQUARE, bad)[0] <= 1e-3
+    assert largest_distance(bad, SQUARE)[1] in (row, row + 1)
     given = meant()
     (one,) = given.cuts
     assert isinstance(one, CompensatedPass)
@@ -186,7 +186,7 @@ def test_a_distance_that_is_not_a_number_in_one_direction_is_not_near(lost: str)
         made, cut_for = bare.whole, replace(one, compensated=replace(bare, path=_with_lost_arc(whole)))
         assert compare_path(made, replace(one, compensated=bare), given) == ReadBackResult()
     intended = cut_for.compensated.whole
-    apart = [farthest(made, intended)[0], farthest(intended, made)[0]]
+    apart = [largest_distance(made, intended)[0], largest_distance(intended, made)[0]]
     assert sorted(distance <= 1e-3 for distance in apart) == [False, True]
     assert compare_path(made, cut_for, given).errors
 
@@ -238,4 +238,4 @@ def test_random_contours_read_back_or_are_refused_with_a_reason(
     path = made.moves.part(stretch.first, stretch.last).path()
     inner = path.part(1, len(path) - 1)
     allowed = max(0.006, *(note.lengths[0] + 0.006 for note in result.notes if note.code == "DIFFERS"), 0.0)
-    assert max(farthest(inner, one.whole)[0], farthest(one.whole, inner)[0]) <= allowed
+    assert max(largest_distance(inner, one.whole)[0], largest_distance(one.whole, inner)[0]) <= allowed

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.controls.control_run import ControlRun
-from core.controls.judged_runs import deepest_gouge, findings, judge_run
+from core.controls.judged_runs import deepest_gouge, judge_run, judged_findings
 from core.controls.repeated_passes import without_repeats
 from core.geometry.path import Path
 from core.geometry.piece import Side
@@ -61,15 +61,15 @@ def test_forty_passes_are_judged_as_one_with_the_same_findings(control: str) -> 
     assert len(forty.surface) == len(one.surface) == 5
     # the first lap comes in from the lead, so that a second one differs from it
     assert len(forty.center) <= 2 * len(one.center)
-    assert findings((forty,)) == findings((one,))
-    assert {finding.code for finding in findings((one,))} == {"GOUGE", "LEADS", "UNCUT"}
+    assert judged_findings((forty,)) == judged_findings((one,))
+    assert {finding.code for finding in judged_findings((one,))} == {"GOUGE", "LEADS", "UNCUT"}
 
 
 def test_the_pieces_judged_are_as_many_for_any_number_of_passes_and_controls() -> None:
     for control in ("linuxcnc", "nine-series:a", "nine-series:b"):
         few, many = ((judge_run(_ring(f"M98 P7 L{laps}", control=control))) for laps in (3, 200))
         assert [len(one.center) for one in few] == [len(one.center) for one in many]
-        assert findings(few) == findings(many)
+        assert judged_findings(few) == judged_findings(many)
 
 
 def test_depths_that_are_written_out_are_judged_by_the_first_ones_lines() -> None:
@@ -77,7 +77,7 @@ def test_depths_that_are_written_out_are_judged_by_the_first_ones_lines() -> Non
     (result,) = judge_run(_ring(laps))
     assert result.surface.numbers.tolist() == [7.0, 8.0, 9.0, 10.0, 11.0]
     assert len(result.lines) == 45
-    assert {finding.line for finding in findings((result,)) if finding.code == "UNCUT"} == {10}
+    assert {finding.line for finding in judged_findings((result,)) if finding.code == "UNCUT"} == {10}
 
 
 def test_a_gouge_in_the_seventh_pass_alone_is_reported() -> None:

@@ -6,7 +6,7 @@ import pytest
 
 from core.controls.control_run import ControlRun
 from core.controls.registry import run
-from core.controls.shop_rules import check
+from core.controls.shop_rules import check_shop_rules
 from core.finding import Severity
 from tests.tool_tables import end_mills
 
@@ -25,7 +25,7 @@ def klartext(*blocks: str) -> ControlRun:
 
 def broken(*blocks: str) -> list[tuple[str, int | None]]:
     """The rules broken, but for the one that only explains the side."""
-    return [(finding.code, finding.line) for finding in check(klartext(*blocks)) if finding.code != "H9"]
+    return [(finding.code, finding.line) for finding in check_shop_rules(klartext(*blocks)) if finding.code != "H9"]
 
 
 def test_a_program_by_the_rules_breaks_none() -> None:
@@ -34,13 +34,13 @@ def test_a_program_by_the_rules_breaks_none() -> None:
 
 def test_one_depth_move_after_applying_is_tolerated_as_information() -> None:
     blocks = ("L X-20 Y-30 Z+2 R0 FMAX", "L Y+0 RL", "L Z-5", *CONTOUR, *CANCEL)
-    (depth,) = [one for one in check(klartext(*blocks)) if one.code != "H9"]
+    (depth,) = [one for one in check_shop_rules(klartext(*blocks)) if one.code != "H9"]
     assert (depth.code, depth.line, depth.severity) == ("H1", 6, Severity.INFO)
 
 
 def test_depth_in_steps_after_applying_breaks_h1() -> None:
     blocks = ("L X-20 Y-30 Z+2 R0 FMAX", "L Y+0 Z+1 RL", "L Z-5", "L Z-6", *CONTOUR, *CANCEL)
-    found = [finding for finding in check(klartext(*blocks)) if finding.code == "H1"]
+    found = [finding for finding in check_shop_rules(klartext(*blocks)) if finding.code == "H1"]
     assert [(finding.line, finding.severity) for finding in found] == [
         (5, Severity.INFO), (6, Severity.WARNING), (7, Severity.WARNING),
     ]  # fmt: skip
@@ -49,7 +49,7 @@ def test_depth_in_steps_after_applying_breaks_h1() -> None:
 def test_a_start_within_a_diameter_of_the_component_breaks_h2() -> None:
     blocks = ("L X-20 Y-9 Z-5 R0 FMAX", "L Y+0 RL", *CONTOUR, *CANCEL)
     assert broken(*blocks) == [("H2", 5)]
-    (finding, *_) = [one for one in check(klartext(*blocks)) if one.code == "H2"]
+    (finding, *_) = [one for one in check_shop_rules(klartext(*blocks)) if one.code == "H2"]
     assert finding.lengths == pytest.approx((9.0, 10.0))
 
 
@@ -93,7 +93,7 @@ def test_canceling_in_two_axes_breaks_h8() -> None:
 @pytest.mark.parametrize(("side", "words"), [("RL", "climb"), ("RR", "conventional")])
 def test_the_side_is_explained(side: str, words: str) -> None:
     blocks = (*APPLY[:2], f"L Y+0 {side}", "L X+40", "L X+40 Y+60", "L Y+90 R0")
-    (finding,) = [one for one in check(klartext(*blocks)) if one.code == "H9"]
+    (finding,) = [one for one in check_shop_rules(klartext(*blocks)) if one.code == "H9"]
     assert words in finding.text
     assert finding.lengths == (5.0,)
 
@@ -104,7 +104,7 @@ def test_leads_of_the_control_need_no_square_moves() -> None:
 
 
 def test_without_compensation_there_is_nothing_to_check() -> None:
-    assert check(klartext("L X+1 Y+1 R0")) == ()
+    assert check_shop_rules(klartext("L X+1 Y+1 R0")) == ()
 
 
 ISO = "G21 G90 G17 T1 M6\nG0 X-20 Y-30\nG1 Z-5 F100\n{}G1 X-20\nG40 {}\nM2\n"
@@ -123,4 +123,4 @@ def test_the_same_rules_on_iso_text(control: str, entry: str, leaving: str, rule
     made = run(ISO.format(entry, leaving).encode(), control, end_mills({1: 10.0}))
     assert isinstance(made, ControlRun)
     assert made.stopped_at is None, made.findings
-    assert sorted({finding.code for finding in check(made)} - {"H9"}) == rules
+    assert sorted({finding.code for finding in check_shop_rules(made)} - {"H9"}) == rules

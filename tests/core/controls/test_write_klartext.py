@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.comp.compensate import compensate
-from core.comp.result import Compensated
+from core.comp.compensated import Compensated
 from core.controls.control_tools import ToolTable
-from core.controls.klartext.control import run
+from core.controls.klartext.control import run_klartext
 from core.controls.write.contour_pass import CompensatedPass
 from core.controls.write.iso_program import Frame
 from core.controls.write.read_back import MIN_TOLERANCE
@@ -53,7 +53,7 @@ def outline(*points: Point) -> Path:
 
 def made_of(text: str, stretch: int = 0) -> Path:
     """The path the control makes of a program."""
-    made = run(text.encode(), ToolTable())
+    made = run_klartext(text.encode(), ToolTable())
     assert made.stopped_at is None, made.findings
     assert not made.findings, made.findings
     one = made.stretches[stretch]
@@ -132,7 +132,7 @@ def test_inches_read_back() -> None:
     assert isinstance(text, str)
     assert "TOOL DEF 2 L+0 R+0.25\n" in text
     assert "F10\n" in text
-    made = run(text.encode(), ToolTable())
+    made = run_klartext(text.encode(), ToolTable())
     (stretch,) = made.stretches
     path = made.moves.part(stretch.first, stretch.last).path()
     assert float(np.abs(path.points - compensated.whole.points).max()) < MIN_TOLERANCE

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core.comp.compensate import compensate
-from core.controls.write.contour_pass import begin, finish, programmed_elements
+from core.controls.write.contour_pass import path_begin, path_finish, programmed_elements
 from core.controls.write.written_program import WrittenProgram
 from core.finding import Finding
 from core.geometry.path import Path
@@ -132,7 +132,7 @@ def test_a_bridge_is_refused() -> None:
 
 def test_ends_of_a_path_with_blends() -> None:
     one = squared(Side.LEFT)
-    first, last = begin(one), finish(one)
+    first, last = path_begin(one), path_finish(one)
     assert np.array(first.at) / INCH == pytest.approx([0.875, 0.375])
     assert np.array(first.corner) / INCH == pytest.approx([0.625, 0.375])
     assert first.way == pytest.approx((1.0, 0.0))
@@ -144,7 +144,7 @@ def test_ends_of_a_path_with_blends() -> None:
 
 def test_ends_of_a_path_without_blends() -> None:
     one = squared(Side.RIGHT, blend=0.0)
-    first, last = begin(one), finish(one)
+    first, last = path_begin(one), path_finish(one)
     assert np.array(first.at) / INCH == pytest.approx([1.0, -0.25])
     assert np.array(first.corner) / INCH == pytest.approx([1.0, 0.0])
     assert first.off == pytest.approx((0.0, -1.0))

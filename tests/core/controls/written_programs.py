@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from core.comp.compensate import compensate
-from core.comp.result import Compensated
+from core.comp.compensated import Compensated
 from core.controls.control_run import ControlRun
 from core.controls.registry import names, run
 from core.controls.write.contour_pass import CompensatedPass

@@ -3,8 +3,8 @@ import pytest
 
 from core.draw.scene import Circle, Mark, Style, Symbol, contour_scene
 from core.geometry.path import EMPTY, Path
+from core.geometry.path_parts import PathParts
 from core.geometry.piece import Arc, Line, Turn
-from core.geometry.stretch import Parts
 from core.units import Unit
 
 SQUARE = Path.from_pieces([Line((0, 0), (4, 0)), Line((4, 0), (4, 4)), Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
@@ -13,7 +13,7 @@ LEAD = Path.from_pieces([Arc((-1, -2), (0, -1), (0, -2), Turn.CW)])
 
 
 def test_the_current_segment_lies_over_everything_and_the_surface_below():
-    one, parts = (SHIFTED,), Parts(SHIFTED, np.array([True]))
+    one, parts = (SHIFTED,), PathParts(SHIFTED, np.array([True]))
     scene = contour_scene(
         SQUARE, path=SHIFTED, leads=(LEAD,), deleted=parts, uncut=parts, rough=one, current=SHIFTED, sketches=parts
     )

@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from core.geometry import construct
-from core.geometry.construct import BehindStart, NotDetermined, OnePoint, OutOfReach, TwoPoints
+from core.geometry.construct import NotDetermined, OnePoint, OppositeDirection, OutOfReach, TwoPoints
 from core.geometry.piece import Arc, Point, Turn
 from core.tolerance import ARC_RADII
 
@@ -32,19 +32,19 @@ def test_polar():
 
 
 def test_reach():
-    found = construct.reach((1.0, 1.0), pi / 4, 0, 3.0)
+    found = construct.ray_to_coordinate((1.0, 1.0), pi / 4, 0, 3.0)
     assert isinstance(found, OnePoint)
     assert near(found.point, (3.0, 3.0))
-    found = construct.reach((1.0, 1.0), pi / 6, 1, 2.0)
+    found = construct.ray_to_coordinate((1.0, 1.0), pi / 6, 1, 2.0)
     assert isinstance(found, OnePoint)
     assert near(found.point, (1 + sqrt(3), 2.0))
     assert found.point[1] == 2.0
 
 
 def test_reach_says_why_not():
-    assert construct.reach((1.0, 1.0), pi / 2, 0, 1.0) == NotDetermined()
-    assert construct.reach((1.0, 1.0), pi, 1, 5.0) == NotDetermined()
-    assert construct.reach((1.0, 1.0), pi / 4, 0, 0.0) == BehindStart()
+    assert construct.ray_to_coordinate((1.0, 1.0), pi / 2, 0, 1.0) == NotDetermined()
+    assert construct.ray_to_coordinate((1.0, 1.0), pi, 1, 5.0) == NotDetermined()
+    assert construct.ray_to_coordinate((1.0, 1.0), pi / 4, 0, 0.0) == OppositeDirection()
 
 
 def test_on_circle():
@@ -140,19 +140,19 @@ def test_a_coordinate_along_the_bisector_says_nothing():
 
 
 def test_settled_keeps_a_center_that_fits():
-    assert construct.settled((1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW) == Arc(
+    assert construct.even_arc((1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW) == Arc(
         (1.0, 0.0), (0.0, 1.0), (0.0, 0.0), Turn.CCW
     )
 
 
 def test_settled_moves_the_center_onto_the_bisector():
-    arc = construct.settled((0.0, 0.0), (2.0, 0.0), (1.001, 0.5), Turn.CW)
+    arc = construct.even_arc((0.0, 0.0), (2.0, 0.0), (1.001, 0.5), Turn.CW)
     assert near(arc.center, (1.0, 0.5))
     assert (arc.start, arc.end) == ((0.0, 0.0), (2.0, 0.0))
 
 
 def test_settled_closes_a_circle_that_ends_at_its_start():
-    arc = construct.settled((1.0, 0.0), (1.0, 1e-9), (0.0, 0.0), Turn.CCW)
+    arc = construct.even_arc((1.0, 0.0), (1.0, 1e-9), (0.0, 0.0), Turn.CCW)
     assert arc == Arc((1.0, 0.0), (1.0, 0.0), (0.0, 0.0), Turn.CCW)
     assert arc.sweep == tau
 
@@ -165,20 +165,20 @@ def test_settled_closes_a_circle_that_ends_on_the_ray_of_its_start(off, turn):
         center = (x, -10.0)
         size = dist((0.0, 0.0), center)
         end = (x - x * (size + off) / size, -10.0 + 10.0 * (size + off) / size)
-        arc = construct.settled((0.0, 0.0), end, center, turn)
+        arc = construct.even_arc((0.0, 0.0), end, center, turn)
         assert arc == Arc((0.0, 0.0), (0.0, 0.0), center, turn)
 
 
 def test_settled_leaves_a_tiny_arc_tiny():
     """Two microns of a circle are no full circle."""
-    arc = construct.settled((1.0, 0.0), (1.0, 0.002), (0.0, 0.0), Turn.CCW)
+    arc = construct.even_arc((1.0, 0.0), (1.0, 0.002), (0.0, 0.0), Turn.CCW)
     assert arc.sweep == pytest.approx(0.002, abs=1e-5)
 
 
 def test_settled_moves_the_end_where_the_center_would_go_far():
     """On a chord of 0.1 a radius of 50 that differs by 0.002 would push the center by a whole millimeter."""
     end = (50.002 * cos(0.002), 50.002 * sin(0.002))
-    arc = construct.settled((50.0, 0.0), end, (0.0, 0.0), Turn.CCW)
+    arc = construct.even_arc((50.0, 0.0), end, (0.0, 0.0), Turn.CCW)
     assert arc.center == (0.0, 0.0)
     assert dist(arc.end, arc.center) == pytest.approx(50.0)
     assert near(arc.end, end, ARC_RADII)
@@ -189,7 +189,7 @@ def test_settled_moves_the_end_where_the_center_would_go_far():
 def test_settled_is_exact_and_moves_nothing_by_more_than_the_tolerance(center, radius, first, last, off, turn):
     start = (center[0] + radius * cos(first), center[1] + radius * sin(first))
     end = (center[0] + (radius + off) * cos(last), center[1] + (radius + off) * sin(last))
-    arc = construct.settled(start, end, center, turn)
+    arc = construct.even_arc(start, end, center, turn)
     assert arc.start == start
     assert dist(arc.start, arc.center) == pytest.approx(dist(arc.end, arc.center), abs=2e-9)
     assert near(arc.end, end, ARC_RADII + NEAR)

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 from core.finding import Finding, Severity
 from core.geometry.piece import Turn
 from core.output.passes import CenterPath, Cutter, Job
-from core.output.sheet import NOT_READY, READY, WIDTH, Sheet, as_page, as_text, sheet
+from core.output.sheet import NOT_READY, PAGE_COLUMNS, READY, Sheet, as_page, as_text, sheet
 from core.units import Unit
 from tests.core.output.jobs import INCH, arc, floors, job, path_of, polyline
 
@@ -119,7 +119,7 @@ def test_the_text_is_narrow_and_holds_nothing_a_printer_obeys():
     wild = sheet([gouging()], Unit.IN, "a\x1b[2J\n" + "b" * 200, "\x07bell", "now")
     lines = as_text(wild).splitlines()
     assert all(line.isprintable() for line in lines)
-    assert max(map(len, lines)) <= WIDTH
+    assert max(map(len, lines)) <= PAGE_COLUMNS
     assert "?bell" in as_text(wild)
 
 
@@ -336,5 +336,5 @@ def test_text_next_to_a_label_is_wrapped_at_its_last_column():
     fits, longer = "a" * 59, "a" * 40 + " " + "b" * 19
     lines = as_text(sheet([SLOT], Unit.IN, fits, longer)).splitlines()
     assert f"PROGRAM            {fits}" in lines
-    assert len(f"PROGRAM            {fits}") == WIDTH
+    assert len(f"PROGRAM            {fits}") == PAGE_COLUMNS
     assert lines[lines.index("PART NAME          " + "a" * 40) + 1] == " " * 19 + "b" * 19

@@ -6,7 +6,7 @@ import pytest
 
 from core.comp.lookahead import recommended
 from core.output.passes import meets_solid
-from core.pipeline.derive import derive, look_ahead_table, needs
+from core.pipeline.derive import advice_for_block, derive, look_ahead_table
 from core.pipeline.jobs import job
 from core.program.edit import set_unit
 from core.program.model import CutterComp, Number, PathChoice, ProgramParameters, Tool
@@ -117,19 +117,19 @@ def test_what_forbids_posting_is_a_finding_of_the_block():
 
 def test_a_clean_contour_needs_nothing():
     part = program(block(OUTSIDE_SQUARE, CutterComp.RIGHT))
-    found = needs(derive(part).blocks[0], part)
+    found = advice_for_block(derive(part).blocks[0], part)
     assert found is not None
     assert not found.sentences
 
 
 def test_without_compensation_nothing_is_known():
     part = program(block(OUTSIDE_SQUARE, CutterComp.ON))
-    assert needs(derive(part).blocks[0], part) is None
+    assert advice_for_block(derive(part).blocks[0], part) is None
 
 
 def test_the_notch_is_told_the_look_ahead_that_is_clean():
     part = program(block(NOTCH, CutterComp.LEFT))
-    found = needs(derive(part).blocks[0], part)
+    found = advice_for_block(derive(part).blocks[0], part)
     assert found is not None
     assert [finding.code for finding in found.sentences] == ["CAL_NOT_CLEAN"]
     assert sentence(found.sentences[0], part.unit) == "CAL 2 gouges. Enter look-ahead 3, which is clean."
@@ -150,5 +150,5 @@ def test_remedies_nobody_waits_for_are_given_up_at_the_next_one(tries):
         asked.append(still)
         return still
 
-    assert needs(found, part, wanted=wanted) is None
+    assert advice_for_block(found, part, wanted=wanted) is None
     assert asked == [True] * tries + [False]

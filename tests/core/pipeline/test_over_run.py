@@ -8,7 +8,7 @@ from core.draw.scene import Style
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.pipeline.command_output import table_document
-from core.pipeline.derive import derive, look_ahead_table, needs
+from core.pipeline.derive import advice_for_block, derive, look_ahead_table
 from core.pipeline.derived import DerivedBlock
 from core.pipeline.jobs import jobs
 from core.pipeline.plot import block_scene
@@ -68,7 +68,7 @@ def test_the_table_recommends_what_keeps_the_part():
     assert all(row.clean for row in table.rows)
     assert table.recommended == 1
     assert [row.deleted for row in table.rows[:3]] == [(), (), (2.0, 3.0)]
-    assert needs(found, part, table).sentences == ()
+    assert advice_for_block(found, part, table).sentences == ()
     assert [row["uncut"] for row in table_document(found, table, Unit.IN)["values"][:3]] == pytest.approx([0, 0, 8])
 
 

@@ -10,7 +10,7 @@ from core.controls.control_tools import ToolTable
 from core.controls.moves import Plane
 from core.controls.registry import NO_TOOLS, UnknownControl
 from core.draw.scene import Scene, Style
-from core.pipeline.proof import Proof, cutter_place, fixed_scene, run_program, scene_at_line, with_verdicts
+from core.pipeline.proof import Proof, cutter_at_line, fixed_scene, run_program, scene_at_line, with_verdicts
 from core.units import Unit
 from tests.tool_tables import end_mills
 
@@ -40,16 +40,16 @@ def styles(scene: Scene) -> set[Style]:
 
 def test_the_cutter_stands_where_the_line_leaves_it() -> None:
     found = proof()
-    (x, y), _ = cutter_place(found, 6)
+    (x, y), _ = cutter_at_line(found, 6)
     assert (x / 25.4, y / 25.4) == pytest.approx((-0.25, 2.25))
-    assert cutter_place(found, 9)[0] == pytest.approx((-25.4, 76.2))
+    assert cutter_at_line(found, 9)[0] == pytest.approx((-25.4, 76.2))
 
 
 def test_a_line_without_moves_leaves_the_cutter_where_it_was() -> None:
     found = proof()
-    assert cutter_place(found, 4)[0] == cutter_place(found, 3)[0] == pytest.approx((-25.4, -25.4))
-    assert cutter_place(found, 1)[0] == (0.0, 0.0)
-    assert cutter_place(found, 10)[0] == cutter_place(found, 9)[0]
+    assert cutter_at_line(found, 4)[0] == cutter_at_line(found, 3)[0] == pytest.approx((-25.4, -25.4))
+    assert cutter_at_line(found, 1)[0] == (0.0, 0.0)
+    assert cutter_at_line(found, 10)[0] == cutter_at_line(found, 9)[0]
 
 
 def test_the_cutter_has_the_radius_of_its_stretch() -> None:
@@ -82,7 +82,7 @@ def test_the_plane_of_the_first_stretch_is_drawn() -> None:
     text = b"G20 G90 G18 F10\nT1 M6\nG0 X0 Z-1\nG41 D1 G1 X0 Z0\nG1 Z2\nG1 X3\nG40 G1 X4 Z4\nM30\n"
     found = proof(text)
     assert found.plane is Plane.ZX
-    assert cutter_place(found, 3)[0] == pytest.approx((-25.4, 0.0))
+    assert cutter_at_line(found, 3)[0] == pytest.approx((-25.4, 0.0))
 
 
 @pytest.mark.parametrize("text", [b"", b"\x00\xff\xfe", b"G1 X", b"G41\n" * 5, bytes(range(256))])

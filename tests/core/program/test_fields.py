@@ -11,13 +11,13 @@ from core.program.fields import (
     TABLES,
     TYPE_AGAIN,
     Form,
-    check,
-    check_text,
     default_value,
     field_of,
     form_of,
     read_typed,
+    text_refusal,
     unread_reason,
+    value_refusal,
 )
 from core.program.model import (
     ArcSegment,
@@ -126,7 +126,7 @@ def test_form_of():
     ],
 )
 def test_check_refuses(form, name, value, text):
-    assert check(field_of(form, name), value, Unit.IN) == text
+    assert value_refusal(field_of(form, name), value, Unit.IN) == text
 
 
 @pytest.mark.parametrize(
@@ -142,7 +142,7 @@ def test_check_refuses(form, name, value, text):
     ],
 )
 def test_check_takes(form, name, value):
-    assert check(field_of(form, name), value, Unit.IN) is None
+    assert value_refusal(field_of(form, name), value, Unit.IN) is None
 
 
 def test_defaults():
@@ -157,19 +157,19 @@ def test_defaults():
 
 def test_a_field_takes_the_same_part_in_both_units():
     place, feed = field_of(Form.START, "x_start"), field_of(Form.LINE, "feed")
-    assert check(place, 10000.0, Unit.IN) is None
-    assert check(place, 254000.0, Unit.MM) is None
-    assert check(place, 10000.1, Unit.IN) == "X START must be from -10000 to 10000."
-    assert check(place, 254000.1, Unit.MM) == "X START must be from -254000 to 254000."
-    assert check(feed, 254000.1, Unit.MM) == "FEED must be above 0, at most 254000."
+    assert value_refusal(place, 10000.0, Unit.IN) is None
+    assert value_refusal(place, 254000.0, Unit.MM) is None
+    assert value_refusal(place, 10000.1, Unit.IN) == "X START must be from -10000 to 10000."
+    assert value_refusal(place, 254000.1, Unit.MM) == "X START must be from -254000 to 254000."
+    assert value_refusal(feed, 254000.1, Unit.MM) == "FEED must be above 0, at most 254000."
     angle = field_of(Form.LINE, "angle")
-    assert check(angle, 360.0, Unit.IN) == check(angle, 360.0, Unit.MM) is None
+    assert value_refusal(angle, 360.0, Unit.IN) == value_refusal(angle, 360.0, Unit.MM) is None
 
 
 def test_a_standing_spindle_is_refused_where_it_is_typed():
     speed = field_of(Form.START, "speed")
-    assert check(speed, 0.0, Unit.MM) == "SPEED (RPM) must be a whole number from 1 to 100000."
-    assert check(speed, 1.0, Unit.MM) is None
+    assert value_refusal(speed, 0.0, Unit.MM) == "SPEED (RPM) must be a whole number from 1 to 100000."
+    assert value_refusal(speed, 1.0, Unit.MM) is None
 
 
 @pytest.mark.parametrize("unit", Unit)
@@ -178,7 +178,7 @@ def test_every_number_on_the_parameter_screens_has_a_default_it_would_take(unit)
         if one.kind not in (Kind.CHOICE, Kind.TEXT):
             value = default_value(one.name, unit)
             assert value is not None
-            assert check(one, value, unit) is None
+            assert value_refusal(one, value, unit) is None
 
 
 def test_read_keeps_what_it_cannot_read():
@@ -201,10 +201,10 @@ def test_read_keeps_what_it_cannot_read():
 def test_a_number_the_field_does_not_take_is_kept_as_it_was_typed(form: Form, name: str, text: str, why: str) -> None:
     one = field_of(form, name)
     assert read_typed(text, one, Unit.IN) == Unread(text, why)
-    assert check_text(text, one, Unit.IN) == unread_reason(text, one, Unit.IN) == why
+    assert text_refusal(text, one, Unit.IN) == unread_reason(text, one, Unit.IN) == why
 
 
 def test_a_text_the_field_would_take_now_waits_to_be_typed_again() -> None:
     one = field_of(Form.START, "x_start")
-    assert check_text("99999", one, Unit.MM) is None
+    assert text_refusal("99999", one, Unit.MM) is None
     assert unread_reason("99999", one, Unit.MM) == TYPE_AGAIN

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from core.geometry.piece import Arc, Piece, Point
 from core.program import edit
 from core.program.edit import FormPlace
-from core.program.fields import check, field_of, form_of
+from core.program.fields import field_of, form_of, value_refusal
 from core.program.model import ArcSegment, BlendSegment, Direction, Number, Program, Segment
 from core.program.solve.block import solve_block
 from core.program.solve.solved import Solved, SolvedBlock
@@ -203,7 +203,7 @@ def test_calculated_numbers_are_ones_the_fields_would_take(part):
     for typed, found in zip(part.blocks[0].segments, solved(part).segments, strict=True):
         for name, one in found.values.items():
             if isinstance(one, Solved):
-                assert check(field_of(form_of(typed), name), one.value, part.unit) is None
+                assert value_refusal(field_of(form_of(typed), name), one.value, part.unit) is None
 
 
 @laws

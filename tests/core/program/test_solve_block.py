@@ -14,7 +14,7 @@ from hypothesis import given, settings
 
 from core.finding import Severity
 from core.geometry.piece import Arc, Line
-from core.program.fields import PARAMETERS, SETUP, TABLES, Form, bounds, check
+from core.program.fields import PARAMETERS, SETUP, TABLES, Form, bounds, value_refusal
 from core.program.model import (
     ArcSegment,
     BlendSegment,
@@ -402,7 +402,7 @@ def test_a_number_is_known_exactly_where_its_field_takes_it(form: Form, unit: Un
         }
         for value in (nan, inf, -inf, *(near for edge in edges for near in _about(edge))):
             reading = read_form(form, changed(PARTS[form], {one.name: Number(value)}), unit, 1)
-            taken = check(one, value, unit) is None
+            taken = value_refusal(one, value, unit) is None
             assert (one.name in reading.known) is taken
             assert len(reading.findings) == (not taken)
 

@@ -12,7 +12,7 @@ from core.geometry.piece import Arc, Line, Piece, Side, Turn
 from core.units import Unit, sentence
 from core.verify.contact import air_cuts
 from core.verify.judge import judge
-from core.verify.report import contact_findings, findings, move_name
+from core.verify.report import contact_findings, move_name, verdict_findings
 from tests.core.verify.shapes import around, lines, square
 from tests.core.verify.test_judge import CORNERS, MID_SIDE, MID_SIDE_PATH, OVER_RUN, OVER_RUN_PATH, R
 
@@ -21,12 +21,12 @@ WALL = lines((0, 0), (10, 0))
 
 
 def test_a_clean_path_that_cuts_all_has_nothing_to_report() -> None:
-    assert findings(judge(square(), Side.RIGHT, R, around(CORNERS, R)), square()) == ()
+    assert verdict_findings(judge(square(), Side.RIGHT, R, around(CORNERS, R)), square()) == ()
 
 
 def test_a_gouge_behind_the_wall_is_told_as_deep_as_the_cutter_gets_and_no_deeper_than_it_is_wide() -> None:
     for move, much in ((lines((5, 3), (5, -0.5), (9, -0.5)), "1.500"), (lines((5, 3), (5, -4)), "2.000 or more")):
-        gouge, wrong, *_ = findings(judge(WALL, Side.LEFT, 1.0, move), WALL)
+        gouge, wrong, *_ = verdict_findings(judge(WALL, Side.LEFT, 1.0, move), WALL)
         assert sentence(gouge, Unit.MM).startswith(
             f"GOUGE {much} deep in segment 1 at X 5.000 Y 0.000, by the path of 1."
         )
@@ -35,7 +35,7 @@ def test_a_gouge_behind_the_wall_is_told_as_deep_as_the_cutter_gets_and_no_deepe
 
 def test_a_gouge_names_both_segments_and_the_place() -> None:
     verdict = judge(WALL, Side.LEFT, 1.0, lines((0, 1), (5, 0.5), (10, 1)))
-    (gouge,) = (finding for finding in findings(verdict, WALL) if finding.code == "GOUGE")
+    (gouge,) = (finding for finding in verdict_findings(verdict, WALL) if finding.code == "GOUGE")
     assert gouge.severity is Severity.ERROR
     assert gouge.segment == 1
     assert gouge.at == (5.0, 0.0)
@@ -64,20 +64,20 @@ def test_a_move_is_named_by_what_it_is() -> None:
 def test_without_the_path_a_half_number_is_a_corner_s() -> None:
     path = lines((0, 1), (5, 0.5), (10, 1))
     half = type(path).of(path.points, path.centers, path.turns, path.numbers + 0.5)
-    (gouge,) = findings(judge(WALL, Side.LEFT, 1.0, half), WALL)
+    (gouge,) = verdict_findings(judge(WALL, Side.LEFT, 1.0, half), WALL)
     assert gouge.text.endswith("by the path at the corner after 1.")
 
 
 def test_nothing_is_told_as_zeros() -> None:
     for unit, digit in ((Unit.MM, "0.003"), (Unit.IN, "0.0001")):
-        (gouge, *_) = findings(judge(WALL, Side.LEFT, 1.0, lines((0, 0.9995), (10, 0.9995))), WALL)
+        (gouge, *_) = verdict_findings(judge(WALL, Side.LEFT, 1.0, lines((0, 0.9995), (10, 0.9995))), WALL)
         assert f"GOUGE less than {digit} deep in" in sentence(gouge, unit)
-        (uncut,) = findings(judge(WALL, Side.LEFT, 1.0, lines((0, 1.0005), (10, 1.0005))), WALL)
+        (uncut,) = verdict_findings(judge(WALL, Side.LEFT, 1.0, lines((0, 1.0005), (10, 1.0005))), WALL)
         assert f"UNCUT less than {digit} thick, " in sentence(uncut, unit)
 
 
 def test_equal_inside_corners_sharper_than_the_cutter_are_one_finding() -> None:
-    (found,) = findings(judge(MID_SIDE, Side.LEFT, R, MID_SIDE_PATH), MID_SIDE)
+    (found,) = verdict_findings(judge(MID_SIDE, Side.LEFT, R, MID_SIDE_PATH), MID_SIDE)
     assert (found.code, found.severity, found.segment) == ("UNCUT", Severity.INFO, 1)
     assert found.at == pytest.approx((2.0, 0.0))
     assert found.value == pytest.approx(4 * 2 * R)
@@ -98,7 +98,7 @@ def test_equal_inside_roundings_smaller_than_the_cutter_are_one_finding() -> Non
     ]
     surface, far = Path.from_pieces(pieces), half - 2 * radius
     path = lines((0, -far), (far, -far), (far, far), (0, far))
-    (found,) = findings(judge(surface, Side.LEFT, 2 * radius, path), surface)
+    (found,) = verdict_findings(judge(surface, Side.LEFT, 2 * radius, path), surface)
     assert found.text.endswith("left in each, segments 1-3, 3-5.")
     assert found.lengths[0] == pytest.approx(radius * (2**0.5 - 1.0))
 
@@ -107,7 +107,7 @@ def test_every_corner_of_another_kind_is_a_finding_with_its_segments() -> None:
     surface = lines((0, 0), (10, 0), (10, 10), (0, 5))
     # one millimeter below the line y = 5 + x / 2
     path = lines((0, 1), (9, 1), (9, 9.5 - 5**0.5 / 2), (0, 5.0 - 5**0.5 / 2))
-    found = findings(judge(surface, Side.LEFT, 1.0, path), surface)
+    found = verdict_findings(judge(surface, Side.LEFT, 1.0, path), surface)
     assert [finding.text.partition(" at ")[0] for finding in found] == [
         "UNCUT {0} thick, {value} long, segments 1-2",
         "UNCUT {0} thick, {value} long, segments 2-3",
@@ -122,7 +122,7 @@ def test_corners_left_by_more_than_their_angle_are_findings_each() -> None:
         (1.0, low), (high - cut, low), (high, low + cut), (high, high - cut), (high - cut, high), (low + cut, high),
         (low, high - cut), (low, low + cut), (low + cut, low), (1.0, low),
     )  # fmt: skip
-    found = findings(judge(square(), Side.LEFT, R, path), square())
+    found = verdict_findings(judge(square(), Side.LEFT, R, path), square())
     assert [finding.text.partition(" ")[0] for finding in found] == ["UNCUT"] * 4
 
 
@@ -132,7 +132,7 @@ def test_only_the_first_of_many_equal_corners_are_named() -> None:
         steps += [(step + 1.0, float(step)), (step + 1.0, step + 1.0)]
     surface = lines(*steps)
     path = lines(*((x - 0.1, y + 0.1) for x, y in steps))
-    (found,) = findings(judge(surface, Side.LEFT, 0.1, path), surface)
+    (found,) = verdict_findings(judge(surface, Side.LEFT, 0.1, path), surface)
     assert found.text == (
         "8 inside corners are sharper than the cutter: {0} left in each, segments 1-2, 3-4, 5-6, 7-8, 9-10, 11-12 "
         "and 2 more."
@@ -141,19 +141,19 @@ def test_only_the_first_of_many_equal_corners_are_named() -> None:
 
 def test_a_stretch_over_start_says_so() -> None:
     path = lines((R, R), (1.5, R), (1.5, 1.5), (R, 1.5), (R, R))
-    (*_, last) = findings(judge(square(), Side.LEFT, R, path), square())
+    (*_, last) = verdict_findings(judge(square(), Side.LEFT, R, path), square())
     assert "segments 4 and over START to 1 at" in last.text
 
 
 def test_lengths_are_shown_in_program_units() -> None:
     wall = lines((0, 0), (10 * INCH, 0))
     path = lines((0, INCH), (5 * INCH, INCH / 2), (10 * INCH, INCH))
-    (gouge,) = findings(judge(wall, Side.LEFT, INCH, path), wall)
+    (gouge,) = verdict_findings(judge(wall, Side.LEFT, INCH, path), wall)
     assert "GOUGE 0.5000 deep in segment 1 at X 5.0000 Y 0.0000" in sentence(gouge, Unit.IN)
 
 
 def test_the_over_run_is_told() -> None:
-    found = findings(judge(OVER_RUN, Side.RIGHT, R, OVER_RUN_PATH), OVER_RUN)
+    found = verdict_findings(judge(OVER_RUN, Side.RIGHT, R, OVER_RUN_PATH), OVER_RUN)
     assert [finding.code for finding in found] == ["OVER_RUN", "UNCUT"]
     assert found[0].severity is Severity.INFO
     assert found[0].at == (0.0, 0.0)
@@ -163,32 +163,32 @@ def test_the_over_run_is_told() -> None:
 
 def test_a_crossing_is_a_warning() -> None:
     bow = lines((0, 0), (4, 4), (4, 0), (0, 4), (-1, 2))
-    found = findings(judge(bow, Side.LEFT, R, lines((9, 9), (8, 9))), bow)
+    found = verdict_findings(judge(bow, Side.LEFT, R, lines((9, 9), (8, 9))), bow)
     assert found[-2].code == "CROSSES_ITSELF"
     assert found[-2].severity is Severity.WARNING
     assert sentence(found[-2], Unit.MM) == "The contour crosses itself at X 2.000 Y 2.000."
 
 
 def test_the_wrong_side_is_an_error() -> None:
-    found = findings(judge(square(), Side.RIGHT, 0.1, lines((0.5, 1), (1.5, 1))), square())
+    found = verdict_findings(judge(square(), Side.RIGHT, 0.1, lines((0.5, 1), (1.5, 1))), square())
     assert found[0].code == "WRONG_SIDE"
     assert found[0].severity is Severity.ERROR
     assert found[0].text == "The cutter is on the wrong side for 1 move. Check CUTTER COMP."
 
 
 def test_no_path_leaves_everything() -> None:
-    (uncut,) = findings(judge(square(), Side.RIGHT, R, EMPTY), square())
+    (uncut,) = verdict_findings(judge(square(), Side.RIGHT, R, EMPTY), square())
     assert uncut.text == "UNCUT: nothing of segments 1-4 is cut. There is no path."
     assert uncut.value == pytest.approx(8.0)
 
 
 def test_what_cannot_be_judged_is_an_error() -> None:
-    (unjudged,) = findings(judge(square(), Side.RIGHT, nan, MID_SIDE_PATH), square())
+    (unjudged,) = verdict_findings(judge(square(), Side.RIGHT, nan, MID_SIDE_PATH), square())
     assert unjudged.code == "UNJUDGED"
     assert unjudged.severity is Severity.ERROR
     assert unjudged.text.startswith("Not judged: a coordinate or the tool radius")
     spiral = Path.from_pieces([Arc((9.0, 0.0), (0.0, 9.01), (0.0, 0.0), Turn.CCW)], [7.0])
-    (unjudged,) = findings(judge(square(), Side.RIGHT, R, spiral), square())
+    (unjudged,) = verdict_findings(judge(square(), Side.RIGHT, R, spiral), square())
     assert sentence(unjudged, Unit.MM) == (
         "Not judged: the arc's radii at start and end, in path of segment 7, differ by 0.010."
     )

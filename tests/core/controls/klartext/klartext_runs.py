@@ -6,7 +6,7 @@ from pathlib import Path
 
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
-from core.controls.klartext.control import run
+from core.controls.klartext.control import run_klartext
 from core.controls.moves import Move
 
 DATA = Path(__file__).parents[3] / "data"
@@ -17,7 +17,7 @@ TOOLS = ToolTable()
 def runs(*blocks: str, radius: float = 5.0, tools: ToolTable = TOOLS) -> ControlRun:
     """The blocks with a tool of this radius in the spindle; the first of them is line 4."""
     text = HEAD.format(radius=radius) + "".join(f"{block}\n" for block in blocks) + "END PGM P MM\n"
-    return run(text.encode(), tools)
+    return run_klartext(text.encode(), tools)
 
 
 def clean(*blocks: str, radius: float = 5.0) -> ControlRun:

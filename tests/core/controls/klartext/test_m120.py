@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.controls.control_run import ControlRun
-from core.controls.judged_runs import findings, judge_run
+from core.controls.judged_runs import judge_run, judged_findings
 from core.finding import Severity
 from tests.core.controls.klartext.klartext_runs import codes, flat, runs
 
@@ -34,7 +34,7 @@ def test_with_it_the_tool_runs_over_the_groove() -> None:
     assert made.stopped_at is None
     assert flat(made) == [NEAR(want) for want in [*OVER, (-30, 50)]]
     assert left_out(made) == [7, 8, 9]
-    told = findings(judge_run(made))
+    told = judged_findings(judge_run(made))
     assert [one.code for one in told] == ["UNCUT"]
 
 

@@ -13,7 +13,7 @@ import pytest
 
 from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
-from core.controls.klartext.control import run
+from core.controls.klartext.control import run_klartext
 from tests.core.controls.klartext.klartext_runs import DATA
 
 SAMPLES = sorted((DATA / "klartext").glob("*.h"))
@@ -55,7 +55,7 @@ def broken(file: Path, count: int) -> float:
     for number in range(count):
         program = mutated(text, random)
         before = perf_counter()
-        made = run(program, ToolTable())
+        made = run_klartext(program, ToolTable())
         slowest = max(slowest, perf_counter() - before)
         assert sound(made), (file.name, number, program)
     return slowest
@@ -85,7 +85,7 @@ def test_a_hundred_mutations_of_each_sample(file: Path) -> None:
     ids=range(12),
 )
 def test_what_is_no_program_is_answered(text: bytes) -> None:
-    made = run(text, ToolTable())
+    made = run_klartext(text, ToolTable())
     assert sound(made)
     assert made.findings
 

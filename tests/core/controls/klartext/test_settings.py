@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from core.controls.control_tools import CutterTool, ToolTable
-from core.controls.klartext.control import run
+from core.controls.klartext.control import run_klartext
 from core.finding import Severity
 from core.units import Unit
 from tests.core.controls.klartext.klartext_runs import clean, codes, flat, points, runs
@@ -23,7 +23,7 @@ def entry(*before: str, tools: ToolTable = NONE) -> float:
 def test_inches() -> None:
     tool = "TOOL DEF 1 L+0 R+.25\nTOOL CALL 1 Z DR+.01\n"
     moves = "L X+1 Y+0 F10\nCC X+0 Y+0\nCP PA+90 DR+\n"
-    made = run(f"BEGIN PGM P INCH\n{tool}{moves}END PGM P INCH".encode(), NONE)
+    made = run_klartext(f"BEGIN PGM P INCH\n{tool}{moves}END PGM P INCH".encode(), NONE)
     assert made.unit is Unit.IN
     assert codes(made) == [("UNIT", 1)]
     assert made.moves[1].point == (25.4, 0, 0)
@@ -149,11 +149,11 @@ def test_m2_ends_the_program_after_its_block() -> None:
 
 
 def test_a_program_without_its_frame() -> None:
-    made = run(b"L X+10 Y+10 R0 FMAX M3", NONE)
+    made = run_klartext(b"L X+10 Y+10 R0 FMAX M3", NONE)
     assert codes(made) == [("PROGRAM", 1)]
     assert flat(made, 1) == [(10, 10)]
-    assert codes(run(b"BEGIN PGM P MM\nL X+1 Y+1 FMAX\n", NONE)) == [("PROGRAM", 2)]
-    assert codes(run(b"", NONE)) == [("PROGRAM", 1)]
+    assert codes(run_klartext(b"BEGIN PGM P MM\nL X+1 Y+1 FMAX\n", NONE)) == [("PROGRAM", 2)]
+    assert codes(run_klartext(b"", NONE)) == [("PROGRAM", 1)]
 
 
 def test_a_feed_move_from_an_unknown_place_is_reported() -> None:
@@ -164,12 +164,12 @@ def test_line_ends_and_encodings() -> None:
     program = "BEGIN PGM P MM\nL X+1 Y+2 FMAX ; größer\nEND PGM P MM"
     for text in (program, program.replace("\n", "\r\n"), program.replace("\n", "\r")):
         for encoding in ("utf-8", "latin-1", "utf-16", "utf-8-sig"):
-            assert flat(run(text.encode(encoding), NONE), 1) == [(1, 2)]
+            assert flat(run_klartext(text.encode(encoding), NONE), 1) == [(1, 2)]
 
 
 def test_nothing_of_the_file_reaches_the_terminal_raw() -> None:
     for junk in (b"\x1b[31m", b"L X+1 \x1b]0;hi\x07", b"\x00\x01", b"LBL {0}", "L X+1 \u202e".encode()):
-        made = run(b"BEGIN PGM P MM\n" + junk, NONE)
+        made = run_klartext(b"BEGIN PGM P MM\n" + junk, NONE)
         assert made.stopped_at == 2
         assert all(one.isprintable() for one in made.findings[-1].text)
         assert "{0}" not in made.findings[-1].text

@@ -1,4 +1,4 @@
-"""What compensation yields: the center path and everything that became of the contour on the way."""
+"""Compensated: the center path of a contour and everything that became of the contour on the way."""
 
 from __future__ import annotations
 

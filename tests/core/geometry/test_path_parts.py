@@ -4,8 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.geometry.path import EMPTY, Path
+from core.geometry.path_parts import PartEnds, parts_between, single_pieces
 from core.geometry.piece import Arc, Line, Point, Turn
-from core.geometry.stretch import Ends, pieces_joined, stretches
 
 SQUARE = Path.from_pieces([Line((0, 0), (4, 0)), Line((4, 0), (4, 4)), Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
 
@@ -17,15 +17,15 @@ def points(path: Path) -> list[list[float]]:
 Stretch = tuple[float, Point, float, Point]
 
 
-def ends(*wanted: Stretch) -> Ends:
+def ends(*wanted: Stretch) -> PartEnds:
     """Stretches as columns."""
     firsts, starts, lasts, behind = zip(*wanted, strict=True) if wanted else ((),) * 4
     begin, end = ([complex(*place) for place in places] for places in (starts, behind))
-    return Ends(np.array(firsts, float), np.array(begin, complex), np.array(lasts, float), np.array(end, complex))
+    return PartEnds(np.array(firsts, float), np.array(begin, complex), np.array(lasts, float), np.array(end, complex))
 
 
 def stretch(surface: Path, *one: *Stretch) -> Path:
-    return next(iter(stretches(surface, ends(one)).paths), EMPTY)
+    return next(iter(parts_between(surface, ends(one)).paths), EMPTY)
 
 
 def test_a_stretch_of_one_segment():
@@ -73,9 +73,11 @@ def test_its_pieces_keep_their_segments_numbers():
 
 def test_a_stretch_of_unknown_segments_is_empty():
     assert len(stretch(SQUARE, 7, (0, 0), 8, (1, 1))) == 0
-    assert [len(one) for one in stretches(SQUARE, ends((7, (0, 0), 8, (1, 1)), (1, (1, 0), 2, (4, 1)))).paths] == [2]
-    assert stretches(SQUARE, ends()).paths == []
-    assert stretches(EMPTY, ends((1, (1, 0), 2, (4, 1)))).paths == []
+    assert [len(one) for one in parts_between(SQUARE, ends((7, (0, 0), 8, (1, 1)), (1, (1, 0), 2, (4, 1)))).paths] == [
+        2
+    ]
+    assert parts_between(SQUARE, ends()).paths == []
+    assert parts_between(EMPTY, ends((1, (1, 0), 2, (4, 1)))).paths == []
 
 
 def test_a_stretch_begins_on_the_first_and_ends_on_the_last_piece_of_its_segments_whatever_their_order():
@@ -85,7 +87,7 @@ def test_a_stretch_begins_on_the_first_and_ends_on_the_last_piece_of_its_segment
 
 
 def test_stretches_are_one_path_with_lines_between_them_that_are_not_theirs():
-    found = stretches(SQUARE, ends((1, (1, 0), 2, (4, 1)), (3, (3, 4), 3, (1, 4))))
+    found = parts_between(SQUARE, ends((1, (1, 0), 2, (4, 1)), (3, (3, 4), 3, (1, 4))))
     assert found.in_part.tolist() == [True, True, False, True]
     assert points(found.path) == [[1, 0], [4, 0], [4, 1], [3, 4], [1, 4]]
     assert [points(one) for one in found.paths] == [[[1, 0], [4, 0], [4, 1]], [[3, 4], [1, 4]]]
@@ -94,10 +96,10 @@ def test_stretches_are_one_path_with_lines_between_them_that_are_not_theirs():
 def test_single_pieces_are_parts_of_their_own_though_they_be_neighbors():
     half = Arc((4, 0), (4, 4), (4, 2), Turn.CCW)
     outline = Path.from_pieces([Line((0, 0), (4, 0)), half, Line((4, 4), (0, 4)), Line((0, 4), (0, 0))])
-    found = pieces_joined(outline, np.array([1, 2]))
+    found = single_pieces(outline, np.array([1, 2]))
     assert [list(one) for one in found.paths] == [[half], [outline[2]]]
     assert [one.numbers.tolist() for one in found.paths] == [[2], [3]]
-    assert pieces_joined(outline, np.array([], np.intp)).paths == []
+    assert single_pieces(outline, np.array([], np.intp)).paths == []
 
 
 def test_the_first_line_of_a_stretch_begins_in_its_own_center():

@@ -1,4 +1,4 @@
-"""Stretch: the part of a contour between two of its points."""
+"""Path parts: the parts of a contour between two of its points each."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from core.geometry.path import EMPTY, Floats, Path, Points, Rows, as_complex, co
 from core.geometry.piece import Piece, Point
 
 
-class Ends(NamedTuple):
+class PartEnds(NamedTuple):
     """k stretches (k,): the first segment of each and the point on it, its last segment and the point on that.
 
     Points are complex numbers.
@@ -24,7 +24,7 @@ class Ends(NamedTuple):
     end: Points
 
 
-class Parts(NamedTuple):
+class PathParts(NamedTuple):
     """Parts of a path one after the other, as one path: its pieces where `in_part` (n,) is True; the others join them.
 
     A hundred little paths take longer to make than all that is done with them.
@@ -40,10 +40,10 @@ class Parts(NamedTuple):
         return [self.path.part(first, last) for first, last in edges.tolist()]
 
 
-NO_PARTS: Final = Parts(EMPTY, np.empty(0, np.bool_))
+NO_PARTS: Final = PathParts(EMPTY, np.empty(0, np.bool_))
 
 
-def stretches(surface: Path, wanted: Ends) -> Parts:
+def parts_between(surface: Path, wanted: PartEnds) -> PathParts:
     """The parts of a surface from a point on one segment to a point on another, without those of unknown segments.
 
     One runs past a closed contour's start if its last segment lies before its first.
@@ -64,10 +64,10 @@ def stretches(surface: Path, wanted: Ends) -> Parts:
     in_part = np.ones(len(turns) - 1, np.bool_)
     in_part[tails[:-1]] = False
     numbers = surface.numbers[rows[:-1]]
-    return Parts(Path(coordinates(points), coordinates(centers[:-1]), turns[:-1], numbers), in_part)
+    return PathParts(Path(coordinates(points), coordinates(centers[:-1]), turns[:-1], numbers), in_part)
 
 
-def pieces_joined(path: Path, rows: NDArray[np.intp]) -> Parts:
+def single_pieces(path: Path, rows: NDArray[np.intp]) -> PathParts:
     """Single pieces of a path, by their rows, each a part by itself."""
     if not len(rows):
         return NO_PARTS
@@ -76,10 +76,10 @@ def pieces_joined(path: Path, rows: NDArray[np.intp]) -> Parts:
     centers, turns = points[:-1].copy(), np.zeros(len(points) - 1, np.int8)
     in_part = np.zeros(len(points) - 1, np.bool_)
     centers[::2], turns[::2], in_part[::2] = as_complex(path.centers)[rows], path.turns[rows], True
-    return Parts(Path(coordinates(points), coordinates(centers), turns, path.numbers[rows].repeat(2)[:-1]), in_part)
+    return PathParts(Path(coordinates(points), coordinates(centers), turns, path.numbers[rows].repeat(2)[:-1]), in_part)
 
 
-def _rows(surface: Path, wanted: Ends) -> tuple[Rows, Rows, Ends]:
+def _rows(surface: Path, wanted: PartEnds) -> tuple[Rows, Rows, PartEnds]:
     """Of stretches on known segments the first segment's first row and the last one's last row, and their ends."""
     numbers = surface.numbers
     if not len(numbers):
@@ -91,10 +91,10 @@ def _rows(surface: Path, wanted: Ends) -> tuple[Rows, Rows, Ends]:
     known = (numbers[begins] == wanted.first) & (numbers[lasts] == wanted.last)
     if known.all():
         return begins, lasts, wanted
-    return begins[known], lasts[known], Ends(*(column[known] for column in wanted))
+    return begins[known], lasts[known], PartEnds(*(column[known] for column in wanted))
 
 
-def _steps(surface: Path, begins: Rows, lasts: Rows, wanted: Ends) -> Rows:
+def _steps(surface: Path, begins: Rows, lasts: Rows, wanted: PartEnds) -> Rows:
     """Rows from a point on one row to a point on another, or all around to the same one."""
     steps: Rows = (lasts - begins) % len(surface)
     for row in (begins == lasts).nonzero()[0].tolist():
