@@ -200,6 +200,8 @@ class CenterPathRecorder:
             case Role.CONTOUR:
                 self._contour(step)
             case Role.FREE:
+                if self.entry and self.entry.plane is not step.plane:
+                    self._stop("HE7", NO_CONTOUR, self.entry)
                 if self.entry:  # an approach without compensation
                     goal = elements.offset_start(step.element, self.entry.offset)
                     self._arrive(self.entry, goal, step.element.leaving)

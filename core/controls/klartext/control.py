@@ -10,7 +10,7 @@ from typing import Final
 
 from core.controls.control_run import AlarmError, ControlRun, Log
 from core.controls.control_tools import ToolTable
-from core.controls.klartext import leads, m_functions, path_functions, settings
+from core.controls.klartext import cycles, leads, m_functions, path_functions, settings
 from core.controls.klartext.center_path import CenterPathRecorder, Record
 from core.controls.klartext.corner_rounding import WaitingElement
 from core.controls.klartext.reader import Block, read_blocks
@@ -31,6 +31,10 @@ _FUNCTION: Final = re.compile(r"\s*(\d+)\s*:\s*(.*)$", re.ASCII)
 _ASSIGNMENT: Final = re.compile(r"(Q[LR]?\d+)\s*=(.*)$", re.ASCII)
 _COMPARISON: Final = re.compile(r"EQU|NE(?!G)|GT|LT", re.ASCII)
 _GOAL: Final = re.compile(r'\s*LBL\s*("[^"]*"|\d+)\s*$', re.ASCII)
+_READ: Final = re.compile(r"Q[LR]?\d+", re.ASCII)
+_PASSED_OVER: Final = frozenset((15, 16, 18, 20, 26, 27))
+"""Functions that print, read data of the control, wait, or write tables."""
+
 _FORMULA_OF_FN: Final = {5: "SQRT", 6: "SIN", 7: "COS"}
 
 
@@ -68,6 +72,9 @@ def _run_blocks(state: State) -> None:
         if block.skip:
             state.tell(Severity.INFO, "SKIP", "Block skip is assumed off, so this block runs.", block)
         HEADS.get(block.head, settings.unknown)(state, block)
+        if state.cycle_due:
+            state.cycle_due = False
+            cycles.call(state, block)
     _check_end(state)
 
 
@@ -135,7 +142,7 @@ def _parameter(state: State, block: Block) -> None:
 
 
 def _function(state: State, block: Block) -> None:
-    """FN 0 to FN 13: assignments, and jumps on a condition; the others are not supported."""
+    """FN 0 to FN 13: assignments, and jumps on a condition; what only reads or prints is passed over."""
     function = _FUNCTION.match(block.body)
     number = int(function[1][:4]) if function else -1
     rest = function[2] if function else ""
@@ -145,8 +152,21 @@ def _function(state: State, block: Block) -> None:
         name, formula = assignment.groups()
         operator = _FORMULA_OF_FN.get(number, "")
         state.parameters[name] = state.value(formula if operator in formula else f"{operator} {formula}", block)
+    elif number in _PASSED_OVER:
+        _pass_over(state, block, number, rest)
     else:
         settings.unknown(state, block)
+
+
+def _pass_over(state: State, block: Block, number: int, rest: str) -> None:
+    """A function that moves nothing; what it reads has no value here, and stops the run where it is used."""
+    names = _READ.findall(rest.partition("=")[0])
+    for name in names:
+        state.parameters.pop(name, None)
+    text = f"FN {number} is skipped; it moves nothing."
+    if names:
+        text = f"FN {number} is skipped: only the control knows what it reads. {quoted(names[0])} has no value here."
+    state.tell(Severity.INFO, "IGNORED", text, block)
 
 
 def _condition(state: State, block: Block) -> None:
@@ -181,10 +201,13 @@ HEADS: Final[Mapping[str, Callable[[State, Block], None]]] = MappingProxyType(
         "END": settings.end,
         "BLK": settings.ignored,
         "TOOL": settings.tool,
-        "CYCL": settings.cycle,
+        "CYCL": cycles.cycle,
         "TRANS": settings.transformation,
         "PLANE": settings.plane,
         "*": settings.structure,
+        "(": settings.bracketed,
+        "DECLARE": settings.text_parameter,
+        "QS": settings.text_parameter,
         "STOP": m_functions.only_functions,
         "M": m_functions.only_functions,
         "LBL": _label,

@@ -57,7 +57,7 @@ class WaitingElement:
     def _blended(self, blend: Blend, second: ProgrammedStep) -> ProgrammedStep:
         """Hand on the waiting element and what joins it to the next; the next one cut short."""
         first, self.step, self.blend = self.step, None, None
-        if first is None or first.role is not second.role:
+        if first is None or first.role is not second.role or first.plane is not second.plane:
             self._stop(blend, NOT_BETWEEN)
         parts = (rounding if blend.round else chamfer)(first.element, second.element, blend.size)
         if isinstance(parts, str):

@@ -10,7 +10,7 @@ from core.controls.compensation.elements import Element, offset_point
 from core.controls.klartext.center_path import ProgrammedStep, Role
 from core.controls.klartext.lead_curves import Lead, LeadShape, departure
 from core.controls.klartext.m_functions import functions
-from core.controls.klartext.path_functions import POLAR, polar_target, straight_element
+from core.controls.klartext.path_functions import POLAR, check_pole_plane, polar_target, straight_element
 from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXES, COMMON, State, Words
 from core.controls.moves import solid
@@ -64,6 +64,8 @@ def _read(state: State, block: Block, name: str) -> tuple[LeadShape, bool, Words
         text = f"{name} needs its shape: LT, LN, CT or LCT{', or with polar coordinates PLT ...' * (name == 'APPR')}."
         state.stop("WORD", text, block)
     shape, polar = LeadShape(lead[2]), bool(lead[1])
+    if polar:
+        check_pole_plane(state, block)
     coordinates = POLAR if polar else frozenset(AXES)
     return shape, polar, state.words(block.after(lead.end()), COMMON | coordinates | set(_NEEDED[shape]))
 

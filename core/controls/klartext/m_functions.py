@@ -21,7 +21,8 @@ M120_SKIPS: Final = "cutcomp assumes M120 skips what lies between two crossings 
 _FEEDS: Final[Mapping[int, FeedAt]] = MappingProxyType({109: FeedAt.EDGE, 110: FeedAt.INSIDE_EDGE, 111: FeedAt.CENTER})
 _CORNERS: Final[Mapping[int, CornerRules]] = MappingProxyType({97: M97, 98: M98})
 _SILENT: Final = frozenset((0, 1, 3, 4, 5, 6, 7, 8, 9, 13, 14))
-_MOVING: Final = frozenset((89, 91, 92, 99, 114, 128, 130, 140, 144))
+_MOVING: Final = frozenset((89, 91, 92, 114, 128, 130, 140, 144))
+_CYCLE_CALL: Final = 99
 _MACHINE: Final = frozenset(("M91", "M92", "M140"))
 _BELONGS: Final[Mapping[str, str]] = MappingProxyType({"LA": "M120", "MB": "M140", "MAX": "M140"})
 _DIFFERENT: Final[Mapping[int, str]] = MappingProxyType(
@@ -55,6 +56,8 @@ def _function(state: State, block: Block, name: str, corner: CornerRules) -> Cor
     code = int(name[1:])
     if code in (2, 30):
         state.ended = True
+    elif code == _CYCLE_CALL:
+        state.cycle_due = True
     elif code in _FEEDS:
         state.feed_at = _FEEDS[code]
     elif code in _CORNERS:

@@ -13,7 +13,7 @@ from core.controls.klartext.corner_rounding import Blend
 from core.controls.klartext.m_functions import functions, leaves_workpiece
 from core.controls.klartext.reader import Block
 from core.controls.klartext.state import AXES, COMMON, SIDES, State, Words
-from core.controls.moves import solid
+from core.controls.moves import Plane, solid
 from core.finding import Severity
 from core.geometry.piece import Point
 from core.tolerance import JOINED
@@ -91,14 +91,23 @@ def _change_side(state: State, block: Block, element: Element) -> None:
 
 
 def pole(state: State, block: Block) -> None:
-    """CC: the pole and circle center, by both axes of the plane; without words where the tool stands."""
+    """CC: the pole and circle center by two axes, whose plane is that of the arcs about it.
+
+    Without words it is where the tool stands, in the working plane.
+    """
     words, known = state.words(block, frozenset(AXES)), set(state.known)
-    point, height = state.flat(state.target(block, words))
+    target = state.target(block, words)
     state.known = known
-    if len(words) not in (0, 2) or height != state.flat(state.position)[1]:
-        text = "CC needs both axes of the working plane, or none for where the tool stands."
-        state.stop("ARC", text, block)
-    state.pole = point
+    plane = _plane_of(words) if words else state.plane
+    if plane is None:
+        state.stop("ARC", "CC needs two axes, or none for where the tool stands.", block)
+    state.pole, state.pole_plane = state.flat(target, plane)[0], plane
+
+
+def _plane_of(words: Words) -> Plane | None:
+    """The plane of the axes that a block names, None unless they are two."""
+    axes = {AXES[name][0] for name in words if name in AXES}
+    return next((plane for plane in Plane if len(axes) == 2 and axes == set(plane.axes[:2])), None)
 
 
 def pole_of(state: State, block: Block) -> Point:
@@ -120,18 +129,25 @@ def polar_point(pole: Point, radius: float, angle: float) -> Point:
 
 def polar_target(state: State, block: Block, words: Words) -> tuple[list[float], float]:
     """The position that PR, PA, IPR, IPA and the tool axis's word lead to, and its angle in degrees."""
-    center = pole_of(state, block)
-    (x, y), _ = state.flat(state.position)
+    center, plane = pole_of(state, block), state.pole_plane
+    (x, y), _ = state.flat(state.position, plane)
     radius, angle = hypot(x - center[0], y - center[1]), degrees(atan2(y - center[1], x - center[0]))
     radius = _polar_value(state, block, words, "PR", radius)
     angle = _polar_value(state, block, words, "PA", angle)
     target = state.target(block, words)
-    if state.flat(target)[0] != (x, y):
-        text = "A polar block takes only the tool axis with PR and PA. Write an L or C block instead."
+    if state.flat(target, plane)[0] != (x, y):
+        text = "A polar block takes only the axis across the plane of CC with PR and PA. Write an L or C block instead."
         state.stop("WORD", text, block)
     point = polar_point(center, radius, angle)
-    state.known.update(state.plane.axes[:2])
-    return list(solid(*point, state.flat(target)[1], state.plane)), angle
+    state.known.update(plane.axes[:2])
+    return list(solid(*point, state.flat(target, plane)[1], plane)), angle
+
+
+def check_pole_plane(state: State, block: Block) -> None:
+    """Stops a block that needs the pole in the working plane."""
+    if state.pole_plane is not state.plane:
+        text = f"{block.head} needs its CC in the working plane; the last CC names other axes. Write a new CC before."
+        state.stop("ARC", text, block)
 
 
 def _polar_value(state: State, block: Block, words: Words, name: str, now: float) -> float:
@@ -159,7 +175,8 @@ def polar_circle(state: State, block: Block) -> None:
     if "IPA" in words:
         _helix(state, block, words, end, angle, turn)
         return
-    if state.flat(end)[1] != state.flat(state.position)[1]:
+    plane = state.pole_plane
+    if state.flat(end, plane)[1] != state.flat(state.position, plane)[1]:
         state.stop("ARC", "A helix needs its angle as IPA. Write IPA with the same sign as DR.", block)
     _about_pole(state, block, words, end, turn)
 
@@ -170,13 +187,24 @@ def radius_arc(state: State, block: Block) -> None:
     turn = _direction(state, block, words)
     if "R" not in words:
         state.stop("ARC", "CR needs a radius. Write R+ or R- with a number.", block)
+    plane = _radius_plane(state, block, words)
     end, radius = state.target(block, words), state.length(block, words, "R")
     if abs(radius) <= JOINED:
         state.stop("ARC", "An arc cannot have the radius 0.", block, "R")
-    center = through(state.flat(state.position)[0], state.flat(end)[0], radius, turn)
+    center = through(state.flat(state.position, plane)[0], state.flat(end, plane)[0], radius, turn)
     if isinstance(center, NoArc):
         state.stop("ARC", center.text, block, "R", *center.lengths)
-    _arc_to(state, block, words, end, center, turn)
+    _arc_to(state, block, words, end, center, turn, plane)
+
+
+def _radius_plane(state: State, block: Block, words: Words) -> Plane:
+    """The plane of a CR block: of its two axes, or the working plane if it names one of that."""
+    axes = {AXES[name][0] for name in words if name in AXES}
+    plane = _plane_of(words)
+    one_of_two = axes <= set(state.plane.axes[:2]) and (state.pole is None or state.pole_plane is state.plane)
+    if plane is None and (len(axes) > 2 or not one_of_two):
+        state.stop("ARC", "The plane of this arc is not clear. Write both axes of its plane, and no third one.", block)
+    return plane or state.plane
 
 
 def tangent_arc(state: State, block: Block) -> None:
@@ -188,6 +216,7 @@ def tangent_arc(state: State, block: Block) -> None:
 def polar_tangent(state: State, block: Block) -> None:
     """CTP: the same to a point given from the pole."""
     words = state.words(block, _POLAR_LINE)
+    check_pole_plane(state, block)
     _tangent_to(state, block, words, polar_target(state, block, words)[0])
 
 
@@ -204,17 +233,17 @@ def _tangent_to(state: State, block: Block, words: Words, end: list[float]) -> N
     if abs(cross) <= chord * elements.WHOLE:
         state.stop("ARC", ONE_STRAIGHT, block)
     center = elements.offset_point(start, way, chord * chord / (2.0 * cross))
-    _arc_to(state, block, words, end, center, 1 if cross > 0.0 else -1)
+    _arc_to(state, block, words, end, center, 1 if cross > 0.0 else -1, state.plane)
 
 
 def _about_pole(state: State, block: Block, words: Words, end: list[float], turn: int) -> None:
-    center = pole_of(state, block)
-    _check_radii(state, block, center, state.flat(end)[0])
-    _arc_to(state, block, words, end, center, turn)
+    center, plane = pole_of(state, block), state.pole_plane
+    _check_radii(state, block, center, state.flat(end, plane)[0])
+    _arc_to(state, block, words, end, center, turn, plane)
 
 
 def _check_radii(state: State, block: Block, center: Point, goal: Point) -> None:
-    start = state.flat(state.position)[0]
+    start = state.flat(state.position, state.pole_plane)[0]
     first, last = hypot(start[0] - center[0], start[1] - center[1]), hypot(goal[0] - center[0], goal[1] - center[1])
     if abs(first - last) > KLARTEXT_RADII.mm or min(first, last) <= JOINED:
         text = "The arc's radius is {0} at its start and {1} at its end. Correct CC or the end point."
@@ -227,18 +256,19 @@ def _helix(state: State, block: Block, words: Words, end: list[float], angle: fl
     if swept * turn <= 0.0 or abs(swept) > MAX_HELIX:
         text = f"IPA needs the same sign as DR and at most {MAX_HELIX:.0f} degrees."
         state.stop("ARC", text, block, "IPA")
-    center, goal = pole_of(state, block), state.flat(end)[0]
+    plane = state.pole_plane
+    center, (goal, high) = pole_of(state, block), state.flat(end, plane)
     _check_radii(state, block, center, goal)
-    start, low = state.flat(state.position)
-    high, size = state.flat(end)[1], hypot(start[0] - center[0], start[1] - center[1])
+    start, low = state.flat(state.position, plane)
+    size = hypot(start[0] - center[0], start[1] - center[1])
     whole, rest = divmod(abs(swept), 360.0)
     share = 360.0 / abs(swept)
     for count in range(1, int(whole) + 1):
         height = high if not rest and count == whole else low + (high - low) * share * count
-        _arc_to(state, block, words, list(solid(*start, height, state.plane)), center, turn, helix=True)
+        _arc_to(state, block, words, list(solid(*start, height, plane)), center, turn, plane, helix=True)
     if rest:
         goal = goal if "PR" in words or "IPR" in words else polar_point(center, size, angle)
-        _arc_to(state, block, words, list(solid(*goal, high, state.plane)), center, turn, helix=True)
+        _arc_to(state, block, words, list(solid(*goal, high, plane)), center, turn, plane, helix=True)
 
 
 def _direction(state: State, block: Block, words: Words) -> int:
@@ -250,20 +280,32 @@ def _direction(state: State, block: Block, words: Words) -> int:
 
 
 def _arc_to(
-    state: State, block: Block, words: Words, end: list[float], center: Point, turn: int, *, helix: bool = False
+    state: State,
+    block: Block,
+    words: Words,
+    end: list[float],
+    center: Point,
+    turn: int,
+    plane: Plane,
+    *,
+    helix: bool = False,
 ) -> None:
-    """An arc to `end` about `center`, as the next contour element."""
+    """An arc of a plane to `end` about `center`, as the next contour element."""
     state.chosen_side(block, words)
     rapid, feed = state.chosen_feed(block, words)
     corner_rules = functions(state, block, words)
-    start, low = state.flat(state.position)
-    goal, high = state.flat(end)
+    start, low = state.flat(state.position, plane)
+    goal, high = state.flat(end, plane)
     if high != low and not helix:
-        state.stop("ARC", "The tool axis cannot move in this arc. Write a helix as CP with IPA.", block)
+        what = "The tool axis" if plane is state.plane else "The axis across its plane"
+        state.stop("ARC", f"{what} cannot move in this arc. Write a helix as CP with IPA.", block)
     if state.side != state.applied:
         verb = "applied" if state.side else "canceled"
         text = f"Compensation cannot be {verb} in an arc. Do it in an L block before or after it, or with APPR and DEP."
         state.stop("HE2", text, block, ("R0", "RL", "RR")[state.side])
+    if plane is not state.plane and state.applied:
+        text = "An arc outside the working plane is not compensated. Cancel compensation in an L block with R0 before."
+        state.stop("HE2", text, block)
     state.moving(block, rapid=rapid, feed=feed)
     if hypot(goal[0] - start[0], goal[1] - start[1]) <= JOINED:
         goal = start
@@ -271,8 +313,8 @@ def _arc_to(
     element = element._replace(rapid=rapid)
     state.position = end
     role = Role.CONTOUR if state.applied else Role.FREE
-    state.push(ProgrammedStep(role, element, state.offset, state.plane, corner_rules, state.feed_at))
-    state.last = element
+    state.push(ProgrammedStep(role, element, state.offset, plane, corner_rules, state.feed_at))
+    state.last = element if plane is state.plane else None
 
 
 def corner(state: State, block: Block) -> None:

@@ -1,8 +1,8 @@
 """Klartext program text as blocks: a head word and the words after it, each with its place.
 
 A block is a line, or several where a line ends in `~`.  Before the head word may stand `/` (block skip) and a block
-number; after `;` comes a comment.  A head word is L, CC, APPR, TOOL ...; the rest of the block, in capitals, is its
-body.
+number, also as N10; after `;` comes a comment.  A head word is L, CC, APPR, TOOL ...; the rest of the block, in
+capitals, is its body.
 """
 
 from __future__ import annotations
@@ -29,19 +29,23 @@ MAX_LINE_LENGTH: Final = 1000
 TOO_LONG: Final = "TOO LONG"
 """The head of a line that is too long to be read."""
 
-_START: Final = re.compile(r"[ \t]*(/)?[ \t]*(?:\d+(?=[ \t]|$|\*))?[ \t]*", re.ASCII)
-_HEAD: Final = re.compile(r"[A-Z]+|\*|$", re.ASCII)
+_START: Final = re.compile(r"[ \t]*(/)?[ \t]*(?:N\d+|\d+(?=[ \t]|$|\*))?[ \t]*", re.ASCII)
+_HEAD: Final = re.compile(r"[A-Z]+|[*(]|$", re.ASCII)
 _GLUED_HEAD: Final = re.compile(r"(L|CC|C)(?=I?[XYZ][ \t]*[-+.\dQ])", re.ASCII)
 
 
 class Block(NamedTuple):
-    """One block: `line` from 1; `head` is "" for an empty block; the body's first character is at `column` (from 1)."""
+    """One block: `line` from 1; `head` is "" for an empty block; the body's first character is at `column` (from 1).
+
+    `more` are the lines that continue it, in capitals and without comments.
+    """
 
     line: int
     head: str
     body: str
     column: int
     skip: bool
+    more: tuple[str, ...] = ()
 
     @property
     def start(self) -> int:
@@ -61,17 +65,29 @@ class Block(NamedTuple):
 
 
 def read_blocks(lines: Iterable[str]) -> Iterator[Block]:
-    """The blocks of a program in order, without comments, continuation lines and empty blocks."""
+    """The blocks of a program in order, without comments and empty blocks."""
+    block: Block | None = None
     continued = False
     for number, raw in enumerate(lines, start=1):
         code = raw.partition(";")[0].rstrip()
         continuation, continued = continued, code.endswith("~") or raw.endswith("~")
-        if len(code) > MAX_LINE_LENGTH:
-            yield Block(number, TOO_LONG, "", 1, skip=False)
-        elif code and not continuation:
-            block = _block(number, capitals(code.removesuffix("~")))
-            if block.head:
-                yield block
+        if continuation:
+            if block and len(code) <= MAX_LINE_LENGTH:
+                block = block._replace(more=(*block.more, capitals(code.removesuffix("~")).strip()))
+            continue
+        if block:
+            yield block
+        block = _read_block(number, code)
+    if block:
+        yield block
+
+
+def _read_block(number: int, code: str) -> Block | None:
+    """The block of a line without its comment, None for an empty one."""
+    if len(code) > MAX_LINE_LENGTH:
+        return Block(number, TOO_LONG, "", 1, skip=False)
+    block = _block(number, capitals(code.removesuffix("~"))) if code else None
+    return block if block and block.head else None
 
 
 def _block(number: int, code: str) -> Block:

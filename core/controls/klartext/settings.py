@@ -13,17 +13,8 @@ from core.controls.program_text import quoted
 from core.finding import Severity
 from core.units import Unit, to_mm
 
-_BEGIN: Final = re.compile(r"\s*PGM(?:\s+(\S+))?\s+(MM|INCH)\s*$", re.ASCII)
+_BEGIN: Final = re.compile(r"\s*PGM(?:\s+(\S.*?))?\s+(MM|INCH)\s*$", re.ASCII)
 _NUMBERED: Final = re.compile(r'\s*(DEF|CALL)\b\s*(?:"([^"]*)"|([+-]?\d+(?:[.,]\d+)?)(?![\d.]))?', re.ASCII)
-_CYCLE: Final = re.compile(r"\s*(DEF|CALL)\s*(?:(\d+)(?:\.(\d+))?)?", re.ASCII)
-_NEUTRAL: Final = {
-    8: re.compile(r"\s*", re.ASCII),
-    10: re.compile(r"\s*ROT\s*[+-]?0*(?:\.0*)?\s*", re.ASCII),
-    11: re.compile(r"\s*SCL\s*\+?0*1(?:\.0*)?\s*", re.ASCII),
-    19: re.compile(r"(?:\s*[ABC]\s*[+-]?0+(?:\.0*)?)*\s*", re.ASCII),
-}
-"""Cycles that turn, mirror, scale or tilt, and the words with which they do none of it."""
-
 _UNSUPPORTED: Final = (
     (re.compile(r"CALL\s*PGM|PGM\s*CALL", re.ASCII), "runs another file. Copy its blocks in."),
     (
@@ -67,8 +58,20 @@ def ignored(state: State, block: Block) -> None:
     state.tell(Severity.INFO, "IGNORED", f"{quoted(block.head)} moves nothing and is skipped.", block)
 
 
+def bracketed(state: State, block: Block) -> None:
+    """A whole line in brackets, which other languages write as a comment."""
+    if not block.body.rstrip().endswith(")"):
+        unknown(state, block)
+    state.tell(Severity.INFO, "IGNORED", "A line in brackets is skipped as a comment.", block)
+
+
 def structure(state: State, block: Block) -> None:
     """A structuring line `* - text`."""
+
+
+def text_parameter(state: State, block: Block) -> None:
+    """DECLARE STRING and QS: texts, which move nothing."""
+    state.tell(Severity.INFO, "IGNORED", "Text parameters move nothing and are skipped.", block)
 
 
 def plane(state: State, block: Block) -> None:
@@ -145,37 +148,6 @@ def _take_radius(state: State, block: Block, delta: float) -> None:
     state.radius = None if radius == inf else radius + delta
     if state.radius is not None:
         state.parameters["Q108"] = state.radius / to_mm(1.0, state.unit)
-
-
-def cycle(state: State, block: Block) -> None:
-    """CYCL DEF and CYCL CALL: the datum shift is done, cycles that wait for their call are skipped."""
-    head = _CYCLE.match(block.body)
-    number = int(head[2][:6]) if head and head[2] else 0
-    rest = block.after(head.end()) if head else block
-    if head is None or head[1] == "CALL" or not number:
-        state.stop("WORD", "Calling cycles is not supported: their moves are unknown. The run ends here.", block)
-    elif number == 7:
-        if head[3] not in (None, "0"):
-            shift(state, rest)
-    elif number in _NEUTRAL and head[3] == "0":
-        return  # only the cycle's name; what it does comes in the blocks after it
-    elif number in _NEUTRAL and _NEUTRAL[number].fullmatch(rest.body):
-        text = f"Cycle {number} is skipped: these values turn, mirror and scale nothing."
-        state.tell(Severity.INFO, "IGNORED", text, block)
-    elif number == 247 and _at_the_start(state):
-        text = "Cycle 247 selects the workpiece datum. All positions count from it."
-        state.tell(Severity.INFO, "IGNORED", text, block)
-    elif number in (8, 10, 11, 19, 26, 27, 28, 29, 220, 221, 247) or number >= 400:
-        text = f"Cycle {number} moves or transforms the contour, which is not supported."
-        state.stop("WORD", text, block)
-    else:
-        text = f"Cycle {number} is skipped: it moves nothing before it is called."
-        state.tell(Severity.INFO, "IGNORED", text, block)
-
-
-def _at_the_start(state: State) -> bool:
-    """Whether nothing has moved yet."""
-    return len(state.waiting.center.record.tape) == 1 and state.waiting.step is None
 
 
 def shift(state: State, block: Block) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from re import Pattern
 from types import MappingProxyType
-from typing import Final, NoReturn
+from typing import Final, NamedTuple, NoReturn
 
 from core.controls.compensation.elements import Element
 from core.controls.control_run import Log
@@ -40,14 +40,22 @@ Words = dict[str, str]
 """The words of a block by name, each with its number as written; R0, RL, RR, M3 ... are names without a number."""
 
 
+class CalledCycle(NamedTuple):
+    """A cycle that waits for its call, and the tool axis's height at its end in millimeters, None if not known."""
+
+    number: int
+    end: float | None
+
+
 @dataclass(slots=True)
 class State:
     """What a program has set so far.
 
     `side` is what the last RL (+1), RR (-1) or R0 (0) said, `applied` what the tool's path has taken up since,
     `offset` the signed radius it runs at, and `ahead` the blocks that M120 looks ahead.  `last` is the contour element
-    just programmed, None where there is none to be tangent to.  `waiting` takes the steps.  `share` is the
-    share of the tool's radius that is run with.
+    just programmed, None where there is none to be tangent to.  `waiting` takes the steps.  `share` is the share of the
+    tool's radius that is run with.  `pole` is in coordinates of `pole_plane`, the plane of the axes that CC names.
+    `cycle` is the one that a call runs, `cycle_due` whether M99 calls it after the block.
     """
 
     log: Log
@@ -67,6 +75,9 @@ class State:
     known: set[int] = field(default_factory=set)
     shift: list[float] = field(default_factory=lambda: [0.0, 0.0, 0.0])
     pole: Point | None = None
+    pole_plane: Plane = Plane.XY
+    cycle: CalledCycle | None = None
+    cycle_due: bool = False
     feed: float = 0.0
     tool_feed: float = 0.0
     before: tuple[bool, float] = (False, 0.0)
@@ -139,9 +150,9 @@ class State:
         """The number of a word that is a length or a feed, in millimeters."""
         return to_mm(self.number(block, words, name), self.unit)
 
-    def flat(self, position: Sequence[float]) -> tuple[Point, float]:
-        """A position as a point of the plane and the tool axis's coordinate."""
-        first, second, third = self.plane.axes
+    def flat(self, position: Sequence[float], plane: Plane | None = None) -> tuple[Point, float]:
+        """A position as a point of a plane, the working plane if none is given, and the standing axis's coordinate."""
+        first, second, third = (self.plane if plane is None else plane).axes
         return (position[first], position[second]), position[third]
 
     def target(self, block: Block, words: Words) -> list[float]:

@@ -178,3 +178,68 @@ def test_an_arc_may_miss_its_radius_by_sixteen_thousandths() -> None:
 def test_polar_points_by_angles_that_are_not_right_ones() -> None:
     (_, line) = told("CC X+1 Y+2", "LP PR+5 PA+0", "LP PR+5 PA+37")
     assert line == NEAR((1 + 5 * cos(radians(37)), 2 + 5 * sin(radians(37))))
+
+
+@pytest.mark.parametrize("center", ["CC X+2 Z+0", "CC Z+0 X+2", "CC IX+2 IZ+0"])
+def test_an_arc_about_a_center_in_zx_runs_there(center: str) -> None:
+    """Angles count from Z toward X: the tool stands at -90 degrees, and 90 less is below the center."""
+    made = clean(START, center, "CP IPA-90 DR-", "C X+4 Z+0 DR-")
+    assert [move.plane for move in list(made.moves)[1:]] == [Plane.ZX] * 2
+    assert points(made, 1) == [NEAR((2, 0, -2)), NEAR((4, 0, 0))]
+    assert made.moves[1].center == NEAR((2, 0, 0))
+
+
+def test_polar_angles_in_zx_count_from_z() -> None:
+    made = clean(START, "CC X+0 Z+0", "LP PR+10 PA+90", "LP PA+0", "CP PA+90 DR+", "CP PA+180 DR+")
+    assert points(made, 1) == [NEAR((10, 0, 0)), NEAR((0, 0, 10)), NEAR((10, 0, 0)), NEAR((0, 0, -10))]
+
+
+def test_an_arc_in_yz_runs_there() -> None:
+    made = clean(START, "CC Y+5 Z+0", "C Y+5 Z-5 DR+", "CP IPA+90 DR+")
+    assert [move.plane for move in list(made.moves)[1:]] == [Plane.YZ] * 2
+    assert points(made, 1) == [NEAR((0, 5, -5)), NEAR((0, 10, 0))]
+
+
+def test_an_arc_by_its_radius_runs_in_the_plane_of_its_axes() -> None:
+    zx, yz = clean(START, "CR X+10 Z+10 R+10 DR+"), clean(START, "CR Y+10 IZ+10 R+10 DR+")
+    assert (zx.moves[1].plane, yz.moves[1].plane) == (Plane.ZX, Plane.YZ)
+    assert zx.moves[1].center == NEAR((10, 0, 0))
+    assert yz.moves[1].center == NEAR((0, 0, 10))
+
+
+def test_a_helix_across_zx_moves_y() -> None:
+    made = clean(START, "CC X+2 Z+0", "CP IPA+360 IY+3 DR+")
+    assert points(made, 1) == [NEAR((0, 3, 0))]
+
+
+def test_an_arc_outside_the_working_plane_with_another_tool_axis() -> None:
+    made = clean("TOOL CALL 1 Y S1", START, "CC X+2 Y+0", "CP IPA-90 DR-")
+    assert made.moves[1].plane is Plane.XY
+    assert made.moves[1].point == NEAR((2, 2, 0))
+
+
+@pytest.mark.parametrize(
+    ("blocks", "rule"),
+    [
+        (("CC X+2 Z+0", "C X+4 Y+1 DR+"), "ARC"),
+        (("CC X+2 Y+0", "C X+2 Z+2 DR+"), "ARC"),
+        (("CC X+2 Z+0", "CR X+4 R+3 DR+"), "ARC"),
+        (("CR Z+4 R+3 DR+",), "ARC"),
+        (("CR X+1 Y+1 Z+4 R+3 DR+",), "ARC"),
+        (("CC X+2 Y+0 Z+0",), "ARC"),
+        (("CC X+2",), "ARC"),
+        (("L X+1", "CC X+2 Z+0", "CTP PR+3 PA+9"), "ARC"),
+        (("CC X+2 Z+0", "APPR PLT PR+3 PA+9 LEN5 RL"), "ARC"),
+        (("CC X+2 Z+0", "LP PR+3 PA+9 X+1"), "WORD"),
+        (("L X+5 RL", "CC X+7 Z+0", "C X+7 Z-2 DR-"), "HE2"),
+        (("L X+5", "CC X+7 Z+0", "C X+7 Z-2 DR- RL"), "HE2"),
+        (("CC X+2 Z+0", "CP IPA-90 DR-", "CT X+4 Y+4"), "HE6"),
+        (("CC X+2 Z+0", "CP IPA-90 DR-", "RND R1", "L X+9"), "CORNER"),
+        (("L X+9", "RND R1", "CC X+11 Z+0", "CP IPA-90 DR-"), "CORNER"),
+        (("APPR LT X+1 Y+1 LEN2 R0", "CC X+2 Z+0", "C X+2 Z+1 DR-"), "HE7"),
+    ],
+)
+def test_an_arc_that_cannot_run_in_its_plane_is_refused(blocks: tuple[str, ...], rule: str) -> None:
+    made = runs(START, *blocks)
+    assert made.stopped_at is not None
+    assert codes(made)[-1][0] == rule

@@ -1,0 +1,159 @@
+"""Cycles: CYCL DEF and its calls; a cycle's own moves are passed over, up to the end that is known of it.
+
+A drilling cycle ends over its hole, the older cycles 1 to 5 and 17 and the cycles 212 to 215 where they began.  Where
+others end is not known, so that only the next absolute words say where the tool is.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Final
+
+from core.controls.klartext.center_path import ProgrammedStep, Role
+from core.controls.klartext.path_functions import straight_element
+from core.controls.klartext.reader import Block
+from core.controls.klartext.settings import shift
+from core.controls.klartext.state import AXES, COMMON, CalledCycle, State
+from core.finding import Severity
+from core.units import to_mm
+
+_CYCLE: Final = re.compile(r"\s*(DEF|CALL)\s*(?:(\d+)(?:\.(\d+))?)?", re.ASCII)
+_POSITION: Final = re.compile(r"\s*CALL\s*(POS|PAT)?", re.ASCII)
+_VALUE: Final = re.compile(r"Q(\d{3})\s*=\s*([+-]?(?:\d+[.,]?\d*|[.,]\d+))(?=\s|$)", re.ASCII)
+_NEUTRAL: Final = {
+    8: re.compile(r"\s*", re.ASCII),
+    10: re.compile(r"\s*ROT\s*[+-]?0*(?:\.0*)?\s*", re.ASCII),
+    11: re.compile(r"\s*SCL\s*\+?0*1(?:\.0*)?\s*", re.ASCII),
+    19: re.compile(r"(?:\s*[ABC]\s*[+-]?0+(?:\.0*)?)*\s*", re.ASCII),
+}
+"""Cycles that turn, mirror, scale or tilt, and the words with which they do none of it."""
+
+_MOVED: Final = frozenset((8, 10, 11, 19, 26, 27, 28, 29, 247))
+"""Cycles that change where the contour lies."""
+
+_PATTERNS: Final = frozenset((220, 221))
+"""Cycles that run the last one at many places as soon as they are defined."""
+
+_DRILLING: Final = frozenset((*range(200, 208), 209, 240, 241))
+_RETURNING: Final = frozenset((1, 2, 3, 4, 5, 17, 18, 212, 213, 214, 215))
+_WAITING: Final = frozenset((9, 13, 14, 20, 32, 39))
+"""Cycles without a call: a dwell, an orientation, data of a contour or a tolerance."""
+
+_PROGRAM: Final = 12
+_FIRST_PROBE: Final = 400
+
+SKIPPED: Final = "The moves of cycle {} are skipped; {}."
+
+
+def cycle(state: State, block: Block) -> None:
+    """CYCL DEF and CYCL CALL: the datum shift is done, other cycles wait for their call, which passes them over."""
+    head = _CYCLE.match(block.body)
+    number = int(head[2][:6]) if head and head[2] else 0
+    rest = block.after(head.end()) if head else block
+    if head is not None and head[1] == "CALL" and not number:
+        _call_block(state, block)
+    elif head is None or head[1] == "CALL" or not number:
+        state.stop("WORD", "CYCL needs DEF with a number, or CALL.", block)
+    elif number == 7:
+        if head[3] not in (None, "0"):
+            shift(state, rest)
+    elif number in _NEUTRAL and head[3] == "0":
+        return  # only the cycle's name; what it does comes in the blocks after it
+    elif number in _NEUTRAL and _NEUTRAL[number].fullmatch(rest.body):
+        text = f"Cycle {number} is skipped: these values turn, mirror and scale nothing."
+        state.tell(Severity.INFO, "IGNORED", text, block)
+    elif number == 247 and _at_the_start(state):
+        text = "Cycle 247 selects the workpiece datum. All positions count from it."
+        state.tell(Severity.INFO, "IGNORED", text, block)
+    elif number in _MOVED or number >= _FIRST_PROBE:
+        text = f"Cycle {number} moves or transforms the contour, which is not supported."
+        state.stop("WORD", text, block)
+    else:
+        _define(state, block, number)
+
+
+def _define(state: State, block: Block, number: int) -> None:
+    """A cycle that waits for its call, or a pattern, which calls the one before at once."""
+    if number in _PATTERNS:
+        _pass_over(state, block, number, None)
+        return
+    values = {
+        f"Q{name}": float(value.replace(",", "."))
+        for name, value in _VALUE.findall("\n".join((block.body, *block.more)))
+    }
+    state.parameters |= values
+    if number not in _WAITING:
+        state.cycle = CalledCycle(number, _end_height(state, values))
+    text = f"Cycle {number} is skipped: it moves nothing before it is called."
+    state.tell(Severity.INFO, "IGNORED", text, block)
+
+
+def _end_height(state: State, values: dict[str, float]) -> float | None:
+    """The tool axis's height at a drilling cycle's end, in millimeters: the larger of both clearances above Q203."""
+    if not {"Q200", "Q203", "Q204"} <= values.keys():
+        return None
+    height = to_mm(values["Q203"] + max(values["Q200"], values["Q204"]), state.unit)
+    return height + state.shift[state.plane.axes[2]]
+
+
+def _at_the_start(state: State) -> bool:
+    """Whether nothing has moved yet."""
+    return len(state.waiting.center.record.tape) == 1 and state.waiting.step is None
+
+
+def _call_block(state: State, block: Block) -> None:
+    """CYCL CALL, at a position with POS, at all points of a pattern with PAT."""
+    head = _POSITION.match(block.body)
+    rest = block.after(head.end() if head else 0)
+    if head and head[1] == "POS":
+        words = state.words(rest, COMMON | frozenset(AXES))
+        _refuse_compensated(state, block)
+        for index, value in enumerate(state.target(rest, words)):
+            state.position[index] = value
+    elif head and head[1] == "PAT" and state.cycle:
+        _pass_over(state, block, state.cycle.number, None)
+        return
+    else:
+        state.words(rest, frozenset(("M",)))
+    call(state, block)
+
+
+def call(state: State, block: Block) -> None:
+    """The call of the cycle defined last, by CYCL CALL or M99."""
+    if state.cycle is None:
+        state.stop("CYCLE", "No cycle is defined before this call. Write its CYCL DEF before.", block)
+    if state.cycle.number == _PROGRAM:
+        state.stop("CYCLE", "Cycle 12 runs another file. Copy its blocks in.", block)
+    _pass_over(state, block, state.cycle.number, state.cycle.end)
+
+
+def _refuse_compensated(state: State, block: Block) -> None:
+    if state.applied or state.side:
+        text = "A cycle under compensation is not supported. Cancel it in an L block with R0 before."
+        state.stop("CYCLE", text, block)
+
+
+def _pass_over(state: State, block: Block, number: int, height: float | None) -> None:
+    """The moves of a cycle are left out; where it ends is set, or unknown until the next absolute words."""
+    _refuse_compensated(state, block)
+    state.waiting.flush()
+    state.last = None
+    if number in _RETURNING:
+        state.tell(Severity.INFO, "CYCLE", SKIPPED.format(number, "it ends where it began"), block)
+        return
+    third = state.plane.axes[2]
+    if number in _DRILLING and height is not None:
+        end = state.position.copy()
+        end[third] = height
+        if end != state.position:
+            element = straight_element(state, block, end, rapid=True, feed=0.0)
+            state.push(ProgrammedStep(Role.DEPTH, element, 0.0, state.plane))
+        state.position = end
+        state.known.add(third)
+        state.tell(Severity.INFO, "CYCLE", SKIPPED.format(number, "it ends above its hole"), block)
+        return
+    unknown = {third} if number in _DRILLING else {0, 1, 2}
+    state.known -= unknown
+    names = " and ".join("XYZ"[axis] for axis in sorted(unknown))
+    text = SKIPPED.format(number, f"cutcomp takes {names} from the next absolute words")
+    state.tell(Severity.INFO, "CYCLE", text, block)

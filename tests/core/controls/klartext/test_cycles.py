@@ -1,0 +1,68 @@
+"""Cycles of which only the end is known, and what stands between them and the contour."""
+
+from __future__ import annotations
+
+import pytest
+
+from core.controls.control_run import ControlRun
+from tests.core.controls.klartext.klartext_runs import codes, flat, points, runs
+
+DRILLING = ("CYCL DEF 200 DRILLING ~", "  Q200=+2 ;SET-UP ~", " Q201=-20 ~", "Q203=+5 ;SURFACE ~", "Q204=+50")
+CONTOUR = ("L X-20 Y+0 R0 FMAX", "L X+0 Y+0 RL F9", "L X+30", "L X+60 R0")
+
+
+def compensated(made: ControlRun) -> list[tuple[float, ...]]:
+    """The moves of the contour behind a cycle."""
+    assert made.stopped_at is None, made.findings
+    return flat(made)[-3:]
+
+
+def test_a_drilling_cycle_ends_above_its_hole_by_the_larger_clearance() -> None:
+    made = runs("L X+3 Y+4 Z+9 R0 FMAX", *DRILLING, "CYCL CALL M3", "L X+7 FMAX")
+    assert points(made, 1) == [(3, 4, 9), (3, 4, 55), (7, 4, 55)]
+    assert codes(made) == [("IGNORED", 5), ("CYCLE", 10)]
+
+
+def test_m99_calls_the_cycle_at_the_end_of_its_block() -> None:
+    made = runs("L Z+9 R0 FMAX", *DRILLING, "L X+3 Y+4 FMAX M99", "L X+7 FMAX M99")
+    assert points(made, 1)[-3:] == [(3, 4, 9), (3, 4, 55), (7, 4, 55)]
+
+
+def test_a_call_at_a_position_counts_from_there() -> None:
+    made = runs("L X+3 Y+4 Z+9 R0 FMAX", *DRILLING, "CYCL CALL POS X+20 Y+30 Z+0 FMAX", "L IX+7 FMAX")
+    assert points(made)[-1] == (27, 30, 55)
+
+
+@pytest.mark.parametrize(
+    "cycle",
+    [
+        DRILLING,
+        ("CYCL DEF 1.0 PECKING", "CYCL DEF 1.1 SET UP 2", "CYCL DEF 1.2 DEPTH -20"),
+        ("CYCL DEF 4.0 POCKET MILLING", "CYCL DEF 4.1 SET UP 2"),
+        ("CYCL DEF 251 RECTANGULAR POCKET ~", " Q215=0 ~", " Q218=60"),
+        ("CYCL DEF 14.0 CONTOUR", "CYCL DEF 14.1 CONTOUR LABEL 1", "CYCL DEF 22 ROUGH-OUT"),
+    ],
+)
+@pytest.mark.parametrize("call", ["CYCL CALL", "CYCL CALL PAT FMAX", "L X+1 Y+1 FMAX M99"])
+def test_the_contour_behind_a_cycle_is_run_as_without_it(cycle: tuple[str, ...], call: str) -> None:
+    bare = flat(runs("L X+0 Y+0 Z+9 R0 FMAX", *CONTOUR))[-3:]
+    assert compensated(runs("L X+0 Y+0 Z+9 R0 FMAX", *cycle, call, *CONTOUR)) == bare
+
+
+def test_a_pattern_calls_the_cycle_before_at_once() -> None:
+    made = runs("L X+0 Y+0 Z+9 R0 FMAX", *DRILLING, "CYCL DEF 221 CARTESIAN PATTERN ~", " Q225=+15", *CONTOUR)
+    assert ("CYCLE", 10) in codes(made)
+    assert len(compensated(made)) == 3
+
+
+def test_after_a_pocket_relative_words_start_from_an_unknown_place() -> None:
+    made = runs("L X+1 Y+1 Z+1 FMAX", "CYCL DEF 251 RECTANGULAR POCKET", "CYCL CALL", "L IX+5 F9")
+    assert codes(made)[-2:] == [("CYCLE", 6), ("POSITION", 7)]
+
+
+def test_the_values_of_a_cycle_are_parameters() -> None:
+    assert points(runs("L X+0 Y+0 Z+9 R0 FMAX", *DRILLING, "L X+Q204 FMAX"))[-1] == (50, 0, 9)
+
+
+def test_a_block_number_may_begin_with_n() -> None:
+    assert flat(runs("N10 L X+1 Y+2 Z+3 FMAX", "N20L X+5"), 1)[0] == (1, 2)
