@@ -194,6 +194,8 @@ class NineSeries(ElementQueue, Control):
 
     def finish(self, block: Block) -> None:
         """G40: the next straight move of the plane is the exit."""
+        if self.entering and self.held is not None:
+            self._without_offset(self.held)
         if self.active and (self.held is None or (self.entering and self.elements == 0)):
             self._cancel()
         elif self.active:
@@ -243,7 +245,6 @@ class NineSeries(ElementQueue, Control):
         if self.held is None and self.entering:
             if element.turn:
                 self._circular_start(element.line, 1)
-            self._without_offset(element)
             if not self.stretch_open:
                 self.open_stretch(self._tool_side, self.coming, element)
         elif not fits(element, self.coming):
@@ -260,6 +261,7 @@ class NineSeries(ElementQueue, Control):
     def joint(self, first: Element, second: Element) -> Joint:
         """How this control joins: the entry, a change, inside and outside corners."""
         if self.entering:
+            self._without_offset(first)  # until here D may stand in a block of its own
             self.entering = False
             self.offset = self.coming
             self._interpreted(first, second)
@@ -371,6 +373,8 @@ class NineSeries(ElementQueue, Control):
 
     def close(self) -> None:
         """The end of the program cancels compensation."""
+        if self.entering and self.held is not None:
+            self._without_offset(self.held)
         self.release_at_end()
 
 

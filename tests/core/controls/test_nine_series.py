@@ -6,7 +6,7 @@ from math import sqrt, tan
 
 import pytest
 
-from core.units import from_mm
+from core.units import Unit, from_mm
 from tests.core.controls.hand import ran, same, sample, shape, told
 
 ROOT = sqrt(0.5)
@@ -26,6 +26,20 @@ def test_one_two_and_three_blocks_enter_alike() -> None:
 
 def test_d_may_stand_in_the_motion_block_after_g41() -> None:
     assert same(path("G41\nX1 Y1 D1\nX3")[:2], [("line", 1, 1.25), ("line", 3, 1.25)])
+
+
+@pytest.mark.parametrize("body", ["G41 X1 Y1;\nD1;", "G41 X1 Y1; D1;", "G41;\nX1 Y1;\nS9\nD1;", "G41 X1 Y1\nZ0\nD1"])
+def test_d_on_a_line_of_its_own_after_the_entry_counts_for_the_entry(body: str) -> None:
+    done = ran(f"G20 G17 G1 F10\n{body}\nX3\n", "nine-series:a", t1=0.5)
+    assert shape(done)[0][1:] == (1, 1.25)
+    assert same(shape(done)[-1:], [("line", 3, 1.25)])
+    assert not told(done, "RADIUS0")
+    assert [round(from_mm(stretch.radius, Unit.IN), 9) for stretch in done.stretches] == [0.25]
+
+
+@pytest.mark.parametrize("rest", ["X3", "X3\nD1\nX5", "G40\nX3", "M2"])
+def test_an_entry_without_d_is_reported(rest: str) -> None:
+    assert [one.line for one in told(ran(f"G20 G1 F10\nG41 X1 Y1\n{rest}\n", "nine-series", t1=0.5), "RADIUS0")] == [2]
 
 
 def test_type_a_goes_straight_to_the_square_start() -> None:
