@@ -1,0 +1,5 @@
+"""Drawings and NC programs back into contours and segments.
+
+`dxf` reads a drawing's entities, `contours` makes contours of them (`curves`, `clean_up`, `nodes`, `loops`, `joints`,
+`nesting`, `arc_fitting`), `segments` writes a contour as a block.  `nc` reads NC programs.
+"""

@@ -1,0 +1,241 @@
+"""Fitted arcs: runs of many short lines as the longest arcs and lines that leave them nowhere by more than FIT.
+
+A corner sharper than `CORNER` stays.  The result passes through points of the run, so that everything still joins.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import radians, tau
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.geometry.piece import Arc, Line, Piece, Point, Turn
+
+CORNER: Final = radians(5.0)
+MIN_LINES: Final = 3
+"""Lines from which on an arc is better than they are."""
+
+MAX_RADIUS: Final = 100_000.0
+"""Millimeters: a flatter arc is a line, or stays many of them."""
+
+ROUNDS: Final = 40
+"""Steps by which the best arc between two points is narrowed down."""
+
+Points = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, slots=True)
+class Fitted:
+    """The pieces of a chain with arcs fitted, how many there were, and how far they are from those at most."""
+
+    pieces: tuple[Piece, ...]
+    before: int
+    off: float
+
+
+class _Fit(NamedTuple):
+    """An arc or a line through the ends of some points, and how far it is from their lines."""
+
+    piece: Piece
+    off: float
+
+
+_Make = Callable[[Points, float], "_Fit | None"]
+"""A fit of some points within FIT, None where there is none."""
+
+
+def fit_arcs(pieces: Sequence[Piece], fit: float, *, closed: bool) -> Fitted:
+    """A joined chain with its runs of lines fitted within `fit` millimeters."""
+    start = _first_break(pieces) if closed else 0
+    if start is None:
+        fitted, off = _ring(_points(pieces), fit)
+        return Fitted(tuple(fitted), len(pieces), off)
+    turned = [*pieces[start:], *pieces[:start]]
+    result: list[Piece] = []
+    off, run = 0.0, list[Piece]()
+    for piece in turned:
+        if not isinstance(piece, Line) or (run and _is_corner(run[-1], piece)):
+            off = max(off, _flush(run, result, fit))
+        if isinstance(piece, Line):
+            run.append(piece)
+        else:
+            result.append(piece)
+    off = max(off, _flush(run, result, fit))
+    return Fitted(tuple(result), len(pieces), off)
+
+
+def _flush(run: list[Piece], result: list[Piece], fit: float) -> float:
+    """Put a run of lines, fitted, behind the result; returns how far it is off."""
+    if not run:
+        return 0.0
+    fitted, off = _open_run(_points(run), fit)
+    result += fitted
+    run.clear()
+    return off
+
+
+def _first_break(pieces: Sequence[Piece]) -> int | None:
+    """The first piece of a ring before which no arc may run on; None where it is smooth lines all around."""
+    for row, piece in enumerate(pieces):
+        before = pieces[row - 1]
+        if not isinstance(piece, Line) or not isinstance(before, Line) or _is_corner(before, piece):
+            return row
+    return None
+
+
+def _is_corner(before: Piece, after: Piece) -> bool:
+    u = complex(*before.end) - complex(*before.start)
+    v = complex(*after.end) - complex(*after.start)
+    return bool(abs(np.angle(v * u.conjugate())) > CORNER)
+
+
+def _points(pieces: Sequence[Piece]) -> Points:
+    return np.array([complex(*pieces[0].start), *(complex(*piece.end) for piece in pieces)])
+
+
+def _ring(points: Points, fit: float) -> tuple[list[Piece], float]:
+    """A smooth ring: one circle if that will do; else it is begun where a first round about it had to break."""
+    circle = _circle(points[:-1], fit)
+    if circle is not None:
+        return [circle.piece], circle.off
+    pieces, _ = _open_run(points, fit)
+    at = int(np.argmin(np.abs(points[:-1] - complex(*pieces[0].end))))
+    turned = np.concatenate((points[at:-1], points[: at + 1]))
+    return _open_run(turned, fit)
+
+
+def _circle(points: Points, fit: float) -> _Fit | None:
+    """The full circle through points that turn once about their middle, or None."""
+    if len(points) < MIN_LINES + 1:
+        return None
+    # least squares of x^2 + y^2 = 2 a x + 2 b y + c about the middle
+    middle = points.mean()
+    local = points - middle
+    rows = np.column_stack((2.0 * local.real, 2.0 * local.imag, np.ones(len(local))))
+    (a, b, c), *_ = np.linalg.lstsq(rows, np.abs(local) ** 2, rcond=None)
+    center = complex(a, b)
+    away = np.abs(local - center)
+    radius = float((away.max() + away.min()) / 2.0)
+    ends = np.concatenate((points[1:], points[:1]))
+    off = max(float(np.abs(away - radius).max()), _sagitta(points, ends, middle + center, radius))
+    turned = np.angle((np.roll(local, -1) - center) * (local - center).conj())
+    if off > fit or radius > MAX_RADIUS or abs(abs(turned.sum()) - tau) > 1e-6 or not _one_way(turned):
+        return None
+    at = middle + center
+    start = at + (points[0] - at) / abs(points[0] - at) * radius
+    begin = _pair(start)
+    return _Fit(Arc(begin, begin, _pair(at), Turn.CCW if turned.sum() > 0.0 else Turn.CW), off)
+
+
+def _one_way(turned: NDArray[np.float64]) -> bool:
+    return bool((turned > 0.0).all() or (turned < 0.0).all())
+
+
+def _sagitta(starts: Points, ends: Points, center: complex, radius: float) -> float:
+    """How far the middles of chords are inside a circle at most."""
+    return float(np.abs(np.abs((starts + ends) / 2.0 - center) - radius).max())
+
+
+def _open_run(points: Points, fit: float) -> tuple[list[Piece], float]:
+    """The longest arcs and lines from the first point to the last."""
+    pieces: list[Piece] = []
+    off, at, last = 0.0, 0, len(points) - 1
+    while at < last:
+        best, reach = _Fit(Line(_pair(points[at]), _pair(points[at + 1])), 0.0), at + 1
+        for make in (_straight, _bent):
+            made, end = _longest(points, at, fit, make)
+            if made is not None and end > reach:
+                best, reach = made, end
+        pieces.append(best.piece)
+        off = max(off, best.off)
+        at = reach
+    return pieces, off
+
+
+def _longest(points: Points, at: int, fit: float, make: _Make) -> tuple[_Fit | None, int]:
+    """The longest fit from a point on: steps double while they hold, then the last one is halved."""
+    last = len(points) - 1
+    good, made, step = at + 1, None, 2
+    high = last + 1
+    while at + step <= last:
+        here = make(points[at : at + step + 1], fit)
+        if here is None and step >= MIN_LINES:
+            high = at + step
+            break
+        if here is not None:
+            good, made = at + step, here
+        step *= 2
+    while high - good > 1:
+        middle = min((good + high) // 2, last)
+        here = make(points[at : middle + 1], fit)
+        if here is None:
+            high = middle
+        else:
+            good, made = middle, here
+    return made, good
+
+
+def _straight(points: Points, fit: float) -> _Fit | None:
+    chord = points[-1] - points[0]
+    if abs(chord) == 0.0:
+        return None
+    local = (points - points[0]) * (chord.conjugate() / abs(chord))
+    off = float(np.abs(local.imag).max())
+    if off > fit or (np.diff(local.real) <= 0.0).any():
+        return None
+    return _Fit(Line(_pair(points[0]), _pair(points[-1])), off)
+
+
+def _bent(points: Points, fit: float) -> _Fit | None:
+    """The arc through both ends that is nearest to all points: its height over the chord is narrowed down."""
+    if len(points) < MIN_LINES + 1:
+        return None
+    chord = points[-1] - points[0]
+    size = abs(chord)
+    if size <= 1e-9:
+        return None
+    local = (points - points[0]) * (chord.conjugate() / size) - size / 2.0
+    bend = np.angle(np.diff(local)[1:] * np.diff(local)[:-1].conj())
+    if not (_one_way(bend) or np.abs(bend[bend * bend.sum() < 0.0]).max(initial=0.0) < CORNER):
+        return None
+    turn = 1.0 if bend.sum() > 0.0 else -1.0
+    if abs(bend.sum()) > tau * 0.95:
+        return None
+    # heights of the arc above the chord, on the side to which it bulges
+    local = np.where(turn > 0.0, local.conj(), local)
+    low, high = 0.0, max(2.0 * float(local.imag.max()), 1e-9)
+    for _ in range(ROUNDS):
+        first, second = low + (high - low) / 3.0, high - (high - low) / 3.0
+        if _off_arc(local, size, first) <= _off_arc(local, size, second):
+            high = second
+        else:
+            low = first
+        if high - low <= fit * 1e-3:
+            break
+    height = (low + high) / 2.0
+    off = _off_arc(local, size, height)
+    radius = (size * size / 4.0 + height * height) / (2.0 * height) if height > 0.0 else float("inf")
+    if off > fit or radius > MAX_RADIUS:
+        return None
+    below = height - radius
+    center = (complex(0.0, -below if turn > 0.0 else below) + size / 2.0) * (chord / size) + points[0]
+    return _Fit(Arc(_pair(points[0]), _pair(points[-1]), _pair(center), Turn(int(turn))), off)
+
+
+def _off_arc(local: Points, size: float, height: float) -> float:
+    """How far points and the middles of their lines are from the arc of a height over its chord."""
+    if height <= 0.0:
+        return float(np.abs(local.imag).max())
+    radius = (size * size / 4.0 + height * height) / (2.0 * height)
+    center = complex(0.0, height - radius)
+    middles = (local[1:] + local[:-1]) / 2.0
+    every = np.abs(np.concatenate((local, middles)) - center)
+    return float(np.abs(every - radius).max())
+
+
+def _pair(point: complex) -> Point:
+    return float(point.real), float(point.imag)

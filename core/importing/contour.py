@@ -1,0 +1,250 @@
+"""One contour of a drawing: what a list says of it, and what the operator changes: its start, its direction, its arcs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from math import atan2, dist, pi
+from typing import Final
+
+from core.geometry.piece import Arc, Line, Piece, Point, Side, Turn
+from core.importing.arc_fitting import Fitted, fit_arcs
+from core.importing.joints import joined_chain, reversed_pieces
+from core.importing.nesting import box_of, signed_area
+from core.units import Kind, Unit, from_mm, show
+
+KEY_DECIMALS: Final = 6
+"""Decimals of a millimeter by which contours are put in order."""
+
+
+class ContourKind(StrEnum):
+    """What a contour is by its nesting."""
+
+    OUTSIDE = "OUTSIDE"
+    HOLE = "HOLE"
+    ISLAND = "ISLAND"
+    OPEN = "OPEN"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Contour:
+    """One contour in millimeters, in the direction in which it will be traveled, from its start.
+
+    `number` counts from 1 in the list's order.  `drawn` is how many pieces the drawing gives, before a start in the
+    middle of one of them divides it.  `gap` is the largest gap that was closed in it.  `inside` is the number of the
+    contour that it lies in, 0 for none; `depth` how many it lies in.  `open_gap` is how far an open contour's nearest
+    end is from another loose end, that of contour `open_gap_to`.  `fitted` says what FIT ARCS has made of it.
+    """
+
+    number: int
+    pieces: tuple[Piece, ...]
+    closed: bool
+    kind: ContourKind
+    layers: tuple[str, ...]
+    drawn: int
+    gap: float = 0.0
+    depth: int = 0
+    inside: int = 0
+    open_gap: float | None = None
+    open_gap_to: int = 0
+    problems: tuple[str, ...] = ()
+    fitted: Fitted | None = None
+
+    @property
+    def layer(self) -> str:
+        """The layer in a list: with a plus sign where there are more."""
+        return self.layers[0] + ("+" if len(self.layers) > 1 else "")
+
+    @property
+    def length(self) -> float:
+        """Length in millimeters."""
+        return sum(piece.length for piece in self.pieces)
+
+    @property
+    def area(self) -> float:
+        """The area within a closed contour in square millimeters, 0 of an open one."""
+        return abs(signed_area(self.pieces)) if self.closed else 0.0
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height in millimeters."""
+        left, bottom, right, top = box_of(self.pieces)
+        return right - left, top - bottom
+
+    @property
+    def start(self) -> Point:
+        """Where it starts."""
+        return self.pieces[0].start
+
+    @property
+    def turn(self) -> Turn:
+        """Its direction of travel; NONE for an open one."""
+        if not self.closed:
+            return Turn.NONE
+        return Turn.CCW if signed_area(self.pieces) > 0.0 else Turn.CW
+
+    @property
+    def side(self) -> Side | None:
+        """The side on which the tool is proposed: outside of an outside contour, inside of a hole; None for an open one."""
+        if not self.closed:
+            return None
+        outside = self.kind is not ContourKind.HOLE
+        return Side.LEFT if outside is (self.turn is Turn.CW) else Side.RIGHT
+
+    @property
+    def circle(self) -> float | None:
+        """The radius of a contour that is one full circle."""
+        piece = self.pieces[0]
+        whole = len(self.pieces) == 1 and isinstance(piece, Arc) and piece.start == piece.end
+        return piece.radius if whole and isinstance(piece, Arc) else None
+
+
+def rounded(point: Point) -> tuple[float, float]:
+    """A point as it counts for an order."""
+    return round(point[0], KEY_DECIMALS), round(point[1], KEY_DECIMALS)
+
+
+def reversed_contour(contour: Contour) -> Contour:
+    """The contour traveled the other way from the same start; the proposed side changes with it."""
+    return replace(contour, pieces=reversed_pieces(contour.pieces))
+
+
+def started_at_usual_place(contour: Contour) -> Contour:
+    """A closed contour from the middle of its longest line on, or of its longest arc; a circle from its leftmost point."""
+    if not contour.closed:
+        return contour
+    if contour.circle is not None:
+        circle = contour.pieces[0]
+        assert isinstance(circle, Arc)
+        (x, y), radius = circle.center, circle.radius
+        start = (x - radius, y)
+        return replace(contour, pieces=(Arc(start, start, circle.center, circle.turn),))
+    lines = [row for row, piece in enumerate(contour.pieces) if isinstance(piece, Line)]
+    rows = lines or list(range(len(contour.pieces)))
+    longest = max(contour.pieces[row].length for row in rows)
+    equal = [row for row in rows if contour.pieces[row].length >= longest - 10.0**-KEY_DECIMALS]
+    row = min(equal, key=lambda row: tuple(reversed(rounded(contour.pieces[row].point_at(0.5)))))
+    return _started_on(contour, row, 0.5)
+
+
+def started_at(contour: Contour, point: Point) -> Contour:
+    """The contour from its place nearest to a point on; an open one from the nearer of its ends."""
+    if not contour.closed:
+        first, last = (dist(point, end) for end in (contour.pieces[0].start, contour.pieces[-1].end))
+        return contour if first <= last else reversed_contour(contour)
+    row, share = min(
+        ((row, _nearest_share(piece, point)) for row, piece in enumerate(contour.pieces)),
+        key=lambda place: dist(point, contour.pieces[place[0]].point_at(place[1])),
+    )
+    return _started_on(contour, row, share)
+
+
+def started_at_corner(contour: Contour, step: int) -> Contour:
+    """A closed contour from the corner on that is `step` corners after (or before, if negative) its start."""
+    if not contour.closed or contour.circle is not None:
+        return contour
+    whole = _undivided(contour)
+    # a start between two corners goes to the nearer end of its piece first
+    ahead = step - 1 if len(whole.pieces) < len(contour.pieces) and step > 0 else step
+    return _started_on(whole, (ahead + (0 if whole is contour else 1)) % len(whole.pieces), 0.0)
+
+
+def started_at_side(contour: Contour, step: int) -> Contour:
+    """A closed contour from the middle of the piece on that is `step` pieces after its start."""
+    if not contour.closed:
+        return contour
+    if contour.circle is not None:
+        circle = contour.pieces[0]
+        return started_at(contour, circle.point_at((step % 4) / 4.0))
+    whole = _undivided(contour)
+    return _started_on(whole, step % len(whole.pieces), 0.5)
+
+
+def _undivided(contour: Contour) -> Contour:
+    """The contour without the division of a piece by its start: from the beginning of that piece on."""
+    first, last = contour.pieces[0], contour.pieces[-1]
+    if len(contour.pieces) <= contour.drawn:
+        return contour
+    if isinstance(first, Arc) and isinstance(last, Arc):
+        piece: Piece = Arc(last.start, first.end, first.center, first.turn)
+    else:
+        piece = Line(last.start, first.end)
+    return replace(contour, pieces=(piece, *contour.pieces[1:-1]))
+
+
+def _started_on(contour: Contour, row: int, share: float) -> Contour:
+    """A closed contour from a part of one of its pieces on, which is divided there; no piece becomes shorter than that."""
+    pieces, piece = contour.pieces, contour.pieces[row]
+    if contour.circle is not None and isinstance(piece, Arc):
+        point = piece.point_at(share)
+        return replace(contour, pieces=(Arc(point, point, piece.center, piece.turn),))
+    if share <= 0.0 or share >= 1.0:
+        row = row if share <= 0.0 else (row + 1) % len(pieces)
+        return replace(contour, pieces=(*pieces[row:], *pieces[:row]))
+    whole = _undivided(contour)
+    if whole is not contour:
+        # divided once, it is divided anew in its other place
+        return started_at(whole, piece.point_at(share))
+    middle = piece.point_at(share)
+    if isinstance(piece, Arc):
+        first: Piece = Arc(piece.start, middle, piece.center, piece.turn)
+        second: Piece = Arc(middle, piece.end, piece.center, piece.turn)
+    else:
+        first, second = Line(piece.start, middle), Line(middle, piece.end)
+    return replace(contour, pieces=(second, *pieces[row + 1 :], *pieces[:row], first))
+
+
+def _nearest_share(piece: Piece, point: Point) -> float:
+    """The part of a piece's length at which it is nearest to a point."""
+    if isinstance(piece, Line):
+        (x, y), (dx, dy) = piece.start, piece.direction_at(piece.start)
+        along = (point[0] - x) * dx + (point[1] - y) * dy
+        return min(max(along / piece.length, 0.0), 1.0)
+    (cx, cy), (x, y) = piece.center, piece.start
+    if dist(point, piece.center) == 0.0:
+        return 0.0
+    first, here = atan2(y - cy, x - cx), atan2(point[1] - cy, point[0] - cx)
+    ahead = (int(piece.turn) * (here - first)) % (2.0 * pi)
+    sweep = abs(piece.sweep)
+    if ahead <= sweep:
+        return ahead / sweep
+    return min((0.0, 1.0), key=lambda share: dist(point, piece.point_at(share)))
+
+
+def fitted_contour(contour: Contour, fit: float) -> Contour:
+    """The contour with arcs fitted to its runs of short lines; `fitted` then holds both counts and how far it is off."""
+    whole = _undivided(contour)
+    fitted = fit_arcs(whole.pieces, fit, closed=contour.closed)
+    made = replace(whole, pieces=fitted.pieces, drawn=len(fitted.pieces), fitted=replace(fitted, before=contour.drawn))
+    return started_at_usual_place(made)
+
+
+def fit_sentence(contour: Contour, unit: Unit) -> str:
+    """What FIT ARCS made of a contour, such as `3000 lines -> 1 ARC, off by 0.0000`."""
+    fitted = contour.fitted
+    if fitted is None:
+        return ""
+    arcs = sum(isinstance(piece, Arc) for piece in fitted.pieces)
+    lines = len(fitted.pieces) - arcs
+    parts = [f"{count} {name}{'S' if count > 1 else ''}" for count, name in ((arcs, "ARC"), (lines, "LINE")) if count]
+    off = show(from_mm(fitted.off, unit), Kind.LENGTH, unit)
+    return f"{fitted.before} pieces -> {' and '.join(parts)}, off by {off}"
+
+
+def joined_open(first: Contour, second: Contour, tolerance: float) -> Contour | None:
+    """Two open contours that end at one branch as one: the operator's answer there.  None where they do not meet."""
+    turns = ((False, False), (False, True), (True, False), (True, True))
+    for back, forth in turns:
+        one = reversed_pieces(first.pieces) if back else first.pieces
+        other = reversed_pieces(second.pieces) if forth else second.pieces
+        if dist(one[-1].end, other[0].start) <= tolerance:
+            closed = dist(other[-1].end, one[0].start) <= tolerance
+            joined = joined_chain((*one, *other), closed=closed, tolerance=tolerance)
+            layers = tuple(dict.fromkeys((*first.layers, *second.layers)))
+            kind = ContourKind.OUTSIDE if closed else ContourKind.OPEN
+            return replace(
+                first, pieces=joined.pieces, closed=closed, kind=kind, layers=layers, drawn=len(joined.pieces)
+            )  # fmt: skip
+    return None
+
+

@@ -1,0 +1,281 @@
+"""Contours of a drawing: its shapes in millimeters, cleaned, chained, joined, nested and put in the order of a list.
+
+`contours_of` is all that an import screen or command needs; it takes a drawing as read and the operator's options.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from math import dist
+from typing import Final
+
+import shapely
+
+from core.geometry.piece import Arc, Line, Piece, Point, Turn
+from core.importing.clean_up import LayeredPiece, clean_up, reversed_piece
+from core.importing.contour import (
+    KEY_DECIMALS,
+    Contour,
+    ContourKind,
+    reversed_contour,
+    rounded,
+    started_at_usual_place,
+)
+from core.importing.curves import pieces_of_ellipse, pieces_of_spline
+from core.importing.drawing import BSpline, Drawing, DrawingError, DrawingUnit, Drawn, EllipseArc
+from core.importing.joints import joined_chain, reversed_pieces
+from core.importing.loops import Chain, chained
+from core.importing.nesting import box_of, containers, crossings
+from core.units import Kind, Unit, from_mm, show
+
+TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.0005 * 25.4, Unit.MM: 0.01}
+"""Millimeters within which ends are joined unless the operator says otherwise, by the program's unit."""
+
+MAX_TOLERANCE: Final[Mapping[Unit, float]] = {Unit.IN: 0.1 * 25.4, Unit.MM: 2.0}
+
+FIT: Final[Mapping[Unit, float]] = {Unit.IN: 0.0002 * 25.4, Unit.MM: 0.005}
+"""Millimeters by which arcs may leave a curve, or a run of lines, by the program's unit."""
+
+MAX_CROSSING_CHECK: Final = 2000
+"""Closed contours of which it is found out whether they touch."""
+
+Progress = Callable[[str, int, int], None]
+
+
+@dataclass(frozen=True, slots=True)
+class ImportOptions:
+    """What the operator chose; `tolerance` and `fit` in millimeters.  `layers` None stands for all of them."""
+
+    unit: DrawingUnit
+    tolerance: float
+    fit: float
+    layers: frozenset[str] | None = None
+
+    @staticmethod
+    def usual(unit: DrawingUnit, program: Unit | None = None) -> ImportOptions:
+        """The usual tolerances of a program's unit."""
+        program = program or unit.program_unit
+        return ImportOptions(unit, TOLERANCE[program], FIT[program])
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """A place where more than two ends meet, and the numbers of the open contours that end there."""
+
+    at: Point
+    ways: int
+    contours: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ContourList:
+    """All contours of a drawing, the largest first and holes behind what they lie in, open ones last.
+
+    `tiny`, `duplicates` and `overlaps` count what clean-up took out.  `notes` are sentences for the operator.
+    """
+
+    drawing: Drawing
+    options: ImportOptions
+    contours: tuple[Contour, ...]
+    tiny: int = 0
+    duplicates: int = 0
+    overlaps: int = 0
+    gap: float = 0.0
+    branches: tuple[Branch, ...] = ()
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def unit(self) -> Unit:
+        """The unit in which sentences give lengths."""
+        return self.options.unit.program_unit
+
+
+def _silent(_stage: str, _done: int, _whole: int) -> None:
+    pass
+
+
+def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _silent) -> ContourList:
+    """The contours of a drawing; DrawingError NOT_FLAT where a chosen layer holds what does not lie in the plane."""
+    for bad in drawing.not_flat:
+        if options.layers is None or bad.layer in options.layers:
+            raise DrawingError("NOT_FLAT", bad.text)
+    shapes = [drawn for drawn in drawing.shapes if options.layers is None or drawn.layer in options.layers]
+    pieces = _pieces(shapes, options, progress)
+    progress("cleaning", 0, 1)
+    cleaned = clean_up(pieces, options.tolerance)
+    progress("chaining", 0, 1)
+    made = chained([item.piece for item in cleaned.pieces], options.tolerance)
+    contours = [_contour(chain, cleaned.pieces, options.tolerance) for chain in made.chains]
+    contours = [contour for contour in contours if contour.pieces]
+    progress("nesting", 0, 1)
+    ordered = _with_open_gaps(_nested(contours), options.unit.program_unit, options.tolerance)
+    notes = list(drawing.notes)
+    if made.given_up:
+        notes.append("There are too many branches: some closed contours may be listed as open ones. Choose fewer layers.")
+    return ContourList(
+        drawing,
+        options,
+        tuple(ordered),
+        cleaned.tiny,
+        cleaned.duplicates,
+        cleaned.overlaps,
+        max((contour.gap for contour in ordered), default=0.0),
+        _branches(made.branches, ordered, options.tolerance),
+        tuple(notes),
+    )
+
+
+def _pieces(shapes: Sequence[Drawn], options: ImportOptions, progress: Progress) -> list[LayeredPiece]:
+    """The shapes as pieces in millimeters, curves as arcs."""
+    scale, pieces = options.unit.mm, list[LayeredPiece]()
+    for number, drawn in enumerate(shapes):
+        if number % 100 == 0:
+            progress("fitting", number, len(shapes))
+        pieces += [LayeredPiece(piece, drawn.layer, drawn.line) for piece in _scaled(drawn, scale, options.fit)]
+    return pieces
+
+
+def _scaled(drawn: Drawn, scale: float, fit: float) -> Sequence[Piece]:
+    match drawn.shape:
+        case Line(start, end):
+            return (Line(_times(start, scale), _times(end, scale)),)
+        case Arc(start, end, center, turn):
+            return (Arc(_times(start, scale), _times(end, scale), _times(center, scale), turn),)
+        case EllipseArc(center, first, second, begin, end):
+            return pieces_of_ellipse(EllipseArc(center * scale, first * scale, second * scale, begin, end), fit)
+        case BSpline(degree, points, weights, knots):
+            return pieces_of_spline(BSpline(degree, points * scale, weights, knots), fit)
+
+
+def _times(point: Point, scale: float) -> Point:
+    return point[0] * scale, point[1] * scale
+
+
+def _contour(chain: Chain, items: Sequence[LayeredPiece], tolerance: float) -> Contour:
+    """A chain joined, not yet numbered; an open one from its lower left end on."""
+    rows = [items[link.row] for link in chain.links]
+    pieces = [
+        item.piece if link.forward else reversed_piece(item.piece) for item, link in zip(rows, chain.links, strict=True)
+    ]
+    joined = joined_chain(pieces, closed=chain.closed, tolerance=tolerance)
+    lengths: dict[str, float] = {}
+    for item in rows:
+        lengths[item.layer] = lengths.get(item.layer, 0.0) + item.piece.length
+    layers = tuple(sorted(lengths, key=lambda layer: (-round(lengths[layer], KEY_DECIMALS), layer)))
+    kind = ContourKind.OUTSIDE if chain.closed else ContourKind.OPEN
+    contour = Contour(0, joined.pieces, chain.closed, kind, layers, len(joined.pieces), joined.gap)
+    if not chain.closed and joined.pieces and rounded(joined.pieces[-1].end) < rounded(joined.pieces[0].start):
+        return replace(contour, pieces=reversed_pieces(joined.pieces))
+    return contour
+
+
+def _nested(contours: Sequence[Contour]) -> list[Contour]:
+    """In the order of the list, with nesting, direction and start; open ones last, the longest first."""
+    closed = sorted((contour for contour in contours if contour.closed), key=_by_size)
+    inside = containers([contour.pieces for contour in closed])
+    met = crossings([contour.pieces for contour in closed], MAX_CROSSING_CHECK)
+    direct = [min(outer, key=lambda row: closed[row].area, default=None) for outer in inside]
+    children: dict[int | None, list[int]] = {}
+    for row, parent in enumerate(direct):
+        children.setdefault(parent, []).append(row)
+    order: list[int] = []
+    waiting = list(reversed(children.get(None, [])))
+    while waiting:
+        row = waiting.pop()
+        order.append(row)
+        waiting += reversed(children.get(row, []))
+    numbers = {row: number for number, row in enumerate(order, 1)}
+    listed = []
+    for row in order:
+        parent, depth = direct[row], len(inside[row])
+        contour = _directed(replace(closed[row], kind=_kind(depth), depth=depth))
+        problems = (f"touches or crosses contour {numbers[met[row]]}",) if row in met else ()
+        number = numbers[row]
+        listed.append(
+            replace(contour, number=number, inside=0 if parent is None else numbers[parent], problems=problems)
+        )
+    loose = sorted((contour for contour in contours if not contour.closed), key=_by_length)
+    return listed + [replace(contour, number=len(listed) + row) for row, contour in enumerate(loose, 1)]
+
+
+def _kind(depth: int) -> ContourKind:
+    if depth % 2:
+        return ContourKind.HOLE
+    return ContourKind.ISLAND if depth else ContourKind.OUTSIDE
+
+
+def _by_size(contour: Contour) -> tuple[float, ...]:
+    left, bottom, *_ = box_of(contour.pieces)
+    return -round(contour.area, KEY_DECIMALS), *rounded((left, bottom)), *rounded(contour.start)
+
+
+def _by_length(contour: Contour) -> tuple[float, ...]:
+    return -round(contour.length, KEY_DECIMALS), *rounded(contour.start), *rounded(contour.pieces[-1].end)
+
+
+def _directed(contour: Contour) -> Contour:
+    """Climb milling of a right-hand cutter with the tool on the left: an outside contour clockwise, a hole the other way."""
+    wanted = Turn.CCW if contour.kind is ContourKind.HOLE else Turn.CW
+    if contour.turn is not wanted:
+        contour = reversed_contour(contour)
+    return started_at_usual_place(contour)
+
+
+def _with_open_gaps(contours: list[Contour], unit: Unit, tolerance: float) -> list[Contour]:
+    """Open contours with the distance to the nearest loose end, of another one or of their own, if it could be closed."""
+    ends = [
+        (end, row)
+        for row, contour in enumerate(contours)
+        if not contour.closed
+        for end in (contour.pieces[0].start, contour.pieces[-1].end)
+    ]
+    if not ends:
+        return contours
+    points = [shapely.Point(end) for end, _ in ends]
+    pairs = shapely.STRtree(points).query(points, predicate="dwithin", distance=MAX_TOLERANCE[unit]).T.tolist()
+    nearest: dict[int, tuple[float, int]] = {}
+    for first, second in pairs:
+        (here, row), (there, other) = ends[first], ends[second]
+        gap = dist(here, there)
+        if first == second or gap <= tolerance or (row == other and gap > contours[row].length / 2.0):
+            continue
+        nearest[row] = min(nearest.get(row, (gap, other)), (gap, other))
+    return [
+        contour if row not in nearest else _with_gap(contour, *nearest[row], contours, unit)
+        for row, contour in enumerate(contours)
+    ]
+
+
+def _with_gap(contour: Contour, gap: float, other: int, contours: Sequence[Contour], unit: Unit) -> Contour:
+    number = contours[other].number
+    length = show(from_mm(gap, unit), Kind.LENGTH, unit)
+    to = "its other end" if number == contour.number else f"contour {number}"
+    text = f"gap {length} to {to}: TOLERANCE {_rounded_up(gap, unit)} would join it"
+    return replace(contour, open_gap=gap, open_gap_to=number, problems=(*contour.problems, text))
+
+
+def _rounded_up(gap: float, unit: Unit) -> str:
+    """A tolerance in program units that a gap is within."""
+    value = from_mm(gap, unit)
+    shown = show(value, Kind.LENGTH, unit)
+    step = 0.0001 if unit is Unit.IN else 0.001
+    return shown if float(shown) >= value - 1e-9 else show(value + step, Kind.LENGTH, unit)
+
+
+def _branches(places: Sequence[tuple[Point, int]], contours: Sequence[Contour], tolerance: float) -> tuple[Branch, ...]:
+    """The branches, each with the open contours that end there."""
+    ends = [
+        (end, contour.number)
+        for contour in contours
+        if not contour.closed
+        for end in (contour.pieces[0].start, contour.pieces[-1].end)
+    ]
+    if not ends or not places:
+        return tuple(Branch(at, ways) for at, ways in places)
+    tree = shapely.STRtree([shapely.Point(end) for end, _ in ends])
+    spots = [shapely.Point(at) for at, _ in places]
+    here: dict[int, list[int]] = {}
+    for branch, end in tree.query(spots, predicate="dwithin", distance=2.0 * max(tolerance, 1e-4)).T.tolist():
+        here.setdefault(branch, []).append(ends[end][1])
+    return tuple(Branch(at, ways, tuple(sorted(here.get(row, ())))) for row, (at, ways) in enumerate(places))

@@ -1,0 +1,402 @@
+"""Curves as tangent arcs: ellipses and B-splines become biarcs that leave them nowhere by more than FIT.
+
+A biarc is two arcs that meet tangentially, with given ends and given tangents there.  A curve is cut at its corners;
+from there on each biarc reaches as far as it may.  Millimeters; points are complex numbers.
+
+Formula of the biarc with equal tangent lengths d: |v|^2 - 2 d v.(t1 + t2) - 2 d^2 (1 - t1.t2) = 0 for the chord v and
+the unit tangents t1, t2; K. M. Bolton, "Biarc curves", Computer-Aided Design 7 (1975).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import atan2, ceil, hypot, pi, tau
+from typing import Final, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.geometry.piece import Arc, Line, Piece, Point, Turn
+from core.importing.drawing import BSpline, EllipseArc
+
+Points = NDArray[np.complex128]
+Floats = NDArray[np.float64]
+
+BALANCING_ROUNDS: Final = 3
+"""Times a smaller tolerance is tried for as few biarcs, so that the last one is not shorter than the others."""
+
+SAMPLES: Final = 24
+"""Places of a biarc at which its distance from the curve is measured."""
+
+MARGIN: Final = 0.98
+"""Share of FIT that the sampled distance may reach: between two samples it is a little larger."""
+
+CORNER: Final = 1e-3
+"""Radians by which a curve turns at a knot that is a corner."""
+
+MAX_BEND: Final = 0.55 * pi
+"""Radians by which a curve may turn within one biarc."""
+
+STRAIGHT: Final = 1e-6
+"""Millimeters by which a curve that counts as a line may leave its chord."""
+
+MAX_RADIUS: Final = 100_000.0
+"""Millimeters of the largest radius that is worth an arc: its center lies beyond what a form takes."""
+
+SAME_ARC: Final = 1e-6
+"""Millimeters by which centers and radii of two arcs that are one arc may differ."""
+
+ROUND: Final = 1e-9
+"""Relative difference of the half diameters of an ellipse that is a circle."""
+
+ENOUGH: Final = 0.9
+"""Share of FIT from which on a biarc counts as the longest."""
+
+GRID: Final = 32
+"""Samples of each smooth span in which curvature is looked at."""
+
+
+class Curve(Protocol):
+    """A smooth curve over a parameter."""
+
+    def points(self, at: Floats) -> Points:
+        """(n,) points at these parameters."""
+
+    def tangents(self, at: Floats) -> Points:
+        """(n,) derivatives there, not unit vectors."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _EllipseCurve:
+    shape: EllipseArc
+
+    def points(self, at: Floats) -> Points:
+        return self.shape.center + np.cos(at) * self.shape.first + np.sin(at) * self.shape.second
+
+    def tangents(self, at: Floats) -> Points:
+        return np.cos(at) * self.shape.second - np.sin(at) * self.shape.first
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _SplineCurve:
+    """Bezier spans of one degree: `control` (spans, degree + 1, 3) homogeneous x, y, w; the parameter counts spans."""
+
+    control: Floats
+
+    def points(self, at: Floats) -> Points:
+        x, y, w = self._values(self.control, at).T
+        points: Points = (x + 1j * y) / w
+        return points
+
+    def tangents(self, at: Floats) -> Points:
+        degree = self.control.shape[1] - 1
+        x, y, w = self._values(self.control, at).T
+        dx, dy, dw = self._values(degree * np.diff(self.control, axis=1), at).T
+        tangents: Points = ((dx + 1j * dy) * w - (x + 1j * y) * dw) / (w * w)
+        return tangents
+
+    @staticmethod
+    def _values(control: Floats, at: Floats) -> Floats:
+        """(n, 3) values of Bezier spans by repeated interpolation (de Casteljau)."""
+        span = np.clip(at.astype(int), 0, len(control) - 1)
+        share = (at - span)[:, None, None]
+        rows = control[span]
+        while rows.shape[1] > 1:
+            rows = rows[:, :-1] * (1.0 - share) + rows[:, 1:] * share
+        values: Floats = rows[:, 0]
+        return values
+
+
+def pieces_of_ellipse(shape: EllipseArc, fit: float) -> list[Piece]:
+    """An ellipse, or a part of one, as arcs; a circle is one arc."""
+    a, b = abs(shape.first), abs(shape.second)
+    across = abs((shape.first.conjugate() * shape.second).real)
+    if abs(a - b) <= ROUND * max(a, b) and across <= ROUND * a * b:
+        return [_circle(shape)]
+    flat = abs((shape.first.conjugate() * shape.second).imag)
+    if flat <= STRAIGHT * max(a, b):
+        return _flattened(shape)
+    curve = _EllipseCurve(shape)
+    return _fitted(curve, _ellipse_stations(shape), fit)
+
+
+def _circle(shape: EllipseArc) -> Arc:
+    turn = Turn.CCW if (shape.first.conjugate() * shape.second).imag > 0.0 else Turn.CW
+    start, end = _EllipseCurve(shape).points(np.array([shape.begin, shape.end])).tolist()
+    center = (shape.center.real, shape.center.imag)
+    first = (start.real, start.imag)
+    whole = shape.end - shape.begin >= tau * (1.0 - ROUND)
+    return Arc(first, first if whole else (end.real, end.imag), center, turn)
+
+
+def _flattened(shape: EllipseArc) -> list[Piece]:
+    """An ellipse seen from its edge: lines from each end of its travel to the next."""
+    first, second = (shape.first, shape.second) if abs(shape.first) >= abs(shape.second) else (shape.second, shape.first)
+    along = first / abs(first)
+    turning = atan2((second * along.conjugate()).real, abs(first)) if first is shape.first else pi / 2
+    steps = range(ceil((shape.begin - turning) / pi), int((shape.end - turning) // pi) + 1)
+    stations = np.array([shape.begin, *(turning + step * pi for step in steps), shape.end])
+    points = _EllipseCurve(shape).points(stations).tolist()
+    return [Line((p.real, p.imag), (q.real, q.imag)) for p, q in zip(points, points[1:], strict=False) if p != q]
+
+
+def _ellipse_stations(shape: EllipseArc) -> list[float]:
+    """The ends of an ellipse's part and its vertices between them, where its curvature is extreme."""
+    u, v = shape.first, shape.second
+    axis = 0.5 * atan2(2.0 * (u.conjugate() * v).real, abs(u) ** 2 - abs(v) ** 2)
+    first = ceil((shape.begin - axis) / (pi / 2) + ROUND)
+    last = ceil((shape.end - axis) / (pi / 2) - ROUND)
+    vertices = [axis + step * pi / 2 for step in range(first, last)]
+    return [shape.begin, *vertices, shape.end]
+
+
+def pieces_of_spline(shape: BSpline, fit: float) -> list[Piece]:
+    """A B-spline as arcs and lines."""
+    curve = _SplineCurve(_bezier_spans(shape))
+    pieces: list[Piece] = []
+    for first, last in _smooth_runs(curve):
+        natural = _extremes(curve, first, last)
+        every = (_fitted(curve, stations, fit) for stations in (natural, [natural[0], natural[-1]]))
+        pieces += min(every, key=len)
+    return pieces
+
+
+def _bezier_spans(shape: BSpline) -> Floats:
+    """(spans, degree + 1, 3) control points of every span that has a length, by blossoming."""
+    degree, knots = shape.degree, shape.knots
+    rows = np.column_stack((shape.points.real, shape.points.imag, np.ones(len(shape.points)))) * shape.weights[:, None]
+    size = float(knots[-1] - knots[0])
+    spans = [k for k in range(degree, len(shape.points)) if knots[k + 1] - knots[k] > 1e-12 * size]
+    return np.array([[_blossom(rows, knots, degree, k, j) for j in range(degree + 1)] for k in spans])
+
+
+def _blossom(rows: Floats, knots: Floats, degree: int, k: int, j: int) -> Floats:
+    """Control point j of the span from knot k: the blossom at degree - j times its begin and j times its end."""
+    values = rows[k - degree : k + 1]
+    arguments = [knots[k]] * (degree - j) + [knots[k + 1]] * j
+    for level, at in enumerate(arguments, 1):
+        low = knots[k - degree + level : k + 1]
+        high = knots[k + 1 : k + 1 + degree - level + 1]
+        share = ((at - low) / (high - low))[:, None]
+        values = values[:-1] * (1.0 - share) + values[1:] * share
+    first: Floats = values[0]
+    return first
+
+
+def _smooth_runs(curve: _SplineCurve) -> list[tuple[float, float]]:
+    """The stretches between the corners, as spans; spans without length belong to none."""
+    count = len(curve.control)
+    flat = curve.control[:, :, :2] / curve.control[:, :, 2:]
+    spread = np.ptp(flat, axis=1).max(axis=1)
+    runs: list[tuple[float, float]] = []
+    for span in range(count):
+        if spread[span] <= STRAIGHT * 1e-3:
+            continue
+        if runs and runs[-1][1] == span and _is_smooth(curve, span):
+            runs[-1] = (runs[-1][0], float(span + 1))
+        else:
+            runs.append((float(span), float(span + 1)))
+    return runs
+
+
+def _is_smooth(curve: _SplineCurve, span: int) -> bool:
+    near = np.array([span - 1e-6, span + 1e-6])
+    before, after = curve.tangents(near).tolist()
+    turned = before.conjugate() * after
+    return abs(atan2(turned.imag, turned.real)) <= CORNER and abs(turned) > 0.0
+
+
+def _extremes(curve: Curve, first: float, last: float) -> list[float]:
+    """A stretch's ends, and where between them its curvature is extreme or changes its sign."""
+    at = np.linspace(first, last, max(int(last - first) * GRID, GRID) + 1)
+    tangents = curve.tangents(at)
+    size = np.abs(tangents)
+    size[size == 0.0] = 1.0
+    direction = np.unwrap(np.angle(tangents))
+    bend = np.gradient(direction, at) / size
+    change = np.diff(np.abs(bend))
+    noise = 1e-6 * float(np.abs(bend).max()) if len(bend) else 0.0
+    rows = np.flatnonzero((change[:-1] * change[1:] < 0.0) & (np.abs(change[:-1]) > noise)) + 1
+    return [first, *(float(at[row]) for row in rows), last]
+
+
+def _fitted(curve: Curve, stations: list[float], fit: float) -> list[Piece]:
+    """Biarcs from each station to the next, each as long as it may be."""
+    pieces: list[Piece] = []
+    for begin, end in zip(stations, stations[1:], strict=False):
+        if end > begin:
+            pieces += _greedy(curve, begin, end, fit * MARGIN)
+    return _merged(pieces)
+
+
+def _greedy(curve: Curve, begin: float, end: float, fit: float) -> Iterator[Piece]:
+    """Biarcs one after the other; all but the last reach as far as they may, then they share what is left."""
+    stops = _stops(curve, begin, end, fit)
+    count = len(stops) - 1
+    if count > 1:
+        low, high = 0.0, fit
+        for _ in range(BALANCING_ROUNDS):
+            middle = (low + high) / 2.0
+            other = _stops(curve, begin, end, middle)
+            if len(other) - 1 <= count:
+                high, stops = middle, other
+            else:
+                low = middle
+    for first, last in zip(stops, stops[1:], strict=False):
+        yield from _biarc_between(curve, first, last, fit)[0]
+
+
+def _stops(curve: Curve, begin: float, end: float, fit: float) -> list[float]:
+    """Parameters at which the biarcs end."""
+    stops, step = [begin], end - begin
+    while stops[-1] < end:
+        here = stops[-1]
+        step = _longest(curve, here, min(step, end - here), end - here, fit)
+        stops.append(end if here + step >= end - 1e-12 * abs(end - begin) else here + step)
+    return stops
+
+
+def _longest(curve: Curve, here: float, step: float, most: float, fit: float) -> float:
+    """The longest step within FIT, to `ENOUGH` of FIT; the error of a biarc grows with the cube of its length."""
+    low, high = 0.0, 0.0
+    for _ in range(60):
+        error = _biarc_between(curve, here, here + step, fit)[1]
+        if error <= fit:
+            low = step
+            if step >= most or error >= ENOUGH * fit:
+                break
+        else:
+            high = step
+        guess = step * (0.97 * fit / error) ** (1 / 3) if 0.0 < error < float("inf") else 2.0 * step
+        if high and not low < guess < high:
+            guess = (low + high) / 2.0
+        step = min(max(guess, step / 4.0), 4.0 * step, most)
+        if high and high - low <= 1e-3 * high and low:
+            break
+    return low or high
+
+
+def _biarc_between(curve: Curve, first: float, last: float, fit: float) -> tuple[list[Piece], float]:
+    """The biarc between two parameters and how far it is from the curve; infinite where it turns too much."""
+    at = np.linspace(first, last, SAMPLES + 1)
+    points, tangents = curve.points(at), curve.tangents(at)
+    size = np.abs(tangents)
+    start, end = complex(points[0]), complex(points[-1])
+    if size.min() <= 0.0:
+        return [_line(start, end)], float(np.abs(points - start).max())
+    unit = tangents / size
+    turned = np.abs(np.angle(unit[1:] * unit[:-1].conj()))
+    if turned.sum() > MAX_BEND and last - first > 1e-9:
+        return [], float("inf")
+    if _off_chord(points) <= STRAIGHT:
+        return [_line(start, end)], 0.0
+    t1, t2 = complex(unit[0]), complex(unit[-1])
+    pieces = biarc(start, end, t1, t2)
+    return pieces, _deviation(points, pieces)
+
+
+def _off_chord(points: Points) -> float:
+    chord = points[-1] - points[0]
+    size = abs(chord)
+    if size == 0.0:
+        return float(np.abs(points - points[0]).max())
+    local = (points - points[0]) * (chord.conjugate() / size)
+    beyond = np.maximum(np.maximum(-local.real, local.real - size), 0.0)
+    return float(np.maximum(np.abs(local.imag), beyond).max())
+
+
+def biarc(start: complex, end: complex, first: complex, last: complex) -> list[Piece]:
+    """The two arcs, or an arc and a line, from start to end with these unit tangents; equal tangent lengths."""
+    chord = end - start
+    across = first + last
+    a, b, c = 2.0 * (1.0 - _dot(first, last)), 2.0 * _dot(chord, across), -(abs(chord) ** 2)
+    if abs(a) <= 1e-14:
+        length = -c / b if b else 0.0
+    else:
+        length = 2.0 * -c / (b + (b * b - 4.0 * a * c) ** 0.5)
+    if length <= 0.0:
+        return [_line(start, end)]
+    joint = (start + first * length + end - last * length) / 2.0
+    return [_tangent_arc(start, joint, first), _tangent_arc(end, joint, -last, backwards=True)]
+
+
+def _dot(u: complex, v: complex) -> float:
+    return u.real * v.real + u.imag * v.imag
+
+
+def _tangent_arc(start: complex, end: complex, tangent: complex, *, backwards: bool = False) -> Piece:
+    """The arc that leaves `start` along a tangent and reaches `end`; a line where its radius would be too large."""
+    chord = end - start
+    normal = tangent * 1j
+    side = 2.0 * _dot(chord, normal)
+    if abs(side) * MAX_RADIUS <= abs(chord) ** 2:
+        return _line(end, start) if backwards else _line(start, end)
+    center = start + normal * (abs(chord) ** 2 / side)
+    turn = 1 if side > 0.0 else -1
+    if backwards:
+        return Arc(_point(end), _point(start), _point(center), Turn(-turn))
+    return Arc(_point(start), _point(end), _point(center), Turn(turn))
+
+
+def _line(start: complex, end: complex) -> Line:
+    return Line(_point(start), _point(end))
+
+
+def _point(value: complex) -> Point:
+    return value.real, value.imag
+
+
+def _deviation(points: Points, pieces: list[Piece]) -> float:
+    """How far points are from the nearer one of one or two pieces that run along them."""
+    off = np.full(len(points), np.inf)
+    for piece in pieces:
+        off = np.minimum(off, _distances(points, piece))
+    return float(off.max())
+
+
+def _distances(points: Points, piece: Piece) -> Floats:
+    start, end = complex(*piece.start), complex(*piece.end)
+    ends = np.minimum(np.abs(points - start), np.abs(points - end))
+    if isinstance(piece, Line):
+        chord = end - start
+        size = abs(chord)
+        if size == 0.0:
+            return ends
+        local = (points - start) * (chord.conjugate() / size)
+        return np.where((local.real >= 0.0) & (local.real <= size), np.abs(local.imag), ends)
+    arm = points - complex(*piece.center)
+    ahead = np.mod(np.angle(arm * (start - complex(*piece.center)).conjugate()) * piece.turn, tau)
+    return np.where(ahead <= abs(piece.sweep), np.abs(np.abs(arm) - piece.radius), ends)
+
+
+def _merged(pieces: list[Piece]) -> list[Piece]:
+    """The pieces, with arcs of one circle and lines of one direction that follow one another made one."""
+    merged: list[Piece] = []
+    for piece in pieces:
+        last = merged[-1] if merged else None
+        one = None if last is None else _as_one(last, piece)
+        if one is None:
+            merged.append(piece)
+        else:
+            merged[-1] = one
+    if len(merged) > 1 and merged[0].start == merged[-1].end and (one := _as_one(merged[-1], merged[0])):
+        merged = [one, *merged[1:-1]] if len(merged) > 2 or one.start != one.end else [one]
+    return merged
+
+
+def _as_one(first: Piece, second: Piece) -> Piece | None:
+    if isinstance(first, Line) and isinstance(second, Line):
+        points = np.array([complex(*first.start), complex(*first.end), complex(*second.end)])
+        return Line(first.start, second.end) if _off_chord(points) <= STRAIGHT else None
+    if not (isinstance(first, Arc) and isinstance(second, Arc)) or first.turn is not second.turn:
+        return None
+    apart = hypot(first.center[0] - second.center[0], first.center[1] - second.center[1])
+    slack = SAME_ARC * max(1.0, first.radius)
+    if apart > slack or abs(first.radius - second.radius) > slack or first.start == first.end:
+        return None
+    whole = abs(first.sweep) + abs(second.sweep)
+    if whole > tau + 1e-6:
+        return None
+    end = first.start if whole > tau - 1e-6 else second.end
+    return Arc(first.start, end, first.center, first.turn)

@@ -1,0 +1,136 @@
+"""A drawing as read: shapes in its own unit, each with its layer and its line, and everything that was left out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from types import MappingProxyType
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.geometry.piece import Piece
+from core.units import Unit
+
+MAX_BYTES: Final = 64_000_000
+MAX_ENTITIES: Final = 200_000
+MAX_INSERT_DEPTH: Final = 8
+MAX_SHAPES: Final = 1_000_000
+
+
+class DrawingUnit(StrEnum):
+    """The unit of a drawing's coordinates."""
+
+    IN = "IN"
+    FT = "FT"
+    MM = "MM"
+    CM = "CM"
+    M = "M"
+
+    @property
+    def mm(self) -> float:
+        """Millimeters in one of it."""
+        return _MM[self]
+
+    @property
+    def program_unit(self) -> Unit:
+        """The unit of a program that is made of such a drawing alone."""
+        return Unit.IN if self in (DrawingUnit.IN, DrawingUnit.FT) else Unit.MM
+
+
+_MM: Final = MappingProxyType(
+    {DrawingUnit.IN: 25.4, DrawingUnit.FT: 304.8, DrawingUnit.MM: 1.0, DrawingUnit.CM: 10.0, DrawingUnit.M: 1000.0}
+)
+
+UNIT_CODES: Final = MappingProxyType(
+    {1: DrawingUnit.IN, 2: DrawingUnit.FT, 4: DrawingUnit.MM, 5: DrawingUnit.CM, 6: DrawingUnit.M}
+)
+"""$INSUNITS of the units that are read; every other value is asked about."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class EllipseArc:
+    """The points center + cos(t) first + sin(t) second, t from `begin` to `end` (radians, begin < end).
+
+    `first` and `second` are conjugate half diameters as complex numbers: any circle or ellipse, mirrored or slanted.
+    """
+
+    center: complex
+    first: complex
+    second: complex
+    begin: float
+    end: float
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class BSpline:
+    """A B-spline: (n,) complex control points, (n,) weights, (n + degree + 1,) knots."""
+
+    degree: int
+    points: NDArray[np.complex128]
+    weights: NDArray[np.float64]
+    knots: NDArray[np.float64]
+
+
+Shape = Piece | EllipseArc | BSpline
+
+
+class Drawn(NamedTuple):
+    """A shape with its layer; `line` is that of its entity in the file, 0 where it has none."""
+
+    shape: Shape
+    layer: str
+    line: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class NotFlat:
+    """An entity that does not lie in the XY plane, and the sentence that says so: its layer cannot be taken."""
+
+    layer: str
+    text: str
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Drawing:
+    """What a drawing file holds.
+
+    `unit` is None where the file names none that is read.  `skipped` counts entities without a contour by kind,
+    `hidden` entities of layers that are frozen or off by layer.  `notes` are sentences for the operator.
+    """
+
+    unit: DrawingUnit | None
+    shapes: tuple[Drawn, ...]
+    skipped: Mapping[str, int] = field(default_factory=dict)
+    hidden: Mapping[str, int] = field(default_factory=dict)
+    not_flat: tuple[NotFlat, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def layers(self) -> tuple[str, ...]:
+        """The layers that have shapes, in the order of the file."""
+        return tuple(dict.fromkeys([*(drawn.layer for drawn in self.shapes), *(bad.layer for bad in self.not_flat)]))
+
+
+class DrawingError(Exception):
+    """A drawing cannot be taken; the text is the sentence for the operator.
+
+    `code` is NOT_DXF, DXF_DAMAGED, NO_GEOMETRY, NOT_FLAT, TOO_MUCH or NO_EZDXF.  `readable` is how many entities of a
+    damaged file can be read, if the operator takes it; None where it cannot be taken.
+    """
+
+    def __init__(self, code: str, text: str, readable: int | None = None) -> None:
+        super().__init__(text)
+        self.code = code
+        self.text = text
+        self.readable = readable
+
+    def __reduce__(self) -> tuple[type[DrawingError], tuple[str, str, int | None]]:
+        return DrawingError, (self.code, self.text, self.readable)
+
+
+def counted(counts: Mapping[str, int]) -> str:
+    """Counts by kind in words, such as `5 TEXT, 22 DIMENSION`."""
+    return ", ".join(f"{count} {kind}" for kind, count in counts.items())

@@ -1,0 +1,506 @@
+"""DXF in: the entities of a drawing's model space as shapes in its own unit, by the package ezdxf.
+
+Whatever is not taken is counted or told; what was read is compared with what the tags of the file hold.  ezdxf is
+imported only here and only when a drawing is opened.
+"""
+
+from __future__ import annotations
+
+import io
+import logging
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from math import isfinite, radians, tau
+from types import MappingProxyType
+from typing import Any, Final
+
+import numpy as np
+
+from core.importing.drawing import (
+    MAX_BYTES,
+    MAX_ENTITIES,
+    MAX_INSERT_DEPTH,
+    MAX_SHAPES,
+    UNIT_CODES,
+    BSpline,
+    Drawing,
+    DrawingError,
+    Drawn,
+    EllipseArc,
+    NotFlat,
+    Shape,
+    counted,
+)
+from core.importing.dxf_tags import BINARY_MARK, Scan, ScannedEntity, is_dxf, scan_tags, scan_text, text_lines
+from core.geometry.piece import Line
+from core.tolerance import LARGEST
+
+MISSING_PACKAGE: Final = "DXF files need the package ezdxf: pip install ezdxf"
+
+FLAT: Final = 1e-4
+"""How far the Z of one entity's points may differ, in the drawing's unit: more than rounding is a slope."""
+
+ROUND: Final = 1e-9
+"""Relative difference of two half diameters, and of their angle from a right one, that rounding explains."""
+
+STEPS_OF_PROGRESS: Final = 100
+"""Entities between two calls of the progress callback."""
+
+Progress = Callable[[str, int, int], None]
+"""Called with the stage, how much of it is done, and how much there is."""
+
+
+def _silent(_stage: str, _done: int, _whole: int) -> None:
+    pass
+
+
+def read_dxf(data: bytes, name: str, *, damaged: bool = False, progress: Progress = _silent) -> Drawing:
+    """The drawing of a DXF file's bytes; `name` is the file's in sentences.
+
+    With `damaged` a file that breaks off is read as far as its entities are whole.  Raises DrawingError.
+    """
+    if len(data) > MAX_BYTES:
+        raise _too_much("bytes", len(data), MAX_BYTES)
+    if not is_dxf(data):
+        raise DrawingError("NOT_DXF", f"{name} is no DXF file.")
+    progress("reading", 0, 1)
+    scan, document = _document(data, damaged=damaged)
+    reader = _Reader(document, progress, damaged=damaged)
+    reader.read(scan)
+    drawing = reader.drawing(scan)
+    if not drawing.shapes and not drawing.not_flat:
+        raise DrawingError("NO_GEOMETRY", _no_geometry(drawing))
+    return drawing
+
+
+def _no_geometry(drawing: Drawing) -> str:
+    text = "There is no line, arc, circle, polyline, ellipse or spline in model space"
+    skipped, hidden = drawing.skipped, drawing.hidden
+    if skipped:
+        text += f": {counted(skipped)} {'was' if sum(skipped.values()) == 1 else 'were'} skipped"
+    if hidden:
+        text += f"{'; ' if skipped else ': '}layers that are frozen or off hold {sum(hidden.values())} entities"
+    return f"{text}."
+
+
+def _too_much(what: str, count: int, most: int) -> DrawingError:
+    return DrawingError("TOO_MUCH", f"The drawing has {count:,} {what}: at most {most:,} are read.")
+
+
+def _document(data: bytes, *, damaged: bool) -> tuple[Scan, Any]:
+    """The scan of the tags and ezdxf's document, or DrawingError."""
+    try:
+        import ezdxf
+    except ImportError as error:
+        raise DrawingError("NO_EZDXF", MISSING_PACKAGE) from error
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
+    assert ezdxf
+    if data.startswith(BINARY_MARK):
+        return _binary_document(data)
+    scan = scan_text(data)
+    if not scan.whole and not scan.bad_line:
+        data = _up_to_break(data, scan, damaged=damaged)
+    if len(scan.entities) > MAX_ENTITIES:
+        raise _too_much("entities", len(scan.entities), MAX_ENTITIES)
+    if scan.first_fault is not None and not damaged:
+        fault = scan.first_fault
+        readable = sum(not entity.fault for entity in scan.entities)
+        raise _damaged(f"The {fault.kind} {fault.where} {fault.fault}", readable)
+    return scan, _loaded(data, scan)
+
+
+def _up_to_break(data: bytes, scan: Scan, *, damaged: bool) -> bytes:
+    """The text of a file that breaks off, ended properly after its last whole entity."""
+    if not damaged:
+        count = len(scan.entities)
+        could = f"{count} {'entity' if count == 1 else 'entities'} could be read"
+        raise DrawingError("DXF_DAMAGED", f"This file breaks off at line {scan.last_line}: {could}.", count)
+    end = [b"0", b"ENDBLK"] if scan.open_section == "BLOCKS" else []
+    if scan.open_section:
+        end += [b"0", b"ENDSEC"]
+    lines = text_lines(data)
+    kept = lines[: scan.cut] if scan.cut else lines[: len(lines) // 2 * 2]
+    return b"\n".join([*kept, *end, b"0", b"EOF", b""])
+
+
+def _damaged(text: str, readable: int | None = None) -> DrawingError:
+    return DrawingError("DXF_DAMAGED", f"This file is damaged: {text}.", readable)
+
+
+def _binary_document(data: bytes) -> tuple[Scan, Any]:
+    from ezdxf.document import Drawing as Document
+    from ezdxf.lldxf.tagger import binary_tags_loader
+
+    try:
+        scan = scan_tags(binary_tags_loader(data))
+        if len(scan.entities) > MAX_ENTITIES:
+            raise _too_much("entities", len(scan.entities), MAX_ENTITIES)
+        if scan.whole:
+            return scan, Document.load(binary_tags_loader(data))
+    except DrawingError:
+        raise
+    except Exception as error:  # noqa: BLE001  # a damaged file may bring any exception out of a package for files
+        raise _damaged(_why(error)) from error
+    raise _damaged("it breaks off")
+
+
+def _loaded(data: bytes, scan: Scan) -> Any:
+    """ezdxf's document of a text file; coordinates in another order than usual are put in order."""
+    import ezdxf
+    from ezdxf.document import Drawing as Document
+    from ezdxf.lldxf.repair import tag_reorder_layer
+    from ezdxf.lldxf.tagger import ascii_tags_loader
+
+    text = b"\n".join([*text_lines(data), b""]).decode(_encoding(data), "surrogateescape")
+    try:
+        return ezdxf.read(io.StringIO(text))
+    except Exception as error:  # noqa: BLE001  # as above
+        first = error
+    try:
+        return Document.load(tag_reorder_layer(ascii_tags_loader(io.StringIO(text))))
+    except Exception as error:  # noqa: BLE001  # as above
+        where = f"line {scan.bad_line} is no group code" if scan.bad_line else _why(first)
+        raise _damaged(where) from error
+
+
+def _encoding(data: bytes) -> str:
+    """The encoding that the header names; since R2007 it is UTF-8."""
+    from ezdxf.filemanagement import dxf_stream_info
+
+    try:
+        head = data[:200_000].decode("latin-1").replace("\r\n", "\n").replace("\r", "\n")
+        encoding = str(dxf_stream_info(io.StringIO(head)).encoding)
+        "".encode(encoding)
+    except Exception:  # noqa: BLE001  # a header that cannot be read names no encoding
+        return "cp1252"
+    return encoding
+
+
+_HANDLE: Final = re.compile(r"\(#\w+\)")
+
+
+def _why(error: Exception | str) -> str:
+    """A package's words for what it stopped at, on one line and short."""
+    words = " ".join("".join(sign if sign.isprintable() else " " for sign in _HANDLE.sub("", str(error))).split())
+    return (words or type(error).__name__).rstrip(".")[:160]
+
+
+_SKIPPED_ALWAYS: Final = frozenset({"ATTDEF", "VIEWPORT"})
+
+_SHOWN_KINDS: Final = frozenset(
+    {"LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "SPLINE", "ELLIPSE", "INSERT"}
+)  # fmt: skip
+
+
+@dataclass(slots=True)
+class _Reader:
+    """Goes through model space; INSERTs are followed with their transformation."""
+
+    document: Any
+    progress: Progress
+    damaged: bool
+    shapes: list[Drawn] = field(default_factory=list)
+    skipped: Counter[str] = field(default_factory=Counter)
+    hidden: Counter[str] = field(default_factory=Counter)
+    not_flat: list[NotFlat] = field(default_factory=list)
+    notes: Counter[str] = field(default_factory=Counter)
+    heights: list[float] = field(default_factory=list)
+    lines: dict[int, ScannedEntity] = field(default_factory=dict)
+    layers: dict[str, tuple[bool, bool]] = field(default_factory=dict)
+    scanned: dict[str, list[ScannedEntity]] = field(default_factory=dict)
+    """The entities of each block that is not compared yet, by the block's name in small letters."""
+
+    def read(self, scan: Scan) -> None:
+        """Every entity of model space; what paper space holds is counted."""
+        entities = list(self.document.modelspace())
+        if len(entities) > MAX_ENTITIES:
+            raise _too_much("entities", len(entities), MAX_ENTITIES)
+        self._compare(entities, scan)
+        for name, layer in _layer_states(self.document):
+            self.layers[name] = layer
+        for number, entity in enumerate(entities):
+            if number % STEPS_OF_PROGRESS == 0:
+                self.progress("reading", number, len(entities))
+            self._entity(entity, None, None, 0)
+        for layout in self.document.layouts:
+            if layout.name != "Model":
+                self._paper(layout)
+
+    def _paper(self, layout: Iterable[Any]) -> None:
+        kinds = Counter(entity.dxftype() for entity in layout)
+        for kind, count in kinds.items():
+            if kind not in _SKIPPED_ALWAYS:
+                self.skipped[f"{kind} in paper space"] += count
+
+    def _compare(self, entities: list[Any], scan: Scan) -> None:
+        """Find the line of each entity, and refuse a file of which ezdxf has lost something."""
+        self.scanned = scan.blocks
+        in_paper = [entity for layout in self.document.layouts if layout.name != "Model" for entity in layout]
+        self._match(entities, [entity for entity in scan.entities if not entity.paper], in_paper)
+
+    def _match(self, entities: list[Any], scanned: list[ScannedEntity], others: Iterable[Any] = ()) -> None:
+        if not scanned:
+            return
+        kinds = [entity.dxftype() for entity in entities]
+        if kinds == [entity.kind for entity in scanned]:
+            self.lines |= {id(entity): place for entity, place in zip(entities, scanned, strict=True)}
+            return
+        have = Counter([*kinds, *(entity.dxftype() for entity in others)])
+        lost = {
+            kind: count - have[kind]
+            for kind, count in Counter(entity.kind for entity in scanned).items()
+            if kind in _SHOWN_KINDS and count > have[kind]
+        }
+        if lost and not self.damaged:
+            raise _damaged(f"{counted(lost)} could not be read", sum(have.values()))
+        if lost:
+            self.notes[f"{counted(lost)} could not be read."] += 1
+
+    def drawing(self, scan: Scan) -> Drawing:
+        """Everything that was read."""
+        notes = [f"{text}" if count == 1 else f"{count} times: {text}" for text, count in self.notes.items()]
+        if self.heights and max(self.heights) - min(self.heights) > FLAT:
+            low, high = min(self.heights), max(self.heights)
+            notes.append(f"The entities lie at heights from Z {low:g} to {high:g}: Z is dropped.")
+        code = scan.units
+        if code not in UNIT_CODES and code:
+            notes.append(f"$INSUNITS is {code}: that unit is not read.")
+        unit = UNIT_CODES.get(code)
+        return Drawing(
+            unit, tuple(self.shapes), dict(self.skipped), dict(self.hidden), tuple(self.not_flat), tuple(notes)
+        )
+
+    def _entity(self, entity: Any, matrix: Any, outer_layer: str | None, depth: int) -> None:
+        """One entity under the transformation of the INSERTs around it."""
+        kind = entity.dxftype()
+        layer = str(entity.dxf.get("layer", "0"))
+        if layer == "0" and outer_layer is not None:
+            layer = outer_layer
+        frozen, off = self.layers.get(layer.lower(), (False, False))
+        if kind not in _SHOWN_KINDS:
+            if kind not in _SKIPPED_ALWAYS:
+                self.skipped[kind] += 1
+            return
+        if frozen or (off and kind != "INSERT") or entity.dxf.get("invisible", 0):
+            self.hidden[layer] += 1
+            return
+        try:
+            if kind == "INSERT":
+                self._insert(entity, matrix, layer, depth)
+                return
+            shapes = list(_READERS[kind](self, entity, matrix))
+        except DrawingError:
+            raise
+        except _NotFlatError as error:
+            self.not_flat.append(NotFlat(layer, f"The {kind} {self._where(entity)} {error}."))
+            return
+        except Exception as error:  # noqa: BLE001  # an entity with values that nobody thought of
+            self._unreadable(entity, _why(error))
+            return
+        if len(self.shapes) + len(shapes) > MAX_SHAPES:
+            raise _too_much("lines and curves", len(self.shapes) + len(shapes), MAX_SHAPES)
+        line = self.lines[id(entity)].line if id(entity) in self.lines else 0
+        for shape in shapes:
+            if _finite(shape):
+                self.shapes.append(Drawn(shape, layer, line))
+            else:
+                self._unreadable(entity, f"a coordinate is larger than {LARGEST:g} or no number")
+
+    def _unreadable(self, entity: Any, why: str) -> None:
+        text = f"The {entity.dxftype()} {self._where(entity)} cannot be read: {why}"
+        if not self.damaged:
+            raise _damaged(text, len(self.document.modelspace()) - 1)
+        self.notes[f"{text}."] += 1
+
+    def _where(self, entity: Any) -> str:
+        place = self.lines.get(id(entity))
+        return place.where if place is not None else f"#{entity.dxf.get('handle', '?')}"
+
+    def _insert(self, insert: Any, matrix: Any, layer: str, depth: int) -> None:
+        """The entities of a block, as often as it is inserted."""
+        block = insert.block()
+        if block is None:
+            self.notes[f"INSERT of the block {_why(insert.dxf.get('name', ''))!r}, which the file does not have."] += 1
+            self.skipped["INSERT"] += 1
+            return
+        if depth >= MAX_INSERT_DEPTH:
+            raise DrawingError("TOO_MUCH", f"INSERTs are nested deeper than {MAX_INSERT_DEPTH} blocks.")
+        self._match(list(block), self.scanned.pop(str(block.name).lower(), []))
+        if _is_clipped(insert):
+            self.notes["An INSERT is clipped (XCLIP): all of its block is taken."] += 1
+        rows, columns = insert.dxf.row_count, insert.dxf.column_count
+        count = max(insert.mcount, 1)
+        if count * max(len(block), 1) > MAX_SHAPES:
+            raise _too_much("lines and curves", count * len(block), MAX_SHAPES)
+        self.skipped["ATTRIB"] += len(insert.attribs)
+        if not insert.attribs:
+            del self.skipped["ATTRIB"]
+        inserts = insert.multi_insert() if count > 1 and rows * columns > 1 else (insert,)
+        for single in inserts:
+            here = single.matrix44()
+            here = here if matrix is None else here * matrix
+            for entity in block:
+                self._entity(entity, here, layer, depth + 1)
+
+    def line(self, entity: Any, matrix: Any) -> Iterator[Shape]:
+        """A LINE."""
+        yield self._straight(_moved(entity.dxf.start, matrix), _moved(entity.dxf.end, matrix))
+
+    def _straight(self, start: Any, end: Any) -> Line:
+        self._level(start.z, end.z)
+        return Line((start.x, start.y), (end.x, end.y))
+
+    def _level(self, *heights: float) -> None:
+        """Refuse what is not level, and keep its height."""
+        if max(heights) - min(heights) > FLAT:
+            raise _NotFlatError("does not lie in the XY plane")
+        self.heights += heights[:1]
+
+    def circle(self, entity: Any, matrix: Any) -> Iterator[Shape]:
+        """A CIRCLE or an ARC; one without a radius is a point."""
+        dxf = entity.dxf
+        radius = float(dxf.radius)
+        if radius <= 0.0:
+            self.notes[f"A {entity.dxftype()} has the radius {radius:g} and is skipped."] += 1
+            self.skipped[entity.dxftype()] += 1
+            return
+        arc = entity.dxftype() == "ARC"
+        begin = radians(dxf.start_angle) if arc else 0.0
+        end = radians(dxf.end_angle) if arc else tau
+        yield self._round(entity.ocs(), dxf.center, radius, _turned(begin, end), matrix)
+
+    def _round(self, ocs: Any, center: Any, radius: float, angles: tuple[float, float], matrix: Any) -> EllipseArc:
+        center, first, second = (
+            ocs.to_wcs(center),
+            ocs.to_wcs(type(center)(radius, 0, 0)),
+            ocs.to_wcs(type(center)(0, radius, 0)),
+        )
+        return self._ellipse(center, first, second, angles, matrix)
+
+    def _ellipse(self, center: Any, first: Any, second: Any, angles: tuple[float, float], matrix: Any) -> EllipseArc:
+        if matrix is not None:
+            center = matrix.transform(center)
+            first, second = matrix.transform_direction(first), matrix.transform_direction(second)
+        self._level(center.z, center.z + first.z, center.z + second.z)
+        return EllipseArc(
+            complex(center.x, center.y), complex(first.x, first.y), complex(second.x, second.y), *angles
+        )  # fmt: skip
+
+    def ellipse(self, entity: Any, matrix: Any) -> Iterator[Shape]:
+        """An ELLIPSE; its parameters count from its major axis."""
+        tool = entity.construction_tool()
+        angles = _turned(float(entity.dxf.start_param), float(entity.dxf.end_param))
+        yield self._ellipse(tool.center, tool.major_axis, tool.minor_axis, angles, matrix)
+
+    def lwpolyline(self, entity: Any, matrix: Any) -> Iterator[Shape]:
+        """An LWPOLYLINE: lines and arcs of its bulges."""
+        dxf = entity.dxf
+        rows = entity.get_points("xyseb")
+        if dxf.get("const_width", 0.0) or any(start or end for _, _, start, end, _ in rows):
+            self.notes["The width of polylines is ignored."] = 1
+        vertices = [(x, y, bulge) for x, y, _, _, bulge in rows]
+        yield from self._bulged(entity, vertices, float(dxf.get("elevation", 0.0)), matrix, closed=bool(entity.closed))
+
+    def polyline(self, entity: Any, matrix: Any) -> Iterator[Shape]:
+        """A two-dimensional POLYLINE: lines and arcs of its bulges; the frame of a fitted one is no part of it."""
+        mode = entity.get_mode()
+        if mode != "AcDb2dPolyline":
+            kind = "3D polyline" if mode == "AcDb3dPolyline" else "mesh"
+            raise _NotFlatError(f"is a {kind} and does not lie in the XY plane")
+        frame = 16
+        rows = [vertex.dxf for vertex in entity.vertices if not vertex.dxf.flags & frame]
+        if any(row.get("start_width", 0.0) or row.get("end_width", 0.0) for row in rows):
+            self.notes["The width of polylines is ignored."] = 1
+        vertices = [(row.location.x, row.location.y, row.get("bulge", 0.0)) for row in rows]
+        elevation = entity.dxf.get("elevation", None)
+        height = 0.0 if elevation is None else elevation.z
+        yield from self._bulged(entity, vertices, height, matrix, closed=bool(entity.is_closed))
+
+    def _bulged(
+        self, entity: Any, vertices: list[tuple[float, float, float]], height: float, matrix: Any, *, closed: bool
+    ) -> Iterator[Shape]:
+        from ezdxf.math import Vec3, bulge_to_arc
+
+        ocs = entity.ocs()
+        ends = vertices[1:] + vertices[:1] if closed else vertices[1:]
+        if len(vertices) < 2:
+            self.notes[f"A {entity.dxftype()} has fewer than two points and is skipped."] += 1
+            self.skipped[entity.dxftype()] += 1
+            return
+        for (x, y, bulge), (x_end, y_end, _) in zip(vertices, ends, strict=False):
+            if bulge and (x, y) != (x_end, y_end):
+                center, begin, end, radius = bulge_to_arc((x, y), (x_end, y_end), bulge)
+                middle = Vec3(center.x, center.y, height)
+                yield self._round(ocs, middle, radius, _turned(begin, end), matrix)
+            else:
+                points = (ocs.to_wcs(Vec3(x, y, height)), ocs.to_wcs(Vec3(x_end, y_end, height)))
+                yield self._straight(*(_moved(point, matrix) for point in points))
+
+    def spline(self, entity: Any, matrix: Any) -> Iterator[Shape]:
+        """A SPLINE by its control points, or through its fit points where it has no others."""
+        tool = entity.construction_tool()
+        points = [_moved(point, matrix) for point in tool.control_points]
+        heights = [point.z for point in points]
+        self._level(min(heights), max(heights))
+        weights = np.array(tool.weights() or np.ones(len(points)), float)
+        knots = np.array(tool.knots(), float)
+        flat = np.array([complex(point.x, point.y) for point in points])
+        if (weights <= 0.0).any() or (np.diff(knots) < 0.0).any() or len(knots) != len(points) + tool.order:
+            raise ValueError("its knots or weights cannot be right")
+        yield BSpline(tool.degree, flat, weights, knots)
+
+
+class _NotFlatError(Exception):
+    """An entity lies outside of the XY plane; the text says in what way."""
+
+
+_READERS: Final = MappingProxyType(
+    {
+        "LINE": _Reader.line,
+        "CIRCLE": _Reader.circle,
+        "ARC": _Reader.circle,
+        "ELLIPSE": _Reader.ellipse,
+        "LWPOLYLINE": _Reader.lwpolyline,
+        "POLYLINE": _Reader.polyline,
+        "SPLINE": _Reader.spline,
+    }
+)
+
+
+def _layer_states(document: Any) -> Iterator[tuple[str, tuple[bool, bool]]]:
+    """Of each layer whether it is frozen, and whether it is off."""
+    for layer in document.layers:
+        yield str(layer.dxf.name).lower(), (bool(layer.is_frozen()), bool(layer.is_off()))
+
+
+def _is_clipped(insert: Any) -> bool:
+    from ezdxf.xclip import XClip
+
+    return bool(insert.has_extension_dict and XClip(insert).has_clipping_path)
+
+
+def _moved(point: Any, matrix: Any) -> Any:
+    return point if matrix is None else matrix.transform(point)
+
+
+def _turned(begin: float, end: float) -> tuple[float, float]:
+    """Two angles as a counterclockwise turn: the same angle, or a full turn on, is the full circle."""
+    swept = (end - begin) % tau
+    if swept <= ROUND or tau - swept <= ROUND:
+        swept = tau
+    return begin, begin + swept
+
+
+def _finite(shape: Shape) -> bool:
+    match shape:
+        case Line():
+            values: Iterable[float] = (*shape.start, *shape.end)
+        case EllipseArc():
+            values = (abs(shape.center), abs(shape.first), abs(shape.second), shape.begin, shape.end)
+        case BSpline():
+            values = (float(np.abs(shape.points).max()), float(shape.weights.max()), float(np.abs(shape.knots).max()))
+        case _:
+            values = ()
+    return all(isfinite(value) and abs(value) <= LARGEST for value in values)

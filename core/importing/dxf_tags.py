@@ -1,0 +1,255 @@
+"""Tags of a DXF file, as far as they show whether the file is whole: sections, entities and their lines.
+
+A reader that repairs silently drops what it cannot place.  What this scan counts is compared with what was read, so
+that nothing is lost without a word.  https://help.autodesk.com: DXF reference, "About the General DXF File Structure".
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Final, NamedTuple
+
+BINARY_MARK: Final = b"AutoCAD Binary DXF\r\n\x1a\x00"
+
+COMMENT: Final = 999
+
+_BREAK: Final = re.compile(rb"\r\n|\r")
+
+_SUBORDINATE: Final = frozenset({"VERTEX", "SEQEND", "ATTRIB"})
+"""Entities that belong to the one before them: points of a POLYLINE, texts of an INSERT."""
+
+_NEEDED: Final = MappingProxyType(
+    {
+        "LINE": (10, 20, 11, 21),
+        "CIRCLE": (10, 20, 40),
+        "ARC": (10, 20, 40, 50, 51),
+        "ELLIPSE": (10, 20, 11, 21, 40),
+        "VERTEX": (10, 20),
+        "INSERT": (2, 10, 20),
+    }
+)
+"""Group codes that an entity has once, and only once: two entities run together have them twice."""
+
+_AT_MOST_ONCE: Final = MappingProxyType(
+    {"ELLIPSE": (41, 42), "VERTEX": (42,), "INSERT": (41, 42, 50), "LWPOLYLINE": (38, 90), "SPLINE": (70, 71)}
+)
+
+_COUNTED: Final = MappingProxyType(
+    {
+        "LWPOLYLINE": (("points", 90, 10), ("points", 90, 20)),
+        "SPLINE": (("knots", 72, 40), ("control points", 73, 10), ("fit points", 74, 11)),
+    }
+)
+"""Entities that say how often a group code follows: (what, code of the count, code that is counted)."""
+
+
+class Tag(NamedTuple):
+    """A group code with its value; `line` is that of the group code, 0 in a binary file."""
+
+    code: int
+    value: str
+    line: int
+
+
+@dataclass(slots=True)
+class ScannedEntity:
+    """An entity as it stands in the file; `number` counts from 1 within its section or block."""
+
+    kind: str
+    line: int
+    number: int
+    paper: bool = False
+    fault: str = ""
+    """What is wrong with its group codes."""
+
+    @property
+    def where(self) -> str:
+        """Its place in words."""
+        return f"at line {self.line}" if self.line else f"that is entity {self.number}"
+
+
+@dataclass(slots=True)
+class Scan:
+    """What a file holds by its tags.
+
+    `whole`: every section that begins ends, and the file ends with EOF.  `last_line` is the last line that was read,
+    `cut` the number of lines up to the last entity that is whole, where the file breaks off in its entities.
+    """
+
+    whole: bool = False
+    last_line: int = 0
+    entities: list[ScannedEntity] = field(default_factory=list)
+    blocks: dict[str, list[ScannedEntity]] = field(default_factory=dict)
+    units: int = 0
+    """$INSUNITS, 0 where the file has none."""
+    sections: int = 0
+    bad_line: int = 0
+    """The first line that should be a group code and is none."""
+    open_section: str = ""
+    """The section in which the file ends."""
+    cut: int = 0
+
+    @property
+    def first_fault(self) -> ScannedEntity | None:
+        """The first entity whose group codes cannot be right."""
+        every = (entity for entities in (*self.blocks.values(), self.entities) for entity in entities)
+        return next((entity for entity in every if entity.fault), None)
+
+
+def text_lines(data: bytes) -> list[bytes]:
+    """The lines of a text file, whichever line ends it has."""
+    lines = _BREAK.sub(b"\n", data).removeprefix(b"\xef\xbb\xbf").split(b"\n")
+    if lines and not lines[-1].strip():
+        lines.pop()
+    return lines
+
+
+def is_dxf(data: bytes) -> bool:
+    """Whether the data begins as a DXF file does: its binary mark, or a SECTION after comments."""
+    if data.startswith(BINARY_MARK):
+        return True
+    first = next((tag for tag in _tags(text_lines(data[:65536]), Scan()) if tag.code != COMMENT), None)
+    return first is not None and first[:2] == (0, "SECTION")
+
+
+def scan_text(data: bytes) -> Scan:
+    """What a text file holds."""
+    lines = text_lines(data)
+    scan = Scan(last_line=len(lines))
+    _Scanner(scan).run(_tags(lines, scan))
+    return scan
+
+
+def scan_tags(tags: Iterable[tuple[int, object]]) -> Scan:
+    """What the tags of a binary file hold."""
+    scan = Scan()
+    _Scanner(scan).run(Tag(code, str(value), 0) for code, value in tags if code != COMMENT)
+    return scan
+
+
+def _tags(lines: list[bytes], scan: Scan) -> Iterator[Tag]:
+    """The tags up to the first line that is no group code; that of EOF is the last."""
+    for row in range(0, len(lines) - 1, 2):
+        try:
+            code = int(lines[row])
+        except ValueError:
+            scan.bad_line = row + 1
+            return
+        value = lines[row + 1]
+        if code == 0:
+            # the name of an entity may have blanks around it
+            text = value.strip().decode("latin-1")
+            yield Tag(0, text, row + 1)
+            if text == "EOF":
+                return
+        else:
+            yield Tag(code, value.strip().decode("latin-1"), row + 1)
+
+
+@dataclass(slots=True)
+class _Scanner:
+    """Walks the tags: one entity after the other, in the section and the block in which it stands."""
+
+    scan: Scan
+    section: str = ""
+    block: str | None = None
+    entity: ScannedEntity | None = None
+    open_polyline: bool = False
+
+    def run(self, tags: Iterator[Tag]) -> None:
+        marker = Tag(-1, "", 0)
+        body: list[Tag] = []
+        for tag in tags:
+            if tag.code != 0:
+                body.append(tag)
+                continue
+            self.close(marker, body)
+            marker, body = tag, []
+            if tag.value == "EOF":
+                self.scan.whole = not self.section
+                self.scan.open_section = self.section
+                return
+            self.open(tag)
+        # the entity in which the file ends may have lost something: only those before it are whole
+        self.scan.open_section = self.section
+        if self.section in ("ENTITIES", "BLOCKS"):
+            self.scan.cut = marker.line - 1 if marker.line else 0
+            self._drop_last(marker)
+
+    def _drop_last(self, marker: Tag) -> None:
+        entities = self.scan.entities if self.block is None else self.scan.blocks.get(self.block, [])
+        if self.section == "ENTITIES" and entities and (self.open_polyline or entities[-1].line == marker.line):
+            self.scan.cut = entities[-1].line - 1
+            entities.pop()
+
+    def open(self, tag: Tag) -> None:
+        """A new marker: of a section, of a block, or of an entity."""
+        name = tag.value
+        if name == "SECTION":
+            self.scan.sections += 1
+        elif name == "ENDSEC":
+            self.section, self.block = "", None
+        elif name in ("BLOCK", "ENDBLK"):
+            self.block = None
+        elif name in _SUBORDINATE:
+            if name == "SEQEND":
+                self.open_polyline = False
+        elif self.section == "ENTITIES" or self.block is not None:
+            self._add(tag)
+
+    def _add(self, tag: Tag) -> None:
+        entities = self.scan.entities if self.block is None else self.scan.blocks[self.block]
+        self.entity = ScannedEntity(tag.value, tag.line, len(entities) + 1)
+        self.open_polyline = tag.value == "POLYLINE"
+        entities.append(self.entity)
+
+    def close(self, marker: Tag, body: list[Tag]) -> None:
+        """All tags of a marker are known."""
+        if marker.code:
+            return
+        if marker.value == "SECTION":
+            self.section = next((tag.value for tag in body if tag.code == 2), "")
+            if self.section == "HEADER":
+                self._header(body)
+        elif marker.value == "BLOCK" and self.section == "BLOCKS":
+            self.block = next((tag.value for tag in body if tag.code == 2), "").lower()
+            self.scan.blocks.setdefault(self.block, [])
+        elif self.entity is not None and (marker.value in _SUBORDINATE or marker.line == self.entity.line):
+            self._check(marker.value, body)
+
+    def _header(self, body: list[Tag]) -> None:
+        for variable, value in zip(body, body[1:], strict=False):
+            if variable[:2] == (9, "$INSUNITS") and value.code == 70 and value.value.lstrip("-").isdecimal():
+                self.scan.units = int(value.value)
+
+    def _check(self, kind: str, body: list[Tag]) -> None:
+        assert self.entity is not None
+        counts = Counter(tag.code for tag in body)
+        if kind == self.entity.kind and any(tag.code == 67 and tag.value == "1" for tag in body):
+            self.entity.paper = True
+        fault = _fault(kind, counts, body)
+        if fault and not self.entity.fault:
+            self.entity.fault = fault
+
+
+def _fault(kind: str, counts: Counter[int], body: list[Tag]) -> str:
+    """What is wrong with the group codes of an entity, nothing where they can be right."""
+    for code in _NEEDED.get(kind, ()):
+        if counts[code] != 1:
+            return f"has group code {code} {_times(counts[code])}"
+    for code in _AT_MOST_ONCE.get(kind, ()):
+        if counts[code] > 1:
+            return f"has group code {code} {_times(counts[code])}"
+    for what, code, counted in _COUNTED.get(kind, ()):
+        said = next((tag.value for tag in body if tag.code == code), None)
+        if said is not None and (not said.isdecimal() or int(said) != counts[counted]):
+            return f"names {said} {what} and has {counts[counted]}"
+    return ""
+
+
+def _times(count: int) -> str:
+    return "missing" if not count else f"{count} times"

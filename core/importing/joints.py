@@ -1,0 +1,136 @@
+"""Joints: the pieces of a chain made to meet exactly, without a piece of our own anywhere.
+
+Where two pieces cross at an angle their carriers' meeting is the joint; where they run on nearly straight the end of
+the arc, or the middle between the two ends, is.  An arc keeps its center where that can be, moves it by no more than
+`ARC_RADII`, or else keeps its sweep angle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import atan2, dist, hypot, radians, sqrt
+from typing import Final, NamedTuple
+
+from core.geometry.construct import OnePoint, center_by_sweep, settled
+from core.geometry.piece import Arc, Line, Piece, Point
+from core.importing.clean_up import is_circle, reversed_piece
+from core.tolerance import JOINED, ON_PATH
+
+CROSSING: Final = radians(5.0)
+"""From this angle on the meeting of two carriers is where a drawing means the corner to be."""
+
+
+class Joined(NamedTuple):
+    """The pieces of a chain joined end to start, and the largest gap that was closed."""
+
+    pieces: tuple[Piece, ...]
+    gap: float
+
+
+def joined_chain(pieces: Sequence[Piece], *, closed: bool, tolerance: float) -> Joined:
+    """The pieces in the order and direction of travel, made to meet."""
+    if len(pieces) == 1 and (is_circle(pieces[0]) or not closed):
+        return Joined(tuple(pieces), 0.0)
+    if len(pieces) == 1:
+        return _closed_arc(pieces[0])
+    pairs = list(zip(pieces, (*pieces[1:], pieces[0]), strict=True))
+    joints = [_joint(first, second, tolerance) for first, second in pairs]
+    gaps = [dist(first.end, second.start) for first, second in pairs]
+    if not closed:
+        joints[-1], gaps[-1] = pieces[-1].end, 0.0
+    starts = [joints[-1] if closed else pieces[0].start, *joints[:-1]]
+    moved = [_between(piece, start, end) for piece, start, end in zip(pieces, starts, joints, strict=True)]
+    kept = [piece for piece in moved if is_circle(piece) or dist(piece.start, piece.end) > 0.0]
+    return Joined(tuple(kept), max(gaps))
+
+
+def _closed_arc(piece: Piece) -> Joined:
+    """An arc whose ends are one point is the full circle; a line there and back is nothing to close."""
+    gap = dist(piece.start, piece.end)
+    if isinstance(piece, Arc):
+        return Joined((Arc(piece.start, piece.start, piece.center, piece.turn),), gap)
+    return Joined((piece,), 0.0)
+
+
+def _joint(first: Piece, second: Piece, tolerance: float) -> Point:
+    """Where the end of one piece and the start of the next become one point."""
+    here, there = first.end, second.start
+    gap = dist(here, there)
+    if gap <= ON_PATH:
+        return there if isinstance(second, Arc) and isinstance(first, Line) else here
+    middle = ((here[0] + there[0]) / 2.0, (here[1] + there[1]) / 2.0)
+    if gap > JOINED and _angle_between(first, second) > CROSSING:
+        meetings = [point for point in _meetings(first, second) if max(dist(point, here), dist(point, there)) <= tolerance]
+        if meetings:
+            return min(meetings, key=lambda point: dist(point, middle))
+    if isinstance(first, Arc) is not isinstance(second, Arc):
+        return here if isinstance(first, Arc) else there
+    return middle
+
+
+def _angle_between(first: Piece, second: Piece) -> float:
+    """The angle between two carriers where the pieces meet, 0 to a right angle."""
+    if min(first.length, second.length) <= 0.0:
+        return 0.0
+    (ux, uy), (vx, vy) = first.direction_at(first.end), second.direction_at(second.start)
+    return atan2(abs(ux * vy - uy * vx), abs(ux * vx + uy * vy))
+
+
+def _meetings(first: Piece, second: Piece) -> list[Point]:
+    """The meetings of the carriers of two pieces."""
+    if isinstance(first, Line):
+        return _line_with_line(first, second) if isinstance(second, Line) else _line_with_circle(first, second)
+    return _line_with_circle(second, first) if isinstance(second, Line) else _circle_with_circle(first, second)
+
+
+def _line_with_line(first: Line, second: Line) -> list[Point]:
+    (x, y), (dx, dy) = first.start, first.direction_at(first.start)
+    (sx, sy), (ex, ey) = second.start, second.direction_at(second.start)
+    across = dx * ey - dy * ex
+    if across == 0.0:
+        return []
+    along = ((sx - x) * ey - (sy - y) * ex) / across
+    return [(x + along * dx, y + along * dy)]
+
+
+def _line_with_circle(line: Line, arc: Arc) -> list[Point]:
+    (x, y), (dx, dy), (cx, cy) = line.start, line.direction_at(line.start), arc.center
+    along = (cx - x) * dx + (cy - y) * dy
+    off = (cx - x) * dy - (cy - y) * dx
+    inside = arc.radius**2 - off**2
+    if inside < 0.0:
+        return []
+    half = sqrt(inside)
+    return [(x + (along + side) * dx, y + (along + side) * dy) for side in (-half, half)]
+
+
+def _circle_with_circle(first: Arc, second: Arc) -> list[Point]:
+    (x, y), (sx, sy) = first.center, second.center
+    apart = hypot(sx - x, sy - y)
+    if apart <= JOINED:
+        return []
+    ux, uy = (sx - x) / apart, (sy - y) / apart
+    along = (apart**2 + first.radius**2 - second.radius**2) / (2.0 * apart)
+    inside = first.radius**2 - along**2
+    if inside < 0.0:
+        return []
+    half = sqrt(inside)
+    return [(x + along * ux - side * uy, y + along * uy + side * ux) for side in (-half, half)]
+
+
+def _between(piece: Piece, start: Point, end: Point) -> Piece:
+    """The piece from another start to another end, both near its own."""
+    if isinstance(piece, Line):
+        return Line(start, end)
+    if is_circle(piece) or (start, end) == (piece.start, piece.end):
+        return piece
+    arc = settled(start, end, piece.center, piece.turn)
+    if arc.end == end and arc.start != arc.end:
+        return arc
+    center = center_by_sweep(start, end, abs(piece.sweep), piece.turn)
+    return Arc(start, end, center.point, piece.turn) if isinstance(center, OnePoint) else Line(start, end)
+
+
+def reversed_pieces(pieces: Sequence[Piece]) -> tuple[Piece, ...]:
+    """A joined chain traveled the other way."""
+    return tuple(reversed_piece(piece) for piece in reversed(pieces))

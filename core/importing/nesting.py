@@ -1,0 +1,95 @@
+"""Nesting: which closed contours lie inside which, by even and odd; area, length and size of contours.
+
+Exact but for one thing: whether a point lies inside a contour is asked of a polygon whose chords leave the arcs by no
+more than `CHORD_ERROR`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import acos, ceil
+from typing import Final
+
+import numpy as np
+import shapely
+
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Piece, Point
+
+CHORD_ERROR: Final = 0.005
+MAX_CHORDS: Final = 720
+"""Chords of a full circle at most."""
+
+
+def signed_area(pieces: Sequence[Piece]) -> float:
+    """The area within a closed chain in square millimeters, positive where it is traveled counterclockwise.
+
+    Green's formula: of the chords' polygon, and of each arc the segment of its circle over its chord.
+    """
+    if not pieces:
+        return 0.0
+    ox, oy = pieces[0].start
+    total = 0.0
+    for piece in pieces:
+        (x0, y0), (x1, y1) = piece.start, piece.end
+        total += ((x0 - ox) * (y1 - oy) - (x1 - ox) * (y0 - oy)) / 2.0
+        if isinstance(piece, Arc):
+            sweep = piece.sweep
+            total += piece.radius**2 * (sweep - np.sin(sweep)) / 2.0
+    return float(total)
+
+
+def box_of(pieces: Sequence[Piece]) -> tuple[float, float, float, float]:
+    """Left, bottom, right and top of a chain."""
+    left, bottom, right, top = Path.from_pieces(pieces).boxes
+    return float(left.min()), float(bottom.min()), float(right.max()), float(top.max())
+
+
+def chords(pieces: Sequence[Piece]) -> list[Point]:
+    """The points of a chain's polygon."""
+    points = [pieces[0].start]
+    for piece in pieces:
+        if isinstance(piece, Arc):
+            radius = max(piece.radius, 1e-9)
+            step = max(2.0 * acos(max(1.0 - CHORD_ERROR / radius, -1.0)), 2.0 * np.pi / MAX_CHORDS)
+            count = max(ceil(abs(piece.sweep) / min(step, np.pi / 4.0)), 1)
+            points += [piece.point_at(part / count) for part in range(1, count)]
+        points.append(piece.end)
+    return points
+
+
+def containers(chains: Sequence[Sequence[Piece]]) -> list[list[int]]:
+    """Of each closed chain the numbers of the chains that it lies inside of."""
+    if not chains:
+        return []
+    polygons = [_polygon(chords(chain)) for chain in chains]
+    sizes = [abs(signed_area(chain)) for chain in chains]
+    tree = shapely.STRtree(polygons)
+    points = [shapely.Point(chain[0].point_at(0.5)) for chain in chains]
+    inside: list[list[int]] = [[] for _ in chains]
+    for inner, outer in tree.query(points, predicate="within").T.tolist():
+        # a chain touches itself, and never lies in one that is smaller
+        if inner != outer and (sizes[outer], -outer) > (sizes[inner], -inner):
+            inside[inner].append(outer)
+    return inside
+
+
+def _polygon(points: list[Point]) -> shapely.Geometry:
+    """A polygon of points; one that crosses itself is what it encloses by even and odd."""
+    if len(points) < 4:
+        return shapely.Polygon()
+    polygon = shapely.Polygon(points)
+    return polygon if polygon.is_valid else shapely.make_valid(polygon)
+
+
+def crossings(chains: Sequence[Sequence[Piece]], most: int) -> dict[int, int]:
+    """Of each chain that touches or crosses another one the first such; nothing where there are more chains."""
+    if not chains or len(chains) > most:
+        return {}
+    lines = [shapely.LineString(chords(chain)) for chain in chains]
+    pairs = shapely.STRtree(lines).query(lines, predicate="intersects").T.tolist()
+    met: dict[int, int] = {}
+    for first, second in sorted(pairs):
+        if first != second:
+            met.setdefault(first, second)
+    return met

@@ -1,0 +1,150 @@
+"""Nodes: which ends of pieces are one point, by position first and within TOLERANCE for the ends that are left.
+
+Ends that are the same to `SAME_POINT` are one node.  A node with a single end is loose: it goes to the nearest node
+within TOLERANCE, nearest pairs first.  Ends that already have a partner never move to another one, so that a curve of
+pieces shorter than TOLERANCE stays a curve.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import dist
+from typing import Final
+
+from core.geometry.piece import Piece, Point
+
+SAME_POINT: Final = 1e-4
+"""Millimeters within which ends are one point whatever TOLERANCE is above it; drawings of programs are as exact."""
+
+NEAR_BY_PATH: Final = 4.0
+"""Times TOLERANCE: a node so near along the pieces themselves is no partner of a loose end."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Nodes:
+    """Of each piece the nodes (start, end); of each node its pieces and the place of its first end."""
+
+    of_piece: list[tuple[int, int]]
+    pieces: list[list[int]]
+    places: list[Point]
+
+    def degree(self, node: int) -> int:
+        """How many ends meet there."""
+        return len(self.pieces[node])
+
+
+class _Groups:
+    """Sets of numbers that are joined step by step (union-find); the smallest number stands for its set."""
+
+    def __init__(self, count: int) -> None:
+        self.parent = list(range(count))
+
+    def root(self, number: int) -> int:
+        while self.parent[number] != number:
+            self.parent[number] = self.parent[self.parent[number]]
+            number = self.parent[number]
+        return number
+
+    def join(self, first: int, second: int) -> None:
+        first, second = self.root(first), self.root(second)
+        if first != second:
+            self.parent[max(first, second)] = min(first, second)
+
+
+class PointGrid:
+    """Points by square cells, so that those within a cell's width are found among nine cells."""
+
+    def __init__(self, width: float) -> None:
+        self.width = max(width, 1e-9)
+        self.cells: defaultdict[tuple[int, int], list[int]] = defaultdict(list)
+
+    def _cell(self, point: Point) -> tuple[int, int]:
+        return int(point[0] // self.width), int(point[1] // self.width)
+
+    def add(self, point: Point, number: int) -> None:
+        """Keep a number at a point."""
+        self.cells[self._cell(point)].append(number)
+
+    def near(self, point: Point) -> Iterator[int]:
+        """The numbers in the cells around a point."""
+        column, row = self._cell(point)
+        for x in (column - 1, column, column + 1):
+            for y in (row - 1, row, row + 1):
+                if (x, y) in self.cells:
+                    yield from self.cells[x, y]
+
+
+def nodes_of(pieces: Sequence[Piece], tolerance: float) -> Nodes:
+    """The nodes of pieces that are no full circles."""
+    ends = [point for piece in pieces for point in (piece.start, piece.end)]
+    groups = _same_points(ends, min(tolerance, SAME_POINT))
+    made = _numbered(ends, groups)
+    if tolerance > SAME_POINT:
+        _join_loose(pieces, made, groups, tolerance)
+        made = _numbered(ends, groups)
+    return made
+
+
+def exact_nodes(pieces: Sequence[Piece], tolerance: float) -> Nodes:
+    """The nodes by position alone."""
+    ends = [point for piece in pieces for point in (piece.start, piece.end)]
+    return _numbered(ends, _same_points(ends, min(tolerance, SAME_POINT)))
+
+
+def _same_points(ends: Sequence[Point], slack: float) -> _Groups:
+    groups, grid = _Groups(len(ends)), PointGrid(max(slack, 1e-7))
+    for number, point in enumerate(ends):
+        for other in grid.near(point):
+            if dist(point, ends[other]) <= max(slack, 1e-7):
+                groups.join(number, other)
+        grid.add(point, number)
+    return groups
+
+
+def _numbered(ends: Sequence[Point], groups: _Groups) -> Nodes:
+    numbers: dict[int, int] = {}
+    at = [numbers.setdefault(groups.root(end), len(numbers)) for end in range(len(ends))]
+    pieces: list[list[int]] = [[] for _ in numbers]
+    places: list[Point] = [(0.0, 0.0)] * len(numbers)
+    for root, number in numbers.items():
+        places[number] = ends[root]
+    for end, node in enumerate(at):
+        pieces[node].append(end // 2)
+    return Nodes(list(zip(at[::2], at[1::2], strict=True)), pieces, places)
+
+
+def _join_loose(pieces: Sequence[Piece], nodes: Nodes, groups: _Groups, tolerance: float) -> None:
+    """Join loose ends with the nearest nodes within the tolerance, nearest pairs first."""
+    grid = PointGrid(tolerance)
+    for node, place in enumerate(nodes.places):
+        grid.add(place, node)
+    loose = [node for node in range(len(nodes.places)) if nodes.degree(node) == 1]
+    pairs = []
+    for node in loose:
+        place = nodes.places[node]
+        near = [(dist(place, nodes.places[other]), other) for other in grid.near(place) if other != node]
+        near = [(gap, other) for gap, other in near if gap <= tolerance]
+        along = _near_by_path(pieces, nodes, node, NEAR_BY_PATH * tolerance) if near else set[int]()
+        pairs += [(gap, node, other) for gap, other in near if other not in along]
+    end_of = {nodes.of_piece[end // 2][end % 2]: end for end in reversed(range(2 * len(pieces)))}
+    still_loose = set(loose)
+    for _, node, other in sorted(pairs, key=lambda pair: (pair[0], nodes.places[pair[1]], nodes.places[pair[2]])):
+        if node in still_loose:
+            still_loose -= {node, other}
+            groups.join(end_of[node], end_of[other])
+
+
+def _near_by_path(pieces: Sequence[Piece], nodes: Nodes, start: int, reach: float) -> set[int]:
+    """The nodes that are near along the pieces."""
+    best, waiting = {start: 0.0}, [start]
+    while waiting:
+        node = waiting.pop()
+        for piece in nodes.pieces[node]:
+            first, last = nodes.of_piece[piece]
+            other, way = (last if first == node else first), best[node] + pieces[piece].length
+            if way <= reach and way < best.get(other, float("inf")):
+                best[other] = way
+                waiting.append(other)
+    return set(best)

@@ -1,0 +1,160 @@
+"""A contour as a MILL CONTOUR block: START, LINE and ARC as a person would have typed them.
+
+Numbers are rounded to the digits of the form where the contour stays where it is; the form's own solver judges that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import degrees, dist
+from typing import Final
+
+from core.finding import Severity
+from core.geometry.piece import Arc, Piece, Point, Side, Turn
+from core.importing.contour import Contour
+from core.program.edit import new_block
+from core.program.fields import FARTHEST
+from core.program.model import ArcSegment, Block, CutterComp, Direction, Entry, LineSegment, Program, Segment
+from core.program.solve.block import solve_block
+from core.tolerance import ARC_RADII, CLOSED
+from core.units import Kind, Unit, decimals_shown, from_mm
+
+FINER_DECIMALS: Final = 6
+"""Decimals of a contour that the form's digits would move too far."""
+
+FINEST_DECIMALS: Final = 10
+"""Decimals of one that even those would: flat arcs of large radius."""
+
+MAX_SEGMENTS: Final = 500
+"""Segments from which on FIT ARCS is advised."""
+
+NEARLY_FULL: Final = 0.01
+"""Millimeters: an arc that ends so near to its start is given with its SWEEP ANGLE."""
+
+
+@dataclass(frozen=True, slots=True)
+class ImportedBlock:
+    """A block made of a contour; `decimals` its numbers have, `moved` millimeters they are off the drawing at most."""
+
+    block: Block
+    decimals: int
+    moved: float
+    notes: tuple[str, ...] = ()
+
+
+class NotTaken(Exception):
+    """A contour does not fit into the form; the text says why."""
+
+
+def block_of(contour: Contour, program: Program) -> ImportedBlock:
+    """The contour as a block to be put behind the program's own.  Raises NotTaken."""
+    unit = program.unit
+    _refuse_far(contour, unit)
+    usual = decimals_shown(Kind.LENGTH, unit)
+    for decimals in (usual, FINER_DECIMALS, FINEST_DECIMALS):
+        block = _block(contour, program, decimals)
+        moved = _moved(block, contour.pieces, program)
+        if moved is not None:
+            notes = _notes(contour, decimals, usual)
+            return ImportedBlock(block, decimals, moved, notes)
+    raise NotTaken(f"Contour {contour.number} cannot be written as segments: its arcs are too flat or too short.")
+
+
+def taken(program: Program, contours: Sequence[Contour], *, replace_empty: bool = True) -> tuple[Program, list[ImportedBlock]]:
+    """The program with a block for each contour, in their order; an only block without segments is replaced."""
+    made = [block_of(contour, program) for contour in contours]
+    kept = program.blocks
+    if replace_empty and len(kept) == 1 and not kept[0].segments and kept[0].x_start is None:
+        kept = ()
+        first = program.blocks[0]
+        made = [replace(item, block=replace(item.block, tool=first.tool)) for item in made]
+    return replace(program, blocks=(*kept, *(item.block for item in made))), made
+
+
+def comment(name: str, contours: Sequence[Contour]) -> str:
+    """The comment of a program's file: `# from plate.dxf, layer IZREZ`."""
+    layers = list(dict.fromkeys(layer for contour in contours for layer in contour.layers))
+    words = f"layer{'s' if len(layers) > 1 else ''} {', '.join(layers)}" if layers else ""
+    text = f"from {name}{', ' if words else ''}{words}"
+    return "# " + "".join(sign if sign.isprintable() else "?" for sign in text)
+
+
+def _refuse_far(contour: Contour, unit: Unit) -> None:
+    for piece in contour.pieces:
+        points = (piece.start, piece.end, *((piece.center,) if isinstance(piece, Arc) else ()))
+        worst = max((value for point in points for value in point), key=abs)
+        if abs(worst) > FARTHEST:
+            most = from_mm(FARTHEST, unit)
+            raise NotTaken(
+                f"Contour {contour.number} reaches {from_mm(worst, unit):.3f} {unit}: "
+                f"the form takes at most {most:g}. Move the drawing to its origin."
+            )
+
+
+def _notes(contour: Contour, decimals: int, usual: int) -> tuple[str, ...]:
+    notes = []
+    if decimals != usual:
+        notes.append(f"Contour {contour.number} has {decimals} decimals: with {usual} it would move too far.")
+    if len(contour.pieces) > MAX_SEGMENTS:
+        notes.append(
+            f"{len(contour.pieces):,} segments: the form shows them, the look-ahead of a control may not. FIT ARCS?"
+        )
+    if not contour.closed:
+        notes.append(f"Contour {contour.number} is open: choose CUTTER COMP. on START.")
+    return tuple(notes)
+
+
+def _block(contour: Contour, program: Program, decimals: int) -> Block:
+    unit = program.unit
+    start = _typed(contour.start, unit, decimals)
+    segments: list[Segment] = []
+    for row, piece in enumerate(contour.pieces):
+        last = row == len(contour.pieces) - 1
+        end = start if last and contour.closed else _typed(piece.end, unit, decimals)
+        segments.append(_segment(piece, end, unit, decimals))
+    side = contour.side
+    comp = CutterComp.ON if side is None else CutterComp.LEFT if side is Side.LEFT else CutterComp.RIGHT
+    block = new_block(program)
+    return replace(
+        block, cutter_comp=comp, x_start=Entry(start[0]), y_start=Entry(start[1]), segments=tuple(segments)
+    )  # fmt: skip
+
+
+def _typed(point: Point, unit: Unit, decimals: int) -> Point:
+    """A point in program units, rounded, without a negative zero."""
+    x, y = (round(from_mm(value, unit), decimals) + 0.0 for value in point)
+    return x, y
+
+
+def _segment(piece: Piece, end: Point, unit: Unit, decimals: int) -> Segment:
+    ends = Entry(end[0]), Entry(end[1])
+    if not isinstance(piece, Arc):
+        return LineSegment(*ends)
+    center = _typed(piece.center, unit, decimals)
+    direction = Direction.CCW if piece.turn is Turn.CCW else Direction.CW
+    sweep = None
+    if piece.start != piece.end and dist(piece.start, piece.end) <= NEARLY_FULL:
+        sweep = Entry(round(degrees(abs(piece.sweep)), FINER_DECIMALS))
+    return ArcSegment(direction, *ends, x_center=Entry(center[0]), y_center=Entry(center[1]), sweep=sweep)
+
+
+def _moved(block: Block, pieces: Sequence[Piece], program: Program) -> float | None:
+    """How far the block's contour is from the pieces; None where the form does not take it, or it is too far."""
+    solved = solve_block(block, program)
+    errors = [
+        finding for segment in solved.segments for finding in segment.findings if finding.severity is Severity.ERROR
+    ]
+    made = [segment.piece for segment in solved.segments]
+    if errors or len(made) != len(pieces):
+        return None
+    worst = 0.0
+    for piece, original in zip(made, pieces, strict=True):
+        if piece is None or isinstance(piece, Arc) is not isinstance(original, Arc):
+            return None
+        if isinstance(piece, Arc) and isinstance(original, Arc):
+            turned = abs(abs(piece.sweep) - abs(original.sweep)) * original.radius
+            if piece.turn is not original.turn or turned > 4.0 * ARC_RADII:
+                return None
+        worst = max(worst, *(dist(piece.point_at(share), original.point_at(share)) for share in (0.0, 0.5, 1.0)))
+    return worst if worst <= min(ARC_RADII, CLOSED) else None
