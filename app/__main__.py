@@ -27,6 +27,10 @@ def main(arguments: list[str] | None = None) -> int:
         from app.cli.proof import proof
 
         return proof(given[1:])
+    if word == "import":
+        from app.cli.import_contours import import_contours
+
+        return import_contours(given[1:])
     if word in SHOP_HELP:
         from app.cli.shop import shop
 

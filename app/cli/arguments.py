@@ -23,7 +23,8 @@ def screen_parser() -> argparse.ArgumentParser:
         description=DESCRIPTION,
         epilog="commands without a screen:\n"
         + "".join(f"  cutcomp {name:<10} {text}\n" for name, text in (HELP | SHOP_HELP).items())
-        + "  cutcomp check      what controls do with an NC program\n\nanother screen:\n"
+        + "  cutcomp check      what controls do with an NC program\n"
+        + "  cutcomp import     contours of a DXF drawing as a program\n\nanother screen:\n"
         + "  cutcomp proof      an NC program, the path a control makes of it, its findings\n\n"
         + "`cutcomp COMMAND --help` tells more.",
         formatter_class=argparse.RawDescriptionHelpFormatter,

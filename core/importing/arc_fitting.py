@@ -116,7 +116,7 @@ def _circle(points: Points, fit: float) -> _Fit | None:
     middle = points.mean()
     local = points - middle
     rows = np.column_stack((2.0 * local.real, 2.0 * local.imag, np.ones(len(local))))
-    (a, b, c), *_ = np.linalg.lstsq(rows, np.abs(local) ** 2, rcond=None)
+    (a, b, _), *_ = np.linalg.lstsq(rows, np.abs(local) ** 2, rcond=None)
     center = complex(a, b)
     away = np.abs(local - center)
     radius = float((away.max() + away.min()) / 2.0)

@@ -34,7 +34,7 @@ class LayeredPiece(NamedTuple):
 
 @dataclass(slots=True)
 class Cleaned:
-    """The pieces that stay, and how many went: `tiny` without length, `duplicates` equal to others, `overlaps` joined."""
+    """The pieces that stay, and how many went: too short, equal to others, joined with what they overlap."""
 
     pieces: list[LayeredPiece] = field(default_factory=list)
     tiny: int = 0
@@ -319,7 +319,10 @@ def _arc_union(first: Arc, second: Arc, slack: float) -> tuple[Piece, _EndsOf] |
         begin, end = behind, end - tau
     if min(one.sweep, end) - max(0.0, begin) <= reach:
         return None
-    ends = [[(0, 0), (0, 1)] if first.turn > 0 else [(0, 1), (0, 0)], [(1, 0), (1, 1)] if second.turn > 0 else [(1, 1), (1, 0)]]
+    ends = [
+        [(0, 0), (0, 1)] if first.turn > 0 else [(0, 1), (0, 0)],
+        [(1, 0), (1, 1)] if second.turn > 0 else [(1, 1), (1, 0)],
+    ]
     start_at, start_of = (other.start, ends[1][0]) if begin < -reach else (one.start, ends[0][0])
     end_at, end_of = (other.end, ends[1][1]) if end > one.sweep + reach else (one.end, ends[0][1])
     if max(one.sweep, end) - min(0.0, begin) >= tau - reach:

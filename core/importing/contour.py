@@ -1,4 +1,4 @@
-"""One contour of a drawing: what a list says of it, and what the operator changes: its start, its direction, its arcs."""
+"""One contour of a drawing: what a list says of it, and what the operator changes of it."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ class Contour:
 
     @property
     def side(self) -> Side | None:
-        """The side on which the tool is proposed: outside of an outside contour, inside of a hole; None for an open one."""
+        """The side proposed for the tool: outside of an outside contour, inside of a hole; None for an open one."""
         if not self.closed:
             return None
         outside = self.kind is not ContourKind.HOLE
@@ -110,7 +110,7 @@ def reversed_contour(contour: Contour) -> Contour:
 
 
 def started_at_usual_place(contour: Contour) -> Contour:
-    """A closed contour from the middle of its longest line on, or of its longest arc; a circle from its leftmost point."""
+    """A closed contour from the middle of its longest line (or arc) on; a circle from its leftmost point."""
     if not contour.closed:
         return contour
     if contour.circle is not None:
@@ -173,7 +173,7 @@ def _undivided(contour: Contour) -> Contour:
 
 
 def _started_on(contour: Contour, row: int, share: float) -> Contour:
-    """A closed contour from a part of one of its pieces on, which is divided there; no piece becomes shorter than that."""
+    """A closed contour from a part of one of its pieces on, which is divided there."""
     pieces, piece = contour.pieces, contour.pieces[row]
     if contour.circle is not None and isinstance(piece, Arc):
         point = piece.point_at(share)
@@ -212,7 +212,7 @@ def _nearest_share(piece: Piece, point: Point) -> float:
 
 
 def fitted_contour(contour: Contour, fit: float) -> Contour:
-    """The contour with arcs fitted to its runs of short lines; `fitted` then holds both counts and how far it is off."""
+    """The contour with arcs fitted to its runs of short lines; `fitted` then holds what was done."""
     whole = _undivided(contour)
     fitted = fit_arcs(whole.pieces, fit, closed=contour.closed)
     made = replace(whole, pieces=fitted.pieces, drawn=len(fitted.pieces), fitted=replace(fitted, before=contour.drawn))
@@ -228,7 +228,7 @@ def fit_sentence(contour: Contour, unit: Unit) -> str:
     lines = len(fitted.pieces) - arcs
     parts = [f"{count} {name}{'S' if count > 1 else ''}" for count, name in ((arcs, "ARC"), (lines, "LINE")) if count]
     off = show(from_mm(fitted.off, unit), Kind.LENGTH, unit)
-    return f"{fitted.before} pieces -> {' and '.join(parts)}, off by {off}"
+    return f"{fitted.before} lines -> {' and '.join(parts)}, off by {off}"
 
 
 def joined_open(first: Contour, second: Contour, tolerance: float) -> Contour | None:
@@ -246,5 +246,3 @@ def joined_open(first: Contour, second: Contour, tolerance: float) -> Contour | 
                 first, pieces=joined.pieces, closed=closed, kind=kind, layers=layers, drawn=len(joined.pieces)
             )  # fmt: skip
     return None
-
-

@@ -112,7 +112,7 @@ def contours_of(drawing: Drawing, options: ImportOptions, progress: Progress = _
     ordered = _with_open_gaps(_nested(contours), options.unit.program_unit, options.tolerance)
     notes = list(drawing.notes)
     if made.given_up:
-        notes.append("There are too many branches: some closed contours may be listed as open ones. Choose fewer layers.")
+        notes.append("There are too many branches: closed contours may be listed as open ones. Choose fewer layers.")
     return ContourList(
         drawing,
         options,
@@ -215,7 +215,7 @@ def _by_length(contour: Contour) -> tuple[float, ...]:
 
 
 def _directed(contour: Contour) -> Contour:
-    """Climb milling of a right-hand cutter with the tool on the left: an outside contour clockwise, a hole the other way."""
+    """Climb milling with the tool on the left: an outside contour clockwise, a hole counterclockwise."""
     wanted = Turn.CCW if contour.kind is ContourKind.HOLE else Turn.CW
     if contour.turn is not wanted:
         contour = reversed_contour(contour)
@@ -223,7 +223,7 @@ def _directed(contour: Contour) -> Contour:
 
 
 def _with_open_gaps(contours: list[Contour], unit: Unit, tolerance: float) -> list[Contour]:
-    """Open contours with the distance to the nearest loose end, of another one or of their own, if it could be closed."""
+    """Open contours with the distance to the nearest loose end, of another one or of their own."""
     ends = [
         (end, row)
         for row, contour in enumerate(contours)

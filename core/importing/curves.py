@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from math import atan2, ceil, hypot, pi, tau
 from typing import Final, Protocol
 
@@ -132,13 +133,15 @@ def _circle(shape: EllipseArc) -> Arc:
 
 def _flattened(shape: EllipseArc) -> list[Piece]:
     """An ellipse seen from its edge: lines from each end of its travel to the next."""
-    first, second = (shape.first, shape.second) if abs(shape.first) >= abs(shape.second) else (shape.second, shape.first)
+    first, second = (
+        (shape.first, shape.second) if abs(shape.first) >= abs(shape.second) else (shape.second, shape.first)
+    )
     along = first / abs(first)
     turning = atan2((second * along.conjugate()).real, abs(first)) if first is shape.first else pi / 2
     steps = range(ceil((shape.begin - turning) / pi), int((shape.end - turning) // pi) + 1)
     stations = np.array([shape.begin, *(turning + step * pi for step in steps), shape.end])
     points = _EllipseCurve(shape).points(stations).tolist()
-    return [Line((p.real, p.imag), (q.real, q.imag)) for p, q in zip(points, points[1:], strict=False) if p != q]
+    return [Line((p.real, p.imag), (q.real, q.imag)) for p, q in pairwise(points) if p != q]
 
 
 def _ellipse_stations(shape: EllipseArc) -> list[float]:
@@ -156,9 +159,9 @@ def pieces_of_spline(shape: BSpline, fit: float) -> list[Piece]:
     curve = _SplineCurve(_bezier_spans(shape))
     pieces: list[Piece] = []
     for first, last in _smooth_runs(curve):
-        natural = _extremes(curve, first, last)
-        every = (_fitted(curve, stations, fit) for stations in (natural, [natural[0], natural[-1]]))
-        pieces += min(every, key=len)
+        whole = _fitted(curve, [first, last], fit)
+        divided = _fitted(curve, _extremes(curve, first, last), fit)
+        pieces += divided if len(divided) <= len(whole) else whole
     return pieces
 
 
@@ -224,7 +227,7 @@ def _extremes(curve: Curve, first: float, last: float) -> list[float]:
 def _fitted(curve: Curve, stations: list[float], fit: float) -> list[Piece]:
     """Biarcs from each station to the next, each as long as it may be."""
     pieces: list[Piece] = []
-    for begin, end in zip(stations, stations[1:], strict=False):
+    for begin, end in pairwise(stations):
         if end > begin:
             pieces += _greedy(curve, begin, end, fit * MARGIN)
     return _merged(pieces)
@@ -243,8 +246,8 @@ def _greedy(curve: Curve, begin: float, end: float, fit: float) -> Iterator[Piec
                 high, stops = middle, other
             else:
                 low = middle
-    for first, last in zip(stops, stops[1:], strict=False):
-        yield from _biarc_between(curve, first, last, fit)[0]
+    for first, last in pairwise(stops):
+        yield from _biarc_between(curve, first, last)[0]
 
 
 def _stops(curve: Curve, begin: float, end: float, fit: float) -> list[float]:
@@ -261,7 +264,7 @@ def _longest(curve: Curve, here: float, step: float, most: float, fit: float) ->
     """The longest step within FIT, to `ENOUGH` of FIT; the error of a biarc grows with the cube of its length."""
     low, high = 0.0, 0.0
     for _ in range(60):
-        error = _biarc_between(curve, here, here + step, fit)[1]
+        error = _biarc_between(curve, here, here + step)[1]
         if error <= fit:
             low = step
             if step >= most or error >= ENOUGH * fit:
@@ -277,7 +280,7 @@ def _longest(curve: Curve, here: float, step: float, most: float, fit: float) ->
     return low or high
 
 
-def _biarc_between(curve: Curve, first: float, last: float, fit: float) -> tuple[list[Piece], float]:
+def _biarc_between(curve: Curve, first: float, last: float) -> tuple[list[Piece], float]:
     """The biarc between two parameters and how far it is from the curve; infinite where it turns too much."""
     at = np.linspace(first, last, SAMPLES + 1)
     points, tangents = curve.points(at), curve.tangents(at)
@@ -311,10 +314,9 @@ def biarc(start: complex, end: complex, first: complex, last: complex) -> list[P
     chord = end - start
     across = first + last
     a, b, c = 2.0 * (1.0 - _dot(first, last)), 2.0 * _dot(chord, across), -(abs(chord) ** 2)
-    if abs(a) <= 1e-14:
-        length = -c / b if b else 0.0
-    else:
-        length = 2.0 * -c / (b + (b * b - 4.0 * a * c) ** 0.5)
+    # the root of a d^2 + b d + c that stays finite where a vanishes
+    below = b + (b * b - 4.0 * a * c) ** 0.5
+    length = -2.0 * c / below if below > 0.0 else 0.0
     if length <= 0.0:
         return [_line(start, end)]
     joint = (start + first * length + end - last * length) / 2.0

@@ -1,23 +1,20 @@
 """DXF in: the entities of a drawing's model space as shapes in its own unit, by the package ezdxf.
 
-Whatever is not taken is counted or told; what was read is compared with what the tags of the file hold.  ezdxf is
-imported only here and only when a drawing is opened.
+Whatever is not taken is counted or told; what was read is compared with what the tags of the file hold.
 """
 
 from __future__ import annotations
 
-import io
-import logging
-import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from math import isfinite, radians, tau
 from types import MappingProxyType
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final, cast
 
 import numpy as np
 
+from core.geometry.piece import Line
 from core.importing.drawing import (
     MAX_BYTES,
     MAX_ENTITIES,
@@ -33,11 +30,19 @@ from core.importing.drawing import (
     Shape,
     counted,
 )
-from core.importing.dxf_tags import BINARY_MARK, Scan, ScannedEntity, is_dxf, scan_tags, scan_text, text_lines
-from core.geometry.piece import Line
+from core.importing.dxf_document import damaged_file, document_of, too_much, words_of
+from core.importing.dxf_tags import Scan, ScannedEntity, is_dxf
 from core.tolerance import LARGEST
 
-MISSING_PACKAGE: Final = "DXF files need the package ezdxf: pip install ezdxf"
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing as Document
+    from ezdxf.entities.dxfgfx import DXFGraphic
+    from ezdxf.entities.ellipse import Ellipse
+    from ezdxf.entities.insert import Insert
+    from ezdxf.entities.lwpolyline import LWPolyline
+    from ezdxf.entities.polyline import Polyline
+    from ezdxf.entities.spline import Spline
+    from ezdxf.math import OCS, Matrix44, Vec3
 
 FLAT: Final = 1e-4
 """How far the Z of one entity's points may differ, in the drawing's unit: more than rounding is a slope."""
@@ -62,12 +67,14 @@ def read_dxf(data: bytes, name: str, *, damaged: bool = False, progress: Progres
     With `damaged` a file that breaks off is read as far as its entities are whole.  Raises DrawingError.
     """
     if len(data) > MAX_BYTES:
-        raise _too_much("bytes", len(data), MAX_BYTES)
+        raise too_much("bytes", len(data), MAX_BYTES)
     if not is_dxf(data):
         raise DrawingError("NOT_DXF", f"{name} is no DXF file.")
     progress("reading", 0, 1)
-    scan, document = _document(data, damaged=damaged)
+    scan, document = document_of(data, damaged=damaged)
     reader = _Reader(document, progress, damaged=damaged)
+    if not scan.whole:
+        reader.notes[f"The file breaks off at line {scan.last_line}: what comes after it is missing."] += 1
     reader.read(scan)
     drawing = reader.drawing(scan)
     if not drawing.shapes and not drawing.not_flat:
@@ -85,108 +92,6 @@ def _no_geometry(drawing: Drawing) -> str:
     return f"{text}."
 
 
-def _too_much(what: str, count: int, most: int) -> DrawingError:
-    return DrawingError("TOO_MUCH", f"The drawing has {count:,} {what}: at most {most:,} are read.")
-
-
-def _document(data: bytes, *, damaged: bool) -> tuple[Scan, Any]:
-    """The scan of the tags and ezdxf's document, or DrawingError."""
-    try:
-        import ezdxf
-    except ImportError as error:
-        raise DrawingError("NO_EZDXF", MISSING_PACKAGE) from error
-    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
-    assert ezdxf
-    if data.startswith(BINARY_MARK):
-        return _binary_document(data)
-    scan = scan_text(data)
-    if not scan.whole and not scan.bad_line:
-        data = _up_to_break(data, scan, damaged=damaged)
-    if len(scan.entities) > MAX_ENTITIES:
-        raise _too_much("entities", len(scan.entities), MAX_ENTITIES)
-    if scan.first_fault is not None and not damaged:
-        fault = scan.first_fault
-        readable = sum(not entity.fault for entity in scan.entities)
-        raise _damaged(f"The {fault.kind} {fault.where} {fault.fault}", readable)
-    return scan, _loaded(data, scan)
-
-
-def _up_to_break(data: bytes, scan: Scan, *, damaged: bool) -> bytes:
-    """The text of a file that breaks off, ended properly after its last whole entity."""
-    if not damaged:
-        count = len(scan.entities)
-        could = f"{count} {'entity' if count == 1 else 'entities'} could be read"
-        raise DrawingError("DXF_DAMAGED", f"This file breaks off at line {scan.last_line}: {could}.", count)
-    end = [b"0", b"ENDBLK"] if scan.open_section == "BLOCKS" else []
-    if scan.open_section:
-        end += [b"0", b"ENDSEC"]
-    lines = text_lines(data)
-    kept = lines[: scan.cut] if scan.cut else lines[: len(lines) // 2 * 2]
-    return b"\n".join([*kept, *end, b"0", b"EOF", b""])
-
-
-def _damaged(text: str, readable: int | None = None) -> DrawingError:
-    return DrawingError("DXF_DAMAGED", f"This file is damaged: {text}.", readable)
-
-
-def _binary_document(data: bytes) -> tuple[Scan, Any]:
-    from ezdxf.document import Drawing as Document
-    from ezdxf.lldxf.tagger import binary_tags_loader
-
-    try:
-        scan = scan_tags(binary_tags_loader(data))
-        if len(scan.entities) > MAX_ENTITIES:
-            raise _too_much("entities", len(scan.entities), MAX_ENTITIES)
-        if scan.whole:
-            return scan, Document.load(binary_tags_loader(data))
-    except DrawingError:
-        raise
-    except Exception as error:  # noqa: BLE001  # a damaged file may bring any exception out of a package for files
-        raise _damaged(_why(error)) from error
-    raise _damaged("it breaks off")
-
-
-def _loaded(data: bytes, scan: Scan) -> Any:
-    """ezdxf's document of a text file; coordinates in another order than usual are put in order."""
-    import ezdxf
-    from ezdxf.document import Drawing as Document
-    from ezdxf.lldxf.repair import tag_reorder_layer
-    from ezdxf.lldxf.tagger import ascii_tags_loader
-
-    text = b"\n".join([*text_lines(data), b""]).decode(_encoding(data), "surrogateescape")
-    try:
-        return ezdxf.read(io.StringIO(text))
-    except Exception as error:  # noqa: BLE001  # as above
-        first = error
-    try:
-        return Document.load(tag_reorder_layer(ascii_tags_loader(io.StringIO(text))))
-    except Exception as error:  # noqa: BLE001  # as above
-        where = f"line {scan.bad_line} is no group code" if scan.bad_line else _why(first)
-        raise _damaged(where) from error
-
-
-def _encoding(data: bytes) -> str:
-    """The encoding that the header names; since R2007 it is UTF-8."""
-    from ezdxf.filemanagement import dxf_stream_info
-
-    try:
-        head = data[:200_000].decode("latin-1").replace("\r\n", "\n").replace("\r", "\n")
-        encoding = str(dxf_stream_info(io.StringIO(head)).encoding)
-        "".encode(encoding)
-    except Exception:  # noqa: BLE001  # a header that cannot be read names no encoding
-        return "cp1252"
-    return encoding
-
-
-_HANDLE: Final = re.compile(r"\(#\w+\)")
-
-
-def _why(error: Exception | str) -> str:
-    """A package's words for what it stopped at, on one line and short."""
-    words = " ".join("".join(sign if sign.isprintable() else " " for sign in _HANDLE.sub("", str(error))).split())
-    return (words or type(error).__name__).rstrip(".")[:160]
-
-
 _SKIPPED_ALWAYS: Final = frozenset({"ATTDEF", "VIEWPORT"})
 
 _SHOWN_KINDS: Final = frozenset(
@@ -198,7 +103,7 @@ _SHOWN_KINDS: Final = frozenset(
 class _Reader:
     """Goes through model space; INSERTs are followed with their transformation."""
 
-    document: Any
+    document: Document
     progress: Progress
     damaged: bool
     shapes: list[Drawn] = field(default_factory=list)
@@ -216,7 +121,7 @@ class _Reader:
         """Every entity of model space; what paper space holds is counted."""
         entities = list(self.document.modelspace())
         if len(entities) > MAX_ENTITIES:
-            raise _too_much("entities", len(entities), MAX_ENTITIES)
+            raise too_much("entities", len(entities), MAX_ENTITIES)
         self._compare(entities, scan)
         for name, layer in _layer_states(self.document):
             self.layers[name] = layer
@@ -228,19 +133,19 @@ class _Reader:
             if layout.name != "Model":
                 self._paper(layout)
 
-    def _paper(self, layout: Iterable[Any]) -> None:
+    def _paper(self, layout: Iterable[DXFGraphic]) -> None:
         kinds = Counter(entity.dxftype() for entity in layout)
         for kind, count in kinds.items():
             if kind not in _SKIPPED_ALWAYS:
                 self.skipped[f"{kind} in paper space"] += count
 
-    def _compare(self, entities: list[Any], scan: Scan) -> None:
+    def _compare(self, entities: list[DXFGraphic], scan: Scan) -> None:
         """Find the line of each entity, and refuse a file of which ezdxf has lost something."""
         self.scanned = scan.blocks
         in_paper = [entity for layout in self.document.layouts if layout.name != "Model" for entity in layout]
         self._match(entities, [entity for entity in scan.entities if not entity.paper], in_paper)
 
-    def _match(self, entities: list[Any], scanned: list[ScannedEntity], others: Iterable[Any] = ()) -> None:
+    def _match(self, entities: list[DXFGraphic], scanned: list[ScannedEntity], others: Iterable[Any] = ()) -> None:
         if not scanned:
             return
         kinds = [entity.dxftype() for entity in entities]
@@ -254,7 +159,7 @@ class _Reader:
             if kind in _SHOWN_KINDS and count > have[kind]
         }
         if lost and not self.damaged:
-            raise _damaged(f"{counted(lost)} could not be read", sum(have.values()))
+            raise damaged_file(f"{counted(lost)} could not be read", sum(have.values()))
         if lost:
             self.notes[f"{counted(lost)} could not be read."] += 1
 
@@ -272,57 +177,68 @@ class _Reader:
             unit, tuple(self.shapes), dict(self.skipped), dict(self.hidden), tuple(self.not_flat), tuple(notes)
         )
 
-    def _entity(self, entity: Any, matrix: Any, outer_layer: str | None, depth: int) -> None:
+    def _entity(self, entity: DXFGraphic, matrix: Matrix44 | None, outer_layer: str | None, depth: int) -> None:
         """One entity under the transformation of the INSERTs around it."""
         kind = entity.dxftype()
-        layer = str(entity.dxf.get("layer", "0"))
+        layer = str(entity.dxf.get("layer", "0")) if entity.dxf.is_supported("layer") else "0"
         if layer == "0" and outer_layer is not None:
             layer = outer_layer
         frozen, off = self.layers.get(layer.lower(), (False, False))
-        if kind not in _SHOWN_KINDS:
+        place = self.lines.get(id(entity))
+        if place is not None and place.fault:
+            self._unreadable(entity, f"it {place.fault}")
+        elif kind not in _SHOWN_KINDS:
             if kind not in _SKIPPED_ALWAYS:
                 self.skipped[kind] += 1
-            return
-        if frozen or (off and kind != "INSERT") or entity.dxf.get("invisible", 0):
+        elif frozen or (off and kind != "INSERT") or entity.dxf.get("invisible", 0):
             self.hidden[layer] += 1
-            return
+        elif kind == "INSERT":
+            self._readable(entity, lambda: self._insert(cast("Insert", entity), matrix, layer, depth))
+        else:
+            self._readable(entity, lambda: self._take(entity, matrix, layer))
+
+    def _readable(self, entity: DXFGraphic, read: Callable[[], None]) -> None:
+        """Read an entity; whatever goes wrong names it."""
         try:
-            if kind == "INSERT":
-                self._insert(entity, matrix, layer, depth)
-                return
-            shapes = list(_READERS[kind](self, entity, matrix))
+            read()
         except DrawingError:
             raise
+        except Exception as error:  # noqa: BLE001  # an entity with values that nobody thought of
+            self._unreadable(entity, words_of(error))
+
+    def _take(self, entity: DXFGraphic, matrix: Matrix44 | None, layer: str) -> None:
+        """The shapes of an entity."""
+        kind = entity.dxftype()
+        try:
+            shapes = list(_READERS[kind](self, entity, matrix))
         except _NotFlatError as error:
             self.not_flat.append(NotFlat(layer, f"The {kind} {self._where(entity)} {error}."))
             return
-        except Exception as error:  # noqa: BLE001  # an entity with values that nobody thought of
-            self._unreadable(entity, _why(error))
-            return
         if len(self.shapes) + len(shapes) > MAX_SHAPES:
-            raise _too_much("lines and curves", len(self.shapes) + len(shapes), MAX_SHAPES)
+            raise too_much("lines and curves", len(self.shapes) + len(shapes), MAX_SHAPES)
         line = self.lines[id(entity)].line if id(entity) in self.lines else 0
-        for shape in shapes:
-            if _finite(shape):
-                self.shapes.append(Drawn(shape, layer, line))
-            else:
-                self._unreadable(entity, f"a coordinate is larger than {LARGEST:g} or no number")
+        if not all(map(_finite, shapes)):
+            self._unreadable(entity, f"a coordinate is larger than {LARGEST:g} or no number")
+            return
+        self.shapes += [Drawn(shape, layer, line) for shape in shapes]
 
-    def _unreadable(self, entity: Any, why: str) -> None:
+    def _unreadable(self, entity: DXFGraphic, why: str) -> None:
         text = f"The {entity.dxftype()} {self._where(entity)} cannot be read: {why}"
         if not self.damaged:
-            raise _damaged(text, len(self.document.modelspace()) - 1)
+            raise damaged_file(text, len(self.document.modelspace()) - 1)
         self.notes[f"{text}."] += 1
 
-    def _where(self, entity: Any) -> str:
+    def _where(self, entity: DXFGraphic) -> str:
         place = self.lines.get(id(entity))
         return place.where if place is not None else f"#{entity.dxf.get('handle', '?')}"
 
-    def _insert(self, insert: Any, matrix: Any, layer: str, depth: int) -> None:
+    def _insert(self, insert: Insert, matrix: Matrix44 | None, layer: str, depth: int) -> None:
         """The entities of a block, as often as it is inserted."""
         block = insert.block()
         if block is None:
-            self.notes[f"INSERT of the block {_why(insert.dxf.get('name', ''))!r}, which the file does not have."] += 1
+            self.notes[
+                f"INSERT of the block {words_of(insert.dxf.get('name', ''))!r}, which the file does not have."
+            ] += 1
             self.skipped["INSERT"] += 1
             return
         if depth >= MAX_INSERT_DEPTH:
@@ -333,7 +249,7 @@ class _Reader:
         rows, columns = insert.dxf.row_count, insert.dxf.column_count
         count = max(insert.mcount, 1)
         if count * max(len(block), 1) > MAX_SHAPES:
-            raise _too_much("lines and curves", count * len(block), MAX_SHAPES)
+            raise too_much("lines and curves", count * len(block), MAX_SHAPES)
         self.skipped["ATTRIB"] += len(insert.attribs)
         if not insert.attribs:
             del self.skipped["ATTRIB"]
@@ -344,11 +260,11 @@ class _Reader:
             for entity in block:
                 self._entity(entity, here, layer, depth + 1)
 
-    def line(self, entity: Any, matrix: Any) -> Iterator[Shape]:
+    def line(self, entity: DXFGraphic, matrix: Matrix44 | None) -> Iterator[Shape]:
         """A LINE."""
         yield self._straight(_moved(entity.dxf.start, matrix), _moved(entity.dxf.end, matrix))
 
-    def _straight(self, start: Any, end: Any) -> Line:
+    def _straight(self, start: Vec3, end: Vec3) -> Line:
         self._level(start.z, end.z)
         return Line((start.x, start.y), (end.x, end.y))
 
@@ -358,7 +274,7 @@ class _Reader:
             raise _NotFlatError("does not lie in the XY plane")
         self.heights += heights[:1]
 
-    def circle(self, entity: Any, matrix: Any) -> Iterator[Shape]:
+    def circle(self, entity: DXFGraphic, matrix: Matrix44 | None) -> Iterator[Shape]:
         """A CIRCLE or an ARC; one without a radius is a point."""
         dxf = entity.dxf
         radius = float(dxf.radius)
@@ -371,7 +287,9 @@ class _Reader:
         end = radians(dxf.end_angle) if arc else tau
         yield self._round(entity.ocs(), dxf.center, radius, _turned(begin, end), matrix)
 
-    def _round(self, ocs: Any, center: Any, radius: float, angles: tuple[float, float], matrix: Any) -> EllipseArc:
+    def _round(
+        self, ocs: OCS, center: Vec3, radius: float, angles: tuple[float, float], matrix: Matrix44 | None
+    ) -> EllipseArc:
         center, first, second = (
             ocs.to_wcs(center),
             ocs.to_wcs(type(center)(radius, 0, 0)),
@@ -379,7 +297,9 @@ class _Reader:
         )
         return self._ellipse(center, first, second, angles, matrix)
 
-    def _ellipse(self, center: Any, first: Any, second: Any, angles: tuple[float, float], matrix: Any) -> EllipseArc:
+    def _ellipse(
+        self, center: Vec3, first: Vec3, second: Vec3, angles: tuple[float, float], matrix: Matrix44 | None
+    ) -> EllipseArc:
         if matrix is not None:
             center = matrix.transform(center)
             first, second = matrix.transform_direction(first), matrix.transform_direction(second)
@@ -388,13 +308,13 @@ class _Reader:
             complex(center.x, center.y), complex(first.x, first.y), complex(second.x, second.y), *angles
         )  # fmt: skip
 
-    def ellipse(self, entity: Any, matrix: Any) -> Iterator[Shape]:
+    def ellipse(self, entity: Ellipse, matrix: Matrix44 | None) -> Iterator[Shape]:
         """An ELLIPSE; its parameters count from its major axis."""
         tool = entity.construction_tool()
         angles = _turned(float(entity.dxf.start_param), float(entity.dxf.end_param))
         yield self._ellipse(tool.center, tool.major_axis, tool.minor_axis, angles, matrix)
 
-    def lwpolyline(self, entity: Any, matrix: Any) -> Iterator[Shape]:
+    def lwpolyline(self, entity: LWPolyline, matrix: Matrix44 | None) -> Iterator[Shape]:
         """An LWPOLYLINE: lines and arcs of its bulges."""
         dxf = entity.dxf
         rows = entity.get_points("xyseb")
@@ -403,7 +323,7 @@ class _Reader:
         vertices = [(x, y, bulge) for x, y, _, _, bulge in rows]
         yield from self._bulged(entity, vertices, float(dxf.get("elevation", 0.0)), matrix, closed=bool(entity.closed))
 
-    def polyline(self, entity: Any, matrix: Any) -> Iterator[Shape]:
+    def polyline(self, entity: Polyline, matrix: Matrix44 | None) -> Iterator[Shape]:
         """A two-dimensional POLYLINE: lines and arcs of its bulges; the frame of a fitted one is no part of it."""
         mode = entity.get_mode()
         if mode != "AcDb2dPolyline":
@@ -419,7 +339,13 @@ class _Reader:
         yield from self._bulged(entity, vertices, height, matrix, closed=bool(entity.is_closed))
 
     def _bulged(
-        self, entity: Any, vertices: list[tuple[float, float, float]], height: float, matrix: Any, *, closed: bool
+        self,
+        entity: DXFGraphic,
+        vertices: list[tuple[float, float, float]],
+        height: float,
+        matrix: Matrix44 | None,
+        *,
+        closed: bool,
     ) -> Iterator[Shape]:
         from ezdxf.math import Vec3, bulge_to_arc
 
@@ -438,7 +364,7 @@ class _Reader:
                 points = (ocs.to_wcs(Vec3(x, y, height)), ocs.to_wcs(Vec3(x_end, y_end, height)))
                 yield self._straight(*(_moved(point, matrix) for point in points))
 
-    def spline(self, entity: Any, matrix: Any) -> Iterator[Shape]:
+    def spline(self, entity: Spline, matrix: Matrix44 | None) -> Iterator[Shape]:
         """A SPLINE by its control points, or through its fit points where it has no others."""
         tool = entity.construction_tool()
         points = [_moved(point, matrix) for point in tool.control_points]
@@ -456,7 +382,7 @@ class _NotFlatError(Exception):
     """An entity lies outside of the XY plane; the text says in what way."""
 
 
-_READERS: Final = MappingProxyType(
+_READERS: Final[Mapping[str, Callable[[_Reader, Any, Matrix44 | None], Iterator[Shape]]]] = MappingProxyType(
     {
         "LINE": _Reader.line,
         "CIRCLE": _Reader.circle,
@@ -469,19 +395,19 @@ _READERS: Final = MappingProxyType(
 )
 
 
-def _layer_states(document: Any) -> Iterator[tuple[str, tuple[bool, bool]]]:
+def _layer_states(document: Document) -> Iterator[tuple[str, tuple[bool, bool]]]:
     """Of each layer whether it is frozen, and whether it is off."""
     for layer in document.layers:
         yield str(layer.dxf.name).lower(), (bool(layer.is_frozen()), bool(layer.is_off()))
 
 
-def _is_clipped(insert: Any) -> bool:
+def _is_clipped(insert: Insert) -> bool:
     from ezdxf.xclip import XClip
 
     return bool(insert.has_extension_dict and XClip(insert).has_clipping_path)
 
 
-def _moved(point: Any, matrix: Any) -> Any:
+def _moved(point: Vec3, matrix: Matrix44 | None) -> Vec3:
     return point if matrix is None else matrix.transform(point)
 
 

@@ -10,6 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from itertools import pairwise
 from types import MappingProxyType
 from typing import Final, NamedTuple
 
@@ -222,7 +223,7 @@ class _Scanner:
             self._check(marker.value, body)
 
     def _header(self, body: list[Tag]) -> None:
-        for variable, value in zip(body, body[1:], strict=False):
+        for variable, value in pairwise(body):
             if variable[:2] == (9, "$INSUNITS") and value.code == 70 and value.value.lstrip("-").isdecimal():
                 self.scan.units = int(value.value)
 

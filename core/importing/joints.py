@@ -60,7 +60,9 @@ def _joint(first: Piece, second: Piece, tolerance: float) -> Point:
         return there if isinstance(second, Arc) and isinstance(first, Line) else here
     middle = ((here[0] + there[0]) / 2.0, (here[1] + there[1]) / 2.0)
     if gap > JOINED and _angle_between(first, second) > CROSSING:
-        meetings = [point for point in _meetings(first, second) if max(dist(point, here), dist(point, there)) <= tolerance]
+        meetings = [
+            point for point in _meetings(first, second) if max(dist(point, here), dist(point, there)) <= tolerance
+        ]
         if meetings:
             return min(meetings, key=lambda point: dist(point, middle))
     if isinstance(first, Arc) is not isinstance(second, Arc):

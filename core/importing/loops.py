@@ -158,7 +158,9 @@ class _Walker:
 
     def _next(self, node: int, heading: float, on_trail: dict[int, int]) -> _Step | None:
         """The way on that leads back with the smallest change of direction."""
-        ways = [way for row in dict.fromkeys(self.nodes.pieces[node]) if not self.used[row] for way in self._ways(row, node)]
+        ways = [
+            way for row in dict.fromkeys(self.nodes.pieces[node]) if not self.used[row] for way in self._ways(row, node)
+        ]
         if len(ways) > 1:
             ways.sort(key=lambda way: self._change(way, heading))
         return next((way for way in ways if len(ways) == 1 or self._leads_back(way, on_trail)), None)

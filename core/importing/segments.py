@@ -15,7 +15,7 @@ from core.geometry.piece import Arc, Piece, Point, Side, Turn
 from core.importing.contour import Contour
 from core.program.edit import new_block
 from core.program.fields import FARTHEST
-from core.program.model import ArcSegment, Block, CutterComp, Direction, Entry, LineSegment, Program, Segment
+from core.program.model import ArcSegment, Block, CutterComp, Direction, LineSegment, Number, Program, Segment
 from core.program.solve.block import solve_block
 from core.tolerance import ARC_RADII, CLOSED
 from core.units import Kind, Unit, decimals_shown, from_mm
@@ -61,7 +61,9 @@ def block_of(contour: Contour, program: Program) -> ImportedBlock:
     raise NotTaken(f"Contour {contour.number} cannot be written as segments: its arcs are too flat or too short.")
 
 
-def taken(program: Program, contours: Sequence[Contour], *, replace_empty: bool = True) -> tuple[Program, list[ImportedBlock]]:
+def taken(
+    program: Program, contours: Sequence[Contour], *, replace_empty: bool = True
+) -> tuple[Program, list[ImportedBlock]]:
     """The program with a block for each contour, in their order; an only block without segments is replaced."""
     made = [block_of(contour, program) for contour in contours]
     kept = program.blocks
@@ -117,7 +119,7 @@ def _block(contour: Contour, program: Program, decimals: int) -> Block:
     comp = CutterComp.ON if side is None else CutterComp.LEFT if side is Side.LEFT else CutterComp.RIGHT
     block = new_block(program)
     return replace(
-        block, cutter_comp=comp, x_start=Entry(start[0]), y_start=Entry(start[1]), segments=tuple(segments)
+        block, cutter_comp=comp, x_start=Number(start[0]), y_start=Number(start[1]), segments=tuple(segments)
     )  # fmt: skip
 
 
@@ -128,15 +130,15 @@ def _typed(point: Point, unit: Unit, decimals: int) -> Point:
 
 
 def _segment(piece: Piece, end: Point, unit: Unit, decimals: int) -> Segment:
-    ends = Entry(end[0]), Entry(end[1])
+    ends = Number(end[0]), Number(end[1])
     if not isinstance(piece, Arc):
         return LineSegment(*ends)
     center = _typed(piece.center, unit, decimals)
     direction = Direction.CCW if piece.turn is Turn.CCW else Direction.CW
     sweep = None
     if piece.start != piece.end and dist(piece.start, piece.end) <= NEARLY_FULL:
-        sweep = Entry(round(degrees(abs(piece.sweep)), FINER_DECIMALS))
-    return ArcSegment(direction, *ends, x_center=Entry(center[0]), y_center=Entry(center[1]), sweep=sweep)
+        sweep = Number(round(degrees(abs(piece.sweep)), FINER_DECIMALS))
+    return ArcSegment(direction, *ends, x_center=Number(center[0]), y_center=Number(center[1]), sweep=sweep)
 
 
 def _moved(block: Block, pieces: Sequence[Piece], program: Program) -> float | None:

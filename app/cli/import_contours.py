@@ -1,0 +1,198 @@
+"""`cutcomp import`: contours of a drawing, or of an NC program, as a program of MILL CONTOUR blocks."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Final
+
+from app.cli.shell import CLEAN, UNUSABLE, say
+from app.documents.drawing_files import Worker, drawing_bytes
+from app.documents.files import write_text
+from app.documents.programs import empty_program
+from core.importing.contour import Contour, fitted_contour, reversed_contour, started_at
+from core.importing.contours import FIT, MAX_TOLERANCE, TOLERANCE, ContourList, ImportOptions, Progress, contours_of
+from core.importing.drawing import Drawing, DrawingError, DrawingUnit
+from core.importing.dxf import read_dxf
+from core.importing.listing import rows_of, sentences, table, unit_question
+from core.importing.segments import NotTaken, comment, taken
+from core.program.file.read import StoreError
+from core.program.file.write import dumps
+from core.units import Kind, Unit, from_mm, show, to_mm
+
+UNITS: Final = {
+    "in": DrawingUnit.IN,
+    "ft": DrawingUnit.FT,
+    "mm": DrawingUnit.MM,
+    "cm": DrawingUnit.CM,
+    "m": DrawingUnit.M,
+}
+
+
+class Unusable(Exception):
+    """The arguments or the file cannot be used; the text says why and what to do."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What a worker needs of the arguments."""
+
+    name: str
+    damaged: bool
+    unit: DrawingUnit | None
+    tolerance: float | None
+    fit: float | None
+    layers: tuple[str, ...]
+
+
+def import_contours(arguments: list[str]) -> int:
+    """Runs the command; returns 0, or 2 for what cannot be used."""
+    options = _parser().parse_args(arguments)
+    try:
+        _import(options)
+    except (Unusable, StoreError, NotTaken) as error:
+        say(str(error))
+        return UNUSABLE
+    except DrawingError as error:
+        more = " Take it all the same with --damaged." if error.readable and not options.damaged else ""
+        say(f"{error.text}{more}")
+        return UNUSABLE
+    return CLEAN
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        "cutcomp import",
+        description="Contours of a DXF drawing as a program; lengths are typed in the program's unit.",
+    )
+    parser.add_argument("file", type=Path, metavar="FILE", help="a drawing (DXF)")
+    parser.add_argument("--list", action="store_true", help="list the contours, take none")
+    parser.add_argument(
+        "--chain", metavar="N|all", help="the contours to take by their numbers in the list: 1,3 or all"
+    )
+    parser.add_argument("--layer", action="append", default=[], metavar="L", help="of this layer only; may be repeated")
+    parser.add_argument("--units", choices=tuple(UNITS), type=str.lower, help="the unit of a drawing that names none")
+    parser.add_argument(
+        "--tolerance", type=float, metavar="T", help="ends so near are joined; usually 0.0005 in, 0.01 mm"
+    )
+    parser.add_argument(
+        "--fit", type=float, metavar="T", help="fit arcs within T to runs of lines too; usually 0.0002 in, 0.005 mm"
+    )
+    parser.add_argument("--start", metavar="X,Y", help="start at the place nearest to this one")
+    parser.add_argument("--reverse", action="store_true", help="travel the contour the other way")
+    parser.add_argument("--damaged", action="store_true", help="take what can be read of a damaged file")
+    parser.add_argument("-o", "--output", type=Path, metavar="OUT.toml", help="write the program here")
+    return parser
+
+
+def _import(options: argparse.Namespace) -> None:
+    asked = Asked(
+        options.file.name,
+        options.damaged,
+        UNITS.get(options.units or ""),
+        options.tolerance,
+        options.fit,
+        tuple(options.layer),
+    )
+    listed = Worker(_listed, drawing_bytes(options.file), asked).result()
+    unit = listed.unit
+    if options.list or not listed.contours:
+        _print_list(listed, unit)
+        return
+    contours = tuple(_changed(contour, options, unit) for contour in _chosen(listed, options.chain, unit))
+    _write(options, listed, contours)
+
+
+def _listed(data: bytes, asked: Asked, *, progress: Progress) -> ContourList:
+    """In the worker: the drawing and its contours."""
+    drawing = read_dxf(data, asked.name, damaged=asked.damaged, progress=progress)
+    unit = asked.unit or drawing.unit
+    if unit is None:
+        raise DrawingError("UNITS", f"{unit_question(drawing)}: add --units in or --units mm.")
+    if asked.unit and drawing.unit and asked.unit is not drawing.unit:
+        note = f"The file says {drawing.unit}: it is read as {asked.unit}, as --units says."
+        drawing = replace(drawing, notes=(*drawing.notes, note))
+    return contours_of(drawing, _options(asked, drawing, unit), progress)
+
+
+def _options(asked: Asked, drawing: Drawing, unit: DrawingUnit) -> ImportOptions:
+    """The options of the arguments, each checked."""
+    program = unit.program_unit
+    most = from_mm(MAX_TOLERANCE[program], program)
+    for name, value in (("--tolerance", asked.tolerance), ("--fit", asked.fit)):
+        if value is not None and not 0.0 <= value <= most:
+            raise DrawingError("OPTION", f"{name} {value:g}: it must be from 0 to {most:g} {program}.")
+    for layer in asked.layers:
+        if layer not in drawing.layers:
+            raise DrawingError("OPTION", f"--layer {layer}: the drawing has {', '.join(drawing.layers) or 'none'}.")
+    tolerance = TOLERANCE[program] if asked.tolerance is None else to_mm(asked.tolerance, program)
+    fit = to_mm(asked.fit, program) if asked.fit else FIT[program]
+    return ImportOptions(unit, tolerance, fit, frozenset(asked.layers) or None)
+
+
+def _print_list(listed: ContourList, unit: Unit) -> None:
+    drawing = listed.drawing
+    known = "" if drawing.unit is None else " ($INSUNITS)"
+    print(f"{listed.options.unit}{known}, layers {', '.join(drawing.layers)}")
+    print(*table(rows_of(listed.contours), unit), sep="\n")
+    for text in sentences(listed, unit):
+        say(text)
+
+
+def _chosen(listed: ContourList, chain: str | None, unit: Unit) -> tuple[Contour, ...]:
+    contours = listed.contours
+    if chain is None:
+        if len(contours) == 1:
+            return contours
+        _print_list(listed, unit)
+        raise Unusable(f"The drawing has {len(contours)} contours: add --chain N, --chain 1,2 or --chain all.")
+    if chain.strip().lower() == "all":
+        return contours
+    numbers = [part.strip() for part in chain.split(",")]
+    wrong = next((part for part in numbers if not part.isdecimal() or not 1 <= int(part) <= len(contours)), None)
+    if wrong is not None:
+        raise Unusable(f"--chain {wrong}: the drawing has contours 1 to {len(contours)}.")
+    wanted = {int(part) for part in numbers}
+    return tuple(contour for contour in contours if contour.number in wanted)
+
+
+def _changed(contour: Contour, options: argparse.Namespace, unit: Unit) -> Contour:
+    """The contour as --fit, --start and --reverse want it."""
+    if options.fit:
+        contour = fitted_contour(contour, to_mm(options.fit, unit))
+    if options.start is not None:
+        contour = started_at(contour, _point(options.start, unit))
+    return reversed_contour(contour) if options.reverse else contour
+
+
+def _point(text: str, unit: Unit) -> tuple[float, float]:
+    parts = text.split(",")
+    try:
+        x, y = (to_mm(float(part), unit) for part in parts)
+    except ValueError:
+        raise Unusable(f"--start {text}: type X,Y such as 10,2.5.") from None
+    return x, y
+
+
+def _write(options: argparse.Namespace, listed: ContourList, contours: tuple[Contour, ...]) -> None:
+    unit = listed.unit
+    program, made = taken(empty_program(unit), contours)
+    text = dumps(program)
+    first, _, rest = text.partition("\n")
+    text = f"{first}\n{comment(options.file.name, contours)}\n{rest}"
+    if options.output is None:
+        sys.stdout.write(text)
+    else:
+        if options.output.exists() and options.output.resolve() == options.file.resolve():
+            raise Unusable(f"-o {options.output}: that is the drawing itself.")
+        write_text(options.output, text)
+    for sentence in sentences(listed, unit):
+        say(sentence)
+    for block, contour in zip(made, contours, strict=True):
+        x, y = (show(from_mm(value, unit), Kind.LENGTH, unit) for value in contour.start)
+        way = f", {contour.turn.name}" if contour.closed else ""
+        say(f"contour {contour.number}: {len(block.block.segments)} segments from X {x} Y {y}{way}.")
+        for note in block.notes:
+            say(note)

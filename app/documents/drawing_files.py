@@ -1,0 +1,140 @@
+"""Drawing files: read in a process of their own, with a time limit, progress and cancel; the screen stays alive.
+
+A file may be damaged in any way, and a small one may ask for a million shapes.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Final, Generic, TypeVar, cast
+
+from core.importing.drawing import MAX_BYTES, DrawingError
+from core.program.file.read import StoreError
+
+Result = TypeVar("Result")
+
+TIME_LIMIT: Final = 60.0
+"""Seconds that a drawing may take."""
+
+PROGRESS_PAUSE: Final = 0.1
+"""Seconds between two messages of progress."""
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """What a worker is doing, and how much of it is done."""
+
+    stage: str
+    done: int
+    whole: int
+
+
+@dataclass(frozen=True, slots=True)
+class Done(Generic[Result]):
+    """A worker's result."""
+
+    value: Result
+
+
+class Worker(Generic[Result]):
+    """A function run in a process of its own; it takes the arguments and `progress`, both can be pickled.
+
+    `poll` tells how far it is; `cancel` ends it at once.  After `limit` seconds it is ended.
+    """
+
+    def __init__(self, function: Callable[..., Result], *arguments: object, limit: float = TIME_LIMIT) -> None:
+        context = get_context("spawn")
+        self._here, there = context.Pipe(duplex=False)
+        self._process = context.Process(target=_work, args=(there, function, arguments), daemon=True)
+        self._limit, self._deadline = limit, time.monotonic() + limit
+        self._process.start()
+        there.close()
+
+    def poll(self, wait: float = 0.0) -> Progress | Done[Result] | None:
+        """The next message, None if there is none within `wait` seconds.
+
+        Raises DrawingError: what the function raised, or that the limit is passed or the process has died.
+        """
+        try:
+            if self._here.poll(min(wait, max(self._deadline - time.monotonic(), 0.0))):
+                return self._received(self._here.recv())
+        except (EOFError, OSError) as error:
+            self.cancel()
+            raise DrawingError("TOO_MUCH", "Reading the drawing was ended, perhaps for want of memory.") from error
+        if time.monotonic() >= self._deadline:
+            self.cancel()
+            raise DrawingError("TOO_MUCH", f"Reading the drawing takes longer than {self._limit:g} s.")
+        return None
+
+    def _received(self, message: object) -> Progress | Done[Result]:
+        if isinstance(message, Progress):
+            return message
+        self.cancel()
+        if isinstance(message, DrawingError):
+            raise message
+        return Done(cast("Result", message))
+
+    def cancel(self) -> None:
+        """End the process, whatever it does."""
+        if self._process.is_alive():
+            self._process.kill()
+        self._process.join()
+        self._here.close()
+
+    def result(self) -> Result:
+        """Wait for the result."""
+        try:
+            while not isinstance(message := self.poll(1.0), Done):
+                pass
+        except BaseException:
+            self.cancel()
+            raise
+        return message.value
+
+
+def _work(there: Connection, function: Callable[..., object], arguments: tuple[object, ...]) -> None:
+    """In the process: the result or the error goes through the pipe."""
+    # Ctrl+C is for the process that waits
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # ezdxf looks for settings in the folder it is started in, and for fonts that no contour needs
+    os.environ["EZDXF_CONFIG_FILE"] = os.devnull
+    sent = 0.0
+
+    def progress(stage: str, done: int, whole: int) -> None:
+        nonlocal sent
+        now = time.monotonic()
+        if now - sent >= PROGRESS_PAUSE:
+            sent = now
+            there.send(Progress(stage, done, whole))
+
+    try:
+        message: object = function(*arguments, progress=progress)
+    except DrawingError as error:
+        message = error
+    except RecursionError:
+        message = DrawingError("TOO_MUCH", "The drawing is nested too deep.")
+    except MemoryError:
+        message = DrawingError("TOO_MUCH", "The drawing needs more memory than there is.")
+    with suppress(BrokenPipeError):
+        there.send(message)
+
+
+def drawing_bytes(path: Path) -> bytes:
+    """What a drawing file holds; StoreError where it cannot be read, DrawingError TOO_MUCH where it is too large."""
+    try:
+        with path.open("rb") as file:
+            size = os.fstat(file.fileno()).st_size
+            data = file.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        raise StoreError(f"{path} cannot be read: {getattr(error, 'strerror', None) or error}.") from error
+    if len(data) > MAX_BYTES:
+        raise DrawingError("TOO_MUCH", f"{path.name} has {size:,} bytes: at most {MAX_BYTES:,} are read.")
+    return data

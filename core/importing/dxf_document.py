@@ -1,0 +1,124 @@
+"""The document of a DXF file: what of its text is whole, and ezdxf's reading of it.
+
+A text that breaks off is recognized by its tags, since a reader that repairs would take it without a word.  ezdxf is
+imported only here and only when a drawing is opened.
+"""
+
+from __future__ import annotations
+
+import io
+import logging
+import re
+from typing import TYPE_CHECKING, Final
+
+from core.importing.drawing import MAX_ENTITIES, DrawingError
+from core.importing.dxf_tags import BINARY_MARK, Scan, scan_tags, scan_text, text_lines
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing as Document
+
+MISSING_PACKAGE: Final = "DXF files need the package ezdxf: pip install ezdxf"
+
+
+def too_much(what: str, count: int, most: int) -> DrawingError:
+    """That a drawing has more of something than is read."""
+    return DrawingError("TOO_MUCH", f"The drawing has {count:,} {what}: at most {most:,} are read.")
+
+
+def document_of(data: bytes, *, damaged: bool) -> tuple[Scan, Document]:
+    """The scan of the tags and ezdxf's document, or DrawingError."""
+    try:
+        import ezdxf
+    except ImportError as error:
+        raise DrawingError("NO_EZDXF", MISSING_PACKAGE) from error
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())
+    assert ezdxf
+    if data.startswith(BINARY_MARK):
+        return _binary_document(data)
+    scan = scan_text(data)
+    if not scan.whole and not scan.bad_line:
+        data = _up_to_break(data, scan, damaged=damaged)
+    if len(scan.entities) > MAX_ENTITIES:
+        raise too_much("entities", len(scan.entities), MAX_ENTITIES)
+    if scan.first_fault is not None and not damaged:
+        fault = scan.first_fault
+        readable = sum(not entity.fault for entity in scan.entities)
+        raise damaged_file(f"The {fault.kind} {fault.where} {fault.fault}", readable)
+    return scan, _loaded(data, scan)
+
+
+def _up_to_break(data: bytes, scan: Scan, *, damaged: bool) -> bytes:
+    """The text of a file that breaks off, ended properly after its last whole entity."""
+    if not damaged:
+        count = len(scan.entities)
+        could = f"{count} {'entity' if count == 1 else 'entities'} could be read"
+        raise DrawingError("DXF_DAMAGED", f"This file breaks off at line {scan.last_line}: {could}.", count)
+    end = [b"0", b"ENDBLK"] if scan.open_section == "BLOCKS" else []
+    if scan.open_section:
+        end += [b"0", b"ENDSEC"]
+    lines = text_lines(data)
+    kept = lines[: scan.cut] if scan.cut else lines[: len(lines) // 2 * 2]
+    return b"\n".join([*kept, *end, b"0", b"EOF", b""])
+
+
+def damaged_file(text: str, readable: int | None = None) -> DrawingError:
+    """That a file is damaged, and how many of its entities can be read; None where it cannot be taken."""
+    return DrawingError("DXF_DAMAGED", f"This file is damaged: {text}.", readable)
+
+
+def _binary_document(data: bytes) -> tuple[Scan, Document]:
+    from ezdxf.document import Drawing as Document
+    from ezdxf.lldxf.tagger import binary_tags_loader
+
+    try:
+        scan = scan_tags((tag.code, tag.value) for tag in binary_tags_loader(data))
+        if len(scan.entities) > MAX_ENTITIES:
+            raise too_much("entities", len(scan.entities), MAX_ENTITIES)
+        if scan.whole:
+            return scan, Document.load(binary_tags_loader(data))
+    except DrawingError:
+        raise
+    except Exception as error:  # a damaged file may bring any exception out of a package for files
+        raise damaged_file(words_of(error)) from error
+    raise damaged_file("it breaks off")
+
+
+def _loaded(data: bytes, scan: Scan) -> Document:
+    """ezdxf's document of a text file; coordinates in another order than usual are put in order."""
+    from ezdxf.document import Drawing as Document
+    from ezdxf.filemanagement import read
+    from ezdxf.lldxf.repair import tag_reorder_layer
+    from ezdxf.lldxf.tagger import ascii_tags_loader
+
+    text = b"\n".join([*text_lines(data), b""]).decode(_encoding(data), "surrogateescape")
+    try:
+        return read(io.StringIO(text))
+    except Exception as error:  # noqa: BLE001  # as above
+        first = error
+    try:
+        return Document.load(tag_reorder_layer(ascii_tags_loader(io.StringIO(text))))
+    except Exception as error:  # as above
+        where = f"line {scan.bad_line} is no group code" if scan.bad_line else words_of(first)
+        raise damaged_file(where) from error
+
+
+def _encoding(data: bytes) -> str:
+    """The encoding that the header names; since R2007 it is UTF-8."""
+    from ezdxf.filemanagement import dxf_stream_info
+
+    try:
+        head = data[:200_000].decode("latin-1").replace("\r\n", "\n").replace("\r", "\n")
+        encoding = str(dxf_stream_info(io.StringIO(head)).encoding)
+        "".encode(encoding)
+    except Exception:  # noqa: BLE001  # a header that cannot be read names no encoding
+        return "cp1252"
+    return encoding
+
+
+_HANDLE: Final = re.compile(r"\(#\w+\)")
+
+
+def words_of(error: Exception | str) -> str:
+    """A package's words for what it stopped at, on one line and short."""
+    words = " ".join("".join(sign if sign.isprintable() else " " for sign in _HANDLE.sub("", str(error))).split())
+    return (words or type(error).__name__).rstrip(".")[:160]

@@ -1,0 +1,162 @@
+"""Listing of a drawing's contours: rows, equal circles folded into one, and the sentences around them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import cos, isfinite, sin
+from typing import Final
+
+import numpy as np
+
+from core.geometry.path import Path
+from core.geometry.piece import Arc, Line
+from core.importing.contour import Contour, ContourKind, fit_sentence
+from core.importing.contours import ContourList
+from core.importing.drawing import BSpline, Drawing, EllipseArc, Shape, counted
+from core.units import Kind, Unit, from_mm, show
+
+SAME_SIZE: Final = 1e-4
+"""Millimeters by which the radii of circles in one row may differ."""
+
+SAMPLES: Final = 33
+"""Points of a curve by which its size is told where the unit is asked."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row of the list: one contour, or circles of one size, kind and layer in the same contour."""
+
+    contours: tuple[Contour, ...]
+
+    @property
+    def first(self) -> Contour:
+        """The contour that the row shows."""
+        return self.contours[0]
+
+
+def rows_of(contours: Sequence[Contour], *, folded: bool = True) -> tuple[Row, ...]:
+    """The rows of the list, in its order."""
+    rows: dict[object, list[Contour]] = {}
+    for contour in contours:
+        radius = contour.circle
+        key: object = contour.number
+        if folded and radius is not None and not contour.problems:
+            key = (round(radius / SAME_SIZE), contour.kind, contour.layers, contour.inside)
+        rows.setdefault(key, []).append(contour)
+    return tuple(Row(tuple(row)) for row in rows.values())
+
+
+def matching(contours: Sequence[Contour], text: str, unit: Unit) -> tuple[Contour, ...]:
+    """The contours of which layer, kind, length or size holds a text: what `/` filters by."""
+    sought = text.strip().lower()
+    return tuple(contour for contour in contours if sought in " ".join(cells_of(Row((contour,)), unit)).lower())
+
+
+def cells_of(row: Row, unit: Unit) -> tuple[str, ...]:
+    """A row's cells: number, kind, layer, pieces, length, size, and how many more there are of it."""
+    contour = row.first
+    indent = "  " * contour.depth
+    more = f"x {len(row.contours)}" if len(row.contours) > 1 else ""
+    length = show(from_mm(contour.length, unit), Kind.LENGTH, unit)
+    return (
+        str(contour.number),
+        f"{indent}{contour.kind}",
+        contour.layer,
+        str(contour.drawn),
+        length,
+        size_of(contour, unit),
+        more,
+    )
+
+
+HEADINGS: Final = ("contour", "kind", "layer", "pieces", "length", "size", "")
+
+
+def size_of(contour: Contour, unit: Unit) -> str:
+    """Width and height, or the diameter of a circle."""
+    if contour.circle is not None:
+        return f"diameter {show(from_mm(2.0 * contour.circle, unit), Kind.LENGTH, unit)}"
+    width, height = (show(from_mm(size, unit), Kind.LENGTH, unit) for size in contour.size)
+    return f"{width} x {height}"
+
+
+def table(rows: Sequence[Row], unit: Unit) -> Iterator[str]:
+    """The rows as lines of text, with what is wrong with them."""
+    cells = [HEADINGS, *(cells_of(row, unit) for row in rows)]
+    widths = [max(len(line[column]) for line in cells) for column in range(len(HEADINGS))]
+    right = (0, 3, 4)
+    for number, line in enumerate(cells):
+        texts = (
+            text.rjust(width) if column in right else text.ljust(width)
+            for column, (text, width) in enumerate(zip(line, widths, strict=True))
+        )
+        yield "  ".join(texts).rstrip()
+        if number:
+            contour = rows[number - 1].first
+            problems = [
+                f"{contour.kind} {text}" if contour.kind is ContourKind.OPEN else text for text in contour.problems
+            ]
+            yield from (f"      {text}." for text in (*problems, fit_sentence(contour, unit)) if text)
+
+
+def sentences(listed: ContourList, unit: Unit) -> Iterator[str]:
+    """What reading, clean-up and chaining did, a sentence each; nothing that changed the drawing is left out."""
+    drawing, options = listed.drawing, listed.options
+    yield from listed.notes
+    if drawing.skipped:
+        yield f"skipped: {counted(drawing.skipped)}."
+    if drawing.hidden:
+        layers = ", ".join(f"{count} on {layer}" for layer, count in drawing.hidden.items())
+        yield f"frozen or off, not taken: {layers}."
+    tolerance = show(from_mm(options.tolerance, unit), Kind.LENGTH, unit)
+    for count, one, more in (
+        (
+            listed.tiny,
+            f"1 piece shorter than TOLERANCE {tolerance} was",
+            f"pieces shorter than TOLERANCE {tolerance} were",
+        ),
+        (listed.duplicates, "1 equal piece was", "equal pieces were"),
+    ):
+        if count:
+            yield f"{one if count == 1 else f'{count} {more}'} dropped."
+    if listed.overlaps:
+        yield f"{listed.overlaps} overlapping {'piece was' if listed.overlaps == 1 else 'pieces were'} joined."
+    gap = from_mm(listed.gap, unit)
+    yield f"largest gap {show(gap, Kind.LENGTH, unit) if gap > 1e-9 else 'none'}."
+    for branch in listed.branches:
+        x, y = (show(from_mm(value, unit), Kind.LENGTH, unit) for value in branch.at)
+        yield f"branch at X {x} Y {y}: {branch.ways - 1} ways."
+
+
+def unit_question(drawing: Drawing) -> str:
+    """The sizes of a drawing in either unit, such as `140 x 30: as IN 140.0000 x 30.0000, as MM 140.000 x 30.000`."""
+    width, height = extent(drawing)
+    inch, mm = (
+        " x ".join(show(size, Kind.LENGTH, unit) for size in (width, height)) for unit in (Unit.IN, Unit.MM)
+    )  # fmt: skip
+    return f"The drawing names no unit. {width:.6g} x {height:.6g}: as IN {inch}, as MM {mm}"
+
+
+def extent(drawing: Drawing) -> tuple[float, float]:
+    """Width and height of a drawing in its own unit."""
+    boxes = [_box(drawn.shape) for drawn in drawing.shapes]
+    if not boxes:
+        return 0.0, 0.0
+    left, bottom, right, top = np.array(boxes).T
+    return float(right.max() - left.min()), float(top.max() - bottom.min())
+
+
+def _box(shape: Shape) -> tuple[float, float, float, float]:
+    match shape:
+        case Line() | Arc():
+            left, bottom, right, top = Path.from_pieces([shape]).boxes
+            return float(left[0]), float(bottom[0]), float(right[0]), float(top[0])
+        case EllipseArc(center, first, second, begin, end):
+            steps = [begin + (end - begin) * step / (SAMPLES - 1) for step in range(SAMPLES)]
+            points = [center + cos(at) * first + sin(at) * second for at in steps]
+        case BSpline(points=rows):
+            points = rows.tolist()
+    finite = [point for point in points if isfinite(point.real) and isfinite(point.imag)]
+    across, up = [point.real for point in finite], [point.imag for point in finite]
+    return min(across), min(up), max(across), max(up)

@@ -1,0 +1,101 @@
+"""`cutcomp import`: what it lists, takes, asks and refuses, with its exit status."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from app.__main__ import main
+from app.documents.drawing_files import Worker
+from app.documents.files import load
+from core.importing.drawing import DrawingError
+from core.program.model import CutterComp
+from core.program.solve.block import solve_block
+from core.units import Unit
+
+DATA = Path(__file__).parents[1] / "data" / "dxf"
+
+
+def test_the_list_has_a_row_for_each_contour(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["import", str(DATA / "d14-layers.dxf"), "--list"]) == 0
+    rows = capsys.readouterr().out.splitlines()
+    assert rows[0] == "MM ($INSUNITS), layers 0, HOLES"
+    assert rows[2].split() == ["1", "OUTSIDE", "0", "4", "140.000", "40.000", "x", "30.000"]
+    assert rows[3].split() == ["2", "HOLE", "HOLES", "4", "100.000", "30.000", "x", "20.000"]
+
+
+def test_contours_become_blocks_that_close_on_their_start(tmp_path: Path) -> None:
+    out = tmp_path / "part.toml"
+    assert main(["import", str(DATA / "d14-layers.dxf"), "--chain", "all", "-o", str(out)]) == 0
+    assert out.read_text().splitlines()[1] == "# from d14-layers.dxf, layers 0, HOLES"
+    program = load(out)
+    assert [block.cutter_comp for block in program.blocks] == [CutterComp.LEFT, CutterComp.LEFT]
+    for block in program.blocks:
+        solved = solve_block(block, program)
+        assert solved.closed
+        assert len(solved.pieces) == 5
+
+
+def test_one_of_several_contours_is_chosen_or_asked_for(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source, out = str(DATA / "d14-layers.dxf"), tmp_path / "part.toml"
+    assert main(["import", source, "-o", str(out)]) == 2
+    assert "The drawing has 2 contours: add --chain N" in capsys.readouterr().err
+    assert not out.exists()
+    assert main(["import", source, "--chain", "2", "-o", str(out)]) == 0
+    assert len(load(out).blocks) == 1
+    assert main(["import", source, "--chain", "3", "-o", str(out)]) == 2
+    assert main(["import", source, "--layer", "HOLES", "-o", str(out)]) == 0
+    assert main(["import", source, "--layer", "NONE", "-o", str(out)]) == 2
+
+
+def test_a_drawing_without_unit_needs_units(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source, out = str(DATA / "d04-nounits.dxf"), tmp_path / "part.toml"
+    assert main(["import", source, "-o", str(out)]) == 2
+    assert "as IN 40.0000 x 30.0000, as MM 40.000 x 30.000: add --units in or --units mm." in capsys.readouterr().err
+    assert main(["import", source, "--units", "in", "-o", str(out)]) == 0
+    assert load(out).unit is Unit.IN
+
+
+def test_start_and_reverse(tmp_path: Path) -> None:
+    out = tmp_path / "part.toml"
+    arguments = ["import", str(DATA / "d01-square.dxf"), "--start", "40,10", "--reverse", "-o", str(out)]
+    assert main(arguments) == 0
+    block = load(out).blocks[0]
+    assert (block.x_start.value, block.y_start.value) == (40.0, 10.0)
+    assert block.cutter_comp is CutterComp.RIGHT
+
+
+def test_a_file_that_breaks_off_is_taken_only_with_the_option(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    source, out = str(DATA / "d19-cut-off.dxf"), tmp_path / "part.toml"
+    assert main(["import", source, "-o", str(out)]) == 2
+    assert "This file breaks off at line 40: 1 entity could be read." in capsys.readouterr().err
+    assert main(["import", source, "--damaged", "-o", str(out)]) == 0
+    assert "what comes after it is missing" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [("d20-not-dxf.dxf", "d20-not-dxf.dxf is no DXF file."), ("d17-empty.dxf", "1 TEXT was skipped"), ("gone.dxf", "")],
+)
+def test_what_cannot_be_read_is_refused_in_a_sentence(
+    name: str, words: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["import", str(DATA / name), "--list"]) == 2
+    assert words in capsys.readouterr().err
+
+
+def wait_for_ever(*, progress: object) -> int:
+    while progress:
+        pass
+    return 0
+
+
+def test_a_worker_is_ended_after_its_limit_and_by_cancel() -> None:
+    with pytest.raises(DrawingError, match="takes longer than 0.5 s"):
+        Worker(wait_for_ever, limit=0.5).result()
+    worker = Worker(wait_for_ever)
+    assert worker.poll() is None
+    worker.cancel()

@@ -1,0 +1,138 @@
+"""Curves to arcs: ellipses and B-splines within FIT, tangent everywhere, and with few arcs."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+
+from core.geometry.piece import Arc, Line, Piece
+from core.importing.curves import pieces_of_ellipse, pieces_of_spline
+from core.importing.drawing import BSpline, EllipseArc
+from tests.core.importing.drawings import ELLIPSES
+
+
+def sampled(pieces: list[Piece], step: float) -> np.ndarray:
+    """Points of the pieces, a step apart at most."""
+    points = [complex(*pieces[0].start)]
+    for piece in pieces:
+        count = max(math.ceil(piece.length / step), 1)
+        points += [complex(*piece.point_at(part / count)) for part in range(1, count + 1)]
+    return np.array(points)
+
+
+def apart(pieces: list[Piece], curve: np.ndarray, fit: float) -> float:
+    """How far pieces and the points of a curve are from one another, both ways (Hausdorff)."""
+    ours = sampled(pieces, max(fit * 5, 0.02))
+    return max(_farthest(ours, curve), _farthest(curve, ours))
+
+
+def _farthest(points: np.ndarray, curve: np.ndarray) -> float:
+    """The largest distance of points from a line through the points of a curve."""
+    rows = np.column_stack((curve.real, curve.imag))
+    tree = shapely.STRtree(shapely.linestrings(np.stack((rows[:-1], rows[1:]), axis=1)))
+    spots = shapely.points(points.real, points.imag)
+    _, away = tree.query_nearest(spots, return_distance=True, all_matches=False)
+    return float(away.max())
+
+
+def turns_at_joints(pieces: list[Piece]) -> float:
+    """The largest change of direction from a piece to the next, in radians."""
+    changes = []
+    for first, second in itertools.pairwise(pieces):
+        u, v = complex(*first.direction_at(first.end)), complex(*second.direction_at(second.start))
+        changes.append(abs(np.angle(v / u)))
+    return max(changes, default=0.0)
+
+
+@pytest.mark.parametrize("case", ELLIPSES, ids=lambda case: f"{case['ellipse']}-{case['tolerance']}")
+def test_an_ellipse_has_few_tangent_arcs_within_fit(case: dict[str, Any]) -> None:
+    a, b = map(float, case["ellipse"])
+    pieces = pieces_of_ellipse(EllipseArc(0j, complex(a), 1j * b, 0.0, 2 * math.pi), case["tolerance"])
+    assert len(pieces) <= 1.25 * case["arcs"]
+    assert turns_at_joints([*pieces, pieces[0]]) < 1e-6
+    at = np.linspace(0.0, 2 * math.pi, 40001)
+    assert apart(pieces, a * np.cos(at) + 1j * b * np.sin(at), case["tolerance"]) <= case["tolerance"] * 1.001
+    assert sum(piece.length for piece in pieces) == pytest.approx(case["perimeter"], rel=2e-4)
+
+
+def test_part_of_a_slanted_ellipse_keeps_its_ends() -> None:
+    shape = EllipseArc(3 + 2j, 10 + 4j, -1 + 6j, 0.3, 2.9)
+    pieces = pieces_of_ellipse(shape, 0.002)
+    at = np.linspace(0.3, 2.9, 20001)
+    curve = shape.center + np.cos(at) * shape.first + np.sin(at) * shape.second
+    assert complex(*pieces[0].start) == pytest.approx(curve[0], abs=1e-9)
+    assert complex(*pieces[-1].end) == pytest.approx(curve[-1], abs=1e-9)
+    assert apart(pieces, curve, 0.002) <= 0.002
+
+
+def test_an_ellipse_seen_from_its_edge_is_lines() -> None:
+    pieces = pieces_of_ellipse(EllipseArc(0j, 10 + 0j, 0j, 0.0, 2 * math.pi), 0.005)
+    assert all(isinstance(piece, Line) for piece in pieces)
+    assert sum(piece.length for piece in pieces) == pytest.approx(40.0)
+
+
+def spline(points: list[complex], degree: int = 3, weights: list[float] | None = None) -> BSpline:
+    inner = len(points) - degree
+    knots = [0.0] * (degree + 1) + [float(k) for k in range(1, inner)] + [float(inner)] * (degree + 1)
+    return BSpline(degree, np.array(points), np.array(weights or [1.0] * len(points)), np.array(knots))
+
+
+def de_boor(shape: BSpline, count: int) -> np.ndarray:
+    """Points of a B-spline by the textbook's recursion, as a judge of the Bezier spans."""
+    p, knots = shape.degree, shape.knots
+    rows = np.column_stack((shape.points * shape.weights, shape.weights.astype(complex)))
+    result = []
+    for t in np.linspace(knots[p], knots[-p - 1], count):
+        k = min(max(int(np.searchsorted(knots, t, side="right")) - 1, p), len(rows) - 1)
+        d = [rows[j + k - p] for j in range(p + 1)]
+        for r in range(1, p + 1):
+            for j in range(p, r - 1, -1):
+                low, high = knots[j + k - p], knots[j + 1 + k - r]
+                share = (t - low) / (high - low)
+                d[j] = (1 - share) * d[j - 1] + share * d[j]
+        result.append(d[p][0] / d[p][1])
+    return np.array(result)
+
+
+@pytest.mark.parametrize("degree", [2, 3, 4])
+@pytest.mark.parametrize("fit", [0.01, 0.001])
+def test_a_spline_is_within_fit_both_ways(degree: int, fit: float) -> None:
+    points = [0j, 10 + 15j, 25 - 5j, 40 + 20j, 55 + 3j, 60 + 30j, 30 + 45j]
+    shape = spline(points, degree)
+    pieces = pieces_of_spline(shape, fit)
+    assert turns_at_joints(pieces) < 1e-3
+    assert apart(pieces, de_boor(shape, 20001), fit) <= fit * 1.001
+
+
+def test_a_weighted_spline_that_is_a_circle_is_one_arc() -> None:
+    root = math.sqrt(0.5)
+    corners = [10 + 0j, 10 + 10j, 10j, -10 + 10j, -10 + 0j, -10 - 10j, -10j, 10 - 10j, 10 + 0j]
+    knots = [0.0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4]
+    shape = BSpline(2, np.array(corners), np.array([1.0, root] * 4 + [1.0]), np.array(knots))
+    pieces = pieces_of_spline(shape, 0.005)
+    assert len(pieces) == 1
+    assert isinstance(pieces[0], Arc)
+    assert pieces[0].start == pieces[0].end
+    assert pieces[0].radius == pytest.approx(10.0)
+
+
+def test_a_spline_keeps_its_corners() -> None:
+    # a knot as often as the degree: two straight halves
+    shape = BSpline(
+        3,
+        np.array([0j, 5 + 0j, 8 + 0j, 10 + 0j, 10 + 2j, 10 + 5j, 10 + 10j]),
+        np.ones(7),
+        np.array([0.0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2]),
+    )
+    pieces = pieces_of_spline(shape, 0.005)
+    assert pieces == [Line((0.0, 0.0), (10.0, 0.0)), Line((10.0, 0.0), (10.0, 10.0))]
+
+
+def test_a_spline_of_degree_one_is_its_lines() -> None:
+    pieces = pieces_of_spline(spline([0j, 10 + 0j, 10 + 5j, 3 + 9j], 1), 0.005)
+    assert [piece.end for piece in pieces] == [(10.0, 0.0), (10.0, 5.0), (3.0, 9.0)]

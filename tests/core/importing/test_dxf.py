@@ -1,0 +1,238 @@
+"""DXF in: the made table, entities, units, layers, OCS, INSERTs, and what is refused."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from core.importing.contour import fit_sentence, fitted_contour
+from core.importing.contours import ContourList, ImportOptions, contours_of
+from core.importing.drawing import Drawing, DrawingError, DrawingUnit
+from core.importing.dxf import read_dxf
+from core.importing.listing import sentences, unit_question
+from core.units import Unit
+from tests.core.importing.drawings import MADE, arc, block, circle, dxf, line, listed, made, square
+
+TAKEN = [case for case in MADE if "refused" not in case]
+
+
+def read(data: bytes, *, damaged: bool = False) -> Drawing:
+    return read_dxf(data, "test.dxf", damaged=damaged)
+
+
+@pytest.mark.parametrize("case", TAKEN, ids=lambda case: case["file"])
+def test_a_made_drawing_has_the_contours_of_its_table(case: dict[str, float]) -> None:
+    listed_contours = listed(made(str(case["file"])))
+    closed = [contour for contour in listed_contours.contours if contour.closed]
+    assert (len(closed), len(listed_contours.contours) - len(closed)) == (case["closed"], case["open"])
+    first = listed_contours.contours[0]
+    assert first.drawn == case.get("segments", first.drawn)
+    assert sum(contour.length for contour in closed) == pytest.approx(
+        case.get("length", sum(contour.length for contour in closed)), abs=1e-6
+    )
+    assert first.area == pytest.approx(case.get("area", first.area), abs=1e-6)
+    counts = (listed_contours.tiny, listed_contours.duplicates, listed_contours.overlaps, len(listed_contours.branches))
+    assert counts == tuple(case.get(name, 0) for name in ("tiny", "duplicates", "overlaps", "branches"))
+
+
+@pytest.mark.parametrize("case", [case for case in MADE if "refused" in case], ids=lambda case: case["file"])
+def test_a_made_drawing_is_refused_by_its_code(case: dict[str, str]) -> None:
+    with pytest.raises(DrawingError) as refused:
+        read(made(case["file"]))
+    assert refused.value.code == case["refused"]
+
+
+def test_a_gap_is_closed_within_the_tolerance_and_told() -> None:
+    assert listed(made("d05-gap.dxf")).gap == pytest.approx(0.008)
+    still_open = listed(made("d06-gap-open.dxf")).contours[0]
+    assert still_open.open_gap == pytest.approx(0.05)
+    assert still_open.problems == ("gap 0.050 to its other end: TOLERANCE 0.050 would join it",)
+    assert listed(made("d06-gap-open.dxf"), tolerance=0.1).contours[0].closed
+
+
+def test_the_end_of_a_line_and_the_end_of_the_file_are_named_where_it_breaks_off() -> None:
+    data = made("d19-cut-off.dxf")
+    with pytest.raises(DrawingError) as refused:
+        read(data)
+    assert refused.value.text == "This file breaks off at line 40: 1 entity could be read."
+    assert refused.value.readable == 1
+    taken = read(data, damaged=True)
+    assert len(taken.shapes) == 1
+    assert taken.notes == ("The file breaks off at line 40: what comes after it is missing.",)
+
+
+def test_sentences_of_refusal() -> None:
+    for name, text in (
+        ("d20-not-dxf.dxf", "test.dxf is no DXF file."),
+        (
+            "d17-empty.dxf",
+            "There is no line, arc, circle, polyline, ellipse or spline in model space: 1 TEXT was skipped.",
+        ),
+    ):
+        with pytest.raises(DrawingError) as refused:
+            read(made(name))
+        assert refused.value.text == text
+
+
+def test_the_circle_of_3000_lines_becomes_one_arc() -> None:
+    contour = fitted_contour(listed(made("d18-3000.dxf")).contours[0], 0.005)
+    assert fit_sentence(contour, Unit.IN) == "3000 lines -> 1 ARC, off by 0.0000"
+    assert contour.circle == pytest.approx(50.0, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("code", "unit"), [(1, "IN"), (2, "FT"), (4, "MM"), (5, "CM"), (6, "M"), (0, None), (9, None), (None, None)]
+)
+def test_insunits_names_the_unit_or_it_is_asked(code: int | None, unit: str | None) -> None:
+    drawing = read(dxf(*square(0, 0, 1), units=code))
+    assert drawing.unit == (None if unit is None else DrawingUnit[unit])
+
+
+def test_the_question_for_the_unit_has_the_size_both_ways() -> None:
+    text = unit_question(read(made("d04-nounits.dxf")))
+    assert text == "The drawing names no unit. 40 x 30: as IN 40.0000 x 30.0000, as MM 40.000 x 30.000"
+
+
+def test_a_drawing_in_feet_is_read_in_millimeters() -> None:
+    assert listed(dxf(*square(0, 0, 1), units=2)).contours[0].length == pytest.approx(4 * 304.8)
+
+
+def test_a_mirrored_arc_turns_the_other_way() -> None:
+    contour = listed(made("d12-mirrored-arc.dxf")).contours[0]
+    ends = {tuple(round(value, 6) + 0.0 for value in piece.start) for piece in contour.pieces}
+    assert (40.0, 10.0) in ends
+    assert (50.0, 20.0) in ends
+
+
+def test_any_other_extrusion_is_refused_by_line() -> None:
+    tilted = [*circle((0, 0), 5), (210, 0.0), (220, 1.0), (230, 0.0)]
+    drawing = read(dxf(tilted, *square(0, 0, 1, "B")))
+    assert drawing.not_flat[0].text == "The CIRCLE at line 19 does not lie in the XY plane."
+    options = ImportOptions.usual(DrawingUnit.MM)
+    with pytest.raises(DrawingError, match="does not lie in the XY plane"):
+        contours_of(drawing, options)
+    only_b = ImportOptions(options.unit, options.tolerance, options.fit, frozenset({"B"}))
+    assert len(contours_of(drawing, only_b).contours) == 1
+
+
+def test_a_slope_is_refused_and_another_height_is_told() -> None:
+    slope = [(0, "LINE"), (8, "0"), (10, 0), (20, 0), (30, 0), (11, 1), (21, 0), (31, 1)]
+    assert len(read(dxf(slope)).not_flat) == 1
+    drawing = read(dxf(line((0, 0), (1, 0)), line((1, 0), (1, 1), z=5.0)))
+    assert drawing.notes == ("The entities lie at heights from Z 0 to 5: Z is dropped.",)
+
+
+def test_a_three_dimensional_polyline_is_refused() -> None:
+    vertices = [(0, "VERTEX"), (8, "0"), (10, 0), (20, 0), (30, 0), (70, 32)] * 2
+    polyline = [(0, "POLYLINE"), (8, "0"), (66, 1), (70, 8), (10, 0), (20, 0), (30, 0), *vertices, (0, "SEQEND")]
+    assert "is a 3D polyline" in read(dxf(polyline)).not_flat[0].text
+
+
+def insert(name: str, at: tuple[float, float], *more: tuple[int, object]) -> list[tuple[int, object]]:
+    return [(0, "INSERT"), (8, "PARTS"), (2, name), (10, at[0]), (20, at[1]), (30, 0), *more]
+
+
+def test_an_insert_is_its_block_transformed_on_its_own_layer() -> None:
+    data = dxf(insert("B", (100, 0), (41, 2.0), (42, 2.0), (50, 90.0)), more=block("B", *square(0, 0, 10)))
+    contour = listed(data).contours[0]
+    assert contour.layer == "PARTS"
+    assert contour.area == pytest.approx(400.0)
+    assert min(piece.start[0] for piece in contour.pieces) == pytest.approx(80.0)
+
+
+def test_an_insert_that_mirrors_and_stretches_makes_ellipses() -> None:
+    data = dxf(insert("B", (0, 0), (41, -2.0), (42, 1.0)), more=block("B", circle((10, 0), 5)))
+    contour = listed(data).contours[0]
+    assert contour.closed
+    assert contour.area == pytest.approx(math.pi * 10 * 5, abs=0.3)
+    assert contour.size == pytest.approx((20.0, 10.0), abs=0.01)
+
+
+def test_rows_of_inserts_are_all_taken() -> None:
+    data = dxf(insert("B", (0, 0), (70, 3), (71, 2), (44, 20.0), (45, 20.0)), more=block("B", *square(0, 0, 10)))
+    assert len(listed(data).contours) == 6
+
+
+def test_a_million_inserted_lines_are_refused_with_the_limit() -> None:
+    data = dxf(insert("B", (0, 0), (70, 3000), (71, 3000), (44, 20.0), (45, 20.0)), more=block("B", *square(0, 0, 10)))
+    with pytest.raises(DrawingError, match="36,000,000 lines and curves: at most 1,000,000"):
+        read(data)
+
+
+def test_blocks_that_hold_themselves_are_refused() -> None:
+    data = dxf(insert("B", (0, 0)), more=block("B", insert("B", (0, 0))))
+    with pytest.raises(DrawingError, match="deeper than 8"):
+        read(data)
+
+
+def test_an_insert_of_a_block_that_is_missing_is_told() -> None:
+    drawing = read(dxf(insert("GONE", (0, 0)), *square(0, 0, 1)))
+    assert drawing.skipped == {"INSERT": 1}
+    assert "'GONE', which the file does not have" in drawing.notes[0]
+
+
+def test_what_is_skipped_is_counted_by_kind() -> None:
+    text = [(0, "TEXT"), (8, "0"), (10, 0), (20, 0), (30, 0), (40, 5), (1, "PART")]
+    point = [(0, "POINT"), (8, "0"), (10, 0), (20, 0), (30, 0)]
+    drawing = read(dxf(text, text, point, *square(0, 0, 1), [(0, "STRANGE"), (8, "0")]))
+    assert drawing.skipped == {"TEXT": 2, "POINT": 1, "STRANGE": 1}
+
+
+def test_frozen_layers_and_layers_that_are_off_are_counted() -> None:
+    layer = [(0, "LAYER"), (2, "F"), (70, 1), (62, 7), (6, "CONTINUOUS"), (0, "LAYER"), (2, "O"), (70, 0), (62, -7)]
+    table = [(0, "SECTION"), (2, "TABLES"), (0, "TABLE"), (2, "LAYER"), (70, 2), *layer, (6, "CONTINUOUS")]
+    more = "".join(f"{code}\n{value}\n" for code, value in [*table, (0, "ENDTAB"), (0, "ENDSEC")])
+    drawing = read(dxf(*square(0, 0, 1), *square(2, 0, 1, "F"), line((0, 5), (1, 5), "O"), more=more))
+    assert drawing.hidden == {"F": 4, "O": 1}
+    assert drawing.layers == ("0",)
+
+
+def test_two_entities_run_together_are_damage_and_never_one_entity() -> None:
+    data = dxf(*square(0, 0, 10)).replace(b"0\nLINE\n8\n0\n10\n10\n20\n0\n", b"1\nLINE\n8\n0\n10\n10\n20\n0\n")
+    with pytest.raises(DrawingError) as refused:
+        read(data)
+    assert refused.value.code == "DXF_DAMAGED"
+    assert "The LINE at line 19 has group code 10 2 times" in refused.value.text
+
+
+def test_a_number_that_is_none_names_the_damage() -> None:
+    for wrong in (b"nan", b"1e400", b"x"):
+        with pytest.raises(DrawingError) as refused:
+            read(dxf(circle((0, 0), 5)).replace(b"40\n5\n", b"40\n" + wrong + b"\n"))
+        assert refused.value.code == "DXF_DAMAGED"
+
+
+def test_a_circle_without_radius_is_told() -> None:
+    drawing = read(dxf(circle((0, 0), 0), *square(0, 0, 1)))
+    assert drawing.notes == ("A CIRCLE has the radius 0 and is skipped.",)
+
+
+def test_an_ellipse_of_ratio_one_is_an_arc() -> None:
+    ellipse = [(0, "ELLIPSE"), (8, "0"), (10, 0), (20, 0), (30, 0), (11, 5), (21, 0), (31, 0), (40, 1.0)]
+    whole = listed(dxf([*ellipse, (41, 0.0), (42, 2 * math.pi)]))
+    assert whole.contours[0].circle == pytest.approx(5.0)
+    half = listed(dxf([*ellipse, (41, 0.0), (42, math.pi)])).contours[0]
+    assert half.drawn == 1
+    assert half.length == pytest.approx(5 * math.pi)
+
+
+def test_an_arc_of_a_full_turn_is_a_circle() -> None:
+    assert listed(dxf(arc((1, 2), 3, 0, 360))).contours[0].circle == pytest.approx(3.0)
+
+
+def every_sentence(contours: ContourList) -> list[str]:
+    return list(sentences(contours, Unit.MM))
+
+
+def test_what_clean_up_did_is_told() -> None:
+    assert every_sentence(listed(made("d07-duplicate.dxf"))) == ["2 equal pieces were dropped.", "largest gap none."]
+    assert every_sentence(listed(made("d08-overlap.dxf"))) == [
+        "1 overlapping piece was joined.",
+        "largest gap none.",
+    ]
+    assert every_sentence(listed(made("d15-tiny.dxf"))) == [
+        "1 piece shorter than TOLERANCE 0.010 was dropped.",
+        "largest gap 0.001.",
+    ]
+    assert "branch at X 40.000 Y 30.000: 2 ways." in every_sentence(listed(made("d09-branch.dxf")))
