@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from math import atan2, dist, hypot, radians, sqrt
 from typing import Final, NamedTuple
 
-from core.geometry.construct import OnePoint, center_by_sweep, settled
+from core.geometry.construct import OnePoint, center_by_sweep, even_arc
 from core.geometry.piece import Arc, Line, Piece, Point
 from core.importing.clean_up import is_circle, reversed_piece
 from core.tolerance import JOINED, ON_PATH
@@ -126,7 +126,7 @@ def _between(piece: Piece, start: Point, end: Point) -> Piece:
         return Line(start, end)
     if is_circle(piece) or (start, end) == (piece.start, piece.end):
         return piece
-    arc = settled(start, end, piece.center, piece.turn)
+    arc = even_arc(start, end, piece.center, piece.turn)
     if arc.end == end and arc.start != arc.end:
         return arc
     center = center_by_sweep(start, end, abs(piece.sweep), piece.turn)
