@@ -15,7 +15,7 @@ from core.controls.registry import arc_radii
 from core.controls.repeated_passes import without_repeats
 from core.finding import Finding, Severity
 from core.geometry.path import Path, joined
-from core.tolerance import ARC_RADII, GOUGE, ROUNDING
+from core.tolerance import ARC_RADII, GOUGE, ON_PATH, ROUNDING
 from core.verify.contact import AirCut, air_cuts
 from core.verify.judge import judge
 from core.verify.report import DIGIT, SHOWN, contact_findings, or_more
@@ -33,7 +33,7 @@ CAM_ROUNDING: Final = 0.0127 + ROUNDING
 
 @dataclass(frozen=True, slots=True)
 class ToleratedArc:
-    """The arc whose radii at its start and its end differ most, by more than any rounding, and its line.
+    """The arc whose radii at its start and its end differ most, and its line.
 
     `slack`: by how much the uneven arcs of surface and path raise the tolerance.
     """
@@ -197,8 +197,8 @@ def _accepted_difference(run: ControlRun, *paths: Path) -> float:
 
 
 def _most_uneven(slack: float, *paths: Path) -> ToleratedArc | None:
-    """The arc of these paths whose radii differ most, None where all are the same but for rounding."""
-    worst, difference = None, ARC_RADII
+    """The arc of these paths whose radii differ most, None where they add no more tolerance than ARC_RADII."""
+    worst, difference = None, ARC_RADII if slack <= ARC_RADII else ON_PATH
     for path in paths:
         arms = path.ends - path.centers
         first, last = path.radii, np.hypot(arms[:, 0], arms[:, 1])

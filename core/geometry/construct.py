@@ -9,9 +9,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import cos, hypot, sin, sqrt
+from typing import TYPE_CHECKING, TypeVar
 
 from core.geometry.piece import SLIVER, Arc, Point, Turn
 from core.tolerance import ARC_RADII, JOINED, ON_PATH
+
+if TYPE_CHECKING:
+    from core.geometry.path import Points
+
+Place = TypeVar("Place", complex, "Points")
+"""A place as a complex number, or (n,) of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,6 +140,13 @@ def rotated(point: Point, center: Point, angle: float) -> Point:
     return center[0] + dx * cos(angle) - dy * sin(angle), center[1] + dx * sin(angle) + dy * cos(angle)
 
 
+def on_bisector(start: Place, end: Place, center: Place) -> Place:
+    """The point nearest to `center` that is as far from `start` as from `end`; complex numbers, single or (n,) each."""
+    chord = end - start
+    off: Place = center - (start + end) / 2.0
+    return center - (chord.conjugate() * off).real * chord / abs(chord) ** 2
+
+
 def even_arc(start: Point, end: Point, center: Point, turn: Turn) -> Arc:
     """The exact arc nearest to ends and a center that agree within `ARC_RADII`.
 
@@ -146,10 +160,9 @@ def even_arc(start: Point, end: Point, center: Point, turn: Turn) -> Arc:
         return Arc(start, start, center, turn)
     if abs(out - radius) <= ON_PATH:
         return Arc(start, end, center, turn)
-    height = ((end[0] - start[0]) * (center[1] - start[1]) - (end[1] - start[1]) * (center[0] - start[0])) / chord
-    moved = _above(start, end, height)
-    if hypot(moved[0] - center[0], moved[1] - center[1]) <= ARC_RADII:
-        return Arc(start, end, moved, turn)
+    moved = on_bisector(complex(*start), complex(*end), complex(*center))
+    if abs(moved - complex(*center)) <= ARC_RADII:
+        return Arc(start, end, (moved.real, moved.imag), turn)
     scale = radius / out if out else 0.0
     onto = (center[0] + (end[0] - center[0]) * scale, center[1] + (end[1] - center[1]) * scale)
     # rounding must not decide between a full circle and nothing

@@ -14,7 +14,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, as_complex, boxes, swept
+from core.geometry.construct import on_bisector
+from core.geometry.path import Flags, Floats, Path, Pieces, Points, Rows, Turns, as_complex, boxes, swept
 from core.geometry.piece import SLIVER
 from core.tolerance import ON_PATH
 
@@ -124,7 +125,7 @@ def _of_points(start: Points, end: Points, center: Points, turn: Floats) -> Piec
     length = np.abs(vector)
     if len(arc):
         first, last, way = start.take(arc), end.take(arc), turn.take(arc)
-        middle, slack[arc] = _one_radius(first, last, center.take(arc), way)
+        middle, slack[arc] = even_centers(first, last, center.take(arc), way)
         arm[arc] = from_middle = first - middle
         radius[arc] = bend = np.abs(from_middle)
         angle[arc] = turned = swept(Pieces(first, last, middle, way.astype(np.int8)))
@@ -132,32 +133,33 @@ def _of_points(start: Points, end: Points, center: Points, turn: Floats) -> Piec
     return PieceArrays(np.arange(len(turn)), start, vector, arm, turn, angle, radius, length, slack)
 
 
-def _one_radius(start: Points, end: Points, center: Points, turn: Floats) -> tuple[Points, Floats]:
-    """Centers equally far from both ends, and by how much an arc's two radii left open where it runs.
+def even_centers(start: Points, end: Points, center: Points, turn: Floats | Turns) -> tuple[Points, Floats]:
+    """Centers equally far from both ends of arcs (n,), and by how much an arc's two radii left open where it runs.
 
-    A center moves along the chord by no more than the radii differ.  Where that is not enough, which is where the chord
-    is shorter than the radius, an arc of less than half a turn keeps its ends and gets the radius between its two; a
-    longer one keeps its center: the farther it moves, the farther is the other side of the arc from where it runs.
-    With both ends on one ray from the center it may be empty or a full circle, which its ends leave open.
+    A center moves onto the bisector of the ends by no more than the radii differ.  Where that is not enough, which is
+    where the chord is shorter than the radius, an arc of less than half a turn keeps its ends and gets the radius
+    between its two; a longer one keeps its center: the farther it moves, the farther is the other side of the arc from
+    where it runs.  With both ends on one ray from the center it may be empty or a full circle, which its ends leave
+    open.
     """
-    first, last = np.abs(start - center), np.abs(end - center)
-    off = np.abs(first - last)
-    uneven = off > ON_PATH
-    if not uneven.any():
-        return center, np.zeros(len(off))
-    chord = end - start
-    size = np.abs(chord)
-    unit = chord / np.where(size == 0.0, 1.0, size)
-    half, middle = size / 2.0, (start + end) / 2.0
-    shift = (np.conj(unit) * (center - middle)).real
-    bow = np.sqrt(np.maximum((first + last) ** 2 / 4.0 - half**2, 0.0))
+    centers, slack = center.copy(), np.abs(np.abs(start - center) - np.abs(end - center))
+    uneven = (slack > ON_PATH).nonzero()[0]
+    slack[slack <= ON_PATH] = 0.0
+    if len(uneven):
+        ends = start[uneven], end[uneven], center[uneven]
+        centers[uneven], slack[uneven] = _evened(*ends, turn[uneven], slack[uneven])
+    return centers, slack
+
+
+def _evened(start: Points, end: Points, center: Points, turn: Floats | Turns, off: Floats) -> tuple[Points, Floats]:
+    chord, size = end - start, (np.abs(start - center) + np.abs(end - center)) / 2.0
+    half = np.abs(chord) / 2.0
+    between = (start + end) / 2.0 + 1j * turn * np.sqrt(np.maximum(size**2 - half**2, 0.0)) * chord / (2.0 * half)
     turned = (end - center) * np.conj(start - center)
-    short = turned.imag * turn >= 0.0
-    far = np.where(short & (size > 0.0), middle + 1j * turn * unit * bow, center)
-    moved = np.where(np.abs(shift) > off, far, center - unit * shift)
+    beyond = np.where(turned.imag * turn >= 0.0, between, center)
+    moved = on_bisector(start, end, center)
     on_one_ray = (np.abs(turned.imag) <= 2.0 * SLIVER * turned.real) & (turned.real > 0.0)
-    slack = np.where(on_one_ray, np.inf, off)
-    return np.where(uneven, moved, center), np.where(uneven, slack, 0.0)
+    return np.where(np.abs(moved - center) > off, beyond, moved), np.where(on_one_ray, np.inf, off)
 
 
 def by_kind(chosen: Flags, line: Formula, arc: Formula, *given: Given) -> NDArray[Any]:

@@ -13,7 +13,7 @@ from core.finding import Finding
 from core.geometry.intersect import Meeting, meet
 from core.geometry.nearby import near_pairs, near_pairs_within
 from core.geometry.path import EMPTY, Flags, Floats, Path, Points, Rows, as_complex, coordinates, next_in_ring
-from core.geometry.piece_arrays import piece_arrays
+from core.geometry.piece_arrays import even_centers, piece_arrays
 from core.tolerance import JOINED, ON_PATH
 
 _UNDER_HALF_TURN: Final = 3.1
@@ -61,29 +61,19 @@ def prepare_contour(contour: Path, radius: float, *, closed: bool) -> PreparedCo
 def _even(path: Path) -> Path:
     """The path with arcs of one radius each, nowhere farther from the given ones than their two radii are apart.
 
-    The center moves onto the chord's bisector.  Where it would move by more than that, which is where the chord is
-    shorter than the radius, an arc of more than half a turn is parted in its middle first, half way between its radii;
-    one of less keeps its ends and gets the radius between its two.
+    An arc of more than half a turn whose center would move farther is parted in its middle first, half way between its
+    radii.
     """
-    points, centers = as_complex(path.points), as_complex(path.centers)
-    start, end = points[:-1], points[1:]
-    off = np.abs(np.abs(start - centers) - np.abs(end - centers))
-    rows = ((path.turns != 0) & (off > ON_PATH)).nonzero()[0]
-    if not len(rows):
+    rows = path.turns.nonzero()[0]
+    points, centers = as_complex(path.points), as_complex(path.centers).copy()
+    start, end, center, turns = points[rows], points[rows + 1], centers[rows], path.turns[rows]
+    centers[rows], apart = even_centers(start, end, center, turns)
+    if not apart.any():
         return path
-    start, end, center, turns = start[rows], end[rows], centers[rows], path.turns[rows]
-    chord = end - start
-    moved = -(chord.conj() * (center - (start + end) / 2.0)).real * chord / np.abs(chord) ** 2
-    far = np.abs(moved) > off[rows]
-    angle = np.mod(np.angle((end - center) * (start - center).conj()) * turns, tau)
-    large = far & (angle > pi)
+    large = (apart > 0.0) & (centers[rows] == center)
     if large.any():
-        return _even(_halved(path, rows[large], angle[large]))
-    centers = centers.copy()
-    size = (np.abs(start - center) + np.abs(end - center)) / 2.0
-    bow = np.sqrt(np.maximum(size**2 - np.abs(chord / 2.0) ** 2, 0.0))
-    between = (start + end) / 2.0 + 1j * turns * bow * chord / np.abs(chord)
-    centers[rows] = np.where(far, between, center + moved)
+        angles = np.mod(np.angle((end - center) * (start - center).conj()) * turns, tau)
+        return _even(_halved(path, rows[large], angles[large]))
     return Path(path.points, coordinates(centers), path.turns, path.numbers)
 
 

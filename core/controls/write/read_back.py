@@ -27,8 +27,9 @@ from core.controls.write.contour_pass import (
     not_written,
 )
 from core.finding import Finding, Severity
-from core.geometry.path import Path
+from core.geometry.path import Path, as_complex, coordinates
 from core.geometry.piece import Point
+from core.geometry.piece_arrays import even_centers
 from core.units import Unit
 from core.verify.judge import judge
 from core.verify.verdict import Verdict
@@ -248,14 +249,12 @@ def _judged_paths(made: Path, inner: Path, cut: CompensatedPass, *, differs: boo
 
 
 def _evened(path: Path) -> Path:
-    """The path with one radius at both ends of each arc, parted by rounding: its center moves along the chord."""
-    chord = path.ends - path.starts
-    size = np.hypot(chord[:, 0], chord[:, 1])
-    unit = chord / np.where(size == 0.0, 1.0, size)[:, None]
-    shift = np.einsum("ij,ij->i", path.centers - (path.starts + path.ends) / 2, unit)
-    small = (path.turns != 0) & (np.abs(shift) <= MAX_CENTER_SHIFT)
-    centers = path.centers - np.where(small, shift, 0.0)[:, None] * unit
-    return Path.of(path.points, centers, path.turns, path.numbers)
+    """The path with one radius at both ends of each arc whose ends and center are parted by rounding."""
+    rows = path.turns.nonzero()[0]
+    points, centers = as_complex(path.points), as_complex(path.centers).copy()
+    moved, _ = even_centers(points[rows], points[rows + 1], centers[rows], path.turns[rows])
+    centers[rows] = np.where(np.abs(moved - centers[rows]) <= MAX_CENTER_SHIFT, moved, centers[rows])
+    return Path.of(path.points, coordinates(centers), path.turns, path.numbers)
 
 
 def _length_left(verdict: Verdict, intended: Intended) -> float:

@@ -194,6 +194,22 @@ def test_an_uneven_arc_that_the_control_accepts_hides_no_gouge_of_another_part(a
     assert any("surface of line 6" in one.text for one in judged_findings(results) if one.severity is Severity.ERROR)
 
 
+@pytest.mark.parametrize(("off", "said"), [(".001", []), (".002", [8])])
+def test_more_tolerance_than_one_arc_s_rounding_is_said(off: str, said: list[int]) -> None:
+    """Two arcs that follow each other about two centers: each of them is granted its own difference next to the other.
+
+    Alone each would be within the 0.00254 mm that pass silently.
+    """
+    wall = f"G3 X-10 Y20{off} I-10 J0\nG3 X-20 Y10 I0 J-10{off}\n"
+    text = f"G21 G17 G90\nT1 M6\nG0 X-10 Y-20\nG1 F100\nG41 D1 X0 Y0\nG1 Y10\n{wall}G1 Y0\nG40 X-10 Y-20\nM2\n"
+    results = judge_run(ran(text, "nine-series:a", t1=4.0))
+    assert results[0].verdict.clean
+    assert results[0].verdict.radius_slack == pytest.approx(2 * float(off), abs=1e-6)
+    arcs = [finding for finding in judged_findings(results) if finding.code == "ARC_RADII"]
+    assert [finding.line for finding in arcs] == said
+    assert all(finding.value == pytest.approx(2 * float(off), abs=1e-6) for finding in arcs)
+
+
 def test_leads_that_cannot_be_judged_are_an_error() -> None:
     """The arc of the lead ends on the ray it begins on: nobody knows whether it is empty or a full circle."""
     head = "G20 G17 G90\nM800\nG0 X-1 Y-1\nG1 F10.\nG41 D1 X-.5 Y0\n"
