@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final, NoReturn
 
@@ -74,7 +75,8 @@ class ControlRun:
     """A program on a control.
 
     `unit` is the program's; everything else is millimeters.  `stopped_at` is the line at which the control would
-    stop with an alarm, None when it runs to the end; `moves` are those made up to there.
+    stop with an alarm, None when it runs to the end; `moves` are those made up to there.  `variables` are the common
+    ones of macros as the program leaves them.
     """
 
     control: str
@@ -83,6 +85,7 @@ class ControlRun:
     findings: tuple[Finding, ...]
     stopped_at: int | None = None
     stretches: tuple[Stretch, ...] = ()
+    variables: Mapping[int, float] = field(default_factory=dict)
 
 
 class AlarmError(Exception):
@@ -96,11 +99,15 @@ class AlarmError(Exception):
 
 @dataclass(slots=True)
 class Log:
-    """Findings of a run: at most one of a rule on a line, and MAX_FINDINGS_OF_A_RULE of it."""
+    """Findings of a run: at most one of a rule on a line, and MAX_FINDINGS_OF_A_RULE of it.
+
+    `rule_names` are a control's own numbers for alarms, by the ids of the rules that controls share.
+    """
 
     findings: list[Finding] = field(default_factory=list)
     counts: dict[str, int] = field(default_factory=dict)
     seen: set[tuple[str, int | None]] = field(default_factory=set)
+    rule_names: Mapping[str, str] = field(default_factory=dict)
 
     def add(self, finding: Finding) -> None:
         """Keep a finding, unless there is one of its rule on that line."""
@@ -137,6 +144,7 @@ class Log:
         stops_at: int | None = None,
     ) -> NoReturn:
         """The control stops with an alarm, at the finding's line unless another is given."""
+        code = self.rule_names.get(code, code)
         finding = Finding(code, Severity.ERROR, text, at=at, lengths=lengths, line=line, column=column)
         raise AlarmError(finding, stops_at or line)
 

@@ -16,10 +16,11 @@ from core.controls.control_run import ControlRun
 from core.controls.control_tools import ToolTable
 from core.controls.iso.arcs import ArcRadii
 from core.controls.iso.dialect import Dialect
-from core.controls.iso.flow import MakeControl, execute
+from core.controls.iso.execute import execute
+from core.controls.iso.flow import MakeControl
 from core.controls.klartext import control as klartext
 from core.controls.klartext.path_functions import KLARTEXT_RADII
-from core.controls.makers import linuxcnc, nine_series, rosettacnc, threeblock
+from core.controls.makers import fanuc, haas, linuxcnc, nine_series, rosettacnc, threeblock
 from core.controls.program_text import lines_of
 from core.finding import Finding, Severity
 from core.units import Unit
@@ -59,6 +60,8 @@ CONTROLS: Final[Mapping[str, RegisteredControl]] = MappingProxyType(
         "nine-series": RegisteredControl(nine_series.DIALECT, nine_series.VARIANTS, ("a", "b")),
         "klartext": RegisteredControl(None, {"": None}),
         "linuxcnc": RegisteredControl(linuxcnc.DIALECT, {"": linuxcnc.LinuxCnc}),
+        "fanuc": RegisteredControl(fanuc.DIALECT, fanuc.VARIANTS, ("a", "b")),
+        "haas": RegisteredControl(haas.DIALECT, haas.VARIANTS, ("a",)),
     }
 )
 """The controls, in the order a comparison shows them."""

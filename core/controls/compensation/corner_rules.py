@@ -50,6 +50,8 @@ class Outside(Enum):
     """Up to a right angle over M, beyond it over Q1 and Q2."""
     MITER_OR_ARC = auto()
     """Up to a right angle over M, beyond it an arc between two lines, over Q1 and Q2 at an arc."""
+    MITER_OR_ANY_ARC = auto()
+    """Up to a right angle over M, beyond it an arc, whatever meets there."""
     MEETING = auto()
     """By the meeting of the two offsets, as at an inside corner."""
 
@@ -166,7 +168,8 @@ def _outside(first: Element, second: Element, offset: float, rules: CornerRules)
     if abs(angle) <= RIGHT_ANGLE:
         point = miter(first.end, first.arriving, angle, offset)
         return _over(first, second, (end, point, point, start))
-    if rules.outside is Outside.MITER_OR_ARC and not first.turn and not second.turn:
+    lines_only = not first.turn and not second.turn
+    if rules.outside is Outside.MITER_OR_ANY_ARC or (rules.outside is Outside.MITER_OR_ARC and lines_only):
         return Joint(end, start, center=second.start)
     leaving, coming = _prolonged(first, second, offset)
     return _over(first, second, (end, leaving, coming, start))
@@ -199,11 +202,16 @@ def entry(first: Element, second: Element, offset: float, rule: Outside, *, dire
     if direct or inward_turn(first, second, offset) >= 0.0:
         return Joint(start, start)
     end, angle = offset_end(first, offset), turn_angle(first, second)
-    if abs(angle) <= RIGHT_ANGLE:
+    if abs(angle) <= RIGHT_ANGLE and rule is not Outside.ARC:
         return Joint(miter(first.end, first.arriving, angle, offset), start)
-    if rule is Outside.MITER_OR_ARC and not second.turn:
+    if _arc_at_lead(rule, second):
         return Joint(end, start, center=second.start)
     return Joint(end, start, _prolonged(first, second, offset))
+
+
+def _arc_at_lead(rule: Outside, element: Element) -> bool:
+    """Whether the corner of an entry or exit move with an element is an arc."""
+    return rule in (Outside.ARC, Outside.MITER_OR_ANY_ARC) or (rule is Outside.MITER_OR_ARC and not element.turn)
 
 
 def departure(last: Element, leaving: Element, offset: float, rule: Outside) -> Joint:
@@ -212,10 +220,10 @@ def departure(last: Element, leaving: Element, offset: float, rule: Outside) -> 
     if inward_turn(last, leaving, offset) >= 0.0:
         return Joint(end, end)
     angle = turn_angle(last, leaving)
-    if abs(angle) <= RIGHT_ANGLE:
+    if abs(angle) <= RIGHT_ANGLE and rule is not Outside.ARC:
         return Joint(end, miter(last.end, last.arriving, angle, offset))
     start = offset_start(leaving, offset)
-    if rule is Outside.MITER_OR_ARC and not last.turn:
+    if _arc_at_lead(rule, last):
         return Joint(end, start, center=leaving.start)
     return Joint(end, start, _prolonged(last, leaving, offset))
 

@@ -109,20 +109,25 @@ def offset_radius(element: Element, offset: float) -> float:
     return element.radius - element.turn * offset
 
 
-def meeting(first: Element, second: Element, offset: float, other: float | None = None) -> Point | None:
+def meeting(
+    first: Element, second: Element, offset: float, other: float | None = None, *, beyond_center: bool = False
+) -> Point | None:  # fmt: skip
     """Where the offsets of two elements meet nearest to P; None if nowhere.
 
     Lines count beyond their ends and arcs as whole circles: whether the point lies on what is left of the elements
     is for the control to say.  `other` is the second element's offset where it is not the first one's.
+    `beyond_center`: an inside arc smaller than the tool has its offset on the other side of its center.
     """
-    points = meetings(first, second, offset, offset if other is None else other)
+    points = meetings(first, second, offset, offset if other is None else other, beyond_center=beyond_center)
     corner = first.end
     return min(points, key=lambda at: hypot(at[0] - corner[0], at[1] - corner[1]), default=None)
 
 
-def meetings(first: Element, second: Element, offset: float, other: float) -> tuple[Point, ...]:
+def meetings(
+    first: Element, second: Element, offset: float, other: float, *, beyond_center: bool = False
+) -> tuple[Point, ...]:  # fmt: skip
     """Every meeting of the offsets of two elements, none where an inside arc has no offset."""
-    if not fits(first, offset) or not fits(second, other):
+    if not beyond_center and not (fits(first, offset) and fits(second, other)):
         return ()
     if not first.turn and not second.turn:
         return _line_line(offset_end(first, offset), first.arriving, offset_start(second, other), second.leaving)

@@ -21,10 +21,14 @@ SHORTEST: Final = 0.00127
 
 @dataclass(frozen=True, slots=True)
 class NoArc:
-    """Why there is no such arc; `{0}` and `{1}` in the text are `lengths` in millimeters."""
+    """Why there is no such arc; `{0}` and `{1}` in the text are `lengths` in millimeters.
+
+    `fault` is the rule's id: ARC-RADII, ARC-POINT or ARC-PLANE where a control may have an alarm of its own for it.
+    """
 
     text: str
     lengths: tuple[float, ...] = ()
+    fault: str = "ARC"
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,12 +55,14 @@ class ArcRadii:
         first = hypot(start[0] - center[0], start[1] - center[1])
         last = hypot(end[0] - center[0], end[1] - center[1])
         if min(first, last) < SHORTEST:
-            return NoArc("The arc has no radius: its center is its start or its end; correct the center.")
+            return NoArc(
+                "The arc has no radius: its center is its start or its end; correct the center.", fault="ARC-POINT"
+            )
         if abs(first - last) <= self.largest_difference(max(first, last), unit):
             return None
         text = "The arc's radius is {0} at its start and {1} at its end; correct the center or the end point."
         limit = " cutcomp assumes how much they may differ; the manual does not say." if self.interpreted else ""
-        return NoArc(text + limit, (first, last))
+        return NoArc(text + limit, (first, last), "ARC-RADII")
 
 
 USUAL_RADII: Final = ArcRadii()
@@ -74,7 +80,7 @@ def through(start: Point, end: Point, radius: float, turn: int) -> Point | NoArc
     if chord == 0.0:
         return NoArc("An arc with R cannot end where it starts; write the full circle with its center.")
     if chord / 2 - size > SHORTEST or size == 0.0:
-        return NoArc("The radius {0} does not reach the end point {1} away; correct R.", (size, chord))
+        return NoArc("The radius {0} does not reach the end point {1} away; correct R.", (size, chord), "ARC-RADII")
     away = sqrt(max(size * size - chord * chord / 4, 0.0)) * turn * (1 if radius > 0 else -1)
     if chord / 2 / size > WHOLE_CHORD:
         away = 0.0
@@ -95,7 +101,7 @@ def given_center(
     if "R" in words:
         return NoArc("The arc has both R and a center. Keep one of them.")
     if standing in words:
-        return NoArc(f"{standing} does not lie in the arc's plane; write {first} and {second}.")
+        return NoArc(f"{standing} does not lie in the arc's plane; write {first} and {second}.", fault="ARC-PLANE")
     if first not in words and second not in words:
         return NoArc(f"The arc has neither center nor radius; write {first} and {second}, or R.")
     if origin is None:

@@ -121,9 +121,12 @@ def _check_first(state: ModalState, code: int, block: Block) -> None:
 
 
 def _repeats(state: ModalState, block: Block) -> int:
-    number = whole(block.words.get("L", 1.0))
-    if number is None or not 0 < number <= MAX_REPEATS:
-        _stop(state, f"L, how often the cycle runs, is a whole number from 1 to {MAX_REPEATS}.", block, "L")
+    letters = state.dialect.repeat_letters
+    letter = next((letter for letter in letters if letter in block.words), letters[0])
+    number, least = whole(block.words.get(letter, 1.0)), 1 if letter == "L" else 0
+    if number is None or not least <= number <= MAX_REPEATS:
+        text = f"{letter}, how often the cycle runs, is a whole number from {least} to {MAX_REPEATS}."
+        _stop(state, text, block, letter)
     return number
 
 

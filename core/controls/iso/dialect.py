@@ -6,7 +6,7 @@ Codes are in tenths (G41.1 is 411).  A group holds the codes of which a block ta
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum, auto
 from types import MappingProxyType
 from typing import Final
@@ -42,6 +42,11 @@ class CodeAction(Enum):
     DATA = auto()
     LENGTH = auto()
     """A tool length offset on a control that shifts the position by it; its axis words are the offset."""
+    SKIP = auto()
+    TRANSFORM = auto()
+    """Scaling, mirror image, rotation and polar coordinates, on and off."""
+    UNAVAILABLE = auto()
+    """A code that the control does not have and whose meaning is in force anyway: a warning."""
     UNSUPPORTED = auto()
     """A code that the control has and cutcomp does not support: the run stops."""
     OF_THIS_CONTROL = auto()
@@ -113,8 +118,12 @@ class Dialect:
     compensation; `returns_to_r`: G99 is in force at the start.  `d_anywhere`: D, and H, may stand in any block.
     `dwell_takes_axes`: X with G4 is a time, or may be.  `rate_clears_feed`: after G94 and G95 there is no feed, also
     where they were in force.  `tool_data_kinds`: the L of G10 that set a tool's data.  `tells_unused`: words that
-    nothing takes are reported.  `max_repeated_blocks`: the number of blocks that subprograms and loops may run again,
-    and `max_o_words` the number of O-words that may run, before the run is given up.
+    nothing takes are reported.  `rule_names`: the control's own numbers for alarms.  `last_code_counts`: of two codes
+    of one group the last counts, with a warning.  `reference_known`: the machine's zero is a point of the program,
+    otherwise an axis that went there is nowhere known.  `repeat_letters`: how often a drilling cycle runs.
+    `m97_calls`: M97 calls a block of the program, and the P of M98 is a program's number alone.
+    `max_repeated_blocks`: the number of blocks that subprograms and loops may run again, and `max_o_words` the number
+    of O-words that may run, before the run is given up.
     """
 
     codes: Mapping[int, Code]
@@ -141,6 +150,11 @@ class Dialect:
     rate_clears_feed: bool = False
     tool_data_kinds: frozenset[int] = frozenset()
     tells_unused: bool = True
+    rule_names: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    last_code_counts: bool = False
+    reference_known: bool = True
+    repeat_letters: str = "L"
+    m97_calls: bool = False
     max_repeated_blocks: int = 400_000
     max_o_words: int = 15_000
 
@@ -150,9 +164,10 @@ _ALWAYS_TAKEN: Final = frozenset("NOXYZFSTABCUVW")
 
 _TAKEN_BY_G: Final[Mapping[int, str]] = MappingProxyType(
     {40: "PXU", 100: "LPR", 400: "DIJK", 411: "DL", 421: "DL", 410: "DI", 420: "DI"}
-    | {430: "H", 490: "H", 640: "P", 960: "D"}
+    | {430: "H", 490: "H", 640: "P", 960: "D", 440: "H", 541: "P", 1540: "P"}
+    | {50: "PR", 51: "QR", 80: "P", 390: "IJK", 510: "P", 680: "R", 1030: "P", 1870: "PE"}
 )
-_TAKEN_BY_M: Final[Mapping[int, str]] = MappingProxyType({980: "PL"})
+_TAKEN_BY_M: Final[Mapping[int, str]] = MappingProxyType({970: "PL", 980: "PL", 990: "P"})
 _TAKEN_BY_ARC: Final = "IJKR"
 _TAKEN_BY_CYCLE: Final = "RQPLIJK"
 

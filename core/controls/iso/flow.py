@@ -9,18 +9,17 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final, NamedTuple, NoReturn
 
-from core.controls.control_run import AlarmError, ControlRun, Log
-from core.controls.control_tools import ToolTable
+from core.controls.control_run import Log
 from core.controls.iso.dialect import Dialect
 from core.controls.iso.elsewhere import JUMPS, only_on
 from core.controls.iso.machine import Control, Machine
 from core.controls.iso.macro import ExpressionReader, FaultError, Kept, MacroParameters, Squeezed, tell_unset
 from core.controls.iso.reader import Block, is_plain, read_line, whole
-from core.controls.program_text import lines_of, quoted
+from core.controls.program_text import quoted
 from core.finding import Severity
 
 SIGNS_PER_BLOCK: Final = 64
@@ -81,7 +80,7 @@ class Call:
     """The program or a subprogram that runs: the line index it returns to and its scope.
 
     One that M98 called has its `number`, the index it starts at, and how often it runs again; it runs in the scope of
-    its caller.
+    its caller.  `loops` are the open ones of WHILE and DO by number and row; `macro`: it has variables of its own.
     """
 
     back: int
@@ -89,6 +88,8 @@ class Call:
     number: int | None = None
     start: int = 0
     again: int = 0
+    loops: list[tuple[int, int]] = field(default_factory=list)
+    macro: bool = False
 
 
 def o_words_of(lines: Sequence[str]) -> dict[int, OWord]:
@@ -384,6 +385,18 @@ class Flow:
         self.at = self.o_words.run(word)
         return True
 
+    def blocks(self, line: int) -> Iterable[Block]:
+        """The blocks of a line, none of an O-word, which is followed."""
+        if self.follow_o_word(line - 1):
+            return ()
+        return read_line(self.lines[line - 1], line, self.log, self.dialect.syntax, self.values)
+
+    def ends_here(self, line: int) -> bool:
+        """Whether the program ends with a line that was run."""
+        if self.dialect.percent_ends and self.lines[line - 1].strip() == "%":
+            self.percents += 1
+        return self.percents > 1
+
     def follow_call(self, block: Block) -> bool:
         """Follows a block's M98 or M99; False where the program ends with it."""
         if 980 in block.m:
@@ -453,6 +466,9 @@ class Flow:
             text = f"Subprograms or loops run more than {self.dialect.max_repeated_blocks} blocks again"
             self.log.stop("LIMIT", f"{text}, long ones counted several times. {GIVEN_UP_TEXT}", line, 1)
 
+    def finish(self) -> None:
+        """The run is over, by its end or an alarm."""
+
     def end_of_file(self) -> None:
         """End of file: reports what is still open."""
         if len(self.calls) > 1:
@@ -464,40 +480,3 @@ class Flow:
 
 MakeControl = Callable[[Log], Control]
 """Makes a control that writes its findings into a log."""
-
-
-def execute(text: bytes, name: str, dialect: Dialect, tools: ToolTable, make: MakeControl) -> ControlRun:
-    """A program on the control of this name that `make` gives; never raises for any text."""
-    log = Log()
-    control = make(log)
-    machine = Machine(dialect, control, tools, log)
-    stopped_at = None
-    try:
-        _run(Flow(lines_of(text), dialect, log, machine), machine)
-    except AlarmError as alarm:
-        log.add(alarm.finding)
-        stopped_at = alarm.line
-    control.close_stretch()
-    unit = machine.first_unit or machine.unit
-    return ControlRun(name, unit, control.tape.moves(), log.closed(), stopped_at, tuple(control.stretches))
-
-
-def _run(flow: Flow, machine: Machine) -> None:
-    """Runs lines until the program ends."""
-    while flow.at < len(flow.lines):
-        line = flow.at = flow.at + 1
-        text = flow.lines[line - 1]
-        flow.count_repeat(line)
-        if flow.follow_o_word(line - 1):
-            continue
-        for block in read_line(text, line, flow.log, flow.dialect.syntax, flow.values):
-            machine.step(block)
-            if machine.ended or not flow.follow_call(block):
-                machine.control.close()
-                return
-        if flow.dialect.percent_ends and text.strip() == "%":
-            flow.percents += 1
-            if flow.percents > 1:
-                break
-    flow.end_of_file()
-    machine.control.close()

@@ -26,7 +26,17 @@ from core.geometry.piece import Point, Side
 from core.tolerance import ON_PATH
 from core.units import Unit
 
-ONCE: Final = frozenset((CodeAction.HOME, CodeAction.SHIFT, CodeAction.PRESET, CodeAction.MACHINE, CodeAction.DATA))
+ONCE: Final = frozenset(
+    (
+        CodeAction.HOME,
+        CodeAction.SHIFT,
+        CodeAction.PRESET,
+        CodeAction.MACHINE,
+        CodeAction.DATA,
+        CodeAction.SKIP,
+        CodeAction.TRANSFORM,
+    )
+)
 """What takes a block's axis words for itself."""
 
 _G43_1: Final = 431
@@ -146,7 +156,7 @@ class Machine(ModalState):
 
     def _grouped(self, block: Block) -> list[Code]:
         """A block's G codes in the order of execution; one that is unknown, or two of a group, stop the run."""
-        known, groups = [], set()
+        known, groups = list[Code](), set[str]()
         for number in block.g:
             code = self.dialect.codes.get(number)
             if code is None:
@@ -155,16 +165,29 @@ class Machine(ModalState):
                 self.log.stop("CODE", text, block.line, block.column("G", number))
             if number == _G80 and code.group == "motion" and self._moves_in(block):
                 continue
-            if code.group in groups:
+            if code.group in groups and self.dialect.last_code_counts:
+                known = [other for other in known if other.group != code.group]
+                text = f"G{number / 10:g} is the second G code of its group in this block; the last one counts."
+                self.log.tell(Severity.WARNING, self.dialect.group_rule, text, block.line, block.column("G", number))
+            elif code.group in groups:
                 text = f"G{number / 10:g} is the second G code of its group in this block; keep one."
                 self.log.stop(self.dialect.group_rule, text, block.line, block.column("G", number))
             groups.add(code.group)
             known.append(code)
         if {"motion", "cycle"} <= groups and any(code.action is CodeAction.CYCLE for code in known):
+            if self.dialect.last_code_counts:
+                return self._without_cycle(known, block)
             text = "cutcomp does not know which counts, the motion or the cycle. Write them in two blocks."
             self.log.stop(self.dialect.group_rule, text, block.line, block.column("G"))
         known.sort(key=lambda code: _ORDER.get(code.action, _LATEST))
         return known
+
+    def _without_cycle(self, known: list[Code], block: Block) -> list[Code]:
+        """A motion next to a drilling cycle cancels it."""
+        text = "G0 to G3 next to a drilling cycle cancels the cycle. Write them in two blocks."
+        self.log.tell(Severity.WARNING, self.dialect.group_rule, text, block.line, block.column("G"))
+        kept = [code for code in known if code.action is not CodeAction.CYCLE]
+        return sorted(kept, key=lambda code: _ORDER.get(code.action, _LATEST))
 
     def _moves_in(self, block: Block) -> bool:
         """Whether a block has a motion or a cycle besides G80."""
@@ -315,7 +338,8 @@ class Machine(ModalState):
                 center = self.dialect.arc_radii.refused(start, end, center, self.unit) or center
         if isinstance(center, NoArc):
             column = block.column("R" if "R" in block.words else "IJK")
-            self.log.stop("ARC", center.text, block.line, column, lengths=center.lengths)
+            rule = center.fault if center.fault in self.dialect.rule_names else "ARC"
+            self.log.stop(rule, center.text, block.line, column, lengths=center.lengths)
         return center
 
     def _drill(self, block: Block) -> None:

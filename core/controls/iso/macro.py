@@ -60,6 +60,8 @@ class Kept(Enum):
 
     NGC = auto()
     """As LinuxCNC: 1 to 30 are a subprogram's own; what was never set is 0."""
+    FANUC = auto()
+    """As Fanuc: #1 to #33 are a macro's own; what was never set is vacant."""
     MACRO_B = auto()
     """As RosettaCNC: what was never set is empty or in the control's own table; #0 always is empty."""
 

@@ -48,12 +48,13 @@ class Syntax:
 
     `semicolon_ends`: a semicolon is the end of a block, not the beginning of a comment.  `tool_data`: a slash stands in
     tool data as in T4/.75/.2, not before a block that a switch can skip.  `blanks`: a blank parts words, rather than
-    being nothing anywhere.
+    being nothing anywhere.  `last_counts`: of two words of one letter the last counts, with a warning.
     """
 
     semicolon_ends: bool = False
     tool_data: bool = False
     blanks: bool = True
+    last_counts: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +71,7 @@ class Block:
     """One block: the values of its words by letter, its G and M codes in tenths, as written.
 
     `start` is the column, less one, at which the block begins on its line; `columns` are those of its words where the
-    text is worked out of expressions.
+    text is worked out of expressions.  `corner` is its `,R` or `,C` with the value.
     """
 
     line: int
@@ -81,6 +82,15 @@ class Block:
     m: list[int] = field(default_factory=list)
     data: ToolData | None = None
     columns: tuple[int, ...] = ()
+    corner: tuple[str, float] | None = None
+
+    def in_order(self) -> Iterator[tuple[str, float]]:
+        """The block's words as written, those of one letter too."""
+        return ((letter, float(number)) for letter, number, _ in self._placed())
+
+    def written_without_point(self, letter: str) -> bool:
+        """Whether the number of a word has no decimal point."""
+        return any(name == letter and "." not in number for name, number, _ in self._placed())
 
     def column(self, letters: str, code: int | None = None) -> int:
         """Where the first word of one of these letters stands, from 1; of codes the one of `code` tenths."""
@@ -103,7 +113,7 @@ class Block:
             pairs = _PAIR.findall(self.text)
             yield from ((letter, number, at) for (letter, number), at in zip(pairs, self.columns, strict=True))
             return
-        for pair in _PAIR.finditer(_bare(capitals(self.text))):
+        for pair in _PAIR.finditer(without_comments(capitals(self.text))):
             yield pair[1], pair[2], self.start + pair.start() + 1
 
 
@@ -126,6 +136,11 @@ def is_plain(line: str) -> bool:
     return _MOVE_WORDS.fullmatch(line) is not None
 
 
+def is_words(bare: str) -> bool:
+    """Whether a line in capitals and without comments holds nothing but letters with numbers."""
+    return _CLEAN.fullmatch(bare) is not None
+
+
 PLAIN: Final = Syntax()
 
 
@@ -138,17 +153,17 @@ def read_line(
     """
     upper = capitals(text)
     if _CLEAN.fullmatch(upper):
-        return [_filled(Block(line, text), upper, log)] if upper and not upper.isspace() else []
+        return [fill_words(Block(line, text), upper, log)] if upper and not upper.isspace() else []
     if syntax.semicolon_ends and ";" in upper:
         return list(_pieces(text, line, log, syntax))
-    return _closer(Block(line, text), _bare(upper), log, syntax, values)
+    return _closer(Block(line, text), without_comments(upper), log, syntax, values)
 
 
 def _pieces(text: str, line: int, log: Log, syntax: Syntax) -> Iterator[Block]:
     """The blocks between semicolons; text after the last semicolon that is not a block is reported and skipped."""
     start, parts = 0, text.split(";")
     for index, part in enumerate(parts):
-        bare = _bare(capitals(part))
+        bare = without_comments(capitals(part))
         plain = _CLEAN.fullmatch(bare) is not None
         if plain or index < len(parts) - 1:
             yield from _closer(Block(line, part, start), bare, log, syntax)
@@ -184,15 +199,15 @@ def _closer(
         if not squeezed or _CLEAN.fullmatch(squeezed) is None:
             _fault(block, bare, log)
         block.text = bare = squeezed
-    return [_filled(block, bare, log)]
+    return [fill_words(block, bare, log)]
 
 
 def _worked_out(block: Block, log: Log, values: MacroParameters) -> list[Block]:
     """The block of a line with parameters or expressions; none of one that only sets them."""
-    marked = _bare(capitals(block.text), GAP)
+    marked = without_comments(capitals(block.text), GAP)
     skip = len(marked) - len(marked.lstrip()) + 1 if marked.lstrip().startswith("/") else 0
     block.text, block.columns = worked_out(Squeezed.of(marked[skip:], block.start + skip), block.line, values, log)
-    return [_filled(block, block.text, log)] if block.columns else []
+    return [fill_words(block, block.text, log)] if block.columns else []
 
 
 def _squeezed(block: Block, log: Log) -> str:
@@ -201,10 +216,11 @@ def _squeezed(block: Block, log: Log) -> str:
     if nested:
         text = "A comment begins inside a comment; close the first one."
         log.stop("COMMENT", text, block.line, block.start + nested.end())
-    return "".join(_bare(capitals(block.text), GAP).split()).replace(GAP, " ")
+    return "".join(without_comments(capitals(block.text), GAP).split()).replace(GAP, " ")
 
 
-def _filled(block: Block, upper: str, log: Log) -> Block:
+def fill_words(block: Block, upper: str, log: Log, syntax: Syntax = PLAIN) -> Block:
+    """The block with the words of a text in capitals that holds nothing else."""
     words = block.words
     for letter, number in _PAIR.findall(upper):
         if letter in "GM":
@@ -215,12 +231,19 @@ def _filled(block: Block, upper: str, log: Log) -> Block:
             (block.g if letter == "G" else block.m).append(code)
             continue
         if letter in words:
-            log.stop("TWICE", f"{letter} is written twice in this block; keep one.", block.line, block.second(letter))
+            _tell_twice(letter, block, log, syntax)
         words[letter] = value = float(number)
         if not -LARGEST < value < LARGEST:
             text = f"The number of {letter} is too large for any machine."
             log.stop("NUMBER", text, block.line, block.column(letter))
     return block
+
+
+def _tell_twice(letter: str, block: Block, log: Log, syntax: Syntax) -> None:
+    if not syntax.last_counts:
+        log.stop("TWICE", f"{letter} is written twice in this block; keep one.", block.line, block.second(letter))
+    text = f"{letter} is written twice in this block; the control takes the last one."
+    log.tell(Severity.WARNING, "TWICE", text, block.line, block.second(letter))
 
 
 def _fault(block: Block, bare: str, log: Log) -> None:
@@ -238,7 +261,7 @@ def _fault(block: Block, bare: str, log: Log) -> None:
     log.stop("WORD", f"{quoted(rest)} is not a word. Write a letter and a number.", block.line, column)
 
 
-def _bare(upper: str, fill: str = " ") -> str:
+def without_comments(upper: str, fill: str = " ") -> str:
     """A line with its comments blanked out and every other character where it was."""
     if "(" not in upper and ";" not in upper:
         return upper

@@ -87,6 +87,7 @@ class _Writer:
         self, cuts: Sequence[PassWithLeads | UncompensatedPass], remarks: Sequence[str]
     ) -> Iterator[WrittenLine]:
         """Everything from the first line to the end."""
+        yield from (WrittenLine(text) for text in self.style.head)
         yield from (WrittenLine(remark) for remark in remarks if self.style.comments)
         unit = self.style.inch if self.frame.unit is Unit.IN else self.style.metric
         offset = f"G{self.frame.work_offset}"
@@ -102,6 +103,7 @@ class _Writer:
             before = contour_pass
         yield WrittenLine("M5")
         yield WrittenLine("M30")
+        yield from (WrittenLine(text) for text in self.style.tail)
 
     def tool(self, cut: ContourPass, before: ContourPass | None) -> Iterator[WrittenLine]:
         """The change of tool, of its data, of the speed."""

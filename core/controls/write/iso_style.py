@@ -43,7 +43,7 @@ class IsoStyle:
     them is the work offset.  `decimals` of inches and of millimeters.  `absolute`: I and J count from the origin.
     `merged`: lines on one line are written as one.  `comments`: the text may hold remarks.  `length`: G43 H names the
     tool's length.  `spaced`: words stand apart.  `corner_code` sets the way around outside corners, whatever was in
-    force before; empty where a control has one way only.
+    force before; empty where a control has one way only.  `head` and `tail` stand around the whole text.
     """
 
     inch: str
@@ -58,6 +58,8 @@ class IsoStyle:
     length: bool = True
     spaced: bool = True
     corner_code: str = ""
+    head: tuple[str, ...] = ()
+    tail: tuple[str, ...] = ()
 
     @property
     def writes_work_offset(self) -> bool:
@@ -74,6 +76,17 @@ _NINE: Final = ("G17 {unit} G40 G49 {offset} G80 G90 G94",)
 
 FREE_ENTRY: Final = IsoStyle("G20", "G21", _NIST, (6, 5), EntryRule.SQUARE_TO_NEXT, Radius.REDUCED)
 """A style whose leads may come from anywhere."""
+
+_FANUC: Final = IsoStyle(
+    "G20",
+    "G21",
+    ("G17 {unit} G40 G49 {offset} G80 G90 G94",),
+    (4, 3),
+    EntryRule.SQUARE_TO_NEXT,
+    Radius.OFFSET,
+    head=("%", "O0001"),
+    tail=("%",),
+)
 
 _NINE_SERIES: Final = IsoStyle("G20", "G21", _NINE, (4, 3), EntryRule.SQUARE_TO_NEXT, Radius.OFFSET)
 
@@ -100,6 +113,8 @@ STYLES: Final[Mapping[str, IsoStyle]] = MappingProxyType(
             for kind in ("a", "b")
             for corners, code in (("", "G39"), ("-g39", "G39"), ("-g39.1", "G39.1"))
         },
+        **{f"fanuc:{kind}{corners}": _FANUC for kind in ("a", "b", "c") for corners in ("", "-arc")},
+        **{f"haas:{kind}{corners}": _FANUC for kind in ("a", "b") for corners in ("", "-yasnac")},
         "linuxcnc": IsoStyle(
             "G20",
             "G21",

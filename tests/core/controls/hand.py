@@ -8,7 +8,7 @@ from pathlib import Path
 
 from core.controls import registry
 from core.controls.control_run import ControlRun
-from core.controls.iso.flow import execute
+from core.controls.iso.execute import execute
 from core.controls.makers import linuxcnc
 from core.controls.registry import UnknownControl
 from core.finding import Finding

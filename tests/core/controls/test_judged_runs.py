@@ -67,7 +67,7 @@ def test_names_are_whole_or_short() -> None:
     assert resolve("rosettacnc") == "rosettacnc:nist"
     assert resolve(" Nine-Series:B-G39.1 ") == "nine-series:b-g39.1"
     assert all(resolve(name) == name for name in names())
-    for wrong in ("fanuc", "rosettacnc:hard", "", "linuxcnc:2"):
+    for wrong in ("siemens", "rosettacnc:hard", "", "linuxcnc:2"):
         assert "linuxcnc" in getattr(resolve(wrong), "text", "")
 
 

@@ -1,0 +1,102 @@
+"""Execution of a word-address program on a control: its rows as they run, up to the end or an alarm."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from core.controls.control_run import AlarmError, ControlRun, Log, Stretch
+from core.controls.control_tools import ToolTable
+from core.controls.iso.dialect import Dialect
+from core.controls.iso.flow import Flow, MakeControl
+from core.controls.iso.machine import Machine
+from core.controls.iso.macro import Kept
+from core.controls.iso.macro_flow import MacroFlow, ProgramLibrary
+from core.controls.iso.macro_machine import MacroMachine
+from core.controls.moves import Moves
+from core.controls.program_text import lines_of
+
+
+def no_library(_: int) -> None:
+    """A library without programs."""
+
+
+NO_LIBRARY: Final[ProgramLibrary] = no_library
+
+
+def execute(
+    text: bytes,
+    name: str,
+    dialect: Dialect,
+    tools: ToolTable,
+    make: MakeControl,
+    library: ProgramLibrary = NO_LIBRARY,
+) -> ControlRun:
+    """A program on the control of this name that `make` gives; never raises for any text."""
+    log = Log(rule_names=dialect.rule_names)
+    control = make(log)
+    lines = lines_of(text)
+    if dialect.parameters is Kept.FANUC:
+        machine: Machine = (with_macros := MacroMachine(dialect, control, tools, log))
+        flow: Flow = MacroFlow(lines, dialect, log, with_macros, library)
+    else:
+        machine = Machine(dialect, control, tools, log)
+        flow = Flow(lines, dialect, log, machine)
+    stopped_at = None
+    try:
+        _run(flow, machine)
+    except AlarmError as alarm:
+        log.add(alarm.finding)
+        stopped_at = alarm.line
+    control.close_stretch()
+    flow.finish()
+    unit = machine.first_unit or machine.unit
+    made = ControlRun(name, unit, control.tape.moves(), log.closed(), stopped_at, tuple(control.stretches))
+    return _by_own_lines(made, flow) if isinstance(flow, MacroFlow) else made
+
+
+def _run(flow: Flow, machine: Machine) -> None:
+    """Runs lines until the program ends."""
+    while flow.at < len(flow.lines):
+        line = flow.at = flow.at + 1
+        flow.count_repeat(line)
+        for block in flow.blocks(line):
+            machine.step(block)
+            if machine.ended or not flow.follow_call(block):
+                machine.control.close()
+                return
+        if flow.ends_here(line):
+            break
+    flow.end_of_file()
+    machine.control.close()
+
+
+def _by_own_lines(made: ControlRun, flow: MacroFlow) -> ControlRun:
+    """The run with the lines of called files told as the lines that call them, and its variables."""
+    made = replace(made, variables=dict(flow.variables.common))
+    if not flow.called_from:
+        return made
+    findings = []
+    for finding in made.findings:
+        line, place = flow.origin_of(finding.line or 0)
+        text = f"{place}: {finding.text}" if place else finding.text
+        findings.append(replace(finding, text=text, line=line or None, column=1 if place else finding.column))
+    stretches = tuple(_stretch_by_own_lines(stretch, flow) for stretch in made.stretches)
+    stopped_at = None if made.stopped_at is None else flow.origin_of(made.stopped_at)[0]
+    return replace(
+        made,
+        findings=tuple(findings),
+        moves=_moves_by_own_lines(made.moves, flow),
+        stretches=stretches,
+        stopped_at=stopped_at,
+    )
+
+
+def _moves_by_own_lines(moves: Moves, flow: MacroFlow) -> Moves:
+    return replace(moves, lines=np.array([flow.origin_of(line)[0] for line in moves.lines.tolist()], np.int32))
+
+
+def _stretch_by_own_lines(stretch: Stretch, flow: MacroFlow) -> Stretch:
+    return replace(stretch, programmed=_moves_by_own_lines(stretch.programmed, flow))

@@ -1,0 +1,384 @@
+"""Custom macro B: variables and expressions as Fanuc and Haas controls work them out.
+
+Functions count before * / AND MOD, these before + - OR XOR, and these before relations; operators of one rank go from
+left to right.  AND, OR and XOR work on the bits of whole numbers.  A variable that nothing has set is vacant: a word
+with it is as if it were not written, in sums it is 0, and only EQ and NE tell it from 0.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from math import acos, asin, atan, atan2, ceil, cos, degrees, exp, floor, fmod, radians, sin, sqrt, tan
+from math import log as natural_log
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.control_run import Log
+from core.controls.iso.macro import GAP, ExpressionReader, FaultError, Kept, MacroParameters, Squeezed, plain
+from core.controls.program_text import quoted
+from core.finding import Severity
+
+EQUAL: Final = 1e-8
+"""How far two values may be apart, by the larger one, and still be equal."""
+
+MAX_BRACKETS: Final = 5
+"""Brackets that may lie inside each other, those of functions included."""
+
+MAX_NESTED: Final = 40
+"""Factors that may lie inside each other, as in ####1."""
+
+LOCALS: Final = 33
+ARGUMENTS: Final = 26
+
+
+class Vacant(float):
+    """The value of a variable that nothing has set: 0 in sums."""
+
+
+VACANT: Final = Vacant(0.0)
+
+
+class AlarmByProgramError(Exception):
+    """#3000: the program stops itself with an alarm of its own number."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+SetSystem = Callable[[int, float], bool]
+"""Sets a variable of the control itself; False where there is no such variable, or it can only be read."""
+
+
+class Variables(MacroParameters):
+    """The variables of one run: #1 to #33 of each macro, the common ones, and those of the control.
+
+    `vacant_arguments`: the main program has read one of #1 to #26 that nothing had set.  `unset` are common variables
+    read in a sum before anything set them; the control may keep a value in them.
+    """
+
+    def __init__(self, machine_value: Callable[[int | str], float | str | None], set_system: SetSystem) -> None:
+        super().__init__(Kept.FANUC, machine_value)
+        self.set_system = set_system
+        self.local: dict[int, float] = {}
+        self.common: dict[int, float] = {}
+        self.callers: list[dict[int, float]] = []
+        self.vacant_arguments = False
+
+    def number(self, index: int, at: int) -> float | None:
+        """A variable's value, `VACANT` where nothing has set it."""
+        if index == 0:
+            return VACANT
+        if 1 <= index <= LOCALS:
+            value = self.local.get(index)
+            if value is None and not self.callers and index <= ARGUMENTS:
+                self.vacant_arguments = True
+            return VACANT if value is None else value
+        if is_common(index):
+            return self.common.get(index, VACANT)
+        system = self.machine_value(index)
+        if isinstance(system, str):
+            raise FaultError("PS0115", system, at)
+        if system is None:
+            raise FaultError("PS0115", f"#{index} is not a variable cutcomp knows. Use #100 to #199.", at)
+        return system
+
+    def named(self, name: str, at: int) -> float:
+        """Names are refused."""
+        raise FaultError("BEYOND", f"cutcomp does not follow named variables such as {quoted(name)}. Use numbers.", at)
+
+    def settable(self, key: int | str, at: int) -> None:
+        """Refuses names and #0."""
+        if isinstance(key, str):
+            self.named(key, at)
+        if key == 0:
+            raise FaultError("PS0116", "#0 is always vacant and cannot be set. Choose another variable.", at)
+        if not isinstance(key, int) or key < 0:
+            raise FaultError("PS0115", "The number of a variable cannot be negative.", at)
+
+    def set(self, key: int | str, value: float) -> None:
+        """Gives a variable that is `settable` its value."""
+        assert isinstance(key, int)
+        if 1 <= key <= LOCALS:
+            self.local[key] = value
+        elif is_common(key):
+            self.common[key] = value
+        elif key == 3000:
+            raise AlarmByProgramError(round(value))
+        elif not self.set_system(key, value):
+            raise FaultError("PS0116", f"#{key} cannot be set by a program. Choose #100 to #199.", 0)
+
+    def enter(self, arguments: Sequence[float] | Mapping[int, float]) -> None:
+        """A macro begins, with its own #1 to #33."""
+        self.callers.append(self.local)
+        self.local = dict(arguments) if isinstance(arguments, Mapping) else dict(enumerate(arguments, 1))
+
+    def leave(self, value: float | None = None) -> None:  # noqa: ARG002  macros return nothing
+        """A macro ends."""
+        self.local = self.callers.pop()
+
+
+def is_common(index: int) -> bool:
+    """Whether a variable is common to all programs."""
+    return 100 <= index <= 199 or 500 <= index <= 999 or 98000 <= index <= 99999
+
+
+def bits(work: Callable[[int, int], int]) -> Callable[[float, float], float]:
+    """An operation on the bits of two whole numbers."""
+    return lambda left, right: float(work(round(left), round(right)))
+
+
+def equal(left: float, right: float) -> bool:
+    """EQ: vacant equals vacant only."""
+    if isinstance(left, Vacant) or isinstance(right, Vacant):
+        return isinstance(left, Vacant) and isinstance(right, Vacant)
+    return abs(left - right) <= EQUAL * max(abs(left), abs(right), 1e-3)
+
+
+_RELATIONS: Final[Mapping[str, Callable[[float, float], bool]]] = MappingProxyType(
+    {
+        "EQ": equal,
+        "NE": lambda left, right: not equal(left, right),
+        "GT": lambda left, right: left > right,
+        "LT": lambda left, right: left < right,
+        "GE": lambda left, right: left >= right,
+        "LE": lambda left, right: left <= right,
+    }
+)
+_SUMS: Final[Mapping[str, Callable[[float, float], float]]] = MappingProxyType(
+    {
+        "+": lambda left, right: left + right,
+        "-": lambda left, right: left - right,
+        "OR": bits(int.__or__),
+        "XOR": bits(int.__xor__),
+    }
+)
+_PRODUCTS: Final[Mapping[str, Callable[[float, float], float]]] = MappingProxyType(
+    {
+        "*": lambda left, right: left * right,
+        "/": lambda left, right: left / right,
+        "AND": bits(int.__and__),
+        "MOD": fmod,
+    }
+)
+_RANKED: Final = (_RELATIONS, _SUMS, _PRODUCTS)
+_OPERATOR: Final = re.compile(r"\*\*|MOD|AND|XOR|OR|EQ|NE|GT|GE|LT|LE|[-+*/]")
+
+
+def from_bcd(value: float) -> float:
+    """BIN: the number whose decimal digits are the groups of four bits."""
+    return float(f"{round(value):x}")
+
+
+def to_bcd(value: float) -> float:
+    """BCD: the number whose groups of four bits are the decimal digits."""
+    return float(int(str(round(value)), 16))
+
+
+def _rounded(value: float) -> float:
+    return float(floor(value + 0.5) if value >= 0.0 else -floor(0.5 - value))
+
+
+_FUNCTIONS: Final[Mapping[str, Callable[[float], float]]] = MappingProxyType(
+    {
+        "SIN": lambda value: sin(radians(value)),
+        "COS": lambda value: cos(radians(value)),
+        "TAN": lambda value: tan(radians(value)),
+        "ASIN": lambda value: degrees(asin(value)) % 360.0,
+        "ACOS": lambda value: degrees(acos(value)),
+        "ATAN": lambda value: degrees(atan(value)),
+        "SQRT": sqrt,
+        "ABS": abs,
+        "ROUND": _rounded,
+        "FIX": lambda value: float(floor(value) if value >= 0.0 else ceil(value)),
+        "FUP": lambda value: float(ceil(value) if value >= 0.0 else floor(value)),
+        "LN": natural_log,
+        "EXP": exp,
+        "BIN": from_bcd,
+        "BCD": to_bcd,
+        "ADP": float,
+        "POW": float,
+    }
+)
+_FUNCTION: Final = re.compile(r"([A-Z]{2,5})\[")
+
+
+def _full_name(short: str) -> str | None:
+    """The function whose name begins so: two letters are enough."""
+    return next((name for name in _FUNCTIONS if name.startswith(short)), None)
+
+
+class MacroReader(ExpressionReader):
+    """Reads values as a Fanuc control does; `increment` is what ROUND rounds a word to, 0 outside of words."""
+
+    increment = 0.0
+
+    def __init__(self, text: str, values: Variables, at: int = 0) -> None:
+        super().__init__(text, values, at)
+        self._brackets = 0
+
+    def expression(self) -> float:
+        """What stands on the right of =, without brackets around it."""
+        return self._ranked(0)
+
+    def value(self) -> float:
+        """One factor; a vacant variable stays vacant unless a sign stands before it."""
+        negative = False
+        while self.text[self.at : self.at + 1] in ("+", "-"):
+            negative ^= self.text[self.at] == "-"
+            self.at += 1
+        self._depth += 1
+        if self._depth > MAX_NESTED:
+            raise FaultError("PS0118", "Too many signs # stand in a row. Use variables.", self.at)
+        value = self._bare()
+        self._depth -= 1
+        return -value if negative else value
+
+    def brackets(self) -> float:
+        """An expression in square brackets, not too deep."""
+        begin = self.at
+        self._brackets += 1
+        if self._brackets > MAX_BRACKETS:
+            text = f"More than {MAX_BRACKETS} brackets lie inside each other. Use a variable for the inner ones."
+            raise FaultError("PS0118", text, begin)
+        value = super().brackets()
+        self._brackets -= 1
+        return value
+
+    def _ranked(self, rank: int) -> float:
+        if rank == len(_RANKED):
+            return self.value()
+        value = self._ranked(rank + 1)
+        operators = _RANKED[rank]
+        while operator := _OPERATOR.match(self.text, self.at):
+            name, begin = operator[0], self.at
+            if name == "**":
+                raise FaultError("PS0114", "This control has no **. Write POW[a,b] or multiply.", begin)
+            if name not in operators:
+                break
+            self.at = operator.end()
+            value = self._operated(begin, name, operators[name], value, self._ranked(rank + 1))
+        return value
+
+    def _operated(
+        self, at: int, name: str, work: Callable[[float, float], float], left: float, right: float
+    ) -> float:  # fmt: skip
+        if name in "/MOD" and right == 0.0:
+            raise FaultError("PS0112", "A division by 0. Check the divisor.", at)
+        return float(self._worked(at, name, work, left, right))
+
+    def _function(self) -> float:
+        begin, function = self.at, _FUNCTION.match(self.text, self.at)
+        if function is None:
+            raise FaultError("PS0114", f"A value is missing{self._before()}.", begin)
+        name = _full_name(function[1])
+        if name is None:
+            raise FaultError("PS0114", f"This control has no function {function[1]}.", begin)
+        self.at = function.end(1)
+        first, second = self._arguments()
+        if name == "ATAN" and second is None and self.text.startswith("/[", self.at):
+            self.at += 1
+            second = self.brackets()
+        if name == "POW" or second is not None:
+            return self._of_two(begin, name, first, second)
+        if name == "ROUND" and self.increment:
+            return _rounded(first / self.increment) * self.increment
+        return self._applied(begin, name, first)
+
+    def _applied(self, begin: int, name: str, value: float) -> float:
+        try:
+            return self._worked(begin, name, _FUNCTIONS[name], value)
+        except FaultError as fault:
+            raise FaultError("PS0119", fault.text, begin) from None
+
+    def _arguments(self) -> tuple[float, float | None]:
+        """The value in a function's brackets, or two with a comma between them."""
+        begin = self.at
+        self._brackets += 1
+        if self._brackets > MAX_BRACKETS:
+            text = f"More than {MAX_BRACKETS} brackets lie inside each other. Use a variable for the inner ones."
+            raise FaultError("PS0118", text, begin)
+        self.at += 1
+        first, second = self._ranked(0), None
+        if self.text[self.at : self.at + 1] == ",":
+            self.at += 1
+            second = self._ranked(0)
+        if self.text[self.at : self.at + 1] != "]":
+            raise FaultError("PS0114", "The bracket is not closed; write the closing one.", begin)
+        self.at += 1
+        self._brackets -= 1
+        return first, second
+
+    def _of_two(self, begin: int, name: str, first: float, second: float | None) -> float:
+        if second is None or name not in ("ATAN", "POW"):
+            raise FaultError("PS0114", f"{name} takes {'two values' if name == 'POW' else 'one value'}.", begin)
+        if name == "ATAN":
+            return degrees(atan2(first, second)) % 360.0
+        return float(self._worked(begin, name, lambda base, power: float(base**power), first, second))
+
+
+def set_variables(reader: MacroReader, line: Squeezed, number: int, values: Variables, log: Log) -> None:
+    """Runs an assignment, `#1=...`; a second one in its block is taken too, and reported."""
+    text = line.text
+    for count in range(len(text)):
+        if text[reader.at : reader.at + 1] == GAP:
+            reader.at += 1
+            continue
+        if reader.at >= len(text):
+            return
+        begin = reader.at
+        if text[begin] != "#":
+            raise FaultError("PS0127", f"{quoted(text[begin:])} cannot follow an assignment. Use its own block.", begin)
+        if count:
+            said = "A second assignment in this block; cutcomp runs both. Write them in two blocks."
+            log.tell(Severity.WARNING, "PS0127", said, number, line.column(begin))
+        key = reader.key()
+        if text[reader.at : reader.at + 1] != "=":
+            raise FaultError("PS0114", "A variable needs = and a value, or a letter before it.", begin)
+        values.settable(key, begin)
+        reader.at += 1
+        values.set(key, reader.expression())
+
+
+def words_of(
+    line: Squeezed, values: Variables, increment: float, start: int = 0
+) -> tuple[str, tuple[int, ...], tuple[str, float] | None]:  # fmt: skip
+    """The words of a block as plain text, the column of each, and its `,R` or `,C`; vacant words are left out."""
+    text, reader = line.text, MacroReader(line.text, values, start)
+    reader.increment = increment
+    words, columns, corner = list[str](), list[int](), None
+    while reader.at < len(text):
+        begin, sign = reader.at, text[reader.at]
+        reader.at += 1
+        if sign == GAP:
+            continue
+        if sign == "/":
+            reader.at += text[reader.at : reader.at + 1].isdigit()
+        elif sign == "," and text[reader.at : reader.at + 1] in ("R", "C"):
+            reader.at += 1
+            corner = text[begin + 1], reader.value()
+        elif "A" <= sign <= "Z":
+            value = _word_value(reader, sign, begin)
+            if not isinstance(value, Vacant):
+                words.append(f"{sign}{plain(value)}")
+                columns.append(line.columns[begin] + 1)
+        else:
+            raise FaultError("WORD", f"{quoted(text[begin:])} is not a word. Write a letter and a value.", begin)
+    return " ".join(words), tuple(columns), corner
+
+
+def _word_value(reader: MacroReader, letter: str, begin: int) -> float:
+    """The value of a word; vacant with a sign before it too."""
+    text = reader.text
+    signed = text[reader.at : reader.at + 1] in ("+", "-") and text[reader.at + 1 : reader.at + 2] == "#"
+    if text[reader.at : reader.at + 1] in ("", GAP) or (
+        text[reader.at].isalpha() and not _FUNCTION.match(text, reader.at)
+    ):
+        raise FaultError("PS0005", f"{letter} has no number. Write one or remove {letter}.", begin)
+    if not signed:
+        return reader.value()
+    negative = text[reader.at] == "-"
+    reader.at += 1
+    value = reader.value()
+    return value if isinstance(value, Vacant) or not negative else -value

@@ -1,0 +1,550 @@
+"""Macro flow: IF, GOTO, WHILE, DO and END, and calls of subprograms and macros, as Fanuc and Haas controls follow them.
+
+A row is one block's text: a line, or a part of it between semicolons.  A program goes from its O to the next one; a
+program that is not in the file is read from a library, and its moves and findings then count for the line that calls.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Final, NamedTuple, NoReturn
+
+from core.controls.control_run import Log
+from core.controls.iso.dialect import Dialect
+from core.controls.iso.flow import Call, Flow, Scope
+from core.controls.iso.macro import GAP, FaultError, Squeezed
+from core.controls.iso.macro_b import AlarmByProgramError, MacroReader, Variables, set_variables, words_of
+from core.controls.iso.macro_machine import MacroMachine
+from core.controls.iso.reader import Block, fill_words, is_words, without_comments
+from core.controls.program_text import capitals, lines_of, quoted
+from core.finding import Severity
+from core.units import Unit
+
+MAX_ROWS: Final = 1_000_000
+MAX_ROWS_WITHOUT_MOVEMENT: Final = 100_000
+
+MAX_CALLS: Final = 4
+"""Subprograms, and macros, that may run inside each other."""
+
+MAX_LOOPS: Final = 3
+
+MAX_TIMES: Final = 9999
+
+ProgramLibrary = Callable[[int], tuple[str, bytes] | None]
+"""Finds a program by its number outside of the file: its name and text."""
+
+_KEYWORD: Final = re.compile(
+    r"(?:/[0-9]?)?(?:N[0-9]++)?(?:/[0-9]?)?(IF(?=\[)|WH(?:ILE)?(?=\[)|DO|END|GO(?:TO)?|#|(?=\[))"
+)
+_EXTERNAL: Final = re.compile(r"(?:/[0-9]?)?(?:N[0-9]++)?(DPRNT|BPRNT|POPEN|PCLOS|SETVN)")
+_THEN: Final = re.compile(r"TH(?:EN)?")
+_PROGRAM: Final = re.compile(r"[ \t]*+[O:][ \t]*+([0-9]{1,8})(?![0-9.])", re.IGNORECASE)
+_NAME: Final = re.compile(r"[ \t]*+O[ \t]*+<[^>]*+>", re.IGNORECASE)
+_NUMBER: Final = re.compile(r"[ \t/0-9]*?N[ \t]*+([0-9]{1,8})", re.IGNORECASE)
+_SKIP: Final = re.compile(r"[ \t]*+(?:N[ \t]*+[0-9]++[ \t]*+)?/")
+_WITHOUT_POINT: Final = re.compile(r"[XYZIJKRQ][ \t]*+[-+]?0*+[1-9][0-9]*+(?![0-9.])")
+_EXPRESSIONS: Final = frozenset("#[,")
+
+ARGUMENT_NUMBERS: Final[Mapping[str, int]] = MappingProxyType(
+    {"A": 1, "B": 2, "C": 3, "D": 7, "E": 8, "F": 9, "H": 11, "I": 4, "J": 5, "K": 6, "M": 13}
+    | {"Q": 17, "R": 18, "S": 19, "T": 20, "U": 21, "V": 22, "W": 23, "X": 24, "Y": 25, "Z": 26}
+)
+"""The variable an argument of G65 sets; the n-th I, J or K one that is three further for each before it."""
+
+
+class Statement(NamedTuple):
+    """A row as the macro reads it: its keyword (empty for a block of words), its text, and where the rest begins."""
+
+    keyword: str
+    line: Squeezed
+    at: int
+
+
+@dataclass(frozen=True, slots=True)
+class ModalCall:
+    """G66: the macro that runs after every move, and the depth of calls at which the moves count."""
+
+    number: int
+    times: int
+    arguments: Mapping[int, float]
+    depth: int
+
+
+class MacroFlow(Flow):
+    """The rows of a program with macro statements; `numbers` and `starts` are the line and column of each row."""
+
+    def __init__(
+        self, lines: list[str], dialect: Dialect, log: Log, machine: MacroMachine, library: ProgramLibrary
+    ) -> None:  # fmt: skip
+        super().__init__([], dialect, log, machine)
+        self.machine = machine
+        self.library = library
+        self.variables = Variables(machine.value_of, machine.set_variable)
+        self.numbers: list[int] = []
+        self.starts: list[int] = []
+        self.begins: list[int] = []
+        self.main_lines = len(lines)
+        self.called_from: list[tuple[int, str, int]] = []
+        self.statements: dict[int, Statement] = {}
+        self.ends: dict[int, int] = {}
+        self.numbered: dict[int, list[int]] = {}
+        self.calls = [Call(0, Scope())]
+        self.modal_call: ModalCall | None = None
+        self.no_point: list[tuple[int, int]] = []
+        self.rows_run = 0
+        self.rows_without_movement = 0
+        self.tape_length = 0
+        self._append(_between_percents(lines), 1)
+        self.calls[0].back = len(self.lines)
+        self.at = self._first_row()
+        self.program = self._range_of(self.at)
+
+    # rows
+
+    def _append(self, lines: Sequence[str], first_number: int) -> int:
+        """More rows: the lines cut at their semicolons; gives the index of the first one."""
+        begin = len(self.lines)
+        for number, line in enumerate(lines, first_number):
+            for start, text in _parts(line):
+                row = len(self.lines)
+                self.lines.append(text)
+                self.numbers.append(number)
+                self.starts.append(start)
+                program = _PROGRAM.match(text)
+                if program or _NAME.match(text):
+                    self.begins.append(row)
+                if program:
+                    self.labels.setdefault(int(program[1]), row)
+                sequence = _NUMBER.match(text)
+                if sequence:
+                    self.numbered.setdefault(int(sequence[1]), []).append(row)
+        return begin
+
+    def _first_row(self) -> int:
+        """The first row with anything but blanks and comments."""
+        return next((row for row, text in enumerate(self.lines) if without_comments(text).strip()), 0)
+
+    def _range_of(self, row: int) -> tuple[int, int]:
+        """The rows of the program a row belongs to."""
+        index = bisect_right(self.begins, row)
+        first = self.begins[index - 1] if index else 0
+        return first, self.begins[index] if index < len(self.begins) else len(self.lines)
+
+    def count_repeat(self, line: int) -> None:
+        """Counts rows, and those since the last movement."""
+        self.rows_run += 1
+        self.rows_without_movement += 1
+        if len(self.machine.control.tape) != self.tape_length:
+            self.tape_length, self.rows_without_movement = len(self.machine.control.tape), 0
+        if self.rows_run > MAX_ROWS or self.rows_without_movement > MAX_ROWS_WITHOUT_MOVEMENT:
+            text = "The program does not come to an end: a loop or a jump runs for ever. cutcomp stops here."
+            self.log.stop("LIMIT", text, self.numbers[line - 1], 1)
+
+    def ends_here(self, line: int) -> bool:  # noqa: ARG002  the next row says it
+        """Whether the next row belongs to another program, which nothing has called."""
+        first, last = self.program
+        return not first <= self.at < last
+
+    # what a row is
+
+    def blocks(self, line: int) -> Iterator[Block]:
+        """The blocks of words of a row; a macro statement is run, and has none."""
+        row = line - 1
+        statement = self.statements.get(row)
+        if statement is None:
+            statement = self.statements[row] = self._statement(row)
+        if not statement.keyword:
+            yield from self._words(row, statement)
+            return
+        try:
+            self.at = self._run_statement(statement, row)
+        except FaultError as fault:
+            self._fault(fault, row, statement.line)
+        except AlarmByProgramError as alarm:
+            self._own_alarm(alarm.number, row)
+        if statement.keyword == "[":
+            yield from self._words(row, statement)
+
+    def _statement(self, row: int) -> Statement:
+        text = self.lines[row]
+        bare = without_comments(capitals(text), GAP)
+        line = Squeezed.of(bare, self.starts[row])
+        if not _EXPRESSIONS.intersection(bare):
+            places = (match.start() + self.starts[row] + 1 for match in _WITHOUT_POINT.finditer(bare))
+            self.no_point.extend((self.numbers[row], column) for column in places)
+        found = _KEYWORD.match(line.text)
+        if found:
+            return Statement(found[1] or "[", line, found.end())
+        if _EXTERNAL.match(line.text):
+            return Statement("OUT", line, 0)
+        return Statement("", line, 0)
+
+    def _fault(self, fault: FaultError, row: int, line: Squeezed) -> NoReturn:
+        self.log.stop(fault.code, fault.text, self.numbers[row], line.column(fault.at))
+
+    def _own_alarm(self, number: int, row: int) -> NoReturn:
+        comment = re.search(r"\(([^)]*)", self.lines[row])
+        said = f': "{quoted(comment[1])}"' if comment else ""
+        text = f"The program stops itself here with alarm {3000 + number}{said}."
+        self.log.stop(f"MC{3000 + number}", text, self.numbers[row], 1)
+
+    # macro statements
+
+    def _run_statement(self, statement: Statement, row: int) -> int:
+        """Runs a macro statement and gives the row that comes next."""
+        reader = MacroReader(statement.line.text, self.variables, statement.at)
+        match statement.keyword:
+            case "#":
+                reader.at -= 1
+                self._set(reader, statement.line, row)
+            case "IF":
+                return self._if(reader, statement.line, row)
+            case "WH" | "WHILE":
+                return self._while(reader, row)
+            case "DO":
+                return self._enter_loop(self._loop_number(reader), row)
+            case "END":
+                return self._end_loop(self._loop_number(reader), row)
+            case "GO" | "GOTO":
+                return self._go_to(reader, row)
+            case "[":
+                return self._skip_unless(reader, statement, row)
+        return row + 1
+
+    def _set(self, reader: MacroReader, line: Squeezed, row: int) -> None:
+        set_variables(reader, line, self.numbers[row], self.variables, self.log)
+
+    def _if(self, reader: MacroReader, line: Squeezed, row: int) -> int:
+        true = reader.brackets() != 0.0
+        text = line.text
+        if text[reader.at :].startswith("GO"):
+            reader.at += 4 if text.startswith("GOTO", reader.at) else 2
+            return self._go_to(reader, row) if true else row + 1
+        then = _THEN.match(text, reader.at)
+        if then is None:
+            raise FaultError("PS0114", "IF needs GOTO or THEN after its condition.", min(reader.at, len(text) - 1))
+        if not true:
+            return row + 1
+        reader.at = then.end()
+        if text.startswith("GO", reader.at):
+            reader.at += 4 if text.startswith("GOTO", reader.at) else 2
+            return self._go_to(reader, row)
+        self._set(reader, line, row)
+        return row + 1
+
+    def _skip_unless(self, reader: MacroReader, statement: Statement, row: int) -> int:
+        """Haas's `[condition] M99 P`: the words behind run where the condition is true."""
+        true = reader.brackets() != 0.0
+        rest = reader.at
+        self.statements[-1 - row] = Statement("[", statement.line, rest if true else len(statement.line.text))
+        return row + 1
+
+    def _go_to(self, reader: MacroReader, row: int) -> int:
+        begin = reader.at
+        number = reader.value()
+        if reader.at < len(reader.text.rstrip(GAP)):
+            raise FaultError("PS0114", f"{quoted(reader.text[reader.at :])} cannot follow GOTO.", reader.at)
+        return self._row_of(number, row, begin)
+
+    def _row_of(self, number: float, row: int, at: int) -> int:
+        """The row with a sequence number: searched from here to the program's end, then from its beginning."""
+        first, last = self._range_of(row)
+        rows = [other for other in self.numbered.get(round(number), ()) if first <= other < last]
+        if not rows or number != round(number):
+            raise FaultError("PS0128", f"There is no block N{number:g} in this program. Correct the number.", at)
+        target = next((other for other in rows if other > row), rows[0])
+        call = self.calls[-1]
+        call.loops = [loop for loop in call.loops if loop[1] < target <= self._end_of(*loop)]
+        return target
+
+    def _loop_number(self, reader: MacroReader) -> int:
+        begin = reader.at
+        number = reader.value()
+        if number not in (1.0, 2.0, 3.0):
+            raise FaultError("PS0126", "The number of a loop is 1, 2 or 3.", begin)
+        if reader.at < len(reader.text.rstrip(GAP)):
+            raise FaultError("PS0114", f"{quoted(reader.text[reader.at :])} cannot follow here.", reader.at)
+        return round(number)
+
+    def _while(self, reader: MacroReader, row: int) -> int:
+        true = reader.brackets() != 0.0
+        if not reader.text.startswith("DO", reader.at):
+            raise FaultError("PS0114", "WHILE needs DO and a number after its condition.", len(reader.text) - 1)
+        reader.at += 2
+        number = self._loop_number(reader)
+        end = self._end_of(number, row)
+        if not true:
+            self._close_loop(number, row)
+            return end + 1
+        return self._enter_loop(number, row)
+
+    def _enter_loop(self, number: int, row: int) -> int:
+        self._end_of(number, row)
+        self._close_loop(number, row)
+        call = self.calls[-1]
+        call.loops.append((number, row))
+        return row + 1
+
+    def _close_loop(self, number: int, row: int) -> None:
+        call = self.calls[-1]
+        call.loops = [loop for loop in call.loops if loop != (number, row)]
+
+    def _end_of(self, number: int, row: int) -> int:
+        """The row of the END that belongs to a DO."""
+        end = self.ends.get(row)
+        if end is None:
+            wanted = re.compile(rf"(?:/[0-9]?)?(?:N[0-9]++)?END{number}(?![0-9.])")
+            last = self._range_of(row)[1]
+            rows = (other for other in range(row + 1, last) if wanted.match(self._squeezed(other)))
+            end = next(rows, None)
+            if end is None:
+                text = f"The loop DO{number} has no END{number}. Write it."
+                self.log.stop("PS0124", text, self.numbers[row], 1)
+            self.ends[row] = end
+        return end
+
+    def _squeezed(self, row: int) -> str:
+        text = self.lines[row]
+        return without_comments(capitals(text)).replace(" ", "").replace("\t", "") if "d" in text.lower() else ""
+
+    def _end_loop(self, number: int, row: int) -> int:
+        call = self.calls[-1]
+        open_loops = [begin for opened, begin in call.loops if opened == number and self._end_of(opened, begin) == row]
+        if not open_loops:
+            text = f"END{number} has no DO{number} before it that is running. A jump must not lead into a loop."
+            self.log.stop("PS0124", text, self.numbers[row], 1)
+        call.loops = [loop for loop in call.loops if loop[1] < open_loops[-1]]
+        return open_loops[-1]
+
+    # words
+
+    def _words(self, row: int, statement: Statement) -> Iterator[Block]:
+        """The block of a row, macro calls followed."""
+        kept = self.statements.get(-1 - row)
+        line, start = (kept.line, kept.at) if kept else (statement.line, statement.at)
+        block = self._block(row, line, start)
+        if block is None:
+            return
+        if 650 in block.g or 660 in block.g:
+            yield replace(block, words={}, g=[650])
+            self._call_macro(block, row, modal=660 in block.g)
+            return
+        if 670 in block.g:
+            self.modal_call = None
+        moved = len(self.machine.control.tape)
+        yield block
+        self._after_move(block, row, moved)
+
+    def _block(self, row: int, line: Squeezed, start: int) -> Block | None:
+        number, text = self.numbers[row], self.lines[row]
+        bare = without_comments(capitals(text))
+        if start == 0 and is_words(bare):
+            block = Block(number, text, self.starts[row])
+            return fill_words(block, bare, self.log, self.dialect.syntax) if bare.strip() else None
+        if _SKIP.match(text):
+            said = "Block skip is assumed off, so this block runs."
+            self.log.tell(Severity.INFO, "SKIP", said, number, self.starts[row] + 1)
+        if line.text.startswith(":"):
+            line = line._replace(text=f"O{line.text[1:]}")
+        if name := re.match(r"O<[^>]*>", line.text):
+            start = name.end()
+        increment = 0.001 if self.machine.unit is Unit.MM else 0.0001
+        try:
+            words, columns, corner = words_of(line, self.variables, increment, start)
+        except FaultError as fault:
+            self._fault(fault, row, line)
+        if not columns:
+            return None
+        block = Block(number, words, self.starts[row], columns=columns, corner=corner)
+        return fill_words(block, words, self.log, self.dialect.syntax)
+
+    def _after_move(self, block: Block, row: int, moved: int) -> None:
+        """G66: the macro runs after a block that moves."""
+        modal = self.modal_call
+        if modal is None or len(self.calls) != modal.depth or {"X", "Y", "Z"}.isdisjoint(block.words):
+            return
+        if len(self.machine.control.tape) > moved or self.machine.control.active:
+            self._begin_call(modal.number, modal.times, block, row, modal.arguments)
+
+    # calls
+
+    def follow_call(self, block: Block) -> bool:
+        """Follows a block's M98, M97 or M99; False where the program ends with it."""
+        if 980 in block.m or (970 in block.m and self.dialect.m97_calls):
+            self._call_subprogram(block)
+            return True
+        return self._return_from(block) if 990 in block.m else True
+
+    def _call_subprogram(self, block: Block) -> None:
+        row, column = self.at - 1, block.column("M", 980)
+        if "P" not in block.words:
+            self.log.stop("PS0076", "The call needs P and the number of a program.", block.line, column)
+        number, times = round(block.words["P"]), block.words.get("L", 1.0)
+        if "L" not in block.words and number > MAX_TIMES and not self.dialect.m97_calls:
+            times, number = float(number // 10_000), number % 10_000
+        if not 0.0 <= times <= MAX_TIMES:
+            self.log.stop("PS0007", f"L is a number of times from 1 to {MAX_TIMES}.", block.line, block.column("L"))
+        if sum(not call.macro for call in self.calls[1:]) >= MAX_CALLS:
+            self.log.stop("PS0077", f"Subprograms run more than {MAX_CALLS} deep.", block.line, column)
+        if 970 in block.m:
+            try:
+                start = self._row_of(float(number), row, 0)
+            except FaultError as fault:
+                self.log.stop(fault.code, fault.text, block.line, column)
+            self._push(start, max(round(times), 1), None)
+            return
+        self._begin_call(number, max(round(times), 1), block, row, None)
+
+    def _call_macro(self, block: Block, row: int, *, modal: bool) -> None:
+        """G65: a macro with arguments; G66 keeps it for the moves that follow."""
+        column = block.column("G")
+        if "P" not in block.words:
+            self.log.stop("PS0076", "The call needs P and the number of a program.", block.line, column)
+        number, times = round(block.words["P"]), round(block.words.get("L", 1.0))
+        if not 1 <= times <= MAX_TIMES:
+            self.log.stop("PS0007", f"L is a number of times from 1 to {MAX_TIMES}.", block.line, block.column("L"))
+        arguments = arguments_of(block)
+        if modal:
+            self.modal_call = ModalCall(number, times, arguments, len(self.calls))
+        else:
+            self._begin_call(number, times, block, row, arguments)
+
+    def _begin_call(
+        self, number: int, times: int, block: Block, row: int, arguments: Mapping[int, float] | None
+    ) -> None:  # fmt: skip
+        macros = sum(call.macro for call in self.calls[1:])
+        if arguments is not None and macros >= MAX_CALLS:
+            self.log.stop("PS0077", f"Macros run more than {MAX_CALLS} deep.", block.line, block.column("G"))
+        start = self.labels.get(number)
+        if start is None:
+            start = self._from_library(number, block, row)
+        self._push(start, times, arguments)
+
+    def _push(self, start: int, times: int, arguments: Mapping[int, float] | None) -> None:
+        call = Call(self.at, Scope(), 0, start, times - 1, macro=arguments is not None)
+        self.calls.append(call)
+        if arguments is not None:
+            self.variables.enter(arguments)
+        self.at = start
+        self.program = self._range_of(start)
+
+    def _from_library(self, number: int, block: Block, row: int) -> int:
+        """A program that is not in the file; its lines are numbered on from the file's."""
+        program = self.library(number)
+        if program is None:
+            text = f"There is no program O{number} in this file or its folder. Add it."
+            self.log.stop("PS0076", text, block.line, block.column("P"))
+        name, content = program
+        lines = _between_percents(lines_of(content))
+        first = self.main_lines + sum(count for _, _, count in self.called_from) + 1
+        line, _ = self.origin_of(self.numbers[row])
+        self.called_from.append((line, name, len(lines)))
+        begin = self._append(lines, first)
+        if begin not in self.begins:
+            self.begins.append(begin)
+            self.begins.sort()
+        self.ran.extend(bytes(len(lines)))
+        self.labels[number] = begin
+        return begin
+
+    def origin_of(self, number: int) -> tuple[int, str]:
+        """The line of the file a line counts for, and where a line of another file stands: `O3001.nc line 5`."""
+        left = number - self.main_lines
+        for line, name, count in self.called_from:
+            if 0 < left <= count:
+                return line, f"{name} line {left}"
+            left -= count
+        return number, ""
+
+    def _return_from(self, block: Block) -> bool:
+        """M99, with P to a block of the program that called."""
+        target = round(block.words["P"]) if "P" in block.words else None
+        call = self.calls[-1]
+        if len(self.calls) == 1:
+            if target is not None:
+                self.at = self._target(target, block)
+                return True
+            text = "M99 in the main program starts it again without end; cutcomp ends the run at it."
+            self.log.tell(Severity.INFO, "SUBPROGRAM", text, block.line, block.column("M", 990))
+            return False
+        if call.again and target is None:
+            call.again -= 1
+            call.loops = []
+            self.at = call.start
+            return True
+        if call.macro:
+            self.variables.leave()
+        self.calls.pop()
+        self.at = call.back
+        self.program = self._range_of(call.back - 1)
+        if target is not None:
+            self.at = self._target(target, block)
+        return True
+
+    def _target(self, number: int, block: Block) -> int:
+        try:
+            return self._row_of(float(number), self.at - 1, 0)
+        except FaultError as fault:
+            self.log.stop(fault.code, fault.text, block.line, block.column("P"))
+
+    def finish(self) -> None:
+        """What is to be said of the program as a whole."""
+        text = "\n".join(self.lines).upper()
+        if self.variables.vacant_arguments and "M99" in text and not re.search(r"M0?2(?!\d)|M30", text):
+            said = "This looks like the body of a macro: it reads arguments that nothing sets. Call it with G65."
+            self.log.tell(Severity.INFO, "FN-BODY", said, 1, 1)
+        if self.no_point:
+            unit = "n/1000 mm" if self.machine.unit is Unit.MM else "n/10000 in"
+            said = (
+                f"{len(self.no_point)} coordinates, the first one here, have no decimal point. cutcomp takes X10 as 10 "
+                f"units; at 3401#0 = 0 it is {unit}."
+            )
+            self.log.tell(Severity.WARNING, "FN-POINT", said, *self.no_point[0])
+
+    def end_of_file(self) -> None:
+        """The program ends without M30, M02 or M99."""
+        text = "The program has no end. Write M30, or M99 in a subprogram."
+        self.log.tell(Severity.WARNING, "END", text, self.numbers[-1] if self.numbers else 1, 1)
+
+
+def arguments_of(block: Block) -> dict[int, float]:
+    """The variables that the words of G65 set; of those for the same one the later counts."""
+    arguments, seen = dict[int, float](), dict[str, int]()
+    for letter, value in block.in_order():
+        number = ARGUMENT_NUMBERS.get(letter)
+        if number is None:
+            continue
+        if letter in "IJK":
+            number += 3 * seen.get(letter, 0)
+            seen[letter] = seen.get(letter, 0) + 1
+        if number <= 33:
+            arguments[number] = value
+    return arguments
+
+
+def _between_percents(lines: Sequence[str]) -> list[str]:
+    """The lines between the signs %, those outside emptied; where there is one % only, up to it or from it on."""
+    signs = [index for index, line in enumerate(lines) if line.lstrip().startswith("%")]
+    if not signs:
+        return list(lines)
+    first, last = signs[0], signs[1] if len(signs) > 1 else len(lines)
+    if len(signs) == 1 and any(line.strip() and not line.strip().startswith("(") for line in lines[:first]):
+        first, last = -1, signs[0]
+    return [line if first < index < last else "" for index, line in enumerate(lines)]
+
+
+def _parts(line: str) -> Iterator[tuple[int, str]]:
+    """The parts of a line between semicolons outside of comments, and where each begins."""
+    start, depth = 0, False
+    for index, sign in enumerate(line if ";" in line else ""):
+        if sign in "()":
+            depth = sign == "("
+        elif sign == ";" and not depth:
+            yield start, line[start:index]
+            start = index + 1
+    if start < len(line) or not start:
+        yield start, line[start:]

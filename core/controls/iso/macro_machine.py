@@ -1,0 +1,511 @@
+"""Macro machine: the machine of Fanuc and Haas mills, with offset memories, system variables and coordinate transforms.
+
+Programmed points are turned into those of the work coordinates before compensation: polar coordinates first, then the
+mirror image, scaling and rotation.  An axis that went to a machine point is nowhere known until an absolute word.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from math import cos, hypot, radians, sin
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.control_run import Log
+from core.controls.control_tools import ToolTable
+from core.controls.iso.arcs import IN_PLANE
+from core.controls.iso.dialect import Code, CodeAction, Dialect
+from core.controls.iso.machine import Control, Machine
+from core.controls.iso.macro_b import VACANT
+from core.controls.iso.modal_state import ZERO
+from core.controls.iso.reader import Block, whole
+from core.controls.moves import Plane, Point3, flat, solid
+from core.finding import Severity
+from core.units import Unit, from_mm, to_mm
+
+EXTENDED_SYSTEM: Final = 100_000
+"""Work offsets of G54.1 P have this key, and their P."""
+
+_TURNED_OFF: Final = (150, 500, 690)
+"""Codes of transforms that leave the axis words of their block for a move."""
+
+_CLOCKS: Final = (3001, 3002, 3011, 3012)
+_NO_EFFECT: Final = (3003, 3004, 3006, 3007)
+_GROUPS: Final[Mapping[int, str]] = MappingProxyType(
+    {
+        4001: "motion",
+        4002: "plane",
+        4003: "distance",
+        4004: "stroke",
+        4005: "feed",
+        4006: "units",
+        4007: "compensation",
+        4008: "length",
+        4009: "cycle",
+        4010: "retract",
+        4011: "scaling",
+        4012: "macro",
+        4013: "spindle",
+        4014: "system",
+        4015: "path",
+        4016: "rotation",
+        4017: "polar",
+        4022: "mirror",
+    }
+)
+"""The group of codes whose code in force a variable has."""
+
+_AT_START: Final[Mapping[str, int]] = MappingProxyType(
+    {"motion": 0, "plane": 170, "distance": 900, "feed": 940, "compensation": 400, "length": 490, "cycle": 800}
+    | {"retract": 980, "scaling": 500, "macro": 670, "spindle": 970, "system": 540, "path": 640, "rotation": 690}
+    | {"polar": 150, "mirror": 501, "stroke": 230}
+)
+_LAST_WORDS: Final[Mapping[int, str]] = MappingProxyType(
+    {4102: "B", 4107: "D", 4109: "F", 4111: "H", 4113: "M", 4114: "N", 4115: "O", 4119: "S", 4120: "T"}
+)
+
+
+@dataclass(slots=True)
+class Offsets:
+    """The offset memory as the program wrote it, in millimeters by number: radii of D, lengths of H, and their wear.
+
+    `separate`: the program has written D apart from H; until then both are one.
+    """
+
+    radii: dict[int, float]
+    radius_wear: dict[int, float]
+    lengths: dict[int, float]
+    length_wear: dict[int, float]
+    separate: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Transform:
+    """What turns programmed points into those of the work coordinates.
+
+    `mirror`: by axis the coordinate of the mirror; `factor` scales about `fixed`; `angle` turns about `center` in a
+    plane, radians.
+    """
+
+    mirror: Mapping[int, float] = field(default_factory=lambda: MappingProxyType({}))
+    factor: float = 1.0
+    fixed: Point3 = ZERO
+    angle: float = 0.0
+    center: tuple[float, float] = (0.0, 0.0)
+    plane: Plane = Plane.XY
+
+    def __bool__(self) -> bool:
+        return bool(self.mirror) or self.factor != 1.0 or self.angle != 0.0
+
+    def applied(self, point: Point3) -> Point3:
+        """A programmed point in work coordinates."""
+        mirrored = [2 * self.mirror[axis] - value if axis in self.mirror else value for axis, value in enumerate(point)]
+        x, y, z = (fixed + (value - fixed) * self.factor for value, fixed in zip(mirrored, self.fixed, strict=True))
+        return self._turned((x, y, z), self.angle)
+
+    def undone(self, point: Point3) -> Point3:
+        """The programmed point of one in work coordinates."""
+        turned = self._turned(point, -self.angle)
+        scaled = [fixed + (value - fixed) / self.factor for value, fixed in zip(turned, self.fixed, strict=True)]
+        x, y, z = (2 * self.mirror[axis] - value if axis in self.mirror else value for axis, value in enumerate(scaled))
+        return x, y, z
+
+    def _turned(self, point: Point3, angle: float) -> Point3:
+        if not angle:
+            return point
+        first, second, third = flat(point, self.plane)
+        dx, dy = first - self.center[0], second - self.center[1]
+        turned = (dx * cos(angle) - dy * sin(angle), dx * sin(angle) + dy * cos(angle))
+        return solid(self.center[0] + turned[0], self.center[1] + turned[1], third, self.plane)
+
+    def vector(self, vector: Point3) -> Point3:
+        """A programmed direction in work coordinates."""
+        (ax, ay, az), (bx, by, bz) = self.applied(ZERO), self.applied(vector)
+        return bx - ax, by - ay, bz - az
+
+    def flips(self, plane: Plane) -> bool:
+        """Whether clockwise becomes counterclockwise in a plane."""
+        return sum(axis in self.mirror for axis in plane.axes[:2]) == 1
+
+
+class MacroMachine(Machine):
+    """Runs the blocks of a Fanuc or Haas program.
+
+    `unknown` are the axes whose place is not known; `in_force` the code of each group; `last_words` the values of the
+    block before that variables read; `polar` the radius and the angle last programmed under G16, None without it.
+    """
+
+    def __init__(self, dialect: Dialect, control: Control, tools: ToolTable, log: Log) -> None:
+        super().__init__(dialect, control, tools, log)
+        self.offsets = Offsets({}, {}, {}, {})
+        self.transform = Transform()
+        self.unknown: set[int] = set()
+        self.in_force = dict(_AT_START)
+        self.last_words: dict[str, float] = {}
+        self.polar: tuple[float, float] | None = None
+        self.current = Block(1, "")
+
+    def step(self, block: Block) -> None:
+        """Runs one block; variables of the block before change only behind it."""
+        self.current = block
+        super().step(block)
+        for letter in _LAST_WORDS.values():
+            if letter in block.words:
+                self.last_words[letter] = block.words[letter]
+
+    def _grouped(self, block: Block) -> list[Code]:
+        codes = super()._grouped(block)
+        for code in codes:
+            if code.group in self.in_force or code.group == "units":
+                self.in_force[code.group] = code.value
+            if code.group == "motion":
+                self.in_force["cycle"] = 800
+        return codes
+
+    # points
+
+    def target(self, words: Mapping[str, float]) -> Point3:
+        """Where a block's axis words lead, in millimeters of the work coordinates."""
+        for axis, letter in enumerate("XYZ"):
+            if letter in words and axis in self.unknown:
+                if self.incremental and words[letter]:
+                    text = f"Where {letter} stands after the move to the machine's point is not known. Write G90."
+                    self.log.stop("FN-WHERE", text, self.current.line, self.current.column(letter))
+                self.unknown.discard(axis)
+        if self.polar is not None:
+            return self.transform.applied(self._polar_target(words))
+        if not self.transform:
+            return super().target(words)
+        standing, self.position = self.position, self.transform.undone(self.position)
+        try:
+            return self.transform.applied(super().target(words))
+        finally:
+            self.position = standing
+
+    def _polar_target(self, words: Mapping[str, float]) -> Point3:
+        """G16: the first axis of the plane is a radius, the second an angle in degrees."""
+        assert self.polar is not None
+        first, second, third = ("XYZ"[axis] for axis in self.plane.axes)
+        here, origin = flat(self.transform.undone(self.position), self.plane), flat(self.shift, self.plane)
+        radius, angle = self.polar
+        radius = words[first] * self.scale if first in words else radius
+        if second in words:
+            angle = words[second] + (angle if self.incremental else 0.0)
+        self.polar = radius, angle
+        center = here if self.incremental and first in words else origin
+        height = here[2]
+        if third in words:
+            height = words[third] * self.scale + (here[2] if self.incremental else origin[2])
+        if first not in words and second not in words:
+            return solid(here[0], here[1], height, self.plane)
+        turned = radians(angle)
+        return solid(center[0] + radius * cos(turned), center[1] + radius * sin(turned), height, self.plane)
+
+    def _arc(self, block: Block, turn: int) -> None:
+        if self.unknown & set(self.plane.axes[:2]):
+            text = (
+                "Where the arc starts is not known after the move to the machine's point. Write a straight move first."
+            )
+            self.log.stop("FN-WHERE", text, block.line, block.column("G"))
+        words = dict(block.words)
+        if "R" in words:
+            for letter in "IJK":
+                words.pop(letter, None)
+            if self._ends_where_it_starts(words):
+                text = "The arc with R ends where it starts: no move. A full circle needs I and J."
+                self.log.tell(Severity.WARNING, "FN-R", text, block.line, block.column("R"))
+                return
+            words["R"] *= self.transform.factor
+        elif self.transform:
+            self._transform_center(words)
+            turn = -turn if self.transform.flips(self.plane) else turn
+        if "R" in words and self.transform.flips(self.plane):
+            turn = -turn
+        super()._arc(replace(block, words=words), turn)
+
+    def _ends_where_it_starts(self, words: Mapping[str, float]) -> bool:
+        (ax, ay, _), (bx, by, _) = flat(self.position, self.plane), flat(self.target(words), self.plane)
+        return hypot(bx - ax, by - ay) < 1e-9
+
+    def _transform_center(self, words: dict[str, float]) -> None:
+        first, second, _ = IN_PLANE[self.plane]
+        vector = solid(words.get(first, 0.0), words.get(second, 0.0), 0.0, self.plane)
+        turned = flat(self.transform.vector(vector), self.plane)
+        if first in words or second in words:
+            words[first], words[second] = turned[0], turned[1]
+
+    # codes
+
+    def _act(self, code: Code, block: Block) -> None:
+        if code.action is CodeAction.SIDE and code.value != 400 and self.transform.flips(self.plane):
+            code = replace(code, value=830 - code.value)
+        if code.action is CodeAction.UNAVAILABLE:
+            text = f"G{code.value / 10:g} is not a code of this control; what it asks for is so anyway."
+            self.log.tell(Severity.WARNING, "FN-G911", text, block.line, block.column("G", code.value))
+            return
+        super()._act(code, block)
+
+    def _run_once(self, code: Code, block: Block) -> None:
+        if code.action is CodeAction.TRANSFORM:
+            self._set_transform(code.value, block)
+            if code.value in _TURNED_OFF:
+                self._motion(block)
+        elif code.action is CodeAction.SKIP:
+            text = "Where a skip signal stops this move is not known; cutcomp runs it to its end."
+            self.log.tell(Severity.WARNING, "FN-SKIP", text, block.line, block.column("G", 310))
+            self._straight(block, self.target(block.words), rapid=False)
+        else:
+            super()._run_once(code, block)
+
+    def _set_transform(self, code: int, block: Block) -> None:
+        words, state = block.words, self.transform
+        match code:
+            case 150:
+                self.polar = None
+            case 160:
+                self.polar = (0.0, 0.0)
+            case 500:
+                self.transform = replace(state, factor=1.0)
+            case 690:
+                self.transform = replace(state, angle=0.0)
+            case 501:
+                named = [axis for axis in range(3) if "XYZ"[axis] in words] or [0, 1, 2]
+                kept = {axis: at for axis, at in state.mirror.items() if axis not in named}
+                self.transform = replace(state, mirror=MappingProxyType(kept))
+            case 511:
+                places = {axis: self._absolute(axis, words) for axis in range(3) if "XYZ"[axis] in words}
+                self.transform = replace(state, mirror=MappingProxyType({**state.mirror, **places}))
+            case 510:
+                self._scale(block)
+            case 680:
+                self._rotate(block)
+
+    def _absolute(self, axis: int, words: Mapping[str, float]) -> float:
+        """A coordinate of a block in work coordinates, that of the tool where it has none."""
+        letter = "XYZ"[axis]
+        return words[letter] * self.scale + self.shift[axis] if letter in words else self.position[axis]
+
+    def _scale(self, block: Block) -> None:
+        words = block.words
+        if not {"I", "J", "K"}.isdisjoint(words) or "P" not in words:
+            text = "cutcomp follows G51 with one P for all axes only, and the path after it would be wrong."
+            self.log.stop("BEYOND", text, block.line, block.column("G", 510))
+        number = words["P"]
+        factor = number / 1000 if block.written_without_point("P") else number
+        if factor <= 0.0:
+            self.log.stop("PS0006", "The factor P of G51 must be larger than 0.", block.line, block.column("P"))
+        x, y, z = (self._absolute(axis, words) for axis in range(3))
+        self.transform = replace(self.transform, factor=factor, fixed=(x, y, z))
+
+    def _rotate(self, block: Block) -> None:
+        words = block.words
+        if not {"I", "J", "K"}.isdisjoint(words):
+            text = "cutcomp follows G68 with an angle R only, and the path after it would be wrong."
+            self.log.stop("BEYOND", text, block.line, block.column("G", 680))
+        first, second, _ = self.plane.axes
+        center = self._absolute(first, words), self._absolute(second, words)
+        angle = radians(words.get("R", 0.0))
+        self.transform = replace(self.transform, angle=angle, center=center, plane=self.plane)
+
+    # origins and places of the machine
+
+    def _home(self, block: Block) -> None:
+        """G28, G30: by way of the block's point to a point that is not known here."""
+        named = [axis for axis in range(3) if "XYZ"[axis] in block.words]
+        if named:
+            end = self.target(block.words)
+            if end != self.position:
+                self._straight(block, end, rapid=True)
+        self._lose(named, block)
+
+    def _move_in_machine(self, block: Block) -> None:
+        """G53: a move to a place of the machine, which is not known here."""
+        self._lose([axis for axis in range(3) if "XYZ"[axis] in block.words], block)
+
+    def _lose(self, axes: list[int], block: Block) -> None:
+        """Axes go to a place of the machine; their next absolute words say where they are."""
+        self.unknown.update(axes)
+        if axes:
+            text = "The machine's points are not known to cutcomp; the move there is not shown."
+            self.log.tell(Severity.INFO, "HOME", text, block.line, block.column("G"))
+
+    def _select_system(self, code: int, block: Block) -> None:
+        if code in (541, 1540):
+            number = whole(block.words.get("P", 1.0))
+            if number is None or not 1 <= number <= 300:
+                self.log.stop("PS0030", "P is the number of a work offset, 1 to 300.", block.line, block.column("P"))
+            code = EXTENDED_SYSTEM + number
+            if code not in self.origin.systems:
+                text = f"The offset of G54.1 P{number} is not in the program; it is taken as zero."
+                self.log.tell(Severity.WARNING, "OFFSET", text, block.line, block.column("G"))
+            self.set_origin(replace(self.origin, system=code))
+            return
+        super()._select_system(code, block)
+
+    def _set_data(self, block: Block) -> None:
+        """G10: work offsets (L2, L20), tool offsets (L1, L10 to L13)."""
+        kind, number = whole(block.words.get("L", 2.0)), whole(block.words.get("P", -1.0))
+        if kind == 50 or kind == 52:
+            text = "The program writes parameters of the control, and what follows may be wrong. Set them by hand."
+            self.log.stop("FN-PARAMETER", text, block.line, block.column("L"))
+        if number is None or number < 0:
+            self.log.stop("PS0031", "G10 needs P and the number of the offset.", block.line, block.column("GP"))
+        if kind in (1, 10, 11, 12, 13):
+            self._set_offset(kind, number, block)
+        elif kind == 2 and number <= 6:
+            self._set_work_offset(530 + 10 * number if number else 0, block)
+        elif kind == 20 and 1 <= number <= 300:
+            self._set_work_offset(EXTENDED_SYSTEM + number, block)
+        else:
+            text = "G10 has L2 or L20 for work offsets, L1 and L10 to L13 for tool offsets. Correct L or P."
+            self.log.stop("PS0031", text, block.line, block.column("LP"))
+
+    def _set_work_offset(self, code: int, block: Block) -> None:
+        if not code:
+            text = "cutcomp does not follow the shift of all work offsets (P0). Set G54 to G59 themselves."
+            self.log.stop("BEYOND", text, block.line, block.column("P"))
+        old = self.origin.systems.get(code, ZERO)
+        offset = self.axis_words(block, old)
+        if self.incremental:
+            x, y, z = (
+                before + (now if "XYZ"[axis] in block.words else 0.0)
+                for axis, (before, now) in enumerate(zip(old, self.axis_words(block, ZERO), strict=True))
+            )
+            offset = (x, y, z)
+        systems = MappingProxyType({**self.origin.systems, code: offset})
+        self.set_origin(replace(self.origin, systems=systems))
+
+    def _set_offset(self, kind: int, number: int, block: Block) -> None:
+        if "R" not in block.words:
+            self.log.stop("PS0032", "G10 needs R and the value of the offset.", block.line, block.column("GL"))
+        self._write_offset(kind, number, block.words["R"] * self.scale, add=self.incremental)
+        if kind not in (12, 13) and not self.offsets.separate:
+            text = "Lengths and radii are taken to share one memory, so this value is a radius for D too."
+            self.log.tell(Severity.INFO, "FN-SHARED", text, block.line, block.column("L"))
+
+    def _write_offset(self, kind: int, number: int, value: float, *, add: bool = False) -> None:
+        """A value in millimeters into the memory that an L stands for."""
+        offsets = self.offsets
+        if kind in (12, 13):
+            offsets.separate = True
+        memories = {
+            1: [offsets.lengths],
+            10: [offsets.lengths],
+            11: [offsets.length_wear],
+            12: [offsets.radii],
+            13: [offsets.radius_wear],
+        }[kind]
+        if kind in (1, 10, 11) and not offsets.separate:
+            wear = kind == 11 and number in offsets.radii
+            memories.append(offsets.radius_wear if wear else offsets.radii)
+        for memory in memories:
+            memory[number] = value + (memory.get(number, 0.0) if add else 0.0)
+
+    def offset_radius(self, number: int) -> float | None:
+        """The radius under a D in millimeters, wear included; None where neither program nor table has it."""
+        radius = self.offsets.radii.get(number)
+        if radius is None:
+            tool = self.tools.get(number)
+            radius = None if tool is None else tool.diameter_mm(self.unit) / 2
+        wear = self.offsets.radius_wear.get(number, 0.0)
+        return wear if radius is None and wear else None if radius is None else radius + wear
+
+    # variables
+
+    def value_of(self, key: int | str) -> float | str | None:
+        """A system variable; a sentence where it is not known before the control runs, None for no variable."""
+        if not isinstance(key, int):
+            return None
+        if 2001 <= key <= 2999 or 10_001 <= key <= 13_999:
+            return self._offset_variable(key)
+        if key in _GROUPS:
+            return self._code_in_force(key)
+        if key in _LAST_WORDS:
+            return self.last_words.get(_LAST_WORDS[key], VACANT)
+        if key in _CLOCKS or 1000 <= key <= 1135:
+            self._told_as_zero(key)
+            return 0.0
+        if key in _NO_EFFECT or 3000 <= key <= 3999:
+            return 0.0
+        if 5001 <= key <= 5003:
+            return self._in_work(self.transform.undone(self.position), key - 5001)
+        if 5041 <= key <= 5043:
+            return self._in_work(self.control.tape.last, key - 5041)
+        if 5021 <= key <= 5023 or 5061 <= key <= 5083:
+            self._told_as_zero(key)
+            return VACANT
+        return self._origin_variable(key)
+
+    def _told_as_zero(self, key: int) -> None:
+        text = f"The control knows #{key} only at run time; cutcomp takes nothing or 0."
+        self.log.tell(Severity.WARNING, "FN-SYSTEM", text, self.current.line, 1)
+
+    def _in_work(self, point: Point3, axis: int) -> float:
+        return from_mm(point[axis] - self.shift[axis], self.unit)
+
+    def _code_in_force(self, key: int) -> float:
+        group = _GROUPS[key]
+        code = self.in_force.get(group, 200 if self.unit is Unit.IN else 210)
+        return (code - EXTENDED_SYSTEM) * 1.0 if code > EXTENDED_SYSTEM else code / 10
+
+    def _offset_variable(self, key: int) -> float:
+        memory, number = self._memory(key)
+        if memory is self.offsets.radii:
+            radius = memory.get(number)
+            tool = self.tools.get(number)
+            value = radius if radius is not None else tool.diameter_mm(self.unit) / 2 if tool else 0.0
+        elif memory is self.offsets.lengths and number not in memory:
+            tool = self.tools.get(number)
+            value = to_mm(tool.length, tool.unit or self.unit) if tool else 0.0
+        else:
+            value = memory.get(number, 0.0)
+        return from_mm(value, self.unit)
+
+    def _memory(self, key: int) -> tuple[dict[int, float], int]:
+        """The memory a variable belongs to, and the number in it."""
+        offsets = self.offsets
+        if key < 10_000:
+            return (offsets.lengths, key - 2200) if key > 2200 else (offsets.length_wear, key - 2000)
+        kinds = {10: offsets.length_wear, 11: offsets.lengths, 12: offsets.radius_wear, 13: offsets.radii}
+        return kinds[key // 1000], key % 1000
+
+    def _origin_variable(self, key: int) -> float | None:
+        if 5201 <= key <= 5203:
+            return 0.0
+        for index in range(6):
+            axis = key - 5221 - 20 * index
+            if 0 <= axis <= 2:
+                return from_mm(self.origin.systems.get(540 + 10 * index, ZERO)[axis], self.unit)
+        if 7001 <= key <= 7943 and (key - 7001) % 20 <= 2:
+            system = EXTENDED_SYSTEM + 1 + (key - 7001) // 20
+            return from_mm(self.origin.systems.get(system, ZERO)[(key - 7001) % 20], self.unit)
+        if 5201 <= key <= 5328 or 2500 <= key <= 2806 or 7001 <= key <= 7999:
+            return 0.0
+        return None
+
+    def set_variable(self, key: int, value: float) -> bool:
+        """Sets a system variable; False where a program cannot."""
+        millimeters = to_mm(value, self.unit)
+        if 2001 <= key <= 2400 or 10_001 <= key <= 13_999:
+            kinds = {10: 11, 11: 10, 12: 13, 13: 12}
+            kind = (10 if key > 2200 else 11) if key < 10_000 else kinds[key // 1000]
+            self._write_offset(kind, self._memory(key)[1], millimeters)
+            return True
+        if key in _NO_EFFECT or key in _CLOCKS or 1100 <= key <= 1135:
+            return True
+        for index in range(6):
+            axis = key - 5221 - 20 * index
+            if 0 <= axis <= 2:
+                self._write_origin(540 + 10 * index, axis, millimeters)
+                return True
+        if 7001 <= key <= 7943 and (key - 7001) % 20 <= 2:
+            self._write_origin(EXTENDED_SYSTEM + 1 + (key - 7001) // 20, (key - 7001) % 20, millimeters)
+            return True
+        return False
+
+    def _write_origin(self, code: int, axis: int, value: float) -> None:
+        offset = list(self.origin.systems.get(code, ZERO))
+        offset[axis] = value
+        systems = MappingProxyType({**self.origin.systems, code: (offset[0], offset[1], offset[2])})
+        self.set_origin(replace(self.origin, systems=systems))

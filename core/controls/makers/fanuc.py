@@ -1,0 +1,398 @@
+"""Fanuc mills with cutter compensation C: `fanuc:a`, `:b`, `:c`, each also with `-arc` where sharp corners are arcs.
+
+D is an offset number and may stand in any block.  The first movement in the plane under G41 or G42 is the start-up.
+One block without movement is looked across; after more the tool stands square and the next move runs slanting.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.compensation.corner_rules import Outside
+from core.controls.compensation.elements import Element, line_element
+from core.controls.control_run import Log
+from core.controls.iso.arcs import IN_PLANE
+from core.controls.iso.dialect import CYCLES_APART, PLANES, CodeAction, Dialect, codes
+from core.controls.iso.flow import MakeControl
+from core.controls.iso.machine import ONCE, Control
+from core.controls.iso.macro import Kept
+from core.controls.iso.macro_machine import MacroMachine
+from core.controls.iso.reader import SWITCHES, Block, Syntax, whole
+from core.controls.makers.fanuc_vectors import Alarms, VectorQueue, VectorRules, vector_meeting
+from core.controls.moves import flat
+from core.finding import Severity
+from core.geometry.piece import Point, Side
+from core.units import Unit
+
+GROUPS: Final = (
+    *CYCLES_APART,
+    ("cycle", CodeAction.CYCLE, (730, 740, 760)),
+    ("length", CodeAction.MODE, (440,)),
+    ("length", CodeAction.UNSUPPORTED, (431, 434, 435)),
+    ("system", CodeAction.SYSTEM, (541,)),
+    ("path", CodeAction.MODE, (610, 620, 630, 640)),
+    ("spindle", CodeAction.SPINDLE, (960, 970)),
+    ("retract", CodeAction.RETRACT, (980, 990)),
+    ("stroke", CodeAction.MODE, (220, 230)),
+    ("scaling", CodeAction.TRANSFORM, (500, 510)),
+    ("mirror", CodeAction.TRANSFORM, (501, 511)),
+    ("rotation", CodeAction.TRANSFORM, (680, 690)),
+    ("rotation", CodeAction.UNSUPPORTED, (682, 683, 684)),
+    ("polar", CodeAction.TRANSFORM, (150, 160)),
+    ("macro", CodeAction.MODE, (660, 670)),
+    ("macro", CodeAction.UNSUPPORTED, (661,)),
+    ("centers", CodeAction.UNAVAILABLE, (911,)),
+    ("motion", CodeAction.UNSUPPORTED, (330, 21, 31, 22, 32, 23, 33, 24, 34, 62)),
+    ("once", CodeAction.MODE, (50, 51, 80, 90, 110, 270, 600, 650)),
+    ("corner", CodeAction.OF_THIS_CONTROL, (390,)),
+    ("once", CodeAction.SKIP, (310,)),
+    ("once", CodeAction.SHIFT, (520,)),
+    ("once", CodeAction.MACHINE, (530,)),
+    ("once", CodeAction.DATA, (100,)),
+    ("once", CodeAction.UNSUPPORTED, (70, 71, 290, 370, 450, 460, 470, 480, 121, 131)),
+)
+"""Codes besides those that all word-address controls share."""
+
+CODES: Final = codes(*GROUPS)
+
+RULE_NAMES: Final[Mapping[str, str]] = MappingProxyType(
+    {
+        "CODE": "PS0010",
+        "WORD": "PS0009",
+        "COMMENT": "PS0004",
+        "NUMBER": "PS0007",
+        "PARAMETER": "PS0115",
+        "ARC-RADII": "PS0020",
+        "ARC-POINT": "PS0038",
+        "ARC-PLANE": "PS0021",
+        "ARC": "PS0022",
+        "SUBPROGRAM": "PS0076",
+        "MACRO": "PS0114",
+        "LIMIT": "FN-ENDLESS",
+        "MOTION": "PS0010",
+        "CYCLE": "PS0005",
+        "DATA": "PS0031",
+        "FEED": "PS0011",
+    }
+)
+"""Fanuc's alarms by the ids of the rules that all word-address controls share."""
+
+DIALECT: Final = Dialect(
+    CODES,
+    Unit.MM,
+    syntax=Syntax(semicolon_ends=True, blanks=False, last_counts=True),
+    percent_ends=True,
+    parameters=Kept.FANUC,
+    cycle_rule="FN-CYCLE",
+    d_anywhere=True,
+    rule_names=RULE_NAMES,
+    last_code_counts=True,
+    reference_known=False,
+    feed_needed=True,
+    repeat_letters="KL",
+)
+
+ALARMS: Final = Alarms(arc="PS0034", arc_off="PS0034", no_meeting="PS0033", crossing="PS0041", point="PS0038")
+
+SHARED_OFFSETS: Final = (20, 30, 40, 50, 60, 100)
+"""What shops add to a tool's number for its D where lengths and radii share one memory."""
+
+_PLANE_LETTERS: Final = ("XY", "ZX", "YZ")
+_NEW_ORIGIN: Final = frozenset((520, 920, 540, 541, 550, 560, 570, 580, 590))
+_TO_MACHINE: Final = frozenset((280, 300, 530))
+_UNBUFFERED_G: Final = frozenset((280, 300, 310, 530))
+_UNBUFFERED_M: Final = frozenset((0, 10, 20, 300))
+_TRANSFORMS: Final = frozenset((680, 690, 510, 500, 511, 501))
+_ARC_MODES: Final = (20, 30)
+
+
+class Fanuc(VectorQueue, Control):
+    """Compensation of a Fanuc mill.
+
+    `side` is that of G41 or G42 in force, `number` the D, `radius` its value in millimeters, as last read.  `exiting`:
+    this block turns compensation off, with a vector where it has I, J or K.  `in_plane`: the block moved in the plane,
+    or is not to be counted as one without movement; `too_many`: it counts as too many of those.
+    """
+
+    alarms = ALARMS
+    machine: MacroMachine
+
+    def __init__(self, log: Log, rules: VectorRules = VectorRules()) -> None:  # noqa: B008  frozen
+        super().__init__(log, rules)
+        self.side: Side | None = None
+        self.number = 0
+        self.radius = 0.0
+        self.exiting = False
+        self.exit_vector: Point | None = None
+        self.block: Block | None = None
+        self.in_plane = False
+        self.too_many = False
+        self.warned_of_zero = False
+
+    def watch(self, block: Block) -> None:
+        """What a block says besides its motion; the block before it is counted first."""
+        self._count()
+        self.block, self.in_plane, self.exiting = block, False, False
+        self.too_many = not (_UNBUFFERED_G.isdisjoint(block.g) and _UNBUFFERED_M.isdisjoint(block.m))
+        if self.active:
+            self._refuse(block)
+        if "D" in block.words:
+            self._take_number(block)
+        if self.active:
+            self._leave_for_a_while(block)
+
+    def _refuse(self, block: Block) -> None:
+        """What compensation does not allow."""
+        for code in block.g:
+            column = block.column("G", code)
+            if code in PLANES and PLANES[code] is not self.plane:
+                text = "The plane cannot change under compensation. Write G40 before it."
+                self.log.stop("PS0037", text, block.line, column)
+            if code == 310:
+                self.log.stop("PS0036", "G31 does not go with compensation. Write G40 before it.", block.line, column)
+            if code in (450, 460, 470, 480):
+                text = "G45 to G48 do not go with compensation. Write G40 before them."
+                self.log.stop("PS0042", text, block.line, column)
+            if code in _TRANSFORMS and code != 500 and not (code in (690, 501) and not self.machine.transform):
+                text = f"cutcomp does not follow G{code / 10:g} under compensation. Write G40 before it."
+                self.log.stop("FN-TRANSFORM", text, block.line, column)
+
+    def _take_number(self, block: Block) -> None:
+        number = whole(block.words["D"])
+        if number is None or number < 0:
+            self.log.stop("PS0007", "D is an offset number, a whole number.", block.line, block.column("D"))
+        self.number = number
+        if self.active and number == 0:
+            self._cancel_in(block, None)
+        elif self.side is not None or not SWITCHES.isdisjoint(block.g):
+            self.radius = self._offset_value(block.line, block.column("D"))
+            if self.active and self.side is not None:
+                self.coming = self.radius * self.side.sign
+
+    def _offset_value(self, line: int, column: int) -> float:
+        """The radius under the D in force, millimeters."""
+        if self.number == 0:
+            return 0.0
+        machine, number = self.machine, self.number
+        radius = machine.offset_radius(number)
+        tool = machine.tool or machine.next_tool
+        if radius is None and machine.tools.get(tool) is not None and number - tool in SHARED_OFFSETS:
+            radius = machine.offset_radius(tool)
+            text = (
+                f"D{number} is not in the tool table; cutcomp takes it for tool {tool}, as shared offset memories do."
+            )
+            self.log.tell(Severity.INFO, "D-AS-T", text, line, column)
+        if radius is None:
+            text = f"Offset {number} is not in the tool table. Enter its tool or write another D."
+            self.log.stop("PS0030", text, line, column)
+        if radius < 0.0:
+            text = "The radius is negative, so G41 and G42 change places."
+            self.log.tell(Severity.INFO, "FN-D2", text, line, column)
+        return radius
+
+    def begin(self, side: Side, block: Block) -> None:
+        """G41 and G42: the start, a change of side, or the same side again."""
+        old, self.side = self.side, side
+        if not self.active:
+            self.warned_of_zero = False
+            if self.vector_rules.at_once and not self._moves_in_plane(block):
+                self._shift_on(block)
+            return
+        self.coming = self.radius * side.sign
+        if side is not old:
+            self._check_side_change(block)
+        elif self._moves_in_plane(block):
+            text = "G41 or G42 is in force already; cutcomp assumes that it has no effect in a block that moves."
+            self.log.tell(Severity.INFO, "FN-G2", text, block.line, block.side_column())
+        else:
+            self.end_square()
+
+    def _check_side_change(self, block: Block) -> None:
+        if self.held is not None and self.held.startup:
+            text = "The side cannot change right after the start-up. Write a move first."
+            self.log.stop(self.alarms.no_meeting, text, block.line, block.side_column())
+
+    def _shift_on(self, block: Block) -> None:
+        """Type C: the block moves the tool square to the next element."""
+        self._read_radius(block.line, block.column("DG"))
+        if self.coming:
+            self.in_plane = True
+            self._tell_parameters(block.line)
+            self.start_up(self._standing_element(block))
+
+    def _standing_element(self, block: Block) -> Element:
+        """A line of no length where the programmed point is."""
+        machine = self.machine
+        x, y, height = flat(machine.position, self.plane)
+        return line_element((x, y), (x, y), height, height, machine.mode == 0, machine.feed, block.line)
+
+    def _read_radius(self, line: int, column: int) -> None:
+        """The offset counts as it is when compensation starts."""
+        self.radius = self._offset_value(line, column)
+        self.coming = self.radius * (self.side.sign if self.side else 0)
+
+    def finish(self, block: Block) -> None:
+        """G40."""
+        self.side = None
+        if self.active:
+            first, second, _ = IN_PLANE[self.plane]
+            words, scale = block.words, self.machine.scale
+            given = first in words or second in words
+            self._cancel_in(block, (words.get(first, 0.0) * scale, words.get(second, 0.0) * scale) if given else None)
+
+    def _cancel_in(self, block: Block, vector: Point | None) -> None:
+        """This block turns compensation off: with its move in the plane, or by itself."""
+        self.exit_vector = vector
+        if self._moves_in_plane(block):
+            self.exiting = True
+            return
+        held = self.held
+        if held is not None and vector is not None:
+            self.end_at(vector_meeting(held.element, vector, held.offset))
+        self.end_square()
+        self.stop_compensation()
+        if self.vector_rules.at_once:
+            element = self._standing_element(block)
+            self._line(element, element.end)
+            self.close_stretch()
+
+    def _moves_in_plane(self, block: Block) -> bool:
+        """Whether a block has a move in the plane."""
+        codes = self.machine.dialect.codes
+        if any(code in codes and codes[code].action in ONCE for code in block.g):
+            return False
+        letters = _PLANE_LETTERS[self.plane]
+        turns = self.machine.mode in _ARC_MODES and not {"I", "J", "K", "R"}.isdisjoint(block.words)
+        return letters[0] in block.words or letters[1] in block.words or turns
+
+    def own_code(self, code: int, block: Block) -> None:
+        """G39: an arc around the corner, square to a vector where it has one."""
+        if not self.active:
+            text = "G39 goes with compensation only. Write G41 or G42 before it."
+            self.log.stop("PS0035", text, block.line, block.column("G", code))
+        first, second, _ = IN_PLANE[self.plane]
+        self.round_corner = (block.words.get(first, 0.0), block.words.get(second, 0.0))
+        self.in_plane = True
+
+    def travel(self, element: Element) -> None:
+        """One element: start-up, compensated, cancel or none of them."""
+        self.in_plane = self.in_plane or element.moves
+        if not self.active:
+            self._without_compensation(element)
+        elif not element.moves:
+            self._in_place(element)
+        elif self.exiting:
+            self.cancel_with(element, self.exit_vector)
+        else:
+            self.compensate(element)
+
+    def _without_compensation(self, element: Element) -> None:
+        if not element.moves and not (self.block and self._moves_in_plane(self.block)):
+            # after G40 by itself the tool still stands beside the programmed point
+            self.straight(element, self.here)
+            return
+        if self.side is None or not element.moves:
+            super().travel(element)
+            return
+        self._read_radius(element.line, 1)
+        if self.coming == 0.0:
+            if not self.warned_of_zero:
+                text = "The offset is 0. Write D and the number of an offset."
+                self.machine.nothing_compensated(text, element.line, 1, code="FN-D0")
+            self.warned_of_zero = True
+            super().travel(element)
+            return
+        self._tell_parameters(element.line)
+        self.start_up(element)
+
+    def _in_place(self, element: Element) -> None:
+        """A move across the plane, or one of no length."""
+        if self.exiting:
+            self.end_square()
+            self.stop_compensation()
+            super().travel(element)
+            return
+        self.too_many = self.too_many or element.low == element.high
+        self.across(element)
+
+    def _tell_parameters(self, line: int) -> None:
+        """Names the parameters that are assumed, once."""
+        if "FN-PARAM" not in self.log.counts:
+            text = (
+                "cutcomp assumes parameters 5003, 5008, 19607 as this control's name says; 19625 = "
+                f"{self.vector_rules.blocks_read} blocks read, 5004 ODI 0, 5001 EVR 0, 5010 and 1710 = 0."
+            )
+            self.log.tell(Severity.INFO, "FN-PARAM", text, line, 1)
+
+    def _count(self) -> None:
+        """Counts the last block where it did not move in the plane; after too many of them the tool stands square."""
+        block = self.block
+        if block is None or not self.active or self.in_plane or self.held is None or _is_bare(block):
+            return
+        self.motionless += 1
+        if self.too_many or self.motionless > self.vector_rules.blocks_read - 2:
+            self.after_too_many(block)
+
+    def after_too_many(self, block: Block) -> None:
+        """More blocks without movement than the control looks across."""
+        text = (
+            f"{self.motionless} blocks without movement in the plane stand before the next move (19625 = "
+            f"{self.vector_rules.blocks_read} reads across {self.vector_rules.blocks_read - 2}): the tool stands "
+            "square here and the next move runs slanting. It may overcut or leave stock. Remove some of them."
+        )
+        self.log.tell(Severity.WARNING, "FN-N2", text, block.line, 1)
+        self.end_square()
+
+    def _leave_for_a_while(self, block: Block) -> None:
+        """A new origin or a move to a machine point: compensation is off up to the next move in the plane."""
+        moved = any(letter in block.words for letter in _PLANE_LETTERS[self.plane])
+        away = moved and not _TO_MACHINE.isdisjoint(block.g)
+        new_origin = not _NEW_ORIGIN.isdisjoint(block.g) or (100 in block.g and block.words.get("L") in (2.0, 20.0))
+        if not away and not new_origin:
+            return
+        what = "The move to the machine's point" if away else "The new origin"
+        text = f"{what} turns compensation off for a while; the next move in the plane starts it again."
+        self.log.tell(Severity.WARNING, "FN-G5", text, block.line, block.column("G"))
+        if away:
+            self.end_square()
+        else:
+            self.leave_straight()
+        self.stop_compensation()
+        self.close_stretch()
+        self.direct = True
+
+    def close(self) -> None:
+        """The program ends; under compensation its last move ends square."""
+        if not self.active:
+            return
+        line = self.block.line if self.block else 1
+        self.end_square()
+        self.left_open(line)
+
+    def left_open(self, line: int) -> None:
+        """The program ends under compensation."""
+        text = "The program ends under compensation. Write G40 and a move away from the part."
+        self.log.tell(Severity.WARNING, "FN-OPEN", text, line, 1)
+
+
+def _is_bare(block: Block) -> bool:
+    """Whether a block has nothing but its number or the program's."""
+    return not block.g and not block.m and {"N", "O"}.issuperset(block.words)
+
+
+RULES: Final[Mapping[str, VectorRules]] = MappingProxyType(
+    {
+        f"{kind}{corners}": VectorRules(type_a=kind != "b", at_once=kind == "c", outside=outside)
+        for kind in ("a", "b", "c")
+        for corners, outside in (("", Outside.LINES), ("-arc", Outside.MITER_OR_ANY_ARC))
+    }
+)
+"""Start-up type, and how sharp outside corners are rounded."""
+
+VARIANTS: Final[Mapping[str, MakeControl]] = MappingProxyType(
+    {name: partial(Fanuc, rules=rules) for name, rules in RULES.items()}
+)
+"""The variants, the default first."""

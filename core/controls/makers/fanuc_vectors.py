@@ -1,0 +1,416 @@
+"""Vectors of cutter compensation C, as Fanuc and Haas mills make them: start-up, corners, interference and cancel.
+
+Every corner gives one or more vectors, here the points at which they end.  The element before the corner ends at the
+first one, with what moves across the plane; the element after it runs over the others, and starts at the last one.  An
+element runs only when both its ends are known, for only then the control sees whether its vectors cross.  It then
+drops the pair of vectors nearest to each other, and the next pair, before it gives an alarm.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import copysign, hypot, pi, radians
+from typing import Final
+
+from core.controls.compensation.corner_rules import (
+    SAME_POINT,
+    Corner,
+    CornerRules,
+    Joint,
+    Outside,
+    change,
+    corner,
+    departure,
+    entry,
+    inward_turn,
+    join,
+)
+from core.controls.compensation.elements import (
+    WHOLE,
+    Element,
+    element_sweep,
+    line_element,
+    meeting,
+    offset_end,
+    offset_point,
+    offset_radius,
+    offset_start,
+    sweep,
+)
+from core.controls.compensation.recorder import Recorder
+from core.controls.control_run import Log
+from core.controls.moves import solid
+from core.finding import Severity
+from core.geometry.piece import Point, Side
+
+TANGENT: Final = radians(0.05)
+"""Inside corners under this angle whose offsets do not meet are tangent: centers are rounded to three digits."""
+
+POINT_ARC: Final = 1e-6
+"""Millimeters: an inside arc whose radius is that of the tool within this is a point to the tool's center."""
+
+
+@dataclass(frozen=True, slots=True)
+class VectorRules:
+    """What parameters and the kind of control set.
+
+    `type_a`: the start-up and the cancel go straight.  `at_once`: a G41 or G40 without movement moves the tool by
+    itself (type C).  `outside`: how outside corners are rounded.  `blocks_read`: blocks without movement that are
+    looked across, and two.  `checks`: vectors that cross are an alarm.
+    """
+
+    type_a: bool = True
+    at_once: bool = False
+    outside: Outside = Outside.LINES
+    blocks_read: int = 3
+    checks: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Alarms:
+    """A control's alarms for the same faults, each with what to do."""
+
+    arc: str
+    arc_off: str
+    no_meeting: str
+    crossing: str
+    point: str
+
+
+@dataclass(slots=True)
+class Held:
+    """An element that waits for its end.
+
+    `vectors` are the points at its start: the tool stands at the first one.  `center` is that of the arc to the last of
+    them, None for straight moves.  `offset` counts at its end.  `startup`: it turns compensation on.  `straightened`:
+    it has lost vectors; an arc then runs as a line.
+    """
+
+    element: Element
+    vectors: list[Point]
+    offset: float
+    startup: bool = False
+    center: Point | None = None
+    straightened: bool = False
+    standing: list[Element] = field(default_factory=list)
+
+
+class VectorQueue(Recorder):
+    """Compensation C of a run.
+
+    `coming` is the signed radius for the next corner, positive with the tool on the left.  `held` waits for its end;
+    without it, and compensation on, the next element starts square where the tool stands.  `motionless` counts blocks
+    without movement since `held`.  `round_corner` is a pending G39: with its vector, or (0, 0) for one without.
+    """
+
+    alarms: Alarms
+
+    def __init__(self, log: Log, rules: VectorRules) -> None:
+        super().__init__(log)
+        self.vector_rules = rules
+        self.rules = CornerRules(outside=rules.outside)
+        self.held: Held | None = None
+        self.before: tuple[int, Held] | None = None
+        self.coming = 0.0
+        self.motionless = 0
+        self.round_corner: Point | None = None
+
+    # what elements do
+
+    def start_up(self, element: Element) -> None:
+        """The first movement under G41 or G42: it ends where the next element wants it."""
+        if element.turn:
+            self._no_arc(element, self.alarms.arc)
+        self.active, self.motionless, self.before = True, 0, None
+        if not self.stretch_open:
+            self.open_stretch(Side.LEFT if self.coming > 0.0 else Side.RIGHT, self.coming, element)
+        self.note(element)
+        self.held = Held(element, [self.here], self.coming, startup=True)
+
+    def _no_arc(self, element: Element, code: str) -> None:
+        text = "Compensation cannot start or end in G2 or G3. Write G1 and a straight move."
+        self.log.stop(code, text, element.line, 1)
+
+    def across(self, element: Element) -> None:
+        """A move that does not lie in the plane: it runs where the element before it ends."""
+        self.note(element)
+        if self.held is None:
+            self.straight(element, self.here)
+        else:
+            self.held.standing.append(element)
+
+    def compensate(self, element: Element) -> None:
+        """A further element in the plane; the one before it can run now."""
+        self._check_center(element)
+        self.motionless = 0
+        held = self.held
+        if held is None:
+            self._go_on(element)
+            return
+        start = copysign(held.offset, self.coming)
+        self._check_new_offset(element, start)
+        joint, arc = self._corner(held, element, start)
+        vectors = _points(joint, element)
+        self._release(held, vectors)
+        self._follow(element, vectors, joint.center if len(vectors) > 1 else None)
+        if arc:
+            self._check_inside(element)
+
+    def _check_center(self, element: Element) -> None:
+        ends = (element.start, element.end) if element.turn else ()
+        if any(hypot(x - element.center[0], y - element.center[1]) < WHOLE for x, y in ends):
+            self.log.stop(self.alarms.point, "The arc starts or ends at its center. Correct I and J.", element.line, 1)
+
+    def _check_new_offset(self, element: Element, start: float) -> None:
+        if element.turn and abs(self.coming) != abs(start):
+            text = "The offset changes in an arc, which cutcomp does not follow. Write the new D in a straight move."
+            self.log.stop("FN-DARC", text, element.line, 1)
+
+    def _go_on(self, element: Element) -> None:
+        """The element before ended square: this one starts there and runs slanting to its own end."""
+        self.note(element)
+        vectors = [self.here]
+        if element.turn:
+            text = "The arc after a square end begins with a straight move to its start. cutcomp assumes this move."
+            self.log.tell(Severity.INFO, "FN-N2-ARC", text, element.line, 1)
+            vectors.append(offset_start(element, self.coming))
+        self.before = None
+        self.held = Held(element, vectors, self.coming)
+
+    def _corner(self, held: Held, element: Element, start: float) -> tuple[Joint, bool]:
+        """How two elements are joined; and whether the second is an arc the tool does not fit into."""
+        first, offset = held.element, held.offset
+        rounded, self.round_corner = self.round_corner, None
+        tight = element.turn != 0 and offset_radius(element, start) < -POINT_ARC
+        if rounded is not None:
+            return self._rounded(first, element, offset, rounded), tight
+        if held.startup and not element_moves(first):
+            return Joint(offset_start(element, start), offset_start(element, start)), tight
+        if held.startup:
+            return entry(first, element, start, self.rules.outside, direct=self.vector_rules.type_a), tight
+        if start != offset:
+            text = "The side changes here. cutcomp takes the way across from other makers' manuals."
+            self.log.tell(Severity.INFO, "FN-G1", text, element.line, 1)
+            return change(first, element, offset, start), tight
+        return self._joined(first, element, offset), tight
+
+    def _joined(self, first: Element, second: Element, offset: float) -> Joint:
+        """A corner with one radius on both sides."""
+        if _is_loose(first, offset) or _is_loose(second, offset):
+            return self._with_point(first, second, offset)
+        joint = join(first, second, offset, self.rules)
+        return self._without_meeting(first, second, offset) if joint.missed else joint
+
+    def _with_point(self, first: Element, second: Element, offset: float) -> Joint:
+        """A corner at an arc that is no larger than the tool, so that its offset is a point or runs back."""
+        if corner(first, second, offset, self.rules) is not Corner.INSIDE:
+            return join(first, second, offset, self.rules)
+        point = meeting(first, second, offset, beyond_center=True)
+        return self._without_meeting(first, second, offset) if point is None else Joint(point, point)
+
+    def _without_meeting(self, first: Element, second: Element, offset: float) -> Joint:
+        if inward_turn(first, second, offset) >= TANGENT:
+            text = "The offsets of this inside corner do not meet. Use a smaller cutter or open the corner."
+            self.log.stop(self.alarms.no_meeting, text, second.line, 1, at=first.end)
+        return Joint(offset_end(first, offset), offset_start(second, offset))
+
+    def _rounded(self, first: Element, second: Element, offset: float, vector: Point) -> Joint:
+        """G39: an arc about the corner, to the start of the next element or square to a vector."""
+        start = offset_start(second, offset)
+        if vector != (0.0, 0.0):
+            size = hypot(*vector)
+            start = offset_point(second.start, (vector[0] / size, vector[1] / size), offset)
+        return Joint(offset_end(first, offset), start, center=second.start, corner=Corner.OUTSIDE)
+
+    def _follow(self, element: Element, vectors: list[Point], center: Point | None) -> None:
+        """The next element waits; from its start on, the stretch may have another side or radius."""
+        last = self.held
+        self.note(element)
+        if last is not None and last.startup:
+            self.begin_stretch(Side.LEFT if last.offset > 0.0 else Side.RIGHT, last.offset)
+        elif last is not None and self.stretch_open:
+            # a smaller radius counts from the slanting element on, a larger one only behind it
+            offset = min((last.offset, self.coming), key=abs)
+            side = Side.LEFT if self.coming > 0.0 else Side.RIGHT
+            self.change_stretch(side, offset, 0, len(vectors) - 1)
+        self.held = Held(element, vectors, self.coming, center=center)
+
+    # how elements run
+
+    def _release(self, held: Held, ahead: list[Point]) -> None:
+        """Runs an element from the last vector at its start to the first one at its end, and moves across there."""
+        if not held.startup:
+            self._uncross(held, ahead)
+        self.before = (len(self.tape), held)
+        self._run(held, ahead[0])
+
+    def _run(self, held: Held, end: Point) -> None:
+        self._run_around(held)
+        self._run_element(held, end)
+        for standing in held.standing:
+            self.straight(standing, self.here)
+
+    def _run_around(self, held: Held) -> None:
+        """The way around the corner at an element's start."""
+        *between, start = held.vectors[1:] or held.vectors
+        for point in between:
+            self._line(held.element, point, low=True)
+        if held.center is not None:
+            self.arc_about(held.element, start, held.center, -1 if held.offset > 0.0 else 1, held.element.low)
+        else:
+            self._line(held.element, start, low=True)
+
+    def _run_element(self, held: Held, end: Point) -> None:
+        element, start = held.element, held.vectors[-1]
+        radius = offset_radius(element, held.offset)
+        vanished = element.start != element.end and hypot(start[0] - end[0], start[1] - end[1]) < SAME_POINT
+        if not element.turn or held.straightened or vanished or abs(radius) <= POINT_ARC:
+            self._line(element, end)
+            return
+        inside = element.turn * held.offset > 0.0
+        feed = element.feed * abs(radius) / element.radius if inside else element.feed
+        self.arc(element._replace(feed=feed), end, element.center)
+
+    def _line(self, element: Element, end: Point, *, low: bool = False) -> None:
+        """A straight move, unless the tool stands there already."""
+        height = element.low if low else element.high
+        target, now = solid(*end, height, self.plane), self.tape.last
+        if any(abs(a - b) > SAME_POINT for a, b in zip(target, now, strict=True)):
+            self.straight(element, end, low=low)
+
+    # interference
+
+    def _uncross(self, held: Held, ahead: list[Point]) -> None:
+        """Drops vectors that cross, from the middle of the element outward; an alarm where too few are left."""
+        if not self.vector_rules.checks:
+            return
+        dropped = False
+        while _crosses(held.element, held.vectors[-1], ahead[0]):
+            before, behind = len(held.vectors) > 1, len(ahead) > 1
+            if not before and not behind:
+                self._crossing(held.element)
+            if before:
+                held.vectors.pop()
+                held.center = None
+            held.straightened = True
+            if behind:
+                ahead.pop(0)
+            dropped = True
+        if dropped:
+            text = "Vectors cross here; the control drops some and shortens the way around the corner."
+            self.log.tell(Severity.WARNING, "FN-VECTOR", text, held.element.line, 1)
+
+    def _crossing(self, element: Element) -> None:
+        what = "inside this arc" if element.turn else "along this move"
+        text = f"The tool does not fit {what}: its path would run backwards. Use a smaller cutter."
+        self.log.stop(self.alarms.crossing, text, element.line, 1, at=element.end)
+
+    def _check_inside(self, element: Element) -> None:
+        """An arc smaller than the tool is an alarm as soon as it is read."""
+        if self.vector_rules.checks:
+            text = "The arc radius {0} is smaller than the cutter radius {1}. Use a smaller cutter."
+            lengths = (element.radius, abs(self.coming))
+            self.log.stop(self.alarms.crossing, text, element.line, 1, lengths=lengths)
+
+    # square ends and the cancel
+
+    def end_square(self) -> None:
+        """What is held ends square to itself; the next element goes on from there."""
+        held, self.held = self.held, None
+        if held is not None:
+            self._release(held, [offset_end(held.element, held.offset)])
+
+    def end_at(self, point: Point) -> None:
+        """What is held ends at a point."""
+        held, self.held = self.held, None
+        if held is not None:
+            self._release(held, [point])
+
+    def cancel_with(self, element: Element, vector: Point | None) -> None:
+        """A straight move that turns compensation off; a vector of I, J, K bends the last element's end."""
+        if element.turn:
+            self._no_arc(element, self.alarms.arc_off)
+        held = self.held
+        if held is not None:
+            self._run_to_cancel(held, element, vector)
+        self.stop_compensation()
+        super().travel(element)
+
+    def _run_to_cancel(self, held: Held, element: Element, vector: Point | None) -> None:
+        self.held = held
+        if vector is not None:
+            self.end_at(vector_meeting(held.element, vector, held.offset))
+            return
+        rounded, self.round_corner = self.round_corner, None
+        if rounded is not None:
+            joint = self._rounded(held.element, element, held.offset, rounded)
+        elif self.vector_rules.type_a or held.startup:
+            self.end_square()
+            return
+        else:
+            joint = departure(held.element, element, held.offset, self.rules.outside)
+        vectors = _points(joint, None)
+        if not held.element.turn and joint.center is None and len(vectors) > 1:
+            vectors.pop(0)
+        self._release(held, vectors)
+        self._run_around(Held(element, vectors, held.offset, center=joint.center if len(vectors) > 1 else None))
+
+    def stop_compensation(self) -> None:
+        """Compensation is off; the next move in the plane still belongs to the stretch."""
+        self.active, self.held, self.before, self.round_corner = False, None, None, None
+        self.leave()
+
+    def leave_straight(self) -> None:
+        """The last element becomes the move that turns compensation off, as after a change of origin."""
+        last, self.held = self.held, None
+        if last is None:
+            return
+        if self.before is not None:
+            rows, before = self.before
+            self.tape.cut(rows)
+            self._run(before, offset_end(before.element, before.offset))
+        for element in (last.element, *last.standing):
+            self.straight(element, last.element.end)
+
+
+def element_moves(element: Element) -> bool:
+    """Whether an element has a direction."""
+    return element.turn != 0 or element.leaving != (0.0, 0.0)
+
+
+def _points(joint: Joint, element: Element | None) -> list[Point]:
+    """The vectors of a joint; a line does not need one more on its own way."""
+    points = [joint.end]
+    for point in (*joint.through, joint.start):
+        if hypot(point[0] - points[-1][0], point[1] - points[-1][1]) > SAME_POINT:
+            points.append(point)
+    if element is not None and not element.turn and len(points) > 1 and joint.center is None:
+        (ax, ay), (bx, by), way = points[-2], points[-1], element.leaving
+        if abs((bx - ax) * way[1] - (by - ay) * way[0]) < SAME_POINT and (bx - ax) * way[0] + (by - ay) * way[1] > 0.0:
+            points.pop()
+    return points
+
+
+def _is_loose(element: Element, offset: float) -> bool:
+    """Whether an arc's offset is a point, or lies beyond its center."""
+    return element.turn != 0 and offset_radius(element, offset) <= POINT_ARC
+
+
+def _crosses(element: Element, start: Point, end: Point) -> bool:
+    """Whether an element from one vector to another runs 90 degrees or more off what is programmed."""
+    if element.turn:
+        if hypot(start[0] - end[0], start[1] - end[1]) < SAME_POINT:
+            return False
+        return sweep(start, end, element.center, element.turn) - element_sweep(element) > pi
+    way = element.leaving
+    return (end[0] - start[0]) * way[0] + (end[1] - start[1]) * way[1] < -SAME_POINT
+
+
+def vector_meeting(last: Element, vector: Point, offset: float) -> Point:
+    """Where the last element's offset meets that of the line along a vector through its end; square without one."""
+    size = hypot(*vector)
+    if not size:
+        return offset_end(last, offset)
+    towards = (last.end[0] + vector[0] / size, last.end[1] + vector[1] / size)
+    line = line_element(last.end, towards, 0.0, 0.0, rapid=False, feed=0.0, line=0)
+    return meeting(last, line, offset) or offset_end(last, offset)

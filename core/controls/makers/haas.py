@@ -1,0 +1,74 @@
+"""Haas mills: `haas:a` and `:b` by setting 43, each also with `-yasnac` (setting 58), where every corner is an arc.
+
+They compensate as Fanuc's mills do, with alarms of their own.  They look across many more blocks without movement, and
+a program that ends under compensation is an alarm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
+from types import MappingProxyType
+from typing import Final
+
+from core.controls.compensation.corner_rules import Outside
+from core.controls.iso.dialect import CodeAction, Dialect, codes
+from core.controls.iso.flow import MakeControl
+from core.controls.iso.reader import Block
+from core.controls.makers import fanuc
+from core.controls.makers.fanuc_vectors import Alarms, VectorRules
+from core.controls.moves import Plane
+from core.finding import Severity
+from core.geometry.piece import Side
+
+DIALECT: Final[Dialect] = replace(
+    fanuc.DIALECT,
+    codes=codes(
+        *fanuc.GROUPS,
+        ("system", CodeAction.SYSTEM, (1540,)),
+        ("once", CodeAction.MODE, (1030, 1870)),
+        ("once", CodeAction.UNSUPPORTED, (120, 130, 700, 710, 720, 1500)),
+    ),
+    m97_calls=True,
+)
+
+BLOCKS_READ: Final = 80
+"""Blocks without movement that the control looks across, and two: its manuals do not give the number."""
+
+
+class Haas(fanuc.Fanuc):
+    """Compensation of a Haas mill."""
+
+    alarms = Alarms(arc="H340", arc_off="H341", no_meeting="H342", crossing="H342", point="H342")
+
+    def begin(self, side: Side, block: Block) -> None:
+        """G41 and G42; older controls know them in G17 only."""
+        if self.plane is not Plane.XY:
+            text = "Older Haas controls compensate in G17 only (alarm 344)."
+            self.log.tell(Severity.WARNING, "H344", text, block.line, block.side_column())
+        super().begin(side, block)
+
+    def after_too_many(self, block: Block) -> None:
+        """The control cannot see the next move."""
+        text = (
+            f"More than {BLOCKS_READ - 2} blocks without movement in the plane stand before the next move. Remove some."
+        )
+        self.log.stop("H350", text, block.line, 1)
+
+    def left_open(self, line: int) -> None:
+        """The program ends under compensation."""
+        text = "The program ends under compensation. Write G40 and a move away from the part."
+        self.log.stop("H349", text, line, 1)
+
+
+VARIANTS: Final[Mapping[str, MakeControl]] = MappingProxyType(
+    {
+        f"{kind}{corners}": partial(
+            Haas, rules=VectorRules(type_a=kind == "a", outside=outside, blocks_read=BLOCKS_READ)
+        )
+        for kind in ("a", "b")
+        for corners, outside in (("", Outside.LINES), ("-yasnac", Outside.ARC))
+    }
+)
+"""The variants, the default first."""
