@@ -58,10 +58,10 @@ CONTROLS: Final[Mapping[str, RegisteredControl]] = MappingProxyType(
         "threeblock": RegisteredControl(threeblock.DIALECT, {"": threeblock.ThreeBlock}),
         "rosettacnc": RegisteredControl(rosettacnc.DIALECT, rosettacnc.VARIANTS, tuple(rosettacnc.VARIANTS)),
         "nine-series": RegisteredControl(nine_series.DIALECT, nine_series.VARIANTS, ("a", "b")),
-        "klartext": RegisteredControl(None, {"": None}),
-        "linuxcnc": RegisteredControl(linuxcnc.DIALECT, {"": linuxcnc.LinuxCnc}),
         "fanuc": RegisteredControl(fanuc.DIALECT, fanuc.VARIANTS, ("a", "b")),
         "haas": RegisteredControl(haas.DIALECT, haas.VARIANTS, ("a",)),
+        "klartext": RegisteredControl(None, {"": None}),
+        "linuxcnc": RegisteredControl(linuxcnc.DIALECT, {"": linuxcnc.LinuxCnc}),
     }
 )
 """The controls, in the order a comparison shows them."""

@@ -164,7 +164,7 @@ def test_a_tool_table_and_units(capsys: pytest.CaptureFixture[str], tmp_path: Pa
     "arguments",
     [
         ("nowhere.nc", "--control", "linuxcnc"),
-        (str(NC / "threeblock-line.nc"), "--control", "fanuc"),
+        (str(NC / "threeblock-line.nc"), "--control", "siemens"),
         (str(NC / "threeblock-line.nc"), "--control", "linuxcnc", "--tool", "1"),
         (str(NC / "threeblock-line.nc"), "--control", "linuxcnc", "--tool", "1=nan"),
         (str(NC / "threeblock-line.nc"), "--control", "linuxcnc", "--tools", "nowhere.tbl"),

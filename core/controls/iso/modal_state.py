@@ -24,7 +24,7 @@ G54: Final = 540
 INVERSE: Final = 930
 PER_MINUTE: Final = 940
 
-RADIUS_ZERO: Final = frozenset(("RADIUS0", "B3-DIA0"))
+RADIUS_ZERO: Final = frozenset(("RADIUS0", "B3-DIA0", "FN-D0"))
 """Rules that report compensation that is asked for and moves nothing."""
 
 _SPINDLE: Final = {30: 1, 40: -1, 50: 0, 190: 0}

@@ -73,14 +73,14 @@ def test_refusals_on_the_command_line(capsys: pytest.CaptureFixture[str]) -> Non
     streams = capsys.readouterr()
     assert streams.out == ""
     assert "nothing was posted. Segment 8:" in streams.err
-    assert main(["post", part, "--control", "fanuc"]) == 2
+    assert main(["post", part, "--control", "siemens"]) == 2
     assert "No such control" in capsys.readouterr().err
     assert main(["post", part, "--control", "linuxcnc", "--override", "POST WITH GOUGE"]) == 2
     assert "leave out --control" in capsys.readouterr().err
 
 
 def test_proof_refuses_what_it_cannot_open(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["proof", str(tmp_path), "--control", "fanuc"]) == 2
+    assert main(["proof", str(tmp_path), "--control", "siemens"]) == 2
     assert "No such control" in capsys.readouterr().err
     assert main(["proof", str(tmp_path / "none.nc"), "--tool", "x"]) == 2
     assert "--tool x" in capsys.readouterr().err

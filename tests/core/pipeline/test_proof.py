@@ -93,4 +93,4 @@ def test_any_text_can_be_drawn(text: bytes) -> None:
 
 
 def test_an_unknown_control_is_said() -> None:
-    assert isinstance(run_program(SQUARE, "fanuc", TOOLS), UnknownControl)
+    assert isinstance(run_program(SQUARE, "siemens", TOOLS), UnknownControl)
