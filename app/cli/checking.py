@@ -19,7 +19,10 @@ from core.controls.registry import UnknownControl, reads, run
 from core.finding import Finding, Severity
 from core.units import Kind, Unit, from_mm, sentence, show
 
-NOT_FOLLOWED: Final = ("MACRO", "LIMIT", "BEYOND")
+NOT_FOLLOWED: Final = (
+    *("MACRO", "LIMIT", "BEYOND"),
+    *("FN-DARC", "FN-CYCLE", "FN-TRANSFORM", "FN-WHERE", "FN-PARAMETER", "FN-ENDLESS"),
+)
 """Rules at which not the control stops but the reading of the program."""
 NOTHING: Final = "EMPTY"
 """The rule of a program in which there is nothing to run."""
